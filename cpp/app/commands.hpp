@@ -1,0 +1,24 @@
+// The commands of the contct program, a file each.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace contct {
+
+/// Exit statuses of the program (what a CI job reads).
+enum class exit_status {
+  solved = 0,           ///< solved, and the kernels are equal
+  kernels_differ = 1,   ///< kernels disagree
+  bad_input = 2,        ///< a file, an option or an output path is wrong
+  uncertified = 3,      ///< solved but not certified, under --strict
+  mechanism = 4,        ///< no equilibrium
+  iteration_limit = 5,  ///< cycle or iteration limit
+};
+
+/// Add `contct run` to the program; `status` receives what it comes to.
+void add_run(CLI::App& program, exit_status& status);
+
+/// Add `contct kernels`.
+void add_kernels(CLI::App& program, exit_status& status);
+
+}  // namespace contct

@@ -1,0 +1,26 @@
+// contct kernels: what is built in.
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "contct/kernel/kernel.hpp"
+#include "contct/numeric/probe.hpp"
+
+namespace contct {
+
+void add_kernels(CLI::App& program, exit_status& status) {
+  CLI::App* const command =
+      program.add_subcommand("kernels", "What is built in, and how this machine computes");
+  command->callback([&status] {
+    fmt::print("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler");
+    for (const std::string& name : kernel_names()) {
+      const auto k = make_kernel(name);
+      const kernel_facts& f = k->facts();
+      fmt::print("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language, f.compiler);
+    }
+    fmt::print("\nlisting sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
+               describe(probe_floating_point()));
+    status = exit_status::solved;
+  });
+}
+
+}  // namespace contct

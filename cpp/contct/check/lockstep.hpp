@@ -1,0 +1,52 @@
+// Tier 1: every call of the leader put to other kernels, and the answers compared to the bit.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contct/check/compare.hpp"
+#include "contct/kernel/kernel.hpp"
+#include "contct/path/observer.hpp"
+
+namespace contct {
+
+/// The first call in which a follower did not answer as the leader.
+struct first_divergence {
+  std::int64_t call;     ///< from 1
+  std::string follower;  ///< name of the kernel
+  divergence where;
+};
+
+/// Observes a path: each call that the leader answered goes to every follower, with identical
+/// inputs, and SMIN, all of SS, all of ISEP and the unit-26 text are compared.
+class lockstep final : public observer {
+ public:
+  /// Throws std::invalid_argument when a follower has another precision or rule than the leader.
+  lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kernel>> followers);
+
+  void called(const answered_call& c) override;
+
+  [[nodiscard]] std::int64_t calls() const { return calls_; }
+  [[nodiscard]] const tally& compared() const { return tally_; }
+  [[nodiscard]] const std::optional<first_divergence>& first() const { return first_; }
+  /// Did every follower answer the last call as the leader did?
+  [[nodiscard]] bool last_call_equal() const { return last_call_equal_; }
+
+ private:
+  void ask(kernel& follower, const answered_call& c);
+  void note(const kernel& follower, const std::optional<divergence>& found);
+
+  kernel_facts leader_;
+  std::vector<std::unique_ptr<kernel>> followers_;
+  std::int64_t calls_ = 0;
+  tally tally_;
+  std::optional<first_divergence> first_;
+  bool last_call_equal_ = true;
+  std::vector<double> ss_;
+  std::vector<int> isep_;
+};
+
+}  // namespace contct

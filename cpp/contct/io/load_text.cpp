@@ -1,0 +1,97 @@
+#include "contct/io/load_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace contct {
+namespace {
+
+using json = nlohmann::ordered_json;
+constexpr std::size_t most_parts = 32;
+const load nothing;
+
+/// The consistent vector has the same resultant as the load itself.
+resultant resultant_of(const beam& b, const load& l) {
+  std::vector<double> f(static_cast<std::size_t>(b.dofs()), 0.0);
+  add_consistent_loads(b, l, f);
+  resultant r;
+  for (std::size_t node = 0; node < b.x.size(); ++node) {
+    r.force += f[2 * node];
+    r.moment += f[2 * node] * b.x[node] + f[2 * node + 1];
+  }
+  return r;
+}
+
+json elements_json(const std::vector<int>& elements) {
+  if (elements.empty()) return "all";
+  const bool run = elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
+                   std::is_sorted(elements.begin(), elements.end());
+  if (run) return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
+  json list = json::array();
+  for (const int e : elements) list.push_back(e + 1);
+  return list;
+}
+
+}  // namespace
+
+load_path::load_path(const problem& p) : problem_(p), totals_(1) {
+  for (const load& l : p.steps) totals_.push_back(resultant_of(p.geometry, l));
+}
+
+const load& load_path::before(int step) const {
+  return step > 1 ? after(step - 1) : nothing;
+}
+
+load load_path::at(int step, double fraction) const {
+  return mix(before(step), after(step), fraction);
+}
+
+resultant load_path::resultant_at(int step, double fraction) const {
+  const resultant& a = totals_[static_cast<std::size_t>(step - 1)];
+  const resultant& b = totals_[static_cast<std::size_t>(step)];
+  return {a.force + fraction * (b.force - a.force), a.moment + fraction * (b.moment - a.moment)};
+}
+
+bool load_path::has_many_parts(int step) const {
+  const auto parts = [](const load& l) { return l.points.size() + l.distributed.size(); };
+  return std::max(parts(before(step)), parts(after(step))) > most_parts;
+}
+
+nlohmann::ordered_json load_path::json_at(int step, double fraction) const {
+  const resultant r = resultant_at(step, fraction);
+  json out = {{"force", r.force}, {"moment", r.moment}};
+  if (has_many_parts(step)) return out;
+  const load l = at(step, fraction);
+  for (const distributed_load& d : l.distributed) {
+    json part;
+    if (d.polynomial.size() == 1) {
+      part["value"] = d.polynomial[0];
+    } else {
+      part["polynomial"] = d.polynomial;
+    }
+    part["elements"] = elements_json(d.elements);
+    out["uniform"].push_back(std::move(part));
+  }
+  for (const point_load& p : l.points) {
+    out["point"].push_back({{"node", p.node + 1}, {beam_dof_names[p.dof], p.value}});
+  }
+  return out;
+}
+
+std::string load_path::words_at(int step, double fraction) const {
+  if (!has_many_parts(step)) {
+    const load l = at(step, fraction);
+    if (l.points.size() == 1 && l.distributed.empty()) {
+      const point_load& p = l.points[0];
+      return fmt::format("{} {:.6g} at node {}", beam_dof_names[p.dof], p.value, p.node + 1);
+    }
+    if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1) {
+      return fmt::format("uniform {:.6g}", l.distributed[0].polynomial[0]);
+    }
+  }
+  return fmt::format("force {:.6g}", resultant_at(step, fraction).force);
+}
+
+}  // namespace contct

@@ -1,0 +1,45 @@
+// The load at any moment of the path, for people and for JSON, in the words of a problem file.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "contct/io/problem.hpp"
+
+namespace contct {
+
+/// The sum of all upward forces, and their moment about x = 0, counter-clockwise positive.
+struct resultant {
+  double force = 0.0;
+  double moment = 0.0;
+};
+
+/// The loads of a problem's steps, and what acts between them.
+class load_path {
+ public:
+  explicit load_path(const problem& p);
+
+  /// Everything that acts at share `fraction` of step `step` (from 1).
+  [[nodiscard]] load at(int step, double fraction) const;
+
+  /// As a problem file's `uniform` and `point`, with the resultant: an event's load in absolute
+  /// terms. The parts are left out when there are more than 32 of them.
+  [[nodiscard]] nlohmann::ordered_json json_at(int step, double fraction) const;
+
+  /// A few words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load.
+  [[nodiscard]] std::string words_at(int step, double fraction) const;
+
+ private:
+  [[nodiscard]] const load& before(int step) const;
+  [[nodiscard]] const load& after(int step) const {
+    return problem_.steps[static_cast<std::size_t>(step - 1)];
+  }
+  [[nodiscard]] resultant resultant_at(int step, double fraction) const;
+  [[nodiscard]] bool has_many_parts(int step) const;
+
+  const problem& problem_;
+  std::vector<resultant> totals_;  // at the start, then at the end of each step
+};
+
+}  // namespace contct

@@ -1,0 +1,292 @@
+#include "contct/io/problem_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "contct/io/input_text.hpp"
+#include "contct/io/number_list.hpp"
+#include "contct/kernel/call.hpp"
+
+namespace contct {
+namespace {
+
+constexpr int most_elements = 2'000'000;
+constexpr std::size_t highest_degree = 20;
+
+/// Reads one file into one problem, table by table.
+class problem_reader {
+ public:
+  problem_reader(const toml::table& document, std::string_view file)
+      : file_(file), top_(document, "", file) {}
+
+  problem read() {
+    top_.allow_only({"title", "beam", "support", "contact", "bed", "step"});
+    if (top_.has("title")) problem_.title = top_.text("title");
+    read_beam(top_.table("beam"));
+    fixed_.assign(static_cast<std::size_t>(problem_.geometry.dofs()), 0);
+    if (top_.has("support")) {
+      for (const table_reader& t : top_.tables("support")) read_support(t);
+    }
+    if (top_.has("contact")) {
+      for (const table_reader& t : top_.tables("contact")) read_contact(t);
+    }
+    if (top_.has("bed")) {
+      for (const table_reader& t : top_.tables("bed")) read_bed(t);
+    }
+    for (const table_reader& t : top_.tables("step")) read_step(t);
+    return std::move(problem_);
+  }
+
+ private:
+  [[nodiscard]] int nodes() const { return problem_.geometry.nodes(); }
+
+  void read_beam(const table_reader& t) {
+    t.allow_only({"x", "length", "elements", "EI"});
+    problem_.geometry.x = t.has("x") ? read_coordinates(t) : even_coordinates(t);
+    read_stiffness(t);
+    check_elements(t);
+  }
+
+  static std::vector<double> read_coordinates(const table_reader& t) {
+    for (const char* other : {"length", "elements"}) {
+      if (t.has(other))
+        t.refuse(t.required(other, ""), other, "this beside x", "either x, or length and elements");
+    }
+    std::vector<double> x = t.reals("x", any_real, 2);
+    for (std::size_t i = 1; i < x.size(); ++i) {
+      if (!(x[i] > x[i - 1])) {
+        const toml::node& entry = *t.required("x", "").as_array()->get(i);
+        t.refuse(entry, indexed("x", i), found_words(entry),
+                 fmt::format("more than the node before it, {}", x[i - 1]));
+      }
+    }
+    return x;
+  }
+
+  static std::vector<double> even_coordinates(const table_reader& t) {
+    const double length = t.real("length", positive_real);
+    const int elements = t.integer("elements", 1, most_elements);
+    std::vector<double> x;
+    x.reserve(static_cast<std::size_t>(elements) + 1);
+    for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);
+    return x;
+  }
+
+  void read_stiffness(const table_reader& t) {
+    const auto elements = static_cast<std::size_t>(problem_.geometry.elements());
+    const toml::node& node = t.required("EI", "a number greater than 0, or one for each element");
+    if (!node.is_array()) {
+      problem_.geometry.EI.assign(elements, t.real("EI", positive_real));
+      return;
+    }
+    problem_.geometry.EI = t.reals("EI", positive_real, 1);
+    if (problem_.geometry.EI.size() != elements) {
+      t.refuse(node, "EI", found_words(node),
+               fmt::format("one number, or {}: one for each element", elements));
+    }
+  }
+
+  /// Finite numbers can still make a stiffness that is not.
+  void check_elements(const table_reader& t) const {
+    const beam& b = problem_.geometry;
+    for (int e = 0; e < b.elements(); ++e) {
+      const double h = b.length_of(e);
+      const double EI = b.EI[static_cast<std::size_t>(e)];
+      const double largest = 12 * EI / h / h / h;
+      const double smallest = EI / h;
+      if (!std::isnormal(h) || !std::isnormal(largest) || !std::isnormal(smallest) ||
+          !std::isfinite(largest * h) || !std::isfinite(12 * smallest)) {
+        t.refuse(fmt::format("element {} of length {:g} and EI {:g}", e + 1, h, EI),
+                 "elements whose stiffness 12 EI / h^3 is within the range of double precision");
+      }
+    }
+  }
+
+  /// The nodes that "node" or "nodes" names; from 0.
+  [[nodiscard]] std::vector<int> read_nodes(const table_reader& t) const {
+    if (!t.has("nodes")) return {t.integer("node", 1, nodes()) - 1};
+    if (t.has("node")) t.refuse(t.required("node", ""), "node", "this beside nodes", "either node or nodes");
+    return read_numbers(t, "nodes", nodes());
+  }
+
+  void read_support(const table_reader& t) {
+    t.allow_only({"node", "nodes", "fix", "spring"});
+    const std::vector<int> at = read_nodes(t);
+    if (!t.has("fix") && !t.has("spring")) t.refuse("neither fix nor spring", "at least one of them");
+    if (t.has("fix")) {
+      for (const int dof : read_fix(t)) {
+        for (const int node : at) {
+          problem_.supports.push_back({node, dof, true});
+          fixed_[static_cast<std::size_t>(2 * node + dof)] = 1;
+        }
+      }
+    }
+    if (t.has("spring")) read_springs(t.table("spring"), at);
+  }
+
+  static std::vector<int> read_fix(const table_reader& t) {
+    const char* const allowed = "an array of \"w\" and \"theta\", each once";
+    const toml::node& node = t.required("fix", allowed);
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->empty()) t.refuse(node, "fix", found_words(node), allowed);
+    std::vector<int> dofs;
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      const std::string_view name = t.text_of(*array->get(i), indexed("fix", i), allowed);
+      const int dof = name == "w" ? 0 : 1;
+      if (name != beam_dof_names[dof] || std::count(dofs.begin(), dofs.end(), dof) != 0) {
+        t.refuse(*array->get(i), indexed("fix", i), found_words(*array->get(i)), allowed);
+      }
+      dofs.push_back(dof);
+    }
+    return dofs;
+  }
+
+  void read_springs(const table_reader& t, const std::vector<int>& at) {
+    t.allow_only({"w", "theta"});
+    if (!t.has("w") && !t.has("theta")) t.refuse("an empty table", "w, theta or both");
+    for (int dof = 0; dof < 2; ++dof) {
+      if (!t.has(beam_dof_names[dof])) continue;
+      const double stiffness = t.real(beam_dof_names[dof], positive_real);
+      for (const int node : at) problem_.supports.push_back({node, dof, false, stiffness});
+    }
+  }
+
+  /// surface, face and state, which pairs and beds share.
+  static contact_pair read_face(const table_reader& t, int default_surface) {
+    contact_pair p{};
+    p.surface = default_surface;
+    if (default_surface == 0 || t.has("surface")) {
+      p.surface = t.choice("surface", {"below", "above"}) == 0 ? face_below : face_above;
+    }
+    p.face = t.real("face", any_real);
+    if (p.surface * p.face < 0) {
+      t.refuse(t.required("face", ""), "face",
+               fmt::format("{:g}: the face stands inside the undeformed structure", p.face),
+               p.surface < 0 ? "at most 0 for a face below" : "at least 0 for a face above");
+    }
+    p.closed = p.face == 0;
+    if (t.has("state")) {
+      p.closed = t.choice("state", {"separated", "contact"}) == 1;
+      if (p.closed && p.face != 0) {
+        t.refuse(t.required("state", ""), "state", fmt::format("\"contact\" at face {:g}", p.face),
+                 "\"contact\" only where face = 0: nothing touches a face elsewhere before the structure "
+                 "deflects");
+      }
+    }
+    return p;
+  }
+
+  void read_contact(const table_reader& t) {
+    t.allow_only({"node", "surface", "face", "stiffness", "state"});
+    const int node = t.integer("node", 1, nodes()) - 1;
+    contact_pair p = read_face(t, 0);
+    p.node = node;
+    p.stiffness = t.real("stiffness", positive_real);
+    if (fixed_[static_cast<std::size_t>(2 * node)] != 0) {
+      problem_.warnings.push_back(
+          fmt::format("{}:{}: {}: node {} is fixed in w; the pair cannot change the answer, but the listing "
+                      "may toggle it",
+                      file_, t.line(), t.where(), node + 1));
+    }
+    problem_.pairs.push_back(p);
+  }
+
+  /// A pair at every node that is free to deflect, each with its tributary length.
+  void read_bed(const table_reader& t) {
+    t.allow_only({"modulus", "surface", "face", "state", "nodes"});
+    const double modulus = t.real("modulus", positive_real);
+    contact_pair p = read_face(t, face_below);
+    const std::vector<double> lengths = tributary_lengths(problem_.geometry);
+    const std::vector<int> at = t.has("nodes") ? read_numbers(t, "nodes", nodes()) : all_nodes();
+    const std::size_t before = problem_.pairs.size();
+    for (const int node : at) {
+      if (fixed_[static_cast<std::size_t>(2 * node)] != 0) continue;
+      p.node = node;
+      p.stiffness = modulus * lengths[static_cast<std::size_t>(node)];
+      if (!std::isnormal(p.stiffness)) {
+        t.refuse(fmt::format("a stiffness of {:g} at node {}", p.stiffness, node + 1),
+                 "modulus times tributary length within the range of double precision");
+      }
+      problem_.pairs.push_back(p);
+    }
+    if (problem_.pairs.size() == before)
+      t.refuse("only nodes that are fixed in w", "at least one node that can deflect");
+  }
+
+  [[nodiscard]] std::vector<int> all_nodes() const {
+    std::vector<int> numbers(static_cast<std::size_t>(nodes()));
+    for (int i = 0; i < nodes(); ++i) numbers[static_cast<std::size_t>(i)] = i;
+    return numbers;
+  }
+
+  void read_step(const table_reader& t) {
+    t.allow_only({"uniform", "point"});
+    load l;
+    if (t.has("uniform")) read_uniform(t, l);
+    if (t.has("point")) read_points(t, l);
+    if (l.distributed.empty() && l.points.empty()) {
+      t.refuse("a step without loads", "uniform, point or both; uniform = 0 takes all load off");
+    }
+    problem_.steps.push_back(std::move(l));
+  }
+
+  void read_uniform(const table_reader& t, load& l) const {
+    const toml::node& node = t.required("uniform", "");
+    if (node.is_number()) {
+      l.distributed.push_back({{t.real("uniform", any_real)}, {}});
+      return;
+    }
+    if (!node.is_array()) t.refuse(node, "uniform", found_words(node), "a number, or an array of tables");
+    for (const table_reader& part : t.tables("uniform")) l.distributed.push_back(read_distributed(part));
+  }
+
+  [[nodiscard]] distributed_load read_distributed(const table_reader& t) const {
+    t.allow_only({"value", "polynomial", "elements"});
+    if (t.has("value") == t.has("polynomial"))
+      t.refuse("both or neither of value and polynomial", "one of them");
+    distributed_load d;
+    d.polynomial =
+        t.has("value") ? std::vector<double>{t.real("value", any_real)} : t.reals("polynomial", any_real, 1);
+    if (d.polynomial.size() > highest_degree + 1) {
+      const toml::node& node = t.required("polynomial", "");
+      t.refuse(node, "polynomial", found_words(node),
+               fmt::format("at most {} coefficients", highest_degree + 1));
+    }
+    if (t.has("elements")) d.elements = read_numbers(t, "elements", problem_.geometry.elements());
+    return d;
+  }
+
+  void read_points(const table_reader& t, load& l) const {
+    for (const table_reader& p : t.tables("point")) {
+      p.allow_only({"node", "w", "theta"});
+      const int node = p.integer("node", 1, nodes()) - 1;
+      if (!p.has("w") && !p.has("theta")) p.refuse("a point load without w or theta", "w, theta or both");
+      for (int dof = 0; dof < 2; ++dof) {
+        if (p.has(beam_dof_names[dof]))
+          l.points.push_back({node, dof, p.real(beam_dof_names[dof], any_real)});
+      }
+    }
+  }
+
+  std::string_view file_;
+  table_reader top_;
+  problem problem_;
+  std::vector<char> fixed_;  // [dofs]
+};
+
+}  // namespace
+
+problem parse_problem(std::string_view text, std::string_view file) {
+  const toml::table document = parse_toml(text, file);
+  return problem_reader(document, file).read();
+}
+
+problem read_problem(const std::string& path) {
+  const std::string file = path == "-" ? "standard input" : path;
+  return parse_problem(read_input(path), file);
+}
+
+}  // namespace contct

@@ -1,0 +1,56 @@
+// The result of a run as JSON, format "contct-result-1".
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contct/check/free_run.hpp"
+#include "contct/check/lockstep.hpp"
+#include "contct/io/load_text.hpp"
+#include "contct/io/output_file.hpp"
+#include "contct/io/problem.hpp"
+#include "contct/path/observer.hpp"
+#include "contct/path/path.hpp"
+
+namespace contct {
+
+/// Observes a path and writes it as it goes: memory does not grow with the number of steps.
+/// The file appears when `finish` is called.
+class result_json final : public observer {
+ public:
+  /// `p` and `out` must outlive this object.
+  result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
+              output_file& out);
+
+  void incremented(const increment& i) override;
+  void step_ended(const step_state& s) override;
+
+  /// Add how another kernel's own path compares.
+  void add_free_run(std::string_view kernel, const free_run_difference& d);
+
+  /// Close the document. `compared` is null when there was one kernel only.
+  void finish(std::string_view status, const path_end& end, const lockstep* compared);
+
+ private:
+  void write_pairs(const step_state& s);
+  void write_reactions(const step_state& s, const load& total, const std::vector<element_forces>& forces);
+  template <class Entry>
+  void write_list(std::string_view name, std::size_t count, Entry entry, bool last = false);
+
+  const problem& problem_;
+  load_path loads_;
+  output_file& out_;
+  std::vector<std::string> increments_;  // of the step under way, as JSON
+  std::vector<std::string> free_runs_;   // as JSON
+  bool first_step_ = true;
+};
+
+/// "below" or "above".
+[[nodiscard]] std::string_view surface_name(int surface);
+/// "make" or "break".
+[[nodiscard]] std::string_view change_name(change c);
+/// "solved", "mechanism" or "iteration-limit".
+[[nodiscard]] std::string_view status_name(path_status status);
+
+}  // namespace contct

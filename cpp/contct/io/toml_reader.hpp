@@ -1,0 +1,95 @@
+// Strict reading of TOML: every key is known, every value in range, or the file is refused.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <initializer_list>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace contct {
+
+/// What is wrong with a file, where, what was found, what is allowed. what() is the whole message:
+/// "pb.toml:12:3: contact[2].stiffness: found -5; allowed: a number greater than 0".
+class input_error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A range of numbers in words and as a test.
+struct real_range {
+  double least;
+  bool may_equal_least;
+  const char* words;
+  [[nodiscard]] bool holds(double x) const { return x > least || (may_equal_least && x == least); }
+};
+
+inline constexpr real_range any_real{-1.7976931348623157e308, true, "a finite number"};
+inline constexpr real_range positive_real{0.0, false, "a finite number greater than 0"};
+
+/// One table of a TOML file. `where` names the table for people: "contact[2]", "beam", or "" for the file
+/// itself.
+class table_reader {
+ public:
+  table_reader(const toml::table& table, std::string where, std::string_view file);
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+
+  /// The node behind `key`; refuses the table when there is none.
+  [[nodiscard]] const toml::node& required(std::string_view key, std::string_view allowed) const;
+
+  [[nodiscard]] double real(std::string_view key, const real_range& range) const;
+  [[nodiscard]] int integer(std::string_view key, int least, int most) const;
+  [[nodiscard]] std::string text(std::string_view key) const;
+  /// One of `choices`; returns its index.
+  [[nodiscard]] std::size_t choice(std::string_view key,
+                                   std::initializer_list<std::string_view> choices) const;
+  /// An array of numbers in `range`, at least `least` of them.
+  [[nodiscard]] std::vector<double> reals(std::string_view key, const real_range& range,
+                                          std::size_t least) const;
+  /// A table under `key`.
+  [[nodiscard]] table_reader table(std::string_view key) const;
+  /// An array of tables under `key`, at least one; refuses anything else.
+  [[nodiscard]] std::vector<table_reader> tables(std::string_view key) const;
+
+  /// Turn a node under `key` into a number in `range`. `name` is the key, with an index if any.
+  [[nodiscard]] double real_of(const toml::node& node, const std::string& name,
+                               const real_range& range) const;
+  [[nodiscard]] int integer_of(const toml::node& node, const std::string& name, int least, int most) const;
+  [[nodiscard]] std::string_view text_of(const toml::node& node, const std::string& name,
+                                         std::string_view allowed) const;
+
+  /// Refuse every key but these.
+  void allow_only(std::initializer_list<std::string_view> keys) const;
+
+  /// Refuse the file: `name` is the key (with an index if any) at `node`.
+  [[noreturn]] void refuse(const toml::node& node, std::string_view name, std::string_view found,
+                           std::string_view allowed) const;
+  /// Refuse the table itself.
+  [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
+
+  [[nodiscard]] const std::string& where() const { return where_; }
+  /// The line of this table in the file, from 1.
+  [[nodiscard]] unsigned line() const { return table_->source().begin.line; }
+
+ private:
+  [[nodiscard]] std::string full_name(std::string_view name) const;
+
+  const toml::table* table_;
+  std::string where_;
+  std::string_view file_;
+};
+
+/// A value in words: "-5", "\"abc\"", "a table", "an array of 3".
+[[nodiscard]] std::string found_words(const toml::node& node);
+
+/// "key[3]", with the index from 1.
+[[nodiscard]] std::string indexed(std::string_view key, std::size_t from_zero);
+
+/// Parse a whole document. Throws input_error with line and column.
+[[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view file);
+
+}  // namespace contct

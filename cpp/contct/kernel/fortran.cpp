@@ -1,0 +1,87 @@
+#include "contct/kernel/fortran.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <stdexcept>
+#include <system_error>
+
+extern "C" {
+void contct_call_r4(const float* dd, const float* dtest, const float* cc, float* ss, float* smin,
+                    const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
+void contct_call_r8(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
+                    const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
+int contct_log_open(const char* path, int length);
+void contct_log_flush(void);
+void contct_log_rewind(void);
+void contct_log_close(void);
+}
+
+namespace contct::fortran {
+namespace {
+
+/// Serialises everything that touches COMMON /DOF/ or unit 26.
+std::mutex& process_wide() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+bool unit_26_is_open = false;
+
+}  // namespace
+
+void contct(call<float>& c) {
+  const std::scoped_lock lock(process_wide());
+  contct_call_r4(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
+                 c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
+}
+
+void contct(call<double>& c) {
+  const std::scoped_lock lock(process_wide());
+  contct_call_r8(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
+                 c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
+}
+
+unit_26::unit_26() {
+  const std::scoped_lock lock(process_wide());
+  if (unit_26_is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
+  std::string path = (std::filesystem::temp_directory_path() / "contct-unit26-XXXXXX").string();
+  file_ = mkstemp(path.data());
+  if (file_ < 0)
+    throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + path);
+  const int status = contct_log_open(path.data(), static_cast<int>(path.size()));
+  unlink(path.c_str());  // both sides hold it open
+  if (status != 0) {
+    close(file_);
+    throw std::runtime_error("cannot connect unit 26 to " + path);
+  }
+  unit_26_is_open = true;
+}
+
+unit_26::~unit_26() {
+  const std::scoped_lock lock(process_wide());
+  contct_log_close();
+  close(file_);
+  unit_26_is_open = false;
+}
+
+std::string unit_26::take() {
+  const std::scoped_lock lock(process_wide());
+  contct_log_flush();
+  std::string text;
+  char block[1 << 16];
+  ssize_t got = 0;
+  while ((got = pread(file_, block, sizeof block, static_cast<off_t>(text.size()))) > 0) {
+    text.append(block, static_cast<std::size_t>(got));
+  }
+  if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
+  contct_log_rewind();
+  if (ftruncate(file_, 0) != 0)
+    throw std::system_error(errno, std::generic_category(), "cannot empty unit 26's file");
+  return text;
+}
+
+}  // namespace contct::fortran

@@ -1,0 +1,33 @@
+// The 1989 code itself, called through ISO_C_BINDING (fortran/contct_c.f90).
+#pragma once
+
+#include <string>
+
+#include "contct/kernel/call.hpp"
+
+namespace contct::fortran {
+
+/// One call of the listing: built as printed for float, with 8-byte REAL for double.
+/// COMMON /DOF/ and unit 26 belong to the whole process, so calls are serialised by a lock.
+/// The text goes to the unit_26 that is open, or nowhere.
+void contct(call<float>& c);
+void contct(call<double>& c);
+
+/// Unit 26 while this object lives: what the listing writes is kept and handed back. One at a
+/// time in a process: a second one throws std::logic_error. The file behind it is unlinked at
+/// once, so nothing is left behind however the process ends.
+class unit_26 {
+ public:
+  unit_26();
+  ~unit_26();
+  unit_26(const unit_26&) = delete;
+  unit_26& operator=(const unit_26&) = delete;
+
+  /// All text written since the last take, and forget it.
+  [[nodiscard]] std::string take();
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace contct::fortran

@@ -1,0 +1,143 @@
+#include "contct/kernel/kernel.hpp"
+
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "contct/kernel/contct.hpp"
+#include "contct/kernel/fortran.hpp"
+#include "contct/kernel/log_text.hpp"
+
+namespace contct {
+namespace {
+
+const char* const cxx_compiler = CONTCT_CXX_COMPILER;          // NOLINT: set by CMake
+const char* const fortran_compiler = CONTCT_FORTRAN_COMPILER;  // NOLINT: set by CMake
+
+/// C++ CONTCT, with its text.
+template <class Real>
+class cpp_implementation {
+ public:
+  static constexpr const char* name = std::is_same_v<Real, float> ? "cpp-r4" : "cpp";
+  static constexpr const char* language = "C++20";
+  static const char* compiler() { return cxx_compiler; }
+
+  void answer(call<Real>& c) {
+    if (events_.size() < c.cc.size()) events_.resize(c.cc.size());
+    const int happened = contct(c, std::span<event>(events_));
+    append_log_text(c, std::span<const event>(events_.data(), static_cast<std::size_t>(happened)), text_);
+  }
+
+  std::string take_text() { return std::exchange(text_, {}); }
+
+ private:
+  std::vector<event> events_;
+  std::string text_;
+};
+
+/// The 1989 code, with unit 26 kept while this kernel lives.
+template <class Real>
+class fortran_implementation {
+ public:
+  static constexpr const char* name = std::is_same_v<Real, float> ? "fortran-r4" : "fortran";
+  static constexpr const char* language = "FORTRAN 77";
+  static const char* compiler() { return fortran_compiler; }
+
+  void answer(call<Real>& c) { fortran::contct(c); }
+  std::string take_text() { return log_.take(); }
+
+ private:
+  fortran::unit_26 log_;
+};
+
+template <class Implementation>
+kernel_facts facts_of(int real_bytes) {
+  return {Implementation::name,       real_bytes, "listing", Implementation::language,
+          Implementation::compiler(), true};
+}
+
+template <template <class> class Implementation>
+class kernel_r8 final : public kernel {
+ public:
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+  void answer(call<double>& c) override { inner_.answer(c); }
+  std::string take_text() override { return inner_.take_text(); }
+
+ private:
+  kernel_facts facts_ = facts_of<Implementation<double>>(8);
+  Implementation<double> inner_;
+};
+
+/// The listing as printed, behind a double-precision boundary.
+template <template <class> class Implementation>
+class kernel_r4 final : public kernel {
+ public:
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+
+  void answer(call<double>& c) override {
+    round_inputs(c);
+    call<float> narrow{dd_, dtest_, cc_, ss_, 0.0F, c.id, c.isep, c.isurf, c.dof};
+    inner_.answer(narrow);
+    for (std::size_t i = 0; i < c.ss.size(); ++i) c.ss[i] = ss_[i];
+    c.smin = narrow.smin;
+  }
+
+  std::string take_text() override { return inner_.take_text(); }
+
+ private:
+  /// Only the dofs that pairs watch are rounded: the rest is never read.
+  void round_inputs(const call<double>& c) {
+    dd_.resize(c.dd.size());
+    dtest_.resize(c.dtest.size());
+    cc_.assign(c.cc.begin(), c.cc.end());
+    ss_.resize(c.ss.size());
+    for (const int node : c.id) {
+      const auto dof = static_cast<std::size_t>(c.dof.dof_of(node) - 1);
+      dd_[dof] = static_cast<float>(c.dd[dof]);
+      dtest_[dof] = static_cast<float>(c.dtest[dof]);
+    }
+  }
+
+  kernel_facts facts_ = facts_of<Implementation<float>>(4);
+  Implementation<float> inner_;
+  std::vector<float> dd_, dtest_, cc_, ss_;
+};
+
+using maker = std::unique_ptr<kernel> (*)();
+
+template <class Kernel>
+std::unique_ptr<kernel> make() {
+  return std::make_unique<Kernel>();
+}
+
+struct entry {
+  const char* name;
+  maker make;
+};
+
+constexpr entry known_kernels[] = {
+    {"fortran", make<kernel_r8<fortran_implementation>>},
+    {"fortran-r4", make<kernel_r4<fortran_implementation>>},
+    {"cpp", make<kernel_r8<cpp_implementation>>},
+    {"cpp-r4", make<kernel_r4<cpp_implementation>>},
+};
+
+}  // namespace
+
+std::unique_ptr<kernel> make_kernel(std::string_view name) {
+  std::string known;
+  for (const entry& e : known_kernels) {
+    if (name == e.name) return e.make();
+    known += known.empty() ? "" : ", ";
+    known += e.name;
+  }
+  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"; there are: " + known);
+}
+
+std::vector<std::string> kernel_names() {
+  std::vector<std::string> names;
+  for (const entry& e : known_kernels) names.emplace_back(e.name);
+  return names;
+}
+
+}  // namespace contct

@@ -1,0 +1,44 @@
+// A kernel: anything that answers one call of CONTCT.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contct/kernel/call.hpp"
+
+namespace contct {
+
+/// What a kernel is. Lockstep compares kernels of one precision and one rule.
+struct kernel_facts {
+  std::string name;      ///< as typed after --kernels
+  int real_bytes;        ///< 8, or 4 for the listing as printed
+  std::string rule;      ///< "listing"
+  std::string language;  ///< for people
+  std::string compiler;  ///< for people
+  bool has_text;         ///< the kernel writes the listing's unit-26 text
+};
+
+/// A function of one call, in double precision at its boundary. A single-precision kernel rounds
+/// dd, dtest and cc to float on the way in and widens ss and smin, exactly, on the way out.
+class kernel {
+ public:
+  virtual ~kernel() = default;
+  [[nodiscard]] virtual const kernel_facts& facts() const = 0;
+
+  /// Answer one call: sets c.ss and c.smin, toggles c.isep.
+  virtual void answer(call<double>& c) = 0;
+
+  /// The unit-26 text of the calls since the last take; empty where facts().has_text is false.
+  virtual std::string take_text() = 0;
+};
+
+/// Make a kernel by name: "fortran", "fortran-r4", "cpp", "cpp-r4".
+/// Throws std::invalid_argument, naming what there is, when there is none of that name.
+[[nodiscard]] std::unique_ptr<kernel> make_kernel(std::string_view name);
+
+/// The names that make_kernel knows.
+[[nodiscard]] std::vector<std::string> kernel_names();
+
+}  // namespace contct

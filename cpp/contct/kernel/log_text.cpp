@@ -1,0 +1,82 @@
+#include "contct/kernel/log_text.hpp"
+
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+namespace contct {
+namespace {
+
+/// Append `digits` right-justified in a field of `width`; asterisks when it does not fit.
+void append_field(std::string_view digits, std::size_t width, std::string& text) {
+  if (digits.size() > width) {
+    text.append(width, '*');
+  } else {
+    text.append(width - digits.size(), ' ').append(digits);
+  }
+}
+
+/// FORTRAN's I3.
+void append_i3(int value, std::string& text) {
+  char digits[16];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  append_field({digits, static_cast<std::size_t>(end - digits)}, 3, text);
+}
+
+/// FORTRAN's Ew.d for a positive number: 0.ddddE+ee, and 0.dddd-eee without the E when the
+/// exponent has three digits.
+template <class Real>
+void append_e(Real value, int significant, std::size_t width, std::string& text) {
+  char scientific[48];  // d.ddde+ee
+  const auto end = std::to_chars(scientific, scientific + sizeof scientific, value,
+                                 std::chars_format::scientific, significant - 1)
+                       .ptr;
+  const std::string_view all(scientific, static_cast<std::size_t>(end - scientific));
+  const std::size_t mark = all.find('e');
+  // The digits stand behind the point here, so the exponent is larger by one.
+  const int exponent = std::atoi(scientific + mark + 1) + 1;
+  const int size = std::abs(exponent);
+
+  char digits[48] = "0.";
+  std::size_t n = 2;
+  for (const char ch : all.substr(0, mark)) {
+    if (ch != '.') digits[n++] = ch;
+  }
+  if (size < 100) digits[n++] = 'E';
+  digits[n++] = exponent < 0 ? '-' : '+';
+  if (size >= 100) digits[n++] = static_cast<char>('0' + size / 100);
+  digits[n++] = static_cast<char>('0' + size / 10 % 10);
+  digits[n++] = static_cast<char>('0' + size % 10);
+  append_field({digits, n}, width, text);
+}
+
+}  // namespace
+
+template <class Real>
+void append_log_text(const call<Real>& c, std::span<const event> events, std::string& text) {
+  if (c.smin == Real(1)) {
+    text += "  NO EVENTS. RETURNING. SCALE FACTOR = ";
+    append_e(c.smin, 3, 10, text);
+    text += '\n';
+    return;
+  }
+  for (const event& e : events) {
+    const auto i = static_cast<std::size_t>(e.pair);
+    text += e.what == change::make ? "  ******* MAKING CONTACT ********\n"
+                                   : "  ****** BREAKING CONTACT *******\n";
+    text += "   CONTACT PAIR: ";
+    append_i3(e.pair + 1, text);
+    text += " NODE: ";
+    append_i3(c.id[i], text);
+    text += " SURFACE: ";
+    append_i3(c.isurf[i], text);
+    text += " SCALE FACTOR = ";
+    append_e(c.smin, 4, 11, text);
+    text += '\n';
+  }
+}
+
+template void append_log_text(const call<float>&, std::span<const event>, std::string&);
+template void append_log_text(const call<double>&, std::span<const event>, std::string&);
+
+}  // namespace contct

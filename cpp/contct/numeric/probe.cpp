@@ -1,0 +1,73 @@
+#include "contct/numeric/probe.hpp"
+
+#include <cfloat>
+#include <limits>
+
+namespace contct {
+namespace {
+
+// Operands pass through volatile, so that the machine computes and not the compiler.
+double opaque(double x) {
+  volatile double held = x;
+  return held;
+}
+
+bool contraction_happens() {
+  // (1 + e)(1 - e) - 1 is -e^2 in one rounding, and 0 in two, for e = 2^-30.
+  const double e = opaque(0x1p-30);
+  const double a = 1.0 + e;
+  const double b = 1.0 - e;
+  const double c = opaque(-1.0);
+  return a * b + c != 0.0;
+}
+
+bool nearest_even() {
+  const double half_ulp = opaque(0x1p-53);
+  const double one = opaque(1.0);
+  const double odd = opaque(1.0 + 0x1p-52);
+  return one + half_ulp == 1.0 && odd + half_ulp == 1.0 + 0x1p-51 && -one - half_ulp == -1.0 &&
+         one - half_ulp / 2.0 == 1.0;
+}
+
+bool results_are_flushed() {
+  const double smallest_normal = opaque(std::numeric_limits<double>::min());
+  const double half = smallest_normal * opaque(0.5);
+  volatile double held = half;
+  // Compare by scaling up: a comparison with zero would itself be deceived under DAZ.
+  return opaque(held) * opaque(0x1p+60) * opaque(0x1p+60) == 0.0;
+}
+
+bool operands_are_flushed() {
+  const double subnormal = opaque(std::numeric_limits<double>::denorm_min());
+  return subnormal * opaque(0x1p+60) == 0.0;
+}
+
+}  // namespace
+
+floating_point probe_floating_point() {
+  floating_point found{};
+  found.contracts = contraction_happens();
+  found.rounds_to_nearest = nearest_even();
+  found.flushes_results = results_are_flushed();
+  found.flushes_operands = operands_are_flushed();
+  found.extra_precision = FLT_EVAL_METHOD != 0;
+  return found;
+}
+
+std::string describe(const floating_point& found) {
+  if (found.strict()) return "strict";
+  std::string what;
+  const auto add = [&what](bool wrong, const char* words) {
+    if (!wrong) return;
+    if (!what.empty()) what += "; ";
+    what += words;
+  };
+  add(found.contracts, "products and sums are contracted into one rounding");
+  add(!found.rounds_to_nearest, "the rounding mode is not to nearest, ties to even");
+  add(found.flushes_results, "subnormal results are flushed to zero");
+  add(found.flushes_operands, "subnormal operands count as zero");
+  add(found.extra_precision, "intermediate results carry extra precision");
+  return what;
+}
+
+}  // namespace contct

@@ -1,0 +1,28 @@
+// Does this process compute the way that the comparison assumes?
+#pragma once
+
+#include <string>
+
+namespace contct {
+
+/// What the floating-point probe found. Equality between kernels is promised only where
+/// strict() holds; elsewhere a mismatch says something of the environment, not of a kernel.
+struct floating_point {
+  bool contracts;          ///< a * b + c is fused into one rounding
+  bool rounds_to_nearest;  ///< rounding mode, ties to even
+  bool flushes_results;    ///< subnormal results become zero (FTZ)
+  bool flushes_operands;   ///< subnormal operands count as zero (DAZ)
+  bool extra_precision;    ///< intermediate results are wider than their type (x87)
+
+  [[nodiscard]] bool strict() const {
+    return !contracts && rounds_to_nearest && !flushes_results && !flushes_operands && !extra_precision;
+  }
+};
+
+/// Probe the calling thread's environment, with the flags that this library was compiled under.
+[[nodiscard]] floating_point probe_floating_point();
+
+/// One line for people: "strict", or what is wrong, as in "subnormal results are flushed to zero".
+[[nodiscard]] std::string describe(const floating_point& found);
+
+}  // namespace contct

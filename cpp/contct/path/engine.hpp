@@ -1,0 +1,56 @@
+// The seam between the path and the linear algebra: three verbs.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contct/structure/structure.hpp"
+
+namespace contct {
+
+/// R*, the residual load: the share of a step's load increment that is still to be applied.
+struct residual_load {
+  std::span<const double> increment;  ///< the step's total load less the previous one's [dofs]
+  double share;                       ///< from 1 down to 0
+};
+
+/// Thrown by an engine when the stiffness matrix of a structure that is held has no Cholesky
+/// factor: it is too ill-conditioned for double precision.
+class no_factor : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Stiffness with the springs of the pairs now in contact. Dofs are numbered from 0.
+class stiffness_engine {
+ public:
+  virtual ~stiffness_engine() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;
+
+  /// Put the spring of pair `pair` (from 0) in, or take it out.
+  virtual void switch_spring(int pair, bool closed) = 0;
+
+  /// Solve K w* = R* and write d* at the dofs that pairs watch; other entries of `d_star` [dofs]
+  /// are the engine's to use. Throws no_factor.
+  virtual void respond(const residual_load& residual, std::span<double> d_star) = 0;
+
+  /// Solve K u = load + the pairs' forces, for every dof. `pair_forces` [pairs]. Throws no_factor.
+  virtual void recover(std::span<const double> load, std::span<const double> pair_forces,
+                       std::span<double> u) = 0;
+
+  /// Reciprocal condition of the current K, its diagonal scaled to 1.
+  [[nodiscard]] virtual double reciprocal_condition() = 0;
+};
+
+/// Make an engine by name: "refactor". `s` must outlive it. Throws std::invalid_argument,
+/// naming what there is, when there is none of that name.
+[[nodiscard]] std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s);
+
+/// The names that make_engine knows.
+[[nodiscard]] std::vector<std::string> engine_names();
+
+}  // namespace contct

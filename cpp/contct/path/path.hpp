@@ -1,0 +1,47 @@
+// The incremental path of the 1989 paper.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contct/kernel/kernel.hpp"
+#include "contct/path/engine.hpp"
+#include "contct/path/observer.hpp"
+#include "contct/structure/structure.hpp"
+
+namespace contct {
+
+/// How a path ended.
+enum class path_status {
+  solved,           ///< every step's load is applied
+  mechanism,        ///< nothing holds the structure any more: there is no equilibrium
+  cycle,            ///< the same pairs toggle for ever at a standstill
+  iteration_limit,  ///< a step took more increments than allowed
+  not_factored,     ///< held, but too ill-conditioned for double precision, or beyond its range
+};
+
+struct path_end {
+  path_status status = path_status::solved;
+  int step = 0;            ///< the step in which it ended, from 1
+  double fraction = 1.0;   ///< share of that step's load reached
+  std::vector<int> pairs;  ///< mechanism: whose opening freed the structure; cycle and limit: those
+                           ///< that keep toggling; from 0, empty when none did
+};
+
+/// Loads along the path: write the total load at the end of `step` (from 1) to `total` [dofs],
+/// which comes zeroed.
+using load_history = std::function<void(int step, std::span<double> total)>;
+
+struct path_limits {
+  int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
+};
+
+/// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch.
+/// The engine must be fresh: the springs of the pairs that start closed in, all others out.
+path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,
+                     stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,
+                     const path_limits& limits = {});
+
+}  // namespace contct

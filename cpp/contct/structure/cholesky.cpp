@@ -1,0 +1,97 @@
+#include "contct/structure/cholesky.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "contct/structure/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
+
+// gfortran passes the length of each CHARACTER argument behind the others.
+extern "C" {
+void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)(const char* uplo, const int* n, const int* kd, double* ab,
+                                      const int* ldab, int* info, std::size_t uplo_length);
+void CONTCT_FC_GLOBAL(dpbtrs, DPBTRS)(const char* uplo, const int* n, const int* kd, const int* nrhs,
+                                      const double* ab, const int* ldab, double* b, const int* ldb, int* info,
+                                      std::size_t uplo_length);
+void CONTCT_FC_GLOBAL(dpbcon, DPBCON)(const char* uplo, const int* n, const int* kd, const double* ab,
+                                      const int* ldab, const double* anorm, double* rcond, double* work,
+                                      int* iwork, int* info, std::size_t uplo_length);
+}
+
+namespace contct {
+namespace {
+
+/// A becomes D A D, where D makes the diagonal 1. False when a diagonal entry is not positive.
+bool scale_to_unit_diagonal(band_matrix& a) {
+  const int n = a.order();
+  std::vector<double> d(static_cast<std::size_t>(n));
+  for (int j = 0; j < n; ++j) {
+    if (!(a.at(j, j) > 0.0)) return false;
+    d[static_cast<std::size_t>(j)] = 1.0 / std::sqrt(a.at(j, j));
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = j; i <= std::min(j + a.subdiagonals(), n - 1); ++i) {
+      a.at(i, j) *= d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(j)];
+    }
+  }
+  return true;
+}
+
+/// Largest sum of magnitudes of a column of the whole symmetric matrix.
+double one_norm(const band_matrix& a) {
+  std::vector<double> sums(static_cast<std::size_t>(a.order()), 0.0);
+  for (int j = 0; j < a.order(); ++j) {
+    sums[static_cast<std::size_t>(j)] += std::abs(a.at(j, j));
+    for (int i = j + 1; i <= std::min(j + a.subdiagonals(), a.order() - 1); ++i) {
+      sums[static_cast<std::size_t>(i)] += std::abs(a.at(i, j));
+      sums[static_cast<std::size_t>(j)] += std::abs(a.at(i, j));
+    }
+  }
+  return sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
+}
+
+}  // namespace
+
+bool factor(band_matrix& matrix) {
+  const int n = matrix.order();
+  const int kd = matrix.subdiagonals();
+  const int ldab = kd + 1;
+  int info = 0;
+  CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)("L", &n, &kd, matrix.data(), &ldab, &info, 1);
+  return info == 0;
+}
+
+void solve_with(const band_matrix& factor_of_a, std::span<double> b) {
+  const int n = factor_of_a.order();
+  const int kd = factor_of_a.subdiagonals();
+  const int ldab = kd + 1;
+  const int one = 1;
+  int info = 0;
+  CONTCT_FC_GLOBAL(dpbtrs, DPBTRS)("L", &n, &kd, &one, factor_of_a.data(), &ldab, b.data(), &n, &info, 1);
+}
+
+double reciprocal_condition(band_matrix& matrix) {
+  const int n = matrix.order();
+  const int kd = matrix.subdiagonals();
+  if (!scale_to_unit_diagonal(matrix)) return 0.0;
+  const double norm = one_norm(matrix);
+  if (!std::isfinite(norm) || !factor(matrix)) return 0.0;
+  const int ldab = kd + 1;
+  double rcond = 0.0;
+  int info = 0;
+  std::vector<double> work(3 * static_cast<std::size_t>(n));
+  std::vector<int> iwork(static_cast<std::size_t>(n));
+  CONTCT_FC_GLOBAL(dpbcon, DPBCON)
+  ("L", &n, &kd, matrix.data(), &ldab, &norm, &rcond, work.data(), iwork.data(), &info, 1);
+  return rcond;
+}
+
+int digits_left(double rcond) {
+  if (!(rcond > 0.0)) return 0;
+  const double digits = -std::log10(std::numeric_limits<double>::epsilon() / 2.0 / rcond);
+  return std::clamp(static_cast<int>(digits), 0, 15);
+}
+
+}  // namespace contct

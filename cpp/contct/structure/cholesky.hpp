@@ -1,0 +1,27 @@
+// LAPACK's band Cholesky: dpbtrf, dpbtrs, dpbcon.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "contct/structure/band_matrix.hpp"
+
+namespace contct {
+
+/// Replace `matrix` by its Cholesky factor L, A = L L^T (dpbtrf, lower). Returns false when a
+/// pivot is not positive. True does not mean that the matrix was sound: a mechanism can pass.
+[[nodiscard]] bool factor(band_matrix& matrix);
+
+/// Solve A x = b in place, with the factor of A (dpbtrs).
+void solve_with(const band_matrix& factor_of_a, std::span<double> b);
+
+/// Reciprocal condition number, in the 1-norm, of `matrix` scaled to a unit diagonal: 1 / (norm
+/// of A times norm of its inverse), estimated by dpbcon. The scaling takes the units out of it.
+/// Overwrites `matrix`. 0 when the scaled matrix has no factor.
+[[nodiscard]] double reciprocal_condition(band_matrix& matrix);
+
+/// Whole decimal digits that a solution keeps at this reciprocal condition: -log10(eps / rcond),
+/// never negative, at most 15.
+[[nodiscard]] int digits_left(double rcond);
+
+}  // namespace contct

@@ -1,0 +1,35 @@
+#include "contct/structure/rigid_modes.hpp"
+
+#include <cmath>
+
+namespace contct {
+namespace {
+
+// Rows are scaled to the structure's size, so this is a share of that size: two supports nearer
+// to each other than 1e-12 of the length hold no better than one.
+constexpr double independent = 1e-12;
+
+double dot(const rigid_row& a, const rigid_row& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+}  // namespace
+
+void rigid_rank::hold(const rigid_row& row) {
+  if (rank_ == 3) return;
+  rigid_row rest = row;
+  const double size = std::sqrt(dot(row, row));
+  for (int pass = 0; pass < 2; ++pass) {  // twice is enough for Gram-Schmidt
+    for (int k = 0; k < rank_; ++k) {
+      const rigid_row& b = basis_[static_cast<std::size_t>(k)];
+      const double along = dot(rest, b);
+      for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= along * b[i];
+    }
+  }
+  const double left = std::sqrt(dot(rest, rest));
+  if (!(left > independent * size)) return;
+  for (double& entry : rest) entry /= left;
+  basis_[static_cast<std::size_t>(rank_++)] = rest;
+}
+
+}  // namespace contct

@@ -1,0 +1,26 @@
+// Is the structure held? Decided by its rigid motions, not by a condition number.
+#pragma once
+
+#include <array>
+#include <span>
+
+namespace contct {
+
+/// What the rigid motions of a structure do at one dof: one number a motion, in coordinates
+/// scaled to the structure's size. A beam has two motions (up, turn), a plate three.
+using rigid_row = std::array<double, 3>;
+
+/// How many independent rigid motions the dofs in `held` stop: the rank of their rows.
+/// The structure is a mechanism when this is less than the number of its rigid motions.
+class rigid_rank {
+ public:
+  /// Count one more dof as held.
+  void hold(const rigid_row& row);
+  [[nodiscard]] int rank() const { return rank_; }
+
+ private:
+  std::array<rigid_row, 3> basis_{};  // orthonormal
+  int rank_ = 0;
+};
+
+}  // namespace contct

@@ -1,0 +1,47 @@
+// A linear elastic structure with its candidate contact pairs, as the path sees it.
+#pragma once
+
+#include <vector>
+
+#include "contct/structure/band_matrix.hpp"
+#include "contct/structure/rigid_modes.hpp"
+
+namespace contct {
+
+/// A permanent support of one dof, working both ways.
+struct support {
+  int node;           ///< from 0
+  int dof;            ///< within the node, from 0
+  bool fixed;         ///< held in place; otherwise elastic
+  double spring = 0;  ///< stiffness of an elastic support
+};
+
+/// A candidate contact pair: a one-sided spring between a node and a face.
+struct contact_pair {
+  int node;          ///< from 0
+  int surface;       ///< n: face_above (+1) or face_below (-1)
+  double face;       ///< c: where the face stands
+  double stiffness;  ///< k of its spring, positive
+  bool closed;       ///< in contact at the start
+};
+
+/// Any structure: dof d of node i is dof i * dofs_per_node + d, from 0.
+struct linear_structure {
+  int dofs_per_node = 0;
+  int deflection = 0;               ///< which dof of a node deflects, from 0 (INDOF - 1)
+  band_matrix stiffness;            ///< with elastic supports; a fixed dof has a row of the identity
+  std::vector<char> fixed;          ///< [dofs] 1 where a support fixes the dof
+  std::vector<contact_pair> pairs;  ///< in the order of their numbers
+
+  int rigid_motions = 0;                    ///< 2 for a beam, 3 for a plate
+  std::vector<rigid_row> held_by_supports;  ///< a row for each dof that a support holds
+  std::vector<rigid_row> held_by_pairs;     ///< [pairs] the row that a closed pair holds
+
+  [[nodiscard]] int dofs() const { return stiffness.order(); }
+  /// The dof, from 0, at which pair `i` (from 0) acts.
+  [[nodiscard]] int dof_of_pair(int i) const {
+    return pairs[static_cast<std::size_t>(i)].node * dofs_per_node + deflection;
+  }
+};
+
+}  // namespace contct
