@@ -33,8 +33,10 @@ void append_e(Real value, int significant, std::size_t width, std::string& text)
                        .ptr;
   const std::string_view all(scientific, static_cast<std::size_t>(end - scientific));
   const std::size_t mark = all.find('e');
-  // The digits stand behind the point here, so the exponent is larger by one.
-  const int exponent = std::atoi(scientific + mark + 1) + 1;
+  int exponent = 0;
+  std::from_chars(all.data() + mark + 2, end, exponent);  // behind the sign, which from_chars does not take
+  if (all[mark + 1] == '-') exponent = -exponent;
+  ++exponent;  // all digits stand behind the point here
   const int size = std::abs(exponent);
 
   char digits[48] = "0.";

@@ -1,0 +1,156 @@
+// Facts about contact, one call at a time.
+#include "contct/kernel/contct.hpp"
+
+#include <limits>
+
+#include "catch.hpp"
+#include "kernel/one_pair.hpp"
+
+using namespace contct;
+
+namespace {
+const int apart = separated;
+const int touching = in_contact;
+const int above = face_above;
+const int below = face_below;
+}  // namespace
+
+TEMPLATE_TEST_CASE("a pair closes at the share of the load that brings it to its face (eq. 4)", "", float,
+                   double) {
+  // 1 of 4 units of the test response are used up when the structure meets the face below it.
+  small_call<TestType> c({{TestType(-1), TestType(-4), TestType(-2), apart, below}});
+  c.ask();
+  CHECK(c.smin == TestType(0.25));
+  CHECK(c.ss[0] == TestType(0.25));
+  CHECK(c.isep[0] == touching);
+  CHECK(c.events == std::vector<event>{{0, change::make}});
+}
+
+TEMPLATE_TEST_CASE("the same formula opens a pair that is lifted off its face", "", float, double) {
+  // Pressed to D = -3 against a face at -2, lifted by 4: after a quarter it passes the face.
+  small_call<TestType> c({{TestType(-3), TestType(4), TestType(-2), touching, below}});
+  c.ask();
+  CHECK(c.smin == TestType(0.25));
+  CHECK(c.isep[0] == apart);
+  CHECK(c.events == std::vector<event>{{0, change::break_}});
+}
+
+TEST_CASE("the face's side does not enter eq. 4: it cancels out") {
+  small_call<double> c({{0.0, 2.0, 1.0, apart, above}, {0.0, 2.0, 1.0, apart, below}});
+  c.ask();
+  CHECK(c.ss[0] == c.ss[1]);
+}
+
+TEST_CASE("no event: a face out of reach, a face left behind, and a pair that does not respond") {
+  small_call<double> c({{0.0, -1.0, -2.0, apart, below},    // s = 2, beyond the load
+                        {0.0, 1.0, -2.0, apart, below},     // s = -2, moving away
+                        {0.0, 0.0, -2.0, apart, below},     // d* = 0
+                        {0.0, -1.0, -1.0, apart, below}});  // s = 1: exactly at full load
+  c.ask();
+  CHECK(c.smin == 1.0);
+  CHECK(c.events.empty());
+  CHECK(c.ss == std::vector<double>{2.0, -2.0, 1.0, 1.0});
+  CHECK(c.isep == std::vector<int>{apart, apart, apart, apart});
+}
+
+TEST_CASE("of several events the smallest s comes first (lemma 2)") {
+  small_call<double> c(
+      {{0.0, -1.0, -0.75, apart, below}, {0.0, -2.0, -0.5, apart, below}, {-1.0, 2.0, 0.5, touching, below}});
+  c.ask();
+  CHECK(c.smin == 0.25);
+  CHECK(c.events == std::vector<event>{{1, change::make}});
+}
+
+TEMPLATE_TEST_CASE(
+    "a stationary pair opens at once when it is pulled, by a step too small to count (eq. 11, 12)", "", float,
+    double) {
+  using Real = TestType;
+  small_call<Real> c({{Real(0), Real(0.5), Real(0), touching, below},     // pulled off its face
+                      {Real(0), Real(-0.5), Real(0), touching, below},    // pressed on: quiet
+                      {Real(0), Real(-0.5), Real(0), apart, below},       // pushed towards its face: makes
+                      {Real(0), Real(0.25), Real(0), touching, below}});  // pulled, but less
+  c.ask();
+  CHECK(c.smin == Real(2) * constants<Real>::delta);
+  CHECK(c.smin < Real(1e-19));
+  CHECK(c.ss[1] == Real(1));
+  CHECK(c.ss[3] == Real(4) * constants<Real>::delta);
+  // The largest |d*| wins, whether it makes or breaks.
+  CHECK(c.events == std::vector<event>{{0, change::break_}, {2, change::make}});
+}
+
+TEST_CASE("a stationary pair beats every advancing one, and leaves D where it is") {
+  small_call<double> c({{0.0, -1.0, -1e-9, apart, below}, {0.25, 1e-3, 0.25, touching, below}});
+  c.ask();
+  CHECK(c.events == std::vector<event>{{1, change::break_}});
+  CHECK(0.25 + c.smin * 1e-3 == 0.25);
+}
+
+TEMPLATE_TEST_CASE("near ties: everything within 2^-8 of the smallest s is toggled too, not at 2^-8 itself",
+                   "", float, double) {
+  using Real = TestType;
+  const Real half = Real(0.5);
+  const Real edge = half + half / Real(256);
+  const auto ask = [&](Real other) {
+    small_call<Real> c({{Real(0), Real(1), half, apart, above}, {Real(0), Real(1), other, apart, above}});
+    return c.ask().events.size();
+  };
+  CHECK(ask(half) == 2);
+  CHECK(ask(std::nextafter(edge, Real(0))) == 2);  // has not reached its face, and is closed all the same
+  CHECK(ask(edge) == 1);
+  CHECK(ask(std::nextafter(edge, Real(1))) == 1);
+}
+
+TEST_CASE("a defect of the listing: its mark for 'no event' is toggled when the smallest s exceeds 256/257") {
+  // Pair 2 is on a fixed dof, d* = 0, a unit away from its face; it ends "in contact".
+  small_call<double> c({{0.0, 1.0, 0.9999, apart, above}, {0.0, 0.0, -1.0, apart, below}});
+  c.ask();
+  CHECK(c.smin == 0.9999);
+  CHECK(c.isep == std::vector<int>{touching, touching});
+}
+
+TEST_CASE("EPSGAP is a length: in small units every gap counts as closed") {
+  // The same structure in units in which it measures 1e-10: a real gap is taken for contact at rest.
+  small_call<double> c({{0.0, -4e-11, -1e-11, apart, below}});
+  c.ask();
+  CHECK(c.smin < 1e-8);          // and not 0.25
+  CHECK(c.isep[0] == touching);  // closed a whole gap too early
+}
+
+TEST_CASE("NaN in, no event out") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  small_call<double> c(
+      {{nan, 1.0, 0.5, apart, above}, {0.0, nan, 0.5, apart, above}, {0.0, 1.0, nan, apart, above}});
+  c.ask();
+  CHECK(c.smin == 1.0);
+  CHECK(c.events.empty());
+}
+
+TEST_CASE("pairs are found through ID, INDOF and NDOFPN, and one node may have several") {
+  // Two nodes of three dofs each; the second dof deflects.
+  std::vector<double> dd(6, 0.0);
+  std::vector<double> dtest = {9, 9, 9, 9, 2.0, 9};
+  std::vector<double> cc = {1.0, -1.0};
+  std::vector<double> ss(2);
+  std::vector<int> id = {2, 2};
+  std::vector<int> isep = {apart, apart};
+  const std::vector<int> isurf = {above, below};
+  call<double> c{dd, dtest, cc, ss, 0.0, id, isep, isurf, {2, 3}};
+  std::vector<event> events(2);
+  CHECK(contct::contct(c, std::span<event>(events)) == 1);
+  CHECK(ss == std::vector<double>{0.5, -0.5});
+  CHECK(isep == std::vector<int>{touching, apart});
+}
+
+TEST_CASE("no pairs, no event") {
+  small_call<double> c({});
+  c.ask();
+  CHECK(c.smin == 1.0);
+  CHECK(c.events.empty());
+}
+
+TEST_CASE("single precision has constants of its own, not the doubles' rounded") {
+  CHECK(static_cast<double>(constants<float>::delta) != constants<double>::delta);
+  CHECK(static_cast<double>(constants<float>::epsgap) != constants<double>::epsgap);
+  CHECK(constants<float>::epsmul == 1.0F / 256);
+  CHECK(constants<double>::epsmul == 1.0 / 256);
+}

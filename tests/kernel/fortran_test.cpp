@@ -1,0 +1,104 @@
+#include "contct/kernel/fortran.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <thread>
+
+#include "catch.hpp"
+#include "kernel/one_pair.hpp"
+
+using namespace contct;
+
+namespace {
+
+small_call<double> one_that_closes() {
+  return small_call<double>({{0.0, 1.0, 0.25, separated, face_above}});
+}
+
+}  // namespace
+
+TEST_CASE("the 1989 code answers, as printed and with 8-byte REAL") {
+  small_call<float> r4({{0.0F, 3.0F, 1.0F, separated, face_above}});
+  call<float> c4 = r4.arguments();
+  fortran::contct(c4);
+  CHECK(c4.smin == 1.0F / 3.0F);
+  small_call<double> r8({{0.0, 3.0, 1.0, separated, face_above}});
+  call<double> c8 = r8.arguments();
+  fortran::contct(c8);
+  CHECK(c8.smin == 1.0 / 3.0);
+  CHECK(static_cast<double>(c4.smin) != c8.smin);
+  CHECK(r8.isep[0] == in_contact);
+}
+
+TEST_CASE("unit 26 leads nowhere unless asked: no fort.26 appears") {
+  for (int i = 0; i < 1000; ++i) {
+    auto c = one_that_closes();
+    call<double> arguments = c.arguments();
+    fortran::contct(arguments);
+  }
+  CHECK_FALSE(std::filesystem::exists("fort.26"));
+}
+
+TEST_CASE("unit 26 hands its text back, once") {
+  fortran::unit_26 log;
+  CHECK(log.take().empty());
+  auto c = one_that_closes();
+  call<double> arguments = c.arguments();
+  fortran::contct(arguments);
+  const std::string text = log.take();
+  CHECK(text.find("MAKING CONTACT") != std::string::npos);
+  CHECK(log.take().empty());
+  c.isep[0] = separated;
+  fortran::contct(arguments);
+  CHECK(log.take() == text);
+}
+
+TEST_CASE("text longer than any buffer comes back whole") {
+  fortran::unit_26 log;
+  auto c = one_that_closes();
+  call<double> arguments = c.arguments();
+  constexpr int calls = 5000;
+  for (int i = 0; i < calls; ++i) {
+    c.isep[0] = separated;
+    fortran::contct(arguments);
+  }
+  const std::string text = log.take();
+  CHECK(std::count(text.begin(), text.end(), '\n') == 2 * calls);
+}
+
+TEST_CASE("unit 26 belongs to the whole process: it cannot be opened twice") {
+  {
+    const fortran::unit_26 log;
+    CHECK_THROWS_AS(fortran::unit_26(), std::logic_error);
+  }
+  CHECK_NOTHROW(fortran::unit_26());
+}
+
+TEST_CASE("COMMON /DOF/ is set for every call, so calls from several threads do not mix") {
+  const auto many = [](int indof, bool& right) {
+    // Node 1 has dofs 1..3; only dof `indof` responds.
+    const std::vector<double> dd(3, 0.0);
+    std::vector<double> dtest(3, 0.0);
+    dtest[static_cast<std::size_t>(indof) - 1] = 4.0;
+    const std::vector<double> cc = {1.0};
+    const std::vector<int> id = {1};
+    const std::vector<int> isurf = {face_above};
+    for (int i = 0; i < 20000; ++i) {
+      std::vector<double> ss = {0.0};
+      std::vector<int> isep = {separated};
+      call<double> c{dd, dtest, cc, ss, 0.0, id, isep, isurf, {indof, 3}};
+      fortran::contct(c);
+      right = right && c.smin == 0.25;
+    }
+  };
+  bool first = true;
+  bool second = true;
+  std::thread a(many, 1, std::ref(first));
+  std::thread b(many, 3, std::ref(second));
+  a.join();
+  b.join();
+  CHECK(first);
+  CHECK(second);
+}

@@ -1,0 +1,53 @@
+// A call with one pair, or a few at nodes of their own, as a test likes to write it.
+#pragma once
+
+#include <vector>
+
+#include "contct/kernel/contct.hpp"
+#include "contct/kernel/log_text.hpp"
+
+namespace contct {
+
+/// Where a pair stands before a call.
+template <class Real>
+struct pair_at {
+  Real d;       ///< D
+  Real d_star;  ///< d*
+  Real c;       ///< face
+  int isep;
+  int isurf;
+};
+
+/// A call with pair i at node i + 1, one dof a node; holds its arrays.
+template <class Real>
+struct small_call {
+  std::vector<Real> dd, dtest, cc, ss;
+  std::vector<int> id, isep, isurf;
+  std::vector<event> events;
+  Real smin = 0;
+
+  explicit small_call(const std::vector<pair_at<Real>>& pairs) {
+    for (const auto& p : pairs) {
+      dd.push_back(p.d);
+      dtest.push_back(p.d_star);
+      cc.push_back(p.c);
+      id.push_back(static_cast<int>(id.size()) + 1);
+      isep.push_back(p.isep);
+      isurf.push_back(p.isurf);
+    }
+    ss.resize(pairs.size());
+    events.resize(pairs.size());
+  }
+
+  call<Real> arguments() { return {dd, dtest, cc, ss, Real(0), id, isep, isurf, {1, 1}}; }
+
+  /// Ask the C++ kernel.
+  small_call& ask() {
+    call<Real> c = arguments();
+    events.resize(static_cast<std::size_t>(contct(c, std::span<event>(events))));
+    smin = c.smin;
+    return *this;
+  }
+};
+
+}  // namespace contct

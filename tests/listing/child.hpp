@@ -1,0 +1,41 @@
+// A program run in a child process, so that whatever it does is an outcome.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace contct_test {
+
+/// How a child ended, and what it said.
+struct child_end {
+  bool exited;  ///< false: ended by a signal, or by the alarm
+  int status;   ///< exit status, or the number of the signal
+  std::string out;
+  std::string err;
+
+  [[nodiscard]] bool well() const { return exited && status == 0; }
+};
+
+/// Run `command` (its first word is a path) in `folder`; an alarm ends it after a minute.
+/// What it prints is kept in the folder as well, as files.
+child_end run_child(const std::vector<std::string>& command, const std::filesystem::path& folder);
+
+/// A folder of its own under the system's folder for temporary files, gone with the object.
+class scratch_folder {
+ public:
+  scratch_folder();
+  ~scratch_folder();
+  scratch_folder(const scratch_folder&) = delete;
+  scratch_folder& operator=(const scratch_folder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// All of a file; empty when there is none.
+std::string file_text(const std::filesystem::path& file);
+
+}  // namespace contct_test

@@ -1,0 +1,78 @@
+#include "listing/trial.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "listing/child.hpp"
+
+namespace contct_test {
+namespace {
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+child_end compile(const std::string& source, const std::vector<std::string>& options,
+                  const scratch_folder& folder) {
+  write_file(folder.path() / "copy.f", source);
+  // The linker is told to miss CONTCT, so that a subroutine of another name is no success.
+  std::vector<std::string> command{CONTCT_FORTRAN_COMPILER_PATH,
+                                   "-shared",
+                                   "-fPIC",
+                                   "-fdefault-real-8",
+                                   "-ffp-contract=off",
+                                   "-std=legacy",
+                                   "-ffixed-form",
+                                   "-Wl,--require-defined=contct_"};
+  command.insert(command.end(), options.begin(), options.end());
+  command.insert(command.end(), {"copy.f", "-o", "copy.so"});
+  return run_child(command, folder.path());
+}
+
+/// Lines of "call|field|value".
+std::vector<answer> parse_answers(const std::string& lines) {
+  std::vector<answer> answers;
+  std::istringstream stream(lines);
+  answer a;
+  while (std::getline(stream, a.call, '|') && std::getline(stream, a.field, '|') &&
+         std::getline(stream, a.value)) {
+    answers.push_back(a);
+  }
+  return answers;
+}
+
+bool says_bounds(const std::string& complaint) {
+  return complaint.find("Fortran runtime error: Index") != std::string::npos &&
+         complaint.find(" bound of ") != std::string::npos;
+}
+
+}  // namespace
+
+behaviour try_out(const std::string& source, const std::vector<std::string>& options) {
+  const scratch_folder folder;
+  behaviour seen;
+  const child_end compiled = compile(source, options, folder);
+  seen.compiles = compiled.well();
+  seen.complaint = compiled.err;
+  if (!seen.compiles) return seen;
+
+  const child_end ran =
+      run_child({CONTCT_LISTING_BATTERY, (folder.path() / "copy.so").string()}, folder.path());
+  seen.ends_well = ran.well();
+  seen.ends_at_bounds = !ran.well() && says_bounds(ran.err);
+  seen.answers = parse_answers(ran.out);
+  seen.text = file_text(folder.path() / "fort.26");
+  seen.complaint = ran.err;
+  return seen;
+}
+
+bool checksum_refuses(const std::string& source) {
+  const scratch_folder folder;
+  write_file(folder.path() / "copy.f", source);
+  const child_end check = run_child({CONTCT_CMAKE, "-DLISTING=copy.f", "-DCHECKSUM=" CONTCT_LISTING_CHECKSUM, "-P",
+                                     CONTCT_CHECKSUM_SCRIPT},
+                                    folder.path());
+  return !check.well() && check.err.find("is not the listing that was checked") != std::string::npos;
+}
+
+}  // namespace contct_test

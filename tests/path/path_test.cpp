@@ -1,0 +1,104 @@
+// The paper's loop on problems small enough to solve by hand.
+#include "contct/path/path.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "path/beams.hpp"
+
+using namespace contct;
+
+TEST_CASE("PB1: the stop closes at F = -15 and presses with the hand calculation's force") {
+  for (const char* kernel : {"fortran", "cpp"}) {
+    recorder r;
+    const path_end end = cantilever_over_a_stop().run(kernel, {&r});
+    CHECK(end.status == path_status::solved);
+    REQUIRE(r.steps.size() == 4);
+    const double f = 8.0 / 3 / 1e4;
+    CHECK(r.steps[0].u[4] == Approx(-10 * f).epsilon(1e-13));
+    for (const auto& [step, load] : {std::pair{1, 60.0}, std::pair{2, 30.0}}) {
+      const double n = (load * f - 0.004) / (f + 1 / 5e4);
+      CHECK(r.steps[static_cast<std::size_t>(step)].u[4] == Approx(-0.004 - n / 5e4).epsilon(1e-12));
+    }
+    CHECK(r.steps[3].u[4] == Approx(20 * f).epsilon(1e-12));
+    CHECK(r.events() == std::vector<event>{{0, change::make}, {0, change::break_}});
+    CHECK(r.increments[1].s == Approx(0.1).epsilon(1e-13));
+    CHECK(r.increments[1].fraction == Approx(0.1).epsilon(1e-13));
+    CHECK(r.increments[4].fraction == Approx(0.3).epsilon(1e-12));
+    CHECK(r.increments[5].fraction == 1.0);
+    CHECK(r.text.find("BREAKING CONTACT") != std::string::npos);
+  }
+}
+
+TEST_CASE("in one step or in many: a frictionless elastic contact does not remember its path") {
+  beam_problem many = cantilever_over_a_stop();
+  many.steps = {tip_load(2, -7), tip_load(2, -31), tip_load(2, 4), tip_load(2, -60)};
+  beam_problem one = cantilever_over_a_stop();
+  one.steps = {tip_load(2, -60)};
+  recorder a;
+  recorder b;
+  many.run("fortran", {&a});
+  one.run("fortran", {&b});
+  CHECK(a.steps.back().u[4] == Approx(b.steps.back().u[4]).epsilon(1e-12));
+}
+
+TEST_CASE("a free beam on springs sinks evenly under an even load") {
+  beam_problem p = free_beam_on_springs(4.0, 8, 100.0, 2.0);
+  p.steps = {{{}, {{{-1.0}, {}}}}};
+  recorder r;
+  CHECK(p.run("fortran", {&r}).status == path_status::solved);
+  double force = 0.0;
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) force -= p.pairs[i].stiffness * r.steps[0].u[2 * i];
+  CHECK(force == Approx(4.0).epsilon(1e-10));
+  CHECK(r.events().empty());
+}
+
+TEST_CASE("a face above: the beam is stopped on its way up") {
+  beam_problem p = cantilever_over_a_stop();
+  p.pairs = {{2, 1, 0.002, 5e4, false}, {2, -1, -0.004, 5e4, false}};  // two pairs at one node
+  p.steps = {tip_load(2, 30), tip_load(2, -30)};
+  recorder r;
+  CHECK(p.run("fortran", {&r}).status == path_status::solved);
+  const double f = 8.0 / 3 / 1e4;
+  const double n = (30 * f - 0.002) / (f + 1 / 5e4);
+  CHECK(r.steps[0].u[4] == Approx(0.002 + n / 5e4).epsilon(1e-12));
+  CHECK(r.events() == std::vector<event>{{0, change::make}, {0, change::break_}, {1, change::make}});
+}
+
+TEST_CASE("a pair on a fixed dof changes nothing") {
+  beam_problem p = cantilever_over_a_stop();
+  recorder without;
+  p.run("fortran", {&without});
+  p.pairs.push_back({0, -1, -1.0, 1e9, false});
+  recorder with;
+  CHECK(p.run("fortran", {&with}).status == path_status::solved);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(with.steps[i].u == without.steps[i].u);
+}
+
+TEST_CASE("observers do not change the path") {
+  recorder one;
+  recorder other;
+  cantilever_over_a_stop().run("fortran", {&one, &other});
+  recorder alone;
+  cantilever_over_a_stop().run("fortran", {&alone});
+  CHECK(alone.steps.back().u == one.steps.back().u);
+  CHECK(one.increments.size() == other.increments.size());
+}
+
+TEST_CASE("the state told at a step's end is in equilibrium") {
+  beam_problem p = free_beam_on_springs(6.0, 24, 1.0, 4.0);
+  p.steps = {{{{10, 0, -1.0}}, {}}, {{{12, 0, -2.0}, {20, 0, -0.2}}, {}}};
+  recorder r;
+  REQUIRE(p.run("fortran", {&r}).status == path_status::solved);
+  const linear_structure s = p.structure();
+  for (std::size_t step = 0; step < p.steps.size(); ++step) {
+    std::vector<double> f(static_cast<std::size_t>(s.dofs()), 0.0);
+    add_consistent_loads(p.geometry, p.steps[step], f);
+    std::vector<double> ku(f.size());
+    s.stiffness.multiply(r.steps[step].u, ku);
+    for (std::size_t i = 0; i < p.pairs.size(); ++i) {
+      if (r.steps[step].isep[i] == in_contact) ku[2 * i] += p.pairs[i].stiffness * r.steps[step].u[2 * i];
+    }
+    for (std::size_t i = 0; i < f.size(); ++i) CHECK(ku[i] == Approx(f[i]).margin(1e-9));
+  }
+}

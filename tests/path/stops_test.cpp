@@ -1,0 +1,109 @@
+// When the path does not reach its end: mechanisms, cycles, limits.
+#include <cmath>
+#include <functional>
+
+#include "catch.hpp"
+#include "path/beams.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// A kernel made for a test: `answer` does what it likes.
+class made_kernel final : public kernel {
+ public:
+  explicit made_kernel(std::function<void(call<double>&)> answer) : answer_(std::move(answer)) {}
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+  void answer(call<double>& c) override { answer_(c); }
+  std::string take_text() override { return {}; }
+
+ private:
+  kernel_facts facts_{"made", 8, "test", "", "", false};
+  std::function<void(call<double>&)> answer_;
+};
+
+}  // namespace
+
+TEST_CASE("a mechanism: the pair whose opening frees the beam is named, with the load at which it opened") {
+  // A beam on two springs; a force that moves outside them lifts the other end off.
+  beam_problem p{even_beam(4.0, 4, 100.0), {}, {{1, -1, 0.0, 10.0, true}, {3, -1, 0.0, 10.0, true}}, {}};
+  p.steps = {{{{2, 0, -4.0}}, {}}, {{{2, 0, -4.0}, {4, 0, -6.0}}, {}}};
+  recorder r;
+  const path_end end = p.run("fortran", {&r});
+  CHECK(end.status == path_status::mechanism);
+  CHECK(end.step == 2);
+  CHECK(end.pairs == std::vector<int>{0});
+  // Moments about the other pair: 4 * 1 = F * 1, so F = 4 of 6.
+  CHECK(end.fraction == Approx(2.0 / 3).epsilon(1e-10));
+  // The state reached is told: at that moment the pair presses with nothing.
+  REQUIRE(r.steps.size() == 2);
+  CHECK(r.steps[1].fraction == end.fraction);
+  CHECK(r.steps[1].u[2] == Approx(0.0).margin(1e-12));
+  CHECK(r.steps[1].u[6] == Approx(-0.8).epsilon(1e-9));
+  CHECK(r.steps[1].isep == std::vector<int>{separated, in_contact});
+}
+
+TEST_CASE("a mechanism from the start: nothing is solved and nobody is blamed") {
+  beam_problem p{even_beam(4.0, 4, 100.0), {}, {{1, -1, -0.1, 10.0, false}, {3, -1, -0.1, 10.0, false}}, {}};
+  p.steps = {tip_load(2, -4.0)};
+  recorder r;
+  const path_end end = p.run("fortran", {&r});
+  CHECK(end.status == path_status::mechanism);
+  CHECK(end.fraction == 0.0);
+  CHECK(end.pairs.empty());
+  REQUIRE(r.steps.size() == 1);
+  CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
+}
+
+TEST_CASE("a beam on one pair and a hinge is held, the same beam on a rotational spring alone is not") {
+  beam_problem hinged{
+      even_beam(2.0, 2, 10.0), {{0, 0, true}}, {{2, -1, 0.0, 5.0, true}}, {tip_load(1, -1.0)}};
+  CHECK(hinged.run("fortran", {}).status == path_status::solved);
+  beam_problem turning = hinged;
+  turning.supports = {{0, 1, false, 3.0}};
+  turning.pairs[0].closed = false;
+  CHECK(turning.run("fortran", {}).status == path_status::mechanism);
+}
+
+TEST_CASE("a long sound span looks like a mechanism to a condition number, and is not one") {
+  beam_problem p{even_beam(3000.0, 3000, 1.0), {{0, 0, true}, {3000, 0, true}}, {}, {{{}, {{{-1e-9}, {}}}}}};
+  recorder r;
+  CHECK(p.run("fortran", {&r}).status == path_status::solved);
+  CHECK(r.steps[0].rcond < 1e-13);
+}
+
+TEST_CASE("a cycle at a standstill is found, and the restless pairs are named") {
+  // Toggles pairs 1 and 3 in turn without any progress.
+  int calls = 0;
+  made_kernel k([&calls](call<double>& c) {
+    c.smin = 0.0;
+    const std::size_t i = calls++ % 2 == 0 ? 0 : 2;
+    c.isep[i] = -c.isep[i];
+  });
+  beam_problem p = cantilever_over_a_stop();
+  p.pairs = {{2, -1, 0.0, 1.0, true}, {1, -1, 0.0, 1.0, true}, {1, 1, 0.0, 1.0, true}};
+  const path_end end = p.run(k, {});
+  CHECK(end.status == path_status::cycle);
+  CHECK(end.pairs == std::vector<int>{0, 2});
+  CHECK(calls < 50);
+}
+
+TEST_CASE("progress, however slow, is no cycle, the limit of increments ends it") {
+  made_kernel k([](call<double>& c) {
+    c.smin = 0.001;
+    c.isep[0] = -c.isep[0];
+  });
+  beam_problem p = cantilever_over_a_stop();
+  const path_end end = p.run(k, {}, {300});
+  CHECK(end.status == path_status::iteration_limit);
+  CHECK(end.pairs == std::vector<int>{0});
+  CHECK(end.fraction == Approx(1 - std::pow(0.999, 300)).epsilon(1e-12));
+}
+
+TEST_CASE("loads beyond the range of double precision end the path without numbers") {
+  beam_problem p = cantilever_over_a_stop();
+  p.steps = {tip_load(2, -1e308), tip_load(2, 1e308)};
+  recorder r;
+  const path_end end = p.run("fortran", {&r});
+  CHECK(end.status == path_status::not_factored);
+}
