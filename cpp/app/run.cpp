@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/commands.hpp"
+#include "app/endings.hpp"
 #include "contct/check/free_run.hpp"
 #include "contct/check/lockstep.hpp"
 #include "contct/io/output_file.hpp"
@@ -41,50 +42,10 @@ class log_writer final : public observer {
   output_file& out_;
 };
 
-std::string pair_words(const problem& p, const std::vector<int>& pairs) {
-  constexpr std::size_t most_named = 8;
-  std::string words;
-  for (std::size_t i = 0; i < pairs.size() && i < most_named; ++i) {
-    const contact_pair& at = p.pairs[static_cast<std::size_t>(pairs[i])];
-    words += fmt::format("{}pair {} (node {}, {})", i == 0 ? "" : ", ", pairs[i] + 1, at.node + 1,
-                         surface_name(at.surface));
-  }
-  if (pairs.size() > most_named) words += fmt::format(" and {} more", pairs.size() - most_named);
-  return words;
-}
-
 /// "1 node", "3 nodes".
 template <class Count>
 std::string counted(Count n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
-/// Why a path did not reach its end, for people.
-std::string end_words(const problem& p, const path_end& end) {
-  const std::string where = fmt::format("step {}, at share {:.9g} of its load: ", end.step, end.fraction);
-  switch (end.status) {
-    case path_status::solved:
-      return "";
-    case path_status::mechanism:
-      if (end.pairs.empty()) {
-        return where +
-               "no equilibrium: supports and closed pairs do not hold the structure, which is free to move "
-               "as a rigid body. A structure held only by pairs must start with enough of them in contact";
-      }
-      return where + "no equilibrium: the opening of " + pair_words(p, end.pairs) +
-             " left the structure free to move as a rigid body";
-    case path_status::cycle:
-      return where + "a cycle at a standstill: these pairs keep toggling: " + pair_words(p, end.pairs);
-    case path_status::iteration_limit:
-      return where + "the limit of increments (--max-increments) is reached; these pairs keep toggling: " +
-             (end.pairs.empty() ? "none" : pair_words(p, end.pairs));
-    case path_status::not_factored:
-      return where +
-             "the structure is held, but its stiffness is too ill-conditioned, or its loads too large, for "
-             "double precision: no digit of the answer would be right. Use fewer elements in a span, or "
-             "stiffness and loads of less extreme size";
-  }
-  return "";
 }
 
 exit_status status_of(path_status status) {
@@ -104,10 +65,13 @@ exit_status status_of(path_status status) {
 class run {
  public:
   explicit run(const run_options& options)
-      : options_(options), problem_(read_problem(options.file)), terminal_(look_at_terminal()) {
+      : options_(options),
+        problem_(read_problem(options.file)),
+        terminal_(look_at_terminal()),
+        shows_table_(options.json != "-" && options.log != "-") {
     for (const std::string& w : problem_.warnings) fmt::print(stderr, "contct: warning: {}\n", w);
+    (void)make_engine(options.engine, structure_);  // refuses an unknown name before anything is printed
     structure_ = build(problem_.geometry, problem_.supports, problem_.pairs);
-    shows_table_ = options.json != "-" && options.log != "-";
     if (options.json == "-" && options.log == "-")
       throw std::invalid_argument("--json and --log cannot both be -");
   }
@@ -168,6 +132,7 @@ class run {
     if (json_) all.push_back(&*json_);
     if (log_) all.push_back(&*log_);
     if (record != nullptr) all.push_back(record);
+    all.push_back(&digits_);
     return all;
   }
 
@@ -183,23 +148,30 @@ class run {
   void print_heading() const {
     if (!shows_table_) return;
     if (!problem_.title.empty()) fmt::print("{}\n", painted(terminal_, paint::strong, problem_.title));
-    fmt::print("{}, {}, {}; kernels {}; engine {}\n\n", counted(problem_.geometry.nodes(), "node"),
-               counted(problem_.pairs.size(), "pair"), counted(problem_.steps.size(), "step"),
-               fmt::join(options_.kernels, ", "), options_.engine);
+    const std::vector<std::string> facts = {
+        fmt::format("{}, {}, {}", counted(problem_.geometry.nodes(), "node"),
+                    counted(problem_.pairs.size(), "pair"), counted(problem_.steps.size(), "step")),
+        fmt::format("kernels {}", fmt::join(options_.kernels, ", ")), "engine " + options_.engine};
+    for (const std::string& line : wrap(facts, terminal_.width)) fmt::print("{}\n", line);
+    fmt::print("\n");
+  }
+
+  void print_verdict(bool good, const std::vector<std::string>& items) const {
+    if (!shows_table_) return;
+    fmt::print("\n");
+    for (const std::string& line : wrap(items, terminal_.width)) {
+      fmt::print("{}\n", painted(terminal_, good ? paint::good : paint::bad, line));
+    }
   }
 
   /// Say how the comparison came out. A mismatch under a bad probe is the environment's.
   void report_lockstep(const lockstep& compared) const {
     const tally& t = compared.compared();
-    if (shows_table_) {
-      const bool equal = t.mismatches == 0;
-      fmt::print(
-          "\n{}\n",
-          painted(terminal_, equal ? paint::good : paint::bad,
-                  fmt::format("{} {} to the bit: {} calls, {} values compared, {} mismatches",
-                              fmt::join(options_.kernels, " and "), equal ? "are equal" : "are NOT equal",
-                              compared.calls(), t.values, t.mismatches)));
-    }
+    const bool equal = t.mismatches == 0;
+    print_verdict(equal, {fmt::format("{} {} to the bit", fmt::join(options_.kernels, " and "),
+                                      equal ? "are equal" : "are NOT equal"),
+                          fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(),
+                                      t.values, t.mismatches)});
     if (!compared.first()) return;
     const first_divergence& d = *compared.first();
     fmt::print(stderr, "contct: call {}: {} differs in {}{}: {} has {}, {} has {} ({} ULP)\n", d.call,
@@ -219,7 +191,6 @@ class run {
     record.end = follow(*leader, observers(nullptr, &record));
     leader.reset();
     bool all_within = true;
-    if (shows_table_) fmt::print("\n");
     for (std::size_t i = 1; i < options_.kernels.size(); ++i) {
       const std::unique_ptr<kernel> other = make_kernel(options_.kernels[i]);
       path_record own;
@@ -234,18 +205,22 @@ class run {
   }
 
   void report_free_run(const std::string& name, const free_run_difference& d) const {
-    const std::string line = fmt::format(
-        "{} on a path of its own: events {}; load fractions within {:.2g}, D within {:.2g} (bound {:.0e})",
-        name, d.same_events ? "the same" : "DIFFERENT", d.fraction, d.displacement, d.bound);
-    if (shows_table_)
-      fmt::print("{}\n", painted(terminal_, d.within_bound() ? paint::good : paint::bad, line));
+    print_verdict(
+        d.within_bound(),
+        {fmt::format("{} on a path of its own: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
+         fmt::format("load fractions within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
+                     d.displacement, d.bound)});
     if (!d.first_difference.empty())
       fmt::print(stderr, "contct: {}: first difference: {}\n", name, d.first_difference);
   }
 
   exit_status finish(const path_end& end, bool equal, const lockstep* compared) {
-    std::fflush(stdout);
-    if (end.status != path_status::solved) fmt::print(stderr, "contct: {}\n", end_words(problem_, end));
+    (void)std::fflush(stdout);
+    if (end.status == path_status::solved) {
+      if (const std::string w = digits_.warning(); !w.empty()) fmt::print(stderr, "contct: warning: {}\n", w);
+    } else {
+      fmt::print(stderr, "contct: {}\n", end_words(problem_, end));
+    }
     const exit_status status = equal ? status_of(end.status) : exit_status::kernels_differ;
     if (status == exit_status::bad_input) return status;  // no numbers, and no files
     if (json_) json_->finish(equal ? status_name(end.status) : "kernels-disagree", end, compared);
@@ -257,11 +232,12 @@ class run {
   problem problem_;
   terminal terminal_;
   linear_structure structure_;
-  bool shows_table_ = true;
+  bool shows_table_;
   std::optional<output_file> json_file_, log_file_;
   std::optional<result_json> json_;
   std::optional<log_writer> log_;
   std::optional<table> table_;
+  digit_watch digits_;
 };
 
 }  // namespace

@@ -16,10 +16,14 @@ const int below = -1;
 const double edge = 0.00390625;
 
 /// A separated pair over a face below, `s` of whose test response of -1 is free.
-battery_pair makes_at(int node, double s) { return {node, 0.0, -1.0, -s, apart, below}; }
+battery_pair makes_at(int node, double s) {
+  return {node, 0.0, -1.0, -s, apart, below};
+}
 
 /// A closed pair on a face below, pressed by 1, that the test response lifts off at `s`.
-battery_pair breaks_at(int node, double s) { return {node, -1.0, 1.0 / s, 0.0, touching, below}; }
+battery_pair breaks_at(int node, double s) {
+  return {node, -1.0, 1.0 / s, 0.0, touching, below};
+}
 
 /// A pair that stands at its face, at 0.
 battery_pair at_face(int node, double d_star, int isep, int isurf) {
@@ -80,26 +84,27 @@ calls ties() {
 }
 
 calls stationary_pairs() {
-  return {{"stationary and separated, toward the face", {at_face(2, -0.01, apart, below)}},
-          {"stationary and separated, away from the face", {at_face(2, 0.01, apart, below)}},
-          {"stationary and closed, lifted", {at_face(2, 0.01, touching, below)}},
-          {"stationary and closed, pressed", {at_face(2, -0.01, touching, below)}},
-          {"stationary and closed under a face above, opens", {at_face(2, -0.01, touching, above)}},
-          {"of two stationary, the second responds more",
-           {at_face(2, -0.01, apart, below), at_face(3, -0.04, apart, below)}},
-          {"of two stationary, the first responds more",
-           {at_face(2, 0.04, touching, below), at_face(3, 0.01, touching, below)}},
-          {"of two stationary, only the first is quiet",
-           {at_face(2, -0.04, touching, below), at_face(3, 0.01, touching, below)}},
-          {"two stationary within 2^-8", {at_face(2, 1.0, touching, below), at_face(3, 1.001, touching, below)}},
-          {"stationary before a make", {makes_at(2, 0.01), at_face(3, 0.01, touching, below)}},
-          {"a quiet stationary pair and a make", {makes_at(2, 0.5), at_face(3, -0.01, touching, below)}},
-          {"three stationary, all quiet",
-           {at_face(2, 0.3, apart, below), at_face(3, 0.2, apart, below), at_face(4, -0.1, touching, below)}},
-          {"a gap just under EPSGAP", {{2, 0.0, -1.0, -0.999e-10, apart, below}}},
-          {"a gap of EPSGAP", {{2, 0.0, -1.0, -1.0e-10, apart, below}}},
-          {"overshot by less than EPSGAP", {{2, -0.999e-10, -1.0, 0.0, apart, below}}},
-          {"a stationary factor with an exponent of three digits", {at_face(2, -1.0e100, apart, below)}}};
+  return {
+      {"stationary and separated, toward the face", {at_face(2, -0.01, apart, below)}},
+      {"stationary and separated, away from the face", {at_face(2, 0.01, apart, below)}},
+      {"stationary and closed, lifted", {at_face(2, 0.01, touching, below)}},
+      {"stationary and closed, pressed", {at_face(2, -0.01, touching, below)}},
+      {"stationary and closed under a face above, opens", {at_face(2, -0.01, touching, above)}},
+      {"of two stationary, the second responds more",
+       {at_face(2, -0.01, apart, below), at_face(3, -0.04, apart, below)}},
+      {"of two stationary, the first responds more",
+       {at_face(2, 0.04, touching, below), at_face(3, 0.01, touching, below)}},
+      {"of two stationary, only the first is quiet",
+       {at_face(2, -0.04, touching, below), at_face(3, 0.01, touching, below)}},
+      {"two stationary within 2^-8", {at_face(2, 1.0, touching, below), at_face(3, 1.001, touching, below)}},
+      {"stationary before a make", {makes_at(2, 0.01), at_face(3, 0.01, touching, below)}},
+      {"a quiet stationary pair and a make", {makes_at(2, 0.5), at_face(3, -0.01, touching, below)}},
+      {"three stationary, all quiet",
+       {at_face(2, 0.3, apart, below), at_face(3, 0.2, apart, below), at_face(4, -0.1, touching, below)}},
+      {"a gap just under EPSGAP", {{2, 0.0, -1.0, -0.999e-10, apart, below}}},
+      {"a gap of EPSGAP", {{2, 0.0, -1.0, -1.0e-10, apart, below}}},
+      {"overshot by less than EPSGAP", {{2, -0.999e-10, -1.0, 0.0, apart, below}}},
+      {"a stationary factor with an exponent of three digits", {at_face(2, -1.0e100, apart, below)}}};
 }
 
 calls layouts() {

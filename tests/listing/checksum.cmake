@@ -21,7 +21,8 @@ set(wanted "${CMAKE_MATCH_1}")
 file(SHA256 "${LISTING}" found)
 
 if(NOT found STREQUAL wanted)
-  message(FATAL_ERROR "${LISTING} is not the listing that was checked.\n"
+  message(FATAL_ERROR "The listing has been edited.\n"
+    "  file            ${LISTING}\n"
     "  SHA-256 found   ${found}\n"
     "  SHA-256 wanted  ${wanted}\n"
     "contct.f is the 1989 listing, statement for statement. If it was edited by accident, restore it. If an "

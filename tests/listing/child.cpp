@@ -1,6 +1,7 @@
 #include "listing/child.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,9 +24,11 @@ bool redirect(int stream, const char* file) {
   return opened >= 0 && dup2(opened, stream) >= 0 && close(opened) == 0;
 }
 
-/// In the child: become the program. The alarm outlives exec.
-[[noreturn]] void become(char* const* words, const char* folder) {
-  if (chdir(folder) == 0 && redirect(STDOUT_FILENO, "said") && redirect(STDERR_FILENO, "complained")) {
+/// In the child: become the program. Limits and alarm outlive exec.
+[[noreturn]] void become(char* const* words, const char* folder, unsigned cpu_seconds) {
+  const rlimit limit{cpu_seconds, cpu_seconds};
+  if (chdir(folder) == 0 && redirect(STDOUT_FILENO, "said") && redirect(STDERR_FILENO, "complained") &&
+      setrlimit(RLIMIT_CPU, &limit) == 0) {
     alarm(alarm_seconds);
     execv(words[0], words);
   }
@@ -42,7 +45,8 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-child_end run_child(const std::vector<std::string>& command, const std::filesystem::path& folder) {
+child_end run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                    unsigned cpu_seconds) {
   std::vector<std::string> words = command;
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -50,7 +54,7 @@ child_end run_child(const std::vector<std::string>& command, const std::filesyst
 
   const pid_t child = fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  if (child == 0) become(pointers.data(), folder.c_str());
+  if (child == 0) become(pointers.data(), folder.c_str(), cpu_seconds);
   const int status = wait_for(child);
 
   const bool exited = WIFEXITED(status);

@@ -9,7 +9,7 @@ namespace contct_test {
 
 /// How a child ended, and what it said.
 struct child_end {
-  bool exited;  ///< false: ended by a signal, or by the alarm
+  bool exited;  ///< false: ended by a signal, or by running out of time
   int status;   ///< exit status, or the number of the signal
   std::string out;
   std::string err;
@@ -17,9 +17,11 @@ struct child_end {
   [[nodiscard]] bool well() const { return exited && status == 0; }
 };
 
-/// Run `command` (its first word is a path) in `folder`; an alarm ends it after a minute.
+/// Run `command` (its first word is a path) in `folder`, for a minute at most and for so many
+/// seconds of processor time: a loop is cut short early, a busy machine is not mistaken for one.
 /// What it prints is kept in the folder as well, as files.
-child_end run_child(const std::vector<std::string>& command, const std::filesystem::path& folder);
+child_end run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                    unsigned cpu_seconds = 60);
 
 /// A folder of its own under the system's folder for temporary files, gone with the object.
 class scratch_folder {

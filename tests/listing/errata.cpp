@@ -25,7 +25,9 @@ struct place {
     return *value;
   }
 
-  [[nodiscard]] std::string text_if_any(std::string_view key) const { return table.contains(key) ? text(key) : ""; }
+  [[nodiscard]] std::string text_if_any(std::string_view key) const {
+    return table.contains(key) ? text(key) : "";
+  }
 
   [[nodiscard]] std::vector<std::string> texts(std::string_view key) const {
     std::vector<std::string> all;

@@ -23,8 +23,8 @@ outcome classify(const behaviour& listing, const behaviour& copy) {
   if (!copy.ends_well) {
     return {copy.ends_at_bounds ? aborts_under_bounds_check : dies, call_without_answer(copy.answers), ""};
   }
-  const auto [theirs, ours] = std::mismatch(copy.answers.begin(), copy.answers.end(), listing.answers.begin(),
-                                            listing.answers.end());
+  const auto [theirs, ours] =
+      std::mismatch(copy.answers.begin(), copy.answers.end(), listing.answers.begin(), listing.answers.end());
   if (theirs != copy.answers.end()) return {other_numbers, theirs->call, theirs->field};
   if (ours != listing.answers.end()) return {other_numbers, ours->call, ours->field};
   if (copy.text != listing.text) return {other_text, "", ""};

@@ -9,7 +9,7 @@ namespace contct_test {
 // The words of errata.toml. "source-only" is `unnoticed` where the checksum refuses the copy.
 inline const std::string does_not_compile = "does-not-compile";  // or does not link
 inline const std::string aborts_under_bounds_check = "aborts-under-bounds-check";
-inline const std::string dies = "dies";  // a signal, the alarm, or another error of the run time
+inline const std::string dies = "dies";  // a signal, no end in sight, or another error of the run time
 inline const std::string other_numbers = "other-numbers";
 inline const std::string other_text = "other-text";
 inline const std::string source_only = "source-only";

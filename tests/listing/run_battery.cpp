@@ -64,7 +64,8 @@ void print_real(const battery_call& call, const std::string& field, double value
 
 void print_answer(const battery_call& call, const arguments& a) {
   print_real(call, "SMIN", a.smin);
-  for (std::size_t i = 0; i < a.ss.size(); ++i) print_real(call, "SS(" + std::to_string(i + 1) + ")", a.ss[i]);
+  for (std::size_t i = 0; i < a.ss.size(); ++i)
+    print_real(call, "SS(" + std::to_string(i + 1) + ")", a.ss[i]);
   for (std::size_t i = 0; i < a.isep.size(); ++i) {
     std::printf("%s|ISEP(%zu)|%d\n", call.name.c_str(), i + 1, a.isep[i]);
   }

@@ -1,11 +1,18 @@
 #include "contct/structure/cholesky.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "catch.hpp"
 #include "contct/structure/beam.hpp"
 
 using namespace contct;
+
+extern "C" void dpbcon_(const char* uplo, const int* n, const int* kd, const double* ab, const int* ldab,
+                        const double* anorm, double* rcond, double* work, int* iwork, int* info,
+                        std::size_t uplo_length);
 
 namespace {
 
@@ -54,6 +61,39 @@ TEST_CASE("the condition is measured on the equilibrated matrix: units do not en
   CHECK(metres == Approx(tiny).epsilon(1e-6));
   CHECK(metres > 1e-6);
   CHECK(metres < 1e-3);
+}
+
+TEST_CASE("the condition is LAPACK's own estimate, dpbcon's") {
+  for (const int n : {1, 2, 7, 50, 400}) {
+    const linear_structure s = simple_span(n, 1.0);
+    const double ours = rcond_of(s);
+    // dpbcon on the same scaled matrix.
+    band_matrix a = s.stiffness;
+    std::vector<double> d;
+    for (int j = 0; j < a.order(); ++j) d.push_back(1.0 / std::sqrt(a.at(j, j)));
+    double norm = 0.0;
+    std::vector<double> sums(d.size());
+    for (int j = 0; j < a.order(); ++j) {
+      for (int i = j; i <= std::min(j + 3, a.order() - 1); ++i) {
+        const double entry = a.at(i, j) *= d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(j)];
+        sums[static_cast<std::size_t>(j)] += std::abs(entry);
+        if (i != j) sums[static_cast<std::size_t>(i)] += std::abs(entry);
+      }
+    }
+    for (const double sum : sums) norm = std::max(norm, sum);
+    REQUIRE(factor(a));
+    const int order = a.order();
+    const int kd = 3;
+    const int ldab = 4;
+    int info = -1;
+    double rcond = 0.0;
+    std::vector<double> work(3 * d.size());
+    std::vector<int> iwork(d.size());
+    dpbcon_("L", &order, &kd, a.data(), &ldab, &norm, &rcond, work.data(), iwork.data(), &info, 1);
+    REQUIRE(info == 0);
+    INFO(n << " elements");
+    CHECK(ours == Approx(rcond).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("the exact condition of a small matrix is found") {

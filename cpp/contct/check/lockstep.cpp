@@ -1,11 +1,12 @@
 #include "contct/check/lockstep.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 namespace contct {
 
-lockstep::lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kernel>> followers)
-    : leader_(leader), followers_(std::move(followers)) {
+lockstep::lockstep(kernel_facts leader, std::vector<std::unique_ptr<kernel>> followers)
+    : leader_(std::move(leader)), followers_(std::move(followers)) {
   for (const auto& f : followers_) {
     const kernel_facts& facts = f->facts();
     if (facts.real_bytes != leader_.real_bytes || facts.rule != leader_.rule) {

@@ -25,7 +25,7 @@ struct first_divergence {
 class lockstep final : public observer {
  public:
   /// Throws std::invalid_argument when a follower has another precision or rule than the leader.
-  lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kernel>> followers);
+  lockstep(kernel_facts leader, std::vector<std::unique_ptr<kernel>> followers);
 
   void called(const answered_call& c) override;
 

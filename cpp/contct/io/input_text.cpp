@@ -18,7 +18,7 @@ constexpr std::size_t most_bytes = std::size_t{32} << 20;
 
 struct closer {
   void operator()(std::FILE* f) const {
-    if (f != stdin) std::fclose(f);
+    if (f != stdin) (void)std::fclose(f);
   }
 };
 

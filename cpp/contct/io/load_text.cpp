@@ -80,18 +80,27 @@ nlohmann::ordered_json load_path::json_at(int step, double fraction) const {
   return out;
 }
 
-std::string load_path::words_at(int step, double fraction) const {
-  if (!has_many_parts(step)) {
-    const load l = at(step, fraction);
-    if (l.points.size() == 1 && l.distributed.empty()) {
-      const point_load& p = l.points[0];
-      return fmt::format("{} {:.6g} at node {}", beam_dof_names[p.dof], p.value, p.node + 1);
-    }
-    if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1) {
-      return fmt::format("uniform {:.6g}", l.distributed[0].polynomial[0]);
-    }
+load_path::words load_path::words_for(const load& l, const resultant& r) {
+  if (l.points.size() == 1 && l.distributed.empty()) {
+    const point_load& p = l.points[0];
+    return {fmt::format("{} ", beam_dof_names[p.dof]), p.value, fmt::format(" at node {}", p.node + 1)};
   }
-  return fmt::format("force {:.6g}", resultant_at(step, fraction).force);
+  if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1) {
+    return {"uniform ", l.distributed[0].polynomial[0], ""};
+  }
+  return {"force ", r.force, ""};
+}
+
+std::string load_path::words_at(int step, double fraction, int width) const {
+  const load l = has_many_parts(step) ? load{} : at(step, fraction);
+  const words w = words_for(l, resultant_at(step, fraction));
+  const auto fits = [width](const std::string& text) { return static_cast<int>(text.size()) <= width; };
+  for (int digits = 6; digits >= 3; --digits) {
+    std::string text = fmt::format("{}{:.{}g}{}", w.before, w.value, digits, w.after);
+    if (fits(text)) return text;
+  }
+  std::string number = fmt::format("{:.3g}", w.value);
+  return fits(number) ? number : "";
 }
 
 }  // namespace contct

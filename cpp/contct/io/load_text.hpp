@@ -27,8 +27,10 @@ class load_path {
   /// terms. The parts are left out when there are more than 32 of them.
   [[nodiscard]] nlohmann::ordered_json json_at(int step, double fraction) const;
 
-  /// A few words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load.
-  [[nodiscard]] std::string words_at(int step, double fraction) const;
+  /// A few words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load; with
+  /// as many digits, six at most, as fit into `width` columns. Never cut: the number alone, or
+  /// nothing, where the words do not fit.
+  [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:
   [[nodiscard]] const load& before(int step) const;
@@ -36,6 +38,13 @@ class load_path {
     return problem_.steps[static_cast<std::size_t>(step - 1)];
   }
   [[nodiscard]] resultant resultant_at(int step, double fraction) const;
+  /// A load in words, with its one number apart.
+  struct words {
+    std::string before;
+    double value;
+    std::string after;
+  };
+  [[nodiscard]] static words words_for(const load& l, const resultant& r);
   [[nodiscard]] bool has_many_parts(int step) const;
 
   const problem& problem_;

@@ -30,7 +30,7 @@ bool parse_range(std::string_view text, int& first, int& last) {
 
 std::vector<int> read_numbers(const table_reader& table, std::string_view key, int count) {
   const std::string allowed =
-      fmt::format("a list of whole numbers from 1 to {}, each once, \"a..b\" or \"all\"", count);
+      fmt::format(R"(a list of whole numbers from 1 to {}, each once, "a..b" or "all")", count);
   const toml::node& node = table.required(key, allowed);
   if (const auto* text = node.as_string()) {
     if (text->get() == "all") return range(1, count);

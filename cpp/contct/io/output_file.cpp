@@ -38,7 +38,7 @@ output_file::output_file(std::string path) : path_(std::move(path)) {
 }
 
 output_file::~output_file() {
-  if (file_ != nullptr && file_ != stdout) std::fclose(file_);
+  if (file_ != nullptr && file_ != stdout) (void)std::fclose(file_);
   if (!temporary_.empty()) unlink(temporary_.c_str());
 }
 

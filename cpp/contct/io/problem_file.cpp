@@ -128,7 +128,7 @@ class problem_reader {
   }
 
   static std::vector<int> read_fix(const table_reader& t) {
-    const char* const allowed = "an array of \"w\" and \"theta\", each once";
+    const char* const allowed = R"(an array of "w" and "theta", each once)";
     const toml::node& node = t.required("fix", allowed);
     const toml::array* array = node.as_array();
     if (array == nullptr || array->empty()) t.refuse(node, "fix", found_words(node), allowed);

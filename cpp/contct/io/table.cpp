@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "contct/io/result_json.hpp"
 #include "contct/structure/cholesky.hpp"
@@ -17,20 +18,6 @@ constexpr int fixed_width = 6 + 2 + 9 + 2 + 9 + 2 + 7 + 2;
 constexpr int load_width_at_most = 24;
 constexpr int events_width_at_least = 24;
 constexpr std::size_t most_events_shown = 12;
-
-/// Cut words into lines of `width` at blanks after commas.
-std::vector<std::string> wrap(const std::vector<std::string>& items, int width) {
-  std::vector<std::string> lines;
-  for (const std::string& item : items) {
-    const bool fits = !lines.empty() && static_cast<int>(lines.back().size() + 2 + item.size()) <= width;
-    if (fits) {
-      lines.back() += "; " + item;
-    } else {
-      lines.push_back(item);
-    }
-  }
-  return lines;
-}
 
 /// A number in at most nine columns, with as many digits as fit.
 std::string short_number(double x) {
@@ -65,7 +52,7 @@ void table::print_heading() {
 
 std::string table::agreement() const {
   const std::string word = compared_ == nullptr ? "one" : compared_->last_call_equal() ? "equal" : "DIFFER";
-  const std::string padded = fmt::format("{:<7}", word);
+  std::string padded = fmt::format("{:<7}", word);
   if (compared_ == nullptr) return padded;
   return painted(terminal_, compared_->last_call_equal() ? paint::good : paint::bad, padded);
 }
@@ -81,7 +68,7 @@ void table::incremented(const increment& i) {
   std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {}", fmt::format("{}.{}", i.step, i.number),
                                  short_number(i.fraction), short_number(i.s), agreement());
   if (load_width_ > 0)
-    line += fmt::format("  {:<{}.{}}", loads_.words_at(i.step, i.fraction), load_width_, load_width_);
+    line += fmt::format("  {:<{}}", loads_.words_at(i.step, i.fraction, load_width_), load_width_);
   std::vector<std::string> events;
   for (std::size_t k = 0; k < std::min(i.events.size(), most_events_shown); ++k) {
     events.push_back(event_words(i.events[k]));
@@ -90,7 +77,12 @@ void table::incremented(const increment& i) {
     events.push_back(fmt::format("and {} more (--json has all)", i.events.size() - most_events_shown));
   }
   const std::vector<std::string> lines = wrap(events, events_width_);
-  fmt::print("{}{}{}\n", line, lines.empty() ? "" : "  ", lines.empty() ? "" : lines[0]);
+  if (lines.empty()) {
+    line.erase(line.find_last_not_of(' ') + 1);
+  } else {
+    line += "  " + lines[0];
+  }
+  fmt::print("{}\n", line);
   const int indent = terminal_.width - events_width_;
   for (std::size_t k = 1; k < lines.size(); ++k) fmt::print("{:{}}{}\n", "", indent, lines[k]);
 }
@@ -101,10 +93,14 @@ void table::step_ended(const step_state& s) {
     if (std::abs(s.displacement[i]) > std::abs(s.displacement[largest])) largest = i;
   }
   const auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
-  const std::string line =
-      fmt::format("   end  w = {:.9g} at node {}; {} of {} pairs in contact; {} digits",
-                  s.displacement[largest], largest / 2 + 1, closed, s.isep.size(), digits_left(s.rcond));
-  fmt::print("{}\n", painted(terminal_, paint::quiet, line));
+  const std::vector<std::string> items = {
+      fmt::format("w = {:.9g} at node {}", s.displacement[largest], largest / 2 + 1),
+      fmt::format("{} of {} pairs in contact", closed, s.isep.size()),
+      fmt::format("{} digits", digits_left(s.rcond))};
+  const char* label = "   end  ";
+  for (const std::string& line : wrap(items, terminal_.width - 8)) {
+    fmt::print("{}\n", painted(terminal_, paint::quiet, std::exchange(label, "        ") + line));
+  }
 }
 
 }  // namespace contct

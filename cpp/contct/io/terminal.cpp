@@ -4,14 +4,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 
 namespace contct {
 namespace {
 
-bool is_set(const char* name) {
+/// The value of an environment variable; empty when it is not set.
+std::string_view environment(const char* name) {
   const char* const value = std::getenv(name);
-  return value != nullptr && *value != '\0';
+  return value == nullptr ? std::string_view() : value;
 }
 
 }  // namespace
@@ -22,14 +24,15 @@ terminal look_at_terminal() {
   terminal t;
   const bool interactive = isatty(STDOUT_FILENO) != 0;
   winsize size{};
-  if (is_set("COLUMNS")) {
-    t.width = std::atoi(std::getenv("COLUMNS"));
+  if (const std::string_view columns = environment("COLUMNS"); !columns.empty()) {
+    if (std::from_chars(columns.data(), columns.data() + columns.size(), t.width).ec != std::errc{})
+      t.width = 80;
   } else if (interactive && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
     t.width = size.ws_col;
   }
   t.width = t.width <= 0 ? 80 : std::clamp(t.width, narrowest, widest);
-  const char* const kind = std::getenv("TERM");
-  t.color = interactive && !is_set("NO_COLOR") && kind != nullptr && std::string_view(kind) != "dumb";
+  const std::string_view kind = environment("TERM");
+  t.color = interactive && environment("NO_COLOR").empty() && !kind.empty() && kind != "dumb";
   return t;
 }
 
@@ -51,6 +54,19 @@ std::string painted(const terminal& t, paint p, std::string_view text) {
       break;
   }
   return std::string(code) + std::string(text) + "\033[0m";
+}
+
+std::vector<std::string> wrap(const std::vector<std::string>& items, int width) {
+  std::vector<std::string> lines;
+  for (const std::string& item : items) {
+    const bool fits = !lines.empty() && static_cast<int>(lines.back().size() + 2 + item.size()) <= width;
+    if (fits) {
+      lines.back() += "; " + item;
+    } else {
+      lines.push_back(item);
+    }
+  }
+  return lines;
 }
 
 }  // namespace contct

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace contct {
 
@@ -20,5 +21,8 @@ enum class paint { good, bad, quiet, strong };
 
 /// `text` in colour where `t` has it.
 [[nodiscard]] std::string painted(const terminal& t, paint p, std::string_view text);
+
+/// Items joined by "; ", in lines of at most `width` columns as far as the items allow.
+[[nodiscard]] std::vector<std::string> wrap(const std::vector<std::string>& items, int width);
 
 }  // namespace contct

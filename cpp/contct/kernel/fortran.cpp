@@ -68,7 +68,7 @@ unit_26::~unit_26() {
   unit_26_is_open = false;
 }
 
-std::string unit_26::take() {
+std::string unit_26::take() const {
   const std::scoped_lock lock(process_wide());
   contct_log_flush();
   std::string text;

@@ -24,7 +24,7 @@ class unit_26 {
   unit_26& operator=(const unit_26&) = delete;
 
   /// All text written since the last take, and forget it.
-  [[nodiscard]] std::string take();
+  [[nodiscard]] std::string take() const;
 
  private:
   int file_ = -1;

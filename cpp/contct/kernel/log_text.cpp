@@ -19,7 +19,7 @@ void append_field(std::string_view digits, std::size_t width, std::string& text)
 /// FORTRAN's I3.
 void append_i3(int value, std::string& text) {
   char digits[16];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  const char* const end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   append_field({digits, static_cast<std::size_t>(end - digits)}, 3, text);
 }
 
@@ -28,9 +28,9 @@ void append_i3(int value, std::string& text) {
 template <class Real>
 void append_e(Real value, int significant, std::size_t width, std::string& text) {
   char scientific[48];  // d.ddde+ee
-  const auto end = std::to_chars(scientific, scientific + sizeof scientific, value,
-                                 std::chars_format::scientific, significant - 1)
-                       .ptr;
+  const char* const end = std::to_chars(scientific, scientific + sizeof scientific, value,
+                                        std::chars_format::scientific, significant - 1)
+                              .ptr;
   const std::string_view all(scientific, static_cast<std::size_t>(end - scientific));
   const std::size_t mark = all.find('e');
   int exponent = 0;

@@ -1,4 +1,4 @@
-// LAPACK's band Cholesky: dpbtrf, dpbtrs, dpbcon.
+// LAPACK's band Cholesky: dpbtrf, dpbtrs, and the condition estimate of dpbcon.
 #pragma once
 
 #include <span>
@@ -16,7 +16,8 @@ namespace contct {
 void solve_with(const band_matrix& factor_of_a, std::span<double> b);
 
 /// Reciprocal condition number, in the 1-norm, of `matrix` scaled to a unit diagonal: 1 / (norm
-/// of A times norm of its inverse), estimated by dpbcon. The scaling takes the units out of it.
+/// of A times norm of its inverse), estimated as dpbcon does, in linear time. The scaling takes the
+/// units out of it.
 /// Overwrites `matrix`. 0 when the scaled matrix has no factor.
 [[nodiscard]] double reciprocal_condition(band_matrix& matrix);
 

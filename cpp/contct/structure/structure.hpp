@@ -10,10 +10,10 @@ namespace contct {
 
 /// A permanent support of one dof, working both ways.
 struct support {
-  int node;           ///< from 0
-  int dof;            ///< within the node, from 0
-  bool fixed;         ///< held in place; otherwise elastic
-  double spring = 0;  ///< stiffness of an elastic support
+  int node = 0;         ///< from 0
+  int dof = 0;          ///< within the node, from 0
+  bool fixed = true;    ///< held in place; otherwise elastic
+  double spring = 0.0;  ///< stiffness of an elastic support
 };
 
 /// A candidate contact pair: a one-sided spring between a node and a face.

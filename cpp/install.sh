@@ -1,0 +1,43 @@
+# Installs Debian packages that are missing. Sourced by cpp/run.sh and tests/run.sh:
+#     need "why" package...
+# Says what it does; on a system without apt-get, says what to install and stops.
+
+need() {
+  why=$1
+  shift
+  missing=""
+  for package in "$@"; do
+    command -v dpkg-query >/dev/null 2>&1 &&
+      dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' && continue
+    missing="$missing $package"
+  done
+  [ -z "$missing" ] && return 0
+  if ! command -v apt-get >/dev/null 2>&1; then
+    # Another system: its own packages may serve as well. Let CMake decide when the compilers are there.
+    if command -v cmake >/dev/null 2>&1 && command -v gfortran >/dev/null 2>&1; then
+      echo "not Debian: going on with what is installed ($why; on Debian:$missing)"
+      return 0
+    fi
+    echo "Please install what corresponds to these Debian packages ($why):$missing" >&2
+    return 1
+  fi
+  if [ "$(id -u)" = 0 ]; then
+    root=""
+  elif command -v sudo >/dev/null 2>&1; then
+    root="sudo"
+  else
+    echo "Please install, as root ($why): apt-get install$missing" >&2
+    return 1
+  fi
+  echo "installing, $why:$missing"
+  $root apt-get update -qq &&
+    $root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
+}
+
+need_core() {
+  need "to build" g++ gfortran cmake ninja-build liblapack-dev libblas-dev
+}
+
+need_program() {
+  need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
+}

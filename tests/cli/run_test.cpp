@@ -1,0 +1,172 @@
+// contct run, as a person at the terminal meets it.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "catch.hpp"
+#include "cli/process.hpp"
+#include "io/bad_inputs.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const char* const freed =
+    "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness "
+    "= 10\n"
+    "[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n[[step]]\n"
+    "point = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n";
+
+std::size_t longest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+  return longest;
+}
+
+}  // namespace
+
+TEST_CASE("the table shows share, s, load, event, node and side, and that the kernels agreed") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml"});
+  CHECK(f.exit == 0);
+  CHECK(f.err.empty());
+  CHECK_THAT(f.out, Contains("1.1  0.25"));
+  CHECK_THAT(f.out, Contains("equal    w -15 at node 3  make 1: node 3 below"));
+  CHECK_THAT(f.out, Contains("w = -0.0048372093 at node 3; 1 of 1 pairs in contact"));
+  CHECK_THAT(f.out,
+             Contains("fortran and cpp are equal to the bit; 2 calls, 8 values compared, 0 mismatches"));
+  CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // and no fort.26
+}
+
+TEST_CASE("the table fits its terminal, from 40 columns to 160") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  for (const char* columns : {"40", "60", "80", "120", "160"}) {
+    const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "cpp"},
+                                      {"", {{"COLUMNS", columns}}, false});
+    INFO(f.out);
+    CHECK(f.exit == 0);
+    // 59 columns hold a whole row; a narrower terminal folds it, and the words around the table keep to it.
+    CHECK(longest_line(f.out) <= std::max(59UL, std::stoul(columns)));
+    CHECK_THAT(f.out, Contains("make 1"));
+  }
+}
+
+TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on a dumb one") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const auto escapes = [&](const process_options& o) {
+    const finished f = contct_program(dir.path(), {"run", "pb.toml"}, o);
+    CHECK(f.exit == 0);
+    CHECK_THAT(f.out, Contains("equal"));
+    return std::count(f.out.begin(), f.out.end(), '\033');
+  };
+  CHECK(escapes({"", {{"TERM", "xterm"}}, true}) > 0);
+  CHECK(escapes({"", {{"TERM", "xterm"}}, false}) == 0);
+  CHECK(escapes({"", {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, true}) == 0);
+  CHECK(escapes({"", {{"TERM", "dumb"}}, true}) == 0);
+}
+
+TEST_CASE("the problem may come by standard input, and the result leave by standard output, alone") {
+  const scratch_directory dir;
+  const finished f = contct_program(dir.path(), {"run", "-", "--json", "-"}, {good_problem, {}, false});
+  CHECK(f.exit == 0);
+  const auto result = nlohmann::json::parse(f.out);
+  CHECK(result["status"] == "solved");
+  CHECK(dir.files().empty());
+}
+
+TEST_CASE("unit 26 of the leader can be kept, and FORTRAN's and C++'s are the same file") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  CHECK(contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran", "--log", "fortran.log"}).exit ==
+        0);
+  CHECK(contct_program(dir.path(), {"run", "pb.toml", "--kernels", "cpp", "--log", "cpp.log"}).exit == 0);
+  CHECK(dir.read("fortran.log") ==
+        "  ******* MAKING CONTACT ********\n"
+        "   CONTACT PAIR:   1 NODE:   3 SURFACE:  -1 SCALE FACTOR =  0.2500E+00\n"
+        "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n");
+  CHECK(dir.read("cpp.log") == dir.read("fortran.log"));
+}
+
+TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose opening freed the beam") {
+  const scratch_directory dir;
+  dir.write("freed.toml", freed);
+  const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.err, Contains("step 1") && Contains("pair 1 (node 2, below)") && Contains("rigid body"));
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result["status"] == "mechanism");
+  // Moments about pair 2: the load at node 5 lifts pair 1 as soon as 6 f > 4 f. At once, then.
+  CHECK(result["steps"][0]["fraction"].get<double>() < 1e-9);
+}
+
+TEST_CASE("the limit of increments: exit 5, with a result that says so") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f =
+      contct_program(dir.path(), {"run", "pb.toml", "--max-increments", "1", "--json", "out.json"});
+  CHECK(f.exit == 5);
+  CHECK_THAT(f.err, Contains("limit of increments"));
+  CHECK(nlohmann::json::parse(dir.read("out.json"))["status"] == "iteration-limit");
+}
+
+TEST_CASE("a kernel alone compares nothing, and says so") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f =
+      contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran-r4", "--json", "out.json"});
+  CHECK(f.exit == 0);
+  CHECK(f.out.find("equal") == std::string::npos);
+  CHECK(nlohmann::json::parse(dir.read("out.json"))["lockstep"].is_null());
+}
+
+TEST_CASE("single precision walks in lockstep with single precision") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran-r4,cpp-r4"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("fortran-r4 and cpp-r4 are equal to the bit"));
+}
+
+TEST_CASE("free run: every kernel on a path of its own, r4 against r8 within a stated bound") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--free-run", "--kernels",
+                                                 "fortran,cpp,fortran-r4,cpp-r4", "--json", "out.json"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("cpp on a path of its own: events the same") && Contains("bound 1e-09") &&
+                        Contains("bound 1e-04"));
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result["lockstep"].is_null());
+  REQUIRE(result["free_run"].size() == 3);
+  CHECK(result["free_run"][0]["displacement"] == 0.0);
+  CHECK(result["free_run"][1]["displacement"] > 0.0);
+}
+
+TEST_CASE("contct kernels and --version name the listing's checksum and the floating-point probe") {
+  const scratch_directory dir;
+  const finished kernels = contct_program(dir.path(), {"kernels"});
+  CHECK(kernels.exit == 0);
+  CHECK_THAT(kernels.out, Contains("fortran-r4") && Contains("cpp") && Contains("floating point: strict"));
+  const finished version = contct_program(dir.path(), {"--version"});
+  CHECK(version.exit == 0);
+  const std::string checksum = version.out.substr(version.out.find("sha256") + 7, 64);
+  CHECK(checksum.find_first_not_of("0123456789abcdef") == std::string::npos);
+  CHECK_THAT(kernels.out, Contains(checksum));
+}
+
+TEST_CASE("help is on standard output and is no error") {
+  const scratch_directory dir;
+  for (const auto& arguments :
+       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"kernels", "--help"}}) {
+    const finished f = contct_program(dir.path(), arguments);
+    CHECK(f.exit == 0);
+    CHECK(f.err.empty());
+    CHECK_THAT(f.out, Contains("--help"));
+  }
+}

@@ -1,0 +1,105 @@
+#include "contct/io/result_json.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "contct/io/problem_file.hpp"
+#include "contct/path/engine.hpp"
+#include "io/bad_inputs.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// Run a problem with FORTRAN leading C++, and read the JSON back.
+nlohmann::json result_of(const std::string& text) {
+  const problem p = parse_problem(text, "pb.toml");
+  const linear_structure s = build(p.geometry, p.supports, p.pairs);
+  const auto engine = make_engine("refactor", s);
+  const auto leader = make_kernel("fortran");
+  std::vector<std::unique_ptr<kernel>> followers;
+  followers.push_back(make_kernel("cpp"));
+  lockstep compared(leader->facts(), std::move(followers));
+  const auto file =
+      std::filesystem::temp_directory_path() / ("contct-json-test-" + std::to_string(::getpid()));
+  output_file out(file.string());
+  result_json json(p, {"fortran", "cpp"}, "refactor", out);
+  const load_history total = [&p](int step, std::span<double> f) {
+    add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
+  };
+  const std::vector<observer*> watching = {&compared, &json};
+  const path_end end = follow_path(s, static_cast<int>(p.steps.size()), total, *engine, *leader, watching);
+  json.finish(status_name(end.status), end, &compared);
+  auto parsed = nlohmann::json::parse(std::ifstream(file));
+  std::filesystem::remove(file);
+  return parsed;
+}
+
+}  // namespace
+
+TEST_CASE("the result has the format's fields, with the numbers of PB1's second step") {
+  const auto r = result_of(good_problem);
+  CHECK(r["format"] == "contct-result-1");
+  CHECK(r["kernels"] == nlohmann::json({"fortran", "cpp"}));
+  CHECK(r["engine"] == "refactor");
+  CHECK(r["status"] == "solved");
+  CHECK(r["lockstep"]["calls"] == 2);
+  CHECK(r["lockstep"]["values_compared"] == 8);
+  CHECK(r["lockstep"]["mismatches"] == 0);
+  const auto& step = r["steps"][0];
+  CHECK(step["fraction"] == 1.0);
+  CHECK(step["w"].size() == 3);
+  CHECK(step["displacement"].size() == 6);
+  CHECK(step["w"][2].get<double>() == Approx(-0.00483720930232558).epsilon(1e-12));
+  const auto& pair = step["pairs"][0];
+  CHECK(pair["state"] == "contact");
+  CHECK(pair["gap"] == 0.0);
+  CHECK(pair["force"].get<double>() == Approx(41.8604651162791).epsilon(1e-11));
+  CHECK(step["certificate"].is_null());
+}
+
+TEST_CASE("events carry pair, node, side and change, and their load in absolute terms") {
+  const auto r = result_of(good_problem);
+  const auto& i = r["steps"][0]["increments"][0];
+  CHECK(i["increment"] == 1);
+  CHECK(i["events"][0] ==
+        nlohmann::json({{"pair", 1}, {"node", 3}, {"surface", "below"}, {"change", "make"}}));
+  CHECK(i["load"]["point"][0]["node"] == 3);
+  CHECK(i["load"]["point"][0]["w"].get<double>() == Approx(-15.0).epsilon(1e-12));
+  CHECK(i["load"]["force"].get<double>() == Approx(-15.0).epsilon(1e-12));
+  CHECK(i["load"]["moment"].get<double>() == Approx(-30.0).epsilon(1e-12));
+  CHECK(i["fraction"].get<double>() == Approx(0.25).epsilon(1e-12));
+}
+
+TEST_CASE("forces balance: loads, pairs and reactions add up to nothing") {
+  const auto r = result_of(good_problem);
+  const auto& step = r["steps"][0];
+  const double pair = step["pairs"][0]["force"];
+  CHECK(step["reactions"][0]["dof"] == "w");
+  CHECK(step["reactions"][0]["value"].get<double>() + pair - 60.0 == Approx(0.0).margin(1e-10));
+  // The clamping moment: about the root, 60 down and the pair up at x = 2.
+  CHECK(step["reactions"][1]["value"].get<double>() == Approx((60.0 - pair) * 2).epsilon(1e-11));
+  CHECK(step["elements"][0]["moment"][0].get<double>() == Approx(-(60.0 - pair) * 2).epsilon(1e-11));
+  CHECK(step["elements"][1]["shear"][1].get<double>() == Approx(60.0 - pair).epsilon(1e-11));
+}
+
+TEST_CASE("an open pair has a gap and no force; a mechanism keeps the state reached") {
+  const auto r = result_of(
+      "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
+      "0\nstiffness = 10\n"
+      "[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n[[step]]\n"
+      "point = [ { node = 3, w = -4 } ]\n[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n");
+  CHECK(r["status"] == "mechanism");
+  CHECK(r["end"]["step"] == 2);
+  CHECK(r["end"]["pairs"] == nlohmann::json({1}));
+  REQUIRE(r["steps"].size() == 2);
+  CHECK(r["steps"][1]["fraction"].get<double>() == Approx(2.0 / 3).epsilon(1e-9));
+  CHECK(r["steps"][1]["certificate"].is_null());
+  CHECK(r["steps"][1]["pairs"][0]["state"] == "separated");
+  CHECK(r["steps"][1]["pairs"][0]["force"] == 0.0);
+  CHECK(r["steps"][1]["pairs"][1]["force"].get<double>() == Approx(8.0).epsilon(1e-9));
+}

@@ -1,0 +1,37 @@
+// The pieces of the table; what a whole table looks like is tested on the program itself (tests/cli).
+#include "contct/io/table.hpp"
+
+#include <cstdlib>
+
+#include "catch.hpp"
+#include "contct/io/problem_file.hpp"
+#include "io/bad_inputs.hpp"
+
+using namespace contct;
+
+TEST_CASE("an event's load is told in the words of the problem file") {
+  const problem p = parse_problem(good_problem, "pb.toml");
+  CHECK(load_path(p).words_at(1, 0.25, 24) == "w -15 at node 3");
+  const problem uniform =
+      parse_problem(with("point = [ { node = 3, w = -60.0 } ]", "uniform = -8"), "pb.toml");
+  CHECK(load_path(uniform).words_at(1, 0.5, 24) == "uniform -4");
+  const problem mixed = parse_problem(with("point = [", "uniform = -8\npoint = ["), "pb.toml");
+  // Digits go before anything is cut.
+  CHECK(load_path(p).words_at(1, 1.0 / 3, 24) == "w -20 at node 3");
+  CHECK(load_path(p).words_at(1, 0.123456, 17) == "w -7.41 at node 3");
+  CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.41");
+  CHECK(load_path(p).words_at(1, 0.123456, 3).empty());
+  CHECK(load_path(mixed).words_at(1, 1.0, 24) == "force -76");
+}
+
+TEST_CASE("the terminal's width comes from COLUMNS, within reason, and a pipe has no colour") {
+  setenv("COLUMNS", "120", 1);
+  CHECK(look_at_terminal().width == 120);
+  setenv("COLUMNS", "7", 1);
+  CHECK(look_at_terminal().width == 40);
+  setenv("COLUMNS", "wide", 1);
+  CHECK(look_at_terminal().width == 80);
+  unsetenv("COLUMNS");
+  CHECK(painted({80, false}, paint::bad, "DIFFER") == "DIFFER");
+  CHECK(painted({80, true}, paint::bad, "DIFFER") != "DIFFER");
+}

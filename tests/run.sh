@@ -1,0 +1,49 @@
+#!/bin/sh
+# Installs what is missing, builds, and passes all tests. --full adds the legs that take longer: the
+# sanitizers, gfortran's run-time checks, the build without the program, formatting and clang-tidy.
+set -eu
+here=$(cd "$(dirname "$0")/.." && pwd)
+cd "$here"
+. cpp/install.sh
+
+full=no
+for argument in "$@"; do
+  case $argument in
+    --full) full=yes ;;
+    *) echo "usage: sh tests/run.sh [--full]" >&2; exit 2 ;;
+  esac
+done
+
+need_core
+need_program
+need "to test" catch2
+
+# leg NAME: configure and build the preset of that name, quietly unless it fails, and test it.
+leg() {
+  echo "== $1: configuring, building, testing"
+  log=$(mktemp)
+  if ! { cmake --preset "$1" -DCONTCT_BUILD_TESTS=ON && cmake --build --preset "$1"; } >"$log" 2>&1; then
+    cat "$log"
+    rm -f "$log"
+    echo "== $1: does not build" >&2
+    exit 1
+  fi
+  rm -f "$log"
+  ctest --preset "$1" -j "$(nproc 2>/dev/null || echo 2)" --progress
+}
+
+if [ "$full" = yes ]; then
+  need "for the sources' form" clang-format clang-tidy
+  echo "== clang-format"
+  find cpp tests -name '*.[ch]pp' -exec clang-format --dry-run --Werror {} +
+  leg core
+  leg asan
+  leg checked
+  leg debug
+fi
+leg release
+if [ "$full" = yes ]; then
+  sh tests/tree/tidy.sh build/release
+  # The last lines are ctest's own summary, of everything that the release build has.
+  ctest --preset release -j "$(nproc 2>/dev/null || echo 2)" --progress
+fi
