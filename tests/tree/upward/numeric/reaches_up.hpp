@@ -1,0 +1,4 @@
+// A header that floors.cmake must refuse: numeric/ knows nobody.
+#pragma once
+
+#include "contct/kernel/call.hpp"
