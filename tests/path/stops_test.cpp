@@ -43,6 +43,24 @@ TEST_CASE("a mechanism: the pair whose opening frees the beam is named, with the
   CHECK(r.steps[1].isep == std::vector<int>{separated, in_contact});
 }
 
+TEST_CASE(
+    "a free beam unloaded to nothing lies on its bed again, lift-off exactly at full load is no mechanism") {
+  // PB8: its middle, or what lies beside it, lifts off. Then all load goes.
+  for (const double force : {4.0, -50.0, -100.0}) {
+    beam_problem p = free_beam_on_springs(20.0, 100, 1.0, 4.0);
+    const load heavy{{}, {{{-1.0}, {}}}};
+    load pulled = heavy;
+    pulled.points = {{50, 0, force}};
+    p.steps = {heavy, pulled, {{}, {{{0.0}, {}}}}};
+    recorder r;
+    const path_end end = p.run("fortran", {&r});
+    INFO(force);
+    CHECK(end.status == path_status::solved);
+    REQUIRE(r.steps.size() == 3);
+    for (const double w : r.steps[2].u) CHECK(std::abs(w) < 1e-6);
+  }
+}
+
 TEST_CASE("a mechanism from the start: nothing is solved and nobody is blamed") {
   beam_problem p{even_beam(4.0, 4, 100.0), {}, {{1, -1, -0.1, 10.0, false}, {3, -1, -0.1, 10.0, false}}, {}};
   p.steps = {tip_load(2, -4.0)};
