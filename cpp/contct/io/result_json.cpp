@@ -115,14 +115,14 @@ void result_json::step_ended(const step_state& s) {
 void result_json::write_pairs(const step_state& s) {
   write_list("pairs", problem_.pairs.size(), [&](std::size_t i) {
     const contact_pair& p = problem_.pairs[i];
-    const double to_face = p.face - s.displacement[2 * static_cast<std::size_t>(p.node)];
+    const double w = s.displacement[2 * static_cast<std::size_t>(p.node)];
     const bool closed = s.isep[i] == in_contact;
     return json{{"pair", i + 1},
                 {"node", p.node + 1},
                 {"surface", surface_name(p.surface)},
                 {"state", closed ? "contact" : "separated"},
-                {"gap", closed ? 0.0 : p.surface * to_face},
-                {"force", closed ? -p.surface * p.stiffness * to_face : 0.0}}
+                {"gap", gap_of(p, w, closed)},
+                {"force", force_of(p, w, closed)}}
         .dump();
   });
 }

@@ -104,11 +104,11 @@ double measurement::of(const expected_number& e) const {
 double measurement::of_pair(const expected_number& e, const step_record& s) const {
   const auto i = static_cast<std::size_t>(e.pair - 1);
   const contact_pair& p = problem_.pairs.at(i);
-  const double to_face = p.face - s.u[2 * static_cast<std::size_t>(p.node)];
+  const double w = s.u[2 * static_cast<std::size_t>(p.node)];
   const bool closed = s.isep[i] == in_contact;
   if (e.quantity == "state") return s.isep[i];
-  if (e.quantity == "force") return closed ? -p.surface * p.stiffness * to_face : 0.0;
-  if (e.quantity == "gap") return closed ? 0.0 : p.surface * to_face;
+  if (e.quantity == "force") return force_of(p, w, closed);
+  if (e.quantity == "gap") return gap_of(p, w, closed);
   return not_there;
 }
 

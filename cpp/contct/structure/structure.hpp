@@ -25,6 +25,16 @@ struct contact_pair {
   bool closed;       ///< in contact at the start
 };
 
+/// n (c - w): how far the face of an open pair is away at deflection w; 0 for a closed one.
+[[nodiscard]] inline double gap_of(const contact_pair& p, double w, bool closed) {
+  return closed ? 0.0 : p.surface * (p.face - w);
+}
+
+/// -n k (c - w): what a closed pair presses with; 0 for an open one. Not clamped: tension is negative.
+[[nodiscard]] inline double force_of(const contact_pair& p, double w, bool closed) {
+  return closed ? -p.surface * p.stiffness * (p.face - w) : 0.0;
+}
+
 /// Any structure: dof d of node i is dof i * dofs_per_node + d, from 0.
 struct linear_structure {
   int dofs_per_node = 0;
