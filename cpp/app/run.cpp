@@ -219,7 +219,7 @@ class run {
     if (end.status == path_status::solved) {
       if (const std::string w = digits_.warning(); !w.empty()) fmt::print(stderr, "contct: warning: {}\n", w);
     } else {
-      fmt::print(stderr, "contct: {}\n", end_words(problem_, end));
+      fmt::print(stderr, "contct: {}: {}\n", options_.file, end_words(problem_, end));
     }
     const exit_status status = equal ? status_of(end.status) : exit_status::kernels_differ;
     if (status == exit_status::bad_input) return status;  // no numbers, and no files

@@ -125,6 +125,13 @@ TEST_CASE("text from a file cannot break the message: control characters and len
   CHECK(message.find('\033') == std::string::npos);
 }
 
+TEST_CASE("long text is cut between characters, not inside one") {
+  std::string wide;
+  for (int i = 0; i < 30; ++i) wide += "\u4e2d";  // three bytes each: 40 is inside the fourteenth
+  const std::string message = message_of(with("\"below\"", "\"" + wide + "\""));
+  CHECK_THAT(message, Catch::Matchers::Contains("\u4e2d...\"; allowed"));
+}
+
 TEST_CASE("hostile files end in a message: binary, deep nesting, nothing at all") {
   for (const std::string& text : {std::string("\x7f"
                                               "ELF\x02\x01\x01\x00\x00\x00\x00",

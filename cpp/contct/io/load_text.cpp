@@ -12,18 +12,6 @@ using json = nlohmann::ordered_json;
 constexpr std::size_t most_parts = 32;
 const load nothing;
 
-/// The consistent vector has the same resultant as the load itself.
-resultant resultant_of(const beam& b, const load& l) {
-  std::vector<double> f(static_cast<std::size_t>(b.dofs()), 0.0);
-  add_consistent_loads(b, l, f);
-  resultant r;
-  for (std::size_t node = 0; node < b.x.size(); ++node) {
-    r.force += f[2 * node];
-    r.moment += f[2 * node] * b.x[node] + f[2 * node + 1];
-  }
-  return r;
-}
-
 json elements_json(const std::vector<int>& elements) {
   if (elements.empty()) return "all";
   const bool run = elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
@@ -35,6 +23,18 @@ json elements_json(const std::vector<int>& elements) {
 }
 
 }  // namespace
+
+resultant resultant_of(const beam& b, const load& l) {
+  // The consistent vector has the same resultant as the load itself.
+  std::vector<double> f(static_cast<std::size_t>(b.dofs()), 0.0);
+  add_consistent_loads(b, l, f);
+  resultant r;
+  for (std::size_t node = 0; node < b.x.size(); ++node) {
+    r.force += f[2 * node];
+    r.moment += f[2 * node] * b.x[node] + f[2 * node + 1];
+  }
+  return r;
+}
 
 load_path::load_path(const problem& p) : problem_(p), totals_(1) {
   for (const load& l : p.steps) totals_.push_back(resultant_of(p.geometry, l));

@@ -15,6 +15,9 @@ struct resultant {
   double moment = 0.0;
 };
 
+/// The resultant of a whole load.
+[[nodiscard]] resultant resultant_of(const beam& b, const load& l);
+
 /// The loads of a problem's steps, and what acts between them.
 class load_path {
  public:

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "contct/io/input_text.hpp"
+#include "contct/io/load_text.hpp"
 #include "contct/io/number_list.hpp"
 #include "contct/kernel/call.hpp"
 
@@ -229,6 +230,10 @@ class problem_reader {
     if (t.has("point")) read_points(t, l);
     if (l.distributed.empty() && l.points.empty()) {
       t.refuse("a step without loads", "uniform, point or both; uniform = 0 takes all load off");
+    }
+    const resultant r = resultant_of(problem_.geometry, l);
+    if (!std::isfinite(r.force) || !std::isfinite(r.moment)) {
+      t.refuse("loads whose sum or moment is not finite", "loads within the range of double precision");
     }
     problem_.steps.push_back(std::move(l));
   }

@@ -18,13 +18,16 @@ std::string place(std::string_view file, const toml::source_position& at) {
   throw input_error(fmt::format("{}: {}: found {}; allowed: {}", place(file, at), name, found, allowed));
 }
 
-/// Text from a file in quotes, cut to a length that fits a message, without control characters.
-std::string quoted(std::string_view text) {
+/// Text from a file made fit for a message: no control characters, and cut, between characters, to a
+/// length that people read.
+std::string tame(std::string_view text) {
   constexpr std::size_t longest = 40;
+  std::size_t end = std::min(text.size(), longest);
+  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   std::string safe;
-  for (const char ch : text.substr(0, longest))
+  for (const char ch : text.substr(0, end))
     safe += static_cast<unsigned char>(ch) < 32 || ch == 127 ? '?' : ch;
-  return fmt::format("\"{}{}\"", safe, text.size() > longest ? "..." : "");
+  return end < text.size() ? safe + "..." : safe;
 }
 
 }  // namespace
@@ -33,7 +36,7 @@ std::string found_words(const toml::node& node) {
   if (const auto* v = node.as_integer()) return fmt::format("{}", v->get());
   if (const auto* v = node.as_floating_point()) return fmt::format("{}", v->get());
   if (const auto* v = node.as_boolean()) return v->get() ? "true" : "false";
-  if (const auto* v = node.as_string()) return quoted(v->get());
+  if (const auto* v = node.as_string()) return fmt::format("\"{}\"", tame(v->get()));
   if (const auto* v = node.as_array())
     return v->empty() ? "an empty array" : fmt::format("an array of {}", v->size());
   if (node.is_table()) return "a table";
@@ -175,7 +178,7 @@ std::vector<table_reader> table_reader::tables(std::string_view key) const {
 void table_reader::allow_only(std::initializer_list<std::string_view> keys) const {
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
-    refuse_at(file_, key.source().begin, full_name(key.str()), "an unknown key",
+    refuse_at(file_, key.source().begin, full_name(tame(key.str())), "an unknown key",
               fmt::format("{}", fmt::join(keys, ", ")));
   }
 }

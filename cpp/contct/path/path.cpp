@@ -183,11 +183,13 @@ class path {
   /// Tell the state reached, and end.
   path_end stop(path_status status, int step, const residual_load& residual, std::vector<int> pairs) {
     const double fraction = 1.0 - residual.share;
-    if (status != path_status::not_factored) {
-      const std::vector<double> u = displacement(residual);
-      const double rcond = engine_.reciprocal_condition();
-      for (observer* o : observers_) o->step_ended({step, fraction, u, status_, rcond});
+    if (status == path_status::not_factored) return {status, step, fraction, {}};
+    const std::vector<double> u = displacement(residual);
+    if (!std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); })) {
+      return {path_status::not_factored, step, fraction, {}};
     }
+    const double rcond = engine_.reciprocal_condition();
+    for (observer* o : observers_) o->step_ended({step, fraction, u, status_, rcond});
     return {status, step, fraction, std::move(pairs)};
   }
 
