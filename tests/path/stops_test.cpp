@@ -61,6 +61,21 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("loaded, unloaded to nothing and loaded again, a beam is where it was") {
+  for (const double force : {-50.0, -100.0}) {  // PB8
+    beam_problem p = free_beam_on_springs(20.0, 100, 1.0, 4.0);
+    const load heavy{{}, {{{-1.0}, {}}}};
+    load pulled = heavy;
+    pulled.points = {{50, 0, force}};
+    p.steps = {heavy, pulled, {{}, {{{0.0}, {}}}}, heavy, pulled};
+    recorder r;
+    CHECK(p.run("fortran", {&r}).status == path_status::solved);
+    REQUIRE(r.steps.size() == 5);
+    CHECK(r.steps[4].u[100] == Approx(r.steps[1].u[100]).epsilon(1e-8));
+    CHECK(r.steps[3].u[100] == Approx(r.steps[0].u[100]).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("a mechanism from the start: nothing is solved and nobody is blamed") {
   beam_problem p{even_beam(4.0, 4, 100.0), {}, {{1, -1, -0.1, 10.0, false}, {3, -1, -0.1, 10.0, false}}, {}};
   p.steps = {tip_load(2, -4.0)};

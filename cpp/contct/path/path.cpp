@@ -47,7 +47,7 @@ class path {
       engine_.respond(residual, d_star_);  // K w* = R*
       if (!response_is_finite()) return stop(path_status::not_factored, step, residual, {});
       double s_min = ask_kernel();
-      if (!held() && falls_at_full_load(residual.share * (1.0 - s_min))) s_min = leave_undone();
+      if (s_min < 1.0 && falls_at_full_load(residual.share * (1.0 - s_min))) s_min = leave_undone();
       const bool moved = advance(s_min);  // D <- D + s_min d*
       residual.share *= 1.0 - s_min;      // R* <- (1 - s_min) R*
       tell_increment(step, number, s_min, residual);
@@ -107,12 +107,15 @@ class path {
   }
 
   /// Is a share of the step's load that is still left no more than the error of an event's load?
-  /// A free beam unloaded to nothing opens its last pairs exactly at full load; computed, that
-  /// may come a rounding too early, with eps / rcond of the load still to go.
+  /// Unloading to nothing opens the last pairs exactly at full load; computed, that may come a
+  /// rounding too early, with about eps / rcond of the load still to go, and the listing's mark for
+  /// "no event" then takes every quiet pair along.
   [[nodiscard]] bool falls_at_full_load(double share_left) {
+    constexpr double never_less = 1e-9;
     constexpr double never_more = 1e-6;
-    const double rcond = engine_.reciprocal_condition();
-    return share_left <= std::min(never_more, std::numeric_limits<double>::epsilon() / rcond);
+    if (share_left > never_more) return false;
+    if (share_left <= never_less) return true;
+    return share_left <= std::numeric_limits<double>::epsilon() / engine_.reciprocal_condition();
   }
 
   /// Take the kernel's toggles back and apply the whole rest: an event exactly at full load is left

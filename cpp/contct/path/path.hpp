@@ -39,8 +39,8 @@ struct path_limits {
 };
 
 /// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch.
-/// One decision is not the leader's: events that would free the structure within rounding of the
-/// step's full load (eps / rcond of it, 1e-6 at most) are left undone, as an event at s = 1 is.
+/// One decision is not the leader's: events within rounding of the step's full load (eps / rcond of
+/// it, from 1e-9 to 1e-6) are left undone, as the listing leaves one at s = 1.
 /// The engine must be fresh: the springs of the pairs that start closed in, all others out.
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,
                      stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,
