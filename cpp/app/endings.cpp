@@ -34,7 +34,9 @@ std::string end_words(const problem& p, const path_end& end) {
                "as a rigid body. A structure held only by pairs must start with enough of them in contact";
       }
       return where + "no equilibrium: the opening of " + pair_words(p, end.pairs) +
-             " left the structure free to move as a rigid body";
+             " left the structure free to move as a rigid body" +
+             (end.fraction < 1e-9 ? ". At a standstill the 1989 rule may pass by an equilibrium that exists"
+                                  : "");
     case path_status::cycle:
       return where + "a cycle at a standstill: these pairs keep toggling: " + pair_words(p, end.pairs);
     case path_status::iteration_limit:

@@ -137,7 +137,11 @@ TEST_CASE("hostile files end in a message: binary, deep nesting, nothing at all"
                                               "ELF\x02\x01\x01\x00\x00\x00\x00",
                                               11),
                                   std::string(200000, '['), "x = " + std::string(100000, '['), std::string(),
-                                  std::string("\xff\xfe"), std::string(1000, '\0')}) {
+                                  std::string("\xff\xfe"), std::string(1000, '\0'), [] {
+                                    std::string dotted = "a";
+                                    for (int i = 0; i < 300000; ++i) dotted += ".a";
+                                    return dotted + " = 1\n";
+                                  }()}) {
     CHECK(message_of(text) != "accepted");
   }
 }

@@ -47,7 +47,27 @@ std::string indexed(std::string_view key, std::size_t from_zero) {
   return fmt::format("{}[{}]", key, from_zero + 1);
 }
 
+namespace {
+
+/// toml++ follows a dotted key by recursion: one of many thousand parts would end the stack. Refuse
+/// any run of more than a thousand dots without a separator; no number or name of ours has one.
+void refuse_endless_keys(std::string_view text, std::string_view file) {
+  constexpr int most_dots = 1000;
+  int dots = 0;
+  for (const char ch : text) {
+    if (ch == '.') {
+      if (++dots > most_dots)
+        throw input_error(fmt::format("{}: not TOML that we read: a key of over {} parts", file, most_dots));
+    } else if (ch == ',' || ch == '=' || ch == '\n' || ch == '[' || ch == '{') {
+      dots = 0;
+    }
+  }
+}
+
+}  // namespace
+
 toml::table parse_toml(std::string_view text, std::string_view file) {
+  refuse_endless_keys(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& e) {
