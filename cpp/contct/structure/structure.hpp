@@ -43,11 +43,16 @@ struct linear_structure {
   std::vector<char> fixed;          ///< [dofs] 1 where a support fixes the dof
   std::vector<contact_pair> pairs;  ///< in the order of their numbers
 
+  std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
+
   int rigid_motions = 0;                    ///< 2 for a beam, 3 for a plate
   std::vector<rigid_row> held_by_supports;  ///< a row for each dof that a support holds
   std::vector<rigid_row> held_by_pairs;     ///< [pairs] the row that a closed pair holds
 
   [[nodiscard]] int dofs() const { return stiffness.order(); }
+  /// The row of the stiffness matrix that belongs to a dof: plates are numbered along their shorter
+  /// side there, for the smaller bandwidth.
+  [[nodiscard]] int row_of(int dof) const { return rows.empty() ? dof : rows[static_cast<std::size_t>(dof)]; }
   /// The dof, from 0, at which pair `i` (from 0) acts.
   [[nodiscard]] int dof_of_pair(int i) const {
     return pairs[static_cast<std::size_t>(i)].node * dofs_per_node + deflection;
