@@ -212,6 +212,11 @@ class run {
                      d.displacement, d.bound)});
     if (!d.first_difference.empty())
       fmt::print(stderr, "contct: {}: first difference: {}\n", name, d.first_difference);
+    for (const auto& [what, difference] : {std::pair("a load fraction", d.fraction), {"D", d.displacement}}) {
+      if (difference <= d.bound) continue;
+      fmt::print(stderr, "contct: {}: {} differs by {:.2g}; allowed: {:.0e}\n", name, what, difference,
+                 d.bound);
+    }
   }
 
   exit_status finish(const path_end& end, bool equal, const lockstep* compared) {

@@ -148,6 +148,37 @@ TEST_CASE("free run: every kernel on a path of its own, r4 against r8 within a s
   CHECK(result["free_run"][1]["displacement"] > 0.0);
 }
 
+TEST_CASE("free run: r4 against r8 through a step that takes all load off") {
+  const scratch_directory dir;
+  const finished f = contct_program(
+      dir.path(),
+      {"run", std::string(CONTCT_ROOT) + "/reference/problems/" + "pb06-settled-middle-support.toml",
+       "--free-run", "--kernels", "fortran,fortran-r4"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("fortran-r4 on a path of its own: events the same"));
+}
+
+TEST_CASE("free run: a load fraction beyond its bound is exit 1, and the message says by how much") {
+  // The face is met 1e-5 before and left 1e-5 behind: single precision cannot tell where in between.
+  const scratch_directory dir;
+  dir.write("near.toml",
+            "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+            "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1\nstiffness = 1e-3\n"
+            "[[step]]\npoint = [ { node = 2, w = -2.99997 } ]\n"
+            "[[step]]\npoint = [ { node = 2, w = -3.00003 } ]\n");
+  const finished f =
+      contct_program(dir.path(), {"run", "near.toml", "--free-run", "--kernels", "fortran,fortran-r4",
+                                  "--json", "out.json", "--log", "out.log"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("events the same"));
+  CHECK_THAT(f.err, Contains("fortran-r4: a load fraction differs by") && Contains("allowed: 1e-04"));
+  CHECK_THAT(f.err, !Contains("first difference"));
+  CHECK(nlohmann::json::parse(dir.read("out.json"))["status"] == "kernels-disagree");
+  CHECK_THAT(dir.read("out.log"), Contains("MAKING"));
+}
+
 TEST_CASE("contct kernels and --version name the listing's checksum and the floating-point probe") {
   const scratch_directory dir;
   const finished kernels = contct_program(dir.path(), {"kernels"});

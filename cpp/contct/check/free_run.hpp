@@ -35,7 +35,7 @@ struct free_run_difference {
   bool same_events = true;       ///< the same pairs made and broke in the same order
   std::string first_difference;  ///< of the ends or events, for people; empty when there is none
   double fraction = 0.0;         ///< largest difference of an event's load fraction
-  double displacement = 0.0;     ///< largest difference of D, relative to the step's largest
+  double displacement = 0.0;     ///< largest difference of D, relative to the path's largest
   double bound = 0.0;            ///< what `fraction` and `displacement` may reach
 
   [[nodiscard]] bool within_bound() const {
@@ -47,7 +47,8 @@ struct free_run_difference {
 [[nodiscard]] double free_run_bound(const kernel_facts& leader, const kernel_facts& other);
 
 /// Compare two recorded paths of one problem. Each of a node's `dofs_per_node` kinds of dof is
-/// measured against its own largest: deflections and rotations have different units.
+/// measured against its own largest on the whole path: deflections and rotations have different
+/// units, and an unloaded step has no size of its own.
 [[nodiscard]] free_run_difference compare_paths(const path_record& leader, const path_record& other,
                                                 double bound, int dofs_per_node);
 
