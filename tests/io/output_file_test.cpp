@@ -1,7 +1,11 @@
 #include "contct/io/output_file.hpp"
 
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -31,18 +35,49 @@ std::string contents(const fs::path& p) {
 
 }  // namespace
 
-TEST_CASE("a file appears when it is finished, and not before") {
-  const scratch dir;
-  const fs::path f = dir.path / "out.json";
-  {
-    output_file out(f.string());
+constexpr naming both_ways[] = {naming::link_or_copy, naming::copy};
+
+TEST_CASE("a file appears when it is finished, and not before, not even under another name") {
+  for (const naming how : both_ways) {
+    const scratch dir;
+    const fs::path f = dir.path / "out.json";
+    output_file out(f.string(), how);
     out.write("half");
-    CHECK_FALSE(fs::exists(f));
-    out.write(" and half");
+    CHECK(dir.files() == 0);
+    out.write(" and half" + std::string(200000, '.'));
     out.finish();
-    CHECK(contents(f) == "half and half");
+    CHECK(contents(f) == "half and half" + std::string(200000, '.'));
+    CHECK(dir.files() == 1);
   }
-  CHECK(dir.files() == 1);
+}
+
+TEST_CASE("a new file has the rights that the umask leaves") {
+  for (const naming how : both_ways) {
+    const scratch dir;
+    const mode_t before = umask(0027);
+    for (int time = 0; time < 2; ++time) {  // made, then replaced
+      output_file out((dir.path / "out.json").string(), how);
+      out.finish();
+      struct stat s {};
+      REQUIRE(stat((dir.path / "out.json").c_str(), &s) == 0);
+      CHECK((s.st_mode & 0777U) == 0640U);
+    }
+    umask(before);
+  }
+}
+
+TEST_CASE("an older file is replaced, and its name is never without a whole file") {
+  for (const naming how : both_ways) {
+    const scratch dir;
+    const fs::path f = dir.path / "out.json";
+    std::ofstream(f) << "old";
+    output_file out(f.string(), how);
+    out.write("new");
+    CHECK(contents(f) == "old");
+    out.finish();
+    CHECK(contents(f) == "new");
+    CHECK(dir.files() == 1);
+  }
 }
 
 TEST_CASE("what is not finished leaves nothing, and an older file stays as it was") {
@@ -55,6 +90,67 @@ TEST_CASE("what is not finished leaves nothing, and an older file stays as it wa
   }
   CHECK(contents(f) == "old");
   CHECK(dir.files() == 1);
+}
+
+TEST_CASE("whatever signal ends the process, no unfinished file remains") {
+  for (const naming how : both_ways) {
+    for (const int sign : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGKILL}) {
+      const scratch dir;
+      const pid_t child = fork();
+      if (child == 0) {
+        (void)std::signal(sign, SIG_DFL);
+        output_file out((dir.path / "out.json").string(), how);
+        out.write(std::string(100000, 'x'));
+        (void)raise(sign);
+        _exit(1);
+      }
+      int status = 0;
+      waitpid(child, &status, 0);
+      CHECK(WIFSIGNALED(status));
+      CHECK(dir.files() == 0);
+    }
+  }
+}
+
+TEST_CASE("a symbolic link is written through, whether its target is there or not") {
+  for (const naming how : both_ways) {
+    const scratch dir;
+    fs::create_directory(dir.path / "there");
+    fs::create_symlink("there/out.json", dir.path / "link");  // relative to the link, not to us
+    for (const char* text : {"first", "second"}) {
+      output_file out((dir.path / "link").string(), how);
+      out.write(text);
+      out.finish();
+      CHECK(fs::is_symlink(dir.path / "link"));
+      CHECK(contents(dir.path / "there/out.json") == text);
+    }
+  }
+}
+
+TEST_CASE("a circle of links is refused, not followed for ever") {
+  const scratch dir;
+  fs::create_symlink("b", dir.path / "a");
+  fs::create_symlink("a", dir.path / "b");
+  CHECK_THROWS_WITH(output_file((dir.path / "a").string()), Catch::Matchers::Contains("cannot be written"));
+}
+
+TEST_CASE("one file under two names is told apart from two files") {
+  const scratch dir;
+  const auto at = [&](const char* name) { return (dir.path / name).string(); };
+  std::ofstream(at("old")) << "old";
+  fs::create_directory(at("folder"));
+  fs::create_symlink("old", at("to-old"));
+  fs::create_symlink("new", at("to-new"));
+  fs::create_hard_link(at("old"), at("hard"));
+  CHECK(same_file(at("old"), at("folder/../old")));
+  CHECK(same_file(at("old"), at("to-old")));
+  CHECK(same_file(at("old"), at("hard")));
+  CHECK(same_file(at("new"), at("folder/../new")));  // not there yet
+  CHECK(same_file(at("to-new"), at("new")));
+  CHECK_FALSE(same_file(at("old"), at("new")));
+  CHECK_FALSE(same_file(at("new"), at("old")));
+  CHECK_FALSE(same_file(at("new"), at("newer")));
+  CHECK_FALSE(same_file("/dev/null", "/dev/null"));  // two may well write there
 }
 
 TEST_CASE("a place that cannot be written is refused at once, by name") {

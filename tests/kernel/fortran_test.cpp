@@ -1,6 +1,11 @@
 #include "contct/kernel/fortran.hpp"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -74,6 +79,27 @@ TEST_CASE("unit 26 belongs to the whole process: it cannot be opened twice") {
     CHECK_THROWS_AS(fortran::unit_26(), std::logic_error);
   }
   CHECK_NOTHROW(fortran::unit_26());
+}
+
+TEST_CASE("a signal at any moment leaves no file of unit 26 behind") {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("contct-unit26-test-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  for (int i = 0; i < 40; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      (void)std::signal(SIGTERM, SIG_DFL);
+      setenv("TMPDIR", folder.c_str(), 1);
+      while (true) (void)fortran::unit_26();
+    }
+    usleep(static_cast<useconds_t>(3000 + 37 * i));
+    kill(child, SIGTERM);
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WIFSIGNALED(status));
+  }
+  CHECK(std::filesystem::is_empty(folder));
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("COMMON /DOF/ is set for every call, so calls from several threads do not mix") {

@@ -1,5 +1,6 @@
 #include "contct/io/output_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,36 +11,93 @@
 #include <filesystem>
 #include <utility>
 
-namespace contct {
+#include "contct/kernel/signals_wait.hpp"
 
-output_file::output_file(std::string path) : path_(std::move(path)) {
+namespace contct {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where writing to `path` ends up: symbolic links followed, also one whose target is not there yet.
+fs::path followed(fs::path path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return fs::canonical(path);
+  constexpr int most_links = 40;
+  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, ignored)); ++i)
+    path = path.parent_path() / fs::read_symlink(path);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  return fs::weakly_canonical(folder, ignored) / path.filename();
+}
+
+/// The rights of a new file: all but what the umask takes away.
+mode_t new_file_rights() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+/// How passing names begin: in the folder of `target`, which has the file system to link in.
+std::string beside(const std::string& target) {
+  return (fs::path(target).parent_path() / ".contct-partial").string();
+}
+
+/// Copy all of one file to another; 0, or what went wrong.
+int copy_all(int from, int to) {
+  char block[1 << 16];
+  off_t at = 0;
+  ssize_t got = 0;
+  while ((got = pread(from, block, sizeof block, at)) > 0) {
+    for (ssize_t written = 0; written < got;) {
+      const ssize_t some = ::write(to, block + written, static_cast<std::size_t>(got - written));
+      if (some < 0) return errno;
+      written += some;
+    }
+    at += got;
+  }
+  return got < 0 ? errno : 0;
+}
+
+}  // namespace
+
+output_file::output_file(std::string path, naming how) : path_(std::move(path)), how_(how) {
   if (is_standard_output()) {
     file_ = stdout;
     return;
   }
-  std::error_code ignored;
-  const auto kind = std::filesystem::status(path_, ignored).type();
-  if (kind == std::filesystem::file_type::directory) fail(EISDIR);
-  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found) {
-    file_ = std::fopen(path_.c_str(), "wb");
-    if (file_ == nullptr) fail(errno);
+  std::error_code error;
+  const fs::file_type kind = fs::status(path_, error).type();
+  if (kind == fs::file_type::none) fail(error.value());
+  if (kind == fs::file_type::directory) fail(EISDIR);
+  if (kind == fs::file_type::regular || kind == fs::file_type::not_found) {
+    target_ = followed(path_).string();
+    open_without_name();
     return;
   }
-  temporary_ = path_ + ".partial-XXXXXX";
-  const int descriptor = mkstemp(temporary_.data());
-  if (descriptor < 0) {
-    temporary_.clear();
-    fail(errno);
-  }
-  const mode_t mask = umask(0);
-  umask(mask);
-  fchmod(descriptor, 0666 & ~mask);
-  file_ = fdopen(descriptor, "wb");
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (file_ == nullptr) fail(errno);
 }
 
 output_file::~output_file() {
   if (file_ != nullptr && file_ != stdout) (void)std::fclose(file_);
-  if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+/// In the target's own folder, so that a place that cannot be written is found out at once.
+void output_file::open_without_name() {
+  int descriptor = -1;
+#ifdef O_TMPFILE
+  const std::string folder = fs::path(target_).parent_path().string();
+  if (how_ == naming::link_or_copy) descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+#endif
+  if (descriptor < 0) {
+    how_ = naming::copy;
+    const signals_wait until_unlinked;
+    std::string name = beside(target_) + "-XXXXXX";
+    descriptor = mkstemp(name.data());
+    if (descriptor < 0) fail(errno);
+    unlink(name.c_str());
+  }
+  file_ = fdopen(descriptor, "w+b");
+  if (file_ == nullptr) fail(errno);
 }
 
 void output_file::write(std::string_view text) {
@@ -49,15 +107,60 @@ void output_file::write(std::string_view text) {
 void output_file::finish() {
   if (std::fflush(file_) != 0) fail(errno);
   if (file_ == stdout) return;
+  if (!target_.empty()) give_name();
   std::FILE* const file = std::exchange(file_, nullptr);
   if (std::fclose(file) != 0) fail(errno);
-  if (temporary_.empty()) return;
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(errno);
-  temporary_.clear();
+}
+
+/// A file without a name can take one that is free. To replace a file it needs a passing one first.
+void output_file::give_name() {
+  if (link_to(target_)) return;
+  const signals_wait until_named;
+  std::string passing;
+  int error = link_beside(passing) ? 0 : copy_beside(passing);
+  if (error == 0 && std::rename(passing.c_str(), target_.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  unlink(passing.c_str());
+  fail(error);
+}
+
+bool output_file::link_to(const std::string& name) const {
+  const std::string nameless = fmt::format("/proc/self/fd/{}", fileno(file_));
+  return how_ == naming::link_or_copy &&
+         linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
+bool output_file::link_beside(std::string& name) const {
+  constexpr int most_tries = 100;
+  for (int i = 0; i < most_tries; ++i) {
+    name = fmt::format("{}-{}-{}", beside(target_), getpid(), i);
+    if (link_to(name)) return true;
+    if (errno != EEXIST) break;
+  }
+  return false;
+}
+
+/// Returns 0, or what went wrong.
+int output_file::copy_beside(std::string& name) const {
+  name = beside(target_) + "-XXXXXX";
+  const int copy = mkstemp(name.data());
+  if (copy < 0) return errno;
+  fchmod(copy, new_file_rights());
+  const int error = copy_all(fileno(file_), copy);
+  return close(copy) != 0 && error == 0 ? errno : error;
 }
 
 void output_file::fail(int error) const {
-  throw output_error(fmt::format("{}: cannot be written: {}", path_, std::strerror(error)));
+  throw output_error(fmt::format("{}: cannot be written: {}",
+                                 is_standard_output() ? "standard output" : path_, std::strerror(error)));
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  const fs::file_type kind = fs::status(a, error).type();
+  if (kind == fs::file_type::regular) return fs::equivalent(a, b, error);
+  if (kind != fs::file_type::not_found || fs::exists(b, error)) return false;
+  return followed(a) == followed(b);
 }
 
 }  // namespace contct

@@ -14,12 +14,17 @@ class output_error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file under a temporary name beside its own until `finish`, which gives it its name. Without
-/// `finish` nothing remains. "-" is standard output; a path that exists and is not a regular file,
-/// such as a device, is written directly.
+/// How a finished file gets its name. A copy is what remains where the file system has no files
+/// without names (O_TMPFILE), or where /proc is missing.
+enum class naming { link_or_copy, copy };
+
+/// A file without a name until `finish`, which gives it one: however the process ends before, by
+/// any signal, nothing remains. A symbolic link is followed, and its target replaced. "-" is
+/// standard output; a path that exists and is not a regular file, such as a device, is written
+/// directly.
 class output_file {
  public:
-  explicit output_file(std::string path);
+  explicit output_file(std::string path, naming how = naming::link_or_copy);
   ~output_file();
   output_file(const output_file&) = delete;
   output_file& operator=(const output_file&) = delete;
@@ -29,11 +34,21 @@ class output_file {
   [[nodiscard]] bool is_standard_output() const { return path_ == "-"; }
 
  private:
+  void open_without_name();
+  void give_name();
+  [[nodiscard]] bool link_to(const std::string& name) const;
+  [[nodiscard]] bool link_beside(std::string& name) const;
+  [[nodiscard]] int copy_beside(std::string& name) const;
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
-  std::string temporary_;  // empty when written directly
+  std::string target_;  // what path_ names once links are followed; empty when written directly
+  naming how_;
   std::FILE* file_ = nullptr;
 };
+
+/// Would writing to one of these paths change what the other names? True for one file under two
+/// names, there already or not yet; false for devices, pipes and terminals.
+[[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
 }  // namespace contct

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "contct/kernel/signals_wait.hpp"
+
 extern "C" {
 void contct_call_r4(const float* dd, const float* dtest, const float* cc, float* ss, float* smin,
                     const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
@@ -49,6 +51,7 @@ unit_26::unit_26() {
   const std::scoped_lock lock(process_wide());
   if (unit_26_is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
   std::string path = (std::filesystem::temp_directory_path() / "contct-unit26-XXXXXX").string();
+  const signals_wait until_unlinked;
   file_ = mkstemp(path.data());
   if (file_ < 0)
     throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + path);
