@@ -13,8 +13,7 @@ void add_kernels(CLI::App& program, exit_status& status) {
   command->callback([&status] {
     fmt::print("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler");
     for (const std::string& name : kernel_names()) {
-      const auto k = make_kernel(name);
-      const kernel_facts& f = k->facts();
+      const kernel_facts f = facts_of_kernel(name);
       fmt::print("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language, f.compiler);
     }
     fmt::print("\nlisting sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,

@@ -2,40 +2,70 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <system_error>
 
 #include "app/commands.hpp"
+#include "app/streams.hpp"
 #include "contct/io/output_file.hpp"
-#include "contct/io/toml_reader.hpp"
 
 namespace {
 
 constexpr const char* version = "contct " CONTCT_VERSION "\nlisting sha256 " CONTCT_LISTING_SHA256;
 
-int run_program(int argc, char** argv) {
+/// "run, kernels".
+std::string command_names(const CLI::App& program) {
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+/// What is wrong with the command line. CLI11 only says of a command it does not know that it wants one.
+std::string usage_words(const CLI::App& program, const CLI::ParseError& error) {
+  if (!program.get_subcommands().empty()) return error.what();
+  const std::vector<std::string> unknown = program.remaining();
+  return fmt::format("{}; the commands are: {}",
+                     unknown.empty() ? "a command is missing"
+                                     : fmt::format("\"{}\" is no command of contct", unknown.front()),
+                     command_names(program));
+}
+
+contct::exit_status run_program(int argc, char** argv) {
   contct::exit_status status = contct::exit_status::solved;
   CLI::App program("CONTCT: the 1989 contact subroutine, in FORTRAN and in C++, side by side.", "contct");
   program.set_version_flag("--version", version, "Print the version and the listing's checksum");
   program.require_subcommand(1);
-  program.failure_message(CLI::FailureMessage::simple);
   contct::add_run(program, status);
   contct::add_kernels(program, status);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     const bool asked_for_help = e.get_exit_code() == 0;
+    if (!asked_for_help) {
+      contct::complain("{}\nRun with --help for more information.", usage_words(program, e));
+      return contct::exit_status::bad_input;
+    }
     program.exit(e);
-    return asked_for_help ? 0 : static_cast<int>(contct::exit_status::bad_input);
   }
-  return static_cast<int>(status);
+  contct::flush_standard_output();
+  return status;
+}
+
+int status_of_run(int argc, char** argv) {
+  try {
+    return static_cast<int>(run_program(argc, argv));
+  } catch (const std::system_error& e) {
+    const bool printing = std::ferror(stdout) != 0;
+    contct::complain("{}{}", printing ? "standard output: " : "", e.what());
+  } catch (const std::exception& e) {
+    contct::complain("{}", e.what());
+  }
+  return static_cast<int>(contct::exit_status::bad_input);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run_program(argc, argv);
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "contct: {}\n", e.what());
-    return static_cast<int>(contct::exit_status::bad_input);
-  }
+  contct::hold_standard_streams();
+  return status_of_run(argc, argv);
 }

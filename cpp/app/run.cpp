@@ -1,15 +1,19 @@
 // contct run: follow the path of a problem, all kernels in lockstep.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "app/commands.hpp"
 #include "app/endings.hpp"
+#include "app/streams.hpp"
 #include "contct/check/free_run.hpp"
 #include "contct/check/lockstep.hpp"
+#include "contct/io/follow.hpp"
 #include "contct/io/output_file.hpp"
 #include "contct/io/problem_file.hpp"
 #include "contct/io/result_json.hpp"
@@ -17,7 +21,6 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/path/engine.hpp"
-#include "contct/path/path.hpp"
 
 namespace contct {
 namespace {
@@ -61,59 +64,105 @@ exit_status status_of(path_status status) {
   }
 }
 
-/// One run of `contct run`.
+/// One run of `contct run`: what is wrong is refused first, then files are opened, then it is solved.
 class run {
  public:
   explicit run(const run_options& options)
       : options_(options),
-        problem_(read_problem(options.file)),
         terminal_(look_at_terminal()),
-        shows_table_(options.json != "-" && options.log != "-") {
-    for (const std::string& w : problem_.warnings) fmt::print(stderr, "contct: warning: {}\n", w);
-    (void)make_engine(options.engine, structure_);  // refuses an unknown name before anything is printed
-    structure_ = build(problem_.geometry, problem_.supports, problem_.pairs);
-    if (options.json == "-" && options.log == "-")
-      throw std::invalid_argument("--json and --log cannot both be -");
-  }
+        shows_table_(options.json != "-" && options.log != "-") {}
 
   exit_status go() {
-    refuse_repeated_kernels();
-    path_record record;
-    if (options_.free_run) return free_run(record);
-    const std::unique_ptr<kernel> leader = make_kernel(options_.kernels.at(0));
-    std::unique_ptr<lockstep> compared;
-    if (options_.kernels.size() > 1) compared = make_lockstep(*leader);
-    begin();
-    const path_end end = follow(*leader, observers(compared.get(), nullptr));
-    if (compared == nullptr) return finish(end, true, nullptr);
-    report_lockstep(*compared);
-    return finish(end, compared->compared().mismatches == 0, compared.get());
+    refuse_bad_options();
+    read();
+    refuse_shared_files();
+    return options_.free_run ? free_run() : lockstep_run();
   }
 
  private:
-  void refuse_repeated_kernels() const {
-    for (std::size_t i = 0; i < options_.kernels.size(); ++i) {
-      for (std::size_t k = 0; k < i; ++k) {
-        if (options_.kernels[i] == options_.kernels[k]) {
-          throw std::invalid_argument("--kernels: \"" + options_.kernels[i] + "\" is named twice");
+  void refuse_bad_options() const {
+    (void)make_engine(options_.engine, linear_structure());
+    for (const std::string& name : options_.kernels) {
+      if (std::count(options_.kernels.begin(), options_.kernels.end(), name) > 1)
+        throw std::invalid_argument("--kernels: \"" + name + "\" is named twice");
+      (void)facts_of_kernel(name);
+    }
+    if (options_.json == "-" && options_.log == "-")
+      throw std::invalid_argument("--json and --log cannot both be -");
+  }
+
+  void read() {
+    problem_ = read_problem(options_.file);
+    for (const std::string& w : problem_.warnings) complain("warning: {}", w);
+    structure_ = structure_of(problem_);
+  }
+
+  /// Every file of its own: an output must not replace the problem, nor one output another.
+  void refuse_shared_files() const {
+    struct named_file {
+      const char* what;
+      std::string path;
+    };
+    std::vector<named_file> others = {{"the problem", options_.file == "-" ? "/dev/fd/0" : options_.file},
+                                      {"standard output", "/dev/fd/1"}};
+    for (const named_file& out : {named_file{"--json", options_.json}, {"--log", options_.log}}) {
+      if (out.path.empty() || out.path == "-") continue;
+      for (const named_file& other : others) {
+        if (same_file(out.path, other.path)) {
+          throw std::invalid_argument(fmt::format("{} {}: found the file of {}; allowed: a file of its own",
+                                                  out.what, out.path, other.what));
         }
       }
+      others.push_back(out);
     }
   }
 
-  [[nodiscard]] std::unique_ptr<lockstep> make_lockstep(const kernel& leader) const {
-    std::vector<std::unique_ptr<kernel>> followers;
-    for (std::size_t i = 1; i < options_.kernels.size(); ++i)
-      followers.push_back(make_kernel(options_.kernels[i]));
-    return std::make_unique<lockstep>(leader.facts(), std::move(followers));
-  }
-
-  /// Open the output files before anything is solved, and print what is about to be.
-  void begin() {
+  exit_status lockstep_run() {
+    const std::unique_ptr<kernel> leader = make_kernel(options_.kernels[0]);
+    const bool alone = options_.kernels.size() == 1;
+    lockstep compared = make_lockstep(leader->facts(), std::span(options_.kernels).subspan(1));
     open_outputs();
     print_heading();
+    const path_end end = follow_observed(*leader, alone ? nullptr : &compared, nullptr);
+    if (alone) return finish(end, true, nullptr);
+    report_lockstep(compared);
+    return finish(end, compared.compared().mismatches == 0, &compared);
   }
 
+  /// Drive every kernel on a path of its own, one after the other: unit 26 is there only once.
+  exit_status free_run() {
+    open_outputs();
+    print_heading();
+    path_record leader;
+    leader.end = follow_observed(*make_kernel(options_.kernels[0]), nullptr, &leader);
+    bool all_within = true;
+    for (std::size_t i = 1; i < options_.kernels.size(); ++i) {
+      const std::string& name = options_.kernels[i];
+      path_record own;
+      own.end = follow(problem_, structure_, options_.engine, *make_kernel(name), {&own},
+                       {options_.max_increments});
+      const double bound = free_run_bound(facts_of_kernel(options_.kernels[0]), facts_of_kernel(name));
+      const free_run_difference d = compare_paths(leader, own, bound, structure_.dofs_per_node);
+      all_within = all_within && d.within_bound();
+      if (json_) json_->add_free_run(name, d);
+      report_free_run(name, d);
+    }
+    return finish(leader.end, all_within, nullptr);
+  }
+
+  /// The leader's path, under the eyes of all that was asked for.
+  path_end follow_observed(kernel& leader, lockstep* compared, path_record* record) {
+    std::vector<observer*> watching;
+    if (compared != nullptr) watching.push_back(compared);
+    if (shows_table_) watching.push_back(&table_.emplace(problem_, compared, terminal_));
+    if (json_) watching.push_back(&*json_);
+    if (log_) watching.push_back(&*log_);
+    if (record != nullptr) watching.push_back(record);
+    watching.push_back(&digits_);
+    return follow(problem_, structure_, options_.engine, leader, watching, {options_.max_increments});
+  }
+
+  /// Before anything is solved: a place that cannot be written is found out at once.
   void open_outputs() {
     if (!options_.json.empty()) {
       json_file_.emplace(options_.json);
@@ -123,26 +172,6 @@ class run {
       log_file_.emplace(options_.log);
       log_.emplace(*log_file_);
     }
-  }
-
-  std::vector<observer*> observers(lockstep* compared, path_record* record) {
-    std::vector<observer*> all;
-    if (compared != nullptr) all.push_back(compared);
-    if (shows_table_) all.push_back(&table_.emplace(problem_, compared, terminal_));
-    if (json_) all.push_back(&*json_);
-    if (log_) all.push_back(&*log_);
-    if (record != nullptr) all.push_back(record);
-    all.push_back(&digits_);
-    return all;
-  }
-
-  path_end follow(kernel& k, const std::vector<observer*>& watching) const {
-    const std::unique_ptr<stiffness_engine> engine = make_engine(options_.engine, structure_);
-    const load_history total = [this](int step, std::span<double> f) {
-      add_consistent_loads(problem_.geometry, problem_.steps[static_cast<std::size_t>(step - 1)], f);
-    };
-    return follow_path(structure_, static_cast<int>(problem_.steps.size()), total, *engine, k, watching,
-                       {options_.max_increments});
   }
 
   void print_heading() const {
@@ -156,75 +185,52 @@ class run {
     fmt::print("\n");
   }
 
-  void print_verdict(bool good, const std::vector<std::string>& items) const {
+  void print_verdict(paint p, const std::vector<std::string>& items) const {
     if (!shows_table_) return;
     fmt::print("\n");
-    for (const std::string& line : wrap(items, terminal_.width)) {
-      fmt::print("{}\n", painted(terminal_, good ? paint::good : paint::bad, line));
-    }
+    for (const std::string& line : wrap(items, terminal_.width))
+      fmt::print("{}\n", painted(terminal_, p, line));
   }
 
   /// Say how the comparison came out. A mismatch under a bad probe is the environment's.
   void report_lockstep(const lockstep& compared) const {
     const tally& t = compared.compared();
+    const std::string names = fmt::format("{}", fmt::join(options_.kernels, " and "));
+    if (compared.calls() == 0)
+      return print_verdict(paint::quiet, {names + " were never called: nothing is compared"});
     const bool equal = t.mismatches == 0;
-    print_verdict(equal, {fmt::format("{} {} to the bit", fmt::join(options_.kernels, " and "),
-                                      equal ? "are equal" : "are NOT equal"),
-                          fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(),
-                                      t.values, t.mismatches)});
+    print_verdict(equal ? paint::good : paint::bad,
+                  {fmt::format("{} {} to the bit", names, equal ? "are equal" : "are NOT equal"),
+                   fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(), t.values,
+                               t.mismatches)});
     if (!compared.first()) return;
     const first_divergence& d = *compared.first();
-    fmt::print(stderr, "contct: call {}: {} differs in {}{}: {} has {}, {} has {} ({} ULP)\n", d.call,
-               d.follower, d.where.field, d.where.index > 0 ? fmt::format("({})", d.where.index) : "",
-               options_.kernels[0], d.where.leader, d.follower, d.where.follower, d.where.ulps);
+    complain("call {}: {} differs in {}{}: {} has {}, {} has {} ({} ULP)", d.call, d.follower, d.where.field,
+             d.where.index > 0 ? fmt::format("({})", d.where.index) : "", options_.kernels[0], d.where.leader,
+             d.follower, d.where.follower, d.where.ulps);
     const floating_point fp = probe_floating_point();
-    if (!fp.strict()) fmt::print(stderr, "contct: environment, not kernel: {}\n", describe(fp));
-  }
-
-  /// Drive every kernel on a path of its own, one after the other: unit 26 is there only once.
-  exit_status free_run(path_record& record) {
-    for (const std::string& name : options_.kernels)
-      (void)make_kernel(name);  // all exist, before anything is written
-    begin();
-    std::unique_ptr<kernel> leader = make_kernel(options_.kernels[0]);
-    const kernel_facts leader_facts = leader->facts();
-    record.end = follow(*leader, observers(nullptr, &record));
-    leader.reset();
-    bool all_within = true;
-    for (std::size_t i = 1; i < options_.kernels.size(); ++i) {
-      const std::unique_ptr<kernel> other = make_kernel(options_.kernels[i]);
-      path_record own;
-      own.end = follow(*other, {&own});
-      const free_run_difference d =
-          compare_paths(record, own, free_run_bound(leader_facts, other->facts()), structure_.dofs_per_node);
-      all_within = all_within && d.within_bound();
-      if (json_) json_->add_free_run(other->facts().name, d);
-      report_free_run(other->facts().name, d);
-    }
-    return finish(record.end, all_within, nullptr);
+    if (!fp.strict()) complain("environment, not kernel: {}", describe(fp));
   }
 
   void report_free_run(const std::string& name, const free_run_difference& d) const {
     print_verdict(
-        d.within_bound(),
+        d.within_bound() ? paint::good : paint::bad,
         {fmt::format("{} on a path of its own: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
          fmt::format("load fractions within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
                      d.displacement, d.bound)});
-    if (!d.first_difference.empty())
-      fmt::print(stderr, "contct: {}: first difference: {}\n", name, d.first_difference);
+    if (!d.first_difference.empty()) complain("{}: first difference: {}", name, d.first_difference);
     for (const auto& [what, difference] : {std::pair("a load fraction", d.fraction), {"D", d.displacement}}) {
       if (difference <= d.bound) continue;
-      fmt::print(stderr, "contct: {}: {} differs by {:.2g}; allowed: {:.0e}\n", name, what, difference,
-                 d.bound);
+      complain("{}: {} differs by {:.2g}; allowed: {:.0e}", name, what, difference, d.bound);
     }
   }
 
   exit_status finish(const path_end& end, bool equal, const lockstep* compared) {
-    (void)std::fflush(stdout);
+    flush_standard_output();  // the table before what is said about it; and no files when it is lost
     if (end.status == path_status::solved) {
-      if (const std::string w = digits_.warning(); !w.empty()) fmt::print(stderr, "contct: warning: {}\n", w);
+      if (const std::string w = digits_.warning(); !w.empty()) complain("warning: {}", w);
     } else {
-      fmt::print(stderr, "contct: {}: {}\n", options_.file, end_words(problem_, end));
+      complain("{}: {}", options_.file, end_words(problem_, end));
     }
     const exit_status status = equal ? status_of(end.status) : exit_status::kernels_differ;
     if (status == exit_status::bad_input) return status;  // no numbers, and no files
@@ -234,10 +240,10 @@ class run {
   }
 
   const run_options& options_;
-  problem problem_;
   terminal terminal_;
-  linear_structure structure_;
   bool shows_table_;
+  problem problem_;
+  linear_structure structure_;
   std::optional<output_file> json_file_, log_file_;
   std::optional<result_json> json_;
   std::optional<log_writer> log_;
@@ -260,7 +266,7 @@ void add_run(CLI::App& program, exit_status& status) {
   command->add_flag("--free-run", options->free_run,
                     "Drive each kernel on a path of its own; compare events, load fractions and D");
   command->add_option("--max-increments", options->max_increments, "Limit of increments in a step")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, most_increments));
   command->add_option("--json", options->json, "Write the result to this file (- is standard output)");
   command->add_option("--log", options->log, "Write what the leader writes to unit 26 to this file");
   command->callback([options, &status] { status = run(*options).go(); });

@@ -46,6 +46,14 @@ TEST_CASE("no such file, a directory, a file without permission to be one") {
   CHECK_THAT(refusal(dir, ""), Contains("cannot be read"));
 }
 
+TEST_CASE("a key of endless parts is refused, and ends nothing else") {
+  const scratch_directory dir;
+  std::string dotted = "a";
+  for (int i = 0; i < 300000; ++i) dotted += ".a";
+  dir.write("dotted.toml", dotted + " = 1\n");
+  CHECK_THAT(refusal(dir, "dotted.toml"), Contains("a key of over 1000 parts"));
+}
+
 TEST_CASE("a binary file is refused at its first byte that is no text") {
   const scratch_directory dir;
   dir.write("program.toml", std::string("\x7f"
@@ -87,14 +95,22 @@ TEST_CASE("wrong usage: exit 2, and what there is") {
     CHECK_THAT(f.err, Contains(words));
   };
   refused({}, "--help");
-  refused({"walk"}, "--help");
+  refused({}, "a command is missing; the commands are: run, kernels");
+  refused({"walk"}, "\"walk\" is no command of contct; the commands are: run, kernels");
+  refused({"walk", "good.toml"}, "\"walk\"");
   refused({"run"}, "FILE");
   refused({"run", "good.toml", "--josn", "x"}, "--josn");
   refused({"run", "good.toml", "--kernels", "fortran,basic"}, "fortran-r4");
   refused({"run", "good.toml", "--kernels", "fortran,cpp,fortran"}, "named twice");
   refused({"run", "good.toml", "--kernels", "fortran,cpp-r4"}, "--free-run");
+  // What does not fit is said of precision, whichever is FORTRAN, and before unit 26 is asked for twice.
+  for (const char* pair : {"fortran,fortran-r4", "fortran-r4,fortran", "cpp,fortran-r4", "cpp-r4,fortran"}) {
+    refused({"run", "good.toml", "--kernels", pair}, "-byte REAL, rule \"listing\") differ in precision");
+    refused({"run", "good.toml", "--kernels", pair}, "--free-run");
+  }
   refused({"run", "good.toml", "--engine", "warp"}, "refactor");
-  refused({"run", "good.toml", "--max-increments", "0"}, "--max-increments");
+  refused({"run", "good.toml", "--max-increments", "0"}, "--max-increments: Value 0 not in range");
+  refused({"run", "good.toml", "--max-increments", "0"}, "1000000000");
   refused({"run", "good.toml", "--max-increments", "many"}, "--max-increments");
   refused({"run", "good.toml", "--json", "-", "--log", "-"}, "cannot both be -");
   CHECK(dir.files() == std::vector<std::string>{"good.toml"});

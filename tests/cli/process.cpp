@@ -26,9 +26,12 @@ std::string contents(const std::filesystem::path& p) {
 [[noreturn]] void become(const std::filesystem::path& directory, std::vector<std::string> arguments,
                          const process_options& options, const std::filesystem::path& streams, int terminal) {
   dup2(open((streams / "in").c_str(), O_RDONLY), STDIN_FILENO);
-  dup2(terminal >= 0 ? terminal : open((streams / "out").c_str(), O_WRONLY), STDOUT_FILENO);
   dup2(open((streams / "err").c_str(), O_WRONLY), STDERR_FILENO);
   if (chdir(directory.c_str()) != 0) _exit(127);
+  const std::string output = options.output.empty() ? (streams / "out").string() : options.output;
+  dup2(terminal >= 0 ? terminal : open(output.c_str(), O_WRONLY), STDOUT_FILENO);
+  for (int left_over = STDERR_FILENO + 1; left_over < 10; ++left_over) close(left_over);
+  if (output == "closed") close(STDOUT_FILENO);
   clearenv();
   setenv("PATH", "/usr/bin:/bin", 1);
   for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);

@@ -17,7 +17,8 @@ struct finished {
 struct process_options {
   std::string input;                                             ///< standard input
   std::vector<std::pair<std::string, std::string>> environment;  ///< on top of a bare one
-  bool terminal = false;  ///< standard output is a terminal (of 80 columns)
+  bool terminal = false;    ///< standard output is a terminal (of 80 columns)
+  std::string output = {};  ///< standard output goes to this file instead; "closed" for none at all
 };
 
 /// Run the program with these arguments in `directory`.

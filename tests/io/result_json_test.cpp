@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "contct/io/follow.hpp"
 #include "contct/io/problem_file.hpp"
-#include "contct/path/engine.hpp"
 #include "io/bad_inputs.hpp"
 
 using namespace contct;
@@ -18,21 +18,14 @@ namespace {
 /// Run a problem with FORTRAN leading C++, and read the JSON back.
 nlohmann::json result_of(const std::string& text) {
   const problem p = parse_problem(text, "pb.toml");
-  const linear_structure s = build(p.geometry, p.supports, p.pairs);
-  const auto engine = make_engine("refactor", s);
   const auto leader = make_kernel("fortran");
-  std::vector<std::unique_ptr<kernel>> followers;
-  followers.push_back(make_kernel("cpp"));
-  lockstep compared(leader->facts(), std::move(followers));
+  const std::vector<std::string> followers = {"cpp"};
+  lockstep compared = make_lockstep(leader->facts(), followers);
   const auto file =
       std::filesystem::temp_directory_path() / ("contct-json-test-" + std::to_string(::getpid()));
   output_file out(file.string());
   result_json json(p, {"fortran", "cpp"}, "refactor", out);
-  const load_history total = [&p](int step, std::span<double> f) {
-    add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
-  };
-  const std::vector<observer*> watching = {&compared, &json};
-  const path_end end = follow_path(s, static_cast<int>(p.steps.size()), total, *engine, *leader, watching);
+  const path_end end = follow(p, structure_of(p), "refactor", *leader, {&compared, &json});
   json.finish(status_name(end.status), end, &compared);
   auto parsed = nlohmann::json::parse(std::ifstream(file));
   std::filesystem::remove(file);

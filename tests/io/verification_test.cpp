@@ -8,8 +8,8 @@
 
 #include "catch.hpp"
 #include "contct/check/lockstep.hpp"
+#include "contct/io/follow.hpp"
 #include "contct/io/problem_file.hpp"
-#include "contct/path/path.hpp"
 
 using namespace contct;
 
@@ -19,17 +19,10 @@ const std::filesystem::path reference = CONTCT_REFERENCE;
 
 /// Follow a problem with FORTRAN leading and C++ beside it.
 path_end run(const problem& p, measurement& m) {
-  const linear_structure s = build(p.geometry, p.supports, p.pairs);
-  const auto engine = make_engine("refactor", s);
   const auto leader = make_kernel("fortran");
-  std::vector<std::unique_ptr<kernel>> followers;
-  followers.push_back(make_kernel("cpp"));
-  lockstep compared(leader->facts(), std::move(followers));
-  const load_history total = [&p](int step, std::span<double> f) {
-    add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
-  };
-  const std::vector<observer*> watching = {&compared, &m};
-  const path_end end = follow_path(s, static_cast<int>(p.steps.size()), total, *engine, *leader, watching);
+  const std::vector<std::string> followers = {"cpp"};
+  lockstep compared = make_lockstep(leader->facts(), followers);
+  const path_end end = follow(p, structure_of(p), "refactor", *leader, {&compared, &m});
   CHECK(compared.calls() > 0);
   CHECK(compared.compared().mismatches == 0);
   return end;

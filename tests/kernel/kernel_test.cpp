@@ -15,10 +15,17 @@ TEST_CASE("every kernel built in can be made, and says what it is") {
     CHECK(k->facts().name == name);
     CHECK((k->facts().real_bytes == 4 || k->facts().real_bytes == 8));
     CHECK_FALSE(k->facts().compiler.empty());
+    // The facts can be had without the kernel, and while it lives.
+    const kernel_facts facts = facts_of_kernel(name);
+    CHECK(facts.name == name);
+    CHECK(facts.real_bytes == k->facts().real_bytes);
+    CHECK(facts.rule == k->facts().rule);
+    CHECK(facts.has_text == k->facts().has_text);
   }
 }
 
 TEST_CASE("an unknown kernel is refused by name, and the known ones are told") {
+  CHECK_THROWS_WITH(facts_of_kernel("basic"), Catch::Matchers::Contains("\"basic\""));
   CHECK_THROWS_WITH(make_kernel("basic"),
                     Catch::Matchers::Contains("\"basic\"") && Catch::Matchers::Contains("fortran-r4"));
 }

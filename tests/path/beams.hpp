@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/path/path.hpp"
+#include "contct/path/follow.hpp"
 #include "contct/structure/beam.hpp"
 
 namespace contct {
@@ -20,12 +20,7 @@ struct beam_problem {
   [[nodiscard]] linear_structure structure() const { return build(geometry, supports, pairs); }
 
   path_end run(kernel& k, std::vector<observer*> observers, const path_limits& limits = {}) const {
-    const linear_structure s = structure();
-    const auto engine = make_engine("refactor", s);
-    const load_history total = [this](int step, std::span<double> f) {
-      add_consistent_loads(geometry, steps[static_cast<std::size_t>(step - 1)], f);
-    };
-    return follow_path(s, static_cast<int>(steps.size()), total, *engine, k, observers, limits);
+    return follow_steps(geometry, structure(), steps, "refactor", k, observers, limits);
   }
 
   path_end run(const std::string& kernel_name, std::vector<observer*> observers,

@@ -121,6 +121,44 @@ TEST_CASE("a cycle at a standstill is found, and the restless pairs are named") 
   CHECK(calls < 50);
 }
 
+TEST_CASE("a stiffness that loses its factor on the way: the share reached is told") {
+  // Solves once, and never again.
+  class failing_engine final : public stiffness_engine {
+   public:
+    explicit failing_engine(const linear_structure& s) : inner_(make_engine("refactor", s)) {}
+    [[nodiscard]] std::string_view name() const override { return "failing"; }
+    void switch_spring(int pair, bool closed) override { inner_->switch_spring(pair, closed); }
+    void respond(const residual_load& residual, std::span<double> d_star) override {
+      if (solved_) throw no_factor("made for a test");
+      solved_ = true;
+      inner_->respond(residual, d_star);
+    }
+    void recover(std::span<const double> load, std::span<const double> forces, std::span<double> u) override {
+      inner_->recover(load, forces, u);
+    }
+    double reciprocal_condition() override { return inner_->reciprocal_condition(); }
+
+   private:
+    std::unique_ptr<stiffness_engine> inner_;
+    bool solved_ = false;
+  };
+  const beam_problem p = cantilever_over_a_stop();
+  const linear_structure s = p.structure();
+  failing_engine engine(s);
+  const load_history total = [](int, std::span<double> f) { f[4] = -60.0; };
+  const path_end end = follow_path(s, 1, total, engine, *make_kernel("cpp"), {});
+  CHECK(end.status == path_status::not_factored);
+  CHECK(end.step == 1);
+  CHECK(end.fraction == Approx(0.25).epsilon(1e-12));  // contact at -15 of -60
+}
+
+TEST_CASE("the limit of increments grows with the pairs, and stays a number") {
+  CHECK(increments_allowed({}, 0) == 1000);
+  CHECK(increments_allowed({}, 200) == 11000);
+  CHECK(increments_allowed({}, 50'000'000) == most_increments);  // 2.5e9 does not fit an int
+  CHECK(increments_allowed({7}, 50'000'000) == 7);
+}
+
 TEST_CASE("progress, however slow, is no cycle, the limit of increments ends it") {
   made_kernel k([](call<double>& c) {
     c.smin = 0.001;

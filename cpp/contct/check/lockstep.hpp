@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct first_divergence {
   std::string follower;  ///< name of the kernel
   divergence where;
 };
+
+/// Throws std::invalid_argument when the two differ in precision or rule: their answers cannot be
+/// equal to the bit.
+void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower);
 
 /// Observes a path: each call that the leader answered goes to every follower, with identical
 /// inputs, and SMIN, all of SS, all of ISEP and the unit-26 text are compared.
@@ -48,5 +53,9 @@ class lockstep final : public observer {
   std::vector<double> ss_;
   std::vector<int> isep_;
 };
+
+/// A leader's lockstep with kernels by name. All are known and refused by their facts before the
+/// first is made. Throws std::invalid_argument.
+[[nodiscard]] lockstep make_lockstep(const kernel_facts& leader, std::span<const std::string> followers);
 
 }  // namespace contct

@@ -105,8 +105,8 @@ void output_file::write(std::string_view text) {
 }
 
 void output_file::finish() {
+  if (is_standard_output()) return flush_standard_output();
   if (std::fflush(file_) != 0) fail(errno);
-  if (file_ == stdout) return;
   if (!target_.empty()) give_name();
   std::FILE* const file = std::exchange(file_, nullptr);
   if (std::fclose(file) != 0) fail(errno);
@@ -153,6 +153,13 @@ int output_file::copy_beside(std::string& name) const {
 void output_file::fail(int error) const {
   throw output_error(fmt::format("{}: cannot be written: {}",
                                  is_standard_output() ? "standard output" : path_, std::strerror(error)));
+}
+
+void flush_standard_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  const char* const reason = errno != 0 ? std::strerror(errno) : "what was printed before is lost";
+  throw output_error(fmt::format("standard output: cannot be written: {}", reason));
 }
 
 bool same_file(const std::string& a, const std::string& b) {

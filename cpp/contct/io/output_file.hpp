@@ -47,6 +47,10 @@ class output_file {
   std::FILE* file_ = nullptr;
 };
 
+/// Send on what was printed to standard output. Throws output_error when any of it, now or before,
+/// could not be written.
+void flush_standard_output();
+
 /// Would writing to one of these paths change what the other names? True for one file under two
 /// names, there already or not yet; false for devices, pipes and terminals.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);

@@ -51,7 +51,7 @@ class fortran_implementation {
 };
 
 template <class Implementation>
-kernel_facts facts_of(int real_bytes) {
+kernel_facts facts_of_listing(int real_bytes) {
   return {Implementation::name,       real_bytes, "listing", Implementation::language,
           Implementation::compiler(), true};
 }
@@ -59,12 +59,13 @@ kernel_facts facts_of(int real_bytes) {
 template <template <class> class Implementation>
 class kernel_r8 final : public kernel {
  public:
+  static kernel_facts what_it_is() { return facts_of_listing<Implementation<double>>(8); }
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
   void answer(call<double>& c) override { inner_.answer(c); }
   std::string take_text() override { return inner_.take_text(); }
 
  private:
-  kernel_facts facts_ = facts_of<Implementation<double>>(8);
+  kernel_facts facts_ = what_it_is();
   Implementation<double> inner_;
 };
 
@@ -72,6 +73,7 @@ class kernel_r8 final : public kernel {
 template <template <class> class Implementation>
 class kernel_r4 final : public kernel {
  public:
+  static kernel_facts what_it_is() { return facts_of_listing<Implementation<float>>(4); }
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
 
   void answer(call<double>& c) override {
@@ -98,40 +100,47 @@ class kernel_r4 final : public kernel {
     }
   }
 
-  kernel_facts facts_ = facts_of<Implementation<float>>(4);
+  kernel_facts facts_ = what_it_is();
   Implementation<float> inner_;
   std::vector<float> dd_, dtest_, cc_, ss_;
 };
 
-using maker = std::unique_ptr<kernel> (*)();
-
-template <class Kernel>
-std::unique_ptr<kernel> make() {
-  return std::make_unique<Kernel>();
-}
-
 struct entry {
   const char* name;
-  maker make;
+  kernel_facts (*facts)();
+  std::unique_ptr<kernel> (*make)();
 };
+
+template <class Kernel>
+constexpr entry known_as(const char* name) {
+  return {name, Kernel::what_it_is, []() -> std::unique_ptr<kernel> { return std::make_unique<Kernel>(); }};
+}
 
 constexpr entry known_kernels[] = {
-    {"fortran", make<kernel_r8<fortran_implementation>>},
-    {"fortran-r4", make<kernel_r4<fortran_implementation>>},
-    {"cpp", make<kernel_r8<cpp_implementation>>},
-    {"cpp-r4", make<kernel_r4<cpp_implementation>>},
+    known_as<kernel_r8<fortran_implementation>>("fortran"),
+    known_as<kernel_r4<fortran_implementation>>("fortran-r4"),
+    known_as<kernel_r8<cpp_implementation>>("cpp"),
+    known_as<kernel_r4<cpp_implementation>>("cpp-r4"),
 };
 
-}  // namespace
-
-std::unique_ptr<kernel> make_kernel(std::string_view name) {
+const entry& entry_of(std::string_view name) {
   std::string known;
   for (const entry& e : known_kernels) {
-    if (name == e.name) return e.make();
+    if (name == e.name) return e;
     known += known.empty() ? "" : ", ";
     known += e.name;
   }
   throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"; there are: " + known);
+}
+
+}  // namespace
+
+std::unique_ptr<kernel> make_kernel(std::string_view name) {
+  return entry_of(name).make();
+}
+
+kernel_facts facts_of_kernel(std::string_view name) {
+  return entry_of(name).facts();
 }
 
 std::vector<std::string> kernel_names() {

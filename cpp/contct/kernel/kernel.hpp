@@ -38,6 +38,10 @@ class kernel {
 /// Throws std::invalid_argument, naming what there is, when there is none of that name.
 [[nodiscard]] std::unique_ptr<kernel> make_kernel(std::string_view name);
 
+/// What the kernel of that name is, without making it: of the FORTRAN ones there is one at a time.
+/// Throws as make_kernel does.
+[[nodiscard]] kernel_facts facts_of_kernel(std::string_view name);
+
 /// The names that make_kernel knows.
 [[nodiscard]] std::vector<std::string> kernel_names();
 

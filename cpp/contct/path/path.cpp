@@ -50,6 +50,7 @@ class path {
       if (s_min < 1.0 && falls_at_full_load(residual.share * (1.0 - s_min))) s_min = leave_undone();
       const bool moved = advance(s_min);  // D <- D + s_min d*
       residual.share *= 1.0 - s_min;      // R* <- (1 - s_min) R*
+      fraction_ = 1.0 - residual.share;
       tell_increment(step, number, s_min, residual);
       if (!held()) return stop(path_status::mechanism, step, residual, opened());
       switch_springs();
@@ -61,6 +62,9 @@ class path {
     return stop(path_status::iteration_limit, step, residual, standstill_.restless_pairs());
   }
 
+  /// The share of the step's load applied by now.
+  [[nodiscard]] double fraction() const { return fraction_; }
+
  private:
   std::span<const double> begin_step(int step, const load_history& total_load) {
     std::transform(total_.begin(), total_.end(), increment_.begin(), [](double before) { return -before; });
@@ -68,6 +72,7 @@ class path {
     total_load(step, total_);
     std::transform(total_.begin(), total_.end(), increment_.begin(), increment_.begin(), std::plus<>());
     standstill_.reset();
+    fraction_ = 0.0;
     return increment_;
   }
 
@@ -215,23 +220,28 @@ class path {
   std::vector<int> watched_;        // dofs where pairs act, once each
   std::vector<double> pair_force_;  // force on the structure gathered by each spring [pairs]
   std::vector<event> events_;       // of the last call
+  double fraction_ = 0.0;           // share of the step's load applied by now
   standstill standstill_;
 };
 
 }  // namespace
 
+int increments_allowed(const path_limits& limits, std::size_t pairs) {
+  constexpr std::size_t most = most_increments;
+  if (limits.increments_per_step > 0) return std::min(limits.increments_per_step, most_increments);
+  return static_cast<int>(std::min(most, 1000 + 50 * std::min(most, pairs)));
+}
+
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,
                      stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,
                      const path_limits& limits) {
-  const int allowed = limits.increments_per_step > 0 ? limits.increments_per_step
-                                                     : 1000 + 50 * static_cast<int>(s.pairs.size());
-  path p(s, engine, leader, observers, allowed);
+  path p(s, engine, leader, observers, increments_allowed(limits, s.pairs.size()));
   path_end end;
   for (int step = 1; step <= steps && end.status == path_status::solved; ++step) {
     try {
       end = p.follow_step(step, total_load);
     } catch (const no_factor&) {
-      end = {path_status::not_factored, step, 0.0, {}};
+      end = {path_status::not_factored, step, p.fraction(), {}};
     }
   }
   return end;

@@ -38,6 +38,12 @@ struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
 };
 
+/// Most increments of a step that anybody may ask for.
+inline constexpr int most_increments = 1'000'000'000;
+
+/// The limit as a number, at most `most_increments`.
+[[nodiscard]] int increments_allowed(const path_limits& limits, std::size_t pairs);
+
 /// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch.
 /// One decision is not the leader's: events within rounding of the step's full load (eps / rcond of
 /// it, from 1e-9 to 1e-6) are left undone, as the listing leaves one at s = 1.

@@ -1,0 +1,16 @@
+#include "contct/io/follow.hpp"
+
+#include "contct/path/follow.hpp"
+
+namespace contct {
+
+linear_structure structure_of(const problem& p) {
+  return build(p.geometry, p.supports, p.pairs);
+}
+
+path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
+                const std::vector<observer*>& observers, const path_limits& limits) {
+  return follow_steps(p.geometry, s, p.steps, engine, leader, observers, limits);
+}
+
+}  // namespace contct

@@ -1,0 +1,19 @@
+// A problem's structure, and its path.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "contct/io/problem.hpp"
+#include "contct/path/path.hpp"
+
+namespace contct {
+
+/// The structure that a problem describes.
+[[nodiscard]] linear_structure structure_of(const problem& p);
+
+/// Follow a problem's path on an engine by name. `s` is its structure.
+path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
+                const std::vector<observer*>& observers, const path_limits& limits = {});
+
+}  // namespace contct
