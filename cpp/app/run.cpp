@@ -176,7 +176,8 @@ class run {
 
   void print_heading() const {
     if (!shows_table_) return;
-    if (!problem_.title.empty()) fmt::print("{}\n", painted(terminal_, paint::strong, problem_.title));
+    for (const std::string& line : wrap({problem_.title}, terminal_.width))
+      if (!line.empty()) fmt::print("{}\n", painted(terminal_, paint::strong, line));
     const std::vector<std::string> facts = {
         fmt::format("{}, {}, {}", counted(problem_.geometry.nodes(), "node"),
                     counted(problem_.pairs.size(), "pair"), counted(problem_.steps.size(), "step")),

@@ -44,16 +44,41 @@ TEST_CASE("the table shows share, s, load, event, node and side, and that the ke
 
 TEST_CASE("the table fits its terminal, from 40 columns to 160") {
   const scratch_directory dir;
-  dir.write("pb.toml", good_problem);
-  for (const char* columns : {"40", "60", "80", "120", "160"}) {
-    const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "cpp"},
-                                      {"", {{"COLUMNS", columns}}, false});
-    INFO(f.out);
-    CHECK(f.exit == 0);
-    // 59 columns hold a whole row; a narrower terminal folds it, and the words around the table keep to it.
-    CHECK(longest_line(f.out) <= std::max(59UL, std::stoul(columns)));
-    CHECK_THAT(f.out, Contains("make 1"));
+  std::string busy =
+      "title = \"A beam of a long name, with which the narrowest of all terminals has its trouble\"\n"
+      "[beam]\nlength = 2000\nelements = 2000\nEI = 1e9\n[[support]]\nnodes = [1, 2001]\nfix = [\"w\"]\n";
+  for (int node = 990; node <= 1010; ++node) {
+    busy += "[[contact]]\nnode = " + std::to_string(node) +
+            "\nsurface = \"below\"\nface = -1e-5\nstiffness = 1e-9\n";
   }
+  dir.write("busy.toml", busy + "[[step]]\nuniform = -1e-6\n[[step]]\nuniform = 1e-6\n");
+  dir.write("pb.toml", good_problem);
+  const std::string pb7 = std::string(CONTCT_ROOT) + "/reference/problems/pb07-three-gap-supports.toml";
+  for (const char* columns : {"40", "59", "60", "63", "80", "120", "160"}) {
+    for (const std::string& file : {std::string("pb.toml"), std::string("busy.toml"), pb7}) {
+      for (const char* kernels : {"cpp", "fortran,cpp", "fortran-r4,cpp-r4"}) {
+        const finished f = contct_program(dir.path(), {"run", file, "--kernels", kernels},
+                                          {"", {{"COLUMNS", columns}}, false});
+        INFO(columns << " columns\n" << f.out << f.err);
+        CHECK(f.exit == 0);
+        CHECK(longest_line(f.out) <= std::stoul(columns));
+        CHECK_THAT(f.out, Contains("make 1: node"));
+        CHECK(f.out.find(" \n") == std::string::npos);
+      }
+    }
+  }
+}
+
+TEST_CASE("on a narrow terminal an increment's events stand on lines of their own") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml"}, {"", {{"COLUMNS", "40"}}, false});
+  CHECK_THAT(f.out, Contains("  incr  share      s          kernels\n"
+                             "   1.1  0.25       0.25       equal\n"
+                             "    make 1: node 3 below\n"
+                             "   1.2  1          1          equal\n"
+                             "end w = -0.0048372093 at node 3\n"
+                             "    1 of 1 pairs in contact; 14 digits\n"));
 }
 
 TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on a dumb one") {

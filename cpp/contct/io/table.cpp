@@ -13,78 +13,102 @@
 namespace contct {
 namespace {
 
-// increment, share, s and kernels with their blanks; the load where there is room; events get the rest.
+// increment, share, s and kernels, each with the blanks behind it: what every row has.
 constexpr int fixed_width = 6 + 2 + 9 + 2 + 9 + 2 + 7 + 2;
 constexpr int load_width_at_most = 24;
+constexpr int load_width_at_least = 12;
 constexpr int events_width_at_least = 24;
 constexpr std::size_t most_events_shown = 12;
 
-/// A number in at most nine columns, with as many digits as fit.
-std::string short_number(double x) {
+/// "make 1: node 3 below".
+std::string event_words(change what, int pair, const contact_pair& p) {
+  return fmt::format("{} {}: node {} {}", change_name(what), pair + 1, p.node + 1, surface_name(p.surface));
+}
+
+/// Columns that any one event of a problem may take.
+int widest_event(const problem& p) {
+  std::size_t widest = events_width_at_least;
+  for (std::size_t i = 0; i < p.pairs.size(); ++i)
+    widest = std::max(widest, event_words(change::break_, static_cast<int>(i), p.pairs[i]).size());
+  return static_cast<int>(widest);
+}
+
+/// With as many digits, nine at most, as fit.
+std::string deflection_words(double w, std::size_t node, int width) {
+  std::string text;
+  for (int digits = 9; digits >= 3; --digits) {
+    text = fmt::format("w = {:.{}g} at node {}", w, digits, node);
+    if (static_cast<int>(text.size()) <= width) break;
+  }
+  return text;
+}
+
+void trim(std::string& line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+}
+
+}  // namespace
+
+std::string share_words(double x) {
   for (int digits = 8; digits > 1; --digits) {
     std::string text = fmt::format("{:.{}g}", x, digits);
+    if (x < 1.0 && text == "1") return fmt::format("1-{:.0e}", 1.0 - x);
     if (text.size() <= 9) return text;
   }
   return fmt::format("{:.1g}", x);
 }
 
-}  // namespace
-
 table::table(const problem& p, const lockstep* compared, const terminal& t)
-    : problem_(p),
-      loads_(p),
-      compared_(compared),
-      terminal_(t),
-      load_width_(std::min(load_width_at_most, t.width - fixed_width - 2 - events_width_at_least)),
-      events_width_(t.width - fixed_width) {
-  if (load_width_ < 12) load_width_ = 0;  // a narrow terminal: no room for loads
-  if (load_width_ > 0) events_width_ -= load_width_ + 2;
-  events_width_ = std::max(events_width_, 10);
+    : problem_(p), loads_(p), compared_(compared), terminal_(t) {
+  const int room = t.width - fixed_width;
+  const int widest = widest_event(p);
+  events_below_ = room < widest;
+  load_width_ = std::min(load_width_at_most, events_below_ ? room : room - 2 - widest);
+  if (load_width_ < load_width_at_least) load_width_ = 0;
+  indent_ = events_below_ ? 4 : t.width - room + (load_width_ > 0 ? load_width_ + 2 : 0);
 }
 
 void table::print_heading() {
   headed_ = true;
   std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {:<7}  ", "incr", "share", "s", "kernels");
   if (load_width_ > 0) line += fmt::format("{:<{}}  ", "load", load_width_);
-  line += "events";
+  if (!events_below_) line += "events";
+  trim(line);
   fmt::print("{}\n", painted(terminal_, paint::strong, line));
 }
 
 std::string table::agreement() const {
   const std::string word = compared_ == nullptr ? "one" : compared_->last_call_equal() ? "equal" : "DIFFER";
-  std::string padded = fmt::format("{:<7}", word);
-  if (compared_ == nullptr) return padded;
-  return painted(terminal_, compared_->last_call_equal() ? paint::good : paint::bad, padded);
+  const std::string blanks(7 - word.size(), ' ');
+  if (compared_ == nullptr) return word + blanks;
+  return painted(terminal_, compared_->last_call_equal() ? paint::good : paint::bad, word) + blanks;
 }
 
-std::string table::event_words(const event& e) const {
-  const contact_pair& p = problem_.pairs[static_cast<std::size_t>(e.pair)];
-  return fmt::format("{} {}: node {} {}", change_name(e.what), e.pair + 1, p.node + 1,
-                     surface_name(p.surface));
+std::vector<std::string> table::event_lines(const increment& i) const {
+  std::vector<std::string> events;
+  for (std::size_t k = 0; k < std::min(i.events.size(), most_events_shown); ++k) {
+    const event& e = i.events[k];
+    events.push_back(event_words(e.what, e.pair, problem_.pairs[static_cast<std::size_t>(e.pair)]));
+  }
+  if (i.events.size() > most_events_shown)
+    events.push_back(fmt::format("{} more in --json", i.events.size() - most_events_shown));
+  return wrap(events, terminal_.width - indent_);
 }
 
 void table::incremented(const increment& i) {
   if (!headed_) print_heading();
-  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {}", fmt::format("{}.{}", i.step, i.number),
-                                 short_number(i.fraction), short_number(i.s), agreement());
+  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {}  ", fmt::format("{}.{}", i.step, i.number),
+                                 share_words(i.fraction), share_words(i.s), agreement());
   if (load_width_ > 0)
-    line += fmt::format("  {:<{}}", loads_.words_at(i.step, i.fraction, load_width_), load_width_);
-  std::vector<std::string> events;
-  for (std::size_t k = 0; k < std::min(i.events.size(), most_events_shown); ++k) {
-    events.push_back(event_words(i.events[k]));
+    line += fmt::format("{:<{}}  ", loads_.words_at(i.step, i.fraction, load_width_), load_width_);
+  std::vector<std::string> events = event_lines(i);
+  if (!events_below_ && !events.empty()) {
+    line += events.front();
+    events.erase(events.begin());
   }
-  if (i.events.size() > most_events_shown) {
-    events.push_back(fmt::format("and {} more (--json has all)", i.events.size() - most_events_shown));
-  }
-  const std::vector<std::string> lines = wrap(events, events_width_);
-  if (lines.empty()) {
-    line.erase(line.find_last_not_of(' ') + 1);
-  } else {
-    line += "  " + lines[0];
-  }
+  trim(line);
   fmt::print("{}\n", line);
-  const int indent = terminal_.width - events_width_;
-  for (std::size_t k = 1; k < lines.size(); ++k) fmt::print("{:{}}{}\n", "", indent, lines[k]);
+  for (const std::string& more : events) fmt::print("{:{}}{}\n", "", indent_, more);
 }
 
 void table::step_ended(const step_state& s) {
@@ -93,13 +117,14 @@ void table::step_ended(const step_state& s) {
     if (std::abs(s.displacement[i]) > std::abs(s.displacement[largest])) largest = i;
   }
   const auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
-  const std::vector<std::string> items = {
-      fmt::format("w = {:.9g} at node {}", s.displacement[largest], largest / 2 + 1),
-      fmt::format("{} of {} pairs in contact", closed, s.isep.size()),
-      fmt::format("{} digits", digits_left(s.rcond))};
-  const char* label = "   end  ";
-  for (const std::string& line : wrap(items, terminal_.width - 8)) {
-    fmt::print("{}\n", painted(terminal_, paint::quiet, std::exchange(label, "        ") + line));
+  std::string label = events_below_ ? "end " : "   end  ";
+  const int width = terminal_.width - static_cast<int>(label.size());
+  const std::vector<std::string> items = {deflection_words(s.displacement[largest], largest / 2 + 1, width),
+                                          fmt::format("{} of {} pairs in contact", closed, s.isep.size()),
+                                          fmt::format("{} digits", digits_left(s.rcond))};
+  for (const std::string& line : wrap(items, width)) {
+    fmt::print("{}\n", painted(terminal_, paint::quiet, label + line));
+    label.assign(label.size(), ' ');
   }
 }
 

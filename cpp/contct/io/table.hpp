@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "contct/check/lockstep.hpp"
 #include "contct/io/load_text.hpp"
@@ -10,6 +11,10 @@
 #include "contct/path/observer.hpp"
 
 namespace contct {
+
+/// A share in at most nine columns, with as many digits as fit. What is less than 1 is never shown as 1,
+/// which means the whole load: "1-3e-09".
+[[nodiscard]] std::string share_words(double x);
 
 /// Observes a path and prints it as it goes. Place it behind the lockstep that it reports on.
 class table final : public observer {
@@ -23,14 +28,15 @@ class table final : public observer {
  private:
   void print_heading();
   [[nodiscard]] std::string agreement() const;
-  [[nodiscard]] std::string event_words(const event& e) const;
+  [[nodiscard]] std::vector<std::string> event_lines(const increment& i) const;
 
   const problem& problem_;
   load_path loads_;
   const lockstep* compared_;
   terminal terminal_;
-  int load_width_;
-  int events_width_;
+  int load_width_ = 0;         // 0: no room for loads
+  int indent_ = 0;             // of the events
+  bool events_below_ = false;  // on a narrow terminal they stand on lines of their own
   bool headed_ = false;
 };
 

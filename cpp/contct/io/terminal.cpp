@@ -57,14 +57,21 @@ std::string painted(const terminal& t, paint p, std::string_view text) {
 }
 
 std::vector<std::string> wrap(const std::vector<std::string>& items, int width) {
+  const auto columns = static_cast<std::size_t>(width);
   std::vector<std::string> lines;
-  for (const std::string& item : items) {
-    const bool fits = !lines.empty() && static_cast<int>(lines.back().size() + 2 + item.size()) <= width;
-    if (fits) {
+  for (std::string item : items) {
+    if (!lines.empty() && lines.back().size() + 2 + item.size() <= columns) {
       lines.back() += "; " + item;
-    } else {
-      lines.push_back(item);
+      continue;
     }
+    while (item.size() > columns) {
+      std::size_t blank = item.rfind(' ', columns);
+      if (blank == std::string::npos || blank == 0) blank = item.find(' ', columns);
+      if (blank == std::string::npos) break;
+      lines.push_back(item.substr(0, blank));
+      item.erase(0, blank + 1);
+    }
+    lines.push_back(item);
   }
   return lines;
 }

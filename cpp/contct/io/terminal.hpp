@@ -22,7 +22,8 @@ enum class paint { good, bad, quiet, strong };
 /// `text` in colour where `t` has it.
 [[nodiscard]] std::string painted(const terminal& t, paint p, std::string_view text);
 
-/// Items joined by "; ", in lines of at most `width` columns as far as the items allow.
+/// Items joined by "; ", in lines of at most `width` columns as far as the words allow: an item longer
+/// than a line goes on in the next.
 [[nodiscard]] std::vector<std::string> wrap(const std::vector<std::string>& items, int width);
 
 }  // namespace contct

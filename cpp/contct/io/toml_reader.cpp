@@ -177,14 +177,23 @@ std::vector<double> table_reader::reals(std::string_view key, const real_range& 
 table_reader table_reader::table(std::string_view key) const {
   const toml::node& node = required(key, "a table");
   const toml::table* table = node.as_table();
-  if (table == nullptr) refuse(node, key, found_words(node), "a table");
+  if (table == nullptr) {
+    const bool doubled = where_.empty() && node.is_array_of_tables();
+    refuse(node, key, found_words(node),
+           doubled ? fmt::format("a table, [{}] in single brackets", key) : "a table");
+  }
   return {*table, full_name(key), file_};
 }
 
 std::vector<table_reader> table_reader::tables(std::string_view key) const {
   const toml::node& node = required(key, "at least one table");
   const toml::array* array = node.as_array();
-  if (array == nullptr || array->empty()) refuse(node, key, found_words(node), "at least one table");
+  if (array == nullptr || array->empty()) {
+    const bool single = where_.empty() && node.is_table();
+    refuse(node, key, found_words(node),
+           single ? fmt::format("at least one table, each under [[{}]] in double brackets", key)
+                  : "an array of at least one table");
+  }
   std::vector<table_reader> readers;
   readers.reserve(array->size());
   for (std::size_t i = 0; i < array->size(); ++i) {
