@@ -47,6 +47,19 @@ TEST_CASE("a beam of 100,000 nodes is read, solved and written in under 200 MB")
   for (const auto& pair : result["steps"][1]["pairs"]) CHECK(pair["state"] == "separated");
 }
 
+TEST_CASE("two hundred thousand beds of one node each are as quick as one bed of them all") {
+  // Something done for every node, for every bed, would take minutes.
+  const scratch_directory dir;
+  std::string text = "[beam]\nlength = 200000\nelements = 200000\nEI = 1\n";
+  for (int node = 1; node <= 200001; ++node)
+    text += "[[bed]]\nmodulus = 1\nface = 0\nnodes = [" + std::to_string(node) + "]\n";
+  dir.write("beds.toml", text + "[[step]]\nuniform = -1\n");
+  const finished f = contct_program(dir.path(), {"run", "beds.toml", "--kernels", "cpp"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("200001 of 200001 pairs in contact"));
+}
+
 TEST_CASE("a single span of 5,000 elements has lost its digits, and says so") {
   const scratch_directory dir;
   dir.write("span.toml",

@@ -113,6 +113,20 @@ TEST_CASE("loads: uniform parts, polynomials and points add up in one step") {
   CHECK(l.points.size() == 3);
 }
 
+TEST_CASE("loads on the same elements are one load, their sum, and a list of all elements is all") {
+  const problem p = parse_problem(
+      with("point = [ { node = 3, w = -60.0 } ]",
+           "uniform = [ { value = -3, elements = [2] }, { value = -1 }, { polynomial = [1, 2], elements = "
+           "\"2..2\" }, { value = -4, elements = \"all\" }, { value = 0.5, elements = [2, 1] } ]"),
+      "pb.toml");
+  const load& l = p.steps[0];
+  REQUIRE(l.distributed.size() == 2);
+  CHECK(l.distributed[0].elements == std::vector<int>{1});
+  CHECK(l.distributed[0].polynomial == std::vector<double>{-2, 2});
+  CHECK(l.distributed[1].elements.empty());
+  CHECK(l.distributed[1].polynomial == std::vector<double>{-4.5});
+}
+
 TEST_CASE("a pair on a fixed dof is taken with a warning: the listing may toggle it") {
   const problem p = parse_problem(with("node = 3\nsurface", "node = 1\nsurface"), "pb.toml");
   REQUIRE(p.warnings.size() == 1);

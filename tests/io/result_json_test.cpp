@@ -68,6 +68,28 @@ TEST_CASE("events carry pair, node, side and change, and their load in absolute 
   CHECK(i["fraction"].get<double>() == Approx(0.25).epsilon(1e-12));
 }
 
+TEST_CASE(
+    "an event's load leaves its parts out when they are many, a long list of elements counting as many") {
+  const auto load_on = [](const std::string& elements) {
+    const auto r = result_of(
+        "[beam]\nlength = 80\nelements = 80\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", "
+        "\"theta\"]\n[[step]]\nuniform = [ { value = -1, elements = " +
+        elements + " } ]\n");
+    return r["steps"][0]["increments"][0]["load"];
+  };
+  const auto every_second = [](int count) {
+    std::string list = "[";
+    for (int i = 0; i < count; ++i) list += std::to_string(2 * i + 1) + ", ";
+    return list + "]";
+  };
+  CHECK(load_on("\"all\"")["uniform"][0]["elements"] == "all");
+  CHECK(load_on("\"2..80\"")["uniform"][0]["elements"] == "2..80");
+  CHECK(load_on(every_second(32))["uniform"][0]["elements"].size() == 32);
+  const auto many = load_on(every_second(33));
+  CHECK_FALSE(many.contains("uniform"));
+  CHECK(many["force"].get<double>() == Approx(-33.0));
+}
+
 TEST_CASE("forces balance: loads, pairs and reactions add up to nothing") {
   const auto r = result_of(good_problem);
   const auto& step = r["steps"][0];

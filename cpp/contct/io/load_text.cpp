@@ -12,11 +12,23 @@ using json = nlohmann::ordered_json;
 constexpr std::size_t most_parts = 32;
 const load nothing;
 
+/// Elements that follow one another, each once.
+bool is_run(const std::vector<int>& elements) {
+  return elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
+         std::is_sorted(elements.begin(), elements.end());
+}
+
+/// How much there is to write: a list of scattered elements counts by its length.
+std::size_t parts_of(const load& l) {
+  std::size_t parts = l.points.size();
+  for (const distributed_load& d : l.distributed)
+    parts += d.elements.empty() || is_run(d.elements) ? 1 : d.elements.size();
+  return parts;
+}
+
 json elements_json(const std::vector<int>& elements) {
   if (elements.empty()) return "all";
-  const bool run = elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
-                   std::is_sorted(elements.begin(), elements.end());
-  if (run) return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
+  if (is_run(elements)) return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
   json list = json::array();
   for (const int e : elements) list.push_back(e + 1);
   return list;
@@ -36,8 +48,11 @@ resultant resultant_of(const beam& b, const load& l) {
   return r;
 }
 
-load_path::load_path(const problem& p) : problem_(p), totals_(1) {
-  for (const load& l : p.steps) totals_.push_back(resultant_of(p.geometry, l));
+load_path::load_path(const problem& p) : problem_(p), totals_(1), parts_(1) {
+  for (const load& l : p.steps) {
+    totals_.push_back(resultant_of(p.geometry, l));
+    parts_.push_back(parts_of(l));
+  }
 }
 
 const load& load_path::before(int step) const {
@@ -55,8 +70,8 @@ resultant load_path::resultant_at(int step, double fraction) const {
 }
 
 bool load_path::has_many_parts(int step) const {
-  const auto parts = [](const load& l) { return l.points.size() + l.distributed.size(); };
-  return std::max(parts(before(step)), parts(after(step))) > most_parts;
+  const auto at = static_cast<std::size_t>(step);
+  return std::max(parts_[at - 1], parts_[at]) > most_parts;
 }
 
 nlohmann::ordered_json load_path::json_at(int step, double fraction) const {

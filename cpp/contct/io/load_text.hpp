@@ -27,7 +27,8 @@ class load_path {
   [[nodiscard]] load at(int step, double fraction) const;
 
   /// As a problem file's `uniform` and `point`, with the resultant: an event's load in absolute
-  /// terms. The parts are left out when there are more than 32 of them.
+  /// terms. The parts are left out when there are more than 32 of them, where each element of a
+  /// scattered list counts: they would be written again at every event.
   [[nodiscard]] nlohmann::ordered_json json_at(int step, double fraction) const;
 
   /// A few words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load; with
@@ -51,7 +52,8 @@ class load_path {
   [[nodiscard]] bool has_many_parts(int step) const;
 
   const problem& problem_;
-  std::vector<resultant> totals_;  // at the start, then at the end of each step
+  std::vector<resultant> totals_;   // at the start, then at the end of each step
+  std::vector<std::size_t> parts_;  // how many things there are to write, likewise
 };
 
 }  // namespace contct

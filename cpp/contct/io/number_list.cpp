@@ -4,7 +4,7 @@
 
 #include <charconv>
 #include <numeric>
-#include <utility>
+#include <unordered_set>
 
 namespace contct {
 namespace {
@@ -43,11 +43,11 @@ std::vector<int> read_numbers(const table_reader& table, std::string_view key, i
   const toml::array* array = node.as_array();
   if (array == nullptr || array->empty()) table.refuse(node, key, found_words(node), allowed);
   std::vector<int> numbers;
-  std::vector<char> seen(static_cast<std::size_t>(count));
+  std::unordered_set<int> seen;  // as long as the list, which may be one of very many short ones
   for (std::size_t i = 0; i < array->size(); ++i) {
     const toml::node& entry = *array->get(i);
     const int number = table.integer_of(entry, indexed(key, i), 1, count) - 1;
-    if (std::exchange(seen[static_cast<std::size_t>(number)], 1) != 0) {
+    if (!seen.insert(number).second) {
       table.refuse(entry, indexed(key, i), found_words(entry) + ", a second time", allowed);
     }
     numbers.push_back(number);

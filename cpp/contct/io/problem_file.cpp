@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
 
 #include "contct/io/input_text.hpp"
 #include "contct/io/load_text.hpp"
@@ -200,13 +202,13 @@ class problem_reader {
     t.allow_only({"modulus", "surface", "face", "state", "nodes"});
     const double modulus = t.real("modulus", positive_real);
     contact_pair p = read_face(t, face_below);
-    const std::vector<double> lengths = tributary_lengths(problem_.geometry);
+    if (lengths_.empty()) lengths_ = tributary_lengths(problem_.geometry);
     const std::vector<int> at = t.has("nodes") ? read_numbers(t, "nodes", nodes()) : all_nodes();
     const std::size_t before = problem_.pairs.size();
     for (const int node : at) {
       if (fixed_[static_cast<std::size_t>(2 * node)] != 0) continue;
       p.node = node;
-      p.stiffness = modulus * lengths[static_cast<std::size_t>(node)];
+      p.stiffness = modulus * lengths_[static_cast<std::size_t>(node)];
       if (!std::isnormal(p.stiffness)) {
         t.refuse(fmt::format("a stiffness of {:g} at node {}", p.stiffness, node + 1),
                  "modulus times tributary length within the range of double precision");
@@ -245,7 +247,22 @@ class problem_reader {
       return;
     }
     if (!node.is_array()) t.refuse(node, "uniform", found_words(node), "a number, or an array of tables");
-    for (const table_reader& part : t.tables("uniform")) l.distributed.push_back(read_distributed(part));
+    // Parts on the same elements become one: thousands on "all" would each be a pass over the beam.
+    std::map<std::vector<int>, std::size_t> place;
+    for (const table_reader& table : t.tables("uniform")) {
+      distributed_load part = read_distributed(table);
+      const auto [at, is_new] = place.try_emplace(part.elements, l.distributed.size());
+      if (is_new) {
+        l.distributed.push_back(std::move(part));
+      } else {
+        add_to(l.distributed[at->second].polynomial, part.polynomial);
+      }
+    }
+  }
+
+  static void add_to(std::vector<double>& sum, const std::vector<double>& polynomial) {
+    sum.resize(std::max(sum.size(), polynomial.size()), 0.0);
+    for (std::size_t i = 0; i < polynomial.size(); ++i) sum[i] += polynomial[i];
   }
 
   [[nodiscard]] distributed_load read_distributed(const table_reader& t) const {
@@ -260,7 +277,9 @@ class problem_reader {
       t.refuse(node, "polynomial", found_words(node),
                fmt::format("at most {} coefficients", highest_degree + 1));
     }
-    if (t.has("elements")) d.elements = read_numbers(t, "elements", problem_.geometry.elements());
+    const int elements = problem_.geometry.elements();
+    if (t.has("elements")) d.elements = read_numbers(t, "elements", elements);
+    if (static_cast<int>(d.elements.size()) == elements) d.elements.clear();  // each once: all of them
     return d;
   }
 
@@ -279,7 +298,8 @@ class problem_reader {
   std::string_view file_;
   table_reader top_;
   problem problem_;
-  std::vector<char> fixed_;  // [dofs]
+  std::vector<char> fixed_;      // [dofs]
+  std::vector<double> lengths_;  // tributary lengths [nodes], once a bed has asked for them
 };
 
 }  // namespace
