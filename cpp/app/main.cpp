@@ -24,10 +24,12 @@ std::string command_names(const CLI::App& program) {
 std::string usage_words(const CLI::App& program, const CLI::ParseError& error) {
   if (!program.get_subcommands().empty()) return error.what();
   const std::vector<std::string> unknown = program.remaining();
-  return fmt::format("{}; the commands are: {}",
-                     unknown.empty() ? "a command is missing"
-                                     : fmt::format("\"{}\" is no command of contct", unknown.front()),
-                     command_names(program));
+  std::string words = "a command is missing";
+  if (!unknown.empty()) {
+    const bool option = unknown.front().rfind('-', 0) == 0;
+    words = fmt::format("\"{}\" is no {} of contct", unknown.front(), option ? "option" : "command");
+  }
+  return fmt::format("{}; the commands are: {}", words, command_names(program));
 }
 
 contct::exit_status run_program(int argc, char** argv) {

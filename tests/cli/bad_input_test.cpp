@@ -98,6 +98,7 @@ TEST_CASE("wrong usage: exit 2, and what there is") {
   refused({}, "a command is missing; the commands are: run, kernels");
   refused({"walk"}, "\"walk\" is no command of contct; the commands are: run, kernels");
   refused({"walk", "good.toml"}, "\"walk\"");
+  refused({"--fast"}, "\"--fast\" is no option of contct");
   refused({"run"}, "FILE");
   refused({"run", "good.toml", "--josn", "x"}, "--josn");
   refused({"run", "good.toml", "--kernels", "fortran,basic"}, "fortran-r4");
