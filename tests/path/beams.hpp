@@ -88,7 +88,7 @@ inline beam_problem cantilever_over_a_stop() {
 /// A free beam lying on `nodes` springs, all in contact.
 inline beam_problem free_beam_on_springs(double length, int elements, double EI, double modulus) {
   beam_problem p{even_beam(length, elements, EI), {}, {}, {}};
-  const auto lengths = tributary_lengths(p.geometry);
+  const auto lengths = tributary_shares(p.geometry);
   for (int i = 0; i <= elements; ++i)
     p.pairs.push_back({i, -1, 0.0, modulus * lengths[static_cast<std::size_t>(i)], true});
   return p;

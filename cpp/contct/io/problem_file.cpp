@@ -202,7 +202,7 @@ class problem_reader {
     t.allow_only({"modulus", "surface", "face", "state", "nodes"});
     const double modulus = t.real("modulus", positive_real);
     contact_pair p = read_face(t, face_below);
-    if (lengths_.empty()) lengths_ = tributary_lengths(problem_.geometry);
+    if (lengths_.empty()) lengths_ = tributary_shares(problem_.geometry);
     const std::vector<int> at = t.has("nodes") ? read_numbers(t, "nodes", nodes()) : all_nodes();
     const std::size_t before = problem_.pairs.size();
     for (const int node : at) {

@@ -104,7 +104,7 @@ void result_json::step_ended(const step_state& s) {
   out_.write(fmt::format("      \"displacement\": {},\n",
                          json(std::vector<double>(s.displacement.begin(), s.displacement.end())).dump()));
   write_pairs(s);
-  write_reactions(s, total, forces);
+  write_reactions(s, total);
   write_list("elements", forces.size(), [&](std::size_t e) {
     return json{{"element", e + 1}, {"shear", forces[e].shear}, {"moment", forces[e].moment}}.dump();
   });
@@ -127,10 +127,8 @@ void result_json::write_pairs(const step_state& s) {
   });
 }
 
-void result_json::write_reactions(const step_state& s, const load& total,
-                                  const std::vector<element_forces>& forces) {
-  const std::vector<double> values =
-      reactions(problem_.geometry, total, problem_.supports, forces, s.displacement);
+void result_json::write_reactions(const step_state& s, const load& total) {
+  const std::vector<double> values = reactions(problem_.geometry, total, problem_.supports, s.displacement);
   write_list("reactions", values.size(), [&](std::size_t i) {
     const support& at = problem_.supports[i];
     return json{{"node", at.node + 1}, {"dof", beam_dof_names[at.dof]}, {"value", values[i]}}.dump();

@@ -72,7 +72,7 @@ void measurement::step_ended(const step_state& s) {
   record.u.assign(s.displacement.begin(), s.displacement.end());
   record.isep.assign(s.isep.begin(), s.isep.end());
   record.forces = forces_in_elements(problem_.geometry, total, s.displacement);
-  record.reactions = reactions(problem_.geometry, total, problem_.supports, record.forces, s.displacement);
+  record.reactions = reactions(problem_.geometry, total, problem_.supports, s.displacement);
   steps_.push_back(std::move(record));
 }
 

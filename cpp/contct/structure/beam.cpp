@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "contct/structure/gauss.hpp"
+#include "contct/structure/reactions.hpp"
+#include "contct/structure/tributary.hpp"
 
 namespace contct {
 namespace {
@@ -79,19 +81,17 @@ void assemble_elements(const beam& b, band_matrix& k) {
   }
 }
 
-/// A fixed dof keeps its place: its row and column become those of the identity.
-void fix(band_matrix& k, int dof) {
-  for (int i = std::max(0, dof - k.subdiagonals()); i <= std::min(k.order() - 1, dof + k.subdiagonals());
-       ++i) {
-    k.at(std::max(i, dof), std::min(i, dof)) = i == dof ? 1.0 : 0.0;
-  }
-}
-
-/// What the beam's two rigid motions, up and turn, do at a dof of a node.
-rigid_row rigid_row_at(const beam& b, int node, int dof) {
+/// What the beam's two rigid motions do at each dof: up by 1, and a turn about the middle that lifts
+/// the right end by 1.
+std::vector<rigid_row> rigid_rows_of(const beam& b) {
   const double half = (b.x.back() - b.x.front()) / 2;
-  const double from_middle = (b.x[static_cast<std::size_t>(node)] - b.x.front()) / half - 1;
-  return dof == 0 ? rigid_row{1, from_middle, 0} : rigid_row{0, 1, 0};
+  std::vector<rigid_row> rows;
+  rows.reserve(static_cast<std::size_t>(b.dofs()));
+  for (const double x : b.x) {
+    rows.push_back({1, (x - b.x.front()) / half - 1, 0});
+    rows.push_back({0, 1 / half, 0});
+  }
+  return rows;
 }
 
 }  // namespace
@@ -100,23 +100,10 @@ linear_structure build(const beam& b, std::span<const support> supports, std::ve
   linear_structure s;
   s.dofs_per_node = beam::dofs_per_node;
   s.stiffness = band_matrix(b.dofs(), 3);
-  s.fixed.assign(static_cast<std::size_t>(b.dofs()), 0);
   assemble_elements(b, s.stiffness);
-  for (const support& p : supports) {
-    const int dof = 2 * p.node + p.dof;
-    if (p.fixed) {
-      s.fixed[static_cast<std::size_t>(dof)] = 1;
-    } else {
-      s.stiffness.add(dof, dof, p.spring);
-    }
-  }
-  for (int dof = 0; dof < b.dofs(); ++dof) {
-    if (s.fixed[static_cast<std::size_t>(dof)] != 0) fix(s.stiffness, dof);
-  }
-  s.pairs = std::move(pairs);
   s.rigid_motions = 2;
-  for (const support& p : supports) s.held_by_supports.push_back(rigid_row_at(b, p.node, p.dof));
-  for (const contact_pair& p : s.pairs) s.held_by_pairs.push_back(rigid_row_at(b, p.node, 0));
+  s.rigid_rows = rigid_rows_of(b);
+  put_on_supports(s, supports, std::move(pairs));
   return s;
 }
 
@@ -152,36 +139,19 @@ std::vector<element_forces> forces_in_elements(const beam& b, const load& l, std
 }
 
 std::vector<double> reactions(const beam& b, const load& l, std::span<const support> supports,
-                              std::span<const element_forces> forces, std::span<const double> u) {
-  std::vector<double> points(static_cast<std::size_t>(b.dofs()), 0.0);
-  for (const point_load& p : l.points) points[static_cast<std::size_t>(2 * p.node + p.dof)] += p.value;
-  std::vector<double> values;
-  std::set<int> reacted;
-  for (const support& s : supports) {
-    const auto dof = static_cast<std::size_t>(2 * s.node + s.dof);
-    if (!s.fixed) {
-      values.push_back(-s.spring * u[dof]);
-      continue;
-    }
-    double reaction = 0.0;
-    if (reacted.insert(static_cast<int>(dof)).second) {
-      reaction = -points[dof];
-      const auto n = static_cast<std::size_t>(s.node);
-      if (s.node < b.elements()) reaction += s.dof == 0 ? forces[n].shear[0] : -forces[n].moment[0];
-      if (s.node > 0) reaction += s.dof == 0 ? -forces[n - 1].shear[1] : forces[n - 1].moment[1];
-    }
-    values.push_back(reaction);
-  }
-  return values;
+                              std::span<const double> u) {
+  const std::vector<element_forces> forces = forces_in_elements(b, l, u);
+  return reactions_of(supports, l, u, beam::dofs_per_node, [&](int node, int dof) {
+    const auto n = static_cast<std::size_t>(node);
+    double need = 0.0;
+    if (node < b.elements()) need += dof == 0 ? forces[n].shear[0] : -forces[n].moment[0];
+    if (node > 0) need += dof == 0 ? -forces[n - 1].shear[1] : forces[n - 1].moment[1];
+    return need;
+  });
 }
 
-std::vector<double> tributary_lengths(const beam& b) {
-  std::vector<double> lengths(b.x.size(), 0.0);
-  for (int e = 0; e < b.elements(); ++e) {
-    lengths[static_cast<std::size_t>(e)] += b.length_of(e) / 2;
-    lengths[static_cast<std::size_t>(e) + 1] += b.length_of(e) / 2;
-  }
-  return lengths;
+std::vector<double> tributary_shares(const beam& b) {
+  return tributary_lengths(b.x);
 }
 
 }  // namespace contct

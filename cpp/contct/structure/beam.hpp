@@ -1,6 +1,7 @@
 // Straight beams of Hermite elements: two dofs a node, w (up) and theta = dw/dx.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct beam {
   std::vector<double> EI;  ///< bending stiffness of each element, positive [nodes - 1]
 
   static constexpr int dofs_per_node = 2;
+  static constexpr std::array<const char*, 2> dof_names = {"w", "theta"};
   [[nodiscard]] int nodes() const { return static_cast<int>(x.size()); }
   [[nodiscard]] int elements() const { return nodes() - 1; }
   [[nodiscard]] int dofs() const { return nodes() * dofs_per_node; }
@@ -43,14 +45,11 @@ void add_consistent_loads(const beam& b, const load& l, std::span<double> f);
 [[nodiscard]] std::vector<element_forces> forces_in_elements(const beam& b, const load& l,
                                                              std::span<const double> u);
 
-/// The force (or moment) on the structure by each support, in the order of `supports`: minus
-/// spring times displacement for an elastic one; for a fixed one, what the elements beside it
-/// need beyond the point loads at its dof. A dof fixed twice gives its reaction to the first.
+/// The force (or moment) on the structure by each support: see reactions_of.
 [[nodiscard]] std::vector<double> reactions(const beam& b, const load& l, std::span<const support> supports,
-                                            std::span<const element_forces> forces,
                                             std::span<const double> u);
 
-/// Tributary length of each node: half of each element beside it [nodes].
-[[nodiscard]] std::vector<double> tributary_lengths(const beam& b);
+/// Tributary length of each node [nodes].
+[[nodiscard]] std::vector<double> tributary_shares(const beam& b);
 
 }  // namespace contct

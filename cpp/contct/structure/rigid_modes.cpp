@@ -1,5 +1,6 @@
 #include "contct/structure/rigid_modes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace contct {
@@ -17,8 +18,11 @@ double dot(const rigid_row& a, const rigid_row& b) {
 
 void rigid_rank::hold(const rigid_row& row) {
   if (rank_ == 3) return;
-  rigid_row rest = row;
-  const double size = std::sqrt(dot(row, row));
+  // Only its direction counts; a slope's row, 1 over a length, may be of any size.
+  const double largest = std::max({std::abs(row[0]), std::abs(row[1]), std::abs(row[2])});
+  if (!(largest > 0.0)) return;
+  rigid_row rest = {row[0] / largest, row[1] / largest, row[2] / largest};
+  const double size = std::sqrt(dot(rest, rest));
   for (int pass = 0; pass < 2; ++pass) {  // twice is enough for Gram-Schmidt
     for (int k = 0; k < rank_; ++k) {
       const rigid_row& b = basis_[static_cast<std::size_t>(k)];

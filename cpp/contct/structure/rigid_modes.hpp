@@ -6,8 +6,9 @@
 
 namespace contct {
 
-/// What the rigid motions of a structure do at one dof: one number a motion, in coordinates
-/// scaled to the structure's size. A beam has two motions (up, turn), a plate three.
+/// What the rigid motions of a structure do at one dof: one number a motion. A beam has two motions
+/// (up by 1; a turn about the middle that lifts its end by 1), a plate three (up, along x, along y).
+/// u = q0 row[0] + q1 row[1] + q2 row[2] at every dof is a rigid motion.
 using rigid_row = std::array<double, 3>;
 
 /// How many independent rigid motions the dofs in `held` stop: the rank of their rows.

@@ -1,6 +1,7 @@
 // A linear elastic structure with its candidate contact pairs, as the path sees it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "contct/structure/band_matrix.hpp"
@@ -46,6 +47,7 @@ struct linear_structure {
   std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
 
   int rigid_motions = 0;                    ///< 2 for a beam, 3 for a plate
+  std::vector<rigid_row> rigid_rows;        ///< [dofs] what the rigid motions do there
   std::vector<rigid_row> held_by_supports;  ///< a row for each dof that a support holds
   std::vector<rigid_row> held_by_pairs;     ///< [pairs] the row that a closed pair holds
 
@@ -58,5 +60,9 @@ struct linear_structure {
     return pairs[static_cast<std::size_t>(i)].node * dofs_per_node + deflection;
   }
 };
+
+/// Put an assembled structure on its supports and give it its pairs: springs and fixed dofs go into
+/// the stiffness, and what is held is taken from `rigid_rows`.
+void put_on_supports(linear_structure& s, std::span<const support> supports, std::vector<contact_pair> pairs);
 
 }  // namespace contct
