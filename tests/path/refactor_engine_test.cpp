@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "catch.hpp"
+#include "contct/structure/plate.hpp"
 #include "path/beams.hpp"
 
 using namespace contct;
@@ -53,4 +54,46 @@ TEST_CASE("a stiffness matrix without a factor is an exception, not a number") {
   refactor_engine engine(s);
   std::vector<double> d_star(4);
   CHECK_THROWS_AS(engine.respond({std::vector<double>(4, 1.0), 1.0}, d_star), no_factor);
+}
+
+TEST_CASE(
+    "whichever way a plate is numbered inside, dofs, supports, pairs and forces keep their own numbers") {
+  // The same plate lying and standing: 5 by 2 elements numbered along y, 2 by 5 in its own order.
+  const plate lying{{0, 1, 2, 3, 4, 5}, {0, 0.5, 1.5}, 2.0, 0.3};
+  const plate standing{lying.y, lying.x, lying.D, lying.nu};
+  const auto place = [&](const plate& p, int i, int j) {
+    return &p == &lying ? p.node_at(i, j) : p.node_at(j, i);
+  };
+  std::vector<std::vector<double>> answers;
+  for (const plate* p : {&lying, &standing}) {
+    const int along = p == &lying ? 1 : 2;  // the slope along the long side
+    const std::vector<support> supports = {{place(*p, 0, 0), 0, true},
+                                           {place(*p, 0, 2), 0, true},
+                                           {place(*p, 0, 1), along, true},
+                                           {place(*p, 5, 0), 0, false, 3.0}};
+    const linear_structure s =
+        build(*p, supports, {{place(*p, 5, 2), -1, 0.0, 2.0, false}, {place(*p, 2, 1), -1, 0.0, 5.0, true}});
+    CHECK(s.rows.empty() == (p == &standing));
+    CHECK(s.stiffness.subdiagonals() == 14);
+    refactor_engine engine(s);
+    engine.switch_spring(0, true);
+    std::vector<double> increment(static_cast<std::size_t>(p->dofs()), 0.0);
+    increment[static_cast<std::size_t>(3 * place(*p, 3, 2))] = -1.0;
+    increment[static_cast<std::size_t>(3 * place(*p, 4, 0) + along)] = 0.5;
+    std::vector<double> d_star(increment.size());
+    std::vector<double> u(increment.size());
+    engine.respond({increment, 1.0}, d_star);
+    engine.recover(increment, std::vector<double>{0.25, -0.125}, u);
+    std::vector<double> answer;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const auto at = static_cast<std::size_t>(3 * place(*p, i, j));
+        answer.insert(answer.end(), {d_star[at], d_star[at + static_cast<std::size_t>(along)], u[at]});
+      }
+    }
+    CHECK(d_star[static_cast<std::size_t>(3 * place(*p, 0, 2))] == 0.0);
+    answers.push_back(answer);
+  }
+  for (std::size_t i = 0; i < answers[0].size(); ++i)
+    CHECK(answers[0][i] == Approx(answers[1][i]).epsilon(1e-10).margin(1e-13));
 }

@@ -7,7 +7,10 @@
 namespace contct {
 
 refactor_engine::refactor_engine(const linear_structure& s)
-    : structure_(s), closed_(s.pairs.size()), work_(s.stiffness.order(), s.stiffness.subdiagonals()) {
+    : structure_(s),
+      closed_(s.pairs.size()),
+      work_(s.stiffness.order(), s.stiffness.subdiagonals()),
+      ordered_(s.rows.size()) {
   for (std::size_t i = 0; i < s.pairs.size(); ++i) closed_[i] = s.pairs[i].closed ? 1 : 0;
 }
 
@@ -18,8 +21,7 @@ void refactor_engine::switch_spring(int pair, bool closed) {
 void refactor_engine::respond(const residual_load& residual, std::span<double> d_star) {
   factor_now();
   for (std::size_t i = 0; i < d_star.size(); ++i) d_star[i] = residual.share * residual.increment[i];
-  hold_fixed_dofs(d_star);
-  solve_with(work_, d_star);
+  solve(d_star);
 }
 
 void refactor_engine::recover(std::span<const double> load, std::span<const double> pair_forces,
@@ -29,8 +31,7 @@ void refactor_engine::recover(std::span<const double> load, std::span<const doub
   for (std::size_t i = 0; i < pair_forces.size(); ++i) {
     u[static_cast<std::size_t>(structure_.dof_of_pair(static_cast<int>(i)))] += pair_forces[i];
   }
-  hold_fixed_dofs(u);
-  solve_with(work_, u);
+  solve(u);
 }
 
 double refactor_engine::reciprocal_condition() {
@@ -45,7 +46,7 @@ void refactor_engine::assemble() {
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const int dof = structure_.dof_of_pair(static_cast<int>(i));
     if (closed_[i] != 0 && structure_.fixed[static_cast<std::size_t>(dof)] == 0) {
-      work_.add(dof, dof, structure_.pairs[i].stiffness);
+      work_.add(structure_.row_of(dof), structure_.row_of(dof), structure_.pairs[i].stiffness);
     }
   }
 }
@@ -59,10 +60,18 @@ void refactor_engine::factor_now() {
   }
 }
 
-void refactor_engine::hold_fixed_dofs(std::span<double> right_hand_side) const {
-  for (std::size_t i = 0; i < right_hand_side.size(); ++i) {
-    if (structure_.fixed[i] != 0) right_hand_side[i] = 0.0;
+void refactor_engine::solve(std::span<double> x) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (structure_.fixed[i] != 0) x[i] = 0.0;
   }
+  const std::vector<int>& rows = structure_.rows;
+  if (rows.empty()) {
+    solve_with(work_, x);
+    return;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) ordered_[static_cast<std::size_t>(rows[i])] = x[i];
+  solve_with(work_, ordered_);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = ordered_[static_cast<std::size_t>(rows[i])];
 }
 
 }  // namespace contct

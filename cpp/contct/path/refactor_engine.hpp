@@ -20,11 +20,13 @@ class refactor_engine final : public stiffness_engine {
  private:
   void assemble();
   void factor_now();
-  void hold_fixed_dofs(std::span<double> right_hand_side) const;
+  /// K x = right-hand side, in place, by the factor at hand; fixed dofs stay where they are.
+  void solve(std::span<double> x);
 
   const linear_structure& structure_;
   std::vector<char> closed_;  // [pairs]
   band_matrix work_;
+  std::vector<double> ordered_;  // a right-hand side in the order of the rows, where that is another
 };
 
 }  // namespace contct
