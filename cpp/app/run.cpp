@@ -179,7 +179,7 @@ class run {
     for (const std::string& line : wrap({problem_.title}, terminal_.width))
       if (!line.empty()) fmt::print("{}\n", painted(terminal_, paint::strong, line));
     const std::vector<std::string> facts = {
-        fmt::format("{}, {}, {}", counted(problem_.geometry.nodes(), "node"),
+        fmt::format("{}, {}, {}", counted(nodes(problem_.geometry), "node"),
                     counted(problem_.pairs.size(), "pair"), counted(problem_.steps.size(), "step")),
         fmt::format("kernels {}", fmt::join(options_.kernels, ", ")), "engine " + options_.engine};
     for (const std::string& line : wrap(facts, terminal_.width)) fmt::print("{}\n", line);

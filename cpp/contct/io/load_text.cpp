@@ -36,19 +36,7 @@ json elements_json(const std::vector<int>& elements) {
 
 }  // namespace
 
-resultant resultant_of(const beam& b, const load& l) {
-  // The consistent vector has the same resultant as the load itself.
-  std::vector<double> f(static_cast<std::size_t>(b.dofs()), 0.0);
-  add_consistent_loads(b, l, f);
-  resultant r;
-  for (std::size_t node = 0; node < b.x.size(); ++node) {
-    r.force += f[2 * node];
-    r.moment += f[2 * node] * b.x[node] + f[2 * node + 1];
-  }
-  return r;
-}
-
-load_path::load_path(const problem& p) : problem_(p), totals_(1), parts_(1) {
+load_path::load_path(const problem& p) : problem_(p), totals_{resultant_of(p.geometry, nothing)}, parts_(1) {
   for (const load& l : p.steps) {
     totals_.push_back(resultant_of(p.geometry, l));
     parts_.push_back(parts_of(l));
@@ -66,7 +54,9 @@ load load_path::at(int step, double fraction) const {
 resultant load_path::resultant_at(int step, double fraction) const {
   const resultant& a = totals_[static_cast<std::size_t>(step - 1)];
   const resultant& b = totals_[static_cast<std::size_t>(step)];
-  return {a.force + fraction * (b.force - a.force), a.moment + fraction * (b.moment - a.moment)};
+  resultant r{a.force + fraction * (b.force - a.force), a.moments};
+  for (std::size_t i = 0; i < r.moments.size(); ++i) r.moments[i] += fraction * (b.moments[i] - a.moments[i]);
+  return r;
 }
 
 bool load_path::has_many_parts(int step) const {
@@ -76,7 +66,10 @@ bool load_path::has_many_parts(int step) const {
 
 nlohmann::ordered_json load_path::json_at(int step, double fraction) const {
   const resultant r = resultant_at(step, fraction);
-  json out = {{"force", r.force}, {"moment", r.moment}};
+  const auto names = dof_names(problem_.geometry);
+  json out = {{"force", r.force}};
+  for (std::size_t i = 0; i < r.moments.size(); ++i)
+    out[r.moments.size() == 1 ? "moment" : fmt::format("moment_{}", names[i + 1])] = r.moments[i];
   if (has_many_parts(step)) return out;
   const load l = at(step, fraction);
   for (const distributed_load& d : l.distributed) {
@@ -90,15 +83,16 @@ nlohmann::ordered_json load_path::json_at(int step, double fraction) const {
     out["uniform"].push_back(std::move(part));
   }
   for (const point_load& p : l.points) {
-    out["point"].push_back({{"node", p.node + 1}, {beam_dof_names[p.dof], p.value}});
+    out["point"].push_back({{"node", p.node + 1}, {names[static_cast<std::size_t>(p.dof)], p.value}});
   }
   return out;
 }
 
-load_path::words load_path::words_for(const load& l, const resultant& r) {
+load_path::words load_path::words_for(const load& l, const resultant& r) const {
   if (l.points.size() == 1 && l.distributed.empty()) {
     const point_load& p = l.points[0];
-    return {fmt::format("{} ", beam_dof_names[p.dof]), p.value, fmt::format(" at node {}", p.node + 1)};
+    return {fmt::format("{} ", dof_names(problem_.geometry)[static_cast<std::size_t>(p.dof)]), p.value,
+            fmt::format(" at node {}", p.node + 1)};
   }
   if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1) {
     return {"uniform ", l.distributed[0].polynomial[0], ""};

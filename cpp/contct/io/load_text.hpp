@@ -9,15 +9,6 @@
 
 namespace contct {
 
-/// The sum of all upward forces, and their moment about x = 0, counter-clockwise positive.
-struct resultant {
-  double force = 0.0;
-  double moment = 0.0;
-};
-
-/// The resultant of a whole load.
-[[nodiscard]] resultant resultant_of(const beam& b, const load& l);
-
 /// The loads of a problem's steps, and what acts between them.
 class load_path {
  public:
@@ -27,7 +18,8 @@ class load_path {
   [[nodiscard]] load at(int step, double fraction) const;
 
   /// As a problem file's `uniform` and `point`, with the resultant: an event's load in absolute
-  /// terms. The parts are left out when there are more than 32 of them, where each element of a
+  /// terms. A beam's resultant has "force" and "moment", a plate's "force", "moment_wx" and
+  /// "moment_wy". The parts are left out when there are more than 32 of them, where each element of a
   /// scattered list counts: they would be written again at every event.
   [[nodiscard]] nlohmann::ordered_json json_at(int step, double fraction) const;
 
@@ -48,7 +40,7 @@ class load_path {
     double value;
     std::string after;
   };
-  [[nodiscard]] static words words_for(const load& l, const resultant& r);
+  [[nodiscard]] words words_for(const load& l, const resultant& r) const;
   [[nodiscard]] bool has_many_parts(int step) const;
 
   const problem& problem_;

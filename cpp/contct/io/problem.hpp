@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "contct/structure/beam.hpp"
 #include "contct/structure/load.hpp"
+#include "contct/structure/model.hpp"
 #include "contct/structure/structure.hpp"
 
 namespace contct {
@@ -13,14 +13,11 @@ namespace contct {
 /// What a problem file says. Nodes, elements and pairs count from 0 here, from 1 in the file.
 struct problem {
   std::string title;
-  beam geometry;
+  model geometry;
   std::vector<support> supports;
   std::vector<contact_pair> pairs;  ///< all [[contact]] in file order, then the beds'
   std::vector<load> steps;          ///< total load at the end of each step
   std::vector<std::string> warnings;
 };
-
-/// Names of the dofs of a beam's node, in order.
-inline constexpr const char* beam_dof_names[] = {"w", "theta"};
 
 }  // namespace contct

@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <utility>
 
 #include "contct/io/input_text.hpp"
-#include "contct/io/load_text.hpp"
+#include "contct/io/model_tables.hpp"
 #include "contct/io/number_list.hpp"
 #include "contct/kernel/call.hpp"
 
 namespace contct {
 namespace {
 
-constexpr int most_elements = 2'000'000;
 constexpr std::size_t highest_degree = 20;
 
 /// Reads one file into one problem, table by table.
@@ -26,10 +24,11 @@ class problem_reader {
       : file_(file), top_(document, "", file) {}
 
   problem read() {
-    top_.allow_only({"title", "beam", "support", "contact", "bed", "step"});
+    top_.allow_only({"title", "beam", "plate", "support", "contact", "bed", "step"});
     if (top_.has("title")) problem_.title = top_.text("title");
-    read_beam(top_.table("beam"));
-    fixed_.assign(static_cast<std::size_t>(problem_.geometry.dofs()), 0);
+    problem_.geometry = read_model(top_);
+    for (const char* name : dof_names(problem_.geometry)) dof_names_.emplace_back(name);
+    fixed_.assign(static_cast<std::size_t>(dofs(problem_.geometry)), 0);
     if (top_.has("support")) {
       for (const table_reader& t : top_.tables("support")) read_support(t);
     }
@@ -44,68 +43,23 @@ class problem_reader {
   }
 
  private:
-  [[nodiscard]] int nodes() const { return problem_.geometry.nodes(); }
+  [[nodiscard]] int nodes() const { return contct::nodes(problem_.geometry); }
 
-  void read_beam(const table_reader& t) {
-    t.allow_only({"x", "length", "elements", "EI"});
-    problem_.geometry.x = t.has("x") ? read_coordinates(t) : even_coordinates(t);
-    read_stiffness(t);
-    check_elements(t);
+  [[nodiscard]] std::size_t dof_of(int node, int dof) const {
+    return static_cast<std::size_t>(node) * dof_names_.size() + static_cast<std::size_t>(dof);
   }
 
-  static std::vector<double> read_coordinates(const table_reader& t) {
-    for (const char* other : {"length", "elements"}) {
-      if (t.has(other))
-        t.refuse(t.required(other, ""), other, "this beside x", "either x, or length and elements");
-    }
-    std::vector<double> x = t.reals("x", any_real, 2);
-    for (std::size_t i = 1; i < x.size(); ++i) {
-      if (!(x[i] > x[i - 1])) {
-        const toml::node& entry = *t.required("x", "").as_array()->get(i);
-        t.refuse(entry, indexed("x", i), found_words(entry),
-                 fmt::format("more than the node before it, {}", x[i - 1]));
-      }
-    }
-    return x;
-  }
+  /// Does a support fix the node's deflection?
+  [[nodiscard]] bool fixed_in_w(int node) const { return fixed_[dof_of(node, 0)] != 0; }
 
-  static std::vector<double> even_coordinates(const table_reader& t) {
-    const double length = t.real("length", positive_real);
-    const int elements = t.integer("elements", 1, most_elements);
-    std::vector<double> x;
-    x.reserve(static_cast<std::size_t>(elements) + 1);
-    for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);
-    return x;
-  }
-
-  void read_stiffness(const table_reader& t) {
-    const auto elements = static_cast<std::size_t>(problem_.geometry.elements());
-    const toml::node& node = t.required("EI", "a number greater than 0, or one for each element");
-    if (!node.is_array()) {
-      problem_.geometry.EI.assign(elements, t.real("EI", positive_real));
-      return;
+  /// The dofs that stand as keys in a table, in their order; refuses a table with none.
+  [[nodiscard]] std::vector<int> dofs_in(const table_reader& t, std::string_view found) const {
+    std::vector<int> there;
+    for (std::size_t dof = 0; dof < dof_names_.size(); ++dof) {
+      if (t.has(dof_names_[dof])) there.push_back(static_cast<int>(dof));
     }
-    problem_.geometry.EI = t.reals("EI", positive_real, 1);
-    if (problem_.geometry.EI.size() != elements) {
-      t.refuse(node, "EI", found_words(node),
-               fmt::format("one number, or {}: one for each element", elements));
-    }
-  }
-
-  /// Finite numbers can still make a stiffness that is not.
-  void check_elements(const table_reader& t) const {
-    const beam& b = problem_.geometry;
-    for (int e = 0; e < b.elements(); ++e) {
-      const double h = b.length_of(e);
-      const double EI = b.EI[static_cast<std::size_t>(e)];
-      const double largest = 12 * EI / h / h / h;
-      const double smallest = EI / h;
-      if (!std::isnormal(h) || !std::isnormal(largest) || !std::isnormal(smallest) ||
-          !std::isfinite(largest * h) || !std::isfinite(12 * smallest)) {
-        t.refuse(fmt::format("element {} of length {:g} and EI {:g}", e + 1, h, EI),
-                 "elements whose stiffness 12 EI / h^3 is within the range of double precision");
-      }
-    }
+    if (there.empty()) t.refuse(found, fmt::format("at least one of {}", fmt::join(dof_names_, ", ")));
+    return there;
   }
 
   /// The nodes that "node" or "nodes" names; from 0.
@@ -123,23 +77,25 @@ class problem_reader {
       for (const int dof : read_fix(t)) {
         for (const int node : at) {
           problem_.supports.push_back({node, dof, true});
-          fixed_[static_cast<std::size_t>(2 * node + dof)] = 1;
+          fixed_[dof_of(node, dof)] = 1;
         }
       }
     }
     if (t.has("spring")) read_springs(t.table("spring"), at);
   }
 
-  static std::vector<int> read_fix(const table_reader& t) {
-    const char* const allowed = R"(an array of "w" and "theta", each once)";
+  [[nodiscard]] std::vector<int> read_fix(const table_reader& t) const {
+    const std::string allowed =
+        fmt::format("an array of \"{}\", each at most once", fmt::join(dof_names_, "\", \""));
     const toml::node& node = t.required("fix", allowed);
     const toml::array* array = node.as_array();
     if (array == nullptr || array->empty()) t.refuse(node, "fix", found_words(node), allowed);
     std::vector<int> dofs;
     for (std::size_t i = 0; i < array->size(); ++i) {
       const std::string_view name = t.text_of(*array->get(i), indexed("fix", i), allowed);
-      const int dof = name == "w" ? 0 : 1;
-      if (name != beam_dof_names[dof] || std::count(dofs.begin(), dofs.end(), dof) != 0) {
+      const auto dof =
+          static_cast<int>(std::find(dof_names_.begin(), dof_names_.end(), name) - dof_names_.begin());
+      if (dof == dofs_per_node(problem_.geometry) || std::count(dofs.begin(), dofs.end(), dof) != 0) {
         t.refuse(*array->get(i), indexed("fix", i), found_words(*array->get(i)), allowed);
       }
       dofs.push_back(dof);
@@ -148,11 +104,9 @@ class problem_reader {
   }
 
   void read_springs(const table_reader& t, const std::vector<int>& at) {
-    t.allow_only({"w", "theta"});
-    if (!t.has("w") && !t.has("theta")) t.refuse("an empty table", "w, theta or both");
-    for (int dof = 0; dof < 2; ++dof) {
-      if (!t.has(beam_dof_names[dof])) continue;
-      const double stiffness = t.real(beam_dof_names[dof], positive_real);
+    t.allow_only(dof_names_);
+    for (const int dof : dofs_in(t, "an empty table")) {
+      const double stiffness = t.real(dof_names_[static_cast<std::size_t>(dof)], positive_real);
       for (const int node : at) problem_.supports.push_back({node, dof, false, stiffness});
     }
   }
@@ -188,7 +142,7 @@ class problem_reader {
     contact_pair p = read_face(t, 0);
     p.node = node;
     p.stiffness = t.real("stiffness", positive_real);
-    if (fixed_[static_cast<std::size_t>(2 * node)] != 0) {
+    if (fixed_in_w(node)) {
       problem_.warnings.push_back(
           fmt::format("{}:{}: {}: node {} is fixed in w; the pair cannot change the answer, but the listing "
                       "may toggle it",
@@ -197,21 +151,21 @@ class problem_reader {
     problem_.pairs.push_back(p);
   }
 
-  /// A pair at every node that is free to deflect, each with its tributary length.
+  /// A pair at every node that is free to deflect, each with its tributary length or area.
   void read_bed(const table_reader& t) {
     t.allow_only({"modulus", "surface", "face", "state", "nodes"});
     const double modulus = t.real("modulus", positive_real);
     contact_pair p = read_face(t, face_below);
-    if (lengths_.empty()) lengths_ = tributary_shares(problem_.geometry);
+    if (shares_.empty()) shares_ = tributary_shares(problem_.geometry);
     const std::vector<int> at = t.has("nodes") ? read_numbers(t, "nodes", nodes()) : all_nodes();
     const std::size_t before = problem_.pairs.size();
     for (const int node : at) {
-      if (fixed_[static_cast<std::size_t>(2 * node)] != 0) continue;
+      if (fixed_in_w(node)) continue;
       p.node = node;
-      p.stiffness = modulus * lengths_[static_cast<std::size_t>(node)];
+      p.stiffness = modulus * shares_[static_cast<std::size_t>(node)];
       if (!std::isnormal(p.stiffness)) {
         t.refuse(fmt::format("a stiffness of {:g} at node {}", p.stiffness, node + 1),
-                 "modulus times tributary length within the range of double precision");
+                 "modulus times tributary length, or area, within the range of double precision");
       }
       problem_.pairs.push_back(p);
     }
@@ -234,7 +188,8 @@ class problem_reader {
       t.refuse("a step without loads", "uniform, point or both; uniform = 0 takes all load off");
     }
     const resultant r = resultant_of(problem_.geometry, l);
-    if (!std::isfinite(r.force) || !std::isfinite(r.moment)) {
+    if (!std::isfinite(r.force) ||
+        !std::all_of(r.moments.begin(), r.moments.end(), [](double m) { return std::isfinite(m); })) {
       t.refuse("loads whose sum or moment is not finite", "loads within the range of double precision");
     }
     problem_.steps.push_back(std::move(l));
@@ -270,36 +225,44 @@ class problem_reader {
     if (t.has("value") == t.has("polynomial"))
       t.refuse("both or neither of value and polynomial", "one of them");
     distributed_load d;
-    d.polynomial =
-        t.has("value") ? std::vector<double>{t.real("value", any_real)} : t.reals("polynomial", any_real, 1);
-    if (d.polynomial.size() > highest_degree + 1) {
-      const toml::node& node = t.required("polynomial", "");
-      t.refuse(node, "polynomial", found_words(node),
-               fmt::format("at most {} coefficients", highest_degree + 1));
-    }
-    const int elements = problem_.geometry.elements();
-    if (t.has("elements")) d.elements = read_numbers(t, "elements", elements);
-    if (static_cast<int>(d.elements.size()) == elements) d.elements.clear();  // each once: all of them
+    d.polynomial = t.has("value") ? std::vector<double>{t.real("value", any_real)} : read_polynomial(t);
+    const int all = elements(problem_.geometry);
+    if (t.has("elements")) d.elements = read_numbers(t, "elements", all);
+    if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // each once: all of them
     return d;
   }
 
+  [[nodiscard]] std::vector<double> read_polynomial(const table_reader& t) const {
+    const toml::node& node = t.required("polynomial", "");
+    if (!std::holds_alternative<beam>(problem_.geometry.kind)) {
+      t.refuse(node, "polynomial", found_words(node), "value: only a beam's load may be a polynomial");
+    }
+    std::vector<double> coefficients = t.reals("polynomial", any_real, 1);
+    if (coefficients.size() > highest_degree + 1) {
+      t.refuse(node, "polynomial", found_words(node),
+               fmt::format("at most {} coefficients", highest_degree + 1));
+    }
+    return coefficients;
+  }
+
   void read_points(const table_reader& t, load& l) const {
+    std::vector<std::string_view> keys = {"node"};
+    keys.insert(keys.end(), dof_names_.begin(), dof_names_.end());
+    const std::string without = fmt::format("a point load without {}", fmt::join(dof_names_, " or "));
     for (const table_reader& p : t.tables("point")) {
-      p.allow_only({"node", "w", "theta"});
+      p.allow_only(keys);
       const int node = p.integer("node", 1, nodes()) - 1;
-      if (!p.has("w") && !p.has("theta")) p.refuse("a point load without w or theta", "w, theta or both");
-      for (int dof = 0; dof < 2; ++dof) {
-        if (p.has(beam_dof_names[dof]))
-          l.points.push_back({node, dof, p.real(beam_dof_names[dof], any_real)});
-      }
+      for (const int dof : dofs_in(p, without))
+        l.points.push_back({node, dof, p.real(dof_names_[static_cast<std::size_t>(dof)], any_real)});
     }
   }
 
   std::string_view file_;
   table_reader top_;
   problem problem_;
-  std::vector<char> fixed_;      // [dofs]
-  std::vector<double> lengths_;  // tributary lengths [nodes], once a bed has asked for them
+  std::vector<std::string_view> dof_names_;  // of a node
+  std::vector<char> fixed_;                  // [dofs]
+  std::vector<double> shares_;               // tributary shares [nodes], once a bed has asked for them
 };
 
 }  // namespace

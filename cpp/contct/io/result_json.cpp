@@ -89,11 +89,10 @@ void result_json::write_list(std::string_view name, std::size_t count, Entry ent
 }
 
 void result_json::step_ended(const step_state& s) {
-  const beam& b = problem_.geometry;
   const load total = loads_.at(s.step, s.fraction);
-  const std::vector<element_forces> forces = forces_in_elements(b, total, s.displacement);
   std::vector<double> w;
-  for (std::size_t i = 0; i < s.displacement.size(); i += 2) w.push_back(s.displacement[i]);
+  const auto stride = static_cast<std::size_t>(dofs_per_node(problem_.geometry));
+  for (std::size_t i = 0; i < s.displacement.size(); i += stride) w.push_back(s.displacement[i]);
 
   out_.write(fmt::format("{}\n    {{\n      \"step\": {},\n      \"fraction\": {},\n", first_step_ ? "" : ",",
                          s.step, json(s.fraction).dump()));
@@ -105,17 +104,16 @@ void result_json::step_ended(const step_state& s) {
                          json(std::vector<double>(s.displacement.begin(), s.displacement.end())).dump()));
   write_pairs(s);
   write_reactions(s, total);
-  write_list("elements", forces.size(), [&](std::size_t e) {
-    return json{{"element", e + 1}, {"shear", forces[e].shear}, {"moment", forces[e].moment}}.dump();
-  });
+  write_elements(s, total);
   out_.write(fmt::format("      \"rcond\": {},\n      \"digits\": {},\n      \"certificate\": null\n    }}",
                          json(s.rcond).dump(), digits_left(s.rcond)));
 }
 
 void result_json::write_pairs(const step_state& s) {
+  const auto stride = static_cast<std::size_t>(dofs_per_node(problem_.geometry));
   write_list("pairs", problem_.pairs.size(), [&](std::size_t i) {
     const contact_pair& p = problem_.pairs[i];
-    const double w = s.displacement[2 * static_cast<std::size_t>(p.node)];
+    const double w = s.displacement[static_cast<std::size_t>(p.node) * stride];
     const bool closed = s.isep[i] == in_contact;
     return json{{"pair", i + 1},
                 {"node", p.node + 1},
@@ -129,9 +127,21 @@ void result_json::write_pairs(const step_state& s) {
 
 void result_json::write_reactions(const step_state& s, const load& total) {
   const std::vector<double> values = reactions(problem_.geometry, total, problem_.supports, s.displacement);
+  const auto names = dof_names(problem_.geometry);
   write_list("reactions", values.size(), [&](std::size_t i) {
     const support& at = problem_.supports[i];
-    return json{{"node", at.node + 1}, {"dof", beam_dof_names[at.dof]}, {"value", values[i]}}.dump();
+    return json{{"node", at.node + 1}, {"dof", names[static_cast<std::size_t>(at.dof)]}, {"value", values[i]}}
+        .dump();
+  });
+}
+
+void result_json::write_elements(const step_state& s, const load& total) {
+  const element_results results = results_in_elements(problem_.geometry, total, s.displacement);
+  write_list("elements", results.elements(), [&](std::size_t e) {
+    json entry = {{"element", e + 1}};
+    for (std::size_t i = 0; i < results.names.size(); ++i)
+      entry[std::string(results.names[i])] = results.at(e, i);
+    return entry.dump();
   });
 }
 

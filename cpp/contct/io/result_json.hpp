@@ -35,6 +35,7 @@ class result_json final : public observer {
  private:
   void write_pairs(const step_state& s);
   void write_reactions(const step_state& s, const load& total);
+  void write_elements(const step_state& s, const load& total);
   template <class Entry>
   void write_list(std::string_view name, std::size_t count, Entry entry, bool last = false);
 

@@ -112,16 +112,18 @@ void table::incremented(const increment& i) {
 }
 
 void table::step_ended(const step_state& s) {
+  const auto stride = static_cast<std::size_t>(dofs_per_node(problem_.geometry));
   std::size_t largest = 0;
-  for (std::size_t i = 0; i < s.displacement.size(); i += 2) {
+  for (std::size_t i = 0; i < s.displacement.size(); i += stride) {
     if (std::abs(s.displacement[i]) > std::abs(s.displacement[largest])) largest = i;
   }
   const auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
   std::string label = events_below_ ? "end " : "   end  ";
   const int width = terminal_.width - static_cast<int>(label.size());
-  const std::vector<std::string> items = {deflection_words(s.displacement[largest], largest / 2 + 1, width),
-                                          fmt::format("{} of {} pairs in contact", closed, s.isep.size()),
-                                          fmt::format("{} digits", digits_left(s.rcond))};
+  const std::vector<std::string> items = {
+      deflection_words(s.displacement[largest], largest / stride + 1, width),
+      fmt::format("{} of {} pairs in contact", closed, s.isep.size()),
+      fmt::format("{} digits", digits_left(s.rcond))};
   for (const std::string& line : wrap(items, width)) {
     fmt::print("{}\n", painted(terminal_, paint::quiet, label + line));
     label.assign(label.size(), ' ');

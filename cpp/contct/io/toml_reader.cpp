@@ -204,7 +204,7 @@ std::vector<table_reader> table_reader::tables(std::string_view key) const {
   return readers;
 }
 
-void table_reader::allow_only(std::initializer_list<std::string_view> keys) const {
+void table_reader::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
     refuse_at(file_, key.source().begin, full_name(tame(key.str())), "an unknown key",

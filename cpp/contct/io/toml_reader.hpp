@@ -24,7 +24,10 @@ struct real_range {
   double least;
   bool may_equal_least;
   const char* words;
-  [[nodiscard]] bool holds(double x) const { return x > least || (may_equal_least && x == least); }
+  double most = 1.7976931348623157e308;
+  [[nodiscard]] bool holds(double x) const {
+    return (x > least || (may_equal_least && x == least)) && x <= most;
+  }
 };
 
 inline constexpr real_range any_real{-1.7976931348623157e308, true, "a finite number"};
@@ -63,7 +66,7 @@ class table_reader {
                                          std::string_view allowed) const;
 
   /// Refuse every key but these.
-  void allow_only(std::initializer_list<std::string_view> keys) const;
+  void allow_only(const std::vector<std::string_view>& keys) const;
 
   /// Refuse the file: `name` is the key (with an index if any) at `node`.
   [[noreturn]] void refuse(const toml::node& node, std::string_view name, std::string_view found,

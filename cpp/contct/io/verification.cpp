@@ -17,18 +17,20 @@ constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
 constexpr int any_number = 1'000'000'000;
 
 expected_number read_check(const table_reader& t) {
-  t.allow_only({"step", "quantity", "node", "pair", "element", "end", "dof", "change", "from", "value",
-                "kind", "tolerance", "because", "source", "faithful", "reason"});
+  t.allow_only({"step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from",
+                "along", "value", "kind", "tolerance", "because", "source", "faithful", "reason"});
   expected_number e;
   e.step = t.integer("step", 1, any_number);
   e.quantity = t.text("quantity");
   if (t.has("node")) e.node = t.integer("node", 1, any_number);
   if (t.has("pair")) e.pair = t.integer("pair", 1, any_number);
   if (t.has("element")) e.element = t.integer("element", 1, any_number);
-  if (t.has("end")) e.end = t.choice("end", {"left", "right"}) == 0 ? "left" : "right";
+  if (t.has("end")) e.place = static_cast<int>(t.choice("end", {"left", "right"})) + 1;
+  if (t.has("corner")) e.place = t.integer("corner", 1, 4);
   if (t.has("dof")) e.dof = t.text("dof");
   if (t.has("change")) e.change = t.choice("change", {"make", "break"}) == 0 ? "make" : "break";
   if (t.has("from")) e.from = t.real("from", any_real);
+  if (t.has("along")) e.along = t.choice("along", {"edge", "diagonal"}) == 0 ? "edge" : "diagonal";
   if (e.quantity == "state") {
     e.value = t.choice("value", {"contact", "separated"}) == 0 ? in_contact : separated;
   } else {
@@ -44,6 +46,29 @@ expected_number read_check(const table_reader& t) {
     e.reason = t.text("reason");
   }
   return e;
+}
+
+/// A node on the way along which a change of sign is looked for.
+struct way_point {
+  double s;  // a beam's x; on a plate, the distance from its lower left corner
+  std::size_t node;
+};
+
+/// A beam from end to end; a plate along its lower edge, or up its diagonal through grid points (i, i).
+std::vector<way_point> way_through(const model& m, const std::string& along) {
+  std::vector<way_point> way;
+  if (const auto* b = std::get_if<beam>(&m.kind)) {
+    for (std::size_t i = 0; i < b->x.size(); ++i) way.push_back({b->x[i], i});
+  }
+  if (const auto* p = std::get_if<plate>(&m.kind)) {
+    const bool diagonal = along == "diagonal";
+    const std::size_t last = diagonal ? std::min(p->x.size(), p->y.size()) : p->x.size();
+    for (std::size_t i = 0; i < last; ++i) {
+      const double rise = diagonal ? p->y[i] - p->y[0] : 0.0;
+      way.push_back({std::hypot(p->x[i] - p->x[0], rise), diagonal ? i * p->x.size() + i : i});
+    }
+  }
+  return way;
 }
 
 }  // namespace
@@ -71,7 +96,7 @@ void measurement::step_ended(const step_state& s) {
   step_record record;
   record.u.assign(s.displacement.begin(), s.displacement.end());
   record.isep.assign(s.isep.begin(), s.isep.end());
-  record.forces = forces_in_elements(problem_.geometry, total, s.displacement);
+  record.elements = results_in_elements(problem_.geometry, total, s.displacement);
   record.reactions = reactions(problem_.geometry, total, problem_.supports, s.displacement);
   steps_.push_back(std::move(record));
 }
@@ -80,31 +105,42 @@ double measurement::of(const expected_number& e) const {
   if (e.quantity == "event" || e.quantity == "events") return of_events(e);
   if (static_cast<std::size_t>(e.step) > steps_.size()) return not_there;
   const step_record& s = steps_[static_cast<std::size_t>(e.step - 1)];
-  const auto node = static_cast<std::size_t>(std::max(e.node, 1) - 1);
-  if (e.quantity == "w") return s.u.at(2 * node);
-  if (e.quantity == "theta") return s.u.at(2 * node + 1);
+  const auto names = dof_names(problem_.geometry);
+  if (const auto at = std::find(names.begin(), names.end(), e.quantity); at != names.end())
+    return s.u.at(static_cast<std::size_t>(std::max(e.node, 1) - 1) * names.size() +
+                  static_cast<std::size_t>(at - names.begin()));
   if (e.quantity == "contacts")
     return static_cast<double>(std::count(s.isep.begin(), s.isep.end(), in_contact));
-  if (e.quantity == "zero") return zero_right_of(e.from, s);
-  if (e.quantity == "moment" || e.quantity == "shear") {
-    const element_forces& f = s.forces.at(static_cast<std::size_t>(e.element - 1));
-    const std::size_t end = e.end == "left" ? 0 : 1;
-    return e.quantity == "moment" ? f.moment[end] : f.shear[end];
-  }
-  if (e.quantity == "reaction") {
-    for (std::size_t i = 0; i < problem_.supports.size(); ++i) {
-      const support& at = problem_.supports[i];
-      if (at.node + 1 == e.node && beam_dof_names[at.dof] == e.dof) return s.reactions[i];
-    }
+  if (e.quantity == "zero") return zero_right_of(e, s);
+  if (e.quantity == "reaction") return of_support(e, s);
+  const std::vector<std::string_view>& quantities = s.elements.names;
+  if (const auto at = std::find(quantities.begin(), quantities.end(), e.quantity); at != quantities.end())
+    return of_element(e, static_cast<std::size_t>(at - quantities.begin()), s);
+  return of_pair(e, s);
+}
+
+double measurement::of_element(const expected_number& e, std::size_t quantity, const step_record& s) {
+  if (e.element < 1 || static_cast<std::size_t>(e.element) > s.elements.elements() || e.place < 1 ||
+      e.place > s.elements.places) {
     return not_there;
   }
-  return of_pair(e, s);
+  return s.elements.at(static_cast<std::size_t>(e.element - 1),
+                       quantity)[static_cast<std::size_t>(e.place - 1)];
+}
+
+double measurement::of_support(const expected_number& e, const step_record& s) const {
+  const auto names = dof_names(problem_.geometry);
+  for (std::size_t i = 0; i < problem_.supports.size(); ++i) {
+    const support& at = problem_.supports[i];
+    if (at.node + 1 == e.node && names[static_cast<std::size_t>(at.dof)] == e.dof) return s.reactions[i];
+  }
+  return not_there;
 }
 
 double measurement::of_pair(const expected_number& e, const step_record& s) const {
   const auto i = static_cast<std::size_t>(e.pair - 1);
   const contact_pair& p = problem_.pairs.at(i);
-  const double w = s.u[2 * static_cast<std::size_t>(p.node)];
+  const double w = s.u[static_cast<std::size_t>(p.node * dofs_per_node(problem_.geometry))];
   const bool closed = s.isep[i] == in_contact;
   if (e.quantity == "state") return s.isep[i];
   if (e.quantity == "force") return force_of(p, w, closed);
@@ -124,13 +160,14 @@ double measurement::of_events(const expected_number& e) const {
   return e.quantity == "events" ? count : not_there;
 }
 
-double measurement::zero_right_of(double from, const step_record& s) const {
-  const std::vector<double>& x = problem_.geometry.x;
-  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    const double left = s.u[2 * i];
-    const double right = s.u[2 * i + 2];
-    if (x[i] < from || left * right > 0 || left == right) continue;
-    return x[i] + (x[i + 1] - x[i]) * left / (left - right) - from;
+double measurement::zero_right_of(const expected_number& e, const step_record& s) const {
+  const std::vector<way_point> way = way_through(problem_.geometry, e.along);
+  const auto stride = static_cast<std::size_t>(dofs_per_node(problem_.geometry));
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    const double left = s.u[way[i].node * stride];
+    const double right = s.u[way[i + 1].node * stride];
+    if (way[i].s < e.from || left * right > 0 || left == right) continue;
+    return way[i].s + (way[i + 1].s - way[i].s) * left / (left - right) - e.from;
   }
   return not_there;
 }

@@ -16,7 +16,8 @@ struct expected_number {
   int step = 0;
   std::string quantity;
   int node = 0, pair = 0, element = 0;
-  std::string end, dof, change;
+  int place = 0;  ///< in the element: its end, 1 the left one, or its corner
+  std::string dof, change, along;
   double from = 0.0;
   double value = 0.0;  ///< of a state: -1 in contact, +1 separated
   std::string kind, because, source;
@@ -50,7 +51,7 @@ class measurement final : public observer {
   struct step_record {
     std::vector<double> u;
     std::vector<int> isep;
-    std::vector<element_forces> forces;
+    element_results elements;
     std::vector<double> reactions;
   };
   struct event_record {
@@ -58,9 +59,12 @@ class measurement final : public observer {
     double fraction;
     event what;
   };
+  [[nodiscard]] static double of_element(const expected_number& e, std::size_t quantity,
+                                         const step_record& s);
+  [[nodiscard]] double of_support(const expected_number& e, const step_record& s) const;
   [[nodiscard]] double of_pair(const expected_number& e, const step_record& s) const;
   [[nodiscard]] double of_events(const expected_number& e) const;
-  [[nodiscard]] double zero_right_of(double from, const step_record& s) const;
+  [[nodiscard]] double zero_right_of(const expected_number& e, const step_record& s) const;
 
   const problem& problem_;
   std::vector<step_record> steps_;

@@ -116,7 +116,7 @@ element_matrix12 stiffness_of(const plate_element& e) {
   element_matrix12 k = scaled_stiffness(e);
   const element_vector12 scale = scales_of(e);
   for (std::size_t i = 0; i < 12; ++i) {
-    for (std::size_t j = 0; j < 12; ++j) k[i][j] *= scale[i] * scale[j];
+    for (std::size_t j = 0; j < 12; ++j) k[i][j] = k[i][j] * scale[i] * scale[j];
   }
   return k;
 }
