@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 #include "cli/process.hpp"
-#include "io/bad_inputs.hpp"
+#include "io/bad_plates.hpp"
 
 using namespace contct;
 using Catch::Matchers::Contains;
@@ -29,8 +29,10 @@ std::string refusal(const scratch_directory& dir, const std::string& file,
 
 TEST_CASE("every kind of bad problem file: exit 2, one message with its place, nothing written") {
   const scratch_directory dir;
-  const auto kinds = bad_inputs();
-  REQUIRE(kinds.size() >= 60);
+  auto kinds = bad_inputs();
+  const auto plates = bad_plates();
+  kinds.insert(kinds.end(), plates.begin(), plates.end());
+  REQUIRE(kinds.size() >= 110);
   for (const bad_input& kind : kinds) {
     INFO(kind.what);
     const std::string message = refusal(dir, dir.write("bad.toml", kind.text));

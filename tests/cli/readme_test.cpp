@@ -37,8 +37,18 @@ TEST_CASE("the README's run is a real run") {
   CHECK(shown == f.out);
 }
 
-TEST_CASE("the README's problem can be run") {
-  const scratch_directory dir;
-  dir.write("own.toml", between(readme(), "```toml\n", "```"));
-  CHECK(contct_program(dir.path(), {"run", "own.toml"}).exit == 0);
+TEST_CASE("the README's beam and its plate can be run") {
+  const std::string text = readme();
+  int problems = 0;
+  for (std::size_t at = text.find("```toml\n"); at != std::string::npos;
+       at = text.find("```toml\n", at + 1)) {
+    const scratch_directory dir;
+    dir.write("own.toml", between(text.substr(at), "```toml\n", "```"));
+    const finished f = contct_program(dir.path(), {"run", "own.toml"});
+    INFO(f.out << f.err);
+    CHECK(f.exit == 0);
+    CHECK_THAT(f.out, Catch::Matchers::Contains("make 1:") || Catch::Matchers::Contains("break 1:"));
+    ++problems;
+  }
+  CHECK(problems == 2);
 }

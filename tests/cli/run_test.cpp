@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 #include "cli/process.hpp"
-#include "io/bad_inputs.hpp"
+#include "io/bad_plates.hpp"
 
 using namespace contct;
 using Catch::Matchers::Contains;
@@ -225,4 +225,43 @@ TEST_CASE("help is on standard output and is no error") {
     CHECK(f.err.empty());
     CHECK_THAT(f.out, Contains("--help"));
   }
+}
+
+TEST_CASE("a plate goes the same ways: lockstep, free run, table and results") {
+  const scratch_directory dir;
+  dir.write("plate.toml", good_plate);
+  const finished lockstep = contct_program(dir.path(), {"run", "plate.toml", "--json", "out.json"});
+  CHECK(lockstep.exit == 0);
+  CHECK_THAT(lockstep.out, Contains("6 nodes, 1 pair, 1 step") && Contains("make 1: node 6 below") &&
+                               Contains("at node 3; 1 of 1 pairs in contact") &&
+                               Contains("equal to the bit"));
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result["steps"][0]["reactions"][5]["dof"] == "wy");
+  CHECK(result["steps"][0]["elements"][1]["mxy"].size() == 4);
+  const finished free_run =
+      contct_program(dir.path(), {"run", "plate.toml", "--free-run", "--kernels", "fortran,cpp,fortran-r4"});
+  CHECK(free_run.exit == 0);
+  CHECK_THAT(free_run.out, Contains("fortran-r4 on a path of its own: events the same"));
+}
+
+TEST_CASE("a plate that loses its hold is a mechanism: exit 4") {
+  const scratch_directory dir;
+  dir.write("freed.toml",
+            "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n[[contact]]\nnode = 1\nsurface = "
+            "\"below\"\nface = 0\nstiffness = 10\n[[contact]]\nnode = 3\nsurface = \"below\"\nface = 0\n"
+            "stiffness = 10\n[[contact]]\nnode = 8\nsurface = \"below\"\nface = 0\nstiffness = 10\n"
+            "[[step]]\nuniform = -1\n[[step]]\nuniform = 1\n");
+  const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.err, Contains("step 2") && Contains("rigid body"));
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result["steps"][0]["pairs"][2]["force"].get<double>() == Approx(0.5).epsilon(1e-9));
+  CHECK(result["steps"][1]["fraction"].get<double>() == Approx(0.5).epsilon(1e-9));  // nothing left to press
+  // Three pairs in a line never held it.
+  std::string line = "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n";
+  for (const char* node : {"1", "5", "9"})
+    line += std::string("[[contact]]\nnode = ") + node + "\nsurface = \"below\"\nface = 0\nstiffness = 10\n";
+  dir.write("line.toml", line + "[[step]]\nuniform = -1\n");
+  CHECK(contct_program(dir.path(), {"run", "line.toml"}).exit == 4);
 }

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "contct/kernel/call.hpp"
-#include "io/bad_inputs.hpp"
+#include "io/bad_plates.hpp"
 
 using namespace contct;
 
@@ -39,8 +39,11 @@ TEST_CASE("the good problem is accepted") {
 }
 
 TEST_CASE("every kind of bad input is refused with its place, the key, what was found and what is allowed") {
-  const auto kinds = bad_inputs();
+  auto kinds = bad_inputs();
   REQUIRE(kinds.size() >= 60);
+  const auto plates = bad_plates();
+  REQUIRE(plates.size() >= 50);
+  kinds.insert(kinds.end(), plates.begin(), plates.end());
   for (const bad_input& kind : kinds) {
     const std::string message = message_of(kind.text);
     INFO(kind.what << "\n" << message);
@@ -171,4 +174,59 @@ TEST_CASE("a hundred thousand nodes, written out, are read") {
   const problem p = parse_problem(text, "pb.toml");
   CHECK(nodes(p.geometry) == 100000);
   CHECK(p.supports.size() == 100000);
+}
+
+TEST_CASE("the good plate is accepted: grid, stiffness from E, nu and thickness, loads on every dof") {
+  const problem p = parse_problem(good_plate, "pb.toml");
+  const plate& it = std::get<plate>(p.geometry.kind);
+  CHECK(it.x == std::vector<double>{0, 0.5, 1});
+  CHECK(it.y == std::vector<double>{0, 1});
+  CHECK(it.D == Approx(1.0).epsilon(1e-15));
+  CHECK(it.nu == 0.3);
+  REQUIRE(p.supports.size() == 6);
+  CHECK(p.supports[5].node == 3);
+  CHECK(p.supports[5].dof == 2);
+  REQUIRE(p.pairs.size() == 1);
+  CHECK(p.pairs[0].node == 5);
+  REQUIRE(p.steps.size() == 1);
+  const load& l = p.steps[0];
+  REQUIRE(l.distributed.size() == 2);
+  CHECK(l.distributed[1].elements == std::vector<int>{1});
+  REQUIRE(l.points.size() == 3);
+  CHECK(l.points[1].dof == 1);
+  CHECK(l.points[2].node == 5);
+  CHECK(l.points[2].dof == 2);
+  CHECK(l.points[2].value == -0.5);
+}
+
+TEST_CASE("an even plate by its size, D as it is, springs on every dof, nu at both ends of its range") {
+  const problem p = parse_problem(
+      "[plate]\nsize = [3, 1]\nelements = [3, 2]\nD = 2\nnu = 0.5\n[[support]]\nnode = 12\n"
+      "spring = { w = 1, wx = 2, wy = 3 }\n[[step]]\nuniform = 0\n",
+      "pb.toml");
+  const plate& it = std::get<plate>(p.geometry.kind);
+  CHECK(it.x == std::vector<double>{0, 1, 2, 3});
+  CHECK(it.y == std::vector<double>{0, 0.5, 1});
+  CHECK(it.D == 2.0);
+  REQUIRE(p.supports.size() == 3);
+  CHECK(p.supports[2].spring == 3.0);
+  CHECK(message_of(plate_with("0.3", "-0.999")) == "accepted");
+  CHECK(message_of(plate_with("0.3", "0")) == "accepted");
+}
+
+TEST_CASE(
+    "a plate's bed is a pair at every free node, modulus times tributary area; limiting it moves no share") {
+  const std::string head =
+      "[plate]\nx = [0, 1, 3]\ny = [0, 2]\nD = 1\nnu = 0\n[[support]]\nnode = 4\nfix = [\"w\"]\n"
+      "[[support]]\nnode = 5\nfix = [\"wx\", \"wy\"]\n";
+  const std::string tail = "[[step]]\nuniform = -1\n";
+  const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");
+  REQUIRE(whole.pairs.size() == 5);  // node 4 is fixed, node 5 only in its slopes
+  const std::vector<double> expected = {2, 6, 4, 6, 4};
+  for (std::size_t i = 0; i < 5; ++i) CHECK(whole.pairs[i].stiffness == expected[i]);
+  CHECK(whole.pairs[3].node == 4);
+  const problem part =
+      parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\nnodes = [6]\n" + tail, "pb.toml");
+  REQUIRE(part.pairs.size() == 1);
+  CHECK(part.pairs[0].stiffness == 4.0);
 }

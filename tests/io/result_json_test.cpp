@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -9,7 +10,7 @@
 #include "catch.hpp"
 #include "contct/io/follow.hpp"
 #include "contct/io/problem_file.hpp"
-#include "io/bad_inputs.hpp"
+#include "io/bad_plates.hpp"
 
 using namespace contct;
 
@@ -117,4 +118,44 @@ TEST_CASE("an open pair has a gap and no force; a mechanism keeps the state reac
   CHECK(r["steps"][1]["pairs"][0]["state"] == "separated");
   CHECK(r["steps"][1]["pairs"][0]["force"] == 0.0);
   CHECK(r["steps"][1]["pairs"][1]["force"].get<double>() == Approx(8.0).epsilon(1e-9));
+}
+
+TEST_CASE("a plate's result: slopes and moments by name, reactions that balance, corners counter-clockwise") {
+  const auto r = result_of(good_plate);
+  CHECK(r["status"] == "solved");
+  const auto& step = r["steps"][0];
+  CHECK(step["w"].size() == 6);
+  CHECK(step["displacement"].size() == 18);
+  CHECK(step["w"][5] == step["displacement"][15]);
+  REQUIRE(step["elements"].size() == 2);
+  for (const char* name : {"mx", "my", "mxy"}) CHECK(step["elements"][1][name].size() == 4);
+  // Clamped at the left edge and loaded down, the plate hogs there: corners 1 and 4 of element 1.
+  const auto& mx = step["elements"][0]["mx"];
+  CHECK(mx[0].get<double>() < -0.3);
+  CHECK(mx[3].get<double>() < 0.0);
+  CHECK(std::abs(mx[1].get<double>()) < std::abs(mx[0].get<double>()));
+  const auto& load = r["steps"][0]["increments"].back()["load"];
+  CHECK(load["force"].get<double>() == Approx(-1.0 - 2.0 / 2 - 1.0));
+  CHECK(load["moment_wx"].get<double>() == Approx(-1.0 * 0.5 - 2.0 / 2 * 0.75 - 1.0 * 1 + 0.25));
+  CHECK(load["moment_wy"].get<double>() == Approx(-1.0 * 0.5 - 2.0 / 2 * 0.5 - 0.5));
+  CHECK(load["uniform"][1]["elements"] == "2..2");
+  CHECK(load["point"][1] == nlohmann::json({{"node", 3}, {"wx", 0.25}}));
+  const double pair = step["pairs"][0]["force"];
+  CHECK(pair > 0.1);
+  double force = load["force"].get<double>() + pair;
+  double along_x = load["moment_wx"].get<double>() + pair * 1.0;
+  double along_y = load["moment_wy"].get<double>() + pair * 1.0;
+  for (const auto& reaction : step["reactions"]) {
+    const double y = reaction["node"] == 4 ? 1.0 : 0.0;
+    const double value = reaction["value"];
+    if (reaction["dof"] == "w") {
+      force += value;
+      along_y += value * y;
+    } else {
+      (reaction["dof"] == "wx" ? along_x : along_y) += value;
+    }
+  }
+  CHECK(force == Approx(0.0).margin(1e-10));
+  CHECK(along_x == Approx(0.0).margin(1e-10));
+  CHECK(along_y == Approx(0.0).margin(1e-10));
 }

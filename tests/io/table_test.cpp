@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 #include "contct/io/problem_file.hpp"
-#include "io/bad_inputs.hpp"
+#include "io/bad_plates.hpp"
 
 using namespace contct;
 
@@ -56,4 +56,15 @@ TEST_CASE("items are joined while they fit, and a long one goes on in the next l
   CHECK(wrap({"one two three four", "five"}, 9) == lines{"one two", "three", "four", "five"});
   CHECK(wrap({"unbreakable word"}, 5) == lines{"unbreakable", "word"});
   CHECK(wrap({}, 5).empty());
+}
+
+TEST_CASE("a plate's loads are told in its own words") {
+  const problem p = parse_problem(good_plate, "pb.toml");
+  CHECK(load_path(p).words_at(1, 1.0, 24) == "force -3");
+  const std::string mistake = "uniform = [ { value = -1.0 }, { value = -2.0, elements = \"2..2\" } ]\n";
+  const problem slope = parse_problem(
+      plate_with(mistake + "point = [ { node = 3, w = -1.0, wx = 0.25 }, { node = 6, wy = -0.5 } ]",
+                 "point = [ { node = 6, wy = -0.5 } ]"),
+      "pb.toml");
+  CHECK(load_path(slope).words_at(1, 0.5, 24) == "wy -0.25 at node 6");
 }

@@ -106,3 +106,26 @@ TEST_CASE("a wrong number in the table would be noticed") {
   CHECK_FALSE(agrees(m.of(tip), 0.0, 1e9));
   CHECK(agrees(1e-13, 0.0, 1e-12));
 }
+
+TEST_CASE(
+    "what a plate does not have measures as nothing: a fifth corner, an element too many, a beam's moment") {
+  const problem p = read_problem((reference / "problems" / "pp01a-simply-supported-plate-n4.toml").string());
+  measurement m(p);
+  run(p, m);
+  expected_number e;
+  e.step = 1;
+  e.quantity = "mx";
+  e.element = 16;
+  e.place = 3;
+  CHECK(m.of(e) == Approx(0.0489).epsilon(1e-3));
+  for (const int place : {0, 5}) {
+    e.place = place;
+    CHECK(std::isnan(m.of(e)));
+  }
+  e.place = 3;
+  e.element = 17;
+  CHECK(std::isnan(m.of(e)));
+  e.element = 16;
+  e.quantity = "moment";
+  CHECK(std::isnan(m.of(e)));
+}

@@ -138,8 +138,9 @@ double measurement::of_support(const expected_number& e, const step_record& s) c
 }
 
 double measurement::of_pair(const expected_number& e, const step_record& s) const {
+  if (e.pair < 1 || static_cast<std::size_t>(e.pair) > problem_.pairs.size()) return not_there;
   const auto i = static_cast<std::size_t>(e.pair - 1);
-  const contact_pair& p = problem_.pairs.at(i);
+  const contact_pair& p = problem_.pairs[i];
   const double w = s.u[static_cast<std::size_t>(p.node * dofs_per_node(problem_.geometry))];
   const bool closed = s.isep[i] == in_contact;
   if (e.quantity == "state") return s.isep[i];
