@@ -165,7 +165,7 @@ TEST_CASE("progress, however slow, is no cycle, the limit of increments ends it"
     c.isep[0] = -c.isep[0];
   });
   beam_problem p = cantilever_over_a_stop();
-  const path_end end = p.run(k, {}, {300});
+  const path_end end = p.run(k, {}, {300, nullptr});
   CHECK(end.status == path_status::iteration_limit);
   CHECK(end.pairs == std::vector<int>{0});
   CHECK(end.fraction == Approx(1 - std::pow(0.999, 300)).epsilon(1e-12));

@@ -22,6 +22,7 @@ struct increment {
   double s;                       ///< s_min
   double fraction;                ///< share of the step's load consumed by now
   std::span<const event> events;  ///< in order of pairs
+  bool snaps = false;             ///< a rigid motion to the next face, at constant load
 };
 
 /// Where a step ended, or where the path stopped.
@@ -31,6 +32,7 @@ struct step_state {
   std::span<const double> displacement;  ///< D at every dof [dofs]
   std::span<const int> isep;             ///< status of each pair [pairs]
   double rcond;                          ///< of the equilibrated stiffness; 0 when it has no factor
+  bool rescued = false;                  ///< the path could not reach it: an equilibrium from elsewhere
 };
 
 /// Watches a path. The path does not depend on what an observer does.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,8 +35,19 @@ struct path_end {
 /// which comes zeroed.
 using load_history = std::function<void(int step, std::span<double> total)>;
 
+/// An equilibrium from elsewhere.
+struct rest_state {
+  std::vector<double> displacement;  ///< [dofs]
+  std::vector<char> closed;          ///< [pairs] 1 in contact
+};
+
+/// Finds the equilibrium under a step's total load [dofs] when a path that may be mended cannot go
+/// on; nothing where there is none.
+using rescuer = std::function<std::optional<rest_state>(std::span<const double> load)>;
+
 struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
+  rescuer rescue;               ///< used only when the leader's rule is not the listing's
 };
 
 /// Most increments of a step that anybody may ask for.
@@ -47,6 +59,13 @@ inline constexpr int most_increments = 1'000'000'000;
 /// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch.
 /// One decision is not the leader's: events within rounding of the step's full load (eps / rcond of
 /// it, from 1e-9 to 1e-6) are left undone, as the listing leaves one at s = 1.
+///
+/// A leader with another rule than the listing's has more help from the driver: a free motion that the
+/// load drives is followed to the next face at constant load (a rigid snap), and one that it does
+/// not drive is held where it stands; a pair toggled twice running at a standstill is kept closed
+/// until the load advances; and at a step's end D is put where the springs' law has it, with what
+/// rounding left out of balance put to the kernel once more.
+///
 /// The engine must be fresh: the springs of the pairs that start closed in, all others out.
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,
                      stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,

@@ -18,6 +18,9 @@ class refactor_engine final : public stiffness_engine {
   [[nodiscard]] double reciprocal_condition() override;
 
  private:
+  void refine(std::span<const double> right_hand_side, std::span<double> u);
+  void residual(std::span<const double> right_hand_side, std::span<const double> u,
+                std::span<double> left) const;
   void assemble();
   void factor_now();
   /// K x = right-hand side, in place, by the factor at hand; fixed dofs stay where they are.

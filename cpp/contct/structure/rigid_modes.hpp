@@ -19,6 +19,9 @@ class rigid_rank {
   void hold(const rigid_row& row);
   [[nodiscard]] int rank() const { return rank_; }
 
+  /// The part of a combination of motions that nothing held so far stops.
+  [[nodiscard]] rigid_row free_part(const rigid_row& motion) const;
+
  private:
   std::array<rigid_row, 3> basis_{};  // orthonormal
   int rank_ = 0;

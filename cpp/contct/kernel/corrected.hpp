@@ -1,0 +1,42 @@
+// CONTCT with a repaired rule: the same call, right answers.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "contct/kernel/call.hpp"
+
+namespace contct {
+
+/// A separated pair that approaches its face by less than this share of the largest response does
+/// not approach: its d* is the rounding of the solve. Closed pairs have no such threshold: a break
+/// that is missed locks in a force, a make that is missed costs only that share in position.
+inline constexpr double quiet_share = 1e-10;
+
+/// s of one pair under the corrected rule, infinite where the pair has no event ahead: it must move in
+/// its own direction, i_sep n d* > 0. A pair at its face, or beyond it by rounding, has s = 0.
+[[nodiscard]] inline double corrected_scale_factor(double d, double d_star, double c, int i_sep, int i_surf,
+                                                   double largest_response) {
+  const double towards_event = i_sep * (i_surf * d_star);
+  const double threshold = i_sep == separated ? quiet_share * largest_response : 0.0;
+  if (!(towards_event > threshold)) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, i_sep * (i_surf * (c - d))) / towards_event;
+}
+
+/// One call of the corrected CONTCT: c.ss, c.smin and c.isep as the listing sets them, but one
+/// event at a time: the first of the least s. Among pairs at their face (s = 0) it is the one
+/// with the largest |d*|, as in the paper, until that has been tried for long enough, and then the
+/// one of least index, which cannot go on for ever. `at_rest` counts the answers with SMIN = 0 right
+/// before this one. Returns the event. reference/corrected-rule.md has the reasons.
+std::optional<event> contct_corrected(call<double>& c, int at_rest) noexcept;
+
+/// How many answers with SMIN = 0 in a row go by the largest |d*|, for `nc` pairs.
+[[nodiscard]] constexpr int patience(int nc) {
+  return 20 + 4 * nc;
+}
+
+}  // namespace contct
