@@ -97,14 +97,13 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   const auto row = [this](std::size_t dof) {
     return static_cast<std::size_t>(structure_.row_of(static_cast<int>(dof)));
   };
-  std::vector<double> f(load.size());
   std::vector<double> u(load.size());
-  for (std::size_t dof = 0; dof < load.size(); ++dof) {
-    f[row(dof)] = load[dof];
-    u[row(dof)] = s.displacement[dof];
-  }
   std::vector<long double> left(load.size());
-  structure_.stiffness.residual(f, u, left);
+  for (std::size_t dof = 0; dof < load.size(); ++dof) {
+    u[row(dof)] = s.displacement[dof];
+    left[row(dof)] = load[dof];
+  }
+  structure_.stiffness.subtract_product(u, left);
   std::vector<double> stiffness(load.size());  // on the diagonal, springs included
   for (std::size_t dof = 0; dof < load.size(); ++dof) stiffness[dof] = scale_[dof] * scale_[dof];
   double deepest = 0.0;

@@ -47,7 +47,7 @@ using rescuer = std::function<std::optional<rest_state>(std::span<const double> 
 
 struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
-  rescuer rescue;               ///< used only when the leader's rule is not the listing's
+  rescuer rescue = nullptr;     ///< used only when the leader's rule is not the listing's
 };
 
 /// Most increments of a step that anybody may ask for.
