@@ -31,25 +31,57 @@ class drawing {
  private:
   double between(double least, double most) { return least + (most - least) * random_.unit(); }
   double power_between(double least, double most) { return std::pow(10.0, between(least, most)); }
-  [[nodiscard]] int nodes() const { return problem_.geometry.nodes(); }
+  [[nodiscard]] int node_count() const { return nodes(problem_.geometry); }
+  [[nodiscard]] bool is_plate() const { return std::holds_alternative<plate>(problem_.geometry.kind); }
+
+  /// The node across the middle, along x.
+  [[nodiscard]] int mirror_of(int node) const {
+    if (const auto* p = std::get_if<plate>(&problem_.geometry.kind)) {
+      return p->node_at(p->columns() - 1 - node % p->columns(), node / p->columns());
+    }
+    return node_count() - 1 - node;
+  }
   [[nodiscard]] bool mirrored() const {
     return problem_.layout == face_layout::symmetric || problem_.layout == face_layout::antisymmetric;
   }
 
   void draw_geometry() {
-    const int elements =
-        mirrored() ? 2 * random_.whole(2, kind_.most_elements / 2) : random_.whole(3, kind_.most_elements);
+    if (random_.chance(kind_.plate_share)) {
+      plate p;
+      p.x = lines(kind_.most_lines, problem_.unit);
+      p.y = lines(kind_.most_lines, problem_.unit * power_between(-0.5, 0.5));
+      p.D = force_ * problem_.unit;
+      p.nu = between(-0.2, 0.45);
+      problem_.geometry.kind = std::move(p);
+    } else {
+      beam b;
+      b.x = lines(kind_.most_elements, problem_.unit);
+      b.EI.assign(b.x.size() - 1, force_ * problem_.unit * problem_.unit);
+      problem_.geometry.kind = std::move(b);
+    }
+  }
+
+  std::vector<double> lines(int most_elements, double length) {
+    const int elements = mirrored() ? 2 * random_.whole(1 + most_elements / 12, most_elements / 2)
+                                    : random_.whole(std::min(3, most_elements), most_elements);
     const bool even = mirrored() || random_.chance(0.6);
     std::vector<double> x{0.0};
     for (int e = 0; e < elements; ++e) x.push_back(x.back() + (even ? 1.0 : between(0.3, 1.7)));
-    const double length = x.back();
-    for (double& at : x) at *= problem_.unit / length;
-    problem_.geometry.x = x;
-    problem_.geometry.EI.assign(static_cast<std::size_t>(elements), force_ * problem_.unit * problem_.unit);
+    const double last = x.back();
+    for (double& at : x) at *= length / last;
+    return x;
   }
 
   void draw_supports() {
-    const int last = nodes() - 1;
+    if (is_plate()) {
+      draw_plate_supports(std::get<plate>(problem_.geometry.kind));
+    } else {
+      draw_beam_supports();
+    }
+  }
+
+  void draw_beam_supports() {
+    const int last = node_count() - 1;
     const int middle = random_.whole(1, last - 1);
     switch (mirrored() ? 2 * random_.whole(0, 1) : random_.whole(0, 5)) {
       case 0:
@@ -66,6 +98,25 @@ class drawing {
         const double k = force_ / problem_.unit * power_between(0, 4);
         problem_.supports.push_back({0, 0, false, k});
         problem_.supports.push_back({last, 0, false, k});
+      }
+    }
+  }
+
+  /// All edges held, clamped at one (or at two that mirror each other), held at the corners, or on
+  /// springs there.
+  void draw_plate_supports(const plate& p) {
+    const int how = random_.whole(0, 3);
+    const double k = force_ / problem_.unit * power_between(0, 4);
+    for (int j = 0; j < p.rows(); ++j) {
+      for (int i = 0; i < p.columns(); ++i) {
+        const bool left = i == 0;
+        const bool right = i == p.columns() - 1;
+        const bool across = j == 0 || j == p.rows() - 1;
+        const int node = p.node_at(i, j);
+        if (how == 0 && (left || right || across)) fix({{node, 0}});
+        if (how == 1 && (left || (right && mirrored()))) fix({{node, 0}, {node, 1}, {node, 2}});
+        if (how == 2 && (left || right) && across) fix({{node, 0}});
+        if (how == 3 && (left || right) && across) problem_.supports.push_back({node, 0, false, k});
       }
     }
   }
@@ -97,7 +148,8 @@ class drawing {
     load l;
     const double sign = !problem_.held || random_.chance(0.6) ? -1.0 : 1.0;
     const bool spread = !problem_.held || random_.chance(0.6) || mirrored();
-    if (spread) l.distributed.push_back({{sign * force_ / problem_.unit * between(0.1, 2.0)}, {}});
+    const double extent = is_plate() ? problem_.unit * problem_.unit : problem_.unit;
+    if (spread) l.distributed.push_back({{sign * force_ / extent * between(0.1, 2.0)}, {}});
     if (problem_.layout == face_layout::antisymmetric) {
       l.distributed.clear();
       add_mirrored_points(l, -1.0);
@@ -111,16 +163,18 @@ class drawing {
   }
 
   point_load point() {
-    const int node = random_.whole(0, nodes() - 1);
-    if (random_.chance(0.25)) return {node, 1, force_ * problem_.unit * between(-0.3, 0.3)};
+    const int node = random_.whole(0, node_count() - 1);
+    if (random_.chance(0.25))
+      return {node, random_.whole(1, is_plate() ? 2 : 1), force_ * problem_.unit * between(-0.3, 0.3)};
     return {node, 0, force_ * (problem_.held ? between(-1.0, 1.0) : between(-1.0, 0.3))};
   }
 
   void add_mirrored_points(load& l, double sign) {
-    const int node = random_.whole(0, nodes() / 2 - 1);
+    const int node = random_.whole(0, node_count() - 1);
+    if (mirror_of(node) == node) return;
     const double value = force_ * between(-1.0, 1.0);
     l.points.push_back({node, 0, value});
-    l.points.push_back({nodes() - 1 - node, 0, sign * value});
+    l.points.push_back({mirror_of(node), 0, sign * value});
   }
 
   static load times(double factor, load l) {
@@ -131,33 +185,37 @@ class drawing {
     return l;
   }
 
-  /// Deflections of the structure without pairs under the first load: the size of useful gaps.
+  /// Deflections [nodes] of the structure without pairs under the first load: the size of useful gaps.
   [[nodiscard]] std::vector<double> free_deflection() const {
     linear_structure s = build(problem_.geometry, problem_.supports, {});
     std::vector<double> f(static_cast<std::size_t>(s.dofs()), 0.0);
     add_consistent_loads(problem_.geometry, problem_.steps.front(), f);
-    for (std::size_t i = 0; i < f.size(); ++i) f[i] = s.fixed[i] != 0 ? 0.0 : f[i];
-    if (problem_.held && factor(s.stiffness)) {
-      solve_with(s.stiffness, f);
-    } else {
-      std::fill(f.begin(), f.end(), 0.01 * problem_.unit);
-    }
-    return f;
+    const auto stride = static_cast<std::size_t>(s.dofs_per_node);
+    std::vector<double> w(f.size() / stride, 0.01 * problem_.unit);
+    if (!problem_.held || !factor(s.stiffness)) return w;
+    const auto row = [&s](std::size_t dof) {
+      return static_cast<std::size_t>(s.row_of(static_cast<int>(dof)));
+    };
+    std::vector<double> u(f.size());
+    for (std::size_t dof = 0; dof < f.size(); ++dof) u[row(dof)] = s.fixed[dof] != 0 ? 0.0 : f[dof];
+    solve_with(s.stiffness, u);
+    for (std::size_t node = 0; node < w.size(); ++node) w[node] = u[row(node * stride)];
+    return w;
   }
 
   void draw_pairs() {
     const std::vector<double> w = free_deflection();
-    for (std::size_t i = 0; i < w.size(); i += 2) largest_ = std::max(largest_, std::abs(w[i]));
+    for (const double at : w) largest_ = std::max(largest_, std::abs(at));
+    if (largest_ == 0.0) largest_ = 0.01 * problem_.unit;  // loads on supports alone
     common_stiffness_ = random_.chance(0.5) ? power_between(0, 8) : 0.0;
     common_gap_ = largest_ * power_between(-2, 0);
     const double density = problem_.held ? between(0.2, 1.0) : between(0.6, 1.0);
-    const int last = mirrored() ? (nodes() - 1) / 2 : nodes() - 1;
-    for (int node = 0; node <= last; ++node) {
-      if (fixed_in_w(node)) continue;
-      if (random_.chance(density) || (!problem_.held && (node == 0 || node == nodes() - 1)))
-        place(node, w[2 * static_cast<std::size_t>(node)]);
+    for (int node = 0; node < node_count(); ++node) {
+      if (fixed_in_w(node) || (mirrored() && mirror_of(node) < node)) continue;
+      const bool end = node == 0 || node == node_count() - 1;
+      if (random_.chance(density) || (!problem_.held && end)) place(node, w[static_cast<std::size_t>(node)]);
     }
-    if (problem_.pairs.empty()) place(nodes() / 2, w[2 * static_cast<std::size_t>(nodes() / 2)]);
+    if (problem_.pairs.empty()) place(node_count() / 2, w[w.size() / 2]);
   }
 
   void place(int node, double w) {
@@ -176,7 +234,7 @@ class drawing {
       problem_.pairs.push_back(p);
     }
     if (!mirrored()) return;
-    const int other = nodes() - 1 - node;
+    const int other = mirror_of(node);
     if (other == node || fixed_in_w(other)) return;
     if (problem_.layout == face_layout::antisymmetric) {
       p.surface = -p.surface;

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/structure/beam.hpp"
+#include "contct/structure/model.hpp"
 
 namespace contct {
 
@@ -14,17 +14,19 @@ enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, an
 inline constexpr int face_layouts = 8;
 [[nodiscard]] std::string_view name_of(face_layout f);
 
-/// What to draw from.
+/// What to draw from: beams and plates on 1 to all of their nodes' pairs, springs over eight decades,
+/// one to five load steps with unloading and reversal.
 struct random_problem_kind {
   double least_unit = 1e-12;  ///< the unit of length, log-uniform between these two
   double most_unit = 1e12;
   double free_share = 0.2;  ///< share of structures held by pairs alone
-  double plate_share = 0.0;
+  double plate_share = 0.25;
   int most_elements = 24;  ///< of a beam
+  int most_lines = 6;      ///< elements along a side of a plate
 };
 
 struct random_problem {
-  beam geometry;
+  model geometry;
   std::vector<support> supports;
   std::vector<contact_pair> pairs;
   std::vector<load> steps;

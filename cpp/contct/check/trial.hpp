@@ -1,0 +1,38 @@
+// One random problem, followed by one kernel, and what came of it.
+#pragma once
+
+#include <string_view>
+
+#include "contct/check/random_problem.hpp"
+#include "contct/kernel/kernel.hpp"
+
+namespace contct {
+
+enum class verdict {
+  certified,        ///< every step's final state is certified
+  no_equilibrium,   ///< the path ended in a mechanism, and the oracle agrees that nothing holds
+  wrong,            ///< the path went to its end, and some final state is not right
+  false_mechanism,  ///< the path ended in a mechanism where there is an equilibrium
+  no_end,           ///< cycle, increments without end, or no factor
+};
+inline constexpr int verdicts = 5;
+[[nodiscard]] std::string_view name_of(verdict v);
+
+struct trial {
+  verdict came_to = verdict::no_end;
+  double displacement_error = 0.0;  ///< the worst of any step, relative to the largest deflection
+  double needed = 0.0;              ///< the worst of all that a certificate measures
+  double factor = 0.0;              ///< the worst of that in eps / rcond: what C would have to be
+  int steps = 0;                    ///< certified or judged
+  int makes = 0, breaks = 0;
+  int at_rest = 0;  ///< increments without progress
+  int snaps = 0;    ///< rigid, at constant load
+  int rescues = 0;  ///< steps that the oracle ended
+  int increments = 0;
+};
+
+/// Follow `p` with `leader` on the engine named, with the oracle's help where its rule takes help.
+[[nodiscard]] trial try_problem(const random_problem& p, kernel& leader,
+                                std::string_view engine = "refactor");
+
+}  // namespace contct
