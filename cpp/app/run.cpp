@@ -7,12 +7,17 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "app/endings.hpp"
 #include "app/streams.hpp"
+#include "contct/check/certificate.hpp"
+#include "contct/check/early_toggles.hpp"
 #include "contct/check/free_run.hpp"
 #include "contct/check/lockstep.hpp"
+#include "contct/check/rescue.hpp"
+#include "contct/io/certificate_text.hpp"
 #include "contct/io/follow.hpp"
 #include "contct/io/output_file.hpp"
 #include "contct/io/problem_file.hpp"
@@ -32,6 +37,7 @@ struct run_options {
   std::string json;
   std::string log;
   bool free_run = false;
+  bool strict = false;
   int max_increments = 0;
 };
 
@@ -95,6 +101,7 @@ class run {
     problem_ = read_problem(options_.file);
     for (const std::string& w : problem_.warnings) complain("warning: {}", w);
     structure_ = structure_of(problem_);
+    judged_.emplace(structure_, loads_of(problem_));
   }
 
   /// Every file of its own: an output must not replace the problem, nor one output another.
@@ -139,13 +146,13 @@ class run {
     for (std::size_t i = 1; i < options_.kernels.size(); ++i) {
       const std::string& name = options_.kernels[i];
       path_record own;
-      own.end = follow(problem_, structure_, options_.engine, *make_kernel(name), {&own},
-                       {options_.max_increments});
+      certifier judged(structure_, loads_of(problem_));
+      own.end = follow(problem_, structure_, options_.engine, *make_kernel(name), {&judged, &own}, limits());
       const double bound = free_run_bound(facts_of_kernel(options_.kernels[0]), facts_of_kernel(name));
       const free_run_difference d = compare_paths(leader, own, bound, structure_.dofs_per_node);
       all_within = all_within && d.within_bound();
-      if (json_) json_->add_free_run(name, d);
-      report_free_run(name, d);
+      if (json_) json_->add_free_run(name, d, judged.all_exact());
+      report_free_run(name, d, judged);
     }
     return finish(leader.end, all_within, nullptr);
   }
@@ -154,19 +161,23 @@ class run {
   path_end follow_observed(kernel& leader, lockstep* compared, path_record* record) {
     std::vector<observer*> watching;
     if (compared != nullptr) watching.push_back(compared);
-    if (shows_table_) watching.push_back(&table_.emplace(problem_, compared, terminal_));
+    watching.push_back(&*judged_);
+    watching.push_back(&early_);
+    if (shows_table_) watching.push_back(&table_.emplace(problem_, compared, *judged_, terminal_));
     if (json_) watching.push_back(&*json_);
     if (log_) watching.push_back(&*log_);
     if (record != nullptr) watching.push_back(record);
     watching.push_back(&digits_);
-    return follow(problem_, structure_, options_.engine, leader, watching, {options_.max_increments});
+    return follow(problem_, structure_, options_.engine, leader, watching, limits());
   }
+
+  [[nodiscard]] path_limits limits() const { return {options_.max_increments, rescue_by_oracle(structure_)}; }
 
   /// Before anything is solved: a place that cannot be written is found out at once.
   void open_outputs() {
     if (!options_.json.empty()) {
       json_file_.emplace(options_.json);
-      json_.emplace(problem_, options_.kernels, options_.engine, *json_file_);
+      json_.emplace(problem_, options_.kernels, options_.engine, *judged_, *json_file_);
     }
     if (!options_.log.empty()) {
       log_file_.emplace(options_.log);
@@ -186,15 +197,15 @@ class run {
     fmt::print("\n");
   }
 
-  void print_verdict(paint p, const std::vector<std::string>& items) const {
+  void print_verdict(paint p, const std::vector<std::string>& items) {
     if (!shows_table_) return;
-    fmt::print("\n");
+    if (!std::exchange(has_verdict_, true)) fmt::print("\n");
     for (const std::string& line : wrap(items, terminal_.width))
       fmt::print("{}\n", painted(terminal_, p, line));
   }
 
   /// Say how the comparison came out. A mismatch under a bad probe is the environment's.
-  void report_lockstep(const lockstep& compared) const {
+  void report_lockstep(const lockstep& compared) {
     const tally& t = compared.compared();
     const std::string names = fmt::format("{}", fmt::join(options_.kernels, " and "));
     if (compared.calls() == 0)
@@ -213,12 +224,13 @@ class run {
     if (!fp.strict()) complain("environment, not kernel: {}", describe(fp));
   }
 
-  void report_free_run(const std::string& name, const free_run_difference& d) const {
+  void report_free_run(const std::string& name, const free_run_difference& d, const certifier& judged) {
     print_verdict(
         d.within_bound() ? paint::good : paint::bad,
         {fmt::format("{} on a path of its own: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
          fmt::format("load fractions within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
-                     d.displacement, d.bound)});
+                     d.displacement, d.bound),
+         judged.all_exact() ? "certified" : "NOT certified"});
     if (!d.first_difference.empty()) complain("{}: first difference: {}", name, d.first_difference);
     for (const auto& [what, difference] : {std::pair("a load fraction", d.fraction), {"D", d.displacement}}) {
       if (difference <= d.bound) continue;
@@ -226,18 +238,36 @@ class run {
     }
   }
 
+  /// The certificate of the leader's path, for people.
+  void report_certificate() {
+    if (const auto items = certificate_summary(*judged_); !items.empty()) {
+      const bool good = std::none_of(judged_->steps().begin(), judged_->steps().end(),
+                                     [](const auto& c) { return c && !c->exact; });
+      print_verdict(good ? paint::good : paint::bad, items);
+    }
+    flush_standard_output();
+    for (const std::string& line : certificate_complaints(problem_, *judged_, early_)) complain("{}", line);
+  }
+
   exit_status finish(const path_end& end, bool equal, const lockstep* compared) {
+    report_certificate();
     flush_standard_output();  // the table before what is said about it; and no files when it is lost
     if (end.status == path_status::solved) {
       if (const std::string w = digits_.warning(); !w.empty()) complain("warning: {}", w);
     } else {
       complain("{}: {}", options_.file, end_words(problem_, end));
     }
-    const exit_status status = equal ? status_of(end.status) : exit_status::kernels_differ;
+    const exit_status status = equal ? certified_status_of(end.status) : exit_status::kernels_differ;
     if (status == exit_status::bad_input) return status;  // no numbers, and no files
     if (json_) json_->finish(equal ? status_name(end.status) : "kernels-disagree", end, compared);
     if (log_) log_file_->finish();
     return status;
+  }
+
+  [[nodiscard]] exit_status certified_status_of(path_status status) const {
+    if (status == path_status::solved && options_.strict && !judged_->all_exact())
+      return exit_status::uncertified;
+    return status_of(status);
   }
 
   const run_options& options_;
@@ -249,7 +279,10 @@ class run {
   std::optional<result_json> json_;
   std::optional<log_writer> log_;
   std::optional<table> table_;
+  std::optional<certifier> judged_;
+  early_toggles early_;
   digit_watch digits_;
+  bool has_verdict_ = false;
 };
 
 }  // namespace
@@ -266,6 +299,7 @@ void add_run(CLI::App& program, exit_status& status) {
       ->capture_default_str();
   command->add_flag("--free-run", options->free_run,
                     "Drive each kernel on a path of its own; compare events, load fractions and D");
+  command->add_flag("--strict", options->strict, "Exit 3 when a final state is not certified");
   command->add_option("--max-increments", options->max_increments, "Limit of increments in a step")
       ->check(CLI::Range(1, most_increments));
   command->add_option("--json", options->json, "Write the result to this file (- is standard output)");

@@ -36,7 +36,7 @@ TEST_CASE("the table shows share, s, load, event, node and side, and that the ke
   CHECK(f.err.empty());
   CHECK_THAT(f.out, Contains("1.1  0.25"));
   CHECK_THAT(f.out, Contains("equal    w -15 at node 3  make 1: node 3 below"));
-  CHECK_THAT(f.out, Contains("w = -0.0048372093 at node 3; 1 of 1 pairs in contact"));
+  CHECK_THAT(f.out, Contains("w = -0.0048372093 at node 3; 1 of 1 in contact"));
   CHECK_THAT(f.out,
              Contains("fortran and cpp are equal to the bit; 2 calls, 8 values compared, 0 mismatches"));
   CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // and no fort.26

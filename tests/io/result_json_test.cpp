@@ -25,8 +25,10 @@ nlohmann::json result_of(const std::string& text) {
   const auto file =
       std::filesystem::temp_directory_path() / ("contct-json-test-" + std::to_string(::getpid()));
   output_file out(file.string());
-  result_json json(p, {"fortran", "cpp"}, "refactor", out);
-  const path_end end = follow(p, structure_of(p), "refactor", *leader, {&compared, &json});
+  const linear_structure s = structure_of(p);
+  certifier judged(s, loads_of(p));
+  result_json json(p, {"fortran", "cpp"}, "refactor", judged, out);
+  const path_end end = follow(p, s, "refactor", *leader, {&compared, &judged, &json});
   json.finish(status_name(end.status), end, &compared);
   auto parsed = nlohmann::json::parse(std::ifstream(file));
   std::filesystem::remove(file);
@@ -53,7 +55,12 @@ TEST_CASE("the result has the format's fields, with the numbers of PB1's second 
   CHECK(pair["state"] == "contact");
   CHECK(pair["gap"] == 0.0);
   CHECK(pair["force"].get<double>() == Approx(41.8604651162791).epsilon(1e-11));
-  CHECK(step["certificate"].is_null());
+  const auto& judged = step["certificate"];
+  CHECK(judged["exact"] == true);
+  CHECK(judged["displacement_error"].get<double>() < 1e-13);
+  CHECK(judged["tolerance"].get<double>() <= 1e-6);
+  CHECK(judged["penetration"] == 0.0);
+  CHECK(judged["tension"] == 0.0);
 }
 
 TEST_CASE("events carry pair, node, side and change, and their load in absolute terms") {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "contct/io/certificate_text.hpp"
 #include "contct/structure/cholesky.hpp"
 
 namespace contct {
@@ -55,8 +56,8 @@ std::string_view status_name(path_status status) {
 }
 
 result_json::result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
-                         output_file& out)
-    : problem_(p), loads_(p), out_(out) {
+                         const certifier& judged, output_file& out)
+    : problem_(p), judged_(judged), loads_(p), out_(out) {
   out_.write(
       fmt::format("{{\n  \"format\": \"contct-result-1\",\n  \"title\": {},\n  \"kernels\": {},\n"
                   "  \"engine\": {},\n  \"steps\": [",
@@ -72,11 +73,12 @@ void result_json::incremented(const increment& i) {
                       {"surface", surface_name(p.surface)},
                       {"change", change_name(e.what)}});
   }
-  const json entry = {{"increment", i.number},
-                      {"s", i.s},
-                      {"fraction", i.fraction},
-                      {"load", loads_.json_at(i.step, i.fraction)},
-                      {"events", std::move(events)}};
+  json entry = {{"increment", i.number},
+                {"s", i.s},
+                {"fraction", i.fraction},
+                {"load", loads_.json_at(i.step, i.fraction)},
+                {"events", std::move(events)}};
+  if (i.snaps) entry["snap"] = true;
   increments_.push_back(entry.dump());
 }
 
@@ -105,8 +107,10 @@ void result_json::step_ended(const step_state& s) {
   write_pairs(s);
   write_reactions(s, total);
   write_elements(s, total);
-  out_.write(fmt::format("      \"rcond\": {},\n      \"digits\": {},\n      \"certificate\": null\n    }}",
-                         json(s.rcond).dump(), digits_left(s.rcond)));
+  if (s.rescued) out_.write("      \"ended_by\": \"oracle\",\n");
+  out_.write(fmt::format("      \"rcond\": {},\n      \"digits\": {},\n      \"certificate\": {}\n    }}",
+                         json(s.rcond).dump(), digits_left(s.rcond),
+                         certificate_json(judged_.steps().back()).dump()));
 }
 
 void result_json::write_pairs(const step_state& s) {
@@ -145,7 +149,7 @@ void result_json::write_elements(const step_state& s, const load& total) {
   });
 }
 
-void result_json::add_free_run(std::string_view kernel, const free_run_difference& d) {
+void result_json::add_free_run(std::string_view kernel, const free_run_difference& d, bool certified) {
   const json entry = {{"kernel", kernel},
                       {"same_end", d.same_end},
                       {"same_events", d.same_events},
@@ -153,7 +157,8 @@ void result_json::add_free_run(std::string_view kernel, const free_run_differenc
                       {"fraction", d.fraction},
                       {"displacement", d.displacement},
                       {"bound", d.bound},
-                      {"within_bound", d.within_bound()}};
+                      {"within_bound", d.within_bound()},
+                      {"certified", certified}};
   free_runs_.push_back(entry.dump());
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "contct/check/certificate.hpp"
 #include "contct/check/free_run.hpp"
 #include "contct/check/lockstep.hpp"
 #include "contct/io/load_text.hpp"
@@ -19,15 +20,15 @@ namespace contct {
 /// The file appears when `finish` is called.
 class result_json final : public observer {
  public:
-  /// `p` and `out` must outlive this object.
+  /// `p`, `judged` and `out` must outlive this object. It must observe behind the certifier.
   result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
-              output_file& out);
+              const certifier& judged, output_file& out);
 
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
 
   /// Add how another kernel's own path compares.
-  void add_free_run(std::string_view kernel, const free_run_difference& d);
+  void add_free_run(std::string_view kernel, const free_run_difference& d, bool certified);
 
   /// Close the document. `compared` is null when there was one kernel only.
   void finish(std::string_view status, const path_end& end, const lockstep* compared);
@@ -40,6 +41,7 @@ class result_json final : public observer {
   void write_list(std::string_view name, std::size_t count, Entry entry, bool last = false);
 
   const problem& problem_;
+  const certifier& judged_;
   load_path loads_;
   output_file& out_;
   std::vector<std::string> increments_;  // of the step under way, as JSON

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "contct/io/certificate_text.hpp"
 #include "contct/io/result_json.hpp"
 #include "contct/structure/cholesky.hpp"
 
@@ -58,8 +59,8 @@ std::string share_words(double x) {
   return fmt::format("{:.1g}", x);
 }
 
-table::table(const problem& p, const lockstep* compared, const terminal& t)
-    : problem_(p), loads_(p), compared_(compared), terminal_(t) {
+table::table(const problem& p, const lockstep* compared, const certifier& judged, const terminal& t)
+    : problem_(p), loads_(p), compared_(compared), judged_(judged), terminal_(t) {
   const int room = t.width - fixed_width;
   const int widest = widest_event(p);
   events_below_ = room < widest;
@@ -120,10 +121,11 @@ void table::step_ended(const step_state& s) {
   const auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
   std::string label = events_below_ ? "end " : "   end  ";
   const int width = terminal_.width - static_cast<int>(label.size());
-  const std::vector<std::string> items = {
+  std::vector<std::string> items = {
       deflection_words(s.displacement[largest], largest / stride + 1, width),
-      fmt::format("{} of {} pairs in contact", closed, s.isep.size()),
-      fmt::format("{} digits", digits_left(s.rcond))};
+      fmt::format("{} of {} in contact", closed, s.isep.size()),
+      fmt::format("{} digits", digits_left(s.rcond)), certificate_mark(judged_.steps().back())};
+  if (s.rescued) items.emplace_back("ended by the oracle");
   for (const std::string& line : wrap(items, width)) {
     fmt::print("{}\n", painted(terminal_, paint::quiet, label + line));
     label.assign(label.size(), ' ');

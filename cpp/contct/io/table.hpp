@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "contct/check/certificate.hpp"
 #include "contct/check/lockstep.hpp"
 #include "contct/io/load_text.hpp"
 #include "contct/io/problem.hpp"
@@ -12,15 +13,21 @@
 
 namespace contct {
 
+<<<<<<< HEAD
 /// A share in at most nine columns, with as many digits as fit. What is less than 1 is never shown as 1,
 /// which means the whole load: "1-3e-09".
 [[nodiscard]] std::string share_words(double x);
 
 /// Observes a path and prints it as it goes. Place it behind the lockstep that it reports on.
+=======
+/// Observes a path and prints it as it goes. Place it behind the lockstep and the certifier that it reports
+/// on.
+>>>>>>> 4601f1b (Every run is certified: table, JSON and verdict say so, --strict exits 3, and an uncertified state names the toggle that was too early)
 class table final : public observer {
  public:
-  /// `p` must outlive this object, and so must `compared`, which is null for a kernel alone.
-  table(const problem& p, const lockstep* compared, const terminal& t);
+  /// `p` and `judged` must outlive this object, and so must `compared`, which is null for a kernel
+  /// alone.
+  table(const problem& p, const lockstep* compared, const certifier& judged, const terminal& t);
 
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
@@ -33,6 +40,7 @@ class table final : public observer {
   const problem& problem_;
   load_path loads_;
   const lockstep* compared_;
+  const certifier& judged_;
   terminal terminal_;
   int load_width_ = 0;         // 0: no room for loads
   int indent_ = 0;             // of the events
