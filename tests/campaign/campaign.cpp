@@ -1,0 +1,108 @@
+// The corrected kernel on random problems, by the hundred thousand: contct_campaign [PROBLEMS] [SEED].
+// Prints what they came to, and fails when a structure that its supports hold is not certified, when
+// an answer needed more tolerance than promised, or when too little was tried.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "contct/check/certificate.hpp"
+#include "contct/check/trial.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// What the problems of one kind came to.
+struct tally_of_trials {
+  std::array<long, verdicts> came_to{};
+  long problems = 0, rescued = 0, snapped = 0, at_rest = 0, events = 0, needed_more = 0;
+  double worst = 0.0, factor = 0.0;
+
+  void add(const trial& t) {
+    ++problems;
+    ++came_to[static_cast<std::size_t>(t.came_to)];
+    rescued += t.rescues > 0 ? 1 : 0;
+    snapped += t.snaps > 0 ? 1 : 0;
+    at_rest += t.at_rest > 0 ? 1 : 0;
+    needed_more += t.needed > 1e-8 ? 1 : 0;
+    events += t.makes + t.breaks;
+    worst = std::max(worst, t.needed);
+    factor = std::max(factor, t.factor);
+  }
+};
+
+void print(const std::string& name, const tally_of_trials& t) {
+  std::printf("%-24s %8ld", name.c_str(), t.problems);
+  for (const long count : t.came_to) std::printf(" %8ld", count);
+  std::printf(" %7ld %6ld %8ld %9.1e %6.0f\n", t.rescued, t.snapped, t.needed_more, t.worst, t.factor);
+}
+
+long as_number(const char* text) {
+  char* end = nullptr;
+  const long number = std::strtol(text, &end, 10);
+  if (end == text || *end != '\0' || number < 1) {
+    (void)std::fprintf(stderr, "contct_campaign: found %s; allowed: a whole number, at least 1\n", text);
+    std::exit(2);
+  }
+  return number;
+}
+
+bool expect(bool holds, const char* what) {
+  if (!holds) std::printf("FAILED: %s\n", what);
+  return holds;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const long problems = argc > 1 ? as_number(argv[1]) : 200000;
+  const long seed = argc > 2 ? as_number(argv[2]) : 2026;
+  const auto corrected = make_kernel("corrected");
+  std::array<tally_of_trials, 2> by_hold;
+  std::array<std::array<tally_of_trials, face_layouts>, 2> by_layout;
+  tally_of_trials plates;
+  for (long number = 0; number < problems; ++number) {
+    const random_problem p =
+        make_random_problem(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(number));
+    const trial t = try_problem(p, *corrected);
+    const std::size_t held = p.held ? 0 : 1;
+    by_hold[held].add(t);
+    by_layout[held][static_cast<std::size_t>(p.layout)].add(t);
+    if (std::holds_alternative<plate>(p.geometry.kind)) plates.add(t);
+    if (t.came_to != verdict::certified && t.came_to != verdict::no_equilibrium) {
+      std::printf("problem %ld: %s, needed %.2e\n", number, std::string(name_of(t.came_to)).c_str(),
+                  t.needed);
+    }
+  }
+
+  std::printf("\n%ld problems, seed %ld\n%-24s %8s", problems, seed, "", "problems");
+  for (int v = 0; v < verdicts; ++v)
+    std::printf(" %8.8s", std::string(name_of(static_cast<verdict>(v))).c_str());
+  std::printf(" %7s %6s %8s %9s %6s\n", "rescued", "snaps", "over1e-8", "worst", "C");
+  for (std::size_t held = 0; held < 2; ++held) {
+    const std::string kind = held == 0 ? "held, " : "free, ";
+    for (std::size_t layout = 0; layout < face_layouts; ++layout) {
+      print(kind + std::string(name_of(static_cast<face_layout>(layout))), by_layout[held][layout]);
+    }
+    print(held == 0 ? "HELD" : "FREE", by_hold[held]);
+  }
+  print("plates, of these", plates);
+
+  const tally_of_trials& held = by_hold[0];
+  const tally_of_trials& free = by_hold[1];
+  const auto at = [](const tally_of_trials& t, verdict v) { return t.came_to[static_cast<std::size_t>(v)]; };
+  bool good = expect(at(held, verdict::certified) == held.problems, "every held problem is certified");
+  good &= expect(held.rescued * 10000 <= held.problems, "the oracle ends at most one held problem in 10,000");
+  good &= expect((held.needed_more + free.needed_more) * 100 <= problems, "at most 1 % need more than 1e-8");
+  good &= expect(held.factor <= certificate_factor, "C is enough");
+  good &=
+      expect(at(free, verdict::false_mechanism) == 0, "no mechanism is told where there is an equilibrium");
+  good &= expect(held.problems * 2 > problems && free.problems * 10 > problems, "both kinds are there");
+  good &= expect(held.events > 4 * held.problems, "there are events");
+  good &= expect(held.at_rest * 4 > held.problems, "a quarter of the problems have standstills");
+  good &= expect(plates.problems * 5 > problems, "a fifth are plates");
+  std::printf("%s\n", good ? "passed" : "FAILED");
+  return good ? 0 : 1;
+}
