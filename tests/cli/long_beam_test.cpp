@@ -57,7 +57,7 @@ TEST_CASE("two hundred thousand beds of one node each are as quick as one bed of
   const finished f = contct_program(dir.path(), {"run", "beds.toml", "--kernels", "cpp"});
   INFO(f.err);
   CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains("200001 of 200001 pairs in contact"));
+  CHECK_THAT(f.out, Contains("200001 of 200001 in contact"));
 }
 
 TEST_CASE("a single span of 5,000 elements has lost its digits, and says so") {

@@ -78,7 +78,8 @@ TEST_CASE("on a narrow terminal an increment's events stand on lines of their ow
                              "    make 1: node 3 below\n"
                              "   1.2  1          1          equal\n"
                              "end w = -0.0048372093 at node 3\n"
-                             "    1 of 1 pairs in contact; 14 digits\n"));
+                             "    1 of 1 in contact; 14 digits\n"
+                             "    certified\n"));
 }
 
 TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on a dumb one") {

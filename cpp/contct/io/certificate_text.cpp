@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "contct/io/result_json.hpp"
@@ -12,6 +13,13 @@ namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
+
+/// Digits that an error leaves. More than ten are the business of the LAPACK at hand.
+std::string digits_words(double error) {
+  constexpr int enough = 10;
+  const int digits = error > 0.0 ? static_cast<int>(-std::log10(error)) : enough;
+  return digits >= enough ? fmt::format("{} digits or more", enough) : fmt::format("{} digits", digits);
+}
 
 /// The toggle farthest from its face, up to the end of a step; null when all were at theirs.
 const early_toggle* worst_until(int step, const early_toggles& early) {
@@ -73,7 +81,7 @@ std::vector<std::string> certificate_summary(const certifier& judged) {
   if (certified == 0) return {};
   return {certified == 1 ? "the final state is certified"
                          : fmt::format("all {} final states are certified", certified),
-          fmt::format("off by at most {:.1e}", worst)};
+          "right to " + digits_words(worst)};
 }
 
 std::vector<std::string> certificate_complaints(const problem& p, const certifier& judged,

@@ -121,10 +121,10 @@ void table::step_ended(const step_state& s) {
   const auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
   std::string label = events_below_ ? "end " : "   end  ";
   const int width = terminal_.width - static_cast<int>(label.size());
-  std::vector<std::string> items = {
-      deflection_words(s.displacement[largest], largest / stride + 1, width),
-      fmt::format("{} of {} in contact", closed, s.isep.size()),
-      fmt::format("{} digits", digits_left(s.rcond)), certificate_mark(judged_.steps().back())};
+  std::vector<std::string> items = {deflection_words(s.displacement[largest], largest / stride + 1, width),
+                                    fmt::format("{} of {} in contact", closed, s.isep.size()),
+                                    fmt::format("{} digits", digits_left(s.rcond)),
+                                    certificate_mark(judged_.steps().back())};
   if (s.rescued) items.emplace_back("ended by the oracle");
   for (const std::string& line : wrap(items, width)) {
     fmt::print("{}\n", painted(terminal_, paint::quiet, label + line));

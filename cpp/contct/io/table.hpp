@@ -13,16 +13,12 @@
 
 namespace contct {
 
-<<<<<<< HEAD
 /// A share in at most nine columns, with as many digits as fit. What is less than 1 is never shown as 1,
 /// which means the whole load: "1-3e-09".
 [[nodiscard]] std::string share_words(double x);
 
-/// Observes a path and prints it as it goes. Place it behind the lockstep that it reports on.
-=======
-/// Observes a path and prints it as it goes. Place it behind the lockstep and the certifier that it reports
-/// on.
->>>>>>> 4601f1b (Every run is certified: table, JSON and verdict say so, --strict exits 3, and an uncertified state names the toggle that was too early)
+/// Observes a path and prints it as it goes. Place it behind the lockstep and the
+/// certifier that it reports on.
 class table final : public observer {
  public:
   /// `p` and `judged` must outlive this object, and so must `compared`, which is null for a kernel
