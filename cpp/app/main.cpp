@@ -38,6 +38,7 @@ contct::exit_status run_program(int argc, char** argv) {
   program.set_version_flag("--version", version, "Print the version and the listing's checksum");
   program.require_subcommand(1);
   contct::add_run(program, status);
+  contct::add_verify(program, status);
   contct::add_kernels(program, status);
   try {
     program.parse(argc, argv);

