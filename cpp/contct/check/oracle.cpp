@@ -43,8 +43,9 @@ oracle::oracle(const linear_structure& s) : structure_(s) {
   u_.resize(n);
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
     pair_rows_.push_back(static_cast<std::size_t>(s.row_of(s.dof_of_pair(static_cast<int>(i)))));
-    set_.push_back(s.pairs[i].closed ? 1 : 0);
   }
+  set_.resize(s.pairs.size());
+  start_undeformed();
   for (int row = 0; row < s.dofs(); ++row) scale_.push_back(std::sqrt(s.stiffness.at(row, row)));
 }
 
@@ -263,11 +264,36 @@ void oracle::hold_where_it_stands(rigid_rank& rank) {
   }
 }
 
-oracle_answer oracle::solve(std::span<const double> load) {
+/// E falls for ever along p: there is no equilibrium, unless supports or numbers out of range belie it.
+oracle_answer::outcome oracle::why_endless(const numbers& p) const {
   using outcome = oracle_answer::outcome;
+  rigid_rank rank;
+  if (holds(pair_set(set_.size()), rank)) return outcome::not_found;
+  const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
+  return finite ? outcome::no_equilibrium : outcome::not_found;
+}
+
+/// Where the structure is before any load.
+void oracle::start_undeformed() {
+  std::fill(u_.begin(), u_.end(), 0.0L);
+  for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
+}
+
+oracle_answer oracle::solve(std::span<const double> load) {
   factorisations_ = 0;
   take(load);
   remember_size_of_load();
+  oracle_answer answer = search();
+  if (answer.how == oracle_answer::outcome::found) return answer;
+  // A start far from the answer, seen from the load, may have spoilt it by rounding.
+  start_undeformed();
+  answer = search();
+  if (answer.how != oracle_answer::outcome::found) start_undeformed();
+  return answer;
+}
+
+oracle_answer oracle::search() {
+  using outcome = oracle_answer::outcome;
   numbers p(u_.size());
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     rigid_rank rank;
@@ -287,7 +313,7 @@ oracle_answer oracle::solve(std::span<const double> load) {
       return end(outcome::no_equilibrium, false);
     }
     const long double alpha = best_step(u_, p);
-    if (!std::isfinite(alpha)) return end(outcome::no_equilibrium, false);
+    if (!std::isfinite(alpha)) return end(why_endless(p), false);
     for (std::size_t i = 0; i < p.size(); ++i) u_[i] += alpha * p[i];
     set_ = pressed_at(u_, 0.0L, set_);
   }

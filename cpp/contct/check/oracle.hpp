@@ -44,14 +44,14 @@ struct oracle_answer {
 /// drives; where it drives none, the structure is held where it stands, which takes no force.
 ///
 /// Every solve is refined with residuals in long double, so the answer is that of the matrix as it
-/// is stored, to nearly all its digits, whatever the condition.
+/// is stored to as many digits as long double leaves: 3 to 4 more than a band solver alone.
 class oracle {
  public:
   /// `s` must outlive the oracle.
   explicit oracle(const linear_structure& s);
 
-  /// The equilibrium under `load` [dofs]. Starts from the last answer, or from the undeformed
-  /// structure.
+  /// The equilibrium under `load` [dofs]. Starts from the last answer, and once more from the undeformed
+  /// structure where that leads nowhere.
   [[nodiscard]] oracle_answer solve(std::span<const double> load);
 
  private:
@@ -78,6 +78,9 @@ class oracle {
   [[nodiscard]] long double refined_solve(const pair_set& set, numbers& u);
   [[nodiscard]] long double best_step(const numbers& u, const numbers& p) const;
   void take(std::span<const double> load);
+  void start_undeformed();
+  [[nodiscard]] oracle_answer search();
+  [[nodiscard]] oracle_answer::outcome why_endless(const numbers& p) const;
   void remember_size_of_load();
   [[nodiscard]] oracle_answer end(oracle_answer::outcome how, bool unique) const;
   [[nodiscard]] std::size_t row_of_pair(std::size_t i) const { return pair_rows_[i]; }

@@ -1,0 +1,135 @@
+// The truth about a small contact problem: every set of closed pairs is tried, dense, in long double.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contct/kernel/call.hpp"
+#include "contct/structure/structure.hpp"
+
+namespace contct {
+
+using long_numbers = std::vector<long double>;
+
+/// A set of closed pairs: bit i for pair i.
+using pair_bits = unsigned;
+
+[[nodiscard]] inline bool is_in(pair_bits set, std::size_t pair) {
+  return (set >> pair & 1U) != 0;
+}
+
+/// Solve A x = b in place by a dense Cholesky factor; A [n * n] is overwritten.
+inline void solve_dense(long_numbers& a, long_numbers& b) {
+  const std::size_t n = b.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t k = 0; k < j; ++k) {
+      for (std::size_t i = j; i < n; ++i) a[i * n + j] -= a[i * n + k] * a[j * n + k];
+    }
+    const long double pivot = std::sqrt(a[j * n + j]);
+    for (std::size_t i = j; i < n; ++i) a[i * n + j] /= pivot;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) b[i] -= a[i * n + k] * b[k];
+    b[i] /= a[i * n + i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k * n + i] * b[k];
+    b[i] /= a[i * n + i];
+  }
+}
+
+/// Where the structure stands with the springs of `set` working both ways and all others out. For
+/// structures whose dofs are the rows of their matrix.
+[[nodiscard]] inline long_numbers stands_with(const linear_structure& s, std::span<const double> load,
+                                              pair_bits set) {
+  const std::size_t n = load.size();
+  long_numbers a(n * n);
+  long_numbers u(load.begin(), load.end());
+  for (int j = 0; j < s.dofs(); ++j) {
+    for (int i = j; i <= std::min(j + s.stiffness.subdiagonals(), s.dofs() - 1); ++i)
+      a[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)] = s.stiffness.at(i, j);
+  }
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+    if (!is_in(set, i)) continue;
+    const auto dof = static_cast<std::size_t>(s.dof_of_pair(static_cast<int>(i)));
+    a[dof * n + dof] += s.pairs[i].stiffness;
+    u[dof] += static_cast<long double>(s.pairs[i].stiffness) * s.pairs[i].face;
+  }
+  for (std::size_t dof = 0; dof < n; ++dof) {
+    if (s.fixed[dof] != 0) u[dof] = 0.0L;
+  }
+  solve_dense(a, u);
+  return u;
+}
+
+/// n (w - c) of a pair.
+[[nodiscard]] inline long double pressing(const linear_structure& s, const long_numbers& u,
+                                          std::size_t pair) {
+  const contact_pair& p = s.pairs[pair];
+  return p.surface * (u[static_cast<std::size_t>(s.dof_of_pair(static_cast<int>(pair)))] - p.face);
+}
+
+/// The pairs that press at `u`.
+[[nodiscard]] inline pair_bits pressed_at(const linear_structure& s, const long_numbers& u) {
+  pair_bits set = 0;
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) set |= (pressing(s, u, i) > 0 ? 1U : 0U) << i;
+  return set;
+}
+
+/// Do the supports, or pairs of `set` at two different nodes, hold the beam?
+[[nodiscard]] inline bool holds(const linear_structure& s, pair_bits set, bool held_by_supports) {
+  if (held_by_supports) return true;
+  int first = -1;
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+    if (!is_in(set, i)) continue;
+    if (first >= 0 && s.pairs[i].node != first) return true;
+    first = s.pairs[i].node;
+  }
+  return false;
+}
+
+/// The equilibrium, and what its set leaves wrong: the farthest that a closed pair is from its face
+/// or an open one beyond it, of the largest deflection.
+struct equilibrium {
+  long_numbers u;
+  pair_bits set = 0;
+  long double wrong = std::numeric_limits<long double>::infinity();
+};
+
+/// Of all sets that hold the structure the one least wrong: the energy is convex, so a set that is
+/// not wrong at all has the equilibrium.
+[[nodiscard]] inline equilibrium least_wrong(const linear_structure& s, std::span<const double> load,
+                                             bool held_by_supports) {
+  equilibrium best;
+  for (pair_bits set = 0; set < 1U << s.pairs.size(); ++set) {
+    if (!holds(s, set, held_by_supports)) continue;
+    const long_numbers u = stands_with(s, load, set);
+    long double largest = 0.0L;
+    for (std::size_t dof = 0; dof < u.size(); dof += 2) largest = std::max(largest, std::abs(u[dof]));
+    long double wrong = 0.0L;
+    for (std::size_t i = 0; i < s.pairs.size(); ++i)
+      wrong = std::max(wrong, is_in(set, i) ? -pressing(s, u, i) : pressing(s, u, i));
+    wrong = wrong > 0 ? wrong / largest : 0.0L;
+    if (wrong < best.wrong) best = {u, set, wrong};
+  }
+  return best;
+}
+
+/// Sets in turn as a plain active set visits them from the undeformed structure: the next set is what
+/// presses where the last one stands. True when it ends; false when a set returns that is not its own next.
+[[nodiscard]] inline bool plain_active_set_ends(const linear_structure& s, std::span<const double> load,
+                                                pair_bits start) {
+  std::vector<char> seen(std::size_t{1} << s.pairs.size());
+  for (pair_bits set = start;;) {
+    const pair_bits next = pressed_at(s, stands_with(s, load, set));
+    if (next == set) return true;
+    if (seen[next] != 0) return false;
+    seen[next] = 1;
+    set = next;
+  }
+}
+
+}  // namespace contct
