@@ -1,0 +1,289 @@
+// The corrected rule, one call at a time.
+#include "contct/kernel/corrected.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "catch.hpp"
+#include "contct/kernel/kernel.hpp"
+#include "contct/numeric/bits.hpp"
+#include "contct/numeric/random.hpp"
+#include "kernel/one_pair.hpp"
+
+using namespace contct;
+
+namespace {
+
+const int apart = separated;
+const int touching = in_contact;
+const int above = face_above;
+const int below = face_below;
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// A call answered by the corrected rule.
+struct answered : small_call<double> {
+  std::optional<event> happened;
+
+  explicit answered(const std::vector<pair_at<double>>& pairs, int at_rest = 0) : small_call<double>(pairs) {
+    call<double> c = arguments();
+    happened = contct_corrected(c, at_rest);
+    smin = c.smin;
+  }
+};
+
+const std::optional<event> nothing;
+std::optional<event> makes(int pair) {
+  return event{pair, change::make};
+}
+std::optional<event> breaks(int pair) {
+  return event{pair, change::break_};
+}
+
+/// A pair anywhere: at its face, before it, a rounding or more beyond it, quiet or not.
+pair_at<double> random_pair(random_numbers& r) {
+  pair_at<double> p{};
+  p.isep = r.chance(0.5) ? apart : touching;
+  p.isurf = r.chance(0.5) ? above : below;
+  p.c = r.chance(0.2) ? 0.0 : 2 * r.unit() - 1;
+  const double gap = r.chance(0.3) ? 0.0 : std::ldexp(r.unit() - 0.2, r.whole(-60, 1));
+  p.d = p.c - p.isep * p.isurf * gap;
+  p.d_star = r.chance(0.1) ? 0.0 : std::ldexp(2 * r.unit() - 1, r.whole(-40, 2));
+  return p;
+}
+
+std::vector<pair_at<double>> random_pairs(random_numbers& r) {
+  std::vector<pair_at<double>> pairs(static_cast<std::size_t>(r.whole(1, 7)));
+  for (auto& p : pairs) p = random_pair(r);
+  return pairs;
+}
+
+}  // namespace
+
+TEST_CASE("corrected: a pair closes where it meets its face, and opens where it comes back to it") {
+  const answered closes({{-1.0, -4.0, -2.0, apart, below}});
+  CHECK(closes.smin == 0.25);
+  CHECK(closes.ss[0] == 0.25);
+  CHECK(closes.isep[0] == touching);
+  CHECK(closes.happened == makes(0));
+  const answered opens({{-3.0, 4.0, -2.0, touching, below}});
+  CHECK(opens.smin == 0.25);
+  CHECK(opens.isep[0] == apart);
+  CHECK(opens.happened == breaks(0));
+}
+
+TEST_CASE("corrected: only an approach makes contact, and only a retreat breaks it") {
+  // Each of these has s in (0, 1) by eq. 4 and the wrong direction: it is past its face, and comes back.
+  const answered c({{-3.0, 4.0, -2.0, apart, below},      // open below its face, on its way up
+                    {3.0, -4.0, 2.0, apart, above},       // the same above
+                    {-1.0, -4.0, -2.0, touching, below},  // closed above its face, on its way down
+                    {1.0, 4.0, 2.0, touching, above}});   // the same above
+  CHECK(c.happened == nothing);
+  CHECK(c.smin == 1.0);
+  CHECK(c.ss == std::vector<double>{1, 1, 1, 1});
+  CHECK(c.isep == std::vector<int>{apart, apart, touching, touching});
+}
+
+TEST_CASE("corrected: no event at full load or beyond it, nor where nothing responds, and then all s are 1") {
+  const answered c({{0.0, -1.0, -1.0, apart, below},      // exactly at full load
+                    {0.0, -1.0, -2.0, apart, below},      // beyond it
+                    {0.0, 1.0, -2.0, apart, below},       // moving away
+                    {0.0, 0.0, -2.0, apart, below},       // no response
+                    {0.0, 0.0, 0.0, apart, below},        // no response at its face
+                    {-1.0, 0.0, 0.0, touching, below}});  // pressed, no response
+  CHECK(c.happened == nothing);
+  CHECK(c.smin == 1.0);
+  CHECK(c.ss == std::vector<double>(6, 1.0));
+}
+
+TEST_CASE("corrected: a face overshot by rounding counts as reached") {
+  for (const double beyond : {0.0, eps, 1e-9}) {
+    const answered makes_at_once({{-1.0 - beyond, -1.0, -1.0, apart, below}});
+    CHECK(makes_at_once.smin == 0.0);
+    CHECK_FALSE(std::signbit(makes_at_once.smin));
+    CHECK(makes_at_once.happened == makes(0));
+    const answered breaks_at_once({{-1.0 + beyond, 1.0, -1.0, touching, below}});
+    CHECK(breaks_at_once.smin == 0.0);
+    CHECK(breaks_at_once.happened == breaks(0));
+  }
+}
+
+TEST_CASE("corrected: a gap is a gap, however small") {
+  // The listing takes everything below 1e-10 for contact at rest.
+  const answered c({{0.0, -4e-11, -1e-11, apart, below}});
+  CHECK(c.smin == 0.25);
+  const answered tiny({{0.0, -4e-300, -1e-300, apart, below}});
+  CHECK(tiny.smin == 0.25);
+}
+
+TEST_CASE("corrected: what approaches by less than 1e-10 of the largest response does not approach") {
+  const auto ask = [](double d_star, int isep) {
+    // At its face, beside a pair that responds by 1 and has no event.
+    return answered({{0.0, isep * -d_star, 0.0, isep, below}, {0.0, 1.0, -5.0, apart, below}}).happened;
+  };
+  CHECK(ask(1e-10, apart) == nothing);  // at the threshold itself
+  CHECK(ask(std::nextafter(1e-10, 0.0), apart) == nothing);
+  CHECK(ask(std::nextafter(1e-10, 1.0), apart) == makes(0));
+  // A break is never too small: it would lock in a force.
+  CHECK(ask(1e-10, touching) == breaks(0));
+  CHECK(ask(1e-200, touching) == breaks(0));
+  CHECK(ask(std::numeric_limits<double>::denorm_min(), touching) == breaks(0));
+}
+
+TEST_CASE("corrected: the largest response is that of any pair, of any side and status") {
+  for (const int isep : {apart, touching}) {
+    for (const double other : {-1.0, 1.0}) {
+      // The other pair's event is far away, or behind it.
+      const double face = isep * other > 0 ? 9.0 : -9.0;
+      const answered c({{0.0, -1e-11, 0.0, apart, below}, {0.0, other, face * isep, isep, above}});
+      CHECK(c.happened == nothing);
+    }
+  }
+}
+
+TEST_CASE("corrected: one event at a time, the first of the least s, and near ties wait") {
+  const answered tie({{0.0, -1.0, -0.5, apart, below},
+                      {0.0, 2.0, 0.5, apart, above},
+                      {0.0, 1.0, 0.25, apart, above},
+                      {0.0, -1.0, -0.25 * (1 + eps), apart, below}});
+  CHECK(tie.smin == 0.25);
+  CHECK(tie.ss == std::vector<double>{0.5, 0.25, 0.25, 0.25 * (1 + eps)});
+  CHECK(tie.happened == makes(1));
+  CHECK(tie.isep == std::vector<int>{apart, touching, apart, apart});
+}
+
+TEST_CASE("corrected: at rest the largest response goes first, of equal ones the first") {
+  const std::vector<pair_at<double>> pairs = {{0.0, -0.5, 0.0, apart, below},
+                                              {0.0, 2.0, 0.0, touching, below},
+                                              {0.0, -2.0, 0.0, touching, above},
+                                              {0.0, -1.0, -1e-12, apart, below}};
+  const answered c(pairs);
+  CHECK(c.smin == 0.0);
+  CHECK(c.ss == std::vector<double>{0.0, 0.0, 0.0, 1e-12});
+  CHECK(c.happened == breaks(1));
+  CHECK(c.isep == std::vector<int>{apart, apart, touching, apart});
+}
+
+TEST_CASE("corrected: at rest for long enough, the pair of least index goes first") {
+  const std::vector<pair_at<double>> pairs = {{0.0, -1.0, -0.5, apart, below},  // not at its face
+                                              {0.0, -0.5, 0.0, apart, below},
+                                              {0.0, 2.0, 0.0, touching, below}};
+  CHECK(patience(3) == 32);
+  CHECK(answered(pairs, 0).happened == breaks(2));
+  CHECK(answered(pairs, 31).happened == breaks(2));
+  CHECK(answered(pairs, 32).happened == makes(1));
+  CHECK(answered(pairs, 1000).happened == makes(1));
+  // It is a rule for pairs at rest only.
+  const std::vector<pair_at<double>> moving = {{0.0, -1.0, -0.5, apart, below},
+                                               {0.0, -1.0, -0.25, apart, below}};
+  CHECK(answered(moving, 1000).happened == makes(1));
+}
+
+TEST_CASE("corrected: the kernel counts its answers at rest, and begins anew when something moves") {
+  const auto k = make_kernel("corrected");
+  const std::vector<pair_at<double>> at_rest = {{0.0, -0.5, 0.0, apart, below},
+                                                {0.0, 2.0, 0.0, touching, below}};
+  const auto chosen = [&k](const std::vector<pair_at<double>>& pairs) {
+    small_call<double> c(pairs);
+    call<double> arguments = c.arguments();
+    k->answer(arguments);
+    return c.isep[0] != pairs[0].isep ? 0 : 1;
+  };
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 0; i < patience(2); ++i) REQUIRE(chosen(at_rest) == 1);
+    REQUIRE(chosen(at_rest) == 0);
+    REQUIRE(chosen(at_rest) == 0);
+    REQUIRE(chosen({{0.0, -1.0, -0.5, apart, below}, {0.0, -1.0, -2.0, apart, below}}) == 0);
+  }
+  CHECK(k->facts().rule == "corrected");
+  CHECK_FALSE(k->facts().has_text);
+  CHECK(k->take_text().empty());
+}
+
+TEST_CASE("corrected: no pairs, no event, and NaN in, no event out") {
+  CHECK(answered({}).happened == nothing);
+  CHECK(answered({}).smin == 1.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(answered({{0.0, nan, 0.5, apart, above}}).happened == nothing);
+}
+
+TEST_CASE("corrected: pairs are found through ID, INDOF and NDOFPN, and other dofs do not count") {
+  std::vector<double> dd(6, 0.0);
+  std::vector<double> dtest = {9e30, 9e30, 9e30, 9e30, 2.0, 9e30};  // a rotation has no say in what is quiet
+  std::vector<double> cc = {1.0, -1.0};
+  std::vector<double> ss(2);
+  std::vector<int> id = {2, 2};
+  std::vector<int> isep = {apart, apart};
+  const std::vector<int> isurf = {above, below};
+  call<double> c{dd, dtest, cc, ss, 0.0, id, isep, isurf, {2, 3}};
+  CHECK(contct_corrected(c, 0) == makes(0));
+  CHECK(ss == std::vector<double>{0.5, 1.0});
+  CHECK(isep == std::vector<int>{touching, apart});
+}
+
+TEST_CASE("corrected: there are no absolute lengths, in other units the answer is the same to the bit") {
+  random_numbers r(101);
+  int events = 0;
+  int resting = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const std::vector<pair_at<double>> pairs = random_pairs(r);
+    const int at_rest = r.chance(0.2) ? 1000 : 0;
+    const answered here(pairs, at_rest);
+    events += here.happened ? 1 : 0;
+    resting += here.smin == 0.0 ? 1 : 0;
+    for (const int power : {-600, -40, 33, 600}) {
+      std::vector<pair_at<double>> scaled = pairs;
+      for (auto& p : scaled)
+        p = {std::ldexp(p.d, power), std::ldexp(p.d_star, power), std::ldexp(p.c, power), p.isep, p.isurf};
+      const answered there(scaled, at_rest);
+      INFO(round << ", " << power);
+      REQUIRE(same_bits(there.smin, here.smin));
+      for (std::size_t i = 0; i < pairs.size(); ++i) REQUIRE(same_bits(there.ss[i], here.ss[i]));
+      REQUIRE(there.isep == here.isep);
+      REQUIRE(there.happened == here.happened);
+    }
+  }
+  CHECK(events > 10000);
+  CHECK(resting > 3000);
+}
+
+TEST_CASE("corrected: upside down the answer is the same to the bit") {
+  random_numbers r(102);
+  int events = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const std::vector<pair_at<double>> pairs = random_pairs(r);
+    std::vector<pair_at<double>> mirrored = pairs;
+    for (auto& p : mirrored) p = {-p.d, -p.d_star, -p.c, p.isep, -p.isurf};
+    const answered here(pairs);
+    const answered there(mirrored);
+    events += here.happened ? 1 : 0;
+    INFO(round);
+    REQUIRE(same_bits(there.smin, here.smin));
+    for (std::size_t i = 0; i < pairs.size(); ++i) REQUIRE(same_bits(there.ss[i], here.ss[i]));
+    REQUIRE(there.happened == here.happened);
+  }
+  CHECK(events > 10000);
+}
+
+TEST_CASE("corrected: whatever the call, s is from 0 to 1, SMIN the least, and what toggles stands at it") {
+  random_numbers r(103);
+  for (int round = 0; round < 20000; ++round) {
+    const std::vector<pair_at<double>> pairs = random_pairs(r);
+    const answered a(pairs, r.whole(0, 100));
+    INFO(round);
+    double least = 1.0;
+    int toggled = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      REQUIRE((a.ss[i] >= 0.0 && a.ss[i] <= 1.0));
+      least = std::min(least, a.ss[i]);
+      if (a.isep[i] == pairs[i].isep) continue;
+      ++toggled;
+      REQUIRE(a.isep[i] == -pairs[i].isep);
+      REQUIRE(a.ss[i] == a.smin);
+      REQUIRE(a.happened ==
+              event{static_cast<int>(i), pairs[i].isep == apart ? change::make : change::break_});
+    }
+    REQUIRE(a.smin == least);
+    REQUIRE(toggled == (a.smin < 1.0 ? 1 : 0));
+    REQUIRE(a.happened.has_value() == (toggled == 1));
+  }
+}
