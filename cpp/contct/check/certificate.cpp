@@ -15,6 +15,10 @@ double share(double part, double whole) {
   return part > 0.0 ? part / whole : 0.0;
 }
 
+bool all_finite(std::span<const double> numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
 std::string in_words(const char* what, double amount) {
   char text[120];
   (void)std::snprintf(text, sizeof text, "%s by %.2g", what, amount);
@@ -59,6 +63,11 @@ bool certifier::all_exact() const {
 }
 
 certificate certifier::judge(const step_state& s) {
+  if (!all_finite(s.displacement)) {  // they would slip through every comparison below
+    certificate c;
+    c.problem = "a displacement is not a finite number";
+    return c;
+  }
   std::vector<double> load(s.displacement.size(), 0.0);
   total_load_(s.step, load);
   const oracle_answer answer = oracle_.solve(load);
