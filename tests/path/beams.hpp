@@ -35,6 +35,7 @@ struct recorder final : observer {
     int step, number;
     double s, fraction;
     std::vector<event> events;
+    bool snaps;
   };
   struct seen_step {
     int step;
@@ -42,6 +43,7 @@ struct recorder final : observer {
     std::vector<double> u;
     std::vector<int> isep;
     double rcond;
+    bool rescued;
   };
   std::vector<seen_increment> increments;
   std::vector<seen_step> steps;
@@ -49,14 +51,15 @@ struct recorder final : observer {
 
   void called(const answered_call& c) override { text += c.text; }
   void incremented(const increment& i) override {
-    increments.push_back({i.step, i.number, i.s, i.fraction, {i.events.begin(), i.events.end()}});
+    increments.push_back({i.step, i.number, i.s, i.fraction, {i.events.begin(), i.events.end()}, i.snaps});
   }
   void step_ended(const step_state& s) override {
     steps.push_back({s.step,
                      s.fraction,
                      {s.displacement.begin(), s.displacement.end()},
                      {s.isep.begin(), s.isep.end()},
-                     s.rcond});
+                     s.rcond,
+                     s.rescued});
   }
   /// Every event of the path, in order.
   [[nodiscard]] std::vector<event> events() const {

@@ -189,7 +189,19 @@ class path {
       engine_.switch_spring(pair, true);
     }
     now_.sprung = now_.status;
-    return now_.held() ? stop(path_status::mechanism, step, residual, last_opened_) : never_held(step);
+    if (!now_.held() && (!has_moved() || !can_lean())) return never_held(step);
+    return stop(path_status::mechanism, step, residual, last_opened_);
+  }
+
+  [[nodiscard]] bool has_moved() const {
+    return std::any_of(now_.watched.begin(), now_.watched.end(),
+                       [this](int dof) { return now_.d[static_cast<std::size_t>(dof)] != 0.0; });
+  }
+
+  [[nodiscard]] bool can_lean() {
+    const bool can = mend_.lean();
+    mend_.stand_up();
+    return can;
   }
 
   /// Nothing holds the structure from the start: it has not moved, and nothing can be solved.
