@@ -282,6 +282,22 @@ TEST_CASE("an unloaded state is measured by the largest deflection that the path
   CHECK(judged(p, unloaded).exact);
 }
 
+TEST_CASE("a structure that turns and does not sink is not measured by the rounding of its deflections") {
+  // Equal moments at both ends of a span: its middle stays where it is, to about eps of what it turns.
+  beam_problem p{
+      even_beam(2.0, 2, 1.0), {{0, 0, true}, {2, 0, true}}, {{1, face_below, -1.0, 5.0, false}}, {}};
+  p.steps = {{{{0, 1, 0.7}, {2, 1, 0.7}}, {}}};
+  told_state t = right_state(p, p.steps[0]);
+  REQUIRE(std::abs(t.u[2]) < 1e-15);
+  REQUIRE(std::abs(t.u[1]) > 0.1);
+  for (const double rounding : {-1e-17, 0.0, 3e-17}) {
+    t.u[2] = rounding;
+    CHECK(judged(p, t).exact);
+  }
+  t.u[2] = 1e-9;
+  CHECK(judged(p, t).displacement_error > 1e-9);
+}
+
 TEST_CASE("units do not matter: lengths and forces from 1e-12 to 1e12") {
   const auto in_units = [](double length, double force) {
     beam_problem p = span_with_pairs();

@@ -1,6 +1,7 @@
 // The truth about a small contact problem: every set of closed pairs is tried, dense, in long double.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -41,27 +42,32 @@ inline void solve_dense(long_numbers& a, long_numbers& b) {
   }
 }
 
-/// Where the structure stands with the springs of `set` working both ways and all others out. For
-/// structures whose dofs are the rows of their matrix.
+/// Where the structure stands with the springs of `set` working both ways and all others out.
 [[nodiscard]] inline long_numbers stands_with(const linear_structure& s, std::span<const double> load,
                                               pair_bits set) {
   const std::size_t n = load.size();
+  const auto row = [&s](std::size_t dof) {
+    return static_cast<std::size_t>(s.row_of(static_cast<int>(dof)));
+  };
   long_numbers a(n * n);
-  long_numbers u(load.begin(), load.end());
+  long_numbers b(n);
   for (int j = 0; j < s.dofs(); ++j) {
     for (int i = j; i <= std::min(j + s.stiffness.subdiagonals(), s.dofs() - 1); ++i)
       a[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)] = s.stiffness.at(i, j);
   }
+  for (std::size_t dof = 0; dof < n; ++dof) b[row(dof)] = load[dof];
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
     if (!is_in(set, i)) continue;
-    const auto dof = static_cast<std::size_t>(s.dof_of_pair(static_cast<int>(i)));
-    a[dof * n + dof] += s.pairs[i].stiffness;
-    u[dof] += static_cast<long double>(s.pairs[i].stiffness) * s.pairs[i].face;
+    const std::size_t at = row(static_cast<std::size_t>(s.dof_of_pair(static_cast<int>(i))));
+    a[at * n + at] += s.pairs[i].stiffness;
+    b[at] += static_cast<long double>(s.pairs[i].stiffness) * s.pairs[i].face;
   }
   for (std::size_t dof = 0; dof < n; ++dof) {
-    if (s.fixed[dof] != 0) u[dof] = 0.0L;
+    if (s.fixed[dof] != 0) b[row(dof)] = 0.0L;
   }
-  solve_dense(a, u);
+  solve_dense(a, b);
+  long_numbers u(n);
+  for (std::size_t dof = 0; dof < n; ++dof) u[dof] = b[row(dof)];
   return u;
 }
 
@@ -108,7 +114,8 @@ struct equilibrium {
     if (!holds(s, set, held_by_supports)) continue;
     const long_numbers u = stands_with(s, load, set);
     long double largest = 0.0L;
-    for (std::size_t dof = 0; dof < u.size(); dof += 2) largest = std::max(largest, std::abs(u[dof]));
+    const auto stride = static_cast<std::size_t>(s.dofs_per_node);
+    for (std::size_t dof = 0; dof < u.size(); dof += stride) largest = std::max(largest, std::abs(u[dof]));
     long double wrong = 0.0L;
     for (std::size_t i = 0; i < s.pairs.size(); ++i)
       wrong = std::max(wrong, is_in(set, i) ? -pressing(s, u, i) : pressing(s, u, i));

@@ -47,6 +47,8 @@ certifier::certifier(const linear_structure& s, load_history total_load)
   for (int dof = 0; dof < s.dofs(); ++dof) {
     const int row = s.row_of(dof);
     scale_.push_back(std::sqrt(s.stiffness.at(row, row)));
+    const auto at = static_cast<std::size_t>(dof);
+    if (deflects(at) && s.fixed[at] == 0) largest_scale_ = std::max(largest_scale_, scale_[at]);
   }
 }
 
@@ -101,6 +103,11 @@ void certifier::remember_sizes(std::span<const double> displacement) {
   }
 }
 
+double certifier::largest_length() const {
+  if (largest_scale_ == 0.0) return largest_deflection_;
+  return std::max(largest_deflection_, largest_displacement_ / largest_scale_);
+}
+
 /// From the state alone: equilibrium, penetration, tension.
 void certifier::measure_state(const step_state& s, std::span<const double> load, certificate& c) const {
   const auto row = [this](std::size_t dof) {
@@ -136,8 +143,8 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
     unbalanced =
         std::max(unbalanced, std::abs(static_cast<double>(left[row(dof)])) / std::sqrt(stiffness[dof]));
   }
-  c.penetration = share(deepest, largest_deflection_);
-  c.tension = share(farthest, largest_deflection_);
+  c.penetration = share(deepest, largest_length());
+  c.tension = share(farthest, largest_length());
   c.equilibrium = share(unbalanced, largest_displacement_);
 }
 
@@ -149,7 +156,7 @@ void certifier::compare_with(const oracle_answer& a, const step_state& s, certif
     any = std::max(any, scale_[dof] * off);
     if (deflects(dof)) deflection = std::max(deflection, off);
   }
-  c.displacement_error = share(deflection, largest_deflection_);
+  c.displacement_error = share(deflection, largest_length());
   c.shape_error = share(any, largest_displacement_);
 }
 

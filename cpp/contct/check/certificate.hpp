@@ -17,7 +17,9 @@ inline constexpr double certificate_factor = 1024.0;
 inline constexpr double certificate_never_above = 1e-6;
 
 /// What is known about the state that a step ended in. Lengths are relative to the largest
-/// deflection that the path has seen, so that a state of no load has a measure too.
+/// deflection that the path has seen, so that a state of no load has a measure too; and where slopes
+/// count for more, relative to what these come to as deflections, so that a structure whose deflections
+/// are rounding is not measured by rounding.
 struct certificate {
   bool exact = false;               ///< within the tolerance in every respect
   double displacement_error = 0.0;  ///< of any deflection, against the oracle
@@ -48,6 +50,7 @@ class certifier final : public observer {
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
   void compare_with(const oracle_answer& a, const step_state& s, certificate& c) const;
   void remember_sizes(std::span<const double> displacement);
+  [[nodiscard]] double largest_length() const;
   [[nodiscard]] bool deflects(std::size_t dof) const {
     return static_cast<int>(dof) % structure_.dofs_per_node == structure_.deflection;
   }
@@ -56,6 +59,7 @@ class certifier final : public observer {
   load_history total_load_;
   oracle oracle_;
   std::vector<double> scale_;          // roots of the stiffness at each dof [dofs]
+  double largest_scale_ = 0.0;         // of a deflection that is not fixed
   double largest_deflection_ = 0.0;    // of path and oracle, so far
   double largest_displacement_ = 0.0;  // scaled, any dof
   std::vector<std::optional<certificate>> steps_;
