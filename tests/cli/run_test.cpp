@@ -234,7 +234,7 @@ TEST_CASE("a plate goes the same ways: lockstep, free run, table and results") {
   const finished lockstep = contct_program(dir.path(), {"run", "plate.toml", "--json", "out.json"});
   CHECK(lockstep.exit == 0);
   CHECK_THAT(lockstep.out, Contains("6 nodes, 1 pair, 1 step") && Contains("make 1: node 6 below") &&
-                               Contains("at node 3; 1 of 1 pairs in contact") &&
+                               Contains("at node 3; 1 of 1 in contact") &&
                                Contains("equal to the bit"));
   const auto result = nlohmann::json::parse(dir.read("out.json"));
   CHECK(result["steps"][0]["reactions"][5]["dof"] == "wy");
