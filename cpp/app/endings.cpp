@@ -31,7 +31,9 @@ std::string end_words(const problem& p, const path_end& end) {
       if (end.pairs.empty()) {
         return where +
                "no equilibrium: supports and closed pairs do not hold the structure, which is free to move "
-               "as a rigid body. A structure held only by pairs must start with enough of them in contact";
+               "as a rigid body. A structure held only by pairs must start with enough of them in contact; "
+               "--kernels "
+               "corrected follows one that first falls onto its faces";
       }
       return where + "no equilibrium: the opening of " + pair_words(p, end.pairs) +
              " left the structure free to move as a rigid body" +

@@ -234,8 +234,7 @@ TEST_CASE("a plate goes the same ways: lockstep, free run, table and results") {
   const finished lockstep = contct_program(dir.path(), {"run", "plate.toml", "--json", "out.json"});
   CHECK(lockstep.exit == 0);
   CHECK_THAT(lockstep.out, Contains("6 nodes, 1 pair, 1 step") && Contains("make 1: node 6 below") &&
-                               Contains("at node 3; 1 of 1 in contact") &&
-                               Contains("equal to the bit"));
+                               Contains("at node 3; 1 of 1 in contact") && Contains("equal to the bit"));
   const auto result = nlohmann::json::parse(dir.read("out.json"));
   CHECK(result["steps"][0]["reactions"][5]["dof"] == "wy");
   CHECK(result["steps"][0]["elements"][1]["mxy"].size() == 4);
@@ -265,4 +264,46 @@ TEST_CASE("a plate that loses its hold is a mechanism: exit 4") {
     line += std::string("[[contact]]\nnode = ") + node + "\nsurface = \"below\"\nface = 0\nstiffness = 10\n";
   dir.write("line.toml", line + "[[step]]\nuniform = -1\n");
   CHECK(contct_program(dir.path(), {"run", "line.toml"}).exit == 4);
+}
+
+TEST_CASE("a free beam above its bed: the 1989 rule has no start, the corrected one lets it fall") {
+  const scratch_directory dir;
+  dir.write("drop.toml",
+            "[beam]\nlength = 2.0\nelements = 8\nEI = 10.0\n[[bed]]\nmodulus = 1000.0\nface = -0.01\n"
+            "[[step]]\nuniform = -5.0\n");
+  const finished listing = contct_program(dir.path(), {"run", "drop.toml"});
+  CHECK(listing.exit == 4);
+  CHECK_THAT(listing.out, Contains("no certificate"));
+  CHECK_THAT(listing.err, Contains("--kernels corrected"));
+  const finished corrected = contct_program(
+      dir.path(), {"run", "drop.toml", "--kernels", "corrected", "--strict", "--json", "d.json"});
+  CHECK(corrected.exit == 0);
+  CHECK_THAT(corrected.out, Contains("snap") && Contains("the final state is certified"));
+  const auto r = nlohmann::json::parse(dir.read("d.json"));
+  CHECK(r["lockstep"].is_null());
+  CHECK(r["steps"][0]["increments"][0]["snap"] == true);
+  CHECK(r["steps"][0]["certificate"]["exact"] == true);
+}
+
+TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that was too early is named") {
+  const scratch_directory dir;
+  const std::string pb5 = CONTCT_ROOT "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
+  CHECK(contct_program(dir.path(), {"run", pb5}).exit == 0);
+  const finished strict = contct_program(dir.path(), {"run", pb5, "--strict", "--json", "s.json"});
+  CHECK(strict.exit == 3);
+  CHECK_THAT(strict.out, Contains("step 4 is NOT certified: the deflections are off by 1.2e-06"));
+  CHECK_THAT(strict.err, Contains("increment 4.2 let pair 1 (node 41, below) break contact"));
+  const auto r = nlohmann::json::parse(dir.read("s.json"));
+  CHECK(r["status"] == "solved");
+  CHECK(r["steps"][0]["certificate"]["exact"] == true);
+  CHECK(r["steps"][3]["certificate"]["exact"] == false);
+  CHECK(contct_program(dir.path(), {"run", pb5, "--strict", "--kernels", "corrected"}).exit == 0);
+}
+
+TEST_CASE("corrected in lockstep with the listing is refused: rules differ") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,corrected"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("--free-run"));
 }

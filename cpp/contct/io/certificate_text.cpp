@@ -79,9 +79,10 @@ std::vector<std::string> certificate_summary(const certifier& judged) {
         std::max({worst, c->displacement_error, c->shape_error, c->equilibrium, c->penetration, c->tension});
   }
   if (certified == 0) return {};
-  return {certified == 1 ? "the final state is certified"
-                         : fmt::format("all {} final states are certified", certified),
-          "right to " + digits_words(worst)};
+  const std::string states = certified == 1   ? "the final state is"
+                             : certified == 2 ? "both final states are"
+                                              : fmt::format("all {} final states are", certified);
+  return {states + " certified", "the oracle agrees to " + digits_words(worst)};
 }
 
 std::vector<std::string> certificate_complaints(const problem& p, const certifier& judged,

@@ -99,7 +99,7 @@ std::vector<std::string> table::event_lines(const increment& i) const {
 void table::incremented(const increment& i) {
   if (!headed_) print_heading();
   std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {}  ", fmt::format("{}.{}", i.step, i.number),
-                                 share_words(i.fraction), share_words(i.s), agreement());
+                                 share_words(i.fraction), i.snaps ? "snap" : share_words(i.s), agreement());
   if (load_width_ > 0)
     line += fmt::format("{:<{}}  ", loads_.words_at(i.step, i.fraction, load_width_), load_width_);
   std::vector<std::string> events = event_lines(i);
