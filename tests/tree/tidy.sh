@@ -6,7 +6,8 @@ cd "$(dirname "$0")/../.."
 build=${1:-build/release}
 echo "== clang-tidy"
 [ -f "$build/compile_commands.json" ] || { echo "$build has no compile_commands.json: build it first" >&2; exit 1; }
-said=$(mktemp) # clang-tidy counts on standard error what it hides, which is nobody's business, and says there what it lacks
+# On standard error clang-tidy counts the warnings that it leaves out; only when it fails is there more.
+said=$(mktemp)
 if ! find cpp -name '*.cpp' | sort |
   xargs -P "$(nproc 2>/dev/null || echo 2)" -n 4 clang-tidy --quiet -p "$build" 2>"$said"; then
   grep -v 'warnings\{0,1\} generated\.$' "$said" >&2 || true
