@@ -1,6 +1,7 @@
 // The contct program: one command a file, this one only chooses.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <exception>
 #include <system_error>
 
