@@ -146,7 +146,11 @@ inline std::vector<bad_input> bad_plates() {
        "without w or wx or wy", "w, wx, wy"},
       {"a moment that is infinite", plate_with("-0.5", "-inf"), "17:63", "step[1].point[2].wy", "-inf",
        "finite"},
-      {"loads whose moment overflows",
+      {"slopes' loads that overflow",
+       plate_with("point = [ { node = 3, w = -1.0, wx = 0.25 }, { node = 6, wy = -0.5 } ]",
+                  "point = [ { node = 3, wy = 1.7e308 }, { node = 6, wy = 1.7e308 } ]"),
+       "15:1", "step[1]", "not finite", "range of double precision"},
+      {"loads whose sum overflows",
        plate_with(uniform, "uniform = [ { value = 1e308 }, { value = 1e308, elements = [1, 2] } ]"), "15:1",
        "step[1]", "not finite", "range of double precision"},
   };

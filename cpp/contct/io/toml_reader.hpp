@@ -21,9 +21,9 @@ class input_error : public std::runtime_error {
 
 /// A range of numbers in words and as a test.
 struct real_range {
-  double least;
-  bool may_equal_least;
-  const char* words;
+  double least = 0.0;
+  bool may_equal_least = true;
+  const char* words = "";
   double most = 1.7976931348623157e308;
   [[nodiscard]] bool holds(double x) const {
     return (x > least || (may_equal_least && x == least)) && x <= most;
