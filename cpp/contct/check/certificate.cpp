@@ -82,6 +82,7 @@ certificate certifier::judge(const step_state& s) {
   c.unique = answer.unique;
   measure_state(s, load, c);
   if (answer.how == oracle_answer::outcome::no_equilibrium) {
+    c.unfounded = true;
     c.problem = "there is no equilibrium: nothing stops a rigid motion that the load drives";
     return c;
   }

@@ -30,6 +30,7 @@ struct certificate {
   double rcond = 0.0;        ///< of the equilibrated stiffness
   double tolerance = 0.0;    ///< what all of these may reach
   bool unique = true;        ///< false: other states are as good, so D is not compared
+  bool unfounded = false;    ///< there is no equilibrium at all
   std::string problem;       ///< what is wrong, in words; empty when exact
 };
 

@@ -31,9 +31,12 @@ void take_in(const certificate& c, trial& t) {
   const double needed =
       std::max({c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension});
   t.displacement_error = std::max(t.displacement_error, c.displacement_error);
+  t.length_error = std::max({t.length_error, c.displacement_error, c.penetration, c.tension});
   t.needed = std::max(t.needed, needed);
   t.factor = std::max(t.factor, needed / (std::numeric_limits<double>::epsilon() / c.rcond));
   ++t.steps;
+  t.uncertified += c.exact ? 0 : 1;
+  t.unfounded += c.unfounded ? 1 : 0;
 }
 
 verdict judge(const path_end& end, const certifier& judged, const load_history& total,

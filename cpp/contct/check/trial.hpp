@@ -21,9 +21,12 @@ inline constexpr int verdicts = 5;
 struct trial {
   verdict came_to = verdict::no_end;
   double displacement_error = 0.0;  ///< the worst of any step, relative to the largest deflection
+  double length_error = 0.0;        ///< the same, or how far a pair is on the wrong side of its face
   double needed = 0.0;              ///< the worst of all that a certificate measures
   double factor = 0.0;              ///< the worst of that in eps / rcond: what C would have to be
   int steps = 0;                    ///< certified or judged
+  int uncertified = 0;              ///< of these
+  int unfounded = 0;                ///< and of these: an equilibrium is claimed where there is none
   int makes = 0, breaks = 0;
   int at_rest = 0;  ///< increments without progress
   int snaps = 0;    ///< rigid, at constant load

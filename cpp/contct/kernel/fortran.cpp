@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <mutex>
 #include <stdexcept>
 #include <system_error>
 
@@ -25,15 +24,14 @@ void contct_log_close(void);
 namespace contct::fortran {
 namespace {
 
-/// Serialises everything that touches COMMON /DOF/ or unit 26.
+bool unit_26_is_open = false;
+
+}  // namespace
+
 std::mutex& process_wide() {
   static std::mutex mutex;
   return mutex;
 }
-
-bool unit_26_is_open = false;
-
-}  // namespace
 
 void contct(call<float>& c) {
   const std::scoped_lock lock(process_wide());

@@ -1,11 +1,16 @@
 // The 1989 code itself, called through ISO_C_BINDING (fortran/contct_c.f90).
 #pragma once
 
+#include <mutex>
 #include <string>
 
 #include "contct/kernel/call.hpp"
 
 namespace contct::fortran {
+
+/// Serialises everything that touches COMMON /DOF/ or unit 26; whatever else is compiled from the
+/// listing must hold it too.
+[[nodiscard]] std::mutex& process_wide();
 
 /// One call of the listing: built as printed for float, with 8-byte REAL for double.
 /// COMMON /DOF/ and unit 26 belong to the whole process, so calls are serialised by a lock.
