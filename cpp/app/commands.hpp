@@ -24,4 +24,7 @@ void add_verify(CLI::App& program, exit_status& status);
 /// Add `contct kernels`.
 void add_kernels(CLI::App& program, exit_status& status);
 
+/// Add `contct atlas`.
+void add_atlas(CLI::App& program, exit_status& status);
+
 }  // namespace contct

@@ -26,6 +26,7 @@ trial came_to(verdict v, double length_error, int uncertified) {
   trial t;
   t.came_to = v;
   t.length_error = length_error;
+  t.displacement_error = length_error / 2;
   t.uncertified = uncertified;
   return t;
 }
@@ -57,7 +58,7 @@ TEST_CASE("a path that stops says so: it is not wrong, but neither is it right")
   CHECK(c.uncertified == 3);
 }
 
-TEST_CASE("what is wrong is uncertified too, and the errors are those of what is off") {
+TEST_CASE("what is wrong is uncertified too, and the errors are its own") {
   const atlas_cell c = with({came_to(verdict::wrong, 0.5, 1), came_to(verdict::wrong, 1e-5, 1),
                              came_to(verdict::wrong, 2e-3, 2), came_to(verdict::false_mechanism, 0.0, 0),
                              came_to(verdict::certified, 1e-12, 0), came_to(verdict::wrong, 0.1, 1),
@@ -65,9 +66,9 @@ TEST_CASE("what is wrong is uncertified too, and the errors are those of what is
   CHECK(c.problems == 7);
   CHECK(c.wrong == 3);
   CHECK(c.uncertified == 6);
-  CHECK(c.errors == std::vector<double>{2e-3, 0.1, 0.5});
-  CHECK(median_error(c) == 0.1);
-  CHECK(worst_error(c) == 0.5);
+  CHECK(c.errors == std::vector<double>{1e-3, 0.05, 0.25});  // of deflections
+  CHECK(median_error(c) == 0.05);
+  CHECK(worst_error(c) == 0.25);
   CHECK(median_error(atlas_cell{}) == 0.0);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "contct/check/epsmul_variants.hpp"
@@ -20,16 +21,16 @@ std::unique_ptr<kernel> kernel_of(const atlas_cell& c) {
 }  // namespace
 
 void atlas_cell::add(const trial& t) {
-  const bool off = t.length_error > wrong_beyond;
   const bool stopped = t.came_to == verdict::no_end || t.came_to == verdict::false_mechanism;
   ++problems;
-  wrong += off || t.unfounded > 0 ? 1 : 0;
   false_equilibrium += t.unfounded > 0 ? 1 : 0;
   false_mechanism += t.came_to == verdict::false_mechanism ? 1 : 0;
   never_held += t.came_to == verdict::false_mechanism && t.increments == 0 ? 1 : 0;
   no_end += t.came_to == verdict::no_end ? 1 : 0;
   uncertified += stopped || t.uncertified > 0 ? 1 : 0;
-  if (off) errors.insert(std::upper_bound(errors.begin(), errors.end(), t.length_error), t.length_error);
+  if (t.length_error <= wrong_beyond && t.unfounded == 0) return;
+  ++wrong;
+  errors.insert(std::upper_bound(errors.begin(), errors.end(), t.displacement_error), t.displacement_error);
 }
 
 double median_error(const atlas_cell& c) {
@@ -65,6 +66,21 @@ std::vector<atlas_cell> atlas_cells() {
       for (const double epsmul : epsmul_of_variants()) cells.push_back({"fortran", epsmul, unit, held});
     }
   }
+  return cells;
+}
+
+std::vector<atlas_cell> over_unit(const atlas& a, bool held) {
+  std::vector<atlas_cell> cells;
+  std::copy_if(a.cells.begin(), a.cells.end(), std::back_inserter(cells),
+               [held](const atlas_cell& c) { return c.held == held && !has_other_epsmul(c); });
+  return cells;
+}
+
+std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit) {
+  std::vector<atlas_cell> cells;
+  std::copy_if(a.cells.begin(), a.cells.end(), std::back_inserter(cells), [&](const atlas_cell& c) {
+    return c.held == held && c.kernel == "fortran" && c.unit == unit;
+  });
   return cells;
 }
 

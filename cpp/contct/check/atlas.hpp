@@ -23,13 +23,13 @@ struct atlas_cell {
   bool held = true;     ///< by supports; otherwise by pairs alone
 
   int problems = 0;
-  int wrong = 0;  ///< silently: a state that is off by more than wrong_beyond, or a false equilibrium
-  int false_equilibrium = 0;        ///< where there is none
-  int false_mechanism = 0;          ///< the path stopped for one, and there is an equilibrium
-  int never_held = 0;               ///< of these: nothing held the structure before the first increment
-  int no_end = 0;                   ///< the path stopped for a cycle, increments without end, or no factor
-  int uncertified = 0;              ///< all that is not right to rounding in 8 bytes: the above, and more
-  std::vector<double> errors = {};  ///< in lengths, of what is off by more than wrong_beyond, sorted
+  int wrong = 0;              ///< silently: a length is off by more than wrong_beyond, or a false equilibrium
+  int false_equilibrium = 0;  ///< where there is none
+  int false_mechanism = 0;    ///< the path stopped for one, and there is an equilibrium
+  int never_held = 0;         ///< of these: nothing held the structure before the first increment
+  int no_end = 0;             ///< the path stopped for a cycle, increments without end, or no factor
+  int uncertified = 0;        ///< all that is not right to rounding in 8 bytes: the above, and more
+  std::vector<double> errors = {};  ///< in deflections, of the wrong answers, sorted
 
   /// Take in what one problem came to.
   void add(const trial& t);
@@ -57,9 +57,21 @@ inline constexpr double epsmul_units[] = {1.0, 100.0};
 [[nodiscard]] std::vector<atlas_cell> atlas_cells();
 
 struct atlas_request {
-  int problems = 400;  ///< a cell
+  int problems = 600;  ///< a cell
   std::uint64_t seed = 1;
 };
+
+/// What was asked for, and what came of it.
+struct atlas {
+  atlas_request request;
+  std::vector<atlas_cell> cells;
+};
+
+/// The cells with EPSMUL as printed, or without any: kernels over the unit of length. In order.
+[[nodiscard]] std::vector<atlas_cell> over_unit(const atlas& a, bool held);
+
+/// The cells of the 8-byte listing in one unit, the printed EPSMUL first.
+[[nodiscard]] std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit);
 
 /// Try the problems of a cell, numbers 0 and up of the seed: in every cell of a kind they are the same
 /// problems in another unit. `tried` is called after each.

@@ -21,7 +21,7 @@ inline constexpr int verdicts = 5;
 struct trial {
   verdict came_to = verdict::no_end;
   double displacement_error = 0.0;  ///< the worst of any step, relative to the largest deflection
-  double length_error = 0.0;        ///< the same, or how far a pair is on the wrong side of its face
+  double length_error = 0.0;        ///< of that, and of how far pairs are on the wrong side of their faces
   double needed = 0.0;              ///< the worst of all that a certificate measures
   double factor = 0.0;              ///< the worst of that in eps / rcond: what C would have to be
   int steps = 0;                    ///< certified or judged

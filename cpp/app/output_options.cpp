@@ -1,0 +1,39 @@
+#include "app/output_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace contct {
+
+void refuse_shared_outputs(const std::vector<output_option>& outputs) {
+  std::vector<output_option> others = {{"standard output", "/dev/fd/1"}};
+  const char* standard = nullptr;
+  for (const output_option& o : outputs) {
+    if (o.path == "-") {
+      if (standard != nullptr)
+        throw std::invalid_argument(fmt::format("{} and {} cannot both be -", standard, o.name));
+      standard = o.name;
+      continue;
+    }
+    if (o.path.empty()) continue;
+    for (const output_option& other : others) {
+      if (same_file(o.path, other.path)) {
+        throw std::invalid_argument(fmt::format("{} {}: found the file of {}; allowed: a file of its own",
+                                                o.name, o.path, other.name));
+      }
+    }
+    others.push_back(o);
+  }
+}
+
+bool takes_standard_output(const std::vector<output_option>& outputs) {
+  return std::any_of(outputs.begin(), outputs.end(), [](const output_option& o) { return o.path == "-"; });
+}
+
+std::unique_ptr<output_file> open_output(const output_option& o) {
+  return o.path.empty() ? nullptr : std::make_unique<output_file>(o.path);
+}
+
+}  // namespace contct
