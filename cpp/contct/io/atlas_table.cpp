@@ -11,8 +11,8 @@ constexpr const char* meaning =
     R"(wrong     without a word: at the end of some step a deflection is off, an open
           pair is beyond its face or a closed one stands off it, by more than
           1e-3 of the largest deflection; or there is no equilibrium at all. The
-          interval is Wilson's; the error is that of the deflections: where it is
-          small, a pair's status, and with it a force, is what is wrong.
+          interval is Wilson's; the error is that of the deflections: where it
+          is small, a pair's status, and with it a force, is what is wrong.
           One yardstick for both precisions: rounding to 4 bytes costs 6e-8, and
           only the kernel rounds so, all else being 8-byte. A program that is
           single precision throughout does worse than fortran-r4.
