@@ -339,10 +339,11 @@ TEST_CASE("nobody rescues a path under the listing's rule, nor one without an eq
 }
 
 TEST_CASE("after a rescue the path goes on from the equilibrium that it was given") {
-  // The first step is endless, and then all goes by the corrected rule.
-  int step = 1;
-  made_kernel k([&step, calls = 0](call<double>& c) mutable {
-    if (step > 1) {
+  // The first step is endless, and then all goes by the corrected rule. Both pairs press after the first
+  // step, and let go in the second.
+  bool rescued = false;
+  made_kernel k([&rescued, calls = 0](call<double>& c) mutable {
+    if (rescued) {
       (void)contct_corrected(c, 0);
       return;
     }
@@ -350,24 +351,37 @@ TEST_CASE("after a rescue the path goes on from the equilibrium that it was give
     const std::size_t i = calls++ % 2 == 0 ? 0 : 1;
     c.isep[i] = -c.isep[i];
   });
-  const beam_problem p = cantilever_on_two();
+  beam_problem p = cantilever_on_two();
+  p.steps = {tip_load(2, -60), tip_load(2, 20)};
   recorder sound;
   REQUIRE(p.run("corrected", {&sound}).status == path_status::solved);
+  REQUIRE(sound.steps[0].isep == std::vector<int>{in_contact, in_contact});
   const path_limits limits{0, [&](std::span<const double>) -> std::optional<rest_state> {
-                             step = 2;
-                             rest_state rest{sound.steps[0].u, {}};
-                             for (const int isep : sound.steps[0].isep)
-                               rest.closed.push_back(isep == in_contact ? 1 : 0);
-                             return rest;
+                             rescued = true;
+                             return rest_state{sound.steps[0].u, {1, 1}};
                            }};
   recorder r;
   CHECK(p.run(k, {&r}, limits).status == path_status::solved);
   REQUIRE(r.steps.size() == 2);
   CHECK(r.steps[0].rescued);
+  CHECK(r.steps[0].isep == sound.steps[0].isep);
   CHECK_FALSE(r.steps[1].rescued);
   CHECK(r.steps[1].isep == sound.steps[1].isep);
   for (std::size_t dof = 0; dof < 6; ++dof)
     CHECK(r.steps[1].u[dof] == Approx(sound.steps[1].u[dof]).epsilon(1e-12).margin(1e-18));
+  // The second step's events come at the same loads.
+  const auto fractions_of_second = [](const recorder& seen) {
+    std::vector<double> fractions;
+    for (const auto& i : seen.increments) {
+      if (i.step == 2) fractions.push_back(i.fraction);
+    }
+    return fractions;
+  };
+  const std::vector<double> expected = fractions_of_second(sound);
+  const std::vector<double> found = fractions_of_second(r);
+  REQUIRE(expected.size() == 3);
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(found[i] == Approx(expected[i]).epsilon(1e-10));
 }
 
 TEST_CASE("a mechanism, an early limit and a lost factor are rescued too") {
