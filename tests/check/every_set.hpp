@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -97,8 +97,22 @@ inline void solve_dense(long_numbers& a, long_numbers& b) {
   return false;
 }
 
-/// The equilibrium, and what its set leaves wrong: the farthest that a closed pair is from its face
-/// or an open one beyond it, of the largest deflection.
+[[nodiscard]] inline long double largest_deflection(const linear_structure& s, const long_numbers& u) {
+  const auto stride = static_cast<std::size_t>(s.dofs_per_node);
+  long double largest = 0.0L;
+  for (std::size_t dof = 0; dof < u.size(); dof += stride) largest = std::max(largest, std::abs(u[dof]));
+  return largest;
+}
+
+/// The farthest that a pair of `set` is from its face, or any other one beyond it, of the largest deflection.
+[[nodiscard]] inline long double wrong_with(const linear_structure& s, const long_numbers& u, pair_bits set) {
+  long double wrong = 0.0L;
+  for (std::size_t i = 0; i < s.pairs.size(); ++i)
+    wrong = std::max(wrong, is_in(set, i) ? -pressing(s, u, i) : pressing(s, u, i));
+  return wrong > 0 ? wrong / largest_deflection(s, u) : 0.0L;
+}
+
+/// The equilibrium, the pairs that its set closes, and what that leaves wrong.
 struct equilibrium {
   long_numbers u;
   pair_bits set = 0;
@@ -113,30 +127,33 @@ struct equilibrium {
   for (pair_bits set = 0; set < 1U << s.pairs.size(); ++set) {
     if (!holds(s, set, held_by_supports)) continue;
     const long_numbers u = stands_with(s, load, set);
-    long double largest = 0.0L;
-    const auto stride = static_cast<std::size_t>(s.dofs_per_node);
-    for (std::size_t dof = 0; dof < u.size(); dof += stride) largest = std::max(largest, std::abs(u[dof]));
-    long double wrong = 0.0L;
-    for (std::size_t i = 0; i < s.pairs.size(); ++i)
-      wrong = std::max(wrong, is_in(set, i) ? -pressing(s, u, i) : pressing(s, u, i));
-    wrong = wrong > 0 ? wrong / largest : 0.0L;
+    const long double wrong = wrong_with(s, u, set);
     if (wrong < best.wrong) best = {u, set, wrong};
   }
   return best;
 }
 
-/// Sets in turn as a plain active set visits them from the undeformed structure: the next set is what
-/// presses where the last one stands. True when it ends; false when a set returns that is not its own next.
-[[nodiscard]] inline bool plain_active_set_ends(const linear_structure& s, std::span<const double> load,
-                                                pair_bits start) {
-  std::vector<char> seen(std::size_t{1} << s.pairs.size());
-  for (pair_bits set = start;;) {
-    const pair_bits next = pressed_at(s, stands_with(s, load, set));
-    if (next == set) return true;
-    if (seen[next] != 0) return false;
-    seen[next] = 1;
+/// How a plain active set goes: the next set is what presses where the last one stands.
+struct plain_active_set {
+  bool ends = false;                ///< else a set returned that is not its own next
+  long double nearest_face = 1.0L;  ///< that any pair came to in any of the sets, of the largest deflection
+};
+
+[[nodiscard]] inline plain_active_set follow_plain_active_set(const linear_structure& s,
+                                                              std::span<const double> load, pair_bits set) {
+  plain_active_set way;
+  std::set<pair_bits> seen;
+  while (seen.insert(set).second) {
+    const long_numbers u = stands_with(s, load, set);
+    const long double largest = largest_deflection(s, u);
+    for (std::size_t i = 0; i < s.pairs.size(); ++i)
+      way.nearest_face = std::min(way.nearest_face, std::abs(pressing(s, u, i)) / largest);
+    const pair_bits next = pressed_at(s, u);
+    way.ends = next == set;
+    if (way.ends) break;
     set = next;
   }
+  return way;
 }
 
 }  // namespace contct

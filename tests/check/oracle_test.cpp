@@ -258,7 +258,9 @@ TEST_CASE("where the plain active set goes round in circles the oracle ends, at 
                        {}};
   const linear_structure s = p.structure();
   const std::vector<double> f = {0, 0, 19, 0, 1, 0, 4, 0};
-  REQUIRE_FALSE(plain_active_set_ends(s, f, 0));
+  const plain_active_set plain = follow_plain_active_set(s, f, 0);
+  REQUIRE_FALSE(plain.ends);
+  CHECK(plain.nearest_face > 0.005);
   const equilibrium truth = least_wrong(s, f, true);
   const oracle_answer a = oracle(s).solve(f);
   CHECK(a.how == outcome::found);
@@ -269,24 +271,38 @@ TEST_CASE("where the plain active set goes round in circles the oracle ends, at 
     CHECK(a.displacement[dof] == Approx(static_cast<double>(truth.u[dof])).epsilon(1e-14));
 }
 
-TEST_CASE("plain active sets that cycle are not rare, and every one of them ends by the line search") {
+TEST_CASE("plain active sets that cycle are not so rare, and where they do the oracle ends") {
+  // One in a thousand beams between two-sided stops. Cycles by ties are left out: zero faces make them.
+  random_problem_kind kind;
+  kind.free_share = 0.0;
+  kind.plate_share = 0.0;
+  kind.most_elements = 8;
+  int tried = 0;
   int cycles = 0;
-  for (std::uint64_t number = 0; number < 20000; ++number) {
-    const random_problem p = make_random_problem(5, number, small_beams(0.0));
-    if (p.pairs.size() > 8) continue;
+  for (std::uint64_t number = 0; number < 40000; ++number) {
+    const random_problem p = make_random_problem(5, number, kind);
+    if (p.layout != face_layout::two_sided) continue;
     const linear_structure s = build(p.geometry, p.supports, p.pairs);
     const std::vector<double> f = forces_of(p.geometry, p.steps[0]);
-    if (plain_active_set_ends(s, f, 0)) continue;
+    pair_bits closed = 0;  // where the oracle begins too
+    for (std::size_t i = 0; i < p.pairs.size(); ++i) closed |= (p.pairs[i].closed ? 1U : 0U) << i;
+    const plain_active_set plain = follow_plain_active_set(s, f, closed);
+    ++tried;
+    if (plain.ends || plain.nearest_face < 1e-6L) continue;
     ++cycles;
-    const equilibrium truth = least_wrong(s, f, true);
     const oracle_answer a = oracle(s).solve(f);
     INFO(number);
     REQUIRE(a.how == outcome::found);
+    pair_bits pressed = 0;
+    for (std::size_t i = 0; i < p.pairs.size(); ++i) pressed |= (a.pressed[i] != 0 ? 1U : 0U) << i;
+    const long_numbers u = stands_with(s, f, pressed);
+    CHECK(wrong_with(s, u, pressed) < 1e-12L);
     comparison c;
-    c.take(a.displacement, truth.u);
+    c.take(a.displacement, u);
     CHECK(c.relative() < 1e-12);
   }
-  CHECK(cycles > 15);
+  INFO(cycles << " of " << tried);
+  CHECK(cycles >= 2);
 }
 
 TEST_CASE("a free beam lifted off its faces, or tipped off them, has no equilibrium") {
