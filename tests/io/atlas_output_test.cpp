@@ -126,7 +126,7 @@ TEST_CASE("the atlas's picture is well-formed, self-contained, and has every cel
   CHECK(why_not_well_formed(svg).empty());
   CHECK(count_of(svg, "class=\"point\"") == static_cast<int>(a.cells.size()) + 4);
   CHECK_THAT(svg, !Contains("href") && !Contains("<script") && !Contains("<image") && !Contains("nan"));
-  CHECK_THAT(svg, Contains("<rect width=\"980\" height=\"790\" fill=\"#ffffff\"/>"));  // a ground of its own
+  CHECK_THAT(svg, Contains("<rect width=\"980\" height=\"800\" fill=\"#ffffff\"/>"));  // a ground of its own
   for (const atlas_cell& c : a.cells) {
     char unit[16];
     (void)std::snprintf(unit, sizeof unit, "%.0e", c.unit);

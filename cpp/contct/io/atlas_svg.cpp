@@ -124,7 +124,7 @@ std::string frame(const panel& p) {
       "stroke=\"#888888\"/>\n",
       p.left, p.top, p.width, p.height);
   constexpr std::pair<double, const char*> shares[] = {
-      {1.0, "100 %"}, {0.1, "10 %"}, {0.01, "1 %"}, {0.001, "0.1 %"}, {0.0, "none"}};
+      {1.0, "100 %"}, {0.1, "10 %"}, {0.01, "1 %"}, {0.001, "\u2264 0.1 %"}, {0.0, "none"}};
   for (const auto& [share, words] : shares) {
     text += line_between(p.left, p.y(share), p.left + p.width, p.y(share), "stroke=\"#dddddd\"");
     text += text_at(p.left - 8, p.y(share) + 4, "text-anchor=\"end\"", words);
@@ -184,17 +184,17 @@ std::string atlas_svg(const atlas& a) {
   constexpr const char* strong = "font-weight=\"bold\" font-size=\"15\"";
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 980 790\" width=\"980\" height=\"790\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 980 800\" width=\"980\" height=\"800\" "
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#222222\">\n"
       "<title>Where the 1989 code goes wrong</title>\n"
-      "<rect width=\"980\" height=\"790\" fill=\"#ffffff\"/>\n";
+      "<rect width=\"980\" height=\"800\" fill=\"#ffffff\"/>\n";
   text += text_at(left, 36, "font-weight=\"bold\" font-size=\"22\"", "Where the 1989 code goes wrong");
   text += text_at(left, 60, "",
                   "Share of random problems answered wrong without a word: off by more than 0.1 % of the "
                   "largest deflection.");
   text += text_at(left, 79, "",
                   fmt::format("{} problems a point, the same ones along each line (seed {}); bands: 95 % "
-                              "confidence. Paths that stop and say so are not counted.",
+                              "confidence.",
                               a.request.problems, a.request.seed));
   text += legend(108, {{left, as_8_bytes}, {left + 310, as_printed}, {left + 630, as_corrected}});
   text += text_at(left, 148, strong, "By the unit of length");
@@ -211,6 +211,8 @@ std::string atlas_svg(const atlas& a) {
   text += text_at(left + wide / 2, top - 24, "text-anchor=\"middle\"",
                   "size of the structure in the unit it is put in; EPSGAP stays 10<tspan dy=\"-5\" "
                   "font-size=\"10\">\u221210</tspan>");
+  text += text_at(left + wide / 2, top - 4, "text-anchor=\"middle\"",
+                  "Paths that stop for a mechanism or a cycle say so, and are not counted as wrong.");
   return text + "</svg>\n";
 }
 
