@@ -7,7 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/streams.hpp"
-#include "contct/io/output_file.hpp"
+#include "contct/text/output_file.hpp"
 
 namespace {
 

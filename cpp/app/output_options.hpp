@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/io/output_file.hpp"
+#include "contct/text/output_file.hpp"
 
 namespace contct {
 

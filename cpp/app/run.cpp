@@ -19,13 +19,13 @@
 #include "contct/check/rescue.hpp"
 #include "contct/io/certificate_text.hpp"
 #include "contct/io/follow.hpp"
-#include "contct/io/output_file.hpp"
 #include "contct/io/problem_file.hpp"
 #include "contct/io/result_json.hpp"
 #include "contct/io/table.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/path/engine.hpp"
+#include "contct/text/output_file.hpp"
 
 namespace contct {
 namespace {

@@ -13,10 +13,10 @@
 #include "app/commands.hpp"
 #include "app/streams.hpp"
 #include "contct/io/certificate_text.hpp"
-#include "contct/io/output_file.hpp"
 #include "contct/io/problem_file.hpp"
-#include "contct/io/terminal.hpp"
 #include "contct/io/verified.hpp"
+#include "contct/text/output_file.hpp"
+#include "contct/text/terminal.hpp"
 
 namespace contct {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/check/compare.hpp"
+#include "contct/conform/compare.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/path/observer.hpp"
 

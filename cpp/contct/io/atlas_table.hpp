@@ -4,7 +4,7 @@
 #include <string>
 
 #include "contct/check/atlas.hpp"
-#include "contct/io/terminal.hpp"
+#include "contct/text/terminal.hpp"
 
 namespace contct {
 

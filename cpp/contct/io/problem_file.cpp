@@ -7,10 +7,10 @@
 #include <map>
 #include <utility>
 
-#include "contct/io/input_text.hpp"
 #include "contct/io/model_tables.hpp"
 #include "contct/io/number_list.hpp"
 #include "contct/kernel/call.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct {
 namespace {

@@ -9,10 +9,10 @@
 #include "contct/check/free_run.hpp"
 #include "contct/check/lockstep.hpp"
 #include "contct/io/load_text.hpp"
-#include "contct/io/output_file.hpp"
 #include "contct/io/problem.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
+#include "contct/text/output_file.hpp"
 
 namespace contct {
 

@@ -8,8 +8,8 @@
 #include "contct/check/lockstep.hpp"
 #include "contct/io/load_text.hpp"
 #include "contct/io/problem.hpp"
-#include "contct/io/terminal.hpp"
 #include "contct/path/observer.hpp"
+#include "contct/text/terminal.hpp"
 
 namespace contct {
 

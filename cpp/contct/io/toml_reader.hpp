@@ -5,19 +5,13 @@
 
 #include <initializer_list>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace contct {
+#include "contct/text/input_text.hpp"
 
-/// What is wrong with a file, where, what was found, what is allowed. what() is the whole message:
-/// "pb.toml:12:3: contact[2].stiffness: found -5; allowed: a number greater than 0".
-class input_error : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace contct {
 
 /// A range of numbers in words and as a test.
 struct real_range {

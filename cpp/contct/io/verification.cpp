@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "contct/io/input_text.hpp"
 #include "contct/io/load_text.hpp"
 #include "contct/io/toml_reader.hpp"
 #include "contct/kernel/call.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct {
 namespace {

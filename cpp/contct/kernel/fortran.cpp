@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "contct/kernel/signals_wait.hpp"
+#include "contct/text/signals_wait.hpp"
 
 extern "C" {
 void contct_call_r4(const float* dd, const float* dtest, const float* cc, float* ss, float* smin,

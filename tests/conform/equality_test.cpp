@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/check/random_calls.hpp"
-#include "contct/check/side_by_side.hpp"
+#include "contct/conform/random_calls.hpp"
+#include "contct/conform/side_by_side.hpp"
 
 using namespace contct;
 

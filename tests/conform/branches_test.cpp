@@ -1,4 +1,4 @@
-#include "contct/check/branches.hpp"
+#include "contct/conform/branches.hpp"
 
 #include "catch.hpp"
 #include "kernel/one_pair.hpp"

@@ -1,4 +1,4 @@
-#include "contct/check/random_calls.hpp"
+#include "contct/conform/random_calls.hpp"
 
 namespace contct {
 namespace {

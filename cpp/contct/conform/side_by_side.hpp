@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "contct/check/branches.hpp"
-#include "contct/check/compare.hpp"
+#include "contct/conform/branches.hpp"
+#include "contct/conform/compare.hpp"
 #include "contct/kernel/call.hpp"
 #include "contct/kernel/fortran.hpp"
 

@@ -1,4 +1,4 @@
-#include "contct/io/output_file.hpp"
+#include "contct/text/output_file.hpp"
 
 #include <sys/stat.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "contct/io/terminal.hpp"
+#include "contct/text/terminal.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "contct/check/branches.hpp"
+#include "contct/conform/branches.hpp"
 
 #include <algorithm>
 #include <cmath>

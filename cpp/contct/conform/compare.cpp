@@ -1,4 +1,4 @@
-#include "contct/check/compare.hpp"
+#include "contct/conform/compare.hpp"
 
 namespace contct {
 namespace {

@@ -1,7 +1,6 @@
-#include "contct/io/output_file.hpp"
+#include "contct/text/output_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,9 +8,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <string>
 #include <utility>
 
-#include "contct/kernel/signals_wait.hpp"
+#include "contct/text/signals_wait.hpp"
 
 namespace contct {
 namespace {
@@ -125,7 +125,7 @@ void output_file::give_name() {
 }
 
 bool output_file::link_to(const std::string& name) const {
-  const std::string nameless = fmt::format("/proc/self/fd/{}", fileno(file_));
+  const std::string nameless = "/proc/self/fd/" + std::to_string(fileno(file_));
   return how_ == naming::link_or_copy &&
          linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
 }
@@ -133,7 +133,7 @@ bool output_file::link_to(const std::string& name) const {
 bool output_file::link_beside(std::string& name) const {
   constexpr int most_tries = 100;
   for (int i = 0; i < most_tries; ++i) {
-    name = fmt::format("{}-{}-{}", beside(target_), getpid(), i);
+    name = beside(target_) + "-" + std::to_string(getpid()) + "-" + std::to_string(i);
     if (link_to(name)) return true;
     if (errno != EEXIST) break;
   }
@@ -151,15 +151,15 @@ int output_file::copy_beside(std::string& name) const {
 }
 
 void output_file::fail(int error) const {
-  throw output_error(fmt::format("{}: cannot be written: {}",
-                                 is_standard_output() ? "standard output" : path_, std::strerror(error)));
+  throw output_error((is_standard_output() ? std::string("standard output") : path_) +
+                     ": cannot be written: " + std::strerror(error));
 }
 
 void flush_standard_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   const char* const reason = errno != 0 ? std::strerror(errno) : "what was printed before is lost";
-  throw output_error(fmt::format("standard output: cannot be written: {}", reason));
+  throw output_error(std::string("standard output: cannot be written: ") + reason);
 }
 
 bool same_file(const std::string& a, const std::string& b) {

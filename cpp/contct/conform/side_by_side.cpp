@@ -1,4 +1,4 @@
-#include "contct/check/side_by_side.hpp"
+#include "contct/conform/side_by_side.hpp"
 
 #include "contct/kernel/contct.hpp"
 #include "contct/kernel/log_text.hpp"
