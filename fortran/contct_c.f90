@@ -113,7 +113,8 @@ contains
 
   !> Take unit 26 away from its file; it leads to the null device again.
   subroutine contct_log_close() bind(C, name='contct_log_close')
-    close (log_unit)
+    integer :: status
+    close (log_unit, iostat=status)  ! in a child process its file may be gone already
     log_is_connected = .false.
   end subroutine contct_log_close
 

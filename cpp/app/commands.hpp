@@ -27,4 +27,8 @@ void add_kernels(CLI::App& program, exit_status& status);
 /// Add `contct atlas`.
 void add_atlas(CLI::App& program, exit_status& status);
 
+/// Add `contct replay`; describe_replay gives the same to a program of its own.
+void add_replay(CLI::App& program, exit_status& status);
+void describe_replay(CLI::App& command, exit_status& status);
+
 }  // namespace contct

@@ -7,8 +7,10 @@
 
 namespace contct {
 
-void refuse_shared_outputs(const std::vector<output_option>& outputs) {
+void refuse_shared_outputs(const std::vector<output_option>& outputs,
+                           const std::vector<output_option>& inputs) {
   std::vector<output_option> others = {{"standard output", "/dev/fd/1"}};
+  for (const output_option& i : inputs) others.push_back({i.name, i.path == "-" ? "/dev/fd/0" : i.path});
   const char* standard = nullptr;
   for (const output_option& o : outputs) {
     if (o.path == "-") {

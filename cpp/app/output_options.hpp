@@ -16,8 +16,10 @@ struct output_option {
 };
 
 /// Throws std::invalid_argument when two of these would be one file, when one is the file that
-/// standard output goes to, or when more than one is "-".
-void refuse_shared_outputs(const std::vector<output_option>& outputs);
+/// standard output goes to, when more than one is "-", or when one would replace one of `inputs`, whose
+/// names say what they are: "the problem".
+void refuse_shared_outputs(const std::vector<output_option>& outputs,
+                           const std::vector<output_option>& inputs = {});
 
 /// Is one of them "-"? Then nothing else is printed.
 [[nodiscard]] bool takes_standard_output(const std::vector<output_option>& outputs);

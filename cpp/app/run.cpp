@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,12 +13,14 @@
 
 #include "app/commands.hpp"
 #include "app/endings.hpp"
+#include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/check/certificate.hpp"
 #include "contct/check/early_toggles.hpp"
 #include "contct/check/free_run.hpp"
 #include "contct/check/lockstep.hpp"
 #include "contct/check/rescue.hpp"
+#include "contct/check/trace_recorder.hpp"
 #include "contct/io/certificate_text.hpp"
 #include "contct/io/follow.hpp"
 #include "contct/io/problem_file.hpp"
@@ -25,6 +29,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/path/engine.hpp"
+#include "contct/structure/lapack.hpp"
 #include "contct/text/output_file.hpp"
 
 namespace contct {
@@ -36,6 +41,8 @@ struct run_options {
   std::string engine = "refactor";
   std::string json;
   std::string log;
+  std::string trace;
+  report_options report;
   bool free_run = false;
   bool strict = false;
   int max_increments = 0;
@@ -50,6 +57,13 @@ class log_writer final : public observer {
  private:
   output_file& out_;
 };
+
+/// Titles may have line ends, a trace's header must not.
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char ch) { return ch == '\n' || ch == '\r'; }, ' ');
+  return text;
+}
 
 /// "1 node", "3 nodes".
 template <class Count>
@@ -76,12 +90,12 @@ class run {
   explicit run(const run_options& options)
       : options_(options),
         terminal_(look_at_terminal()),
-        shows_table_(options.json != "-" && options.log != "-") {}
+        shows_table_(!options.report.quiet && !takes_standard_output(outputs())) {}
 
   exit_status go() {
     refuse_bad_options();
     read();
-    refuse_shared_files();
+    refuse_shared_outputs(outputs(), {{"the problem", options_.file}});
     return options_.free_run ? free_run() : lockstep_run();
   }
 
@@ -93,8 +107,6 @@ class run {
         throw std::invalid_argument("--kernels: \"" + name + "\" is named twice");
       (void)facts_of_kernel(name);
     }
-    if (options_.json == "-" && options_.log == "-")
-      throw std::invalid_argument("--json and --log cannot both be -");
   }
 
   void read() {
@@ -104,24 +116,9 @@ class run {
     judged_.emplace(structure_, loads_of(problem_));
   }
 
-  /// Every file of its own: an output must not replace the problem, nor one output another.
-  void refuse_shared_files() const {
-    struct named_file {
-      const char* what;
-      std::string path;
-    };
-    std::vector<named_file> others = {{"the problem", options_.file == "-" ? "/dev/fd/0" : options_.file},
-                                      {"standard output", "/dev/fd/1"}};
-    for (const named_file& out : {named_file{"--json", options_.json}, {"--log", options_.log}}) {
-      if (out.path.empty() || out.path == "-") continue;
-      for (const named_file& other : others) {
-        if (same_file(out.path, other.path)) {
-          throw std::invalid_argument(fmt::format("{} {}: found the file of {}; allowed: a file of its own",
-                                                  out.what, out.path, other.what));
-        }
-      }
-      others.push_back(out);
-    }
+  [[nodiscard]] std::vector<output_option> outputs() const {
+    return with_reports({{"--json", options_.json}, {"--log", options_.log}, {"--trace", options_.trace}},
+                        options_.report);
   }
 
   exit_status lockstep_run() {
@@ -166,6 +163,8 @@ class run {
     if (shows_table_) watching.push_back(&table_.emplace(problem_, compared, *judged_, terminal_));
     if (json_) watching.push_back(&*json_);
     if (log_) watching.push_back(&*log_);
+    if (!options_.trace.empty())
+      watching.push_back(&recorder_.emplace(header_of_trace(leader), trace_sink()));
     if (record != nullptr) watching.push_back(record);
     watching.push_back(&digits_);
     return follow(problem_, structure_, options_.engine, leader, watching, limits());
@@ -183,6 +182,30 @@ class run {
       log_file_.emplace(options_.log);
       log_.emplace(*log_file_);
     }
+    if (!options_.trace.empty()) trace_file_.emplace(options_.trace);
+    reports_.emplace(options_.report);
+  }
+
+  [[nodiscard]] trace_header header_of_trace(const kernel& leader) const {
+    const kernel_facts& k = leader.facts();
+    trace_header h;
+    h.about = {fmt::format("every call of {}",
+                           options_.file == "-" ? "a problem from standard input"
+                                                : std::filesystem::path(options_.file).filename().string())};
+    if (!problem_.title.empty()) h.about.push_back(on_one_line(problem_.title));
+    h.kernel = k.name;
+    h.real_bytes = k.real_bytes;
+    h.rule = k.rule;
+    h.listing = CONTCT_LISTING_SHA256;
+    h.compiler = k.compiler;
+    h.flags = k.flags;
+    h.lapack = lapack_identity();
+    h.floating_point = describe(probe_floating_point());
+    return h;
+  }
+
+  trace_recorder::sink trace_sink() {
+    return [this](std::string_view text) { trace_file_->write(text); };
   }
 
   void print_heading() const {
@@ -208,18 +231,19 @@ class run {
   void report_lockstep(const lockstep& compared) {
     const tally& t = compared.compared();
     const std::string names = fmt::format("{}", fmt::join(options_.kernels, " and "));
+    compared_words_ =
+        fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(), t.values, t.mismatches);
     if (compared.calls() == 0)
       return print_verdict(paint::quiet, {names + " were never called: nothing is compared"});
     const bool equal = t.mismatches == 0;
-    print_verdict(equal ? paint::good : paint::bad,
-                  {fmt::format("{} {} to the bit", names, equal ? "are equal" : "are NOT equal"),
-                   fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(), t.values,
-                               t.mismatches)});
+    print_verdict(
+        equal ? paint::good : paint::bad,
+        {fmt::format("{} {} to the bit", names, equal ? "are equal" : "are NOT equal"), compared_words_});
     if (!compared.first()) return;
-    const first_divergence& d = *compared.first();
-    complain("call {}: {} differs in {}{}: {} has {}, {} has {} ({} ULP)", d.call, d.follower, d.where.field,
-             d.where.index > 0 ? fmt::format("({})", d.where.index) : "", options_.kernels[0], d.where.leader,
-             d.follower, d.where.follower, d.where.ulps);
+    for (const std::string& line : words_of(*compared.first())) {
+      complain("{}", line);
+      differences_ += line + "\n";
+    }
     const floating_point fp = probe_floating_point();
     if (!fp.strict()) complain("environment, not kernel: {}", describe(fp));
   }
@@ -231,6 +255,10 @@ class run {
          fmt::format("load fractions within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
                      d.displacement, d.bound),
          judged.all_exact() ? "certified" : "NOT certified"});
+    compared_words_ +=
+        fmt::format("{}{}: load fractions within {:.2g}, D within {:.2g} (bound {:.0e})",
+                    compared_words_.empty() ? "" : "; ", name, d.fraction, d.displacement, d.bound);
+    if (!d.first_difference.empty()) differences_ += name + ": " + d.first_difference + "\n";
     if (!d.first_difference.empty()) complain("{}: first difference: {}", name, d.first_difference);
     for (const auto& [what, difference] : {std::pair("a load fraction", d.fraction), {"D", d.displacement}}) {
       if (difference <= d.bound) continue;
@@ -261,7 +289,33 @@ class run {
     if (status == exit_status::bad_input) return status;  // no numbers, and no files
     if (json_) json_->finish(equal ? status_name(end.status) : "kernels-disagree", end, compared);
     if (log_) log_file_->finish();
+    if (trace_file_) trace_file_->finish();
+    reports_->write(check_report_of(end, equal));
     return status;
+  }
+
+  /// What a CI system is told.
+  [[nodiscard]] check_report check_report_of(const path_end& end, bool equal) const {
+    check_report r{"contct run", common_facts(), {}, 0.0};
+    r.facts.push_back(options_.file + ": kernels " + fmt::format("{}", fmt::join(options_.kernels, ", ")));
+    if (options_.kernels.size() > 1)
+      r.results.push_back(
+          {"kernels", equal ? outcome::passed : outcome::failed, compared_words_, differences_});
+    const std::string ended = end_words(problem_, end);
+    const bool solved = end.status == path_status::solved;
+    r.results.push_back({"path", solved ? outcome::passed : outcome::failed,
+                         solved ? "every step's load is applied" : ended, ended});
+    const bool exact = judged_->all_exact();
+    r.results.push_back(
+        {"certificate",
+         exact             ? outcome::passed
+         : options_.strict ? outcome::failed
+                           : outcome::skipped,
+         exact ? "every final state is certified" : "NOT certified",
+         exact ? ""
+               : fmt::format("{}", fmt::join(certificate_complaints(problem_, *judged_, early_), "\n"))});
+    r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    return r;
   }
 
   [[nodiscard]] exit_status certified_status_of(path_status status) const {
@@ -275,7 +329,11 @@ class run {
   bool shows_table_;
   problem problem_;
   linear_structure structure_;
-  std::optional<output_file> json_file_, log_file_;
+  std::optional<output_file> json_file_, log_file_, trace_file_;
+  std::optional<trace_recorder> recorder_;
+  std::optional<report_files> reports_;
+  std::string compared_words_, differences_;  // how the kernels compared, for the reports
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::optional<result_json> json_;
   std::optional<log_writer> log_;
   std::optional<table> table_;
@@ -303,6 +361,9 @@ void add_run(CLI::App& program, exit_status& status) {
   command->add_option("--max-increments", options->max_increments, "Limit of increments in a step")
       ->check(CLI::Range(1, most_increments));
   command->add_option("--json", options->json, "Write the result to this file (- is standard output)");
+  command->add_option("--trace", options->trace,
+                      "Write every call of the leader, inputs and answers, to this file");
+  add_report_options(*command, options->report);
   command->add_option("--log", options->log, "Write what the leader writes to unit 26 to this file");
   command->callback([options, &status] { status = run(*options).go(); });
 }

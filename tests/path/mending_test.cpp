@@ -17,7 +17,7 @@ namespace {
 class made_kernel final : public kernel {
  public:
   explicit made_kernel(std::function<void(call<double>&)> answer, std::string rule = "made")
-      : facts_{"made", 8, std::move(rule), "", "", false}, answer_(std::move(answer)) {}
+      : facts_{"made", 8, std::move(rule), "", "", "", false}, answer_(std::move(answer)) {}
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
   void answer(call<double>& c) override { answer_(c); }
   std::string take_text() override { return {}; }

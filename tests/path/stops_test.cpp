@@ -18,7 +18,7 @@ class made_kernel final : public kernel {
   std::string take_text() override { return {}; }
 
  private:
-  kernel_facts facts_{"made", 8, "test", "", "", false};
+  kernel_facts facts_{"made", 8, "test", "", "", "", false};
   std::function<void(call<double>&)> answer_;
 };
 

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contct/conform/follower.hpp"
+
 namespace contct {
 
 namespace {
@@ -41,22 +43,13 @@ void lockstep::called(const answered_call& c) {
 }
 
 void lockstep::ask(kernel& follower, const answered_call& c) {
-  ss_.assign(c.c.ss.size(), 0.0);
-  isep_.assign(c.isep_before.begin(), c.isep_before.end());
-  call<double> copy = c.c;
-  copy.ss = ss_;
-  copy.isep = isep_;
-  copy.smin = 0.0;
-  follower.answer(copy);
-  note(follower, compare<double>({c.c.smin, c.c.ss, c.c.isep}, {copy.smin, ss_, isep_}, tally_));
-  const std::string text = follower.take_text();
-  if (leader_.has_text && follower.facts().has_text) note(follower, compare_text(c.text, text, tally_));
-}
-
-void lockstep::note(const kernel& follower, const std::optional<divergence>& found) {
+  const auto text = leader_.has_text ? std::optional(c.text) : std::nullopt;
+  const auto found = put_to(follower, c.c, c.isep_before, text, answered_, tally_);
   if (!found) return;
   last_call_equal_ = false;
-  if (!first_) first_ = first_divergence{calls_, follower.facts().name, *found};
+  if (first_) return;
+  first_ = finding{calls_, leader_.name, follower.facts().name, *found,
+                   decisions_of(c.c, c.isep_before, leader_.real_bytes)};
 }
 
 }  // namespace contct

@@ -8,18 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "contct/conform/compare.hpp"
+#include "contct/kernel/call_inputs.hpp"
+#include "contct/conform/finding.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct {
-
-/// The first call in which a follower did not answer as the leader.
-struct first_divergence {
-  std::int64_t call;     ///< from 1
-  std::string follower;  ///< name of the kernel
-  divergence where;
-};
 
 /// Throws std::invalid_argument when the two differ in precision or rule: their answers cannot be
 /// equal to the bit.
@@ -36,22 +30,21 @@ class lockstep final : public observer {
 
   [[nodiscard]] std::int64_t calls() const { return calls_; }
   [[nodiscard]] const tally& compared() const { return tally_; }
-  [[nodiscard]] const std::optional<first_divergence>& first() const { return first_; }
+  /// The first call in which a follower did not answer as the leader.
+  [[nodiscard]] const std::optional<finding>& first() const { return first_; }
   /// Did every follower answer the last call as the leader did?
   [[nodiscard]] bool last_call_equal() const { return last_call_equal_; }
 
  private:
   void ask(kernel& follower, const answered_call& c);
-  void note(const kernel& follower, const std::optional<divergence>& found);
 
   kernel_facts leader_;
   std::vector<std::unique_ptr<kernel>> followers_;
   std::int64_t calls_ = 0;
   tally tally_;
-  std::optional<first_divergence> first_;
+  std::optional<finding> first_;
   bool last_call_equal_ = true;
-  std::vector<double> ss_;
-  std::vector<int> isep_;
+  call_outputs answered_;
 };
 
 /// A leader's lockstep with kernels by name. All are known and refused by their facts before the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -26,8 +27,18 @@ inline constexpr std::array<std::string_view, 8> branch_names = {
     "no_response",   "stationary", "check_positive", "s_positive",
     "s_is_smallest", "no_events",  "within_epsmul",  "was_separated"};
 
-/// How often each IF was true and false, worked out from what went into and came out of calls.
+/// The IFs as the listing prints them.
+inline constexpr std::array<std::string_view, 8> branch_conditions = {
+    "DTEST(NDOF).EQ.0.", "ABS(GAP).LT.EPSGAP", "SSCHK.GT.0.",    "SS(I).GT.0.",
+    "SS(I).LT.SMIN",     "SMIN.EQ.1.",         "DIFF.LT.EPSMUL", "ISEP(I).EQ.1"};
+
+/// Walk through the decisions of one finished call, `c` with its outputs and `isep_before` as it went
+/// in: `visit(branch, pair from 0, outcome, left, right)`, the last two being the numbers compared.
 /// This derives the decisions from the listing's text and shares no code with either kernel.
+template <class Real, class Visit>
+void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit);
+
+/// How often each IF was true and false, worked out from what went into and came out of calls.
 class branch_counts {
  public:
   /// Count one finished call: `c` with its outputs, `isep_before` as it went in.
@@ -40,16 +51,52 @@ class branch_counts {
   /// The rarest outcome's count: 0 means that some outcome of some IF was never reached.
   [[nodiscard]] std::int64_t rarest() const;
 
- private:
-  bool note(branch b, bool outcome) {
-    ++counts_[static_cast<std::size_t>(b)][outcome ? 1 : 0];
-    return outcome;
+  /// Add the counts of another run.
+  void add(const branch_counts& other);
+  void add(branch b, bool outcome, std::int64_t count) {
+    counts_[static_cast<std::size_t>(b)][outcome ? 1 : 0] += count;
   }
 
+ private:
   std::array<std::array<std::int64_t, 2>, 8> counts_{};
 };
 
 extern template void branch_counts::count(const call<float>&, std::span<const int>);
 extern template void branch_counts::count(const call<double>&, std::span<const int>);
+
+template <class Real, class Visit>
+void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit) {
+  // The listing's DATA, converted from its decimal text in the precision of the call.
+  const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
+  const Real epsmul = Real(1) / Real(256);
+  const Real zero = 0;
+  Real smin = 1;
+  const auto decide = [&visit](branch b, std::size_t i, bool outcome, Real left, Real right) {
+    visit(b, i, outcome, left, right);
+    return outcome;
+  };
+  for (std::size_t i = 0; i < c.cc.size(); ++i) {
+    const auto ndof = static_cast<std::size_t>((c.id[i] - 1) * c.dof.ndofpn + c.dof.indof - 1);
+    const Real dtest = c.dtest[ndof];
+    const Real gap = std::abs(c.cc[i] - c.dd[ndof]);
+    if (!decide(branch::no_response, i, dtest == zero, dtest, zero) &&
+        decide(branch::stationary, i, gap < epsgap, gap, epsgap)) {
+      const Real sschk = static_cast<Real>(isep_before[i] * c.isurf[i]) / dtest;
+      decide(branch::check_positive, i, sschk > zero, sschk, zero);
+    }
+    const Real s = c.ss[i];
+    if (decide(branch::s_positive, i, s > zero, s, zero) &&
+        decide(branch::s_is_smallest, i, s < smin, s, smin))
+      smin = s;
+  }
+  if (decide(branch::no_events, 0, c.smin == Real(1), c.smin, Real(1))) return;
+  for (std::size_t i = 0; i < c.cc.size(); ++i) {
+    const Real diff = std::abs(c.ss[i] - c.smin) / c.smin;
+    if (decide(branch::within_epsmul, i, diff < epsmul, diff, epsmul)) {
+      const auto status = static_cast<Real>(isep_before[i]);
+      decide(branch::was_separated, i, isep_before[i] == separated, status, static_cast<Real>(separated));
+    }
+  }
+}
 
 }  // namespace contct

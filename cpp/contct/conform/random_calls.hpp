@@ -1,7 +1,7 @@
 // Random calls of CONTCT that reach every branch of the listing.
 #pragma once
 
-#include "contct/conform/side_by_side.hpp"
+#include "contct/kernel/call_inputs.hpp"
 #include "contct/numeric/random.hpp"
 
 namespace contct {

@@ -7,20 +7,12 @@
 #include <vector>
 
 #include "contct/conform/branches.hpp"
+#include "contct/kernel/call_inputs.hpp"
 #include "contct/conform/compare.hpp"
 #include "contct/kernel/call.hpp"
 #include "contct/kernel/fortran.hpp"
 
 namespace contct {
-
-/// What goes into one call. dd and dtest may be longer than the dofs in use.
-template <class Real>
-struct call_inputs {
-  std::vector<Real> dd, dtest;       // [dofs]
-  std::vector<Real> cc;              // [pairs]
-  std::vector<int> id, isep, isurf;  // [pairs]
-  dof_layout dof;
-};
 
 /// Puts calls to FORTRAN and C++ in one precision. SMIN, SS and ISEP are compared at once, the
 /// unit-26 text in blocks: reading it back after every call would cost ten times the call.

@@ -169,7 +169,7 @@ void result_json::finish(std::string_view status, const path_end& end, const loc
             {"values_compared", compared->compared().values},
             {"mismatches", compared->compared().mismatches}};
     if (compared->first()) {
-      const first_divergence& d = *compared->first();
+      const finding& d = *compared->first();
       lock["first"] = {{"call", d.call},         {"kernel", d.follower},     {"field", d.where.field},
                        {"index", d.where.index}, {"leader", d.where.leader}, {"follower", d.where.follower},
                        {"ulps", d.where.ulps}};

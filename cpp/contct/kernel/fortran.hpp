@@ -18,6 +18,9 @@ namespace contct::fortran {
 void contct(call<float>& c);
 void contct(call<double>& c);
 
+/// In a child process: let go of the parent's unit 26, which leads to the null device from now on.
+void forget_unit_26();
+
 /// Unit 26 while this object lives: what the listing writes is kept and handed back. One at a
 /// time in a process: a second one throws std::logic_error. The file behind it is unlinked at
 /// once, so nothing is left behind however the process ends.

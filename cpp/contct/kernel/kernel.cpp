@@ -1,5 +1,6 @@
 #include "contct/kernel/kernel.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -8,12 +9,15 @@
 #include "contct/kernel/corrected.hpp"
 #include "contct/kernel/fortran.hpp"
 #include "contct/kernel/log_text.hpp"
+#include "contct/kernel/outside.hpp"
 
 namespace contct {
 namespace {
 
 const char* const cxx_compiler = CONTCT_CXX_COMPILER;          // NOLINT: set by CMake
 const char* const fortran_compiler = CONTCT_FORTRAN_COMPILER;  // NOLINT: set by CMake
+const char* const cxx_flags = CONTCT_CXX_FLAGS;                // NOLINT: set by CMake
+const char* const fortran_flags = CONTCT_FORTRAN_FLAGS;        // NOLINT: set by CMake
 
 /// C++ CONTCT, with its text.
 template <class Real>
@@ -22,6 +26,7 @@ class cpp_implementation {
   static constexpr const char* name = std::is_same_v<Real, float> ? "cpp-r4" : "cpp";
   static constexpr const char* language = "C++20";
   static const char* compiler() { return cxx_compiler; }
+  static std::string flags() { return cxx_flags; }
 
   void answer(call<Real>& c) {
     if (events_.size() < c.cc.size()) events_.resize(c.cc.size());
@@ -43,6 +48,9 @@ class fortran_implementation {
   static constexpr const char* name = std::is_same_v<Real, float> ? "fortran-r4" : "fortran";
   static constexpr const char* language = "FORTRAN 77";
   static const char* compiler() { return fortran_compiler; }
+  static std::string flags() {
+    return std::string(fortran_flags) + (std::is_same_v<Real, double> ? " -fdefault-real-8" : "");
+  }
 
   void answer(call<Real>& c) { fortran::contct(c); }
   std::string take_text() { return log_.take(); }
@@ -53,8 +61,9 @@ class fortran_implementation {
 
 template <class Implementation>
 kernel_facts facts_of_listing(int real_bytes) {
-  return {Implementation::name,       real_bytes, "listing", Implementation::language,
-          Implementation::compiler(), true};
+  return {
+      Implementation::name,    real_bytes, "listing", Implementation::language, Implementation::compiler(),
+      Implementation::flags(), true};
 }
 
 template <template <class> class Implementation>
@@ -109,7 +118,9 @@ class kernel_r4 final : public kernel {
 /// The repaired rule. It writes no text: the listing has no words for what it does.
 class corrected_kernel final : public kernel {
  public:
-  static kernel_facts what_it_is() { return {"corrected", 8, "corrected", "C++20", cxx_compiler, false}; }
+  static kernel_facts what_it_is() {
+    return {"corrected", 8, "corrected", "C++20", cxx_compiler, cxx_flags, false};
+  }
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
 
   void answer(call<double>& c) override {
@@ -143,23 +154,34 @@ constexpr entry known_kernels[] = {
     known_as<corrected_kernel>("corrected"),
 };
 
+/// What stands behind "plugin:" or "pipe:"; nothing when the name begins with something else.
+std::optional<std::string> behind(std::string_view prefix, std::string_view name) {
+  if (name.substr(0, prefix.size()) != prefix || name.size() == prefix.size()) return {};
+  return std::string(name.substr(prefix.size()));
+}
+
 const entry& entry_of(std::string_view name) {
   std::string known;
   for (const entry& e : known_kernels) {
     if (name == e.name) return e;
-    known += known.empty() ? "" : ", ";
     known += e.name;
+    known += ", ";
   }
-  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"; there are: " + known);
+  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"; there are: " + known +
+                              "plugin:LIBRARY, pipe:COMMAND");
 }
 
 }  // namespace
 
 std::unique_ptr<kernel> make_kernel(std::string_view name) {
+  if (const auto path = behind("plugin:", name)) return make_plugin(*path);
+  if (const auto command = behind("pipe:", name)) return make_pipe(*command);
   return entry_of(name).make();
 }
 
 kernel_facts facts_of_kernel(std::string_view name) {
+  if (const auto path = behind("plugin:", name)) return facts_of_plugin(*path);
+  if (const auto command = behind("pipe:", name)) return facts_of_pipe(*command);
   return entry_of(name).facts();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,15 @@ struct kernel_facts {
   std::string rule;      ///< "listing"
   std::string language;  ///< for people
   std::string compiler;  ///< for people
+  std::string flags;     ///< for people: how floating point was compiled
   bool has_text;         ///< the kernel writes the listing's unit-26 text
+};
+
+/// A kernel that gave no answer: it crashed, did not answer in time, wrote where it must not. Kernels from
+/// outside throw it from `answer`, and can be asked again.
+class kernel_failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// A function of one call, in double precision at its boundary. A single-precision kernel rounds
@@ -27,15 +36,15 @@ class kernel {
   virtual ~kernel() = default;
   [[nodiscard]] virtual const kernel_facts& facts() const = 0;
 
-  /// Answer one call: sets c.ss and c.smin, toggles c.isep.
+  /// Answer one call: sets c.ss and c.smin, toggles c.isep. Throws kernel_failure.
   virtual void answer(call<double>& c) = 0;
 
   /// The unit-26 text of the calls since the last take; empty where facts().has_text is false.
   virtual std::string take_text() = 0;
 };
 
-/// Make a kernel by name: "fortran", "fortran-r4", "cpp", "cpp-r4".
-/// Throws std::invalid_argument, naming what there is, when there is none of that name.
+/// Make a kernel by name: "fortran", "fortran-r4", "cpp", "cpp-r4", "corrected", "plugin:LIBRARY",
+/// "pipe:COMMAND". Throws std::invalid_argument, naming what there is, when there is none of that name.
 [[nodiscard]] std::unique_ptr<kernel> make_kernel(std::string_view name);
 
 /// What the kernel of that name is, without making it: of the FORTRAN ones there is one at a time.

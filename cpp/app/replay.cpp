@@ -1,0 +1,123 @@
+// contct replay, and contct-replay: recorded calls put to a kernel. Neither LAPACK nor finite elements.
+#include "contct/conform/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+
+#include "app/commands.hpp"
+#include "app/report_options.hpp"
+#include "app/streams.hpp"
+#include "contct/numeric/probe.hpp"
+#include "contct/text/input_text.hpp"
+#include "contct/text/terminal.hpp"
+
+namespace contct {
+namespace {
+
+struct replay_options {
+  std::vector<std::string> traces;
+  std::vector<std::string> kernels;
+  report_options report;
+};
+
+/// Who is meant where no --kernel says it: the 1989 code in the trace's precision.
+std::string usual_kernel(const trace_header& h) {
+  if (h.rule == "corrected") return "corrected";
+  return h.real_bytes == 4 ? "fortran-r4" : "fortran";
+}
+
+std::string first_failure_details(const replay_report& r) {
+  std::string details;
+  for (const std::string& line : words_of(*r.first)) details += line + "\n";
+  if (const floating_point fp = probe_floating_point(); !fp.strict())
+    details += "environment, not kernel: " + describe(fp) + "\n";
+  return details;
+}
+
+/// One trace against one kernel.
+check_result replay_one(const std::string& file, const std::string& text, const std::string& name) {
+  trace_reader calls(text, file);
+  const trace_header h = calls.read_header();
+  const std::string kernel = name.empty() ? usual_kernel(h) : name;
+  check_result result{file + ": " + kernel, outcome::passed, "", ""};
+  const kernel_facts facts = facts_of_kernel(kernel);
+  if (!comparable(h, facts)) {
+    result.what = outcome::skipped;
+    result.summary =
+        fmt::format("skipped: recorded with {}-byte REAL under the rule \"{}\", {} has {} and \"{}\"",
+                    h.real_bytes, h.rule, kernel, facts.real_bytes, facts.rule);
+    return result;
+  }
+  const std::unique_ptr<class kernel> k = make_kernel(kernel);
+  const replay_report r = replay(h, calls, *k);
+  if (r.calls == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
+  const bool equal = r.compared.mismatches == 0;
+  const std::string_view verdict = equal                             ? "equal to the bit"
+                                   : probe_floating_point().strict() ? "mismatch"
+                                                                     : "environment";
+  result.what = equal ? outcome::passed : outcome::failed;
+  result.summary = fmt::format("{}; {} calls, {} values compared, {} mismatches", verdict, r.calls,
+                               r.compared.values, r.compared.mismatches);
+  if (r.first) result.details = first_failure_details(r);
+  return result;
+}
+
+exit_status run_replay(const replay_options& options) {
+  const auto started = std::chrono::steady_clock::now();
+  const std::vector<output_option> outputs = with_reports({}, options.report);
+  std::vector<output_option> inputs;
+  for (const std::string& file : options.traces) inputs.push_back({"a trace", file});
+  refuse_shared_outputs(outputs, inputs);
+  for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
+  const std::vector<std::string> kernels =
+      options.kernels.empty() ? std::vector<std::string>{""} : options.kernels;
+  report_files files(options.report);
+  const bool silent = options.report.quiet || takes_standard_output(outputs);
+  const terminal t = look_at_terminal();
+  check_report report{"contct replay", common_facts(), {}, 0.0};
+  for (const std::string& file : options.traces) {
+    const std::string text = read_input(file, "trace", 2048);
+    for (const std::string& kernel : kernels) {
+      check_result r = replay_one(file == "-" ? "standard input" : file, text, kernel);
+      const paint p = r.what == outcome::failed   ? paint::bad
+                      : r.what == outcome::passed ? paint::good
+                                                  : paint::quiet;
+      if (!silent) fmt::print("{}: {}\n", r.name, painted(t, p, r.summary));
+      if (!r.details.empty()) complain("{}: {}", r.name, r.details.substr(0, r.details.size() - 1));
+      report.results.push_back(std::move(r));
+    }
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (report.count(outcome::skipped) == static_cast<std::int64_t>(report.results.size()))
+    throw std::invalid_argument(
+        "nothing was compared: every trace has another precision or rule than the kernel");
+  if (!silent)
+    fmt::print("{} passed, {} failed, {} skipped\n", report.count(outcome::passed),
+               report.count(outcome::failed), report.count(outcome::skipped));
+  flush_standard_output();
+  files.write(report);
+  return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;
+}
+
+}  // namespace
+
+void describe_replay(CLI::App& command, exit_status& status) {
+  auto options = std::make_shared<replay_options>();
+  command.add_option("TRACE", options->traces, "Recorded calls; - reads standard input")->required();
+  command
+      .add_option("--kernel", options->kernels,
+                  "The kernels to check; by default the 1989 code in the trace's precision")
+      ->delimiter(',');
+  add_report_options(command, options->report);
+  command.callback([options, &status] { status = run_replay(*options); });
+}
+
+void add_replay(CLI::App& program, exit_status& status) {
+  describe_replay(*program.add_subcommand("replay", "Put recorded calls to a kernel; needs no LAPACK"),
+                  status);
+}
+
+}  // namespace contct

@@ -1,0 +1,31 @@
+#include "contct/conform/follower.hpp"
+
+namespace contct {
+
+std::optional<divergence> put_to(kernel& follower, const call<double>& answered,
+                                 std::span<const int> isep_before, std::optional<std::string_view> text,
+                                 call_outputs& out, tally& t) {
+  constexpr double not_an_answer = -7.0;  // what no kernel may leave behind
+  out.ss.assign(answered.ss.size(), not_an_answer);
+  out.isep.assign(isep_before.begin(), isep_before.end());
+  call<double> copy = answered;
+  copy.ss = out.ss;
+  copy.isep = out.isep;
+  copy.smin = not_an_answer;
+  try {
+    follower.answer(copy);
+  } catch (const kernel_failure& failure) {
+    ++t.values;
+    ++t.mismatches;
+    return divergence{"answer", 0, "an answer", failure.what(), 0};
+  }
+  out.smin = copy.smin;
+  std::optional<divergence> found =
+      compare<double>({answered.smin, answered.ss, answered.isep}, {out.smin, out.ss, out.isep}, t);
+  if (!text || !follower.facts().has_text) return found;
+  out.text = follower.take_text();
+  std::optional<divergence> in_text = compare_text(*text, out.text, t);
+  return found ? found : in_text;
+}
+
+}  // namespace contct

@@ -1,0 +1,38 @@
+#include "contct/conform/replay.hpp"
+
+#include "contct/conform/follower.hpp"
+
+namespace contct {
+namespace {
+
+/// The text of a recorded call. A kernel that has any writes some in every call; one from outside, or
+/// the corrected one, never does.
+std::optional<std::string_view> recorded_text(const recorded_call& c) {
+  if (c.out.text.empty()) return std::nullopt;
+  return c.out.text;
+}
+
+}  // namespace
+
+bool comparable(const trace_header& h, const kernel_facts& k) {
+  return h.real_bytes == k.real_bytes && h.rule == k.rule;
+}
+
+replay_report replay(const trace_header& h, trace_reader& calls, kernel& k) {
+  replay_report report;
+  recorded_call c;
+  call_outputs answered;
+  while (calls.next(c)) {
+    ++report.calls;
+    const call<double> recorded{c.in.dd, c.in.dtest, c.in.cc,    c.out.ss, c.out.smin,
+                                c.in.id, c.out.isep, c.in.isurf, c.in.dof};
+    report.branches.count(recorded, c.in.isep);
+    const auto found = put_to(k, recorded, c.in.isep, recorded_text(c), answered, report.compared);
+    if (!found || report.first) continue;
+    report.first = finding{c.number, "the trace", k.facts().name, *found,
+                           decisions_of(recorded, c.in.isep, h.real_bytes)};
+  }
+  return report;
+}
+
+}  // namespace contct

@@ -1,0 +1,29 @@
+// Recorded calls put to a kernel: does it answer as the one that was recorded?
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "contct/conform/branches.hpp"
+#include "contct/conform/finding.hpp"
+#include "contct/kernel/trace.hpp"
+#include "contct/kernel/kernel.hpp"
+
+namespace contct {
+
+/// What a replay came to.
+struct replay_report {
+  std::int64_t calls = 0;
+  tally compared;
+  branch_counts branches;
+  std::optional<finding> first;  ///< the first difference
+};
+
+/// Can a kernel with these facts answer as the trace? Not with another precision or rule.
+[[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
+
+/// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
+/// both have it. Throws input_error where the trace is malformed.
+[[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k);
+
+}  // namespace contct

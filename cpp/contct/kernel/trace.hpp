@@ -1,0 +1,91 @@
+// Calls of CONTCT as text: what a trace file holds, and what goes over a pipe.
+// reference/trace-format.md describes it for people.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contct/kernel/call.hpp"
+#include "contct/kernel/call_inputs.hpp"
+
+namespace contct {
+
+/// The first line of every trace: the format and the day on which it was fixed.
+inline constexpr std::string_view trace_format = "contct-trace-1 2026-11-21";
+
+/// What a trace says of itself. Everything but `real_bytes` and `rule` is for people.
+struct trace_header {
+  std::vector<std::string> about;  ///< what the trace is there for, a line each
+  std::string kernel;              ///< who answered
+  int real_bytes = 8;              ///< 8, or 4 for the listing as printed
+  std::string rule = "listing";    ///< "listing" or "corrected"
+  std::string listing;             ///< checksum of fortran/contct.f
+  std::string compiler;            ///< of the kernel that answered
+  std::string flags;               ///< and its floating-point flags
+  std::string lapack;              ///< whose solves the inputs come from, or "none"
+  std::string floating_point;      ///< what the probe said
+};
+
+/// One call, and the answer to it.
+struct recorded_call {
+  std::int64_t number = 0;
+  call_inputs<double> in;
+  call_outputs out;
+};
+
+/// Append the header of a trace.
+void append_header(const trace_header& h, std::string& text);
+
+/// Append the inputs of a call, from "call N" to "ask". Of dd and dtest only what the pairs address is
+/// written: nothing else may be read by a kernel. `isep` is the status as it went in.
+void append_inputs(std::int64_t number, const call<double>& c, std::span<const int> isep, std::string& text);
+void append_inputs(std::int64_t number, const call_inputs<double>& in, std::string& text);
+
+/// Append an answer, from "smin" to "end".
+void append_answer(double smin, std::span<const double> ss, std::span<const int> isep,
+                   std::string_view unit_26, std::string& text);
+
+/// Reads calls as text. Every error is an input_error that names file, line, what was found and what is
+/// allowed; nothing is half-accepted.
+class trace_reader {
+ public:
+  /// Most dofs of a call: a trace that names one dof must not take all memory.
+  static constexpr int most_dofs = 10'000'000;
+
+  /// `text` must outlive this object. `name` is the file's, for messages.
+  trace_reader(std::string_view text, std::string name);
+
+  /// The header. Call it once, first.
+  [[nodiscard]] trace_header read_header();
+
+  /// The next call with its answer; false at the end of the text. Calls are numbered in rising order.
+  /// dd and dtest are NaN wherever the trace says nothing: who reads there is found out.
+  bool next(recorded_call& c);
+
+  /// The inputs alone, up to "ask"; false at the end of the text.
+  bool next_inputs(std::int64_t& number, call_inputs<double>& in);
+
+  /// The answer alone, for as many pairs as `out.ss` has.
+  void read_answer(call_outputs& out);
+
+  /// The number of the line read last, from 1.
+  [[nodiscard]] int line() const { return line_number_; }
+
+ private:
+  bool next_line(std::string_view& line);
+  std::string_view need_line(std::string_view allowed);
+  [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
+  void read_dofs(call_inputs<double>& in, std::vector<char>& given);
+  void read_pairs(call_inputs<double>& in);
+  void refuse_missing_dofs(const call_inputs<double>& in, const std::vector<char>& given) const;
+
+  std::string_view rest_;
+  std::string name_;
+  int line_number_ = 0;
+  std::int64_t last_call_ = 0;
+  std::vector<std::size_t> given_;  // dofs of the call before, to be forgotten
+};
+
+}  // namespace contct

@@ -1,0 +1,39 @@
+#include "contct/structure/lapack.hpp"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include "contct/structure/fortran_names.h"
+
+extern "C" {
+void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
+void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)();
+}
+
+namespace contct {
+namespace {
+
+/// The file that the loaded dpbtrf comes from, without its folder; empty where the system cannot say.
+std::string library_of_dpbtrf() {
+  Dl_info found{};
+  if (dladdr(reinterpret_cast<void*>(&CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)), &found) == 0) return "";
+  std::error_code ignored;
+  const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, ignored);
+  return (ignored ? std::filesystem::path(found.dli_fname) : real).filename().string();
+}
+
+}  // namespace
+
+std::string lapack_identity() {
+  int major = 0;
+  int minor = 0;
+  int patch = 0;
+  CONTCT_FC_GLOBAL(ilaver, ILAVER)(&major, &minor, &patch);
+  std::string words = "LAPACK " + std::to_string(major);
+  words += "." + std::to_string(minor) + "." + std::to_string(patch);
+  const std::string library = library_of_dpbtrf();
+  return library.empty() ? words : words + ", " + library;
+}
+
+}  // namespace contct

@@ -1,0 +1,12 @@
+// Which LAPACK solves.
+#pragma once
+
+#include <string>
+
+namespace contct {
+
+/// The LAPACK in use: its version as ILAVER has it, and the library that holds dpbtrf, as in
+/// "LAPACK 3.11.0, liblapack.so.3.11.0". Results of solves differ between libraries, calls of CONTCT do not.
+[[nodiscard]] std::string lapack_identity();
+
+}  // namespace contct

@@ -1,0 +1,101 @@
+#include "contct/text/report.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace contct {
+namespace {
+
+/// Text inside XML: what XML 1.0 does not allow at all becomes "?".
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char ch : text) {
+    switch (ch) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      default:
+        out += static_cast<unsigned char>(ch) < 0x20 && ch != '\t' ? '?' : ch;
+    }
+  }
+  return out;
+}
+
+/// Text in a cell of a Markdown table.
+std::string in_cell(std::string_view text) {
+  std::string out;
+  for (const char ch : text) {
+    if (ch == '|' || ch == '\\' || ch == '`' || ch == '<') out += '\\';
+    out += ch == '\n' ? ' ' : ch;
+  }
+  return out;
+}
+
+std::string seconds_of(double seconds) {
+  char text[40];
+  (void)std::snprintf(text, sizeof text, "%.3f", seconds);
+  return text;
+}
+
+std::string_view word_of(outcome o) {
+  constexpr std::string_view words[] = {"passed", "**failed**", "skipped"};
+  return words[static_cast<int>(o)];
+}
+
+}  // namespace
+
+std::int64_t check_report::count(outcome o) const {
+  return std::count_if(results.begin(), results.end(), [o](const check_result& c) { return c.what == o; });
+}
+
+std::string junit_xml(const check_report& r) {
+  const std::string counts = "tests=\"" + std::to_string(r.results.size()) + "\" failures=\"" +
+                             std::to_string(r.count(outcome::failed)) + "\" errors=\"0\" skipped=\"" +
+                             std::to_string(r.count(outcome::skipped)) + "\" time=\"" +
+                             seconds_of(r.seconds) + "\"";
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts +
+                    ">\n  <testsuite name=\"" + escaped(r.command) + "\" " + counts + ">\n    <properties>\n";
+  for (const std::string& fact : r.facts)
+    xml += "      <property name=\"fact\" value=\"" + escaped(fact) + "\"/>\n";
+  xml += "    </properties>\n";
+  for (const check_result& c : r.results) {
+    xml += "    <testcase classname=\"" + escaped(r.command) + "\" name=\"" + escaped(c.name) + "\">\n";
+    if (c.what == outcome::failed)
+      xml += "      <failure message=\"" + escaped(c.summary) + "\">" + escaped(c.details) + "</failure>\n";
+    if (c.what == outcome::skipped) xml += "      <skipped message=\"" + escaped(c.summary) + "\"/>\n";
+    xml += "      <system-out>" + escaped(c.summary) + "</system-out>\n    </testcase>\n";
+  }
+  return xml + "  </testsuite>\n</testsuites>\n";
+}
+
+std::string markdown(const check_report& r) {
+  const std::int64_t failed = r.count(outcome::failed);
+  std::string text = "## " + r.command + ": " + (failed == 0 ? "passed" : "failed") + "\n\n";
+  text += std::to_string(r.count(outcome::passed)) + " passed, " + std::to_string(failed) + " failed, " +
+          std::to_string(r.count(outcome::skipped)) + " skipped\n\n";
+  for (const std::string& fact : r.facts) text += "- " + in_cell(fact) + "\n";
+  text += "\n| what | result | |\n| --- | --- | --- |\n";
+  for (const check_result& c : r.results) {
+    text += "| " + in_cell(c.name) + " | ";
+    text.append(word_of(c.what)).append(" | ").append(in_cell(c.summary)).append(" |\n");
+  }
+  for (const check_result& c : r.results) {
+    if (c.what == outcome::failed && !c.details.empty())
+      text += "\n### " + in_cell(c.name) + "\n\n```\n" + c.details + "\n```\n";
+  }
+  return text;
+}
+
+}  // namespace contct
