@@ -11,7 +11,7 @@ trace_recorder::trace_recorder(const trace_header& h, sink to) : to_(std::move(t
 
 void trace_recorder::called(const answered_call& c) {
   text_.clear();
-  append_inputs(++calls_, c.c, c.isep_before, text_);
+  append_inputs(++calls_, "", c.c, c.isep_before, text_);
   append_answer(c.c.smin, c.c.ss, c.c.isep, c.text, text_);
   to_(text_);
 }

@@ -34,7 +34,7 @@ class pipe_kernel final : public kernel {
     if (!child_) child_.emplace([this](int channel) { run_command(command_, channel); });
     const auto deadline = child_process::clock::now() + limits_.patience;
     asked_.clear();
-    append_inputs(++calls_, c, c.isep, asked_);
+    append_inputs(++calls_, "", c, c.isep, asked_);
     take(child_->send(asked_, deadline));
     answered_.clear();
     while (!answer_is_whole()) take(child_->receive(answered_, deadline));

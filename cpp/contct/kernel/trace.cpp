@@ -36,8 +36,10 @@ void append_header(const trace_header& h, std::string& text) {
   append_line(text, "floating-point", h.floating_point);
 }
 
-void append_inputs(std::int64_t number, const call<double>& c, std::span<const int> isep, std::string& text) {
+void append_inputs(std::int64_t number, std::string_view note, const call<double>& c,
+                   std::span<const int> isep, std::string& text) {
   text += "\ncall " + std::to_string(number) + "\n";
+  append_line(text, "note", note);
   text += "indof " + std::to_string(c.dof.indof) + " ndofpn " + std::to_string(c.dof.ndofpn) + " dofs " +
           std::to_string(c.dd.size()) + " nc " + std::to_string(c.nc()) + "\n";
   for (const std::size_t dof : addressed_dofs(c)) {
@@ -52,8 +54,9 @@ void append_inputs(std::int64_t number, const call<double>& c, std::span<const i
   text += "ask\n";
 }
 
-void append_inputs(std::int64_t number, const call_inputs<double>& in, std::string& text) {
-  append_inputs(number, {in.dd, in.dtest, in.cc, {}, 0.0, in.id, {}, in.isurf, in.dof}, in.isep, text);
+void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
+                   std::string& text) {
+  append_inputs(number, note, {in.dd, in.dtest, in.cc, {}, 0.0, in.id, {}, in.isurf, in.dof}, in.isep, text);
 }
 
 void append_answer(double smin, std::span<const double> ss, std::span<const int> isep,

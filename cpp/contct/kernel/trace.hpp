@@ -31,6 +31,7 @@ struct trace_header {
 /// One call, and the answer to it.
 struct recorded_call {
   std::int64_t number = 0;
+  std::string note;  ///< what the call is there for; may be empty
   call_inputs<double> in;
   call_outputs out;
 };
@@ -38,10 +39,12 @@ struct recorded_call {
 /// Append the header of a trace.
 void append_header(const trace_header& h, std::string& text);
 
-/// Append the inputs of a call, from "call N" to "ask". Of dd and dtest only what the pairs address is
+/// Append the inputs of a call, from "call N" and its note to "ask". Of dd and dtest only what the pairs address is
 /// written: nothing else may be read by a kernel. `isep` is the status as it went in.
-void append_inputs(std::int64_t number, const call<double>& c, std::span<const int> isep, std::string& text);
-void append_inputs(std::int64_t number, const call_inputs<double>& in, std::string& text);
+void append_inputs(std::int64_t number, std::string_view note, const call<double>& c,
+                   std::span<const int> isep, std::string& text);
+void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
+                   std::string& text);
 
 /// Append an answer, from "smin" to "end".
 void append_answer(double smin, std::span<const double> ss, std::span<const int> isep,
@@ -65,7 +68,7 @@ class trace_reader {
   bool next(recorded_call& c);
 
   /// The inputs alone, up to "ask"; false at the end of the text.
-  bool next_inputs(std::int64_t& number, call_inputs<double>& in);
+  bool next_inputs(recorded_call& c);
 
   /// The answer alone, for as many pairs as `out.ss` has.
   void read_answer(call_outputs& out);

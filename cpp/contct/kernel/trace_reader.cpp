@@ -84,28 +84,30 @@ trace_header trace_reader::read_header() {
 }
 
 bool trace_reader::next(recorded_call& c) {
-  if (!next_inputs(c.number, c.in)) return false;
+  if (!next_inputs(c)) return false;
   c.out.ss.resize(c.in.pairs());
   c.out.isep.resize(c.in.pairs());
   read_answer(c.out);
   return true;
 }
 
-bool trace_reader::next_inputs(std::int64_t& number, call_inputs<double>& in) {
+bool trace_reader::next_inputs(recorded_call& c) {
   std::string_view line;
   do {
     if (!next_line(line)) return false;
   } while (line.empty());
   if (!trace_words(line)
            .key("call")
-           .whole(number, last_call_ + 1, std::numeric_limits<std::int64_t>::max())
+           .whole(c.number, last_call_ + 1, std::numeric_limits<std::int64_t>::max())
            .done())
     refuse(line, "\"call N\", N greater than that of the call before");
-  last_call_ = number;
+  last_call_ = c.number;
+  c.note.clear();
+  if (rest_.substr(0, 5) == "note ") c.note = need_line("").substr(5);
   std::vector<char> given;
-  read_dofs(in, given);
-  read_pairs(in);
-  refuse_missing_dofs(in, given);
+  read_dofs(c.in, given);
+  read_pairs(c.in);
+  refuse_missing_dofs(c.in, given);
   return true;
 }
 
