@@ -36,7 +36,7 @@ leg() {
 if [ "$full" = yes ]; then
   need "for the sources' form" clang-format clang-tidy
   echo "== clang-format"
-  find cpp tests -name '*.[ch]pp' -exec clang-format --dry-run --Werror {} +
+  find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
   leg core
   leg asan
   leg checked

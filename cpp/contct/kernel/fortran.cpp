@@ -9,18 +9,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "contct/kernel/contct.h"
 #include "contct/text/signals_wait.hpp"
-
-extern "C" {
-void contct_call_r4(const float* dd, const float* dtest, const float* cc, float* ss, float* smin,
-                    const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
-void contct_call_r8(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
-                    const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
-int contct_log_open(const char* path, int length);
-void contct_log_flush(void);
-void contct_log_rewind(void);
-void contct_log_close(void);
-}
 
 namespace contct::fortran {
 namespace {
