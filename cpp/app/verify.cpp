@@ -15,6 +15,7 @@
 #include "contct/io/certificate_text.hpp"
 #include "contct/io/problem_file.hpp"
 #include "contct/io/verified.hpp"
+#include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
 
@@ -29,11 +30,18 @@ struct verify_options {
   std::string json;
 };
 
-/// reference/ as asked for, or that of the tree in which the program was built.
+/// reference/ as asked for; or what was installed with the program, wherever both have been moved; or that of
+/// the tree in which the program was built.
 fs::path find_reference(const std::string& asked) {
   if (!asked.empty()) return asked;
-  const fs::path built_in = fs::read_symlink("/proc/self/exe").parent_path() / "../../reference";
-  return built_in.lexically_normal();
+  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+  std::string looked_at;
+  for (const char* from_here : {CONTCT_INSTALLED_REFERENCE, "../../reference"}) {
+    fs::path found = (here / from_here).lexically_normal();
+    if (fs::exists(found / "verification.toml")) return found;
+    looked_at += (looked_at.empty() ? "" : " nor ") + (found / "verification.toml").string();
+  }
+  throw input_error("there is neither " + looked_at + "; name the folder with --reference");
 }
 
 /// What the listing gives where the table knows that it misses the value.

@@ -1,0 +1,26 @@
+#!/bin/sh
+# install.sh SOURCE BUILD FIRST PREFIX: installs the build into FIRST, moves that to PREFIX, and looks whether anything
+# still names the places that it came from.
+set -eu
+source=$1
+build=$2
+first=$3
+prefix=$4
+rm -rf "$first" "$prefix"
+DESTDIR='' "$CMAKE" --install "$build" --prefix "$first" >/dev/null
+mkdir -p "$(dirname "$prefix")"
+mv "$first" "$prefix"
+
+# Texts alone: a library may keep a path for the debugger.
+for place in "$source" "$build" "$first"; do
+  if grep -rIF -e "$place" "$prefix" >&2; then
+    echo "$place is named by what was installed (above)" >&2
+    exit 1
+  fi
+done
+for name in contct/kernel/contct.h contct/kernel/plugin.h contct/kernel/contct.hpp contct/conform/compare.hpp \
+  contct/path/path.hpp contct_c.mod contct-config.cmake contct-config-version.cmake contct.pc contct-cxx.pc \
+  doc/contct/LICENSE doc/contct/README.md; do
+  [ -n "$(find "$prefix" -path "*/$name")" ] || { echo "$name is not installed" >&2; exit 1; }
+done
+echo "$(find "$prefix" -type f | wc -l) files, none of which names where it came from"

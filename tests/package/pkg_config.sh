@@ -1,0 +1,26 @@
+#!/bin/sh
+# pkg_config.sh SOURCE WORK PCFILES: runs the compiler lines that the README shows, word for word, on the programs
+# beside this script, and then what they made.
+set -eu
+source=$1
+work=$2
+export PKG_CONFIG_PATH="$3"
+here=$(cd "$(dirname "$0")" && pwd)
+rm -rf "$work"
+mkdir -p "$work"
+cp "$here/c/mine.c" "$here/cxx/mine.cpp" "$here/fortran/mine.f90" "$work"
+cd "$work"
+[ "$(pkg-config --variable=libdir contct | xargs realpath)" = "$(realpath "$3/..")" ] ||
+  { echo "another contct was found: $(pkg-config --variable=libdir contct)" >&2; exit 1; }
+
+lines=0
+sh "$here/readme.sh" "$source" sh >lines
+while read -r line; do
+  rm -f a.out
+  echo "$line"
+  sh -c "$line ${LDFLAGS-}"
+  said=$(./a.out) || { echo "$said"; exit 1; }
+  echo "$said" | grep -qx '[1-9][0-9]* facts, 0 wrong'
+  lines=$((lines + 1))
+done <lines
+[ "$lines" = 3 ] || { echo "the README shows $lines lines, not one each for C, C++ and Fortran" >&2; exit 1; }

@@ -1,0 +1,43 @@
+// A problem file, read and followed by the installed rooms.
+#include <contct/io/follow.hpp>
+#include <contct/io/problem_file.hpp>
+#include <cstdio>
+
+namespace {
+
+constexpr const char* text = R"(
+[beam]
+x  = [0.0, 1.0, 2.0]
+EI = 1.0e4
+[[support]]
+node = 1
+fix  = ["w", "theta"]
+[[contact]]
+node      = 3
+surface   = "below"
+face      = -0.004
+stiffness = 5.0e4
+[[step]]
+point = [ { node = 3, w = -60.0 } ]
+)";
+
+/// Counts what happens.
+struct event_counter final : contct::observer {
+  int makes = 0;
+  void incremented(const contct::increment& i) override {
+    for (const contct::event& e : i.events) makes += e.what == contct::change::make ? 1 : 0;
+  }
+};
+
+}  // namespace
+
+int main() {
+  const contct::problem p = contct::parse_problem(text, "here");
+  event_counter counter;
+  const auto kernel = contct::make_kernel("cpp");
+  const auto end = contct::follow(p, contct::structure_of(p), "refactor", *kernel, {&counter});
+  const bool solved = end.status == contct::path_status::solved;
+  const bool touched = counter.makes == 1;
+  std::printf("%d facts, %d wrong\n", 2, 2 - solved - touched);
+  return solved && touched ? 0 : 1;
+}

@@ -1,0 +1,31 @@
+#!/bin/sh
+# readme.sh SOURCE: every line that the README's "In your own program" shows stands in a program of this folder.
+# readme.sh SOURCE KIND: prints the block of that kind (sh, cmake, c, cpp, fortran).
+set -eu
+source=$(cd "$1" && pwd)
+here=$(cd "$(dirname "$0")" && pwd)
+
+block() {
+  awk -v fence="\`\`\`$1" '/^## /{here = $0 == "## In your own program"} /^```/{inside = here && $0 == fence; next} inside' \
+    "$source/README.md"
+}
+
+# shown KIND FILE
+shown() {
+  block "$1" | sed 's/^ *//; s/ *$//' | grep -v '^$' >lines-of-readme || { echo "the README has no $1" >&2; exit 1; }
+  while read -r line; do
+    grep -qF -e "$line" "$here/$2" || { echo "the README shows, but $2 has not: $line" >&2; exit 1; }
+  done <lines-of-readme
+}
+
+if [ $# -gt 1 ]; then
+  block "$2"
+  exit
+fi
+cd "$(mktemp -d)"
+shown cmake cxx/CMakeLists.txt
+shown c c/mine.c
+shown cpp cxx/mine.cpp
+shown fortran fortran/mine.f90
+rm -r "$PWD"
+echo "all lines stand in the programs"

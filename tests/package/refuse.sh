@@ -1,0 +1,20 @@
+#!/bin/sh
+# refuse.sh WORK PREFIX: asks for a component that there is not, and for a version that there is not.
+set -eu
+work=$1
+prefix=$2
+# refused WANTED WORDS: find_package(contct WANTED) fails, and says WORDS.
+refused() {
+  rm -rf "$work"
+  mkdir -p "$work"
+  printf 'cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES NONE)\nfind_package(contct %s)\n' "$1" \
+    >"$work/CMakeLists.txt"
+  if "$CMAKE" -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" >"$work/said" 2>&1; then
+    echo "find_package(contct $1) is not refused" >&2
+    exit 1
+  fi
+  tr -s ' \n' ' ' <"$work/said" | grep -qF -e "$2" || { cat "$work/said" >&2; exit 1; }
+}
+refused "REQUIRED COMPONENTS cxx finite-volumes" 'no component "finite-volumes"; there are: c, cxx, fortran, structure, path, check'
+refused "99.0 REQUIRED" 'requested version "99.0"'
+echo "both are refused"
