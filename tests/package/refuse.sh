@@ -7,7 +7,7 @@ prefix=$2
 refused() {
   rm -rf "$work"
   mkdir -p "$work"
-  printf 'cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES NONE)\nfind_package(contct %s)\n' "$1" \
+  printf 'cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES C)\nfind_package(contct %s)\n' "$1" \
     >"$work/CMakeLists.txt"
   if "$CMAKE" -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" >"$work/said" 2>&1; then
     echo "find_package(contct $1) is not refused" >&2
