@@ -1,6 +1,7 @@
 #include "golden/cases.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace golden {
@@ -43,28 +44,37 @@ class cases {
 
  public:
   std::vector<golden_trace> all() const {
-    return {quiet(), stationary(), open_gap(), ties(), full_load(), layouts(), numbers(), text(), statuses()};
+    return {quiet(),   stationary(), open_gap(), ties(),     full_load(),
+            layouts(), numbers(),    text(),     statuses(), inconsistent()};
   }
 
  private:
   static constexpr int bytes = sizeof(Real);
   static std::string named(const std::string& name) { return name + (bytes == 4 ? "-r4" : ""); }
+  /// A decimal number as every machine reads it: no power function has a say.
+  static Real decimal(const std::string& text) {
+    return static_cast<Real>(std::strtod(text.c_str(), nullptr));
+  }
   static Real up(Real x) { return std::nextafter(x, limits::infinity()); }
   static Real down(Real x) { return std::nextafter(x, -limits::infinity()); }
-  static golden_call one(std::string note, const pairs& p) { return {std::move(note), at_own_nodes<Real>(p)}; }
+  static golden_call one(std::string note, const pairs& p) {
+    return {std::move(note), at_own_nodes<Real>(p)};
+  }
 
   static inline const Real epsgap = bytes == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
   static inline const Real inf = limits::infinity();
   static inline const Real nan = limits::quiet_NaN();
   static inline const Real tiny = limits::denorm_min();
   static inline const Real half = Real(0.5);
+  static constexpr Real subnormal_gap =
+      bytes == 4 ? Real(1e-6) : Real(1e-9);  // divided by the largest number
 
   golden_trace quiet() const {
-    return {named("quiet"), bytes,
+    return {named("quiet"),
+            bytes,
             {"IF (DTEST(NDOF).EQ.0.): a pair that the load does not move has SS = 1 and no event;",
              "both zeros are zero, the smallest number is not"},
-            {one("no pairs at all: DO 10 runs no time", {}),
-             one("d* = +0, open", {{0, 0, half}}),
+            {one("no pairs at all: DO 10 runs no time", {}), one("d* = +0, open", {{0, 0, half}}),
              one("d* = -0, open", {{0, -Real(0), half}}),
              one("d* = +0, at its face", {{half, 0, half, in_contact}}),
              one("d* = -0, at its face", {{half, -Real(0), half, in_contact}}),
@@ -75,16 +85,18 @@ class cases {
   }
 
   golden_trace stationary() const {
-    golden_trace t{named("stationary"), bytes,
+    golden_trace t{named("stationary"),
+                   bytes,
                    {"ELSE IF (ABS(GAP).LT.EPSGAP): a pair at its face; EPSGAP to the ULP on both sides and",
                     "exactly; then IF (SSCHK.GT.0.): the sign of ISEP * ISURF / d* decides, DELTA scales"},
                    {}};
     for (const int isep : {separated, in_contact}) {
       for (const int isurf : {face_above, face_below}) {
         for (const Real d_star : {Real(2), Real(-2)}) {
-          t.calls.push_back(one("at the face: ISEP * ISURF / d* " +
-                                    std::string(isep * isurf * d_star > 0 ? "> 0: an event" : "< 0: none"),
-                                {{half, d_star, half, isep, isurf}}));
+          t.calls.push_back(
+              one("at the face: ISEP * ISURF / d* " +
+                      std::string((isep * isurf > 0) == (d_star > 0) ? "> 0: an event" : "< 0: none"),
+                  {{half, d_star, half, isep, isurf}}));
         }
       }
     }
@@ -99,8 +111,9 @@ class cases {
     t.calls.push_back(one("SSCHK = -0: d* is infinite", {{0, -inf, 0}}));
     t.calls.push_back(one("SSCHK overflows: d* is subnormal", {{0, tiny, 0}}));
     t.calls.push_back(one("SSCHK is NaN, and NaN is not > 0", {{0, nan, 0}}));
-    t.calls.push_back(one("SSCHK * DELTA: the largest d* that still counts", {{0, limits::max(), 0}}));
-    t.calls.push_back(one("of two pairs at their faces the one with the larger d* wins", {{0, 1, 0}, {0, 4, 0}}));
+    t.calls.push_back(one("SSCHK * DELTA underflows to zero: no event after all", {{0, limits::max(), 0}}));
+    t.calls.push_back(
+        one("of two pairs at their faces the one with the larger d* wins", {{0, 1, 0}, {0, 4, 0}}));
     t.calls.push_back(one("the same, the other way round", {{0, 4, 0}, {0, 1, 0}}));
     t.calls.push_back(one("a pair at its face wins over an open one", {{0, 4, half}, {0, 1, 0}}));
     t.calls.push_back(one("a gap of -0: c = -0, D = +0", {{0, 5, -Real(0)}}));
@@ -110,70 +123,78 @@ class cases {
   }
 
   golden_trace open_gap() const {
-    return {named("open"), bytes,
-            {"SS(I) = GAP / DTEST(NDOF), and IF (SS(I).GT.0. .AND. SS(I).LT.SMIN): who moves away has SS < 0,",
-             "who comes too late has SS >= 1, and the first of the least wins"},
-            {one("towards a face above: an event half way", {{0, 1, half}}),
-             one("towards a face below: an event half way", {{0, -1, -half, separated, face_below}}),
-             one("away from a face above", {{0, -1, half}}),
-             one("away from a face below", {{0, 1, -half, separated, face_below}}),
-             one("too late: the gap is longer than the way", {{0, 1, Real(1.5)}}),
-             one("in contact beyond its face: an event", {{1, -1, half, in_contact}}),
-             one("an open pair that stands beyond its face and comes back makes contact", {{1, -1, half}}),
-             one("three pairs, the middle one first", {{0, 1, Real(0.75)}, {0, 1, Real(0.25)}, {0, 1, half}}),
-             one("three pairs, the last one first", {{0, 1, Real(0.75)}, {0, 1, half}, {0, 1, Real(0.25)}}),
-             one("one that moves away before one with an event", {{0, -1, half}, {0, 1, half}}),
-             one("SS underflows to zero: not greater than zero", {{0, limits::max(), limits::min()}}),
-             one("SS underflows to minus zero", {{0, -limits::max(), limits::min()}}),
-             one("SS is the smallest number: greater than zero", {{0, Real(1) / epsgap, 2 * epsgap},
-                                                                   {0, limits::max() / 4, limits::max() * tiny * 1}})}};
+    return {
+        named("open"),
+        bytes,
+        {"SS(I) = GAP / DTEST(NDOF), and IF (SS(I).GT.0. .AND. SS(I).LT.SMIN): who moves away has SS < 0,",
+         "who comes too late has SS >= 1, and the first of the least wins"},
+        {one("towards a face above: an event half way", {{0, 1, half}}),
+         one("towards a face below: an event half way", {{0, -1, -half, separated, face_below}}),
+         one("away from a face above", {{0, -1, half}}),
+         one("away from a face below", {{0, 1, -half, separated, face_below}}),
+         one("too late: the gap is longer than the way", {{0, 1, Real(1.5)}}),
+         one("in contact beyond its face: an event", {{1, -1, half, in_contact}}),
+         one("an open pair that stands beyond its face and comes back makes contact", {{1, -1, half}}),
+         one("three pairs, the middle one first", {{0, 1, Real(0.75)}, {0, 1, Real(0.25)}, {0, 1, half}}),
+         one("three pairs, the last one first", {{0, 1, Real(0.75)}, {0, 1, half}, {0, 1, Real(0.25)}}),
+         one("one that moves away before one with an event", {{0, -1, half}, {0, 1, half}}),
+         one("SS is subnormal, and greater than zero", {{0, limits::max(), subnormal_gap}}),
+         one("SS is the least that an open gap can have; in 4 bytes it underflows to zero",
+             {{0, limits::max(), up(epsgap)}}),
+         one("the same, negative", {{0, -limits::max(), up(epsgap)}})}};
   }
 
   golden_trace ties() const {
     const Real edge = half + half / Real(256);
-    return {named("ties"), bytes,
-            {"IF (DIFF.LT.EPSMUL): the winner is toggled, and with it whatever comes within 2^-8 of it;",
-             "exact ties, near ties at the edge and one ULP on either side, from above and from below"},
-            {one("an exact tie: both", {{0, 1, half}, {0, 1, half}}),
-             one("an exact tie of a make and a break", {{0, 1, half}, {0, 1, half, in_contact, face_below}}),
-             one("DIFF one ULP below EPSMUL: both", {{0, 1, half}, {0, 1, down(edge)}}),
-             one("DIFF exactly EPSMUL: only the first", {{0, 1, half}, {0, 1, edge}}),
-             one("DIFF one ULP above EPSMUL: only the first", {{0, 1, half}, {0, 1, up(edge)}}),
-             one("the winner last: DIFF one ULP below EPSMUL", {{0, 1, down(edge)}, {0, 1, half}}),
-             one("the winner last: DIFF exactly EPSMUL", {{0, 1, edge}, {0, 1, half}}),
-             one("the winner last: DIFF one ULP above EPSMUL", {{0, 1, up(edge)}, {0, 1, half}}),
-             one("a difference of one ULP", {{0, 1, half}, {0, 1, up(half)}}),
-             one("a difference of one ULP, the winner last", {{0, 1, half}, {0, 1, down(half)}}),
-             one("near ties are measured from the winner, not in a chain",
-                 {{0, 1, half}, {0, 1, Real(0.5015)}, {0, 1, Real(0.503)}}),
-             one("two pairs at their faces within EPSMUL of each other", {{0, Real(1), 0}, {0, Real(1.002), 0}}),
-             one("SMIN a third: DIFF is a quotient", {{0, 3, 1}, {0, Real(2.99), 1}}),
-             one("SMIN a third, SS just outside", {{0, 3, 1}, {0, Real(2.988), 1}}),
-             one("a pair with SS infinite is not within EPSMUL", {{0, 1, half}, {0, tiny, half}}),
-             one("a pair with SS negative is not within EPSMUL", {{0, 1, half}, {0, -1, half}}),
-             one("a pair with SS NaN is not within EPSMUL", {{0, 1, half}, {0, 1, nan}})}};
+    return {
+        named("ties"),
+        bytes,
+        {"IF (DIFF.LT.EPSMUL): the winner is toggled, and with it whatever comes within 2^-8 of it;",
+         "exact ties, near ties at the edge and one ULP on either side, from above and from below"},
+        {one("an exact tie: both", {{0, 1, half}, {0, 1, half}}),
+         one("an exact tie of a make and a break", {{0, 1, half}, {0, 1, half, in_contact, face_below}}),
+         one("DIFF one ULP below EPSMUL: both", {{0, 1, half}, {0, 1, down(edge)}}),
+         one("DIFF exactly EPSMUL: only the first", {{0, 1, half}, {0, 1, edge}}),
+         one("DIFF one ULP above EPSMUL: only the first", {{0, 1, half}, {0, 1, up(edge)}}),
+         one("the winner last: DIFF one ULP below EPSMUL", {{0, 1, down(edge)}, {0, 1, half}}),
+         one("the winner last: DIFF exactly EPSMUL", {{0, 1, edge}, {0, 1, half}}),
+         one("the winner last: DIFF one ULP above EPSMUL", {{0, 1, up(edge)}, {0, 1, half}}),
+         one("a difference of one ULP", {{0, 1, half}, {0, 1, up(half)}}),
+         one("a difference of one ULP, the winner last", {{0, 1, half}, {0, 1, down(half)}}),
+         one("near ties are measured from the winner, not in a chain",
+             {{0, 1, half}, {0, 1, Real(0.5015)}, {0, 1, Real(0.503)}}),
+         one("two pairs at their faces within EPSMUL of each other", {{0, Real(1), 0}, {0, Real(1.002), 0}}),
+         one("SMIN a third: DIFF is a quotient", {{0, 3, 1}, {0, Real(2.99), 1}}),
+         one("SMIN a third, SS just outside", {{0, 3, 1}, {0, Real(2.988), 1}}),
+         one("a pair with SS infinite is not within EPSMUL", {{0, 1, half}, {0, tiny, half}}),
+         one("a pair with SS negative is not within EPSMUL", {{0, 1, half}, {0, -1, half}}),
+         one("a pair with SS NaN is not within EPSMUL", {{0, 1, half}, {0, 1, nan}})}};
   }
 
   golden_trace full_load() const {
     const Real edge = Real(256) / Real(257);
-    return {named("full-load"), bytes,
-            {"IF (SMIN.EQ.1.): SS = 1 is the mark for \"no event\"; an event exactly at full load is none, one an",
-             "ULP before it is one, and the mark itself is within EPSMUL of any SMIN above 256/257: there the",
-             "listing toggles quiet pairs"},
-            {one("an event exactly at full load: none", {{0, 1, 1}}),
-             one("one ULP before full load", {{0, 1, down(Real(1))}}),
-             one("one ULP behind full load", {{0, 1, up(Real(1))}}),
-             one("SMIN below 256/257 beside a quiet pair: the quiet pair stays",
-                 {{0, 1, Real(0.99)}, {half, 0, half, in_contact}}),
-             one("SMIN just above 256/257 beside a quiet pair: the quiet pair is toggled",
-                 {{0, 1, Real(0.997)}, {half, 0, half, in_contact}}),
-             one("SMIN = 256/257 rounded", {{0, 1, edge}, {half, 0, half, in_contact}}),
-             one("SMIN = 256/257 less an ULP", {{0, 1, down(edge)}, {half, 0, half, in_contact}}),
-             one("SMIN = 256/257 and an ULP", {{0, 1, up(edge)}, {half, 0, half, in_contact}}),
-             one("a pressed pair at its face has SS = 1 and is toggled too",
-                 {{0, 1, Real(0.999)}, {half, 1, half, in_contact, face_above}}),
-             one("a pair that comes at SS = 1.003 is toggled with SMIN = 0.9999", {{0, 1, Real(0.9999)}, {0, 1, Real(1.003)}}),
-             one("two events exactly at full load: none", {{0, 1, 1}, {0, 2, 2}})}};
+    return {
+        named("full-load"),
+        bytes,
+        {"IF (SMIN.EQ.1.): SS = 1 is the mark for \"no event\"; an event exactly at full load is none, one "
+         "an",
+         "ULP before it is one, and the mark itself is within EPSMUL of any SMIN above 256/257: there the",
+         "listing toggles quiet pairs"},
+        {one("an event exactly at full load: none", {{0, 1, 1}}),
+         one("one ULP before full load", {{0, 1, down(Real(1))}}),
+         one("one ULP behind full load", {{0, 1, up(Real(1))}}),
+         one("SMIN below 256/257 beside a quiet pair: the quiet pair stays",
+             {{0, 1, Real(0.99)}, {half, 0, half, in_contact}}),
+         one("SMIN just above 256/257 beside a quiet pair: the quiet pair is toggled",
+             {{0, 1, Real(0.997)}, {half, 0, half, in_contact}}),
+         one("SMIN = 256/257 rounded", {{0, 1, edge}, {half, 0, half, in_contact}}),
+         one("SMIN = 256/257 less an ULP", {{0, 1, down(edge)}, {half, 0, half, in_contact}}),
+         one("SMIN = 256/257 and an ULP", {{0, 1, up(edge)}, {half, 0, half, in_contact}}),
+         one("a pressed pair at its face has SS = 1 and is toggled too",
+             {{0, 1, Real(0.999)}, {half, 1, half, in_contact, face_above}}),
+         one("a pair that comes at SS = 1.003 is toggled with SMIN = 0.9999",
+             {{0, 1, Real(0.9999)}, {0, 1, Real(1.003)}}),
+         one("two events exactly at full load: none", {{0, 1, 1}, {0, 2, 2}})}};
   }
 
   /// Two pairs on dofs of their own kind, decoys in between.
@@ -195,10 +216,12 @@ class cases {
   }
 
   golden_trace layouts() const {
-    golden_trace t{named("layouts"), bytes,
-                   {"NDOF = (NODE-1) * NDOFPN + INDOF: every layout of dofs, pairs in and against the order of nodes,",
-                    "two pairs on one node, the first and the last dof"},
-                   {}};
+    golden_trace t{
+        named("layouts"),
+        bytes,
+        {"NDOF = (NODE-1) * NDOFPN + INDOF: every layout of dofs, pairs in and against the order of nodes,",
+         "two pairs on one node, the first and the last dof"},
+        {}};
     for (const int ndofpn : {1, 2, 3, 6})
       for (int indof = 1; indof <= ndofpn; ++indof) t.calls.push_back(laid_out(indof, ndofpn, 2, 4));
     t.calls.push_back(laid_out(3, 2, 1, 2));  // INDOF beyond NDOFPN addresses what the formula says
@@ -210,49 +233,56 @@ class cases {
 
   golden_trace numbers() const {
     const Real max = limits::max();
-    return {named("numbers"), bytes,
-            {"The edges of arithmetic: signed zeros, subnormals, the largest numbers, overflow to infinity, NaN.",
-             "NaN compares false: a NaN gap is not stationary, a NaN SS is no event"},
-            {one("D is NaN", {{nan, 1, half}}),
-             one("d* is NaN", {{0, nan, half}}),
-             one("c is NaN", {{0, 1, nan}}),
-             one("a NaN pair before one with an event", {{0, nan, half}, {0, 1, half}}),
-             one("a NaN pair behind one with an event", {{0, 1, half}, {0, nan, half}}),
-             one("c - D overflows", {{-max, 1, max}}),
-             one("c - D overflows to minus infinity", {{max, -1, -max}}),
-             one("infinity less infinity", {{inf, 1, inf}}),
-             one("infinite gap, infinite response", {{0, inf, inf}}),
-             one("finite gap, infinite response: SS = 0", {{0, inf, half}}),
-             one("finite gap, response minus infinity: SS = -0", {{0, -inf, half}}),
-             one("SS overflows", {{0, limits::min() / 2, max}}),
-             one("the largest gap, the largest response", {{0, max, max / 2}}),
-             one("a subnormal response, an event beyond reach", {{0, limits::min() / 4, half}}),
-             one("a subnormal gap counts as none", {{0, 1, limits::min() / 4}}),
-             one("c and D differ in the last place", {{half, 1, up(half)}}),
-             one("c and D large, their difference exact", {{Real(1e6), Real(1e6), Real(1e6) + 1}}),
-             one("d* = 1/3: a quotient that is rounded", {{Real(0.1), Real(1) / Real(3), Real(0.3)}}),
-             one("signed zeros everywhere", {{-Real(0), -Real(0), -Real(0)}, {0, -Real(0), 0}}),
-             one("DIFF = (inf - s) / s beside a tie", {{0, 1, half}, {0, limits::min() / 2, max}, {0, 1, half}})}};
+    return {
+        named("numbers"),
+        bytes,
+        {"The edges of arithmetic: signed zeros, subnormals, the largest numbers, overflow to infinity, NaN.",
+         "NaN compares false: a NaN gap is not stationary, a NaN SS is no event"},
+        {one("D is NaN", {{nan, 1, half}}),
+         one("d* is NaN", {{0, nan, half}}),
+         one("c is NaN", {{0, 1, nan}}),
+         one("a NaN pair before one with an event", {{0, nan, half}, {0, 1, half}}),
+         one("a NaN pair behind one with an event", {{0, 1, half}, {0, nan, half}}),
+         one("c - D overflows", {{-max, 1, max}}),
+         one("c - D overflows to minus infinity", {{max, -1, -max}}),
+         one("infinity less infinity", {{inf, 1, inf}}),
+         one("infinite gap, infinite response", {{0, inf, inf}}),
+         one("finite gap, infinite response: SS = 0", {{0, inf, half}}),
+         one("finite gap, response minus infinity: SS = -0", {{0, -inf, half}}),
+         one("SS overflows", {{0, limits::min() / 2, max}}),
+         one("the largest gap, the largest response", {{0, max, max / 2}}),
+         one("a subnormal response, an event beyond reach", {{0, limits::min() / 4, half}}),
+         one("a subnormal gap counts as none", {{0, 1, limits::min() / 4}}),
+         one("c and D differ in the last place", {{half, 1, up(half)}}),
+         one("c and D large, their difference exact", {{Real(1e6), Real(1e6), Real(1e6) + 1}}),
+         one("d* = 1/3: a quotient that is rounded", {{Real(0.1), Real(1) / Real(3), Real(0.3)}}),
+         one("signed zeros everywhere", {{-Real(0), -Real(0), -Real(0)}, {0, -Real(0), 0}}),
+         one("DIFF = (inf - s) / s beside a tie",
+             {{0, 1, half}, {0, limits::min() / 2, max}, {0, 1, half}})}};
   }
 
   golden_trace text() const {
-    golden_trace t{named("text"), bytes,
-                   {"Unit 26: FORMATs 20, 40, 50 and 60; I3 above 999 and below -99 is ***; E11.4 over the decades, its",
-                    "rounding, and the E that is dropped where the exponent has three digits"},
-                   {}};
+    golden_trace t{
+        named("text"),
+        bytes,
+        {"Unit 26: FORMATs 20, 40, 50 and 60; I3 above 999 and below -99 is ***; E11.4 over the decades, its",
+         "rounding, and the E that is dropped where the exponent has three digits"},
+        {}};
     const int least = bytes == 4 ? -30 : -290;
     for (int decade = 0; decade >= least; decade -= decade > -12 ? 1 : 26) {
-      const auto s = static_cast<Real>(std::pow(10.0, decade) * 0.123456);
+      const auto s = decimal("0.123456E" + std::to_string(decade));
       // A pair at its face has s = DELTA / d*; the others need a gap that EPSGAP does not see.
       const Real response = decade > -9 ? Real(1) : Real(1e-3) / s;
       t.calls.push_back(one("a scale factor of about 1e" + std::to_string(decade),
                             {{0, response, decade > -9 ? s : Real(1e-3)}}));
     }
     t.calls.push_back(one("E11.4 rounds up into the next decade", {{0, 1, Real(0.0999999)}}));
-    t.calls.push_back(one("E11.4 of a tie in decimal: 0.12345 exactly is not a number", {{0, 1, Real(0.12345)}}));
-    t.calls.push_back(one("0.5 + 2^-5 has a short tail: 0.53125 is rounded to even", {{0, 1, Real(0.53125)}}));
+    t.calls.push_back(
+        one("E11.4 of a tie in decimal: 0.12345 exactly is not a number", {{0, 1, Real(0.12345)}}));
+    t.calls.push_back(
+        one("0.5 + 2^-5 has a short tail: 0.53125 is rounded to even", {{0, 1, Real(0.53125)}}));
     t.calls.push_back(one("0.59375", {{0, 1, Real(0.59375)}}));
-    t.calls.push_back(one("the smallest scale factor: subnormal", {{0, Real(1) / epsgap, 2 * epsgap}, {0, limits::max(), Real(4) * limits::min() * Real(1) / tiny * tiny}}));
+    t.calls.push_back(one("a subnormal scale factor", {{0, limits::max(), subnormal_gap}}));
     golden_call far = one("nodes beyond 999 and sides that are none: ***", {{0, 1, half}});
     far.in.dd.assign(1200, 0.0);
     far.in.dtest.assign(1200, 1.0);
@@ -285,17 +315,37 @@ class cases {
     return c;
   }
 
+  /// reference/DIVERGENCES.md, way 5.
+  golden_trace inconsistent() const {
+    const Real deep = decimal("0.1");
+    return {
+        named("inconsistent-start"),
+        bytes,
+        {"An initial state that its faces contradict: the listing does not notice, and toggles the wrong way",
+         "round. Problem files refuse such states; DIVERGENCES, way 5"},
+        {one("separated, the face below is inside the structure, and it is pressed deeper: no event",
+             {{0, -1, deep, separated, face_below}}),
+         one("separated, inside, and the structure leaves: it makes contact where it should let go",
+             {{0, 1, deep, separated, face_below}}),
+         one("in contact off its face, and the structure reaches it: it breaks",
+             {{0, -1, -deep, in_contact, face_below}})}};
+  }
+
   golden_trace statuses() const {
-    golden_trace t{named("statuses"), bytes,
-                   {"IF (ISEP(I).EQ.1): +1 makes contact, anything else breaks it: the listing does not check. In DO 10",
-                    "a status that is none counts by its sign and size"},
-                   {}};
+    golden_trace t{
+        named("statuses"),
+        bytes,
+        {"IF (ISEP(I).EQ.1): +1 makes contact, anything else breaks it: the listing does not check. In DO 10",
+         "a status that is none counts by its sign and size"},
+        {}};
     for (const int isep : {separated, in_contact, 0, 2, -2, 7}) {
       t.calls.push_back(one("open, ISEP = " + std::to_string(isep), {{0, 1, half, isep, face_above}}));
-      t.calls.push_back(one("at its face, ISEP = " + std::to_string(isep), {{half, 3, half, isep, face_above}}));
+      t.calls.push_back(
+          one("at its face, ISEP = " + std::to_string(isep), {{half, 3, half, isep, face_above}}));
     }
     for (const int isurf : {0, 2, -3})
-      t.calls.push_back(one("at its face, ISURF = " + std::to_string(isurf), {{half, -3, half, separated, isurf}}));
+      t.calls.push_back(
+          one("at its face, ISURF = " + std::to_string(isurf), {{half, -3, half, separated, isurf}}));
     t.calls.push_back(one("a make and a break in one call",
                           {{0, 1, half, separated, face_above}, {1, -1, half, in_contact, face_above}}));
     return t;

@@ -17,14 +17,14 @@ std::string recorded(const golden_trace& t) {
   h.lapack = "none";
   h.floating_point = describe(contct::probe_floating_point());
   std::string text;
-  append_header(h, text);
+  contct::append_header(h, text);
   std::int64_t number = 0;
   contct::call_outputs out;
   for (const golden_call& c : t.calls) {
     contct::call<double> asked = out.prepare(c.in);
     k->answer(asked);
-    append_inputs(++number, c.note, c.in, text);
-    append_answer(asked.smin, out.ss, out.isep, k->take_text(), text);
+    contct::append_inputs(++number, c.note, c.in, text);
+    contct::append_answer(asked.smin, out.ss, out.isep, k->take_text(), text);
   }
   return text;
 }

@@ -1,4 +1,6 @@
 // A kernel that is a shared library with the plug-in ABI, loaded and called in a child process.
+#include "contct/kernel/plugin.h"
+
 #include <dlfcn.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -18,10 +20,8 @@
 namespace contct {
 namespace {
 
-using abi_function = int (*)();
-using kernel_function = void (*)(const double*, const double*, const double*, double*, double*, const int*,
-                                 int*, const int*, int, int, int, int);
-constexpr int abi = 1;
+using abi_function = decltype(&contct_kernel_abi);
+using kernel_function = decltype(&contct_kernel);
 constexpr std::string_view ready_word = "ready";
 
 /// Memory that parent and child both see, as long as this object lives.
@@ -115,8 +115,8 @@ void host(const shared_memory& memory, const std::string& path, int channel) {
     return say(std::string("found no symbol ") +
                (version == nullptr ? "contct_kernel_abi" : "contct_kernel") +
                "; allowed: a library that exports contct_kernel_abi and contct_kernel");
-  if (const int found = version(); found != abi)
-    return say("found ABI " + std::to_string(found) + "; allowed: " + std::to_string(abi));
+  if (const int found = version(); found != CONTCT_KERNEL_ABI)
+    return say("found ABI " + std::to_string(found) + "; allowed: " + std::to_string(CONTCT_KERNEL_ABI));
   say(std::string(ready_word));
   serve(memory, ask, channel);
 }

@@ -39,8 +39,8 @@ struct recorded_call {
 /// Append the header of a trace.
 void append_header(const trace_header& h, std::string& text);
 
-/// Append the inputs of a call, from "call N" and its note to "ask". Of dd and dtest only what the pairs address is
-/// written: nothing else may be read by a kernel. `isep` is the status as it went in.
+/// Append the inputs of a call, from "call N" and its note to "ask". Of dd and dtest only what the pairs
+/// address is written: nothing else may be read by a kernel. `isep` is the status as it went in.
 void append_inputs(std::int64_t number, std::string_view note, const call<double>& c,
                    std::span<const int> isep, std::string& text);
 void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
