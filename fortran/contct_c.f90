@@ -1,4 +1,6 @@
-!> The door from C to the 1989 code: the library's only file with bind(C).
+!> The door from C to the 1989 code: the library's only file with bind(C). The procedures' names in C
+!> are their own, so that a second compiler's preprocessor can rename them (fortran/flang.cmake): unit 26
+!> belongs to each compiler's run-time library.
 !>
 !> Two builds of contct.f stand behind it, CONTC4 (default REAL, as printed) and CONTC8
 !> (8-byte REAL). Both share COMMON /DOF/ and write to unit 26, and both of these are global
@@ -42,7 +44,7 @@ contains
 
   !> CONTCT in single precision. Arguments in the listing's order, then COMMON /DOF/.
   subroutine contct_call_r4(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn) &
-    bind(C, name='contct_call_r4')
+    bind(C)
     real(c_float), intent(in) :: dd(*), dtest(*)       !< [system dofs]
     real(c_float), intent(in) :: cc(*)                 !< [nc]
     real(c_float), intent(inout) :: ss(*)              !< [nc] out
@@ -57,7 +59,7 @@ contains
 
   !> CONTCT in double precision. Arguments as above.
   subroutine contct_call_r8(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn) &
-    bind(C, name='contct_call_r8')
+    bind(C)
     real(c_double), intent(in) :: dd(*), dtest(*)
     real(c_double), intent(in) :: cc(*)
     real(c_double), intent(inout) :: ss(*)
@@ -86,7 +88,7 @@ contains
 
   !> Connect unit 26 to the existing file `path` (`length` characters), from its beginning.
   !> Returns 0, or the run-time library's error number.
-  function contct_log_open(path, length) result(status) bind(C, name='contct_log_open')
+  function contct_log_open(path, length) result(status) bind(C)
     integer(c_int), intent(in), value :: length
     character(kind=c_char), intent(in) :: path(length)
     integer(c_int) :: status
@@ -102,17 +104,17 @@ contains
   end function contct_log_open
 
   !> Hand the text over: what the listing has written now stands in the file.
-  subroutine contct_log_flush() bind(C, name='contct_log_flush')
+  subroutine contct_log_flush() bind(C)
     flush (log_unit)
   end subroutine contct_log_flush
 
   !> Forget the text: the next line is written at the beginning of the file.
-  subroutine contct_log_rewind() bind(C, name='contct_log_rewind')
+  subroutine contct_log_rewind() bind(C)
     rewind (log_unit)
   end subroutine contct_log_rewind
 
   !> Take unit 26 away from its file; it leads to the null device again.
-  subroutine contct_log_close() bind(C, name='contct_log_close')
+  subroutine contct_log_close() bind(C)
     integer :: status
     close (log_unit, iostat=status)  ! in a child process its file may be gone already
     log_is_connected = .false.

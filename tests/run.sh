@@ -35,6 +35,7 @@ leg() {
 
 if [ "$full" = yes ]; then
   need "for the sources' form" clang-format clang-tidy
+  need "for the listing by two more compilers" flang-16 f2c libf2c2-dev
   echo "== clang-format"
   find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
   leg core

@@ -60,3 +60,25 @@ TEST_CASE("text is compared byte for byte, and the first different line is named
   CHECK(t.values == 4);
   CHECK(t.mismatches == 3);
 }
+
+TEST_CASE("text compared by meaning may lack a number's zero and have other blanks, and nothing else") {
+  const auto same = [](std::string_view a, std::string_view b) {
+    tally t;
+    const auto found = compare_text(a, b, t, text_equality::meaning);
+    CHECK(t.values == 1);
+    CHECK(t.mismatches == (found ? 1 : 0));
+    return !found;
+  };
+  const std::string_view line = " SCALE FACTOR =  0.2500E+00\n";
+  CHECK(same(line, " SCALE FACTOR =   .2500E+00\n"));
+  CHECK(same("-0.5\n", "  -.5\n"));
+  CHECK(same(line, line));
+  CHECK_FALSE(same(line, " SCALE FACTOR =   .2501E+00\n"));
+  CHECK_FALSE(same(line, " SCALE FACTOR =   .2500E+01\n"));
+  CHECK_FALSE(same(line, " SCALE FACTOR =  -.2500E+00\n"));
+  CHECK_FALSE(same(line, " SCALE FACTOR =\n   .2500E+00\n"));
+  CHECK_FALSE(same(line, " SCALE FACTOR =   .2500E+00"));
+  CHECK_FALSE(same(line, ""));
+  CHECK_FALSE(same("10.5\n", "1.5\n"));
+  CHECK_FALSE(same("a\n", "a\nb\n"));
+}

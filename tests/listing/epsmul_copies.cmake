@@ -1,11 +1,12 @@
 # The copy with another EPSMUL differs from the listing in that literal alone, and is refused where
 # the listing has none or two of it.
-# Usage: cmake -DLISTING=<contct.f> -DCOPIER=<copy_with_epsmul.cmake> -DFOLDER=<scratch> -P epsmul_copies.cmake
+# Usage: cmake -DLISTING=<contct.f> -DCOPIER=<copy_with.cmake> -DFOLDER=<scratch> -P epsmul_copies.cmake
 file(MAKE_DIRECTORY ${FOLDER})
 
 function(copy_of listing copy result words)
   file(REMOVE ${copy})
-  execute_process(COMMAND ${CMAKE_COMMAND} -DLISTING=${listing} -DEPSMUL=1.E-9 -DCOPY=${copy} -P ${COPIER}
+  execute_process(COMMAND ${CMAKE_COMMAND} -DLISTING=${listing} -DFROM=.390625E-02 -DTO=1.E-9 -DCOPY=${copy}
+                          -P ${COPIER}
                   RESULT_VARIABLE status ERROR_VARIABLE said)
   string(REGEX REPLACE "[ \n]+" " " said "${said}")
   set(${result} ${status} PARENT_SCOPE)
@@ -34,7 +35,7 @@ foreach(case none:0 twice:2)
   if(status EQUAL 0 OR EXISTS ${FOLDER}/${name}_copy.f)
     message(FATAL_ERROR "a listing with ${found} of the literal is copied")
   endif()
-  if(NOT said MATCHES "found the literal .390625E-02 ${found} times")
+  if(NOT said MATCHES "found \".390625E-02\" ${found} times")
     message(FATAL_ERROR "a listing with ${found} of the literal is refused with other words: ${said}")
   endif()
 endforeach()

@@ -44,7 +44,8 @@ void lockstep::called(const answered_call& c) {
 
 void lockstep::ask(kernel& follower, const answered_call& c) {
   const auto text = leader_.has_text ? std::optional(c.text) : std::nullopt;
-  const auto found = put_to(follower, c.c, c.isep_before, text, answered_, tally_);
+  const auto found = put_to(follower, c.c, c.isep_before, text, text_equality_of(leader_, follower.facts()),
+                            answered_, tally_);
   if (!found) return;
   last_call_equal_ = false;
   if (first_) return;

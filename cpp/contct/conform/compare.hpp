@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "contct/kernel/kernel.hpp"
 #include "contct/numeric/bits.hpp"
 
 namespace contct {
@@ -58,7 +59,17 @@ std::optional<divergence> compare(const answer<Real>& leader, const answer<Real>
   return first;
 }
 
+/// How unit-26 text is compared.
+enum class text_equality {
+  bytes,   ///< byte for byte
+  meaning  ///< word by word, line by line; .25 is 0.25: libf2c leaves that zero out
+};
+
 /// Compare unit-26 text, as one value.
-std::optional<divergence> compare_text(std::string_view leader, std::string_view follower, tally& t);
+std::optional<divergence> compare_text(std::string_view leader, std::string_view follower, tally& t,
+                                       text_equality equality = text_equality::bytes);
+
+/// How the text of two kernels is compared.
+[[nodiscard]] text_equality text_equality_of(const kernel_facts& leader, const kernel_facts& follower);
 
 }  // namespace contct

@@ -4,7 +4,7 @@ namespace contct {
 
 std::optional<divergence> put_to(kernel& follower, const call<double>& answered,
                                  std::span<const int> isep_before, std::optional<std::string_view> text,
-                                 call_outputs& out, tally& t) {
+                                 text_equality equality, call_outputs& out, tally& t) {
   constexpr double not_an_answer = -7.0;  // what no kernel may leave behind
   out.ss.assign(answered.ss.size(), not_an_answer);
   out.isep.assign(isep_before.begin(), isep_before.end());
@@ -24,7 +24,7 @@ std::optional<divergence> put_to(kernel& follower, const call<double>& answered,
       compare<double>({answered.smin, answered.ss, answered.isep}, {out.smin, out.ss, out.isep}, t);
   if (!text || !follower.facts().has_text) return found;
   out.text = follower.take_text();
-  std::optional<divergence> in_text = compare_text(*text, out.text, t);
+  std::optional<divergence> in_text = compare_text(*text, out.text, t, equality);
   return found ? found : in_text;
 }
 

@@ -5,17 +5,17 @@
 #include <span>
 #include <string_view>
 
-#include "contct/kernel/call_inputs.hpp"
 #include "contct/conform/compare.hpp"
+#include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
 
 namespace contct {
 
 /// Put an answered call, whose ISEP was `isep_before`, to `follower` and compare SMIN, all of SS, all of
-/// ISEP, and the text where `text` is not nothing and the follower has any. A follower that fails
-/// has one mismatch, in the field "answer". `out` receives its outputs.
+/// ISEP, and the text as `equality` says, where `text` is not nothing and the follower has any. A follower
+/// that fails has one mismatch, in the field "answer". `out` receives its outputs.
 std::optional<divergence> put_to(kernel& follower, const call<double>& answered,
                                  std::span<const int> isep_before, std::optional<std::string_view> text,
-                                 call_outputs& out, tally& t);
+                                 text_equality equality, call_outputs& out, tally& t);
 
 }  // namespace contct

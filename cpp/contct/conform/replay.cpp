@@ -22,12 +22,13 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k) {
   replay_report report;
   recorded_call c;
   call_outputs answered;
+  const text_equality equality = k.facts().text_by_meaning ? text_equality::meaning : text_equality::bytes;
   while (calls.next(c)) {
     ++report.calls;
     const call<double> recorded{c.in.dd, c.in.dtest, c.in.cc,    c.out.ss, c.out.smin,
                                 c.in.id, c.out.isep, c.in.isurf, c.in.dof};
     report.branches.count(recorded, c.in.isep);
-    const auto found = put_to(k, recorded, c.in.isep, recorded_text(c), answered, report.compared);
+    const auto found = put_to(k, recorded, c.in.isep, recorded_text(c), equality, answered, report.compared);
     if (!found || report.first) continue;
     report.first = finding{c.number, "the trace", k.facts().name, *found,
                            decisions_of(recorded, c.in.isep, h.real_bytes)};

@@ -6,8 +6,8 @@
 
 #include "contct/conform/branches.hpp"
 #include "contct/conform/finding.hpp"
-#include "contct/kernel/trace.hpp"
 #include "contct/kernel/kernel.hpp"
+#include "contct/kernel/trace.hpp"
 
 namespace contct {
 

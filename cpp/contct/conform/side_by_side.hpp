@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "contct/conform/branches.hpp"
-#include "contct/kernel/call_inputs.hpp"
 #include "contct/conform/compare.hpp"
 #include "contct/kernel/call.hpp"
+#include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/fortran.hpp"
 
 namespace contct {

@@ -14,10 +14,9 @@
 namespace contct {
 namespace {
 
-const char* const cxx_compiler = CONTCT_CXX_COMPILER;          // NOLINT: set by CMake
-const char* const fortran_compiler = CONTCT_FORTRAN_COMPILER;  // NOLINT: set by CMake
-const char* const cxx_flags = CONTCT_CXX_FLAGS;                // NOLINT: set by CMake
-const char* const fortran_flags = CONTCT_FORTRAN_FLAGS;        // NOLINT: set by CMake
+const char* const cxx_compiler = CONTCT_CXX_COMPILER;    // NOLINT: set by CMake
+const char* const cxx_flags = CONTCT_CXX_FLAGS;          // NOLINT: set by CMake
+const char* const fortran_flags = CONTCT_FORTRAN_FLAGS;  // NOLINT: set by CMake
 
 /// C++ CONTCT, with its text.
 template <class Real>
@@ -47,7 +46,7 @@ class fortran_implementation {
  public:
   static constexpr const char* name = std::is_same_v<Real, float> ? "fortran-r4" : "fortran";
   static constexpr const char* language = "FORTRAN 77";
-  static const char* compiler() { return fortran_compiler; }
+  static const char* compiler() { return fortran::gfortran.compiler; }
   static std::string flags() {
     return std::string(fortran_flags) + (std::is_same_v<Real, double> ? " -fdefault-real-8" : "");
   }
@@ -135,6 +134,24 @@ class corrected_kernel final : public kernel {
   int at_rest_ = 0;  // answers in a row with SMIN = 0
 };
 
+#if defined CONTCT_FLANG_COMPILER || defined CONTCT_F2C_COMPILER
+/// The 8-byte listing by another compiler than gfortran, with the unit 26 of that one's library.
+template <fortran::door& Door>
+class other_compilers_kernel final : public kernel {
+ public:
+  static kernel_facts what_it_is() {
+    return {Door.kernel, 8, "listing", "FORTRAN 77", Door.compiler, Door.flags, true, Door.text_by_meaning};
+  }
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+  void answer(call<double>& c) override { fortran::contct(c, Door); }
+  std::string take_text() override { return log_.take(); }
+
+ private:
+  kernel_facts facts_ = what_it_is();
+  fortran::unit_26 log_{Door};
+};
+#endif
+
 struct entry {
   const char* name;
   kernel_facts (*facts)();
@@ -152,6 +169,12 @@ constexpr entry known_kernels[] = {
     known_as<kernel_r8<cpp_implementation>>("cpp"),
     known_as<kernel_r4<cpp_implementation>>("cpp-r4"),
     known_as<corrected_kernel>("corrected"),
+#ifdef CONTCT_FLANG_COMPILER
+    known_as<other_compilers_kernel<fortran::flang>>("flang"),
+#endif
+#ifdef CONTCT_F2C_COMPILER
+    known_as<other_compilers_kernel<fortran::f2c>>("f2c"),
+#endif
 };
 
 /// What stands behind "plugin:" or "pipe:"; nothing when the name begins with something else.

@@ -13,13 +13,14 @@ namespace contct {
 
 /// What a kernel is. Lockstep compares kernels of one precision and one rule.
 struct kernel_facts {
-  std::string name;      ///< as typed after --kernels
-  int real_bytes;        ///< 8, or 4 for the listing as printed
-  std::string rule;      ///< "listing"
-  std::string language;  ///< for people
-  std::string compiler;  ///< for people
-  std::string flags;     ///< for people: how floating point was compiled
-  bool has_text;         ///< the kernel writes the listing's unit-26 text
+  std::string name;              ///< as typed after --kernels
+  int real_bytes;                ///< 8, or 4 for the listing as printed
+  std::string rule;              ///< "listing"
+  std::string language;          ///< for people
+  std::string compiler;          ///< for people
+  std::string flags;             ///< for people: how floating point was compiled
+  bool has_text;                 ///< the kernel writes the listing's unit-26 text
+  bool text_by_meaning = false;  ///< its text may write .25 for 0.25, and is compared so
 };
 
 /// A kernel that gave no answer: it crashed, did not answer in time, wrote where it must not. Kernels from
@@ -44,7 +45,8 @@ class kernel {
 };
 
 /// Make a kernel by name: "fortran", "fortran-r4", "cpp", "cpp-r4", "corrected", "plugin:LIBRARY",
-/// "pipe:COMMAND". Throws std::invalid_argument, naming what there is, when there is none of that name.
+/// "pipe:COMMAND"; "flang" and "f2c" where built. Throws std::invalid_argument, naming what there is, when
+/// there is none of that name.
 [[nodiscard]] std::unique_ptr<kernel> make_kernel(std::string_view name);
 
 /// What the kernel of that name is, without making it: of the FORTRAN ones there is one at a time.

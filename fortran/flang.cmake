@@ -1,0 +1,48 @@
+# The listing by LLVM's flang, behind a door of its own: unit 26 belongs to flang's run-time library.
+# CMake knows one FORTRAN compiler at a time and that is gfortran, so flang is called by hand.
+# Defines the library contct_flang, where flang and its run-time libraries are found.
+find_program(CONTCT_FLANG_COMPILER NAMES flang-new-16 DOC "LLVM 16's flang")
+mark_as_advanced(CONTCT_FLANG_COMPILER)
+if(NOT CONTCT_FLANG_COMPILER)
+  message(STATUS "flang-new-16 is not found: no kernel \"flang\"")
+  return()
+endif()
+file(REAL_PATH ${CONTCT_FLANG_COMPILER} flang)  # in LLVM's bin; the libraries are beside it
+cmake_path(GET flang PARENT_PATH flang_folder)
+find_library(CONTCT_FLANG_RUNTIME FortranRuntime HINTS ${flang_folder}/../lib)
+find_library(CONTCT_FLANG_DECIMAL FortranDecimal HINTS ${flang_folder}/../lib)
+mark_as_advanced(CONTCT_FLANG_RUNTIME CONTCT_FLANG_DECIMAL)
+if(NOT CONTCT_FLANG_RUNTIME OR NOT CONTCT_FLANG_DECIMAL)
+  message(STATUS "flang's run-time libraries are not found: no kernel \"flang\"")
+  return()
+endif()
+
+set(folder ${CMAKE_CURRENT_BINARY_DIR}/flang)
+file(MAKE_DIRECTORY ${folder})
+set(flang_objects)
+function(add_flang_object name source)
+  set(object ${folder}/${name}.o)
+  add_custom_command(OUTPUT ${object}
+                     COMMAND ${CONTCT_FLANG_COMPILER} -c -cpp -O2 -fPIC -ffp-contract=off ${ARGN}
+                             ${CMAKE_CURRENT_SOURCE_DIR}/${source} -o ${object}
+                     WORKING_DIRECTORY ${folder}  # for the module file
+                     DEPENDS ${source} COMMENT "flang: ${name}" VERBATIM)
+  list(APPEND flang_objects ${object})
+  set(flang_objects ${flang_objects} PARENT_SCOPE)
+endfunction()
+
+add_flang_object(listing_r4 contct.f -DCONTCT=FLANG4)
+add_flang_object(listing_r8 contct.f -DCONTCT=FLANG8 -fdefault-real-8)
+set(renamed -Dcontc4=flang4 -Dcontc8=flang8)
+foreach(name call_r4 call_r8 log_open log_flush log_rewind log_close)
+  list(APPEND renamed -Dcontct_${name}=contct_flang_${name})
+endforeach()
+add_flang_object(door contct_c.f90 ${renamed})
+
+add_library(contct_flang STATIC ${flang_objects})
+set_target_properties(contct_flang PROPERTIES LINKER_LANGUAGE CXX)
+target_link_libraries(contct_flang PRIVATE ${CONTCT_FLANG_RUNTIME} ${CONTCT_FLANG_DECIMAL})
+
+execute_process(COMMAND ${CONTCT_FLANG_COMPILER} --version OUTPUT_VARIABLE said)
+string(REGEX MATCH "version ([0-9.]+)" said "${said}")
+set_target_properties(contct_flang PROPERTIES CONTCT_COMPILER "flang ${CMAKE_MATCH_1}")
