@@ -35,7 +35,7 @@ leg() {
 
 if [ "$full" = yes ]; then
   need "for the sources' form" clang-format clang-tidy
-  need "for the listing by two more compilers" flang-16 f2c libf2c2-dev
+  need "for more compilers, as witnesses" flang-16 f2c libf2c2-dev clang
   echo "== clang-format"
   find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
   leg core
