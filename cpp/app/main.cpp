@@ -40,6 +40,7 @@ contct::exit_status run_program(int argc, char** argv) {
   program.require_subcommand(1);
   contct::add_run(program, status);
   contct::add_verify(program, status);
+  contct::add_fuzz(program, status);
   contct::add_replay(program, status);
   contct::add_atlas(program, status);
   contct::add_kernels(program, status);

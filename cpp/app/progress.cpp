@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -15,13 +16,13 @@ progress::~progress() {
   if (shown_) (void)std::fputs("\r\033[K", stderr);
 }
 
-void progress::one_more() {
-  ++done_;
+void progress::reached(long done) {
+  done_ = done;
   if (!shown_) return;
   const auto now = clock::now();
   if (now - last_ < std::chrono::milliseconds(200)) return;
   last_ = now;
-  const std::string line = fmt::format("\r{:3} % of {} {}", 100 * done_ / all_, all_, what_);
+  const std::string line = fmt::format("\r{:3} % of {} {}", 100 * done_ / std::max(all_, 1L), all_, what_);
   (void)std::fputs(line.c_str(), stderr);
 }
 

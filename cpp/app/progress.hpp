@@ -16,7 +16,8 @@ class progress {
   progress(const progress&) = delete;
   progress& operator=(const progress&) = delete;
 
-  void one_more();
+  void one_more() { reached(done_ + 1); }
+  void reached(long done);
 
  private:
   using clock = std::chrono::steady_clock;

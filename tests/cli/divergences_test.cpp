@@ -156,8 +156,8 @@ TEST_CASE("way 5: a problem file whose state its faces contradict is refused") {
   CHECK(contct_program(dir.path(), {"run", "inside.toml"}).exit == 2);
   CHECK(contct_program(dir.path(), {"run", "closed.toml"}).exit == 2);
   CHECK(contct_program(dir.path(), {"run", "sound.toml"}).exit == 0);
-  CHECK_THAT(section("5. "), Contains("inconsistent_start_test.cpp"));
-  CHECK(std::filesystem::exists(root / "tests/kernel/inconsistent_start_test.cpp"));
+  CHECK_THAT(section("5. "), Contains("inconsistent-start.trace"));
+  CHECK(std::filesystem::exists(root / "reference/traces/inconsistent-start.trace"));
 }
 
 TEST_CASE("way 6: an event near full load toggles a pair that has none") {

@@ -7,22 +7,6 @@
 
 namespace contct {
 
-namespace {
-
-std::string words(const kernel_facts& k) {
-  return "\"" + k.name + "\" (" + std::to_string(k.real_bytes) + "-byte REAL, rule \"" + k.rule + "\")";
-}
-
-}  // namespace
-
-void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower) {
-  if (follower.real_bytes == leader.real_bytes && follower.rule == leader.rule) return;
-  const bool precision = follower.real_bytes != leader.real_bytes;
-  throw std::invalid_argument(words(leader) + " and " + words(follower) + " differ in " +
-                              (precision ? "precision" : "rule") +
-                              " and cannot be equal to the bit; compare them with --free-run");
-}
-
 lockstep::lockstep(kernel_facts leader, std::vector<std::unique_ptr<kernel>> followers)
     : leader_(std::move(leader)), followers_(std::move(followers)) {
   for (const auto& f : followers_) refuse_unequal(leader_, f->facts());

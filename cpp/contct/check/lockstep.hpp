@@ -8,16 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "contct/kernel/call_inputs.hpp"
 #include "contct/conform/finding.hpp"
+#include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct {
-
-/// Throws std::invalid_argument when the two differ in precision or rule: their answers cannot be
-/// equal to the bit.
-void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower);
 
 /// Observes a path: each call that the leader answered goes to every follower, with identical
 /// inputs, and SMIN, all of SS, all of ISEP and the unit-26 text are compared.

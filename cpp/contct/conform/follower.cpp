@@ -1,6 +1,24 @@
 #include "contct/conform/follower.hpp"
 
+#include <stdexcept>
+#include <string>
+
 namespace contct {
+namespace {
+
+std::string words(const kernel_facts& k) {
+  return "\"" + k.name + "\" (" + std::to_string(k.real_bytes) + "-byte REAL, rule \"" + k.rule + "\")";
+}
+
+}  // namespace
+
+void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower) {
+  if (follower.real_bytes == leader.real_bytes && follower.rule == leader.rule) return;
+  const bool precision = follower.real_bytes != leader.real_bytes;
+  throw std::invalid_argument(words(leader) + " and " + words(follower) + " differ in " +
+                              (precision ? "precision" : "rule") +
+                              " and cannot be equal to the bit; compare them with --free-run");
+}
 
 std::optional<divergence> put_to(kernel& follower, const call<double>& answered,
                                  std::span<const int> isep_before, std::optional<std::string_view> text,

@@ -1,5 +1,7 @@
 #include "contct/conform/random_calls.hpp"
 
+#include <limits>
+
 namespace contct {
 namespace {
 
@@ -37,8 +39,8 @@ const call_inputs<Real>& random_calls<Real>::next() {
   in_.dof = {random_.whole(1, 3), random_.whole(1, 3)};
   const auto dofs = static_cast<std::size_t>(3 * last_node + 3);
   if (in_.dd.size() != dofs) {
-    in_.dd.assign(dofs, Real(0));
-    in_.dtest.assign(dofs, Real(0));
+    in_.dd.assign(dofs, std::numeric_limits<Real>::quiet_NaN());
+    in_.dtest.assign(dofs, std::numeric_limits<Real>::quiet_NaN());
   }
   const auto pairs = static_cast<std::size_t>(random_.whole(1, random_.chance(0.5) ? 4 : most_pairs));
   in_.cc.resize(pairs);
@@ -49,6 +51,16 @@ const call_inputs<Real>& random_calls<Real>::next() {
   const int first_node = random_.chance(0.05) ? last_node - nodes : random_.whole(1, 20);
   for (std::size_t i = 0; i < pairs; ++i) place_pair(i, first_node, nodes);
   return in_;
+}
+
+template <class Real>
+const call_inputs<Real>& random_calls<Real>::at(std::uint64_t number) {
+  for (std::size_t i = 0; i < in_.pairs(); ++i) {
+    in_.dd[in_.dof_of_pair(i)] = std::numeric_limits<Real>::quiet_NaN();
+    in_.dtest[in_.dof_of_pair(i)] = std::numeric_limits<Real>::quiet_NaN();
+  }
+  random_ = random_numbers(random_numbers(seed_ ^ (number * 0xd1342543de82ef95)).bits());
+  return next();
 }
 
 template class random_calls<float>;

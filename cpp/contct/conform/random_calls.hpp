@@ -13,15 +13,20 @@ namespace contct {
 template <class Real>
 class random_calls {
  public:
-  explicit random_calls(std::uint64_t seed) : random_(seed) {}
+  explicit random_calls(std::uint64_t seed) : seed_(seed), random_(seed) {}
 
   /// The next call; the reference is good until the one after.
   const call_inputs<Real>& next();
+
+  /// Call `number`, a function of it and the seed alone. What the call before left in dd and dtest is
+  /// overwritten by NaN: nobody may read there.
+  const call_inputs<Real>& at(std::uint64_t number);
 
  private:
   Real number(double zero_share, double grid_share);
   void place_pair(std::size_t i, int first_node, int nodes);
 
+  std::uint64_t seed_;
   random_numbers random_;
   call_inputs<Real> in_;
 };
