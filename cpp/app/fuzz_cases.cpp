@@ -15,7 +15,8 @@ namespace {
 /// A kernel's name as part of a file's: "plugin:./mine.so" becomes "plugin-mine-so".
 std::string file_name_of(const std::string& kernel) {
   std::string name;
-  for (const char ch : kernel) {
+  const std::string library = std::filesystem::path(kernel).filename().string();
+  for (const char ch : kernel.rfind("plugin:", 0) == 0 && library != kernel ? "plugin-" + library : kernel) {
     const bool plain = std::isalnum(static_cast<unsigned char>(ch)) != 0;
     if (plain) name += ch;
     if (!plain && !name.empty() && name.back() != '-') name += '-';

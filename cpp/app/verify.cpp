@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/io/certificate_text.hpp"
 #include "contct/io/problem_file.hpp"
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 struct verify_options {
   std::string reference;
   std::string json;
+  report_options report;
 };
 
 /// reference/ as asked for; or what was installed with the program, wherever both have been moved; or that of
@@ -74,21 +76,21 @@ constexpr std::string_view row = "{:>2} {:<20} {:>13} {:>13} {:>6} {:>6} {}";
 /// Collects what came of every case, and prints it as it comes.
 class report {
  public:
-  explicit report(const terminal& t) : terminal_(t) {}
+  report(const terminal& t, bool silent) : terminal_(t), silent_(silent) {}
 
   void add(const verified_case& c) {
     ++cases_;
     for (const std::string& line : wrap_words(c.title.empty() ? c.file : c.title, terminal_.width)) {
-      fmt::print("{}\n", painted(terminal_, paint::strong, line));
+      say("{}\n", painted(terminal_, paint::strong, line));
     }
-    fmt::print("{}: {} of {} calls equal to the bit\n", c.file, c.calls - c.mismatches, c.calls);
-    fmt::print("{}\n",
-               painted(terminal_, paint::quiet,
-                       fmt::format(row, "", "quantity", "expected", "computed", "differ", "allow", "")));
-    if (!c.failure.empty()) fmt::print("  {}\n", painted(terminal_, paint::bad, "FAILED: " + c.failure));
+    say("{}: {} of {} calls equal to the bit\n", c.file, c.calls - c.mismatches, c.calls);
+    say("{}\n", painted(terminal_, paint::quiet,
+                        fmt::format(row, "", "quantity", "expected", "computed", "differ", "allow", "")));
+    if (!c.failure.empty()) say("  {}\n", painted(terminal_, paint::bad, "FAILED: " + c.failure));
     std::string said;
     for (const verified_number& n : c.numbers) add(n, said);
     failed_ += c.failure.empty() ? 0 : 1;
+    for_machines_.results.push_back(result_of(c));
     json certificates = json::array();
     for (const auto& judged : c.certificates) certificates.push_back(certificate_json(judged));
     json numbers = json::array();
@@ -100,7 +102,7 @@ class report {
                     {"failure", c.failure},
                     {"certificates", std::move(certificates)},
                     {"checks", std::move(numbers)}});
-    fmt::print("\n");
+    say("\n");
   }
 
   void conclude() const {
@@ -110,10 +112,9 @@ class report {
         fmt::format("{} numbers in {} problems", numbers_, cases_), fmt::format("{}", fmt::join(kinds, ", ")),
         fmt::format("{} where the 1989 rule differs, as known", known_), fmt::format("{} failed", failed_)};
     for (const std::string& line : wrap(counts, terminal_.width)) {
-      fmt::print("{}\n", painted(terminal_, failed_ == 0 ? paint::good : paint::bad, line));
+      say("{}\n", painted(terminal_, failed_ == 0 ? paint::good : paint::bad, line));
     }
-    fmt::print(
-        "The examples of the paper's reference [1] (Mahmoud, Salamon, Pawlak 1986) are not available\n"
+    say("The examples of the paper's reference [1] (Mahmoud, Salamon, Pawlak 1986) are not available\n"
         "here; none of their numbers is claimed.\n");
   }
 
@@ -126,9 +127,24 @@ class report {
             {"not_claimed", "the examples of the paper's reference [1], which are not available"},
             {"cases", all_}};
   }
+  [[nodiscard]] const check_report& for_machines() const { return for_machines_; }
   [[nodiscard]] bool passed() const { return failed_ == 0 && numbers_ > 0; }
 
  private:
+  /// A problem as a test: its numbers, and what is wrong.
+  static check_result result_of(const verified_case& c) {
+    check_result r{c.file, outcome::passed, "", c.failure.empty() ? "" : c.failure + "\n"};
+    for (const verified_number& n : c.numbers) {
+      if (n.passed) continue;
+      r.details += fmt::format("step {}, {}: expected {:.17g}, computed {:.17g}\n", n.expected.step,
+                               quantity_words(n.expected), n.expected.value, n.computed);
+    }
+    if (!r.details.empty()) r.what = outcome::failed;
+    r.summary = fmt::format("{} numbers, {} of {} calls equal to the bit", c.numbers.size(),
+                            c.calls - c.mismatches, c.calls);
+    return r;
+  }
+
   /// A row; its source and the reason of its tolerance above it, where they are not those of the row before.
   void add(const verified_number& n, std::string& said) {
     const expected_number& e = n.expected;
@@ -140,17 +156,16 @@ class report {
         fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
     if (source != said) {
       for (const std::string& line : wrap_words(source, terminal_.width - 4)) {
-        fmt::print("    {}\n", painted(terminal_, paint::quiet, line));
+        say("    {}\n", painted(terminal_, paint::quiet, line));
       }
       said = std::move(source);
     }
-    fmt::print(row, e.step, quantity_words(e), words_of(e, e.value), words_of(e, n.computed),
-               fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
-               painted(terminal_, paint_of(n), mark_of(n)));
-    fmt::print("\n");
+    say(row, e.step, quantity_words(e), words_of(e, e.value), words_of(e, n.computed),
+        fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
+        painted(terminal_, paint_of(n), mark_of(n)));
+    say("\n");
     if (known_to_miss(n)) {
-      for (const std::string& line : wrap_words(e.reason, terminal_.width - 6))
-        fmt::print("      {}\n", line);
+      for (const std::string& line : wrap_words(e.reason, terminal_.width - 6)) say("      {}\n", line);
     }
   }
 
@@ -177,7 +192,14 @@ class report {
     return lines;
   }
 
+  template <class... Arguments>
+  void say(fmt::format_string<Arguments...> words, Arguments&&... arguments) const {
+    if (!silent_) fmt::print(words, std::forward<Arguments>(arguments)...);
+  }
+
   terminal terminal_;
+  bool silent_;
+  check_report for_machines_{"contct verify", common_facts(), {}, 0.0};
   int cases_ = 0;
   int numbers_ = 0;
   int failed_ = 0;
@@ -197,11 +219,15 @@ void show_progress(std::size_t done, std::size_t all) {
 }
 
 exit_status verify(const verify_options& options) {
+  const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
+  refuse_shared_outputs(outputs);
   const fs::path reference = find_reference(options.reference);
   const std::vector<verification_case> cases = read_verification((reference / "verification.toml").string());
   std::optional<output_file> out;
   if (!options.json.empty()) out.emplace(options.json);
-  report r(look_at_terminal());
+  report_files reports(options.report);
+  const bool silent = options.report.quiet || takes_standard_output(outputs);
+  report r(look_at_terminal(), silent);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     show_progress(i, cases.size());
     r.add(verify_case(cases[i], read_problem((reference / "problems" / cases[i].file).string())));
@@ -213,6 +239,7 @@ exit_status verify(const verify_options& options) {
     out->write(r.document().dump(1) + "\n");
     out->finish();
   }
+  reports.write(r.for_machines());
   return r.passed() ? exit_status::solved : exit_status::kernels_differ;
 }
 
@@ -223,7 +250,8 @@ void add_verify(CLI::App& program, exit_status& status) {
   CLI::App* const command = program.add_subcommand(
       "verify", "Every problem in reference/ against published, closed-form and recomputed numbers");
   command->add_option("--reference", options->reference, "The folder with verification.toml and problems/");
-  command->add_option("--json", options->json, "Write all numbers to this file");
+  command->add_option("--json", options->json, "Write all numbers to this file (- is standard output)");
+  add_report_options(*command, options->report);
   command->callback([options, &status] { status = verify(*options); });
 }
 

@@ -70,6 +70,8 @@ void adversarial_calls<Real>::place_pair(std::size_t i) {
       return place_gap(dof, i, (random_.chance(0.5) ? 1 : -1) * nudged(epsgap<Real>));
     case 2:  // SSCHK.GT.0.
       if (random_.chance(0.4)) response = from_the_edges();
+      // SSCHK * DELTA is about the smallest number there is: SS(I).GT.0. to the ULP.
+      if (random_.chance(0.2)) response *= static_cast<Real>(1e-20) / std::numeric_limits<Real>::denorm_min();
       in_.dd[dof] = static_cast<Real>(random_.unit());
       in_.cc[i] = in_.dd[dof];
       return;

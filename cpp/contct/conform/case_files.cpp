@@ -103,12 +103,17 @@ void append_fortran_call(const found_case& c, std::size_t number, std::string& t
   }
 }
 
-/// Comment lines of a fixed-form program end at column 72.
+/// Comment lines of a fixed-form program end at column 72, between words where they can.
 std::string fortran_comment(const std::string& words) {
   constexpr std::size_t width = 66;
   std::string text;
-  for (std::size_t from = 0; from < words.size(); from += width)
-    text += "C     " + words.substr(from, width) + "\n";
+  for (std::size_t from = 0; from < words.size();) {
+    std::size_t to = std::min(from + width, words.size());
+    const std::size_t blank = words.rfind(' ', to);
+    if (to < words.size() && blank != std::string::npos && blank > from) to = blank;
+    text += "C     " + words.substr(from, to - from) + "\n";
+    from = std::min(words.find_first_not_of(' ', to), words.size());
+  }
   return text;
 }
 
@@ -169,10 +174,10 @@ std::string fortran_main_of(const found_case& c) {
   std::string text;
   for (const std::string& line : words_of(c.what)) text += fortran_comment(line);
   text += fortran_comment(std::string("gfortran -std=legacy -ffp-contract=off -fno-range-check ") +
-                          (c.real_bytes == 8 ? "-fdefault-real-8 " : ""));
-  text += "C     this.f contct.f\n      PROGRAM FOUND\n      COMMON /DOF/ INDOF,NDOFPN\n      DIMENSION DD(" +
-          n + "), DTEST(" + n + "), CC(" + m + "),\n     &  SS(" + m + "), ID(" + m + "), ISEP(" + m +
-          "), ISURF(" + m + ")\n      Z = 0.\n";
+                          (c.real_bytes == 8 ? "-fdefault-real-8 " : "") + "this.f contct.f");
+  text += "      PROGRAM FOUND\n      COMMON /DOF/ INDOF,NDOFPN\n      DIMENSION DD(" + n + "), DTEST(" + n +
+          "), CC(" + m + "),\n     &  SS(" + m + "), ID(" + m + "), ISEP(" + m + "), ISURF(" + m +
+          ")\n      Z = 0.\n";
   for (std::size_t i = 0; i < c.calls.size(); ++i) append_fortran_call(c, i, text);
   return text + "      END\n";
 }

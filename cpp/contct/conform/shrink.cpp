@@ -137,16 +137,22 @@ class shrinker {
 
   void rounder(std::size_t c, std::vector<double> call_inputs<double>::*list, std::size_t i) {
     const double x = (calls_[c].*list)[i];
-    if (std::isnan(x) && list != &call_inputs<double>::cc && !watched(c, i)) return;
     for (const double r : rounder_than(x)) {
       if (try_at(c, list, i, r)) return;
     }
   }
 
-  [[nodiscard]] bool watched(std::size_t c, std::size_t dof) const {
-    for (std::size_t i = 0; i < calls_[c].pairs(); ++i)
-      if (calls_[c].dof_of_pair(i) == dof) return true;
-    return false;
+  /// The same scale factor from D = 0 and d* = 1: numbers that hang together become rounder only together.
+  void plainer_pair(std::size_t c, std::size_t i) {
+    const call_inputs<double>& in = calls_[c];
+    const std::size_t dof = in.dof_of_pair(i);
+    const double s = (in.cc[i] - in.dd[dof]) / in.dtest[dof];
+    if (!std::isfinite(s) || (in.dd[dof] == 0.0 && in.dtest[dof] == 1.0)) return;
+    call_inputs<double> plainer = in;
+    plainer.dd[dof] = 0.0;
+    plainer.dtest[dof] = 1.0;
+    plainer.cc[i] = s;
+    (void)replace(c, std::move(plainer));
   }
 
   /// All numbers of a call, again and again until none becomes rounder: one may have stood in another's way.
@@ -157,6 +163,7 @@ class shrinker {
       const call_inputs<double> before = calls_[c];
       for (std::size_t i = 0; i < calls_[c].pairs(); ++i) {
         const std::size_t dof = calls_[c].dof_of_pair(i);
+        plainer_pair(c, i);
         rounder(c, &call_inputs<double>::dd, dof);
         rounder(c, &call_inputs<double>::dtest, dof);
         rounder(c, &call_inputs<double>::cc, i);
