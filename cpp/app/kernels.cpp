@@ -16,7 +16,8 @@ void add_kernels(CLI::App& program, exit_status& status) {
       const kernel_facts f = facts_of_kernel(name);
       fmt::print("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language, f.compiler);
     }
-    fmt::print("\nlisting sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
+    fmt::print("\nfrom outside: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n");
+    fmt::print("listing sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
                describe(probe_floating_point()));
     status = exit_status::solved;
   });

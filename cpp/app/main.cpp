@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/streams.hpp"
+#include "contct/kernel/kernel.hpp"
 #include "contct/text/output_file.hpp"
 
 namespace {
@@ -61,6 +62,9 @@ contct::exit_status run_program(int argc, char** argv) {
 int status_of_run(int argc, char** argv) {
   try {
     return static_cast<int>(run_program(argc, argv));
+  } catch (const contct::kernel_failure& e) {
+    contct::complain("the leading kernel gave no answer: {}", e.what());
+    return static_cast<int>(contct::exit_status::kernels_differ);
   } catch (const std::system_error& e) {
     const bool printing = std::ferror(stdout) != 0;
     contct::complain("{}{}", printing ? "standard output: " : "", e.what());

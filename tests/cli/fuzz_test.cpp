@@ -143,6 +143,13 @@ TEST_CASE("a plug-in that aborts now and then is a verdict, not the end of the r
   CHECK(json_of(dir, "f.json").at("calls") == 4000);
 }
 
+TEST_CASE("a plug-in that leads and aborts ends the run with the status of kernels that disagree") {
+  const scratch_directory dir;
+  const finished f = fuzz(dir, {"--kernels", variant("crashes") + ",fortran", "--calls", "4000"});
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.err, Contains("the leading kernel gave no answer: it was ended by signal 6"));
+}
+
 TEST_CASE("shards are added up again, and a missing or doubled one is refused") {
   const scratch_directory dir;
   for (const char* shard : {"1", "2", "3"}) {
