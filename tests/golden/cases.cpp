@@ -228,6 +228,10 @@ class cases {
     t.calls.push_back(laid_out(1, 2, 5, 1));
     t.calls.push_back(laid_out(2, 3, 3, 3));
     t.calls.push_back(laid_out(1, 1, 1, 5));
+    golden_call quiet = laid_out(2, 2, 2, 1);
+    quiet.in.dtest[1] = 0;
+    quiet.note += ": the quiet pair's dof has the number of the other's node";
+    t.calls.push_back(quiet);
     return t;
   }
 
@@ -257,8 +261,9 @@ class cases {
          one("c and D large, their difference exact", {{Real(1e6), Real(1e6), Real(1e6) + 1}}),
          one("d* = 1/3: a quotient that is rounded", {{Real(0.1), Real(1) / Real(3), Real(0.3)}}),
          one("signed zeros everywhere", {{-Real(0), -Real(0), -Real(0)}, {0, -Real(0), 0}}),
-         one("DIFF = (inf - s) / s beside a tie",
-             {{0, 1, half}, {0, limits::min() / 2, max}, {0, 1, half}})}};
+         one("DIFF = (inf - s) / s beside a tie", {{0, 1, half}, {0, limits::min() / 2, max}, {0, 1, half}}),
+         one("c - D is rounded, and the quotient of the rounded gap is not that of the gap",
+             {{Real(-0.02), 3, Real(0.3)}})}};
   }
 
   golden_trace text() const {
@@ -298,7 +303,12 @@ class cases {
     far.in.isurf = {-100};
     far.note = "side -100 does not";
     t.calls.push_back(far);
-    if (bytes == 8) t.calls.push_back(thousand_pairs());
+    if (bytes == 8) {
+      t.calls.push_back(thousand_pairs());
+      for (const int decade : {-99, -100})
+        t.calls.push_back(one("the E is dropped from -100 on: 1e" + std::to_string(decade),
+                              {{0, Real(1e-3) / decimal("0.123456E" + std::to_string(decade)), Real(1e-3)}}));
+    }
     return t;
   }
 
