@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs what is missing, builds, and passes all tests. --full adds the legs that take longer: the
 # sanitizers, gfortran's run-time checks, the build without the program, the whole campaign of random
-# problems, formatting and clang-tidy.
+# problems, the mutants of both kernels, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -47,6 +47,8 @@ leg release
 if [ "$full" = yes ]; then
   echo "== 200,000 random problems under the corrected rule"
   build/release/tests/contct_campaign 200000 2026
+  echo "== mutants of both kernels"
+  build/release/tests/contct_mutants
   sh tests/tree/tidy.sh build/release
   # The last lines are ctest's own summary, of everything that the release build has.
   ctest --preset release -j "$(nproc 2>/dev/null || echo 2)" --progress
