@@ -53,6 +53,9 @@ void say(const trial& t) {
 std::string objection(const mutant& m, const verdict& seen) {
   if (seen.lives() && m.equivalent.empty())
     return "survives: neither the golden set nor the random calls notice it";
+  if (!seen.lives() && is_original(m))
+    return "is as committed, but does not answer " + seen.kills.front().where + ", " +
+           seen.kills.front().what;
   if (!seen.lives() && !m.equivalent.empty())
     return "is said to be equivalent, but " + seen.kills.front().where + ", " + seen.kills.front().what +
            " tells it from the original";
