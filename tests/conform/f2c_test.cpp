@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "conform/other_compiler.hpp"
+#include "contct/conform/replay.hpp"
 
 using namespace contct;
 
@@ -41,4 +42,28 @@ TEST_CASE("f2c's unit 26 is its own: one for each run-time library, and one at a
   CHECK_THAT(ask_kernel(*first, one_pair_at(0.25)).text,
              Catch::Matchers::Contains("SCALE FACTOR =   .2500E+00"));
   CHECK(beside->take_text().empty());
+}
+
+TEST_CASE("a trace recorded from f2c is replayed by every 8-byte kernel, its text by meaning") {
+  std::string trace;
+  trace_header header;
+  header.kernel = "f2c";
+  append_header(header, trace);
+  const auto f2c = make_kernel("f2c");
+  random_calls<double> source(26);
+  for (int i = 1; i <= 100; ++i) {
+    const call_inputs<double>& in = source.next();
+    append_inputs(i, "", in, trace);
+    const kernel_answer a = ask_kernel(*f2c, in);
+    append_answer(a.smin, a.ss, a.isep, a.text, trace);
+  }
+  for (const std::string name : {"fortran", "cpp"}) {
+    INFO(name);
+    trace_reader calls(trace, "f2c.trace");
+    const trace_header h = calls.read_header();
+    const replay_report r = replay(h, calls, *make_kernel(name));
+    CHECK(r.calls == 100);
+    CHECK(r.compared.values > 1'000);
+    CHECK(r.compared.mismatches == 0);
+  }
 }

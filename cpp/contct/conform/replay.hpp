@@ -23,7 +23,7 @@ struct replay_report {
 [[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
 
 /// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
-/// both have it. Throws input_error where the trace is malformed.
+/// both have it, by what it means where one of them is f2c. Throws input_error where the trace is malformed.
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k);
 
 }  // namespace contct

@@ -15,7 +15,8 @@ namespace contct {
 /// The first line of every trace: the format and the day on which it was fixed.
 inline constexpr std::string_view trace_format = "contct-trace-1 2026-11-21";
 
-/// What a trace says of itself. Everything but `real_bytes` and `rule` is for people.
+/// What a trace says of itself. `real_bytes` and `rule` say who can answer it, and the kernel "f2c" how its
+/// text is compared; the rest is for people.
 struct trace_header {
   std::vector<std::string> about;  ///< what the trace is there for, a line each
   std::string kernel;              ///< who answered
