@@ -37,6 +37,14 @@ std::string first_failure_details(const replay_report& r) {
   return details;
 }
 
+/// What a replay says. What a floating point that is not strict computes says nothing of a kernel.
+std::string verdict_of(const replay_report& r) {
+  const floating_point fp = probe_floating_point();
+  if (r.compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";
+  return fp.strict() ? "equal to the bit"
+                     : fmt::format("equal to the bit, but the environment is not strict ({})", describe(fp));
+}
+
 /// One trace against one kernel.
 check_result replay_one(const std::string& file, const std::string& text, const std::string& name) {
   trace_reader calls(text, file);
@@ -54,12 +62,8 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   const std::unique_ptr<class kernel> k = make_kernel(kernel);
   const replay_report r = replay(h, calls, *k);
   if (r.calls == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
-  const bool equal = r.compared.mismatches == 0;
-  const std::string_view verdict = equal                             ? "equal to the bit"
-                                   : probe_floating_point().strict() ? "mismatch"
-                                                                     : "environment";
-  result.what = equal ? outcome::passed : outcome::failed;
-  result.summary = fmt::format("{}; {} calls, {} values compared, {} mismatches", verdict, r.calls,
+  result.what = r.compared.mismatches == 0 ? outcome::passed : outcome::failed;
+  result.summary = fmt::format("{}; {} calls, {} values compared, {} mismatches", verdict_of(r), r.calls,
                                r.compared.values, r.compared.mismatches);
   if (r.first) result.details = first_failure_details(r);
   return result;

@@ -42,6 +42,15 @@ bool operands_are_flushed() {
   return subnormal * opaque(0x1p+60) == 0.0;
 }
 
+/// What the compiler may do cannot be measured, but it says so itself.
+constexpr bool may_rearrange() {
+#if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
+  return true;
+#else
+  return false;
+#endif
+}
+
 }  // namespace
 
 floating_point probe_floating_point() {
@@ -51,6 +60,7 @@ floating_point probe_floating_point() {
   found.flushes_results = results_are_flushed();
   found.flushes_operands = operands_are_flushed();
   found.extra_precision = FLT_EVAL_METHOD != 0;
+  found.rearranges = may_rearrange();
   return found;
 }
 
@@ -67,6 +77,7 @@ std::string describe(const floating_point& found) {
   add(found.flushes_results, "subnormal results are flushed to zero");
   add(found.flushes_operands, "subnormal operands count as zero");
   add(found.extra_precision, "intermediate results carry extra precision");
+  add(found.rearranges, "the compiler was allowed to rearrange sums and to forget NaN");
   return what;
 }
 

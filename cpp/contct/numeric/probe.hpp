@@ -13,9 +13,11 @@ struct floating_point {
   bool flushes_results;    ///< subnormal results become zero (FTZ)
   bool flushes_operands;   ///< subnormal operands count as zero (DAZ)
   bool extra_precision;    ///< intermediate results are wider than their type (x87)
+  bool rearranges;         ///< the compiler was allowed to reorder sums and to forget NaN: no result tells
 
   [[nodiscard]] bool strict() const {
-    return !contracts && rounds_to_nearest && !flushes_results && !flushes_operands && !extra_precision;
+    return !contracts && rounds_to_nearest && !flushes_results && !flushes_operands && !extra_precision &&
+           !rearranges;
   }
 };
 

@@ -1,0 +1,80 @@
+#!/bin/sh
+# contct-replay as a project of its own, built with floating point that is not strict: is it the environment that
+# gets the blame, and not a kernel? usage: run.sh KIND SOURCE WORK STRICT_REPLAY, with CMAKE, GENERATOR, CXX and FC set.
+# KIND: fused     products and sums are contracted: the listing has none, so nothing differs, and it is said all the same
+#       fast      everything that the compiler likes, and subnormals are zero: the golden set notices
+#       compiled  the same compiled but not linked so: no result tells, the compiler has to
+# Exit 77: this processor has no fused instruction.
+set -eu
+kind=$1
+source=$2
+work=$3
+strict=$4
+slack=-ffast-math
+link=""
+case $kind in
+  fused) slack="-march=x86-64-v3 -ffp-contract=fast"; says="contracted" ;;
+  fast) link=$slack; says="flushed to zero" ;;
+  compiled) says="allowed to rearrange" ;;
+  *) echo "found \"$kind\"; allowed: fused, fast, compiled" >&2; exit 2 ;;
+esac
+if [ "$kind" = fused ]; then
+  for feature in fma avx2 bmi1 bmi2 f16c movbe abm; do
+    grep -qw "$feature" /proc/cpuinfo 2>/dev/null || { echo "skipped: this processor has no $feature"; exit 77; }
+  done
+fi
+
+mkdir -p "$work"
+launcher="sh;$source/tests/probe/slack.sh;$slack"
+{
+  "$CMAKE" -G "$GENERATOR" -S "$source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DCONTCT_REPLAY_ONLY=ON \
+    -DCONTCT_FLANG=OFF -DCONTCT_F2C=OFF "-DCMAKE_CXX_COMPILER=$CXX" "-DCMAKE_Fortran_COMPILER=$FC" \
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" "-DCMAKE_Fortran_COMPILER_LAUNCHER=$launcher" \
+    "-DCMAKE_EXE_LINKER_FLAGS=$link" &&
+    "$CMAKE" --build "$work/build" --target contct-replay
+} >"$work/log" 2>&1 || { tail -n 30 "$work/log"; exit 1; }
+
+# One golden trace in which a scale factor has been changed: no kernel answers it.
+doctored=$work/doctored.trace
+awk '/^smin / && !done {$0 = "smin 0x1.23p-4"; done = 1} {print}' "$source/reference/traces/layouts.trace" >"$doctored"
+
+# replay PROGRAM TRACE..: what it says of what it compared, without what has another precision.
+replay() {
+  program=$1
+  shift
+  status=0
+  "$program" --kernel fortran,cpp,fortran-r4,cpp-r4 --markdown "$work/report" -- "$@" >"$work/said" 2>"$work/complaints" ||
+    status=$?
+  grep '\.trace: ' "$work/said" | grep -v ': skipped: ' >"$work/compared" || true
+}
+wrong=0
+expect() {  # expect WORDS CONDITION..: a fact
+  words=$1
+  shift
+  "$@" || { echo "NOT SO: $words"; wrong=1; }
+}
+all_say() { [ -s "$work/compared" ] && ! grep -v -e "$1" "$work/compared"; }
+
+replay "$strict" "$doctored"
+expect "the strict build calls the doctored trace a mismatch" all_say ': mismatch; '
+expect "and exits 1" [ $status = 1 ]
+
+replay "$work/build/contct-replay" "$doctored"
+expect "this build calls the doctored trace environment" all_say ': environment; '
+expect "and exits 1" [ $status = 1 ]
+expect "and says what is wrong with it" grep -q "^environment, not kernel: .*$says" "$work/complaints"
+expect "in its report, too" grep -q "^- floating point: .*$says" "$work/report"
+
+replay "$work/build/contct-replay" "$source"/reference/traces/*.trace
+expect "no verdict on the golden set leaves the environment out" \
+  all_say "\(: environment; \|: equal to the bit, but the environment is not strict (.*$says.*)\)"
+differing=$(grep -c ': environment; ' "$work/compared" || true)
+if [ "$kind" = fused ]; then
+  expect "nothing differs" [ "$differing" = 0 ]
+  expect "and it exits 0" [ $status = 0 ]
+else
+  expect "something differs" [ "$differing" -gt 0 ]
+  expect "and it exits 1" [ $status = 1 ]
+fi
+[ $wrong = 0 ] || exit 1
+echo "$kind: $(wc -l <"$work/compared") replays, $differing of them differ; every one names the environment: $says"
