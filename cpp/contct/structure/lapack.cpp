@@ -23,6 +23,13 @@ std::string library_of_dpbtrf() {
   return (ignored ? std::filesystem::path(found.dli_fname) : real).filename().string();
 }
 
+/// What OpenBLAS says of itself, with the processor that it takes this one for; empty where it is not loaded.
+std::string openblas_identity() {
+  using says = char*();
+  const auto get_config = reinterpret_cast<says*>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
+  return get_config == nullptr ? "" : get_config();
+}
+
 }  // namespace
 
 std::string lapack_identity() {
@@ -32,8 +39,10 @@ std::string lapack_identity() {
   CONTCT_FC_GLOBAL(ilaver, ILAVER)(&major, &minor, &patch);
   std::string words = "LAPACK " + std::to_string(major);
   words += "." + std::to_string(minor) + "." + std::to_string(patch);
-  const std::string library = library_of_dpbtrf();
-  return library.empty() ? words : words + ", " + library;
+  for (const std::string& more : {library_of_dpbtrf(), openblas_identity()}) {
+    if (!more.empty()) words += ", " + more;
+  }
+  return words;
 }
 
 }  // namespace contct

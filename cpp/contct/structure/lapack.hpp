@@ -6,7 +6,8 @@
 namespace contct {
 
 /// The LAPACK in use: its version as ILAVER has it, and the library that holds dpbtrf, as in
-/// "LAPACK 3.11.0, liblapack.so.3.11.0". Results of solves differ between libraries, calls of CONTCT do not.
+/// "LAPACK 3.11.0, liblapack.so.3.11.0"; where OpenBLAS is loaded, what it says of itself, too. Results of
+/// solves differ between libraries, calls of CONTCT do not.
 [[nodiscard]] std::string lapack_identity();
 
 }  // namespace contct
