@@ -22,8 +22,9 @@ add_library(contct_f2c STATIC f2c_door.c ${folder}/contct_f2c.c)
 set_source_files_properties(${folder}/contct_f2c.c PROPERTIES COMPILE_OPTIONS -fcommon)  # COMMON /DOF/ is shared
 set_source_files_properties(f2c_door.c PROPERTIES COMPILE_OPTIONS "-Wall;-Wextra;-Werror")
 target_include_directories(contct_f2c SYSTEM PRIVATE ${CONTCT_F2C_HEADER})
-target_link_libraries(contct_f2c PRIVATE contct_strict ${CONTCT_F2C_LIBRARY} m)
-set_target_properties(contct_f2c PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_link_libraries(contct_f2c PRIVATE contct_strict $<BUILD_INTERFACE:${CONTCT_F2C_LIBRARY}> m)
+set_target_properties(contct_f2c PROPERTIES POSITION_INDEPENDENT_CODE ON
+                      CONTCT_RUNTIME "${CONTCT_F2C_LIBRARY}")  # what an installed one names
 
 execute_process(COMMAND ${CONTCT_F2C_TRANSLATOR} --version OUTPUT_VARIABLE said ERROR_VARIABLE said)
 string(REGEX MATCH "version ([0-9]+)" said "${said}")

@@ -41,7 +41,9 @@ add_flang_object(door contct_c.f90 ${renamed})
 
 add_library(contct_flang STATIC ${flang_objects})
 set_target_properties(contct_flang PROPERTIES LINKER_LANGUAGE CXX)
-target_link_libraries(contct_flang PRIVATE ${CONTCT_FLANG_RUNTIME} ${CONTCT_FLANG_DECIMAL})
+set(flang_runtime ${CONTCT_FLANG_RUNTIME} ${CONTCT_FLANG_DECIMAL})
+target_link_libraries(contct_flang PRIVATE "$<BUILD_INTERFACE:${flang_runtime}>")
+set_target_properties(contct_flang PROPERTIES CONTCT_RUNTIME "${flang_runtime}")  # what an installed one names
 
 execute_process(COMMAND ${CONTCT_FLANG_COMPILER} --version OUTPUT_VARIABLE said)
 string(REGEX MATCH "version ([0-9.]+)" said "${said}")

@@ -18,6 +18,12 @@ for place in "$source" "$build" "$first"; do
     exit 1
   fi
 done
+# Nor a library by its full path: where else the copy goes, it may lie elsewhere.
+if grep -rInE '/[^ ;"]*/lib[^/ ;"]+[.](a|so)([^a-z]|$)' "$prefix" --include='*.cmake' --include='*.pc' |
+  grep -v '_IMPORT_PREFIX}/' >&2; then
+  echo "a library is named by its full path (above)" >&2
+  exit 1
+fi
 for name in contct/kernel/contct.h contct/kernel/plugin.h contct/kernel/contct.hpp contct/conform/compare.hpp \
   contct/path/path.hpp contct_c.mod contct-config.cmake contct-config-version.cmake contct.pc contct-cxx.pc \
   doc/contct/LICENSE doc/contct/README.md; do
