@@ -17,7 +17,7 @@ done
 
 need_core
 need_program
-need "to test" catch2 pkgconf
+need "to test" catch2 pkgconf python3
 
 # leg NAME: configure and build the preset of that name, quietly unless it fails, and test it.
 leg() {
