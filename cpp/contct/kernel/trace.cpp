@@ -8,7 +8,10 @@ namespace contct {
 namespace {
 
 void append_line(std::string& text, std::string_view key, std::string_view value) {
-  if (!value.empty()) text.append(key).append(" ").append(value).append("\n");
+  if (value.empty()) return;
+  text.append(key).append(" ").append(value).append("\n");
+  // A kernel's name may be a command of several lines; a line of a trace may not.
+  std::replace(text.end() - static_cast<std::ptrdiff_t>(value.size()) - 1, text.end() - 1, '\n', ' ');
 }
 
 /// The dofs, from 0 and in order, that the pairs of a call address.

@@ -81,15 +81,17 @@ class trace_reader {
   bool next_line(std::string_view& line);
   std::string_view need_line(std::string_view allowed);
   [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
-  void read_dofs(call_inputs<double>& in, std::vector<char>& given);
+  void read_header_line(std::string_view line, trace_header& h) const;
+  void read_dofs(call_inputs<double>& in);
   void read_pairs(call_inputs<double>& in);
-  void refuse_missing_dofs(const call_inputs<double>& in, const std::vector<char>& given) const;
+  void refuse_missing_dofs(const call_inputs<double>& in) const;
 
   std::string_view rest_;
   std::string name_;
   int line_number_ = 0;
   std::int64_t last_call_ = 0;
   std::vector<std::size_t> given_;  // dofs of the call before, to be forgotten
+  std::vector<char> is_given_;      // by dof, and never shorter than a call has been
 };
 
 }  // namespace contct

@@ -56,12 +56,17 @@ class trace_words {
     return word;
   }
 
+  static bool is_hex_digit(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+  }
+
   static std::optional<double> real_of(std::string_view word) {
     const bool negative = !word.empty() && word.front() == '-';
     if (negative) word.remove_prefix(1);
     const bool hex = word.substr(0, 2) == "0x";
     if (hex) word.remove_prefix(2);
-    if (word.empty() || word.front() == '-') return {};  // from_chars takes a sign of its own
+    // from_chars takes a sign of its own, and inf behind 0x.
+    if (word.empty() || word.front() == '-' || (hex && !is_hex_digit(word.front()))) return {};
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value,
                                               hex ? std::chars_format::hex : std::chars_format::general);
