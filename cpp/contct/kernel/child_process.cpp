@@ -33,7 +33,10 @@ void leave_parents_things(int channel) {
   dup2(STDERR_FILENO, STDOUT_FILENO);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGHUP}) (void)std::signal(signal, SIG_DFL);
+  // The parent's handlers neither: a crash must be one, and be told as one.
+  for (const int signal :
+       {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS})
+    (void)std::signal(signal, SIG_DFL);
   const auto kept = static_cast<unsigned>(channel);
   if (kept > 3) close_range(3, kept - 1, 0);
   close_range(kept + 1, ~0U, 0);
@@ -104,7 +107,7 @@ child_process::sent child_process::receive(std::string& message, clock::time_poi
 }
 
 std::string child_process::end() {
-  if (pid_ < 0) return "was stopped";
+  if (pid_ < 0) return was_stopped;
   if (channel_ >= 0) close(channel_);
   channel_ = -1;
   // One that is on its way out has a moment to say how.
@@ -118,7 +121,7 @@ std::string child_process::end() {
     waitpid(pid_, &status, 0);
   }
   pid_ = -1;
-  if (stopped) return "was stopped";
+  if (stopped) return was_stopped;
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";

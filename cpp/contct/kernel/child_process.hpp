@@ -30,8 +30,9 @@ class child_process {
   [[nodiscard]] sent receive(std::string& message, clock::time_point deadline) const;
 
   /// Make an end of it. "was ended by signal 11 (Segmentation fault)", "ended with status 2", or, when
-  /// it had to be stopped, "was stopped".
+  /// it had to be stopped, `was_stopped`.
   std::string end();
+  static constexpr const char* was_stopped = "was stopped";
 
  private:
   pid_t pid_ = -1;

@@ -10,10 +10,12 @@
 namespace contct {
 
 /// How long a kernel from outside may take for one call, and how often it may fail before it is asked no
-/// more.
+/// more. A crash costs a millisecond, and many show what they have in common; one that must be waited for
+/// costs the whole patience, and the user's too.
 struct outside_limits {
   std::chrono::milliseconds patience{10'000};
-  int most_failures = 5;
+  int most_failures = 1000;
+  int most_waits = 3;
 };
 
 /// What is known of a kernel from outside by its name alone: the listing's rule, 8-byte REAL, text only where
@@ -32,15 +34,18 @@ struct outside_limits {
 /// Counts failures, and says when it is enough.
 class failure_count {
  public:
-  explicit failure_count(int most) : most_(most) {}
+  explicit failure_count(const outside_limits& limits) : limits_(limits) {}
   /// Throws kernel_failure when the kernel has failed too often to be asked again.
   void refuse_when_enough() const;
-  /// Note a failure, and throw it.
+  /// Note a failure that cost no time, and throw it.
   [[noreturn]] void fail(const std::string& words);
+  /// Note that there was no answer in time, and throw it.
+  [[noreturn]] void fail_late(const std::string& words);
 
  private:
-  int most_;
-  int count_ = 0;
+  outside_limits limits_;
+  int failures_ = 0;
+  int waits_ = 0;
   std::string last_;
 };
 

@@ -25,7 +25,7 @@ void run_command(const std::string& command, int channel) {
 class pipe_kernel final : public kernel {
  public:
   pipe_kernel(const std::string& command, const outside_limits& limits)
-      : facts_(facts_of_pipe(command)), command_(command), limits_(limits), failures_(limits.most_failures) {}
+      : facts_(facts_of_pipe(command)), command_(command), limits_(limits), failures_(limits) {}
 
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
 
@@ -35,9 +35,9 @@ class pipe_kernel final : public kernel {
     const auto deadline = child_process::clock::now() + limits_.patience;
     asked_.clear();
     append_inputs(++calls_, "", c, c.isep, asked_);
-    take(child_->send(asked_, deadline));
+    take(child_->send(asked_, deadline), c.ss.size());
     answered_.clear();
-    while (!answer_is_whole()) take(child_->receive(answered_, deadline));
+    while (!answer_is_whole()) take(child_->receive(answered_, deadline), c.ss.size());
     read_answer(c);
   }
 
@@ -49,14 +49,18 @@ class pipe_kernel final : public kernel {
            (answered_.size() >= 5 && answered_.compare(answered_.size() - 5, 5, "\nend\n") == 0);
   }
 
-  void take(child_process::sent how) {
-    constexpr std::size_t most_answer = std::size_t{1} << 30;
-    if (how == child_process::sent::whole && answered_.size() < most_answer) return;
+  void take(child_process::sent how, std::size_t pairs) {
+    // More than any answer takes: a kernel that never stops talking must not take all memory.
+    const std::size_t most_answer = (std::size_t{1} << 20) + 1024 * pairs;
+    if (how == child_process::sent::whole && answered_.size() <= most_answer) return;
     std::string words = child_->end();
     child_.reset();
     if (how == child_process::sent::late)
-      words = "did not answer within " + std::to_string(limits_.patience.count()) + " ms";
-    if (how == child_process::sent::whole) words = "answered more than 1 GiB";
+      failures_.fail_late("did not answer within " + std::to_string(limits_.patience.count()) + " ms");
+    if (how == child_process::sent::whole)
+      words = "answered more than " + std::to_string(most_answer) + " bytes";
+    else if (words == child_process::was_stopped)
+      failures_.fail_late("closed its end of the pipe");  // and stayed: it had to be waited for
     failures_.fail(words);
   }
 
@@ -91,13 +95,19 @@ class pipe_kernel final : public kernel {
 }  // namespace
 
 void failure_count::refuse_when_enough() const {
-  if (count_ >= most_)
-    throw kernel_failure("is asked no more after " + std::to_string(count_) + " failures; the last: it " +
-                         last_);
+  if (failures_ < limits_.most_failures && waits_ < limits_.most_waits) return;
+  throw kernel_failure("is asked no more after " + std::to_string(failures_ + waits_) +
+                       " failures; the last: it " + last_);
 }
 
 void failure_count::fail(const std::string& words) {
-  ++count_;
+  ++failures_;
+  last_ = words;
+  throw kernel_failure("it " + words);
+}
+
+void failure_count::fail_late(const std::string& words) {
+  ++waits_;
   last_ = words;
   throw kernel_failure("it " + words);
 }

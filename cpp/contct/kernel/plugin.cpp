@@ -23,6 +23,7 @@ namespace {
 using abi_function = decltype(&contct_kernel_abi);
 using kernel_function = decltype(&contct_kernel);
 constexpr std::string_view ready_word = "ready";
+constexpr const char* too_slow = "did not load within its time";
 
 /// Memory that parent and child both see, as long as this object lives.
 class shared_memory {
@@ -124,7 +125,7 @@ void host(const shared_memory& memory, const std::string& path, int channel) {
 class plugin_kernel final : public kernel {
  public:
   plugin_kernel(const std::string& path, const outside_limits& limits)
-      : facts_(facts_of_plugin(path)), path_(path), limits_(limits), failures_(limits.most_failures) {
+      : facts_(facts_of_plugin(path)), path_(path), limits_(limits), failures_(limits) {
     constexpr std::size_t enough_for_most = std::size_t{1} << 18;
     memory_.emplace(enough_for_most);
     if (const std::string wrong = start(); !wrong.empty())
@@ -138,7 +139,9 @@ class plugin_kernel final : public kernel {
     const layout l{c.nc(), static_cast<int>(c.dd.size()), c.dof.indof, c.dof.ndofpn};
     make_room(l.bytes());
     if (!child_) {
-      if (const std::string wrong = start(); !wrong.empty()) failures_.fail(wrong);
+      const std::string wrong = start();
+      if (wrong == too_slow) failures_.fail_late(wrong);
+      if (!wrong.empty()) failures_.fail(wrong);
     }
     put(l, c);
     const auto deadline = child_process::clock::now() + limits_.patience;
@@ -148,9 +151,9 @@ class plugin_kernel final : public kernel {
     if (how != child_process::sent::whole) {
       const std::string words = child_->end();
       child_.reset();
-      failures_.fail(how == child_process::sent::late
-                         ? "did not answer within " + std::to_string(limits_.patience.count()) + " ms"
-                         : words);
+      if (how == child_process::sent::late)
+        failures_.fail_late("did not answer within " + std::to_string(limits_.patience.count()) + " ms");
+      failures_.fail(words);
     }
     refuse_trespass(l, c);
     take(l, c);
@@ -168,7 +171,7 @@ class plugin_kernel final : public kernel {
     const std::string words = child_->end();
     child_.reset();
     if (how == child_process::sent::whole) return word;
-    return how == child_process::sent::late ? "did not load within its time" : words + " while it was loaded";
+    return how == child_process::sent::late ? too_slow : words + " while it was loaded";
   }
 
   /// Memory is shared at the fork: more of it needs another child.
