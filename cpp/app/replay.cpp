@@ -114,7 +114,8 @@ void describe_replay(CLI::App& command, exit_status& status) {
   command
       .add_option("--kernel", options->kernels,
                   "The kernels to check; by default the 1989 code in the trace's precision")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);  // what follows is a trace
   add_report_options(command, options->report);
   command.callback([options, &status] { status = run_replay(*options); });
 }
