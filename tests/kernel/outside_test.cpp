@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -251,6 +252,22 @@ TEST_CASE("a FORTRAN plug-in's unit 26 is not this program's, and leaves no file
   }
   CHECK_FALSE(std::filesystem::exists(file));
   left.check();
+}
+
+TEST_CASE("a FORTRAN plug-in leaves no file where the listing never ran") {
+  std::filesystem::remove("fort.26");
+  {
+    const auto k = make_plugin(plugin("writes_unit_26"), short_patience());
+    CHECK(put(*k, behaves).empty());
+  }
+  CHECK_FALSE(std::filesystem::exists("fort.26"));
+}
+
+TEST_CASE("a plug-in's crash is told as one whatever this program does about its own") {
+  const auto own = std::signal(SIGSEGV, [](int) { _exit(9); });
+  const std::string words = put(*make_plugin(plugin("misbehaves"), short_patience()), crashes);
+  (void)std::signal(SIGSEGV, own);
+  CHECK_THAT(words, Contains("it was ended by signal 11"));
 }
 
 TEST_CASE("what a plug-in prints goes to standard error") {
