@@ -17,6 +17,7 @@ namespace {
 /// The file that the loaded dpbtrf comes from, without its folder; empty where the system cannot say.
 std::string library_of_dpbtrf() {
   Dl_info found{};
+  // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym know untyped addresses alone
   if (dladdr(reinterpret_cast<void*>(&CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)), &found) == 0) return "";
   std::error_code ignored;
   const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, ignored);
@@ -26,6 +27,7 @@ std::string library_of_dpbtrf() {
 /// What OpenBLAS says of itself, with the processor that it takes this one for; empty where it is not loaded.
 std::string openblas_identity() {
   using says = char*();
+  // NOLINTNEXTLINE(*-reinterpret-cast)
   const auto get_config = reinterpret_cast<says*>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
   return get_config == nullptr ? "" : get_config();
 }
