@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs what is missing, builds, and passes all tests. --full adds the legs that take longer: the
 # sanitizers, gfortran's run-time checks, the build without the program, the whole campaign of random
-# problems, the mutants of both kernels, formatting and clang-tidy.
+# problems, the mutants of both kernels, a second LAPACK, other processors, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -49,6 +49,10 @@ if [ "$full" = yes ]; then
   build/release/tests/contct_campaign 200000 2026
   echo "== mutants of both kernels"
   build/release/tests/contct_mutants
+  echo "== two LAPACKs"
+  sh tests/two_lapacks/run.sh build/release
+  echo "== other processors"
+  sh tests/emulated/run.sh || [ $? = 77 ]  # none of their compilers can be had
   sh tests/tree/tidy.sh build/release
   # The last lines are ctest's own summary, of everything that the release build has.
   ctest --preset release -j "$(nproc 2>/dev/null || echo 2)" --progress
