@@ -43,7 +43,7 @@ replay() {
   shift 2
   : >"$report"
   "$emulator" "$program" --kernel fortran,cpp,fortran-r4,cpp-r4 --markdown "$report" -- "$@" >"$log" 2>&1 && return 0
-  grep -v ': skipped: ' "$log" | tail -n 30
+  grep -v -e ': skipped: ' -e ': equal to the bit; ' "$log" | tail -n 30
   return 1
 }
 
