@@ -1,7 +1,7 @@
 /* CONTCT in C, as a plug-in: start yours from here.
  *
- *   cc -std=c11 -O2 -ffp-contract=off -shared -fPIC -I cpp -o kernel.so reference/kernels/contct_kernel.c
- *   build/release/contct fuzz --kernels fortran,plugin:kernel.so
+ *   cc -std=c11 -O2 -ffp-contract=off -shared -fPIC -I cpp -o kernel_c.so reference/kernels/contct_kernel.c
+ *   build/release/contct fuzz --kernels fortran,plugin:kernel_c.so
  *
  * -ffp-contract=off: without it some machines round a product and a sum once where the listing rounds
  * twice. */

@@ -1,7 +1,7 @@
 !> CONTCT in today's Fortran, as a plug-in: start yours from here.
 !>
-!>   gfortran -std=f2018 -O2 -ffp-contract=off -shared -fPIC -o kernel.so reference/kernels/contct_kernel.f90
-!>   build/release/contct fuzz --kernels fortran,plugin:kernel.so
+!>   gfortran -std=f2018 -O2 -ffp-contract=off -shared -fPIC -o kernel_f90.so reference/kernels/contct_kernel.f90
+!>   build/release/contct fuzz --kernels fortran,plugin:kernel_f90.so
 !>
 !> -ffp-contract=off: without it some machines round a product and a sum once where the listing rounds twice.
 module contct_kernel_f90

@@ -12,10 +12,14 @@ namespace {
 
 const std::filesystem::path root = CONTCT_ROOT;
 
-std::string readme() {
+std::string page(const char* name) {
   std::ostringstream text;
-  text << std::ifstream(root / "README.md").rdbuf();
+  text << std::ifstream(root / name).rdbuf();
   return text.str();
+}
+
+std::string readme() {
+  return page("README.md");
 }
 
 /// What stands between `from` and `to`.
@@ -51,4 +55,23 @@ TEST_CASE("the README's beam and its plate can be run") {
     ++problems;
   }
   CHECK(problems == 2);
+}
+
+TEST_CASE("the README cites the program as the program names itself") {
+  const std::string cited = between(readme(), "@software{contct,", "```");
+  const finished f = contct_program(root, {"--version"});
+  const std::string version = between(f.out, "contct ", "\n");
+  const std::string checksum = between(f.out + "\n", "listing sha256 ", "\n");
+  CHECK(checksum.size() == 64);
+  CHECK_THAT(cited, Catch::Matchers::Contains("{" + version + "}"));
+  CHECK_THAT(cited, Catch::Matchers::Contains("Listing SHA-256 " + checksum + "}"));
+}
+
+TEST_CASE("the trace that the format's page shows is one, and FORTRAN and C++ answer it so") {
+  process_options shown;
+  shown.input = between(page("reference/trace-format.md"), "```trace\n", "```");
+  const finished f = contct_program(root, {"replay", "--kernel", "fortran,cpp", "-"}, shown);
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Catch::Matchers::Contains("1 calls") && Catch::Matchers::Contains("2 passed, 0 failed"));
 }
