@@ -159,7 +159,7 @@ TEST_CASE("a plug-in that hangs is given up after its time, three times, and the
 TEST_CASE("a plug-in may fail a thousand times where failing costs no time") {
   const leftovers left;
   {
-    const auto k = make_plugin(plugin("misbehaves"), short_patience());
+    const auto k = make_plugin(plugin("misbehaves"));
     int failed = 0;
     for (int i = 0; i < 1000; ++i) failed += put(*k, exits_3) == "it ended with status 3" ? 1 : 0;
     CHECK(failed == 1000);

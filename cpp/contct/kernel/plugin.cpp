@@ -228,10 +228,10 @@ class plugin_kernel final : public kernel {
 
   void take(const layout& l, call<double>& c) {
     const std::vector<fenced_array> a = l.arrays();
-    const std::byte* const m = memory_->data();
-    std::memcpy(&c.smin, m + a[smin].at, sizeof c.smin);
-    std::memcpy(c.ss.data(), m + a[ss].at, a[ss].bytes);
-    std::memcpy(c.isep.data(), m + a[isep].at, a[isep].bytes);
+    std::byte* const m = memory_->data();
+    c.smin = *at<double>(m, a[smin]);
+    std::copy_n(at<double>(m, a[ss]), c.ss.size(), c.ss.begin());
+    std::copy_n(at<int>(m, a[isep]), c.isep.size(), c.isep.begin());
   }
 
   kernel_facts facts_;
