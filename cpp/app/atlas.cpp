@@ -39,6 +39,7 @@ exit_status run_atlas(const atlas_options& options) {
   constexpr writer writers[] = {atlas_csv, atlas_json, atlas_svg};
   refuse_shared_outputs(outputs);
   std::vector<std::unique_ptr<output_file>> files;
+  files.reserve(outputs.size());
   for (const output_option& o : outputs) files.push_back(open_output(o));
 
   const atlas a = measured(options.request);
