@@ -35,8 +35,8 @@ call_inputs<double> inputs_of(const answered_call& c) {
 /// first divergence.
 class problem_watcher final : public observer {
  public:
-  problem_watcher(hunted_problem& p, const kernel_facts& leader, const std::vector<std::string>& followers)
-      : p_(p), leader_(leader), p_each_(p.each) {
+  problem_watcher(hunted_problem& p, kernel_facts leader, const std::vector<std::string>& followers)
+      : p_(p), leader_(std::move(leader)), p_each_(p.each) {
     for (const std::string& name : followers) kernels_.push_back(make_kernel(name));
     p.each.resize(followers.size());
   }
