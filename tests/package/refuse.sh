@@ -9,7 +9,7 @@ refused() {
   mkdir -p "$work"
   printf 'cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES C)\nfind_package(contct %s)\n' "$1" \
     >"$work/CMakeLists.txt"
-  if "$CMAKE" -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" >"$work/said" 2>&1; then
+  if "$CMAKE" -G "$GENERATOR" -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" >"$work/said" 2>&1; then
     echo "find_package(contct $1) is not refused" >&2
     exit 1
   fi
