@@ -11,7 +11,9 @@
 #define SCALE(gap, response) ((gap) / (response))
 #endif
 
-int contct_kernel_abi(void) { return CONTCT_KERNEL_ABI; }
+int contct_kernel_abi(void) {
+  return CONTCT_KERNEL_ABI;
+}
 
 static double scale_factor(double gap, double response, int isep, int isurf) {
   if (response == 0.) return 1.;
@@ -30,7 +32,7 @@ void contct_kernel(const double dd[], const double dtest[], const double cc[], d
   if (++calls == CRASHES_AT) abort();
 #endif
 #ifdef REMEMBERS
-  static double before = 1.;  /* SMIN of the call before */
+  static double before = 1.; /* SMIN of the call before */
   const double start = before < 1E-3 ? .5 : 1.;
 #else
   const double start = 1.;
