@@ -101,7 +101,7 @@ class run {
 
  private:
   void refuse_bad_options() const {
-    (void)make_engine(options_.engine, linear_structure());
+    refuse_unknown_engine(options_.engine);
     for (const std::string& name : options_.kernels) {
       if (std::count(options_.kernels.begin(), options_.kernels.end(), name) > 1)
         throw std::invalid_argument("--kernels: \"" + name + "\" is named twice");

@@ -1,6 +1,7 @@
 // The seam between the path and the linear algebra: three verbs.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -16,6 +17,15 @@ namespace contct {
 struct residual_load {
   std::span<const double> increment;  ///< the step's total load less the previous one's [dofs]
   double share;                       ///< from 1 down to 0
+  std::uint64_t version = 0;          ///< another one for another increment, never 0 on a path
+};
+
+/// What an engine has done.
+struct engine_counts {
+  std::int64_t factors = 0;  ///< factorisations
+  std::int64_t solves = 0;   ///< with a factor, for one right-hand side
+  std::int64_t updates = 0;  ///< toggles taken in without a factorisation
+  std::int64_t checks = 0;   ///< of the residual
 };
 
 /// Thrown by an engine when the stiffness matrix of a structure that is held has no Cholesky
@@ -42,13 +52,19 @@ class stiffness_engine {
   virtual void recover(std::span<const double> load, std::span<const double> pair_forces,
                        std::span<double> u) = 0;
 
+  [[nodiscard]] virtual engine_counts counts() const { return {}; }
+
   /// Reciprocal condition of the current K, its diagonal scaled to 1.
   [[nodiscard]] virtual double reciprocal_condition() = 0;
 };
 
-/// Make an engine by name: "refactor". `s` must outlive it. Throws std::invalid_argument,
-/// naming what there is, when there is none of that name.
+/// Make an engine by name: "refactor" for anything, "updated" for anything, "condensed" for beams with pairs.
+/// `s` must outlive it. Throws std::invalid_argument when there is none of that name, or when it does not
+/// suit `s`.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s);
+
+/// Throws std::invalid_argument, naming what there is, when no engine has that name.
+void refuse_unknown_engine(std::string_view name);
 
 /// The names that make_engine knows.
 [[nodiscard]] std::vector<std::string> engine_names();

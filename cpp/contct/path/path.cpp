@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -33,7 +34,7 @@ class path {
   /// The paper's loop, for one load step.
   path_end follow_step(int step, const load_history& total_load) {
     begin_step(step, total_load);
-    residual_load residual{increment_, 1.0};
+    residual_load residual{increment_, 1.0, ++version_};
     if (!now_.held() && !mend_.on()) return never_held(step);
     for (int number = 1; number <= increments_allowed_; ++number) {
       const bool snaps =
@@ -44,8 +45,8 @@ class path {
       if (snaps && s_min == 1.0) return set_free(step, residual);
       if (s_min < 1.0 && falls_at_full_load(residual.share * (1.0 - s_min))) s_min = leave_undone();
       if (mend_.on() && mend_.mute(s_min)) standstill_.reset();
-      const bool moved = now_.advance(s_min);     // D <- D + s_min d*
-      if (!snaps) residual.share *= 1.0 - s_min;  // R* <- (1 - s_min) R*
+      const bool moved = now_.advance(s_min, !mend_.on());  // D <- D + s_min d*
+      if (!snaps) residual.share *= 1.0 - s_min;            // R* <- (1 - s_min) R*
       fraction_ = 1.0 - residual.share;
       tell_increment(step, number, s_min, snaps);
       if (!now_.held() && !mend_.on()) return stop(path_status::mechanism, step, residual, now_.opened());
@@ -147,7 +148,7 @@ class path {
         now_.take_back_toggles();
         return put_at(u);
       }
-      now_.advance(s_min);
+      now_.advance(s_min, !mend_.on());
       tell_increment(step, ++number, s_min, false);
       switch_springs();
     }
@@ -235,6 +236,7 @@ class path {
 
   std::vector<double> total_;      // total load at the end of the step [dofs]
   std::vector<double> increment_;  // total less the previous step's [dofs]
+  std::uint64_t version_ = 0;      // of the increment
   double fraction_ = 0.0;          // share of the step's load applied by now
   std::vector<int> last_opened_;   // by the last increment that opened any
   standstill standstill_;

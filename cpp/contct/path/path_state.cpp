@@ -17,7 +17,10 @@ path_state::path_state(const linear_structure& structure_of_path)
     surface.push_back(p.surface);
     status.push_back(p.closed ? in_contact : separated);
   }
-  for (int i = 0; i < static_cast<int>(pairs()); ++i) watched.push_back(structure.dof_of_pair(i));
+  for (int i = 0; i < static_cast<int>(pairs()); ++i) {
+    at_dof.push_back(static_cast<std::size_t>(structure.dof_of_pair(i)));
+    watched.push_back(structure.dof_of_pair(i));
+  }
   std::sort(watched.begin(), watched.end());
   watched.erase(std::unique(watched.begin(), watched.end()), watched.end());
   sprung = status;
@@ -43,8 +46,8 @@ void path_state::take_back_toggles() {
   events.clear();
 }
 
-bool path_state::advance(double s_min) {
-  for (std::size_t i = 0; i < pairs(); ++i) {
+bool path_state::advance(double s_min, bool gathers) {
+  for (std::size_t i = 0; gathers && i < pairs(); ++i) {
     if (sprung[i] == in_contact) pair_force[i] -= structure.pairs[i].stiffness * (s_min * d_star[dof_of(i)]);
   }
   bool moved = 1.0 - s_min != 1.0;
@@ -74,8 +77,9 @@ bool path_state::held() const {
 }
 
 bool path_state::response_is_finite() const {
-  return std::all_of(watched.begin(), watched.end(),
-                     [this](int dof) { return std::isfinite(d_star[static_cast<std::size_t>(dof)]); });
+  double sum = 0.0;  // of zeros, unless one is infinite or NaN
+  for (const int dof : watched) sum += 0.0 * d_star[static_cast<std::size_t>(dof)];
+  return sum == 0.0;
 }
 
 std::vector<int> path_state::opened() const {

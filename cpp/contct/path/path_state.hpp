@@ -15,23 +15,22 @@ struct path_state {
   explicit path_state(const linear_structure& s);
 
   const linear_structure& structure;
-  std::vector<double> d;           ///< D [dofs], kept up to date at the watched dofs
-  std::vector<double> d_star;      ///< d* [dofs], at the watched dofs
-  std::vector<double> c;           ///< faces [pairs]
-  std::vector<double> s;           ///< scale factors of the last call [pairs]
-  std::vector<int> node;           ///< ID, from 1 [pairs]
-  std::vector<int> surface;        ///< ISURF [pairs]
-  std::vector<int> status;         ///< ISEP [pairs]
-  std::vector<int> sprung;         ///< status of each pair in the engine's stiffness [pairs]
-  std::vector<double> pair_force;  ///< force on the structure that each spring has gathered [pairs]
-  std::vector<int> watched;        ///< dofs where pairs act, once each
-  std::vector<event> events;       ///< of the last call
+  std::vector<double> d;            ///< D [dofs], kept up to date at the watched dofs
+  std::vector<double> d_star;       ///< d* [dofs], at the watched dofs
+  std::vector<double> c;            ///< faces [pairs]
+  std::vector<double> s;            ///< scale factors of the last call [pairs]
+  std::vector<int> node;            ///< ID, from 1 [pairs]
+  std::vector<int> surface;         ///< ISURF [pairs]
+  std::vector<int> status;          ///< ISEP [pairs]
+  std::vector<int> sprung;          ///< status of each pair in the engine's stiffness [pairs]
+  std::vector<double> pair_force;   ///< force on the structure that each spring has gathered [pairs]
+  std::vector<std::size_t> at_dof;  ///< dof of each pair [pairs]
+  std::vector<int> watched;         ///< dofs where pairs act, once each
+  std::vector<event> events;        ///< of the last call
 
   [[nodiscard]] std::size_t pairs() const { return status.size(); }
   /// The dof of a pair, and any dof as an index.
-  [[nodiscard]] std::size_t dof_of(std::size_t pair) const {
-    return static_cast<std::size_t>(structure.dof_of_pair(static_cast<int>(pair)));
-  }
+  [[nodiscard]] std::size_t dof_of(std::size_t pair) const { return at_dof[pair]; }
 
   /// Put one call to the kernel, with `d_test` [dofs] for d*, and tell the observers. Sets s, status
   /// and events; returns s_min.
@@ -40,9 +39,9 @@ struct path_state {
   /// Undo the toggles of the last call.
   void take_back_toggles();
 
-  /// D <- D + s_min d* at the watched dofs, and with it the forces in the springs. False when
-  /// nothing moved to the last bit and no load was applied.
-  bool advance(double s_min);
+  /// D <- D + s_min d* at the watched dofs, and with it, where `gathers`, the forces in the springs. False
+  /// when nothing moved to the last bit and no load was applied.
+  bool advance(double s_min, bool gathers);
 
   /// The rigid motions that supports and closed pairs stop, and whether these are all.
   [[nodiscard]] rigid_rank held_by() const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contct/path/engine.hpp"
+#include "contct/path/factored_stiffness.hpp"
 
 namespace contct {
 
@@ -18,18 +19,9 @@ class refactor_engine final : public stiffness_engine {
   [[nodiscard]] double reciprocal_condition() override;
 
  private:
-  void refine(std::span<const double> right_hand_side, std::span<double> u);
-  void residual(std::span<const double> right_hand_side, std::span<const double> u,
-                std::span<double> left) const;
-  void assemble();
-  void factor_now();
-  /// K x = right-hand side, in place, by the factor at hand; fixed dofs stay where they are.
-  void solve(std::span<double> x);
-
   const linear_structure& structure_;
   std::vector<char> closed_;  // [pairs]
-  band_matrix work_;
-  std::vector<double> ordered_;  // a right-hand side in the order of the rows, where that is another
+  factored_stiffness stiffness_;
 };
 
 }  // namespace contct

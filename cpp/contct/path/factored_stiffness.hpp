@@ -1,0 +1,50 @@
+// The stiffness with a set of closed springs, factored by LAPACK: what engines have in common.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contct/structure/structure.hpp"
+
+namespace contct {
+
+/// K with the springs of some pairs, and its Cholesky factor. Dofs and pairs are numbered from 0.
+/// Memory: one band, besides the structure's own.
+class factored_stiffness {
+ public:
+  explicit factored_stiffness(const linear_structure& s);
+
+  /// Assemble K with the springs of the pairs that are `closed` [pairs] and factor it (dpbtrf). Throws
+  /// no_factor.
+  void factor(std::span<const char> closed);
+
+  /// Solve K x = x in place for every dof by the factor (dpbtrs); fixed dofs stay where they are.
+  void solve(std::span<double> x);
+
+  /// Solve K u = right-hand side, then correct u with the residual in long double, until that no longer
+  /// helps: u has the digits that the stored matrix has, or 3 more than LAPACK alone where its condition
+  /// takes more.
+  void solve_refined(std::span<const double> right_hand_side, std::span<double> u);
+
+  /// Reciprocal condition of K with these springs, its diagonal scaled to 1. The factor is gone afterwards.
+  [[nodiscard]] double reciprocal_condition(std::span<const char> closed);
+
+  /// The factor itself, in the order of the structure's rows.
+  [[nodiscard]] const band_matrix& factor_band() const { return work_; }
+
+ private:
+  void assemble(std::span<const char> closed);
+  void residual(std::span<const double> right_hand_side, std::span<const double> u,
+                std::span<double> left) const;
+
+  const linear_structure& structure_;
+  std::vector<char> closed_;  // the springs in the factor [pairs]
+  band_matrix work_;
+  std::vector<double> ordered_;  // a right-hand side in the order of the rows, where that is another
+};
+
+/// A load [dofs] with the pairs' forces [pairs] added where they act.
+[[nodiscard]] std::vector<double> with_pair_forces(const linear_structure& s, std::span<const double> load,
+                                                   std::span<const double> pair_forces);
+
+}  // namespace contct
