@@ -1,0 +1,169 @@
+// contct_bench: the engines side by side, in one process, on one thread.
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bench/measure.hpp"
+#include "bench/problems.hpp"
+#include "contct/io/follow.hpp"
+#include "contct/structure/lapack.hpp"
+#include "contct/text/output_file.hpp"
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+struct options {
+  std::vector<std::string> problems = bench::usual_problems();
+  std::vector<std::string> engines = contct::engine_names();
+  int events = 0;
+  int rounds = 3;
+  std::string json_file;
+};
+
+/// One thread on one processor: ratios then mean what they say.
+void pin() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(static_cast<std::size_t>(std::max(sched_getcpu(), 0)), &set);
+  (void)sched_setaffinity(0, sizeof set, &set);
+  using setter = void (*)(int);
+  if (const auto threads = reinterpret_cast<setter>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
+    threads(1);
+}
+
+/// OpenBLAS says which kernels it chose; others have none to choose.
+std::string core_type() {
+  using getter = char* (*)();
+  const auto name = reinterpret_cast<getter>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  return name != nullptr ? name() : "no choice of its own";
+}
+
+void show(const std::string& words) {
+  if (isatty(STDERR_FILENO) != 0) (void)std::fputs(("\r\033[K" + words).c_str(), stderr);
+}
+
+/// The median run of several; the first one's certificate.
+bench::run_of_engine measured(const options& o, const contct::problem& p, const contct::linear_structure& s,
+                              const std::string& engine, int events) {
+  std::vector<bench::run_of_engine> runs;
+  for (int round = 0; round < o.rounds; ++round) {
+    runs.push_back(bench::run_engine(p, s, engine, events, round == 0));
+    constexpr double long_enough = 20.0;  // seconds: one run says it
+    if (runs.back().seconds > long_enough) break;
+  }
+  const bool certified = runs.front().certified;
+  std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  bench::run_of_engine median = runs[runs.size() / 2];
+  median.certified = certified;
+  return median;
+}
+
+double ms_per_event(const bench::run_of_engine& r) {
+  return 1e3 * r.seconds / static_cast<double>(std::max<std::size_t>(r.events.size(), 1));
+}
+
+/// The 1989 way on the large plates takes an hour: this many of its events say what one costs.
+int events_of_refactor(const options& o, const std::string& problem) {
+  constexpr int enough = 60;
+  return o.events == 0 && (problem == "mat-100" || problem == "grid-100") ? enough : o.events;
+}
+
+void bench_problem(const options& o, const std::string& name, json& rows) {
+  show(name + ": building");
+  const contct::problem p = bench::make_problem(name);
+  const contct::linear_structure s = contct::structure_of(p);
+  const double solve_ms = 1e3 * bench::seconds_of_a_solve(s);
+  std::optional<bench::run_of_engine> reference;
+  fmt::print("{}: {} dofs, half bandwidth {}, {} pairs; one dpbtrs {:.3f} ms\n", name, s.dofs(),
+             s.stiffness.subdiagonals(), s.pairs.size(), solve_ms);
+  for (const std::string& engine : o.engines) {
+    show(name + ": " + engine);
+    const bench::run_of_engine r =
+        measured(o, p, s, engine, engine == "refactor" ? events_of_refactor(o, name) : o.events);
+    show("");
+    if (engine == "refactor") reference = r;
+    const double ms = ms_per_event(r);
+    const bench::difference d = reference ? bench::difference_of(*reference, r) : bench::difference{};
+    const double ratio = reference ? ms_per_event(*reference) / ms : 0.0;
+    fmt::print(
+        "  {:<10} {:>5} events {:>9.4f} ms/event  x{:<7.4g} {:>6.2f} dpbtrs  {:>5} MiB  events {}  load "
+        "{:.0e}  D {:.0e}  {}\n"
+        "             {} factors, {} solves, {} updates, {} checks\n",
+        engine, r.events.size(), ms, ratio, ms / solve_ms, r.peak_kib / 1024,
+        d.same_events ? "same" : "DIFFERENT", d.load, d.displacement,
+        r.certified ? "certified"
+        : r.whole   ? "NOT certified"
+                    : "not whole",
+        r.counts.factors, r.counts.solves, r.counts.updates, r.counts.checks);
+    (void)std::fflush(stdout);
+    rows.push_back({{"problem", name},
+                    {"engine", engine},
+                    {"dofs", s.dofs()},
+                    {"pairs", s.pairs.size()},
+                    {"events", r.events.size()},
+                    {"whole", r.whole},
+                    {"ms_per_event", ms},
+                    {"ratio_to_refactor", reference ? json(ratio) : json()},
+                    {"ratio_to_dpbtrs", ms / solve_ms},
+                    {"same_events", d.same_events},
+                    {"max_load_fraction_diff", d.load},
+                    {"max_d_diff", d.displacement},
+                    {"certified", r.whole ? json(r.certified) : json()},
+                    {"peak_mib", static_cast<double>(r.peak_kib) / 1024},
+                    {"factors", r.counts.factors},
+                    {"solves", r.counts.solves},
+                    {"updates", r.counts.updates},
+                    {"checks", r.counts.checks}});
+  }
+}
+
+int run(const options& o) {
+  std::optional<contct::output_file> out;
+  if (!o.json_file.empty()) out.emplace(o.json_file);
+  pin();
+  fmt::print("{}; core type: {}; one thread\n", contct::lapack_identity(), core_type());
+  json rows = json::array();
+  for (const std::string& name : o.problems) bench_problem(o, name, rows);
+  if (out) {
+    const json document = {
+        {"blas", contct::lapack_identity()}, {"core", core_type()}, {"rows", std::move(rows)}};
+    out->write(document.dump(1) + "\n");
+    out->finish();
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  options o;
+  CLI::App program("The engines side by side on problems by formula.", "contct_bench");
+  program.add_option("--problem", o.problems, "Problems: rail-S, mat-N, grid-N")
+      ->delimiter(',')
+      ->capture_default_str();
+  program.add_option("--engine", o.engines, "Engines; refactor is what the others are measured by")
+      ->delimiter(',')
+      ->capture_default_str();
+  program.add_option("--events", o.events, "Stop every step after this many events; 0: never")
+      ->check(CLI::Range(0, 1'000'000'000));
+  program.add_option("--rounds", o.rounds, "Runs of which the median counts")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
+  program.add_option("--json", o.json_file, "Write the rows to this file (- is standard output)");
+  CLI11_PARSE(program, argc, argv);
+  try {
+    return run(o);
+  } catch (const std::exception& e) {
+    (void)std::fputs((std::string("contct_bench: ") + e.what() + "\n").c_str(), stderr);
+    return 2;
+  }
+}

@@ -1,0 +1,132 @@
+#include "bench/measure.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "contct/check/certificate.hpp"
+#include "contct/io/follow.hpp"
+#include "contct/path/factored_stiffness.hpp"
+#include "contct/structure/cholesky.hpp"
+
+namespace bench {
+namespace {
+
+using clock = std::chrono::steady_clock;
+
+/// Peak memory of the process since the last call of forget_peak.
+long peak_kib() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("VmHWM:", 0) == 0) return std::stol(line.substr(6));
+  }
+  return 0;
+}
+
+void forget_peak() {
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+class watch final : public contct::observer {
+ public:
+  explicit watch(run_of_engine& r) : r_(r) {}
+
+  void incremented(const contct::increment& i) override {
+    for (const contct::event& e : i.events) r_.events.push_back({e.pair, i.step - 1 + i.fraction});
+    if (!i.events.empty()) last_ = clock::now();
+  }
+  void step_ended(const contct::step_state& s) override {
+    r_.displacement.assign(s.displacement.begin(), s.displacement.end());
+    isep_.assign(s.isep.begin(), s.isep.end());
+    last_state_ = contct::step_state{s.step, s.fraction, r_.displacement, isep_, s.rcond, s.rescued};
+  }
+
+  void start() { last_ = start_ = clock::now(); }
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(last_ - start_).count(); }
+  [[nodiscard]] contct::step_state last_state() const {
+    return {last_state_.step,  last_state_.fraction, r_.displacement, isep_,
+            last_state_.rcond, last_state_.rescued};
+  }
+
+ private:
+  run_of_engine& r_;
+  clock::time_point start_, last_;
+  std::vector<int> isep_;
+  contct::step_state last_state_{};
+};
+
+}  // namespace
+
+run_of_engine run_engine(const contct::problem& p, const contct::linear_structure& s,
+                         const std::string& engine, int most_events, bool certify) {
+  run_of_engine r;
+  const std::unique_ptr<contct::kernel> leader = contct::make_kernel("corrected");
+  const contct::load_history loads = contct::loads_of(p);
+  watch w(r);
+  contct::observer* const observers[] = {&w};
+  contct::path_limits limits;
+  limits.increments_per_step = most_events;
+  forget_peak();
+  w.start();
+  const std::unique_ptr<contct::stiffness_engine> solves = contct::make_engine(engine, s);
+  const contct::path_end end =
+      contct::follow_path(s, static_cast<int>(p.steps.size()), loads, *solves, *leader, observers, limits);
+  r.seconds = w.seconds();
+  r.peak_kib = peak_kib();
+  r.counts = solves->counts();
+  r.whole = end.status == contct::path_status::solved;
+  if (!certify || !r.whole) return r;
+  contct::certifier judge(s, loads);
+  judge.step_ended(w.last_state());
+  r.certified = judge.all_exact();
+  return r;
+}
+
+double seconds_of_a_solve(const contct::linear_structure& s) {
+  contct::factored_stiffness f(s);
+  std::vector<char> closed(s.pairs.size());
+  for (std::size_t i = 0; i < closed.size(); ++i) closed[i] = s.pairs[i].closed ? 1 : 0;
+  f.factor(closed);
+  std::vector<double> x(static_cast<std::size_t>(s.dofs()));
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 15; ++round) {
+    std::fill(x.begin(), x.end(), 1.0);
+    const auto start = clock::now();
+    contct::solve_with(f.factor_band(), x);
+    least = std::min(least, std::chrono::duration<double>(clock::now() - start).count());
+  }
+  return least;
+}
+
+difference difference_of(const run_of_engine& reference, const run_of_engine& other) {
+  difference d;
+  constexpr double tie = 1e-9;
+  const std::size_t n = std::min(reference.events.size(), other.events.size());
+  const bool both_whole = reference.whole && other.whole;
+  d.same_events = !both_whole || reference.events.size() == other.events.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    d.load = std::max(d.load, std::abs(reference.events[i].load - other.events[i].load));
+    if (reference.events[i].pair == other.events[i].pair) continue;
+    // Another pair: is it among the reference's events at the same load?
+    bool tied = false;
+    for (std::size_t j = i; j-- > 0 && reference.events[i].load - reference.events[j].load <= tie;)
+      tied = tied || reference.events[j].pair == other.events[i].pair;
+    for (std::size_t j = i; j < n && reference.events[j].load - reference.events[i].load <= tie; ++j)
+      tied = tied || reference.events[j].pair == other.events[i].pair;
+    d.same_events = d.same_events && tied;
+  }
+  if (reference.displacement.size() != other.displacement.size() ||
+      reference.events.size() != other.events.size())
+    return d;
+  double size = 0.0;
+  for (std::size_t i = 0; i < reference.displacement.size(); ++i) {
+    size = std::max(size, std::abs(reference.displacement[i]));
+    d.displacement = std::max(d.displacement, std::abs(reference.displacement[i] - other.displacement[i]));
+  }
+  d.displacement = size > 0.0 ? d.displacement / size : 0.0;
+  return d;
+}
+
+}  // namespace bench
