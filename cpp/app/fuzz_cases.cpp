@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "contct/kernel/kernel.hpp"
-#include "contct/numeric/probe.hpp"
 #include "contct/text/output_file.hpp"
 
 namespace contct {
@@ -26,17 +25,8 @@ std::string file_name_of(const std::string& kernel) {
 }
 
 trace_header header_of(const found_case& c) {
-  const kernel_facts k = facts_of_kernel(c.what.leader);
-  trace_header h;
+  trace_header h = header_for(facts_of_kernel(c.what.leader), CONTCT_LISTING_SHA256);
   h.about = {"found by contct fuzz, and shrunk"};
-  h.kernel = k.name;
-  h.real_bytes = k.real_bytes;
-  h.rule = k.rule;
-  h.listing = CONTCT_LISTING_SHA256;
-  h.compiler = k.compiler;
-  h.flags = k.flags;
-  h.lapack = "none";
-  h.floating_point = describe(probe_floating_point());
   return h;
 }
 

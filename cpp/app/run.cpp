@@ -187,20 +187,11 @@ class run {
   }
 
   [[nodiscard]] trace_header header_of_trace(const kernel& leader) const {
-    const kernel_facts& k = leader.facts();
-    trace_header h;
+    trace_header h = header_for(leader.facts(), CONTCT_LISTING_SHA256, lapack_identity());
     h.about = {fmt::format("every call of {}",
                            options_.file == "-" ? "a problem from standard input"
                                                 : std::filesystem::path(options_.file).filename().string())};
     if (!problem_.title.empty()) h.about.push_back(on_one_line(problem_.title));
-    h.kernel = k.name;
-    h.real_bytes = k.real_bytes;
-    h.rule = k.rule;
-    h.listing = CONTCT_LISTING_SHA256;
-    h.compiler = k.compiler;
-    h.flags = k.flags;
-    h.lapack = lapack_identity();
-    h.floating_point = describe(probe_floating_point());
     return h;
   }
 

@@ -1,21 +1,13 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/kernel/trace.hpp"
-#include "contct/numeric/probe.hpp"
 #include "golden/cases.hpp"
 
 namespace golden {
 
 std::string recorded(const golden_trace& t) {
   const std::unique_ptr<contct::kernel> k = contct::make_kernel(t.real_bytes == 4 ? "fortran-r4" : "fortran");
-  contct::trace_header h;
+  contct::trace_header h = contct::header_for(k->facts(), CONTCT_LISTING_SHA256);
   h.about = t.about;
-  h.kernel = k->facts().name;
-  h.real_bytes = t.real_bytes;
-  h.listing = CONTCT_LISTING_SHA256;
-  h.compiler = k->facts().compiler;
-  h.flags = k->facts().flags;
-  h.lapack = "none";
-  h.floating_point = describe(contct::probe_floating_point());
   std::string text;
   contct::append_header(h, text);
   std::int64_t number = 0;

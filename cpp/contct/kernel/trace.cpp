@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contct/numeric/bits.hpp"
+#include "contct/numeric/probe.hpp"
 
 namespace contct {
 namespace {
@@ -25,6 +26,19 @@ std::vector<std::size_t> addressed_dofs(const call<double>& c) {
 }
 
 }  // namespace
+
+trace_header header_for(const kernel_facts& k, const std::string& listing, const std::string& lapack) {
+  trace_header h;
+  h.kernel = k.name;
+  h.real_bytes = k.real_bytes;
+  h.rule = k.rule;
+  h.listing = listing;
+  h.compiler = k.compiler;
+  h.flags = k.flags;
+  h.lapack = lapack;
+  h.floating_point = describe(probe_floating_point());
+  return h;
+}
 
 void append_header(const trace_header& h, std::string& text) {
   text.append(trace_format).append("\n");

@@ -9,6 +9,7 @@
 
 #include "contct/kernel/call.hpp"
 #include "contct/kernel/call_inputs.hpp"
+#include "contct/kernel/kernel.hpp"
 
 namespace contct {
 
@@ -36,6 +37,11 @@ struct recorded_call {
   call_inputs<double> in;
   call_outputs out;
 };
+
+/// The header of a trace that a kernel with these facts answers, in this process: `listing` is the checksum;
+/// the inputs come from no solve unless `lapack` says from whose.
+[[nodiscard]] trace_header header_for(const kernel_facts& k, const std::string& listing,
+                                      const std::string& lapack = "none");
 
 /// Append the header of a trace.
 void append_header(const trace_header& h, std::string& text);
