@@ -14,6 +14,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "catch.hpp"
 #include "contct/kernel/fortran.hpp"
@@ -295,6 +296,20 @@ TEST_CASE("a command that answers is a kernel") {
   {
     const auto k = make_pipe(well_behaved, short_patience());
     for (int i = 0; i < 3; ++i) CHECK(put(*k, behaves).empty());
+  }
+  left.check();
+}
+
+TEST_CASE("a second answer that comes late is not taken for the next call's") {
+  const leftovers left;
+  {
+    const std::string said = well_behaved;
+    const std::string twice = said.substr(0, said.rfind("; done")) + " && sleep 0.05 && echo stray; done";
+    const auto k = make_pipe(twice, short_patience());
+    CHECK(put(*k, behaves).empty());
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    CHECK(put(*k, behaves) == "it answered without being asked");
+    CHECK(put(*k, behaves).empty());
   }
   left.check();
 }

@@ -31,6 +31,7 @@ class pipe_kernel final : public kernel {
 
   void answer(call<double>& c) override {
     failures_.refuse_when_enough();
+    if (child_) refuse_stray_answer();
     if (!child_) child_.emplace([this](int channel) { run_command(command_, channel); });
     const auto deadline = child_process::clock::now() + limits_.patience;
     asked_.clear();
@@ -44,6 +45,14 @@ class pipe_kernel final : public kernel {
   std::string take_text() override { return std::exchange(text_, {}); }
 
  private:
+  /// What comes before anything is asked would be taken for the answer.
+  void refuse_stray_answer() {
+    answered_.clear();
+    if (child_->receive(answered_, child_process::clock::now()) != child_process::sent::whole) return;
+    child_.reset();
+    failures_.fail("answered without being asked");
+  }
+
   [[nodiscard]] bool answer_is_whole() const {
     return answered_ == "end\n" ||
            (answered_.size() >= 5 && answered_.compare(answered_.size() - 5, 5, "\nend\n") == 0);
