@@ -17,6 +17,7 @@
 #include "app/streams.hpp"
 #include "contct/check/certificate.hpp"
 #include "contct/check/early_toggles.hpp"
+#include "contct/check/final_state.hpp"
 #include "contct/check/free_run.hpp"
 #include "contct/check/lockstep.hpp"
 #include "contct/check/rescue.hpp"
@@ -38,12 +39,13 @@ namespace {
 struct run_options {
   std::string file;
   std::vector<std::string> kernels = {"fortran", "cpp"};
-  std::string engine = "refactor";
+  std::string engine;  // empty: what suits the leader
   std::string json;
   std::string log;
   std::string trace;
   report_options report;
   bool free_run = false;
+  bool final_only = false;
   bool strict = false;
   int max_increments = 0;
 };
@@ -96,12 +98,13 @@ class run {
     refuse_bad_options();
     read();
     refuse_shared_outputs(outputs(), {{"the problem", options_.file}});
+    if (options_.final_only) return final_only();
     return options_.free_run ? free_run() : lockstep_run();
   }
 
  private:
   void refuse_bad_options() const {
-    refuse_unknown_engine(options_.engine);
+    if (!options_.engine.empty() && options_.engine != "auto") refuse_unknown_engine(options_.engine);
     for (const std::string& name : options_.kernels) {
       if (std::count(options_.kernels.begin(), options_.kernels.end(), name) > 1)
         throw std::invalid_argument("--kernels: \"" + name + "\" is named twice");
@@ -114,11 +117,35 @@ class run {
     for (const std::string& w : problem_.warnings) complain("warning: {}", w);
     structure_ = structure_of(problem_);
     judged_.emplace(structure_, loads_of(problem_));
+    engine_ = engine_for(options_.kernels.front());
   }
 
   [[nodiscard]] std::vector<output_option> outputs() const {
     return with_reports({{"--json", options_.json}, {"--log", options_.log}, {"--trace", options_.trace}},
                         options_.report);
+  }
+
+  /// The engine of a path that `name` leads. The 1989 way for the 1989 rule, unless asked otherwise: it is
+  /// there to be faithful. The quickest for others.
+  [[nodiscard]] std::string engine_for(const std::string& name) const {
+    const bool as_listed = options_.engine.empty() && facts_of_kernel(name).rule == "listing";
+    if (as_listed) return "refactor";
+    if (!options_.engine.empty() && options_.engine != "auto") return options_.engine;
+    return std::string(quickest_engine(structure_));
+  }
+
+  /// No path: the equilibrium under each step's load, by the oracle.
+  exit_status final_only() {
+    options_.kernels.clear();
+    engine_ = "oracle";
+    open_outputs();
+    print_heading();
+    const path_end end = find_final_states(structure_, static_cast<int>(problem_.steps.size()),
+                                           loads_of(problem_), observers(nullptr));
+    print_verdict(paint::quiet,
+                  {"only the end: the oracle's, judged by equilibrium, penetration and tension",
+                   fmt::format("{} factorisations", end.work.factors)});
+    return finish(end, true, nullptr);
   }
 
   exit_status lockstep_run() {
@@ -144,7 +171,7 @@ class run {
       const std::string& name = options_.kernels[i];
       path_record own;
       certifier judged(structure_, loads_of(problem_));
-      own.end = follow(problem_, structure_, options_.engine, *make_kernel(name), {&judged, &own}, limits());
+      own.end = follow(problem_, structure_, engine_for(name), *make_kernel(name), {&judged, &own}, limits());
       const double bound = free_run_bound(facts_of_kernel(options_.kernels[0]), facts_of_kernel(name));
       const free_run_difference d = compare_paths(leader, own, bound, structure_.dofs_per_node);
       all_within = all_within && d.within_bound();
@@ -156,6 +183,15 @@ class run {
 
   /// The leader's path, under the eyes of all that was asked for.
   path_end follow_observed(kernel& leader, lockstep* compared, path_record* record) {
+    std::vector<observer*> watching = observers(compared);
+    if (!options_.trace.empty())
+      watching.push_back(&recorder_.emplace(header_of_trace(leader), trace_sink()));
+    if (record != nullptr) watching.push_back(record);
+    return follow(problem_, structure_, engine_, leader, watching, limits());
+  }
+
+  /// Those that watch every run.
+  std::vector<observer*> observers(lockstep* compared) {
     std::vector<observer*> watching;
     if (compared != nullptr) watching.push_back(compared);
     watching.push_back(&*judged_);
@@ -163,11 +199,8 @@ class run {
     if (shows_table_) watching.push_back(&table_.emplace(problem_, compared, *judged_, terminal_));
     if (json_) watching.push_back(&*json_);
     if (log_) watching.push_back(&*log_);
-    if (!options_.trace.empty())
-      watching.push_back(&recorder_.emplace(header_of_trace(leader), trace_sink()));
-    if (record != nullptr) watching.push_back(record);
     watching.push_back(&digits_);
-    return follow(problem_, structure_, options_.engine, leader, watching, limits());
+    return watching;
   }
 
   [[nodiscard]] path_limits limits() const { return {options_.max_increments, rescue_by_oracle(structure_)}; }
@@ -176,7 +209,7 @@ class run {
   void open_outputs() {
     if (!options_.json.empty()) {
       json_file_.emplace(options_.json);
-      json_.emplace(problem_, options_.kernels, options_.engine, *judged_, *json_file_);
+      json_.emplace(problem_, options_.kernels, engine_, *judged_, *json_file_);
     }
     if (!options_.log.empty()) {
       log_file_.emplace(options_.log);
@@ -206,7 +239,8 @@ class run {
     const std::vector<std::string> facts = {
         fmt::format("{}, {}, {}", counted(nodes(problem_.geometry), "node"),
                     counted(problem_.pairs.size(), "pair"), counted(problem_.steps.size(), "step")),
-        fmt::format("kernels {}", fmt::join(options_.kernels, ", ")), "engine " + options_.engine};
+        options_.final_only ? "only the end" : fmt::format("kernels {}", fmt::join(options_.kernels, ", ")),
+        "engine " + engine_};
     for (const std::string& line : wrap(facts, terminal_.width)) fmt::print("{}\n", line);
     fmt::print("\n");
   }
@@ -259,7 +293,8 @@ class run {
 
   /// The certificate of the leader's path, for people.
   void report_certificate() {
-    if (const auto items = certificate_summary(*judged_); !items.empty()) {
+    if (auto items = certificate_summary(*judged_); !items.empty()) {
+      if (options_.final_only) items.resize(1);  // the oracle would agree with itself
       const bool good = std::none_of(judged_->steps().begin(), judged_->steps().end(),
                                      [](const auto& c) { return c && !c->exact; });
       print_verdict(good ? paint::good : paint::bad, items);
@@ -315,7 +350,8 @@ class run {
     return status_of(status);
   }
 
-  const run_options& options_;
+  run_options options_;
+  std::string engine_;  // of the leader's path
   terminal terminal_;
   bool shows_table_;
   problem problem_;
@@ -344,10 +380,17 @@ void add_run(CLI::App& program, exit_status& status) {
   command->add_option("--kernels", options->kernels, "Kernels to run, the first one leads")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--engine", options->engine, "How the stiffness equations are solved")
-      ->capture_default_str();
-  command->add_flag("--free-run", options->free_run,
-                    "Drive each kernel on a path of its own; compare events, load fractions and D");
+  command->add_option("--engine", options->engine,
+                      fmt::format("How the stiffness equations are solved: auto, {} [refactor for the 1989 "
+                                  "rule, auto for others]",
+                                  fmt::join(engine_names(), ", ")));
+  CLI::Option* const free_run =
+      command->add_flag("--free-run", options->free_run,
+                        "Drive each kernel on a path of its own; compare events, load fractions and D");
+  CLI::Option* const final_only =
+      command->add_flag("--final-only", options->final_only,
+                        "No path: the equilibrium under each step's load by the oracle, certified");
+  final_only->excludes(free_run)->excludes("--kernels")->excludes("--engine");
   command->add_flag("--strict", options->strict, "Exit 3 when a final state is not certified");
   command->add_option("--max-increments", options->max_increments, "Limit of increments in a step")
       ->check(CLI::Range(1, most_increments));
@@ -356,6 +399,8 @@ void add_run(CLI::App& program, exit_status& status) {
                       "Write every call of the leader, inputs and answers, to this file");
   add_report_options(*command, options->report);
   command->add_option("--log", options->log, "Write what the leader writes to unit 26 to this file");
+  for (const char* of_a_path : {"--trace", "--log", "--max-increments"})
+    final_only->excludes(command->get_option(of_a_path));
   command->callback([options, &status] { status = run(*options).go(); });
 }
 

@@ -14,18 +14,18 @@ TEST_CASE("the response is proportional to the residual load, and the springs in
   refactor_engine engine(s);
   std::vector<double> increment(6, 0.0);
   increment[4] = 1.0;
-  std::vector<double> d_star(6);
+  std::vector<double> d_star(1);
   const double f = 8.0 / 3 / 1e4;
   engine.respond({increment, 1.0}, d_star);
-  CHECK(d_star[4] == Approx(f).epsilon(1e-13));
+  CHECK(d_star[0] == Approx(f).epsilon(1e-13));
   engine.respond({increment, 0.25}, d_star);
-  CHECK(d_star[4] == Approx(f / 4).epsilon(1e-13));
+  CHECK(d_star[0] == Approx(f / 4).epsilon(1e-13));
   engine.switch_spring(0, true);
   engine.respond({increment, 1.0}, d_star);
-  CHECK(d_star[4] == Approx(1 / (1 / f + 5e4)).epsilon(1e-13));
+  CHECK(d_star[0] == Approx(1 / (1 / f + 5e4)).epsilon(1e-13));
   engine.switch_spring(0, false);
   engine.respond({increment, 1.0}, d_star);
-  CHECK(d_star[4] == Approx(f).epsilon(1e-13));
+  CHECK(d_star[0] == Approx(f).epsilon(1e-13));
 }
 
 TEST_CASE("recovery gives every dof from the load and the pairs' forces") {
@@ -52,7 +52,7 @@ TEST_CASE("a stiffness matrix without a factor is an exception, not a number") {
   linear_structure s = p.structure();
   s.stiffness.add(0, 0, -100.0);
   refactor_engine engine(s);
-  std::vector<double> d_star(4);
+  std::vector<double> d_star(0);
   CHECK_THROWS_AS(engine.respond({std::vector<double>(4, 1.0), 1.0}, d_star), no_factor);
 }
 
@@ -80,18 +80,18 @@ TEST_CASE(
     std::vector<double> increment(static_cast<std::size_t>(p->dofs()), 0.0);
     increment[static_cast<std::size_t>(3 * place(*p, 3, 2))] = -1.0;
     increment[static_cast<std::size_t>(3 * place(*p, 4, 0) + along)] = 0.5;
-    std::vector<double> d_star(increment.size());
+    std::vector<double> d_star(2);
     std::vector<double> u(increment.size());
     engine.respond({increment, 1.0}, d_star);
     engine.recover(increment, std::vector<double>{0.25, -0.125}, u);
-    std::vector<double> answer;
+    std::vector<double> answer = d_star;
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j < 3; ++j) {
         const auto at = static_cast<std::size_t>(3 * place(*p, i, j));
-        answer.insert(answer.end(), {d_star[at], d_star[at + static_cast<std::size_t>(along)], u[at]});
+        answer.insert(answer.end(), {u[at], u[at + static_cast<std::size_t>(along)]});
       }
     }
-    CHECK(d_star[static_cast<std::size_t>(3 * place(*p, 0, 2))] == 0.0);
+    CHECK(u[static_cast<std::size_t>(3 * place(*p, 0, 2))] == 0.0);
     answers.push_back(answer);
   }
   for (std::size_t i = 0; i < answers[0].size(); ++i)

@@ -180,6 +180,12 @@ void result_json::finish(std::string_view status, const path_end& end, const loc
                     {"fraction", end.fraction},
                     {"pairs", numbered(end.pairs)}};
   out_.write(fmt::format("\n  ],\n  \"end\": {},\n", how.dump()));
+  const engine_counts& work = end.work;
+  out_.write(fmt::format("  \"engine_work\": {},\n", json({{"factors", work.factors},
+                                                           {"solves", work.solves},
+                                                           {"updates", work.updates},
+                                                           {"checks", work.checks}})
+                                                         .dump()));
   if (!free_runs_.empty()) out_.write(fmt::format("  \"free_run\": [{}],\n", fmt::join(free_runs_, ", ")));
   out_.write(fmt::format("  \"lockstep\": {},\n  \"status\": {}\n}}\n", lock.dump(), json(status).dump()));
   out_.finish();

@@ -232,8 +232,7 @@ void condensed_engine::respond(const residual_load& residual, std::span<double> 
   } else if (--until_check_ <= 0) {
     refine_response();
   }
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    d_star[static_cast<std::size_t>(2 * structure_.pairs[i].node)] = residual.share * x_[place_[i]].w;
+  for (std::size_t i = 0; i < place_.size(); ++i) d_star[i] = residual.share * x_[place_[i]].w;
 }
 
 /// One solve of the whole beam; the condensed load is what the condensed stiffness makes of it.
@@ -288,7 +287,7 @@ void condensed_engine::refine_response() {
     off = std::max(off, std::abs(correction.w));
   }
   if (off > drift_allowed * size) check_every_ = std::max(check_every_ / 2, 4);
-  if (off < drift_allowed / 100 * size) check_every_ = std::min(2 * check_every_, longest_between_checks);
+  if (off < drift_allowed / 4 * size) check_every_ = std::min(2 * check_every_, longest_between_checks);
   until_check_ = check_every_;
 }
 

@@ -1,13 +1,24 @@
 #include "contct/path/engine.hpp"
 
 #include "contct/path/condensed_engine.hpp"
+#ifdef CONTCT_HAS_CHOLMOD
+#include "contct/path/cholmod_engine.hpp"
+#endif
 #include "contct/path/refactor_engine.hpp"
 #include "contct/path/updated_engine.hpp"
 
 namespace contct {
 
 std::vector<std::string> engine_names() {
-  return {"refactor", "updated", "condensed"};
+  std::vector<std::string> names = {"refactor", "updated", "condensed"};
+#ifdef CONTCT_HAS_CHOLMOD
+  names.emplace_back("cholmod");
+#endif
+  return names;
+}
+
+std::string_view quickest_engine(const linear_structure& s) {
+  return condensed_engine::suits(s) ? "condensed" : "updated";
 }
 
 void refuse_unknown_engine(std::string_view name) {
@@ -22,6 +33,9 @@ void refuse_unknown_engine(std::string_view name) {
 std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s) {
   refuse_unknown_engine(name);
   if (name == "condensed") return std::make_unique<condensed_engine>(s);
+#ifdef CONTCT_HAS_CHOLMOD
+  if (name == "cholmod") return std::make_unique<cholmod_engine>(s);
+#endif
   if (name == "updated") return std::make_unique<updated_engine>(s);
   return std::make_unique<refactor_engine>(s);
 }

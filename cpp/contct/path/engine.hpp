@@ -18,6 +18,9 @@ struct residual_load {
   std::span<const double> increment;  ///< the step's total load less the previous one's [dofs]
   double share;                       ///< from 1 down to 0
   std::uint64_t version = 0;          ///< another one for another increment, never 0 on a path
+  /// The kernel's last scale factors [pairs], or nothing: the pairs with the least are likely to be switched
+  /// next. No more than a hint.
+  std::span<const double> last_s = {};
 };
 
 /// What an engine has done.
@@ -44,8 +47,7 @@ class stiffness_engine {
   /// Put the spring of pair `pair` (from 0) in, or take it out.
   virtual void switch_spring(int pair, bool closed) = 0;
 
-  /// Solve K w* = R* and write d* at the dofs that pairs watch; other entries of `d_star` [dofs]
-  /// are the engine's to use. Throws no_factor.
+  /// Solve K w* = R* and write d* where each pair acts to `d_star` [pairs]. Throws no_factor.
   virtual void respond(const residual_load& residual, std::span<double> d_star) = 0;
 
   /// Solve K u = load + the pairs' forces, for every dof. `pair_forces` [pairs]. Throws no_factor.
@@ -58,10 +60,14 @@ class stiffness_engine {
   [[nodiscard]] virtual double reciprocal_condition() = 0;
 };
 
-/// Make an engine by name: "refactor" for anything, "updated" for anything, "condensed" for beams with pairs.
-/// `s` must outlive it. Throws std::invalid_argument when there is none of that name, or when it does not
-/// suit `s`.
+/// Make an engine by name: "refactor" for anything, "updated" for anything, "condensed" for beams with pairs,
+/// "cholmod" for anything where the library is built in. `s` must outlive it. Throws std::invalid_argument
+/// when there is none of that name, or when it does not suit `s`.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s);
+
+/// The engine that is quickest for `s` without any optional library: "condensed" where it suits, or
+/// "updated".
+[[nodiscard]] std::string_view quickest_engine(const linear_structure& s);
 
 /// Throws std::invalid_argument, naming what there is, when no engine has that name.
 void refuse_unknown_engine(std::string_view name);

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contct/path/engine.hpp"
+#include "contct/path/refine.hpp"
+#include "contct/structure/band_solve.hpp"
 #include "contct/structure/cholesky.hpp"
 
 namespace contct {
@@ -38,29 +39,43 @@ void factored_stiffness::solve(std::span<double> x) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = ordered_[static_cast<std::size_t>(rows[i])];
 }
 
+void factored_stiffness::solve_unit(int dof, std::span<double> x) {
+  if (structure_.fixed[static_cast<std::size_t>(dof)] != 0) return;
+  const int row = structure_.row_of(dof);
+  const std::vector<int>& rows = structure_.rows;
+  if (rows.empty()) {
+    x[static_cast<std::size_t>(row)] = 1.0;
+    return solve_from(work_, row, x);
+  }
+  std::fill(ordered_.begin(), ordered_.end(), 0.0);
+  ordered_[static_cast<std::size_t>(row)] = 1.0;
+  solve_from(work_, row, ordered_);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = ordered_[static_cast<std::size_t>(rows[i])];
+}
+
+void factored_stiffness::solve_units(std::span<const int> dofs, std::vector<double>& x) {
+  x.assign(static_cast<std::size_t>(work_.order()) * many, 0.0);
+  int first = work_.order();
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (structure_.fixed[static_cast<std::size_t>(dofs[i])] != 0) continue;
+    const int row = structure_.row_of(dofs[i]);
+    x[static_cast<std::size_t>(row) * many + i] = 1.0;
+    first = std::min(first, row);
+  }
+  if (first < work_.order()) solve_many_from(work_, first, x);
+}
+
 void factored_stiffness::solve_refined(std::span<const double> right_hand_side, std::span<double> u) {
   std::copy(right_hand_side.begin(), right_hand_side.end(), u.begin());
   solve(u);
-  constexpr int most_passes = 6;
-  constexpr double eps = std::numeric_limits<double>::epsilon();
-  std::vector<double> correction(u.size());
-  double before = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < most_passes; ++pass) {
-    residual(right_hand_side, u, correction);
+  const auto scale = [this](std::size_t dof) {
+    const int row = structure_.row_of(static_cast<int>(dof));
+    return std::sqrt(structure_.stiffness.at(row, row));
+  };
+  refine(u, scale, [this, right_hand_side](std::span<const double> x, std::span<double> correction) {
+    residual(right_hand_side, x, correction);
     solve(correction);
-    double largest = 0.0;
-    double size = 0.0;
-    for (std::size_t dof = 0; dof < u.size(); ++dof) {
-      const int row = structure_.row_of(static_cast<int>(dof));
-      const double scale = std::sqrt(structure_.stiffness.at(row, row));
-      largest = std::max(largest, scale * std::abs(correction[dof]));
-      size = std::max(size, scale * std::abs(u[dof]));
-    }
-    if (!(largest < before / 2)) return;
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] += correction[i];
-    if (largest <= eps / 2 * size) return;
-    before = largest;
-  }
+  });
 }
 
 /// What K and the closed springs leave of the right-hand side; every product and sum in long double.

@@ -21,6 +21,14 @@ class factored_stiffness {
   /// Solve K x = x in place for every dof by the factor (dpbtrs); fixed dofs stay where they are.
   void solve(std::span<double> x);
 
+  /// Solve K x = e for the unit vector of one dof: x [dofs], which comes zeroed. Half a pass over the factor
+  /// less than `solve`.
+  void solve_unit(int dof, std::span<double> x);
+
+  /// The same for up to `many` dofs in one pass over the factor: x[row * many + i] for the i-th, in the
+  /// order of the structure's rows.
+  void solve_units(std::span<const int> dofs, std::vector<double>& x);
+
   /// Solve K u = right-hand side, then correct u with the residual in long double, until that no longer
   /// helps: u has the digits that the stored matrix has, or 3 more than LAPACK alone where its condition
   /// takes more.

@@ -39,7 +39,7 @@ void mending::stand_up() {
 void mending::hold_at_rest(std::span<double> load) const {
   for (const int pair : leaning_) {
     const auto i = static_cast<std::size_t>(pair);
-    load[state_.dof_of(i)] += state_.structure.pairs[i].stiffness * state_.d[state_.dof_of(i)];
+    load[state_.at_dof[i]] += state_.structure.pairs[i].stiffness * state_.d[i];
   }
 }
 
@@ -61,21 +61,18 @@ bool mending::mute(double s_min) {
 
 std::span<const double> mending::d_test() {
   if (muted_.empty()) return state_.d_star;
-  d_test_.resize(state_.d_star.size());
-  for (const int dof : state_.watched) {
-    d_test_[static_cast<std::size_t>(dof)] = state_.d_star[static_cast<std::size_t>(dof)];
-  }
-  for (const int pair : muted_) d_test_[state_.dof_of(static_cast<std::size_t>(pair))] = 0.0;
+  d_test_ = state_.d_star;
+  for (const int pair : muted_) d_test_[state_.first_there[static_cast<std::size_t>(pair)]] = 0.0;
+  for (std::size_t i = 0; i < d_test_.size(); ++i) d_test_[i] = d_test_[state_.first_there[i]];
   return d_test_;
 }
 
 bool mending::obeys(std::span<const double> u) const {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   double largest = 0.0;
-  for (const int dof : state_.watched)
-    largest = std::max(largest, std::abs(u[static_cast<std::size_t>(dof)]));
+  for (const std::size_t dof : state_.at_dof) largest = std::max(largest, std::abs(u[dof]));
   for (std::size_t i = 0; i < state_.pairs(); ++i) {
-    const double pressing = state_.surface[i] * (u[state_.dof_of(i)] - state_.c[i]);
+    const double pressing = state_.surface[i] * (u[state_.at_dof[i]] - state_.c[i]);
     const bool right = state_.status[i] == in_contact ? pressing >= -4 * eps * std::abs(state_.c[i])
                                                       : pressing <= 32 * eps * largest;
     if (!right) return false;
@@ -85,9 +82,10 @@ bool mending::obeys(std::span<const double> u) const {
 
 void mending::put_on_faces() {
   for (std::size_t i = 0; i < state_.pairs(); ++i) {
-    double& at = state_.d[state_.dof_of(i)];
+    double& at = state_.d[state_.first_there[i]];
     if (state_.status[i] * state_.surface[i] * (state_.c[i] - at) < 0) at = state_.c[i];
   }
+  for (std::size_t i = 0; i < state_.pairs(); ++i) state_.d[i] = state_.d[state_.first_there[i]];
 }
 
 }  // namespace contct

@@ -31,7 +31,7 @@ class mending {
   /// advances. True when that has just happened.
   bool mute(double s_min);
 
-  /// d* as the kernel is to see it [dofs].
+  /// d* as the kernel is to see it [pairs].
   [[nodiscard]] std::span<const double> d_test();
 
   /// Does every pair stand, under displacement `u` [dofs], on the side of its face that its status
@@ -49,7 +49,7 @@ class mending {
   std::vector<int> leaning_;    // open pairs whose springs are in
   std::vector<int> muted_;      // pairs that are not asked
   int last_at_rest_ = -1;       // the pair toggled last without progress
-  std::vector<double> d_test_;  // d* with the muted pairs' 0 [dofs]
+  std::vector<double> d_test_;  // d* with the muted pairs' 0 [pairs]
 };
 
 }  // namespace contct

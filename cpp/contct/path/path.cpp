@@ -20,7 +20,7 @@ class path {
  public:
   path(const linear_structure& s, stiffness_engine& engine, kernel& leader,
        std::span<observer* const> observers, int increments_allowed, const rescuer& rescue)
-      : now_(s),
+      : now_(s, leader.facts().rule == "listing"),
         engine_(engine),
         leader_(leader),
         observers_(observers),
@@ -45,6 +45,7 @@ class path {
       if (snaps && s_min == 1.0) return set_free(step, residual);
       if (s_min < 1.0 && falls_at_full_load(residual.share * (1.0 - s_min))) s_min = leave_undone();
       if (mend_.on() && mend_.mute(s_min)) standstill_.reset();
+      residual.last_s = now_.s;
       const bool moved = now_.advance(s_min, !mend_.on());  // D <- D + s_min d*
       if (!snaps) residual.share *= 1.0 - s_min;            // R* <- (1 - s_min) R*
       fraction_ = 1.0 - residual.share;
@@ -139,10 +140,7 @@ class path {
       const std::vector<double> u = displacement(nothing);
       if (mend_.obeys(u)) return put_at(u);
       mend_.put_on_faces();
-      for (const int dof : now_.watched) {
-        const auto at = static_cast<std::size_t>(dof);
-        now_.d_star[at] = u[at] - now_.d[at];
-      }
+      for (std::size_t i = 0; i < now_.pairs(); ++i) now_.d_star[i] = u[now_.at_dof[i]] - now_.d[i];
       const double s_min = now_.ask(leader_, mend_.d_test(), observers_);
       if (now_.events.empty() || !now_.held()) {  // nothing to mend, or only rounding opens the last
         now_.take_back_toggles();
@@ -155,8 +153,7 @@ class path {
   }
 
   void put_at(std::span<const double> u) {
-    for (const int dof : now_.watched)
-      now_.d[static_cast<std::size_t>(dof)] = u[static_cast<std::size_t>(dof)];
+    for (std::size_t i = 0; i < now_.pairs(); ++i) now_.d[i] = u[now_.at_dof[i]];
   }
 
   /// The displacement of every dof now, under the load applied so far.
@@ -195,8 +192,7 @@ class path {
   }
 
   [[nodiscard]] bool has_moved() const {
-    return std::any_of(now_.watched.begin(), now_.watched.end(),
-                       [this](int dof) { return now_.d[static_cast<std::size_t>(dof)] != 0.0; });
+    return std::any_of(now_.d.begin(), now_.d.end(), [](double d) { return d != 0.0; });
   }
 
   [[nodiscard]] bool can_lean() {
@@ -262,6 +258,7 @@ path_end follow_path(const linear_structure& s, int steps, const load_history& t
       end = {p.rescued(step) ? path_status::solved : path_status::not_factored, step, p.fraction(), {}};
     }
   }
+  end.work = engine.counts();
   return end;
 }
 

@@ -29,6 +29,7 @@ struct path_end {
   double fraction = 1.0;   ///< share of that step's load reached
   std::vector<int> pairs;  ///< mechanism: whose opening freed the structure; cycle and limit: those
                            ///< that keep toggling; from 0, empty when none did
+  engine_counts work = {};  ///< what the engine did
 };
 
 /// Loads along the path: write the total load at the end of `step` (from 1) to `total` [dofs],

@@ -2,33 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace contct {
 
-path_state::path_state(const linear_structure& structure_of_path)
+path_state::path_state(const linear_structure& structure_of_path, bool as_listed)
     : structure(structure_of_path),
-      d(static_cast<std::size_t>(structure.dofs())),
-      d_star(static_cast<std::size_t>(structure.dofs())),
+      d(structure.pairs.size()),
+      d_star(structure.pairs.size()),
       s(structure.pairs.size()),
-      pair_force(structure.pairs.size()) {
+      pair_force(structure.pairs.size()),
+      as_listed_(as_listed) {
   for (const contact_pair& p : structure.pairs) {
     c.push_back(p.face);
-    node.push_back(p.node + 1);
+    id.push_back(as_listed ? p.node + 1 : static_cast<int>(id.size()) + 1);
     surface.push_back(p.surface);
     status.push_back(p.closed ? in_contact : separated);
   }
   for (int i = 0; i < static_cast<int>(pairs()); ++i) {
     at_dof.push_back(static_cast<std::size_t>(structure.dof_of_pair(i)));
-    watched.push_back(structure.dof_of_pair(i));
   }
-  std::sort(watched.begin(), watched.end());
-  watched.erase(std::unique(watched.begin(), watched.end()), watched.end());
+  std::unordered_map<std::size_t, std::size_t> first_at;
+  for (std::size_t i = 0; i < pairs(); ++i)
+    first_there.push_back(first_at.emplace(at_dof[i], i).first->second);
+  if (as_listed) {
+    dd_.resize(static_cast<std::size_t>(structure.dofs()));
+    dtest_.resize(dd_.size());
+  }
   sprung = status;
 }
 
 double path_state::ask(kernel& leader, std::span<const double> d_test, std::span<observer* const> observers) {
-  call<double> arguments{
-      d, d_test, c, s, 0.0, node, status, surface, {structure.deflection + 1, structure.dofs_per_node}};
+  call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
+  if (as_listed_) {
+    for (std::size_t i = 0; i < pairs(); ++i) {
+      dd_[at_dof[i]] = d[i];
+      dtest_[at_dof[i]] = d_test[i];
+    }
+    arguments.dd = dd_;
+    arguments.dtest = dtest_;
+    arguments.dof = {structure.deflection + 1, structure.dofs_per_node};
+  }
   leader.answer(arguments);
   events.clear();
   for (std::size_t i = 0; i < pairs(); ++i) {
@@ -48,14 +62,13 @@ void path_state::take_back_toggles() {
 
 bool path_state::advance(double s_min, bool gathers) {
   for (std::size_t i = 0; gathers && i < pairs(); ++i) {
-    if (sprung[i] == in_contact) pair_force[i] -= structure.pairs[i].stiffness * (s_min * d_star[dof_of(i)]);
+    if (sprung[i] == in_contact) pair_force[i] -= structure.pairs[i].stiffness * (s_min * d_star[i]);
   }
   bool moved = 1.0 - s_min != 1.0;
-  for (const int dof : watched) {
-    const auto at = static_cast<std::size_t>(dof);
-    const double before = d[at];
-    d[at] += s_min * d_star[at];
-    moved = moved || d[at] != before;
+  for (std::size_t i = 0; i < pairs(); ++i) {
+    const double before = d[i];
+    d[i] += s_min * d_star[i];
+    moved |= d[i] != before;
   }
   return moved;
 }
@@ -77,9 +90,9 @@ bool path_state::held() const {
 }
 
 bool path_state::response_is_finite() const {
-  double sum = 0.0;  // of zeros, unless one is infinite or NaN
-  for (const int dof : watched) sum += 0.0 * d_star[static_cast<std::size_t>(dof)];
-  return sum == 0.0;
+  bool finite = true;
+  for (const double x : d_star) finite &= x - x == 0.0;
+  return finite;
 }
 
 std::vector<int> path_state::opened() const {
@@ -93,7 +106,7 @@ std::vector<int> path_state::opened() const {
 std::vector<double> path_state::forces_gathered() const {
   std::vector<double> forces = pair_force;
   for (std::size_t i = 0; i < pairs(); ++i) {
-    if (sprung[i] == in_contact) forces[i] += structure.pairs[i].stiffness * d[dof_of(i)];
+    if (sprung[i] == in_contact) forces[i] += structure.pairs[i].stiffness * d[i];
   }
   return forces;
 }

@@ -17,11 +17,14 @@ class refactor_engine final : public stiffness_engine {
   void recover(std::span<const double> load, std::span<const double> pair_forces,
                std::span<double> u) override;
   [[nodiscard]] double reciprocal_condition() override;
+  [[nodiscard]] engine_counts counts() const override { return counts_; }
 
  private:
   const linear_structure& structure_;
   std::vector<char> closed_;  // [pairs]
   factored_stiffness stiffness_;
+  std::vector<double> w_star_;  // [dofs]
+  engine_counts counts_;
 };
 
 }  // namespace contct

@@ -51,17 +51,15 @@ bool rigid_snap(const linear_structure& s, std::span<const int> status, std::spa
   if (largest_of(motion) == 0.0) return false;
   double longest_way = 0.0;
   for (std::size_t i = 0; i < status.size(); ++i) {
-    const auto dof = static_cast<std::size_t>(s.dof_of_pair(static_cast<int>(i)));
-    d_star[dof] = along(motion, s.held_by_pairs[i]);
-    if (status[i] == in_contact || std::abs(d_star[dof]) < rounding_of_motion) continue;
-    longest_way = std::max(longest_way, (s.pairs[i].face - d[dof]) / d_star[dof]);
+    d_star[i] = along(motion, s.held_by_pairs[i]);
+    if (status[i] == in_contact || std::abs(d_star[i]) < rounding_of_motion) continue;
+    longest_way = std::max(longest_way, (s.pairs[i].face - d[i]) / d_star[i]);
   }
   for (std::size_t i = 0; i < status.size(); ++i) {
-    const auto dof = static_cast<std::size_t>(s.dof_of_pair(static_cast<int>(i)));
-    d_star[dof] = along(motion, s.held_by_pairs[i]) * (longest_way > 0.0 ? 2.0 * longest_way : 1.0);
+    d_star[i] = along(motion, s.held_by_pairs[i]) * (longest_way > 0.0 ? 2.0 * longest_way : 1.0);
   }
   for (std::size_t i = 0; i < status.size(); ++i) {  // what is left there is rounding
-    if (status[i] == in_contact) d_star[static_cast<std::size_t>(s.dof_of_pair(static_cast<int>(i)))] = 0.0;
+    if (status[i] == in_contact) d_star[i] = 0.0;
   }
   return true;
 }

@@ -7,10 +7,10 @@
 
 namespace contct {
 
-/// Write to `d_star` [dofs], at the pairs' dofs, a rigid motion that the residual load drives and that
+/// Write to `d_star` [pairs] a rigid motion that the residual load drives and that
 /// supports and closed pairs leave free: the limit, up to its size, of the response of the structure on a
 /// ground that gets ever softer. It is long enough for every open pair on its way to be reached. `increment`
-/// is the step's load increment and `d` the deflection now [dofs]; `status` is ISEP [pairs]. False, and
+/// is the step's load increment [dofs], `d` the deflection now and `status` ISEP [pairs]. False, and
 /// nothing written, when the load does no work on any free motion.
 [[nodiscard]] bool rigid_snap(const linear_structure& s, std::span<const int> status,
                               std::span<const double> increment, std::span<const double> d,

@@ -11,14 +11,14 @@ constexpr int longest_between_checks = 256;
 constexpr double drift_allowed = 1e-11;  // of the response, relative to the largest: 1e-8 of D is promised
 constexpr double digits_kept = 1e-2;  // of 1 in 1 - k c: less, and a stiff spring opens: a new factor is due
 
-/// Columns until their sums cost what a factor costs: c^2 / 2 columns of pairs against n kd^2. Half of that,
-/// since LAPACK's factor goes through the cache in blocks and the sums do not.
+/// Columns until their sums cost what a factor costs: c^2 / 2 columns of pairs against n kd^2 / 2, twice as
+/// many, since a factor's products come from the cache and the columns' do not. Together they are then least.
 std::size_t columns_worth_keeping(const linear_structure& s) {
   const double kd = s.stiffness.subdiagonals();
-  const double factor_cost = static_cast<double>(s.dofs()) * kd * kd;
+  const double products_of_factor = static_cast<double>(s.dofs()) * kd * kd;
   const double worth =
-      std::sqrt(factor_cost / static_cast<double>(std::max<std::size_t>(s.pairs.size(), 1))) / 2;
-  return static_cast<std::size_t>(std::clamp(worth, 8.0, 400.0));
+      std::sqrt(2 * products_of_factor / static_cast<double>(std::max<std::size_t>(s.pairs.size(), 1)));
+  return static_cast<std::size_t>(std::clamp(worth, 8.0, 1000.0));
 }
 
 }  // namespace
@@ -29,7 +29,8 @@ updated_engine::updated_engine(const linear_structure& s)
       wanted_(pairs_),
       applied_(pairs_),
       stiffness_(s),
-      most_corrections_(columns_worth_keeping(s)),
+      columns_(s, stiffness_),
+      most_toggles_(columns_worth_keeping(s)),
       response_(pairs_),
       work_(static_cast<std::size_t>(s.dofs())),
       until_check_(first_check),
@@ -49,28 +50,26 @@ void updated_engine::gather(std::span<const double> at_dofs, std::span<double> a
 
 void updated_engine::respond(const residual_load& residual, std::span<double> d_star) {
   if (!has_factor_) factor_anew();
-  if (!take_in_switched()) factor_anew();
+  if (!take_in_switched(residual.last_s)) factor_anew();
   switched_.clear();
   if (response_to_ != residual.version) {
     respond_anew(residual.increment);
     response_to_ = residual.version;
-  } else if (--until_check_ <= 0 && !corrections_.empty() && !still_solves(residual.increment)) {
+  } else if (--until_check_ <= 0 && columns_.toggles() > 0 && !still_solves(residual.increment)) {
     factor_anew();
     respond_anew(residual.increment);
     response_to_ = residual.version;
   }
-  for (std::size_t i = 0; i < pairs_; ++i)
-    d_star[static_cast<std::size_t>(structure_.dof_of_pair(static_cast<int>(i)))] =
-        residual.share * response_[i];
+  for (std::size_t i = 0; i < pairs_; ++i) d_star[i] = residual.share * response_[i];
 }
 
 /// What closes first, then what opens: the structure is held all the while. False when a factor is due.
-bool updated_engine::take_in_switched() {
+bool updated_engine::take_in_switched(std::span<const double> last_s) {
   for (const char closed : {char{1}, char{0}}) {
     for (const int pair : switched_) {
       const auto p = static_cast<std::size_t>(pair);
       if (wanted_[p] != closed || applied_[p] == closed) continue;
-      if (corrections_.size() >= most_corrections_ || !take_in(pair)) return false;
+      if (columns_.toggles() >= most_toggles_ || !take_in(pair, last_s)) return false;
     }
   }
   return true;
@@ -82,8 +81,7 @@ void updated_engine::factor_anew() {
   ++counts_.factors;
   has_factor_ = true;
   applied_ = wanted_;
-  corrections_.clear();
-  columns_.clear();
+  columns_.start_anew();
   response_to_ = 0;
 }
 
@@ -92,43 +90,26 @@ void updated_engine::respond_anew(std::span<const double> increment) {
   stiffness_.solve(work_);
   ++counts_.solves;
   gather(work_, response_);
-  correct(response_);
+  columns_.correct(response_);
 }
 
-/// K^-1 b from K_0^-1 b, at the pairs.
-void updated_engine::correct(std::span<double> at_pairs) const {
-  for (std::size_t j = 0; j < corrections_.size(); ++j) {
-    const double* const c = &columns_[j * pairs_];
-    const double much = corrections_[j].weight * at_pairs[static_cast<std::size_t>(corrections_[j].pair)];
-    for (std::size_t i = 0; i < pairs_; ++i) at_pairs[i] -= much * c[i];
-  }
-}
-
-void updated_engine::inverse_column(int pair, std::span<double> c) {
-  const int dof = structure_.dof_of_pair(pair);
-  std::fill(work_.begin(), work_.end(), 0.0);
-  work_[static_cast<std::size_t>(dof)] = 1.0;
-  stiffness_.solve(work_);
-  ++counts_.solves;
-  gather(work_, c);
-  correct(c);
-}
-
-bool updated_engine::take_in(int pair) {
+bool updated_engine::take_in(int pair, std::span<const double> last_s) {
   const auto p = static_cast<std::size_t>(pair);
   const double k = structure_.pairs[p].stiffness;
   const double sigma_k = wanted_[p] != 0 ? k : -k;
-  const std::size_t j = corrections_.size();
-  columns_.resize((j + 1) * pairs_);
-  inverse_column(pair, column(j));
-  const double left = 1.0 + sigma_k * column(j)[p];
-  if (!(left > digits_kept)) return false;
-  corrections_.push_back({pair, sigma_k, sigma_k / left});
-  const double much = corrections_[j].weight * response_[p];
-  for (std::size_t i = 0; i < pairs_; ++i) response_[i] -= much * column(j)[i];
+  const std::span<const double> c = columns_.column(pair, last_s);
+  if (!(1.0 + sigma_k * c[p] > digits_kept)) return false;
+  const double much = columns_.take_in(pair, sigma_k) * response_[p];
+  for (std::size_t i = 0; i < pairs_; ++i) response_[i] -= much * c[i];
   applied_[p] = wanted_[p];
   ++counts_.updates;
   return true;
+}
+
+engine_counts updated_engine::counts() const {
+  engine_counts all = counts_;
+  all.solves += columns_.passes();
+  return all;
 }
 
 /// Put the response back into the equations: K_0 x = f - sum of sigma k x_p e_p is what it must satisfy. What
@@ -136,7 +117,7 @@ bool updated_engine::take_in(int pair) {
 bool updated_engine::still_solves(std::span<const double> increment) {
   ++counts_.checks;
   std::copy(increment.begin(), increment.end(), work_.begin());
-  for (const correction& c : corrections_) {
+  for (const inverse_columns::toggle& c : columns_.all_toggles()) {
     work_[static_cast<std::size_t>(structure_.dof_of_pair(c.pair))] -=
         c.sigma_k * response_[static_cast<std::size_t>(c.pair)];
   }
@@ -151,14 +132,14 @@ bool updated_engine::still_solves(std::span<const double> increment) {
   }
   const bool good = off <= drift_allowed * size;
   if (!good) check_every_ = std::max(check_every_ / 2, 4);
-  if (off < drift_allowed / 100 * size) check_every_ = std::min(2 * check_every_, longest_between_checks);
+  if (off < drift_allowed / 4 * size) check_every_ = std::min(2 * check_every_, longest_between_checks);
   until_check_ = check_every_;
   return good;
 }
 
 void updated_engine::recover(std::span<const double> load, std::span<const double> pair_forces,
                              std::span<double> u) {
-  if (!has_factor_ || !corrections_.empty() || applied_ != wanted_) factor_anew();
+  if (!has_factor_ || columns_.toggles() > 0 || applied_ != wanted_) factor_anew();
   switched_.clear();
   stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
 }

@@ -6,6 +6,7 @@
 
 #include "contct/path/engine.hpp"
 #include "contct/path/factored_stiffness.hpp"
+#include "contct/path/inverse_columns.hpp"
 
 namespace contct {
 
@@ -13,10 +14,10 @@ namespace contct {
 /// in (sigma = 1) or out (-1), K' = K + sigma k e e^T, and with c = K^-1 e, a column of the inverse at the
 /// pairs (Sherman and Morrison):
 ///
-///     g = sigma k / (1 + sigma k c_p),   K'^-1 = K^-1 - g c c^T,   x' = x - g x_p c
+///     g = sigma k / (1 + sigma k c_p),   x' = x - g x_p c
 ///
-/// c itself is one solve by the factor, less what the toggles since have changed: c_0 - sum g_j c_j (c_j)_p.
-/// Nothing costs O(all dofs) an event but that solve. Memory: a band, and a column of pairs a toggle.
+/// `inverse_columns` has the columns. Nothing else costs more than O(pairs) an event.
+/// Memory: a band, and a column of pairs a toggle.
 ///
 /// Updates drift: on a schedule that the drift itself sets, x is put back into the equations by one more
 /// solve; and the factor is made anew when too much is left over, when the columns cost more than it would,
@@ -30,37 +31,26 @@ class updated_engine final : public stiffness_engine {
   void recover(std::span<const double> load, std::span<const double> pair_forces,
                std::span<double> u) override;
   [[nodiscard]] double reciprocal_condition() override;
-  [[nodiscard]] engine_counts counts() const override { return counts_; }
+  [[nodiscard]] engine_counts counts() const override;
 
  private:
-  /// A toggle since the factor was made: K^-1 <- K^-1 - weight c c^T.
-  struct correction {
-    int pair;
-    double sigma_k;
-    double weight;
-  };
-
-  [[nodiscard]] std::span<double> column(std::size_t j) { return {&columns_[j * pairs_], pairs_}; }
   void factor_anew();
   void respond_anew(std::span<const double> increment);
-  bool take_in_switched();
+  bool take_in_switched(std::span<const double> last_s);
   /// Take in the toggle of one pair. False when that must be done by a new factor.
-  bool take_in(int pair);
-  void inverse_column(int pair, std::span<double> c);
-  void correct(std::span<double> at_pairs) const;
+  bool take_in(int pair, std::span<const double> last_s);
   [[nodiscard]] bool still_solves(std::span<const double> increment);
   void gather(std::span<const double> at_dofs, std::span<double> at_pairs) const;
 
   const linear_structure& structure_;
   std::size_t pairs_;
   std::vector<char> wanted_;   // closed, as switched [pairs]
-  std::vector<char> applied_;  // closed, in factor and corrections [pairs]
+  std::vector<char> applied_;  // closed, in factor and toggles [pairs]
   std::vector<int> switched_;  // pairs that may differ
   factored_stiffness stiffness_;
+  inverse_columns columns_;
   bool has_factor_ = false;
-  std::vector<correction> corrections_;
-  std::vector<double> columns_;  // [corrections][pairs]
-  std::size_t most_corrections_;
+  std::size_t most_toggles_;       // between factors
   std::vector<double> response_;   // to the whole increment [pairs]
   std::uint64_t response_to_ = 0;  // which increment
   std::vector<double> work_;       // [dofs]

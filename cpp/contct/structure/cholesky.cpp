@@ -54,8 +54,7 @@ double one_norm(const band_matrix& a) {
 /// Hager and Higham's estimate of the 1-norm of the inverse (dlacn2), from a handful of solves. This
 /// is dpbcon, but for the guard against overflow inside its solves (dlatbs), which scans the rest of
 /// the vector at every row once the matrix is ill-conditioned: minutes on a beam of 100,000 nodes.
-double norm_of_inverse(const band_matrix& factor_of_a) {
-  const int n = factor_of_a.order();
+double norm_of_inverse(int n, const in_place_solver& solve) {
   std::vector<double> v(static_cast<std::size_t>(n));
   std::vector<double> x(static_cast<std::size_t>(n));
   std::vector<int> isgn(static_cast<std::size_t>(n));
@@ -64,9 +63,13 @@ double norm_of_inverse(const band_matrix& factor_of_a) {
   double estimate = 0.0;
   do {
     CONTCT_FC_GLOBAL(dlacn2, DLACN2)(&n, v.data(), x.data(), isgn.data(), &estimate, &kase, isave);
-    if (kase != 0) solve_with(factor_of_a, x);  // the matrix is its own transpose
+    if (kase != 0) solve(x);  // the matrix is its own transpose
   } while (kase != 0);
   return estimate;
+}
+
+double reciprocal(double norm, double inverse_norm) {
+  return std::isfinite(norm) && std::isfinite(inverse_norm) ? 1.0 / inverse_norm / norm : 0.0;
 }
 
 }  // namespace
@@ -93,8 +96,20 @@ double reciprocal_condition(band_matrix& matrix) {
   if (!scale_to_unit_diagonal(matrix)) return 0.0;
   const double norm = one_norm(matrix);
   if (!std::isfinite(norm) || !factor(matrix)) return 0.0;
-  const double inverse_norm = norm_of_inverse(matrix);
-  return std::isfinite(inverse_norm) ? 1.0 / inverse_norm / norm : 0.0;
+  return reciprocal(
+      norm, norm_of_inverse(matrix.order(), [&matrix](std::span<double> x) { solve_with(matrix, x); }));
+}
+
+double reciprocal_condition(band_matrix matrix, const in_place_solver& solve) {
+  const int n = matrix.order();
+  std::vector<double> root(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) root[static_cast<std::size_t>(i)] = std::sqrt(matrix.at(i, i));
+  if (!scale_to_unit_diagonal(matrix)) return 0.0;
+  return reciprocal(one_norm(matrix), norm_of_inverse(n, [&root, &solve](std::span<double> x) {
+                      for (std::size_t i = 0; i < x.size(); ++i) x[i] *= root[i];
+                      solve(x);
+                      for (std::size_t i = 0; i < x.size(); ++i) x[i] *= root[i];
+                    }));
 }
 
 int digits_left(double rcond) {

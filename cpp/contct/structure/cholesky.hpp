@@ -1,6 +1,7 @@
 // LAPACK's band Cholesky: dpbtrf, dpbtrs, and the condition estimate of dpbcon.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 
@@ -20,6 +21,12 @@ void solve_with(const band_matrix& factor_of_a, std::span<double> b);
 /// units out of it.
 /// Overwrites `matrix`. 0 when the scaled matrix has no factor.
 [[nodiscard]] double reciprocal_condition(band_matrix& matrix);
+
+/// Solves A x = b in place.
+using in_place_solver = std::function<void(std::span<double>)>;
+
+/// The same with somebody else's way to solve with `matrix` itself, unscaled.
+[[nodiscard]] double reciprocal_condition(band_matrix matrix, const in_place_solver& solve);
 
 /// Whole decimal digits that a solution keeps at this reciprocal condition: -log10(eps / rcond),
 /// never negative, at most 15.
