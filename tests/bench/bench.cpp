@@ -11,9 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bench/growth_svg.hpp"
+#include "bench/kernels.hpp"
 #include "bench/measure.hpp"
 #include "bench/problems.hpp"
 #include "contct/io/follow.hpp"
+#include "contct/path/condensed_engine.hpp"
 #include "contct/structure/lapack.hpp"
 #include "contct/text/output_file.hpp"
 
@@ -27,6 +30,8 @@ struct options {
   int events = 0;
   int rounds = 3;
   std::string json_file;
+  std::string svg_file;
+  bool growth = false;
 };
 
 /// One thread on one processor: ratios then mean what they say.
@@ -77,6 +82,36 @@ int events_of_refactor(const options& o, const std::string& problem) {
   return o.events == 0 && (problem == "mat-100" || problem == "grid-100") ? enough : o.events;
 }
 
+/// C++ against FORTRAN, one call; a ratio above 1 means that C++ is the quicker.
+json bench_kernels() {
+  json rows = json::array();
+  for (const std::size_t pairs : {std::size_t{10}, std::size_t{1000}, std::size_t{1'000'000}}) {
+    show(fmt::format("kernels: {} pairs", pairs));
+    const bench::seconds_of_a_call t = bench::time_kernels(pairs);
+    show("");
+    fmt::print(
+        "kernels alone, {:>7} pairs: FORTRAN {:>10.3f} us a call (and {:.2f} us for its line of text), C++ "
+        "{:>10.3f} us, x{:.2f}\n",
+        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp);
+    rows.push_back({{"pairs", pairs},
+                    {"fortran_us", 1e6 * t.fortran},
+                    {"text_us", 1e6 * t.text},
+                    {"cpp_us", 1e6 * t.cpp},
+                    {"ratio", t.fortran / t.cpp}});
+  }
+  return rows;
+}
+
+std::vector<bench::growth_point> growth_of(const json& rows) {
+  std::vector<bench::growth_point> points;
+  for (const json& row : rows) {
+    const std::string problem = row["problem"];
+    if (row["events"] == 0) continue;
+    points.push_back({problem.substr(0, problem.find('-')), row["engine"], row["dofs"], row["ms_per_event"]});
+  }
+  return points;
+}
+
 void bench_problem(const options& o, const std::string& name, json& rows) {
   show(name + ": building");
   const contct::problem p = bench::make_problem(name);
@@ -86,6 +121,7 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   fmt::print("{}: {} dofs, half bandwidth {}, {} pairs; one dpbtrs {:.3f} ms\n", name, s.dofs(),
              s.stiffness.subdiagonals(), s.pairs.size(), solve_ms);
   for (const std::string& engine : o.engines) {
+    if (engine == "condensed" && !contct::condensed_engine::suits(s)) continue;
     show(name + ": " + engine);
     const bench::run_of_engine r =
         measured(o, p, s, engine, engine == "refactor" ? events_of_refactor(o, name) : o.events);
@@ -126,18 +162,28 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   }
 }
 
-int run(const options& o) {
+int run(options o) {
+  if (o.growth) o.problems = bench::growing_problems();
   std::optional<contct::output_file> out;
   if (!o.json_file.empty()) out.emplace(o.json_file);
+  std::optional<contct::output_file> picture;
+  if (!o.svg_file.empty()) picture.emplace(o.svg_file);
   pin();
   fmt::print("{}; core type: {}; one thread\n", contct::lapack_identity(), core_type());
+  json kernels = bench_kernels();
   json rows = json::array();
   for (const std::string& name : o.problems) bench_problem(o, name, rows);
   if (out) {
-    const json document = {
-        {"blas", contct::lapack_identity()}, {"core", core_type()}, {"rows", std::move(rows)}};
+    const json document = {{"blas", contct::lapack_identity()},
+                           {"core", core_type()},
+                           {"kernels", std::move(kernels)},
+                           {"rows", rows}};
     out->write(document.dump(1) + "\n");
     out->finish();
+  }
+  if (picture) {
+    picture->write(bench::growth_svg(growth_of(rows), contct::lapack_identity() + ", one thread"));
+    picture->finish();
   }
   return 0;
 }
@@ -158,6 +204,9 @@ int main(int argc, char** argv) {
   program.add_option("--rounds", o.rounds, "Runs of which the median counts")
       ->check(CLI::Range(1, 99))
       ->capture_default_str();
+  program.add_flag("--growth", o.growth, "Run every family at sizes that grow, in place of --problem");
+  program.add_option("--svg", o.svg_file,
+                     "Draw ms/event against size, log-log, with slopes, to this file (- is standard output)");
   program.add_option("--json", o.json_file, "Write the rows to this file (- is standard output)");
   CLI11_PARSE(program, argc, argv);
   try {

@@ -35,7 +35,7 @@ class watch final : public contct::observer {
 
   void incremented(const contct::increment& i) override {
     for (const contct::event& e : i.events) r_.events.push_back({e.pair, i.step - 1 + i.fraction});
-    if (!i.events.empty()) last_ = clock::now();
+    if (!i.events.empty() || r_.events.empty()) last_ = clock::now();
   }
   void step_ended(const contct::step_state& s) override {
     r_.displacement.assign(s.displacement.begin(), s.displacement.end());
