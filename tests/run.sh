@@ -36,6 +36,7 @@ leg() {
 if [ "$full" = yes ]; then
   need "for the sources' form" clang-format clang-tidy
   need "for more compilers, as witnesses" flang-16 f2c libf2c2-dev clang
+  need "for one more engine" libsuitesparse-dev
   echo "== clang-format"
   find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
   leg core

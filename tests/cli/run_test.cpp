@@ -307,3 +307,80 @@ TEST_CASE("corrected in lockstep with the listing is refused: rules differ") {
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("--free-run"));
 }
+
+TEST_CASE("the 1989 rule keeps the 1989 way of solving unless asked; the corrected rule takes the quickest") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const auto engine_of = [&dir](std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", "pb.toml", "--json", "-"});
+    const finished f = contct_program(dir.path(), more);
+    INFO(f.err);
+    CHECK(f.exit == 0);
+    const auto result = nlohmann::json::parse(f.out);
+    CHECK(result["engine_work"]["factors"] >= 1);
+    return result["engine"].get<std::string>();
+  };
+  CHECK(engine_of({}) == "refactor");
+  CHECK(engine_of({"--kernels", "corrected"}) == "condensed");
+  CHECK(engine_of({"--engine", "auto"}) == "condensed");
+  CHECK(engine_of({"--engine", "updated"}) == "updated");
+  CHECK(engine_of({"--kernels", "corrected", "--engine", "refactor"}) == "refactor");
+  dir.write("plate.toml",
+            "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n[[bed]]\nmodulus = 4\nface = 0\n"
+            "[[step]]\nuniform = -1\n");
+  const finished plate =
+      contct_program(dir.path(), {"run", "plate.toml", "--kernels", "corrected", "--json", "-"});
+  CHECK(nlohmann::json::parse(plate.out)["engine"] == "updated");
+  const finished unsuited = contct_program(dir.path(), {"run", "plate.toml", "--engine", "condensed"});
+  CHECK(unsuited.exit == 2);
+  CHECK_THAT(unsuited.err, Contains("no beam with pairs"));
+  const finished unknown = contct_program(dir.path(), {"run", "pb.toml", "--engine", "warp"});
+  CHECK(unknown.exit == 2);
+  CHECK_THAT(unknown.err, Contains("no engine is named \"warp\"") && Contains("condensed"));
+}
+
+TEST_CASE("only the end: the path's final states without a path, certified") {
+  const scratch_directory dir;
+  const std::string pb5 =
+      std::string(CONTCT_ROOT) + "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
+  const finished path = contct_program(dir.path(), {"run", pb5, "--kernels", "corrected", "--json", "-"});
+  const finished end = contct_program(dir.path(), {"run", pb5, "--final-only", "--json", "-"});
+  REQUIRE(path.exit == 0);
+  REQUIRE(end.exit == 0);
+  const auto by_path = nlohmann::json::parse(path.out);
+  const auto at_once = nlohmann::json::parse(end.out);
+  CHECK(at_once["engine"] == "oracle");
+  CHECK(at_once["kernels"].empty());
+  CHECK(at_once["lockstep"].is_null());
+  REQUIRE(at_once["steps"].size() == by_path["steps"].size());
+  int compared = 0;
+  for (std::size_t step = 0; step < by_path["steps"].size(); ++step) {
+    const auto& a = by_path["steps"][step];
+    const auto& b = at_once["steps"][step];
+    CHECK(b["increments"].empty());
+    CHECK(b["certificate"]["exact"] == true);
+    for (std::size_t node = 0; node < a["w"].size(); ++node) {
+      CHECK(a["w"][node].get<double>() == Approx(b["w"][node].get<double>()).epsilon(1e-9).margin(1e-11));
+      ++compared;
+    }
+    for (std::size_t pair = 0; pair < a["pairs"].size(); ++pair)
+      CHECK(a["pairs"][pair]["state"] == b["pairs"][pair]["state"]);
+  }
+  CHECK(compared == 6 * 41);
+  CHECK(at_once["engine_work"]["factors"] <= 40);  // 55 increments on the path
+
+  dir.write("freed.toml", freed);
+  const finished none = contct_program(dir.path(), {"run", "freed.toml", "--final-only"});
+  CHECK(none.exit == 4);
+  CHECK_THAT(none.err, Contains("no equilibrium"));
+  for (const std::vector<std::string>& not_with : {std::vector<std::string>{"--free-run"},
+                                                   {"--kernels", "cpp"},
+                                                   {"--engine", "refactor"},
+                                                   {"--trace", "t"}}) {
+    std::vector<std::string> all = {"run", pb5, "--final-only"};
+    all.insert(all.end(), not_with.begin(), not_with.end());
+    const finished refused = contct_program(dir.path(), all);
+    CHECK(refused.exit == 2);
+    CHECK_THAT(refused.err, Contains("excludes"));
+  }
+}

@@ -1,0 +1,44 @@
+"""Runs the benchmark on small problems of each family and looks at what it says. No times are judged."""
+import json
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+bench = sys.argv[1]
+with tempfile.TemporaryDirectory() as folder:
+    rows_file, picture = Path(folder, "rows.json"), Path(folder, "growth.svg")
+    command = [bench, "--problem", "rail-3,rail-6,grid-8,grid-12,mat-24", "--rounds", "1", "--json", rows_file, "--svg", picture]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    document = json.loads(rows_file.read_text())
+    words = "".join(xml.parse(picture).getroot().itertext())
+
+rows = document["rows"]
+kernels = document["kernels"]
+assert document["blas"] in text and document["core"] in text
+assert [k["pairs"] for k in kernels] == [10, 1000, 1000000] and all(k["ratio"] > 0 for k in kernels)
+engines = {row["engine"] for row in rows}
+assert {"refactor", "updated", "condensed"} <= engines, engines
+events = 0
+for row in rows:
+    where = f"{row['problem']} on {row['engine']}"
+    assert row["same_events"] and row["certified"], where
+    assert row["max_load_fraction_diff"] <= 1e-8 and row["max_d_diff"] <= 1e-8, where
+    assert row["peak_mib"] > 1, where
+    if row["engine"] == "refactor":
+        assert row["ratio_to_refactor"] == 1 and row["factors"] > row["events"], where
+    events += row["events"]
+assert len(rows) >= 14 and events >= 200, (len(rows), events)
+for family in ("rail", "grid"):
+    assert family in words, words
+assert "slope" in words
+
+# Only so many events, and a name that nothing has.
+short = subprocess.run([bench, "--problem", "grid-12", "--engine", "refactor,updated", "--events", "5", "--rounds", "1"],
+                       check=True, capture_output=True, text=True).stdout
+assert "not whole" in short, short
+for wrong in (["--problem", "rial-3"], ["--engine", "warp"], ["--problem", "rail-1"]):
+    refused = subprocess.run([bench, *wrong], capture_output=True, text=True)
+    assert refused.returncode != 0 and wrong[1] in refused.stderr, refused.stderr
+print(f"{len(rows)} rows, {events} events")
