@@ -18,6 +18,9 @@ enum class exit_status {
 /// Add `contct run` to the program; `status` receives what it comes to.
 void add_run(CLI::App& program, exit_status& status);
 
+/// Add `contct explain`.
+void add_explain(CLI::App& program, exit_status& status);
+
 /// Add `contct verify`.
 void add_verify(CLI::App& program, exit_status& status);
 

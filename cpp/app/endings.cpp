@@ -53,6 +53,19 @@ std::string end_words(const problem& p, const path_end& end) {
   return "";
 }
 
+exit_status status_of(path_status status) {
+  switch (status) {
+    case path_status::solved:
+      return exit_status::solved;
+    case path_status::mechanism:
+      return exit_status::mechanism;
+    case path_status::not_factored:
+      return exit_status::bad_input;
+    default:
+      return exit_status::iteration_limit;
+  }
+}
+
 void digit_watch::step_ended(const step_state& s) {
   if (digits_left(s.rcond) >= fewest_) return;
   fewest_ = digits_left(s.rcond);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/commands.hpp"
 #include "contct/io/problem.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
@@ -12,6 +13,9 @@ namespace contct {
 /// Why a path did not reach its end: step, share of its load, and the pairs that had to do with
 /// it. Empty for a path that did.
 [[nodiscard]] std::string end_words(const problem& p, const path_end& end);
+
+/// What the program ends with after such a path, where the kernels agree.
+[[nodiscard]] exit_status status_of(path_status status);
 
 /// Observes a path and remembers the step whose answer kept the fewest digits.
 class digit_watch final : public observer {

@@ -40,6 +40,7 @@ contct::exit_status run_program(int argc, char** argv) {
   program.set_version_flag("--version", version, "Print the version and the listing's checksum");
   program.require_subcommand(1);
   contct::add_run(program, status);
+  contct::add_explain(program, status);
   contct::add_verify(program, status);
   contct::add_fuzz(program, status);
   contct::add_replay(program, status);

@@ -73,19 +73,6 @@ std::string counted(Count n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-exit_status status_of(path_status status) {
-  switch (status) {
-    case path_status::solved:
-      return exit_status::solved;
-    case path_status::mechanism:
-      return exit_status::mechanism;
-    case path_status::not_factored:
-      return exit_status::bad_input;
-    default:
-      return exit_status::iteration_limit;
-  }
-}
-
 /// One run of `contct run`: what is wrong is refused first, then files are opened, then it is solved.
 class run {
  public:

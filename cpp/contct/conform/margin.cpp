@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "contct/numeric/bits.hpp"
+#include "contct/conform/narrowed.hpp"
 
 namespace contct {
 namespace {
 
 constexpr std::uint64_t beyond_count = std::numeric_limits<std::uint64_t>::max();
-
-/// The two zeros compare equal: no number lies between them.
-template <class Real>
-std::uint64_t distance(Real a, Real b) {
-  return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
-}
 
 }  // namespace
 
@@ -23,22 +17,16 @@ std::vector<decision> decisions_of(const call<Real>& c, std::span<const int> ise
   std::vector<decision> all;
   for_each_decision(c, isep_before, [&all](branch b, std::size_t i, bool outcome, Real left, Real right) {
     if (b == branch::was_separated) return;
-    all.push_back({b, b == branch::no_events ? -1 : static_cast<int>(i), outcome, distance(left, right)});
+    all.push_back(
+        {b, b == branch::no_events ? -1 : static_cast<int>(i), outcome, margin_between(left, right)});
   });
   return all;
 }
 
 std::vector<decision> decisions_of(const call<double>& c, std::span<const int> isep_before, int real_bytes) {
   if (real_bytes == 8) return decisions_of<double>(c, isep_before);
-  const auto narrow = [](std::span<const double> wide) {
-    return std::vector<float>(wide.begin(), wide.end());
-  };
-  const std::vector<float> dd = narrow(c.dd);
-  const std::vector<float> dtest = narrow(c.dtest);
-  const std::vector<float> cc = narrow(c.cc);
-  std::vector<float> ss = narrow(c.ss);
-  return decisions_of<float>({dd, dtest, cc, ss, static_cast<float>(c.smin), c.id, c.isep, c.isurf, c.dof},
-                             isep_before);
+  narrowed rounded(c);
+  return decisions_of<float>(rounded.as_call(), isep_before);
 }
 
 std::optional<decision> narrowest(const std::vector<decision>& all) {

@@ -7,8 +7,16 @@
 #include <vector>
 
 #include "contct/conform/branches.hpp"
+#include "contct/numeric/bits.hpp"
 
 namespace contct {
+
+/// How many numbers lie between the two that an IF compares. The two zeros compare equal: none lies between
+/// them. The largest count there is where one of them is NaN.
+template <class Real>
+[[nodiscard]] std::uint64_t margin_between(Real a, Real b) {
+  return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
+}
 
 /// One decision of one call, and by how much it was taken.
 struct decision {
