@@ -7,32 +7,13 @@
 
 #include "app/commands.hpp"
 #include "app/streams.hpp"
+#include "app/usage.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/text/output_file.hpp"
 
 namespace {
 
 constexpr const char* version = "contct " CONTCT_VERSION "\nlisting sha256 " CONTCT_LISTING_SHA256;
-
-/// "run, kernels".
-std::string command_names(const CLI::App& program) {
-  std::string names;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  return names;
-}
-
-/// What is wrong with the command line. CLI11 only says of a command it does not know that it wants one.
-std::string usage_words(const CLI::App& program, const CLI::ParseError& error) {
-  if (!program.get_subcommands().empty()) return error.what();
-  const std::vector<std::string> unknown = program.remaining();
-  std::string words = "a command is missing";
-  if (!unknown.empty()) {
-    const bool option = unknown.front().rfind('-', 0) == 0;
-    words = fmt::format("\"{}\" is no {} of contct", unknown.front(), option ? "option" : "command");
-  }
-  return fmt::format("{}; the commands are: {}", words, command_names(program));
-}
 
 contct::exit_status run_program(int argc, char** argv) {
   contct::exit_status status = contct::exit_status::solved;
@@ -51,7 +32,7 @@ contct::exit_status run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     const bool asked_for_help = e.get_exit_code() == 0;
     if (!asked_for_help) {
-      contct::complain("{}\nRun with --help for more information.", usage_words(program, e));
+      contct::complain("{}\nRun with --help for more information.", contct::usage_words(program, e));
       return contct::exit_status::bad_input;
     }
     program.exit(e);

@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/streams.hpp"
+#include "app/usage.hpp"
 
 namespace {
 
@@ -20,7 +21,7 @@ int status_of_replay(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return program.exit(e);
-    contct::complain("{}\nRun with --help for more information.", e.what());
+    contct::complain("{}\nRun with --help for more information.", contct::usage_words(program, e));
     return static_cast<int>(contct::exit_status::bad_input);
   }
   return static_cast<int>(status);

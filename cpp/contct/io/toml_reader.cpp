@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contct/text/did_you_mean.hpp"
+
 namespace contct {
 namespace {
 
@@ -149,7 +151,10 @@ std::size_t table_reader::choice(std::string_view key,
   const toml::node& node = required(key, allowed);
   const std::string_view value = text_of(node, std::string(key), allowed);
   const auto* const at = std::find(choices.begin(), choices.end(), value);
-  if (at == choices.end()) refuse(node, key, found_words(node), allowed);
+  if (at == choices.end()) {
+    const std::vector<std::string> known(choices.begin(), choices.end());
+    refuse(node, key, found_words(node) + did_you_mean(value, known), allowed);
+  }
   return static_cast<std::size_t>(at - choices.begin());
 }
 
@@ -207,8 +212,9 @@ std::vector<table_reader> table_reader::tables(std::string_view key) const {
 void table_reader::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
-    refuse_at(file_, key.source().begin, full_name(tame(key.str())), "an unknown key",
-              fmt::format("{}", fmt::join(keys, ", ")));
+    const std::vector<std::string> known(keys.begin(), keys.end());
+    refuse_at(file_, key.source().begin, full_name(tame(key.str())),
+              "an unknown key" + did_you_mean(key.str(), known), fmt::format("{}", fmt::join(keys, ", ")));
   }
 }
 

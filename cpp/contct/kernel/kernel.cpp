@@ -10,6 +10,7 @@
 #include "contct/kernel/fortran.hpp"
 #include "contct/kernel/log_text.hpp"
 #include "contct/kernel/outside.hpp"
+#include "contct/text/did_you_mean.hpp"
 
 namespace contct {
 namespace {
@@ -190,7 +191,8 @@ const entry& entry_of(std::string_view name) {
     known += e.name;
     known += ", ";
   }
-  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"; there are: " + known +
+  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"" +
+                              did_you_mean(name, kernel_names()) + "; there are: " + known +
                               "plugin:LIBRARY, pipe:COMMAND");
 }
 

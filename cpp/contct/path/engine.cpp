@@ -6,6 +6,7 @@
 #endif
 #include "contct/path/refactor_engine.hpp"
 #include "contct/path/updated_engine.hpp"
+#include "contct/text/did_you_mean.hpp"
 
 namespace contct {
 
@@ -27,7 +28,8 @@ void refuse_unknown_engine(std::string_view name) {
     if (n == name) return;
     known += (known.empty() ? "" : ", ") + n;
   }
-  throw std::invalid_argument("no engine is named \"" + std::string(name) + "\"; there are: " + known);
+  throw std::invalid_argument("no engine is named \"" + std::string(name) + "\"" +
+                              did_you_mean(name, engine_names()) + "; there are: " + known);
 }
 
 std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s) {
