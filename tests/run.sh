@@ -17,7 +17,7 @@ done
 
 need_core
 need_program
-need "to test" catch2 pkgconf python3
+need "to test" catch2 pkgconf python3 groff-base
 
 # leg NAME: configure and build the preset of that name, quietly unless it fails, and test it.
 leg() {
@@ -37,6 +37,7 @@ if [ "$full" = yes ]; then
   need "for the sources' form" clang-format clang-tidy
   need "for more compilers, as witnesses" flang-16 f2c libf2c2-dev clang
   need "for one more engine" libsuitesparse-dev
+  need "for the manual and the shells that complete it" mandoc zsh fish
   echo "== clang-format"
   find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
   leg core

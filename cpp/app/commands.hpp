@@ -24,6 +24,9 @@ void add_explain(CLI::App& program, exit_status& status);
 /// Add `contct verify`.
 void add_verify(CLI::App& program, exit_status& status);
 
+/// Add `contct new`.
+void add_new(CLI::App& program, exit_status& status);
+
 /// Add `contct kernels`.
 void add_kernels(CLI::App& program, exit_status& status);
 

@@ -6,6 +6,9 @@
 #include <system_error>
 
 #include "app/commands.hpp"
+#include "app/completion.hpp"
+#include "app/examples.hpp"
+#include "app/manual.hpp"
 #include "app/streams.hpp"
 #include "app/usage.hpp"
 #include "contct/kernel/kernel.hpp"
@@ -22,11 +25,15 @@ contct::exit_status run_program(int argc, char** argv) {
   program.require_subcommand(1);
   contct::add_run(program, status);
   contct::add_explain(program, status);
+  contct::add_new(program, status);
   contct::add_verify(program, status);
   contct::add_fuzz(program, status);
   contct::add_replay(program, status);
   contct::add_atlas(program, status);
   contct::add_kernels(program, status);
+  contct::add_completion(program);
+  contct::add_man(program);
+  contct::add_examples(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -1,0 +1,225 @@
+#include "app/completion.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/described.hpp"
+
+namespace contct {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+/// For single quotes: a quote ends them, stands for itself, and begins them again.
+std::string shell_quoted(std::string_view text) {
+  std::string out = "'";
+  for (const char ch : text) out += ch == '\'' ? "'\\''" : std::string(1, ch);
+  return out + "'";
+}
+
+std::vector<std::string> names_of(const std::vector<described_option>& options) {
+  std::vector<std::string> names;
+  for (const described_option& o : options) names.push_back(o.name);
+  return names;
+}
+
+/// The bash that completes what an option takes.
+std::string bash_value(const described_option& o) {
+  switch (o.kind) {
+    case takes::kernels:
+      return "_contct_list \"$cur\" " + shell_quoted(joined(o.words));
+    case takes::engine:
+    case takes::word:
+      return "_contct_words \"$cur\" " + shell_quoted(joined(o.words));
+    case takes::file:
+      return "_contct_files \"$cur\"";
+    default:
+      return ":";
+  }
+}
+
+std::string bash_command(const described_command& c) {
+  std::string text;
+  for (const described_option& o : c.options) {
+    if (o.kind != takes::nothing)
+      text += fmt::format("    {}:{}) {}; return ;;\n", c.name, o.name, bash_value(o));
+  }
+  for (const described_option& p : c.positionals) {
+    if (p.kind == takes::word)
+      text += fmt::format("    {}:{}) {}; return ;;\n", c.name, c.name, bash_value(p));
+  }
+  return text;
+}
+
+bool takes_files(const described_command& c) {
+  for (const described_option& p : c.positionals)
+    if (p.kind == takes::file) return true;
+  return false;
+}
+
+/// What zsh does behind an option: an action of _arguments.
+std::string zsh_action(const described_option& o) {
+  switch (o.kind) {
+    case takes::kernels:
+      return ":kernels:_values -s , kernel " + joined(o.words);
+    case takes::engine:
+    case takes::word:
+      return fmt::format(":{}:({})", o.name[0] == '-' ? o.name.substr(2) : o.name, joined(o.words));
+    case takes::file:
+      return ":file:_files";
+    case takes::number:
+      return ":" + o.value + ": ";
+    default:
+      return "";
+  }
+}
+
+/// In a spec of zsh, brackets and colons mean something.
+std::string zsh_text(std::string_view text) {
+  std::string out;
+  for (const char ch : text) {
+    if (ch == '[' || ch == ']' || ch == ':' || ch == '\\') out += '\\';
+    out += ch;
+  }
+  return out;
+}
+
+std::string zsh_arguments(const described_command& c) {
+  std::string text = "_arguments";
+  for (const described_option& o : c.options)
+    text += " \\\n        " + shell_quoted(fmt::format("{}[{}]{}", o.name, zsh_text(o.says), zsh_action(o)));
+  for (const described_option& p : c.positionals) {
+    const char* const any_number = p.kind == takes::file ? "*" : "1";
+    text += " \\\n        " + shell_quoted(any_number + zsh_action(p));
+  }
+  return text;
+}
+
+std::string fish_option(const std::string& command, const described_option& o) {
+  std::string text =
+      fmt::format("complete -c contct -n '__fish_seen_subcommand_from {}' -l {}", command, o.name.substr(2));
+  if (o.kind == takes::file) text += " -r -F";
+  if (o.kind == takes::number) text += " -x";
+  if (!o.words.empty()) text += " -x -a " + shell_quoted(joined(o.words));
+  return text + " -d " + shell_quoted(o.says) + "\n";
+}
+
+}  // namespace
+
+std::string bash_completion(const CLI::App& program) {
+  std::vector<std::string> names;
+  std::string values;
+  std::string options;
+  std::string with_files;
+  for (const described_command& c : describe_commands(program)) {
+    names.push_back(c.name);
+    values += bash_command(c);
+    options += fmt::format("    {}) words={} ;;\n", c.name, shell_quoted(joined(names_of(c.options))));
+    if (takes_files(c)) with_files += (with_files.empty() ? "" : "|") + c.name;
+  }
+  return "# Completion of contct for bash; made by: contct completion bash\n"
+         "_contct_words() { mapfile -t COMPREPLY < <(compgen -W \"$2\" -- \"$1\"); }\n"
+         "_contct_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- "
+         "\"$1\"); }\n"
+         "# A list with commas: its last word.\n"
+         "_contct_list() {\n"
+         "  local before=''\n"
+         "  [[ $1 != *,* ]] || before=${1%,*},\n"
+         "  mapfile -t COMPREPLY < <(compgen -P \"$before\" -W \"$2\" -- \"${1##*,}\")\n"
+         "}\n"
+         "_contct() {\n"
+         "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command='' words='' i\n"
+         "  COMPREPLY=()\n"
+         "  # bash takes --json=f for three words.\n"
+         "  if [[ $cur == '=' ]]; then cur=''; elif [[ $prev == '=' ]]; then "
+         "prev=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
+         "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
+         "    [[ ${COMP_WORDS[i]} == -* ]] || { command=${COMP_WORDS[i]}; break; }\n"
+         "  done\n"
+         "  if [[ -z $command ]]; then\n"
+         "    _contct_words \"$cur\" " +
+         shell_quoted(joined(names) + " " + joined(names_of(describe_options(program)))) +
+         "\n    return\n  fi\n"
+         "  case $command:$prev in\n" +
+         values +
+         "  esac\n"
+         "  case $command in\n" +
+         options +
+         "  esac\n"
+         "  if [[ $cur == -* ]]; then _contct_words \"$cur\" \"$words\"; return; fi\n"
+         "  case $command in\n    " +
+         with_files +
+         ") _contct_files \"$cur\" ;;\n"
+         "    *) _contct_words \"$cur\" \"$words\" ;;\n"
+         "  esac\n"
+         "}\n"
+         "complete -F _contct contct\n";
+}
+
+std::string zsh_completion(const CLI::App& program) {
+  std::string commands;
+  std::string arguments;
+  for (const described_command& c : describe_commands(program)) {
+    commands += "    " + shell_quoted(c.name + ":" + zsh_text(c.says)) + "\n";
+    arguments += fmt::format("    {})\n      {} ;;\n", c.name, zsh_arguments(c));
+  }
+  return "#compdef contct\n"
+         "# Completion of contct for zsh; made by: contct completion zsh\n"
+         "_contct() {\n"
+         "  local -a commands\n"
+         "  commands=(\n" +
+         commands +
+         "  )\n"
+         "  if (( CURRENT == 2 )); then\n"
+         "    _describe command commands\n"
+         "    return\n"
+         "  fi\n"
+         "  local command=$words[2]\n"
+         "  shift words\n"
+         "  (( CURRENT-- ))\n"
+         "  case $command in\n" +
+         arguments +
+         "  esac\n"
+         "}\n"
+         "if [[ $zsh_eval_context[-1] == loadautofunc ]]; then _contct \"$@\"; else compdef _contct contct; "
+         "fi\n";
+}
+
+std::string fish_completion(const CLI::App& program) {
+  std::string text =
+      "# Completion of contct for fish; made by: contct completion fish\n"
+      "complete -c contct -f\n";
+  for (const described_option& o : describe_options(program))
+    text += fmt::format("complete -c contct -n __fish_use_subcommand -l {} -d {}\n", o.name.substr(2),
+                        shell_quoted(o.says));
+  for (const described_command& c : describe_commands(program)) {
+    text += fmt::format("complete -c contct -n __fish_use_subcommand -a {} -d {}\n", c.name,
+                        shell_quoted(c.says));
+    for (const described_option& o : c.options) text += fish_option(c.name, o);
+    for (const described_option& p : c.positionals) {
+      const std::string what = p.kind == takes::file ? "-F" : "-a " + shell_quoted(joined(p.words));
+      text += fmt::format("complete -c contct -n '__fish_seen_subcommand_from {}' {}\n", c.name, what);
+    }
+  }
+  return text;
+}
+
+void add_completion(CLI::App& program) {
+  auto shell = std::make_shared<std::string>();
+  CLI::App* const command =
+      program.add_subcommand("completion", "Print what makes a shell complete the words of contct");
+  command->add_option("SHELL", *shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  command->callback([&program, shell] {
+    fmt::print("{}", *shell == "bash"  ? bash_completion(program)
+                     : *shell == "zsh" ? zsh_completion(program)
+                                       : fish_completion(program));
+  });
+}
+
+}  // namespace contct

@@ -1,0 +1,25 @@
+// Command lines to start from: under --help, in the manual, and run by the tests as they stand.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string_view>
+#include <vector>
+
+namespace contct {
+
+struct example {
+  std::string_view command;    ///< "run"
+  std::string_view arguments;  ///< what follows it, separated by blanks
+  std::string_view says;       ///< what it is good for
+};
+
+/// Of one command, or all of them.
+[[nodiscard]] std::vector<example> examples_of(std::string_view command = {});
+
+/// "contct run beam.toml"
+[[nodiscard]] std::string line_of(const example& e);
+
+/// Put each command's examples under its --help, and the first of each under the program's.
+void add_examples(CLI::App& program);
+
+}  // namespace contct

@@ -1,0 +1,115 @@
+#include "app/manual.hpp"
+
+#include <fmt/format.h>
+
+#include "app/described.hpp"
+#include "app/examples.hpp"
+#include "contct/text/terminal.hpp"
+
+namespace contct {
+namespace {
+
+constexpr const char* page_date = "2026-11-21";
+
+/// A word or a line as roff takes it: a hyphen that is typed is a minus, and no line begins a request.
+std::string roff(std::string_view text) {
+  std::string out;
+  for (const char ch : text) {
+    if (out.empty() && (ch == '.' || ch == '\'')) out += "\\&";
+    if (ch == '\\') {
+      out += "\\e";
+    } else if (ch == '-') {
+      out += "\\-";
+    } else {
+      out += ch;
+    }
+  }
+  return out;
+}
+
+/// A paragraph in short lines.
+std::string filled(const std::string& text) {
+  constexpr int source_width = 72;
+  std::string out;
+  for (const std::string& line : wrap({text}, source_width)) out += roff(line) + "\n";
+  return out;
+}
+
+std::string option_entry(const described_option& o) {
+  std::string text = ".TP\n\\fB" + roff(o.name) + "\\fR";
+  if (!o.value.empty()) text += " \\fI" + roff(o.value) + "\\fR";
+  std::string says = o.says + ".";
+  if (!o.usual.empty()) says += " Usually " + o.usual + ".";
+  if (!o.words.empty()) says += fmt::format(" There are: {}.", fmt::join(o.words, ", "));
+  return text + "\n" + filled(says);
+}
+
+std::string command_section(const described_command& c) {
+  std::string text = ".SS \"contct " + roff(c.name);
+  for (const described_option& p : c.positionals) text += " " + (p.required ? p.name : "[" + p.name + "]");
+  text += "\"\n" + filled(c.says + ".");
+  for (const described_option& p : c.positionals)
+    text += option_entry({p.name, "", p.says, p.usual, p.kind, p.words, p.required});
+  for (const described_option& o : c.options) text += option_entry(o);
+  return text;
+}
+
+std::string exit_section() {
+  constexpr std::pair<int, const char*> meanings[] = {
+      {0, "solved, and the kernels are equal"},
+      {1, "the kernels disagree: the first difference is named, in hexfloat"},
+      {2,
+       "bad input or usage; a result that cannot be written; a structure too ill-conditioned for double "
+       "precision"},
+      {3, "solved, but a final state is not certified, under --strict"},
+      {4, "no equilibrium: the structure became a mechanism"},
+      {5, "the same pairs toggle for ever, or the limit of increments is reached"}};
+  std::string text = ".SH EXIT STATUS\n";
+  for (const auto& [status, meaning] : meanings)
+    text += fmt::format(".TP\n\\fB{}\\fR\n", status) + filled(std::string(meaning) + ".");
+  return text;
+}
+
+std::string examples_section() {
+  std::string text = ".SH EXAMPLES\n";
+  for (const example& e : examples_of())
+    text += ".TP\n\\fB" + roff(line_of(e)) + "\\fR\n" + filled(std::string(e.says) + ".");
+  return text;
+}
+
+}  // namespace
+
+std::string manual_page(const CLI::App& program) {
+  std::string text =
+      fmt::format(".TH CONTCT 1 {} \"contct {}\" \"User Commands\"\n", page_date, CONTCT_VERSION);
+  text += ".SH NAME\ncontct \\- the 1989 contact subroutine, in FORTRAN and in C++, side by side\n";
+  text += ".SH SYNOPSIS\n.B contct\n.I COMMAND\n[\\fIOPTION\\fR]...\n";
+  text +=
+      ".SH DESCRIPTION\n" +
+      filled(
+          "CONTCT is a FORTRAN subroutine that N. J. Salamon printed in 1989. It solves contact between "
+          "structures and one-sided supports. This program follows the load path of a beam or a plate with "
+          "it and with a C++ reimplementation, and compares the two at every call, bit for bit.");
+  text += ".SH OPTIONS\n";
+  for (const described_option& o : describe_options(program)) text += option_entry(o);
+  text += ".SH COMMANDS\n";
+  for (const described_command& c : describe_commands(program)) text += command_section(c);
+  text += exit_section();
+  text +=
+      ".SH ENVIRONMENT\n.TP\n\\fBCOLUMNS\\fR\nHow wide tables are, from 40 to "
+      "160.\n.TP\n\\fBNO_COLOR\\fR\nNo "
+      "colours, whatever it is set to.\n";
+  text += examples_section();
+  text +=
+      ".SH SEE ALSO\nN. J. Salamon, Receding/advancing contact of structural elements simplified,\n.I "
+      "Computers & Structures\n33(2), 509\\-512, 1989.\n";
+  return text;
+}
+
+void add_man(CLI::App& program) {
+  program.add_subcommand("man", "Print the manual page")->callback([&program] {
+    fmt::print("{}", manual_page(program));
+  });
+}
+
+}  // namespace contct
