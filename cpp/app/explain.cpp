@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/endings.hpp"
 #include "app/output_options.hpp"
+#include "app/path_progress.hpp"
 #include "app/streams.hpp"
 #include "contct/check/explained_path.hpp"
 #include "contct/conform/follower.hpp"
@@ -103,7 +104,10 @@ class explanation_run {
     if (file) json_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), *file);
     explained_path told(leader->facts(), second(), wanted_, [this](const auto& i) { tell(i); });
     const linear_structure structure = structure_of(problem_);
-    const path_end end = follow(problem_, structure, options_.engine, *leader, {&told});
+    path_progress shown(problem_.steps.size(), options_.quiet);
+    const path_end end =
+        follow(problem_, structure, options_.engine, *leader, {shown.before(), &told, shown.behind()});
+    shown.erase();
     return finish(end, told);
   }
 

@@ -44,11 +44,11 @@ std::string command_of(const fuzz_request& r) {
                      fmt::join(r.kernels, ","), r.calls, r.problems, r.seed, r.shard, r.shards);
 }
 
-fuzz_run fuzzed(const fuzz_request& request) {
+fuzz_run fuzzed(const fuzz_request& request, bool quiet) {
   std::optional<progress> shown;
   const char* shown_what = nullptr;
   return run_fuzz(request, [&](std::int64_t done, std::int64_t all, const char* what) {
-    if (shown_what != what) shown.emplace(static_cast<long>(all), what);
+    if (shown_what != what) shown.emplace(static_cast<long>(all), what, quiet);
     shown_what = what;
     shown->reached(static_cast<long>(done));
   });
@@ -108,7 +108,8 @@ exit_status run_fuzz_command(fuzz_options options) {
   report_files reports(options.report);
 
   const bool merging = !options.merge.empty();
-  const fuzz_run run = merging ? fuzz_run{merged_fuzz(options.merge), {}} : fuzzed(request);
+  const fuzz_run run =
+      merging ? fuzz_run{merged_fuzz(options.merge), {}} : fuzzed(request, options.report.quiet);
   const fuzz_result& r = run.result;
   const std::string missed = floors_missed(r);
   if (!options.report.quiet && !takes_standard_output(outputs)) print_result(r);
@@ -144,7 +145,7 @@ void add_fuzz(CLI::App& program, exit_status& status) {
   command->add_option("--problems", options->problems, "Whole problems; by default one for 500 calls")
       ->check(CLI::Range(std::int64_t{0}, most));
   command->add_option("--seed", options->request.seed, "Another seed, other calls")->capture_default_str();
-  command->add_option("--shard", options->shard, "I/N: only calls and problems I, I + N, ...");
+  command->add_option("--shard", options->shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
   command->add_option("--merge", options->merge, "Add up the --json files of all shards instead of running");
   command->add_option("--json", options->json, "Write the result to this file (- is standard output)");
   command->add_option("--out", options->out,

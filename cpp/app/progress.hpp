@@ -3,15 +3,16 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace contct {
 
-/// One line on standard error, written over and over and gone in the end; nothing at all where
-/// standard error is not a terminal.
+/// One line on standard error, written over and over and gone in the end. Nothing at all in the first second,
+/// where standard error is not a terminal, or where it is to be quiet.
 class progress {
  public:
   /// `what` is counted: "problems".
-  progress(long all, std::string what);
+  progress(long all, std::string what, bool quiet = false);
   ~progress();
   progress(const progress&) = delete;
   progress& operator=(const progress&) = delete;
@@ -19,12 +20,22 @@ class progress {
   void one_more() { reached(done_ + 1); }
   void reached(long done);
 
+  /// Say something else than a count.
+  void say(std::string_view words);
+
+  /// Take the line away, for something else to be printed; it comes back.
+  void erase();
+
  private:
   using clock = std::chrono::steady_clock;
-  bool shown_;
+  [[nodiscard]] bool is_due() const;
+  void draw(std::string_view words);
+
+  bool wanted_;
+  bool shown_ = false;
   long done_ = 0, all_;
   std::string what_;
-  clock::time_point last_ = clock::now();
+  clock::time_point begun_ = clock::now(), last_ = begun_;
 };
 
 }  // namespace contct

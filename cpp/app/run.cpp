@@ -13,6 +13,7 @@
 
 #include "app/commands.hpp"
 #include "app/endings.hpp"
+#include "app/path_progress.hpp"
 #include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/check/certificate.hpp"
@@ -129,6 +130,7 @@ class run {
     print_heading();
     const path_end end = find_final_states(structure_, static_cast<int>(problem_.steps.size()),
                                            loads_of(problem_), observers(nullptr));
+    shown_.reset();
     print_verdict(paint::quiet,
                   {"only the end: the oracle's, judged by equilibrium, penetration and tension",
                    fmt::format("{} factorisations", end.work.factors)});
@@ -174,7 +176,9 @@ class run {
     if (!options_.trace.empty())
       watching.push_back(&recorder_.emplace(header_of_trace(leader), trace_sink()));
     if (record != nullptr) watching.push_back(record);
-    return follow(problem_, structure_, engine_, leader, watching, limits());
+    const path_end end = follow(problem_, structure_, engine_, leader, watching, limits());
+    shown_.reset();
+    return end;
   }
 
   /// Those that watch every run.
@@ -183,10 +187,13 @@ class run {
     if (compared != nullptr) watching.push_back(compared);
     watching.push_back(&*judged_);
     watching.push_back(&early_);
+    shown_.emplace(problem_.steps.size(), options_.report.quiet);
+    watching.push_back(shown_->before());
     if (shows_table_) watching.push_back(&table_.emplace(problem_, compared, *judged_, terminal_));
     if (json_) watching.push_back(&*json_);
     if (log_) watching.push_back(&*log_);
     watching.push_back(&digits_);
+    watching.push_back(shown_->behind());
     return watching;
   }
 
@@ -353,6 +360,7 @@ class run {
   std::optional<table> table_;
   std::optional<certifier> judged_;
   early_toggles early_;
+  std::optional<path_progress> shown_;
   digit_watch digits_;
   bool has_verdict_ = false;
 };

@@ -1,6 +1,5 @@
 // contct verify: every problem in reference/ against its published, closed-form and recomputed numbers.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/progress.hpp"
 #include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/io/certificate_text.hpp"
@@ -208,16 +208,6 @@ class report {
   json all_ = json::array();
 };
 
-/// How far it has come, on a terminal only.
-void show_progress(std::size_t done, std::size_t all) {
-  if (isatty(STDERR_FILENO) == 0 || isatty(STDOUT_FILENO) != 0) return;
-  constexpr std::size_t width = 40;
-  const std::size_t full = width * done / all;
-  fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {}/{}{}", "", full, "", width - full, done, all,
-             done == all ? "\n" : "");
-  (void)std::fflush(stderr);
-}
-
 exit_status verify(const verify_options& options) {
   const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
   refuse_shared_outputs(outputs);
@@ -228,11 +218,14 @@ exit_status verify(const verify_options& options) {
   report_files reports(options.report);
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   report r(look_at_terminal(), silent);
+  progress shown(static_cast<long>(cases.size()), "problems", options.report.quiet);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    show_progress(i, cases.size());
-    r.add(verify_case(cases[i], read_problem((reference / "problems" / cases[i].file).string())));
+    shown.reached(static_cast<long>(i));
+    const verified_case verified =
+        verify_case(cases[i], read_problem((reference / "problems" / cases[i].file).string()));
+    shown.erase();
+    r.add(verified);
   }
-  show_progress(cases.size(), cases.size());
   r.conclude();
   flush_standard_output();
   if (out) {

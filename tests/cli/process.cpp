@@ -26,10 +26,10 @@ std::string contents(const std::filesystem::path& p) {
 [[noreturn]] void become(const std::filesystem::path& directory, std::vector<std::string> arguments,
                          const process_options& options, const std::filesystem::path& streams, int terminal) {
   dup2(open((streams / "in").c_str(), O_RDONLY), STDIN_FILENO);
-  dup2(open((streams / "err").c_str(), O_WRONLY), STDERR_FILENO);
+  dup2(options.error_terminal ? terminal : open((streams / "err").c_str(), O_WRONLY), STDERR_FILENO);
   if (chdir(directory.c_str()) != 0) _exit(127);
   const std::string output = options.output.empty() ? (streams / "out").string() : options.output;
-  dup2(terminal >= 0 ? terminal : open(output.c_str(), O_WRONLY), STDOUT_FILENO);
+  dup2(options.terminal ? terminal : open(output.c_str(), O_WRONLY), STDOUT_FILENO);
   for (int left_over = STDERR_FILENO + 1; left_over < 10; ++left_over) close(left_over);
   if (output == "closed") close(STDOUT_FILENO);
   clearenv();
@@ -63,7 +63,8 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
   int leader = -1;
   int terminal = -1;
   winsize size{24, 80, 0, 0};
-  if (options.terminal && openpty(&leader, &terminal, nullptr, nullptr, &size) != 0) {
+  const bool wants_terminal = options.terminal || options.error_terminal;
+  if (wants_terminal && openpty(&leader, &terminal, nullptr, nullptr, &size) != 0) {
     throw std::runtime_error("no pseudo-terminal can be had");
   }
   const pid_t child = fork();
@@ -71,7 +72,7 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
   finished f;
   if (terminal >= 0) {
     close(terminal);
-    f.out = drain(leader);
+    (options.terminal ? f.out : f.err) = drain(leader);
     close(leader);
   }
   int status = 0;
@@ -79,8 +80,8 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
   wait4(child, &status, 0, &used);
   f.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   f.peak_kib = used.ru_maxrss;
-  if (terminal < 0) f.out = streams.read("out");
-  f.err = streams.read("err");
+  if (!options.terminal) f.out = streams.read("out");
+  if (!options.error_terminal) f.err = streams.read("err");
   return f;
 }
 

@@ -17,8 +17,9 @@ struct finished {
 struct process_options {
   std::string input;                                             ///< standard input
   std::vector<std::pair<std::string, std::string>> environment;  ///< on top of a bare one
-  bool terminal = false;    ///< standard output is a terminal (of 80 columns)
-  std::string output = {};  ///< standard output goes to this file instead; "closed" for none at all
+  bool terminal = false;        ///< standard output is a terminal (of 80 columns)
+  std::string output = {};      ///< standard output goes to this file instead; "closed" for none at all
+  bool error_terminal = false;  ///< standard error is a terminal; the same one where both are
 };
 
 /// Run the program with these arguments in `directory`.
