@@ -15,6 +15,14 @@
 
 namespace contct {
 
+/// How one follower answered one call of the leader.
+struct follower_answer {
+  std::int64_t values = 0, mismatches = 0;
+  std::uint64_t smin_ulps = 0;  ///< distance of SMIN
+  std::uint64_t ss_ulps = 0;    ///< largest distance of an s
+  bool failed = false;          ///< it gave no answer
+};
+
 /// Observes a path: each call that the leader answered goes to every follower, with identical
 /// inputs, and SMIN, all of SS, all of ISEP and the unit-26 text are compared.
 class lockstep final : public observer {
@@ -30,6 +38,8 @@ class lockstep final : public observer {
   [[nodiscard]] const std::optional<finding>& first() const { return first_; }
   /// Did every follower answer the last call as the leader did?
   [[nodiscard]] bool last_call_equal() const { return last_call_equal_; }
+  /// How each follower answered the last call.
+  [[nodiscard]] const std::vector<follower_answer>& last_answers() const { return last_answers_; }
 
  private:
   void ask(kernel& follower, const answered_call& c);
@@ -40,6 +50,7 @@ class lockstep final : public observer {
   tally tally_;
   std::optional<finding> first_;
   bool last_call_equal_ = true;
+  std::vector<follower_answer> last_answers_;
   call_outputs answered_;
 };
 
