@@ -15,6 +15,7 @@
 #include "app/endings.hpp"
 #include "app/path_progress.hpp"
 #include "app/report_options.hpp"
+#include "app/run_pictures.hpp"
 #include "app/streams.hpp"
 #include "contct/check/certificate.hpp"
 #include "contct/check/early_toggles.hpp"
@@ -45,6 +46,7 @@ struct run_options {
   std::string log;
   std::string trace;
   report_options report;
+  picture_options pictures;
   bool free_run = false;
   bool final_only = false;
   bool strict = false;
@@ -60,13 +62,6 @@ class log_writer final : public observer {
  private:
   output_file& out_;
 };
-
-/// Titles may have line ends, a trace's header must not.
-std::string on_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char ch) { return ch == '\n' || ch == '\r'; }, ' ');
-  return text;
-}
 
 /// "1 node", "3 nodes".
 template <class Count>
@@ -109,8 +104,10 @@ class run {
   }
 
   [[nodiscard]] std::vector<output_option> outputs() const {
-    return with_reports({{"--json", options_.json}, {"--log", options_.log}, {"--trace", options_.trace}},
-                        options_.report);
+    return with_reports(
+        with_pictures({{"--json", options_.json}, {"--log", options_.log}, {"--trace", options_.trace}},
+                      options_.pictures),
+        options_.report);
   }
 
   /// The engine of a path that `name` leads. The 1989 way for the 1989 rule, unless asked otherwise: it is
@@ -175,6 +172,10 @@ class run {
     std::vector<observer*> watching = observers(compared);
     if (!options_.trace.empty())
       watching.push_back(&recorder_.emplace(header_of_trace(leader), trace_sink()));
+    const bool forces_by_law = leader.facts().rule != "listing";
+    for (observer* drawing :
+         pictures_->observe(problem_, structure_, loads_of(problem_), compared, forces_by_law))
+      watching.push_back(drawing);
     if (record != nullptr) watching.push_back(record);
     const path_end end = follow(problem_, structure_, engine_, leader, watching, limits());
     shown_.reset();
@@ -210,6 +211,7 @@ class run {
       log_.emplace(*log_file_);
     }
     if (!options_.trace.empty()) trace_file_.emplace(options_.trace);
+    pictures_.emplace(options_.pictures);
     reports_.emplace(options_.report);
   }
 
@@ -310,8 +312,27 @@ class run {
     if (json_) json_->finish(equal ? status_name(end.status) : "kernels-disagree", end, compared);
     if (log_) log_file_->finish();
     if (trace_file_) trace_file_->finish();
+    pictures_->finish([&] { return finished(end, equal, compared != nullptr); });
     reports_->write(check_report_of(end, equal));
     return status;
+  }
+
+  /// What pictures are made from.
+  [[nodiscard]] finished_run finished(const path_end& end, bool equal, bool in_lockstep) const {
+    return {problem_,
+            pictures_->kept(),
+            pictures_->record(),
+            *judged_,
+            early_,
+            options_.file,
+            options_.kernels,
+            options_.engine,
+            std::string(equal ? status_name(end.status) : "kernels-disagree"),
+            end_words(problem_, end),
+            in_lockstep,
+            equal,
+            compared_words_,
+            common_facts()};
   }
 
   /// What a CI system is told.
@@ -352,6 +373,7 @@ class run {
   linear_structure structure_;
   std::optional<output_file> json_file_, log_file_, trace_file_;
   std::optional<trace_recorder> recorder_;
+  std::optional<run_pictures> pictures_;
   std::optional<report_files> reports_;
   std::string compared_words_, differences_;  // how the kernels compared, for the reports
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
@@ -392,9 +414,10 @@ void add_run(CLI::App& program, exit_status& status) {
   command->add_option("--json", options->json, "Write the result to this file (- is standard output)");
   command->add_option("--trace", options->trace,
                       "Write every call of the leader, inputs and answers, to this file");
+  add_picture_options(*command, options->pictures);
   add_report_options(*command, options->report);
   command->add_option("--log", options->log, "Write what the leader writes to unit 26 to this file");
-  for (const char* of_a_path : {"--trace", "--log", "--max-increments"})
+  for (const char* of_a_path : {"--trace", "--log", "--max-increments", "--html", "--svg", "--csv", "--vtu"})
     final_only->excludes(command->get_option(of_a_path));
   command->callback([options, &status] { status = run(*options).go(); });
 }

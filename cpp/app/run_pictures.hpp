@@ -1,0 +1,60 @@
+// What `contct run` draws and tabulates: --html, --svg, --csv and --vtu.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/output_options.hpp"
+#include "contct/check/frames.hpp"
+#include "contct/io/finished_run.hpp"
+#include "contct/io/run_csv.hpp"
+#include "contct/io/run_record.hpp"
+
+namespace contct {
+
+struct picture_options {
+  std::string html, svg, csv, vtu;
+
+  [[nodiscard]] bool wants_frames() const { return !html.empty() || !svg.empty() || !vtu.empty(); }
+};
+
+void add_picture_options(CLI::App& command, picture_options& options);
+
+/// Every file that these options may write, behind `others`. Throws std::invalid_argument for names that
+/// cannot be theirs.
+[[nodiscard]] std::vector<output_option> with_pictures(std::vector<output_option> others,
+                                                       const picture_options& options);
+
+/// The files, open before any work is done, and the observers that fill them.
+class run_pictures {
+ public:
+  /// `options` must outlive this object.
+  explicit run_pictures(const picture_options& options);
+
+  /// The observers of a run of `p`; they look at `compared`, which may be null and must observe before them.
+  std::vector<observer*> observe(const problem& p, const linear_structure& s, const load_history& loads,
+                                 const lockstep* compared, bool forces_by_law);
+
+  /// What was seen. Only after `observe`, and only where a picture was asked for.
+  [[nodiscard]] bool wants_frames() const { return kept_.has_value(); }
+  [[nodiscard]] const frame_keeper& kept() const { return *kept_; }
+  [[nodiscard]] const run_record& record() const { return *record_; }
+
+  /// Write and name all files; `r` is asked for only where there is something to draw.
+  void finish(const std::function<finished_run()>& r);
+
+ private:
+  void finish_vtu(const finished_run& r);
+
+  const picture_options& options_;
+  std::unique_ptr<output_file> html_, svg_, csv_, csv_pairs_, vtu_, pvd_;
+  std::optional<frame_keeper> kept_;
+  std::optional<run_record> record_;
+  std::optional<run_csv> tables_;
+};
+
+}  // namespace contct

@@ -1,0 +1,53 @@
+// What one reads off a frame: over all nodes, elements and pairs.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "contct/check/frames.hpp"
+#include "contct/io/load_text.hpp"
+#include "contct/io/problem.hpp"
+
+namespace contct {
+
+/// The load of a frame; nothing before the first step.
+[[nodiscard]] load load_of(const load_path& loads, const frame& f);
+
+/// The deflection of node `node`, from 0.
+[[nodiscard]] double deflection_of(const problem& p, const frame& f, std::size_t node);
+
+/// How a pair stands in a frame, and its gap and force as results have them.
+struct pair_reading {
+  double w, gap, force;
+  pair_look look;
+};
+[[nodiscard]] pair_reading reading_of(const problem& p, const frame& f, std::size_t pair);
+
+/// A place and the value there.
+struct extreme {
+  std::size_t at = 0;
+  double value = 0.0;
+};
+
+/// The node that deflects most.
+[[nodiscard]] extreme largest_deflection(const problem& p, const frame& f);
+
+/// Pairs of each look: open, closed, at their faces.
+struct pair_counts {
+  std::size_t open = 0, closed = 0, at_face = 0;
+  [[nodiscard]] std::size_t& of(pair_look look) {
+    return look == pair_look::open ? open : look == pair_look::closed ? closed : at_face;
+  }
+};
+[[nodiscard]] pair_counts count_pairs(const problem& p, const frame& f);
+
+/// A word for a look: "open", "closed", "at its face".
+[[nodiscard]] const char* words_of(pair_look look);
+
+/// Where a node is: x along a beam; x and y on a plate.
+struct place {
+  double x = 0.0, y = 0.0;
+};
+[[nodiscard]] place place_of_node(const model& m, int node);
+
+}  // namespace contct

@@ -1,0 +1,883 @@
+// Draws a run from the JSON beside it. Numbers come from the run; nothing is computed here but where to
+// put them on the page, and gaps and forces of pairs, by the same formulas as the program's.
+"use strict";
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const frames = data.frames;
+const geometry = data.geometry;
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+
+// ---- words and numbers ----
+
+const byId = (id) => document.getElementById(id);
+const minus = (text) => text.replace(/-/g, "\u2212");
+// Seven digits for people; the whole number stands in the title and in data-value.
+const short = (x) => (x === null || x === undefined ? "–" : minus(String(Number(x.toPrecision(7)))));
+const rough = (x) => minus(String(Number(x.toPrecision(4))));
+const counted = (n, what) => `${n.toLocaleString("en")} ${what}${n === 1 ? "" : "s"}`;
+const side = (surface) => (surface > 0 ? "above" : "below");
+const where = (f) => (f.step === 0 ? "Start" : f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`);
+const looks = { o: "open", c: "closed", f: "at its face" };
+
+function element(name, attributes = {}, ...children) {
+  const e = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
+  e.append(...children);
+  return e;
+}
+
+function cell(value, attributes = {}) {
+  if (typeof value !== "number") return element("td", { class: "words", ...attributes }, value);
+  return element("td", { "data-value": String(value), title: String(value), ...attributes }, short(value));
+}
+
+function eventWords([pair, node, surface, makes]) {
+  return `pair ${pair} ${makes ? "makes" : "breaks"} contact (node ${node}, ${side(surface)})`;
+}
+
+function allEventWords(events, all) {
+  const named = events.slice(0, 8).map(eventWords);
+  if (all > named.length) named.push(`and ${all - named.length} more`);
+  return named.join("; ");
+}
+
+// ---- pairs, as the program reads them ----
+
+function pairOf(frame, i) {
+  const p = data.pairs[i];
+  const w = frame.at_pairs[i];
+  const closed = frame.closed[i] === 1;
+  const clear = p.side * (p.face - w);
+  return {
+    ...p, w, closed, look: frame.looks[i],
+    gap: closed ? 0 : clear,
+    force: closed ? -p.side * p.stiffness * (p.face - w) : 0,
+  };
+}
+
+const pairsOf = (frame) => data.pairs.map((_, i) => pairOf(frame, i));
+
+// ---- SVG ----
+
+const svgSpace = "http://www.w3.org/2000/svg";
+
+function svg(name, attributes = {}, ...children) {
+  const e = document.createElementNS(svgSpace, name);
+  for (const [key, value] of Object.entries(attributes)) {
+    e.setAttribute(key, typeof value === "number" ? String(Math.round(value * 100) / 100) : value);
+  }
+  e.append(...children);
+  return e;
+}
+
+const line = (x1, y1, x2, y2, kind) => svg("line", { x1, y1, x2, y2, class: kind });
+const label = (x, y, words, attributes = {}) => svg("text", { x, y, ...attributes }, words);
+const path = (points, kind, end = "") =>
+  svg("path", { d: "M" + points.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L") + end, class: kind });
+
+function canvas(holder, width, height, title) {
+  const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "aria-label": title });
+  holder.replaceChildren(root);
+  return root;
+}
+
+// 1, 2 or 5 times a power of ten, not above x.
+function roundDown(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  const digit = x / power;
+  return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
+}
+
+function ticks(from, to, about) {
+  const step = roundDown(((to - from) / about) * 2);
+  const list = [];
+  if (!(step > 0) || !isFinite(step)) return list;
+  for (let i = Math.ceil(from / step - 1e-9); i * step <= to + step * 1e-9; ++i) list.push(i * step);
+  return list;
+}
+
+function spread(values) {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const v of values) {
+    if (v === null || !isFinite(v)) continue;
+    if (v < low) low = v;
+    if (v > high) high = v;
+  }
+  return low > high ? [0, 0] : [low, high];
+}
+
+const spreadOfFrames = (values) => spread(frames.flatMap((f) => spread(values(f))));
+
+function arrow(x, y, dx, dy, kind) {
+  const length = Math.hypot(dx, dy);
+  if (length < 1) return svg("g");
+  const [ux, uy] = [dx / length, dy / length];
+  const head = Math.min(8, length);
+  const [bx, by] = [x + dx - ux * head, y + dy - uy * head];
+  return svg("g", { class: kind },
+    svg("path", { d: `M${x} ${y}L${bx} ${by}`, fill: "none" }),
+    svg("path", { d: `M${x + dx} ${y + dy}L${bx - uy * 4} ${by + ux * 4}L${bx + uy * 4} ${by - ux * 4}Z`, "stroke-width": 0 }));
+}
+
+// The three looks differ in shape: open is a ring, closed a square, at its face a diamond.
+function pairMark(look, x, y, r) {
+  if (look === "o") return svg("circle", { cx: x, cy: y, r, class: "pair-open" });
+  if (look === "c") return svg("rect", { x: x - r, y: y - r, width: 2 * r, height: 2 * r, class: "pair-closed" });
+  const d = r * 1.3;
+  return svg("path", { d: `M${x} ${y - d}L${x + d} ${y}L${x} ${y + d}L${x - d} ${y}Z`, class: "pair-face" });
+}
+
+// ---- the beam ----
+
+const margin = { left: 74, right: 26 };
+let magnification = null;  // as chosen; null: as fits
+
+// What the pictures of a beam have in common, once.
+const beam = geometry.kind !== "beam" ? null : (() => {
+  const [low, high] = spreadOfFrames((f) => f.w);
+  const reach = Math.max(Math.abs(low), Math.abs(high));
+  const near = data.pairs.filter((p) => reach === 0 || Math.abs(p.face) <= 2.5 * reach).map((p) => p.face);
+  const [l, h] = spread([low, high, 0, ...near]);
+  const most = (values) => Math.max(...frames.map((f) => Math.max(...values(f).map(Math.abs), 0)));
+  return {
+    low: l, high: h,
+    from: geometry.x[0], to: geometry.x[geometry.x.length - 1],
+    point: most((f) => f.points.filter((p) => p[2] === 0).map((p) => p[3])),
+    spread: most((f) => f.q || []),
+    force: most((f) => pairsOf(f).map((p) => p.force)),
+  };
+})();
+
+function fittingMagnification(width, height) {
+  const range = beam.high - beam.low;
+  const scale = (width - margin.left - margin.right) / (beam.to - beam.from);
+  return range > 0 ? roundDown(height / (range * scale)) : 1;
+}
+
+function hermite(x0, x1, w0, w1, t0, t1, share) {
+  const h = x1 - x0;
+  const [a, b] = [share, 1 - share];
+  return w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
+}
+
+function deflectedLine(f, X, Y) {
+  const x = geometry.x;
+  const pieces = x.length > 120 ? 1 : Math.ceil(240 / x.length);
+  const points = [[X(x[0]), Y(f.w[0])]];
+  for (let i = 0; i + 1 < x.length; ++i) {
+    for (let k = 1; k <= pieces; ++k) {
+      const a = k / pieces;
+      const w = hermite(x[i], x[i + 1], f.w[i], f.w[i + 1], f.slope[i], f.slope[i + 1], a);
+      points.push([X(x[i] + a * (x[i + 1] - x[i])), Y(w)]);
+    }
+  }
+  return points;
+}
+
+// The deflection at x, between the nodes that are drawn.
+function deflectionAt(f, x) {
+  const xs = geometry.x;
+  let i = 0;
+  while (i + 2 < xs.length && xs[i + 1] <= x) ++i;
+  return hermite(xs[i], xs[i + 1], f.w[i], f.w[i + 1], f.slope[i], f.slope[i + 1], (x - xs[i]) / (xs[i + 1] - xs[i]));
+}
+
+function drawSupport(s, f, X, Y) {
+  const fixed = s.dofs.some(([dof, spring]) => dof === "w" && spring === null);
+  const held = s.dofs.some(([dof]) => dof === "w");
+  const turns = s.dofs.some(([dof, spring]) => dof === "theta" && spring === null);
+  const [x, y] = [X(s.x), Y(deflectionAt(f, s.x))];
+  const name = `Support at node ${s.node}: ` +
+    s.dofs.map(([dof, spring]) => (spring === null ? `${dof} fixed` : `${dof} on a spring of ${short(spring)}`)).join(", ");
+  const g = svg("g", {}, svg("title", {}, name));
+  if (fixed && turns) {
+    const out = s.x - beam.from < beam.to - s.x ? -1 : 1;
+    g.append(svg("path", { d: `M${x} ${y - 20}V${y + 20}`, class: "support", "stroke-width": 3 }));
+    for (let k = -16; k <= 20; k += 8) g.append(line(x, y + k, x + out * 8, y + k - 8, "hatch"));
+  } else if (fixed) {
+    g.append(svg("path", { d: `M${x} ${y + 3}l9 15h-18Z`, class: "support" }), line(x - 13, y + 22, x + 13, y + 22, "thin"));
+  } else if (held) {
+    g.append(svg("path", { d: `M${x} ${y + 2}v3l6 3l-12 5l12 5l-12 5l6 3v3`, class: "thin" }), line(x - 10, y + 29, x + 10, y + 29, "thin"));
+  } else {
+    g.append(svg("rect", { x: x - 6, y: y - 6, width: 12, height: 12, class: "support", "fill-opacity": 0 }));
+  }
+  return g;
+}
+
+// The face of a pair, hatched on the side away from the beam; a dashed one stands beyond the picture.
+function drawFace(p, x, half, Y, top, bottom) {
+  const y = Math.min(bottom - 8, Math.max(top + 8, Y(p.face)));
+  const far = y !== Y(p.face);
+  const g = svg("g", {}, svg("title", {}, `Pair ${p.pair}, node ${p.node}: face ${side(p.side)} at ${short(p.face)}${far ? ", beyond the picture" : ""}`));
+  g.append(line(x - half, y, x + half, y, "face-line" + (far ? " far" : "")));
+  if (half >= 5) {
+    for (let k = -half + 2; k < half; k += 6) g.append(line(x + k, y, x + k - p.side * 4, y - p.side * 6, "hatch"));
+  }
+  return [g, y];
+}
+
+function drawPairs(root, f, X, Y, top, bottom) {
+  const pairs = pairsOf(f);
+  if (pairs.length === 0) return;
+  const xs = pairs.map((p) => X(p.x)).sort((a, b) => a - b);
+  const gaps = xs.slice(1).map((x, i) => x - xs[i]).filter((d) => d > 0.01);
+  const room = gaps.length > 0 ? Math.min(...gaps) : 60;
+  const half = Math.max(1, Math.min(16, room * 0.36));
+  const r = Math.max(1.6, Math.min(5, room * 0.3));
+  const numbered = room >= 34 && pairs.length <= 24;
+  for (const p of pairs) {
+    const x = X(p.x);
+    const [face, y] = drawFace(p, x, half, Y, top, bottom);
+    root.append(face);
+    const out = -p.side;  // downwards on the page for a face below
+    const length = beam.force > 0 ? 36 * Math.abs(p.force) / beam.force : 0;
+    const start = y + out * (10 + length);
+    if (p.force > 0 && length >= 1) root.append(arrow(x, start, 0, -out * length, "force"));
+    if (numbered) {
+      const words = `${p.pair}`;
+      const at = y + out * (16 + Math.max(length, 0)) + (out > 0 ? 6 : 0);
+      root.append(label(x, at, words, { "text-anchor": "middle", class: "axis-word halo" }));
+      if (p.closed && room >= 60) {
+        root.append(label(x, at + out * 15, rough(p.force), { "text-anchor": "middle", class: "value halo" }));
+      }
+    }
+  }
+  for (const p of pairs) {
+    const mark = pairMark(p.look, X(p.x), Y(p.w), r);
+    mark.append(svg("title", {}, `Pair ${p.pair}, node ${p.node}, ${looks[p.look]}: ` +
+      (p.closed ? `force ${short(p.force)}` : `gap ${short(p.gap)}`)));
+    root.append(mark);
+  }
+}
+
+function drawLoads(root, f, X, Y) {
+  const longest = 34;
+  if (f.q && beam.spread > 0) {
+    const n = f.q.length;
+    const tails = [];
+    for (let i = 0; i < n; ++i) {
+      const x = beam.from + ((beam.to - beam.from) * i) / (n - 1);
+      const size = (longest * 0.75 * f.q[i]) / beam.spread;
+      const y = Y(deflectionAt(f, x)) + (size > 0 ? 8 : -8);
+      tails.push([X(x), y + size]);
+      if (Math.abs(size) > 3 && (n <= 13 || i % 2 === 0)) root.append(arrow(X(x), y + size, 0, -size, "load"));
+    }
+    root.append(path(tails, "load-line"));
+  }
+  for (const [x, , dof, value, node] of f.points) {
+    const y = Y(deflectionAt(f, x));
+    if (dof === 0 && beam.point > 0) {
+      const size = (longest * 1.3 * value) / beam.point;
+      const start = y + (size > 0 ? 8 : -8) + size;
+      const g = arrow(X(x), start, 0, -size, "load");
+      g.append(svg("title", {}, `Load ${short(value)} at node ${node}`));
+      if (value !== 0) {
+        root.append(g, label(X(x), start + (size > 0 ? 15 : -6), rough(value),
+          { "text-anchor": X(x) > X(beam.to) - 30 ? "end" : X(x) < X(beam.from) + 30 ? "start" : "middle", class: "value halo" }));
+      }
+    } else if (dof === 1 && value !== 0) {
+      const turn = value > 0 ? 0 : 1;
+      root.append(svg("path", { d: `M${X(x) + 13} ${y + 7}A15 15 0 1 ${turn ? 0 : 0} ${X(x) + 13} ${y - 7}`, class: "load-line", "stroke-width": 2 }),
+        label(X(x) + 17, y - 10, `${rough(value)} ${value > 0 ? "↺" : "↻"}`, { class: "value halo" }));
+    }
+  }
+}
+
+function drawBeamAxis(root, X, Y, bottom, width) {
+  for (const x of ticks(beam.from, beam.to, width < 520 ? 5 : 10)) {
+    root.append(line(X(x), bottom, X(x), bottom + 5, "zero"));
+    root.append(label(X(x), bottom + 19, rough(x), { "text-anchor": "middle", class: "axis-word" }));
+  }
+  root.append(line(X(beam.from), bottom, X(beam.to), bottom, "zero"));
+}
+
+// A strip under the beam with a quantity that may jump at the nodes.
+function drawStrip(root, f, X, top, height, name, title) {
+  const values = f[name];
+  const [low, high] = strips[name];
+  const range = high - low || 1;
+  const Y = (v) => top + 24 + ((high - v) / range) * (height - 34);
+  for (const v of ticks(low, high, 3)) {
+    if (v !== 0) root.append(line(margin.left, Y(v), X(beam.to), Y(v), "grid"));
+    root.append(label(margin.left - 8, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
+  }
+  root.append(line(margin.left, Y(0), X(beam.to), Y(0), "zero"));
+  const points = [];
+  geometry.x.forEach((x, i) => {
+    if (values.left[i] !== null) points.push([X(x), Y(values.left[i])]);
+    if (values.right[i] !== null) points.push([X(x), Y(values.right[i])]);
+  });
+  root.append(path([[X(beam.from), Y(0)], ...points, [X(beam.to), Y(0)]], name + "-area", "Z"));
+  root.append(path(points, name));
+  root.append(label(margin.left, top + 12, title, { class: "panel-title" }));
+  root.append(label(X(beam.to), top + 12, `largest ${rough(values.largest)} at node ${values.node}`,
+    { "text-anchor": "end", class: "value" }));
+}
+
+const strips = geometry.kind !== "beam" ? {} : Object.fromEntries(["moment", "shear"].map((name) => {
+  const [low, high] = spreadOfFrames((f) => [...f[name].left, ...f[name].right, 0]);
+  return [name, [low, high]];
+}));
+
+function drawBeam(f) {
+  const holder = byId("picture");
+  const width = Math.max(320, holder.clientWidth || 680);
+  const room = width < 520 ? 150 : 190;  // for deflections
+  const [above, below] = [78, 92];       // for loads and for pairs' forces
+  const fitting = fittingMagnification(width, room);
+  const factor = magnification || fitting;
+  const scale = (width - margin.left - margin.right) / (beam.to - beam.from);
+  const X = (x) => margin.left + (x - beam.from) * scale;
+  const middle = (beam.high + beam.low) / 2;
+  const Y = (w) => above + room / 2 - (w - middle) * factor * scale;
+  const bottom = above + room + below;
+  const strip = 112;
+  const height = bottom + 30 + 2 * (strip + 14);
+  const root = canvas(holder, width, height, stateWords(f));
+  root.append(label(margin.left, 16, `Deflection, drawn × ${factor.toLocaleString("en", { maximumSignificantDigits: 3 })}`, { class: "panel-title" }));
+  const reach = room / 2 / (factor * scale);
+  for (const w of ticks(middle - reach, middle + reach, 4)) {
+    root.append(line(margin.left, Y(w), X(beam.to), Y(w), w === 0 ? "zero" : "grid"));
+    root.append(label(margin.left - 8, Y(w) + 4, rough(w), { "text-anchor": "end", class: "axis-word" }));
+  }
+  root.append(line(X(beam.from), Y(0), X(beam.to), Y(0), "undeformed"));
+  for (const s of data.supports) root.append(drawSupport(s, f, X, Y));
+  root.append(path(deflectedLine(f, X, Y), "beam"));
+  drawLoads(root, f, X, Y);
+  drawPairs(root, f, X, Y, 20, bottom);
+  drawBeamAxis(root, X, Y, bottom, width);
+  drawStrip(root, f, X, bottom + 36, strip, "moment", "Moment M = EI w″, positive where it sags");
+  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", width < 520 ? "Shear V = dM/dx" : "Shear V = dM/dx: upward force of the left part on the right");
+  offerMagnifications(fitting);
+}
+
+function offerMagnifications(fitting) {
+  const select = byId("magnification");
+  if (Number(select.dataset.fitting) === fitting) return;
+  select.dataset.fitting = String(fitting);
+  select.replaceChildren(element("option", { value: "" }, `× ${rough(fitting)} (fits)`));
+  for (const times of [0.1, 0.5, 2, 5]) {
+    select.append(element("option", { value: String(fitting * times) }, `× ${rough(fitting * times)}`));
+  }
+  if (fitting !== 1) select.append(element("option", { value: "1" }, "× 1 (true to scale)"));
+  select.value = magnification === null ? "" : String(magnification);
+}
+
+// ---- the plate ----
+
+const plate = geometry.kind !== "plate" ? null : (() => {
+  const [low, high] = spreadOfFrames((f) => f.w);
+  return { low, high, force: Math.max(0, ...frames.map((f) => Math.max(0, ...pairsOf(f).map((p) => p.force)))) };
+})();
+
+const bands = 10;
+
+// From deep blue, the lowest, to pale, the highest; light changes all along, so that grey prints tell too.
+function bandColour(i) {
+  const share = i / (bands - 1);
+  const stops = [[22, 52, 98], [38, 104, 160], [104, 165, 200], [178, 210, 222], [250, 244, 228]];
+  const at = share * (stops.length - 1);
+  const k = Math.min(stops.length - 2, Math.floor(at));
+  const mix = stops[k].map((c, j) => Math.round(c + (stops[k + 1][j] - c) * (at - k)));
+  return `rgb(${mix.join(",")})`;
+}
+
+// The part of a triangle whose values lie between two levels.
+function clipped(corners, least, most) {
+  const half = (list, keep, level) => {
+    const out = [];
+    list.forEach((a, i) => {
+      const b = list[(i + 1) % list.length];
+      const [inA, inB] = [keep(a[2]), keep(b[2])];
+      if (inA) out.push(a);
+      if (inA !== inB) {
+        const t = (level - a[2]) / (b[2] - a[2]);
+        out.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), level]);
+      }
+    });
+    return out;
+  };
+  const upper = half(corners, (v) => v >= least, least);
+  return upper.length < 3 ? [] : half(upper, (v) => v <= most, most);
+}
+
+function contourPaths(f, X, Y) {
+  const [nx, ny] = [geometry.x.length, geometry.y.length];
+  const range = plate.high - plate.low || 1;
+  const paths = Array.from({ length: bands }, () => []);
+  const corner = (i, j) => [X(geometry.x[i]), Y(geometry.y[j]), f.w[j * nx + i]];
+  for (let j = 0; j + 1 < ny; ++j) {
+    for (let i = 0; i + 1 < nx; ++i) {
+      const [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+      const m = [0, 1, 2].map((k) => (a[k] + b[k] + c[k] + d[k]) / 4);
+      for (const triangle of [[a, b, m], [b, c, m], [c, d, m], [d, a, m]]) {
+        const values = triangle.map((p) => (p[2] - plate.low) / range);
+        const from = Math.max(0, Math.floor(Math.min(...values) * bands - 1e-9));
+        const to = Math.min(bands - 1, Math.floor(Math.max(...values) * bands));
+        for (let band = from; band <= to; ++band) {
+          const least = band === 0 ? -Infinity : plate.low + (range * band) / bands;
+          const most = band === bands - 1 ? Infinity : plate.low + (range * (band + 1)) / bands;
+          const part = clipped(triangle, least, most);
+          if (part.length > 2) paths[band].push("M" + part.map((p) => `${p[0].toFixed(1)} ${p[1].toFixed(1)}`).join("L") + "Z");
+        }
+      }
+    }
+  }
+  return paths;
+}
+
+function drawPlate(f) {
+  const holder = byId("picture");
+  const width = Math.max(320, holder.clientWidth || 680);
+  const [x0, x1] = [geometry.x[0], geometry.x[geometry.x.length - 1]];
+  const [y0, y1] = [geometry.y[0], geometry.y[geometry.y.length - 1]];
+  const narrow = width < 560;
+  const room = { left: 62, right: narrow ? 22 : 150, top: 34, bottom: narrow ? 92 : 46 };
+  const scale = Math.min((width - room.left - room.right) / (x1 - x0), 520 / (y1 - y0));
+  const height = room.top + room.bottom + (y1 - y0) * scale;
+  const X = (x) => room.left + (x - x0) * scale;
+  const Y = (y) => room.top + (y1 - y) * scale;
+  const root = canvas(holder, width, height, stateWords(f));
+  root.append(label(room.left, 18, "Deflection w from above, and the pairs", { class: "panel-title" }));
+  const map = svg("g");
+  contourPaths(f, X, Y).forEach((d, i) => {
+    if (d.length > 0) map.append(svg("path", { d: d.join(""), fill: bandColour(i), stroke: bandColour(i), "stroke-width": 0.7 }));
+  });
+  root.append(map, svg("rect", { x: X(x0), y: Y(y1), width: X(x1) - X(x0), height: Y(y0) - Y(y1), class: "edge" }));
+  for (const x of ticks(x0, x1, narrow ? 4 : 6)) {
+    root.append(line(X(x), Y(y0), X(x), Y(y0) + 5, "zero"), label(X(x), Y(y0) + 19, rough(x), { "text-anchor": "middle", class: "axis-word" }));
+  }
+  for (const y of ticks(y0, y1, 6)) {
+    root.append(line(X(x0) - 5, Y(y), X(x0), Y(y), "zero"), label(X(x0) - 9, Y(y) + 4, rough(y), { "text-anchor": "end", class: "axis-word" }));
+  }
+  root.append(label(X(x1), Y(y0) + 36, "x", { "text-anchor": "end", class: "axis-word" }), label(X(x0) - 9, Y(y1) - 6, "y", { "text-anchor": "end", class: "axis-word" }));
+  drawPlateSupports(root, X, Y);
+  drawPlatePairs(root, f, X, Y);
+  drawPlateLoads(root, f, X, Y);
+  if (narrow) drawScaleAcross(root, room.left, height - 44, width - room.left - room.right);
+  else drawScaleDown(root, X(x1) + 26, room.top + 8, Math.min(300, Y(y0) - Y(y1) - 8));
+}
+
+function drawPlateSupports(root, X, Y) {
+  for (const s of data.supports) {
+    const [x, y] = [X(s.x), Y(s.y)];
+    const g = svg("g", {}, svg("title", {}, `Support at node ${s.node}: ${s.dofs.map(([dof, k]) => (k === null ? dof : `${dof} on a spring`)).join(", ")}`));
+    if (s.dofs.some(([dof]) => dof === "w")) g.append(svg("path", { d: `M${x} ${y - 5}l5 9h-10Z`, class: "support" }));
+    else g.append(svg("path", { d: `M${x - 3} ${y - 3}l6 6m-6 0l6 -6`, class: "thin" }));
+    root.append(g);
+  }
+}
+
+function drawPlatePairs(root, f, X, Y) {
+  const pairs = pairsOf(f);
+  const xs = [...new Set(pairs.map((p) => X(p.x)))].sort((a, b) => a - b);
+  const room = xs.length > 1 ? Math.min(...xs.slice(1).map((x, i) => x - xs[i])) : 40;
+  const most = Math.max(1.6, Math.min(9, room * 0.38));
+  for (const p of pairs) {
+    const grown = p.look === "c" && plate.force > 0 ? 0.35 + 0.65 * Math.sqrt(Math.max(0, p.force) / plate.force) : 0.5;
+    const [x, y] = [X(p.x), Y(p.y)];
+    const r = Math.max(1.5, most * grown);
+    const mark = pairMark(p.look, x, y, r);
+    mark.append(svg("title", {}, `Pair ${p.pair}, node ${p.node}, face ${side(p.side)}, ${looks[p.look]}: ` +
+      (p.closed ? `force ${short(p.force)}` : `gap ${short(p.gap)}`)));
+    root.append(mark);
+    if (p.side > 0 && most > 3) root.append(svg("path", { d: `M${x - r - 1} ${y - r - 3}h${2 * r + 2}`, class: "face-line" }));
+  }
+}
+
+function drawPlateLoads(root, f, X, Y) {
+  for (const [x, y, dof, value, node] of f.points) {
+    if (dof !== 0 || value === 0) continue;
+    const g = svg("g", { class: "load" }, svg("title", {}, `Load ${short(value)} at node ${node}`));
+    g.append(svg("circle", { cx: X(x), cy: Y(y), r: 8, "fill-opacity": 0, "stroke-width": 2.5 }));
+    if (value < 0) g.append(svg("path", { d: `M${X(x) - 5} ${Y(y) - 5}l10 10m-10 0l10 -10`, "stroke-width": 2 }));
+    else g.append(svg("circle", { cx: X(x), cy: Y(y), r: 2.5 }));
+    root.append(g);
+  }
+}
+
+const bandEdge = (i) => plate.low + ((plate.high - plate.low) * i) / bands;
+
+function drawScaleDown(root, x, y, height) {
+  root.append(label(x, y - 12, "w", { class: "panel-title" }));
+  for (let i = 0; i < bands; ++i) {
+    root.append(svg("rect", { x, y: y + (height * (bands - 1 - i)) / bands, width: 20, height: height / bands + 0.5, fill: bandColour(i) }));
+  }
+  root.append(svg("rect", { x, y, width: 20, height, fill: "none", class: "zero" }));
+  for (let i = 0; i <= bands; i += 2) {
+    root.append(label(x + 28, y + (height * (bands - i)) / bands + 4, rough(bandEdge(i)), { class: "axis-word" }));
+  }
+}
+
+function drawScaleAcross(root, x, y, width) {
+  for (let i = 0; i < bands; ++i) {
+    root.append(svg("rect", { x: x + (width * i) / bands, y, width: width / bands + 0.5, height: 14, fill: bandColour(i) }));
+  }
+  root.append(svg("rect", { x, y, width, height: 14, fill: "none", class: "zero" }));
+  root.append(label(x, y - 6, "w", { class: "panel-title" }));
+  for (const [i, anchor] of [[0, "start"], [bands / 2, "middle"], [bands, "end"]]) {
+    root.append(label(x + (width * i) / bands, y + 30, Number(bandEdge(i).toPrecision(3)), { "text-anchor": anchor, class: "axis-word" }));
+  }
+}
+
+// ---- load against deflection ----
+
+const totals = frames.map((f) => f.force);
+const [leastTotal, mostTotal] = spread(totals);
+const byForce = mostTotal - leastTotal > 1e-9 * Math.max(Math.abs(leastTotal), Math.abs(mostTotal));
+const progress = (f) => (f.step === 0 ? 0 : f.step - 1 + f.fraction);
+const measure = (f) => (byForce ? f.force : progress(f));
+
+function drawChart(current) {
+  const holder = byId("chart");
+  const width = Math.max(320, holder.clientWidth || 680);
+  const height = width < 520 ? 280 : 340;
+  const room = { left: 84, right: 28, top: 34, bottom: 54 };
+  const [x0, x1] = padded(spread(frames.map((f) => f.watched)));
+  const [y0, y1] = padded(spread(frames.map(measure)));
+  const X = (v) => room.left + ((v - x0) / (x1 - x0)) * (width - room.left - room.right);
+  const Y = (v) => height - room.bottom - ((v - y0) / (y1 - y0)) * (height - room.top - room.bottom);
+  const f = frames[current];
+  const root = canvas(holder, width, height,
+    `Load against the deflection of node ${geometry.watched}, ${frames.length} states; now load ${rough(measure(f))}, deflection ${rough(f.watched)}`);
+  for (const v of ticks(x0, x1, width < 520 ? 4 : 7)) {
+    root.append(line(X(v), room.top, X(v), height - room.bottom, v === 0 ? "zero" : "grid"));
+    root.append(label(X(v), height - room.bottom + 18, rough(v), { "text-anchor": "middle", class: "axis-word" }));
+  }
+  for (const v of ticks(y0, y1, 5)) {
+    root.append(line(room.left, Y(v), width - room.right, Y(v), v === 0 ? "zero" : "grid"));
+    root.append(label(room.left - 8, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
+  }
+  root.append(label(room.left, 18, byForce ? "Sum of the loads, positive up" : "Steps of load applied", { class: "panel-title" }));
+  root.append(label(width - room.right, height - 12, `deflection w of node ${geometry.watched}`, { "text-anchor": "end", class: "axis-word" }));
+  root.append(line(X(f.watched), Y(measure(f)), X(f.watched), height - room.bottom, "cross"), line(room.left, Y(measure(f)), X(f.watched), Y(measure(f)), "cross"));
+  root.append(path(frames.map((g) => [X(g.watched), Y(measure(g))]), "track"));
+  for (const g of frames) root.append(chartMark(g, X(g.watched), Y(measure(g))));
+  root.append(svg("circle", { cx: X(f.watched), cy: Y(measure(f)), r: 9, class: "here" }));
+}
+
+function padded([low, high]) {
+  const reach = high - low || Math.abs(high) || 1;
+  return [low - 0.06 * reach, high + 0.06 * reach];
+}
+
+function chartMark(f, x, y) {
+  const crowd = frames.length > 60 ? 0.6 : 1;
+  const words = `${where(f)}: ${f.all_events > 0 ? allEventWords(f.events, f.all_events) : f.end ? "end of step" : "no event"}`;
+  const makes = f.events.some((e) => e[3] === 1);
+  const mark = f.all_events === 0
+    ? svg("rect", { x: x - 4 * crowd, y: y - 4 * crowd, width: 8 * crowd, height: 8 * crowd, class: "step-end" })
+    : svg("circle", { cx: x, cy: y, r: 4.6 * crowd, class: makes ? "make" : "break" });
+  mark.append(svg("title", {}, words));
+  return mark;
+}
+
+// ---- words for a state, read aloud when it changes ----
+
+function stateWords(f) {
+  const n = data.all_pairs;
+  const [open, closed, atFace] = f.counts;
+  const place = f.step === 0 ? "Before any load."
+    : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid motion at constant load; " : ""}load ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
+  const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
+  const rescued = f.rescued ? " This state comes from the oracle: the path could not reach it." : "";
+  const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} closed, ${open} open, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
+  return `${place}${event}${rescued}${pairs} Largest deflection ${short(f.largest.w)} at node ${f.largest.node}.`;
+}
+
+function showReadings(f) {
+  const read = (name, value, whole) => element("div", {}, element("dt", {}, name),
+    element("dd", whole === undefined ? {} : { "data-reading": name, "data-value": String(whole), title: String(whole) }, value));
+  const list = [
+    read("Increment", f.step === 0 ? "start" : where(f)),
+    read("Share of the step", short(f.fraction), f.fraction),
+    read("Scale factor s", f.number === 0 ? "–" : f.snap ? "snap" : short(f.s), f.s),
+    read("Load", minus(f.load)),
+    read(`Largest deflection, node ${f.largest.node}`, short(f.largest.w), f.largest.w),
+  ];
+  if (data.all_pairs > 0) list.push(read("Closed, open, at face", f.counts[1] + ", " + f.counts[0] + ", " + f.counts[2]));
+  byId("readings").replaceChildren(...list);
+}
+
+// ---- tables ----
+
+const row = (...cells) => element("tr", {}, ...cells);
+
+function head(...names) {
+  return element("thead", {}, row(...names.map(([name, words]) => element("th", { scope: "col", ...(words ? { class: "words" } : {}) }, name))));
+}
+
+const mostPairRows = 250;
+
+function showPairs(f) {
+  const table = byId("pair-table");
+  if (data.all_pairs === 0) {
+    table.parentElement.hidden = true;
+    byId("pairs-words").textContent = "The problem has no contact pairs.";
+    return;
+  }
+  const pairs = pairsOf(f);
+  const shown = pairs.slice(0, mostPairRows);
+  byId("pairs-words").textContent = `State ${where(f)}. Gaps are those of open pairs; forces press on the structure, and a negative one is tension.` +
+    (shown.length < pairs.length ? ` The first ${shown.length} of the ${pairs.length} that the page holds.` : "");
+  table.replaceChildren(head(["Pair"], ["Node"], ["Face", true], ["stands at"], ["State", true], ["Gap"], ["Force"]),
+    element("tbody", {}, ...shown.map((p) => {
+      const r = row(element("th", { scope: "row" }, String(p.pair)), cell(p.node), cell(side(p.side)), cell(p.face),
+        cell(looks[p.look]), cell(p.gap), cell(p.force));
+      r.dataset.pair = String(p.pair);
+      return r;
+    })));
+}
+
+function showEvents() {
+  byId("events-words").textContent = data.all_increments === 0 ? "The path has no increment."
+    : `${counted(data.all_increments, "increment")}. Share is how much of the step's load is applied; s is the share of what was left of it.`;
+  if (data.all_increments === 0) byId("event-table").parentElement.hidden = true;
+  const stops = new Map(frames.map((f, i) => [where(f), i]));
+  byId("event-table").replaceChildren(head(["Increment"], ["Share"], ["s"], ["Load", true], ["Events", true]),
+    element("tbody", {}, ...data.increments.map((i) => {
+      const name = `${i.step}.${i.number}`;
+      const stop = stops.get(name);
+      const heading = element("th", { scope: "row" });
+      if (stop === undefined) heading.append(name);
+      else {
+        const button = element("button", { type: "button", "aria-label": `Show increment ${name}` }, name);
+        button.addEventListener("click", () => { stopPlaying(); show(stop); });
+        heading.append(button);
+      }
+      const r = row(heading, cell(i.fraction), i.snap ? cell("snap") : cell(i.s), cell(minus(i.load)),
+        element("td", { class: "words wrap" }, i.all_events > 0 ? allEventWords(i.events, i.all_events) : "–"));
+      r.dataset.increment = name;
+      return r;
+    })));
+}
+
+function markCurrentRow(f) {
+  for (const r of document.querySelectorAll("#event-table tr.current")) r.classList.remove("current");
+  const now = document.querySelector(`#event-table tr[data-increment="${where(f)}"]`);
+  if (now) now.classList.add("current");
+}
+
+function showCalls() {
+  const [leader, ...others] = data.kernels;
+  const words = byId("comparison-words");
+  const holder = byId("call-table").parentElement;
+  byId("comparison-heading").textContent = data.kernels.join(" against ");
+  if (others.length === 0) {
+    byId("comparison-heading").textContent = `${leader} alone`;
+    words.textContent = "One kernel ran, so none was compared. These are its answers.";
+  } else if (!data.lockstep) {
+    words.textContent = `Each kernel went its own way, so single calls were not compared: ${data.comparison}. The calls of ${leader}:`;
+  } else {
+    words.textContent = `Every call of ${leader} was put to ${others.join(" and ")} with the same inputs: ${data.comparison}. ` +
+      "A distance of 0 ULP means equal to the bit. Compared are SMIN, every s, every status, and the text of unit 26 where both have one.";
+  }
+  if (data.calls.length === 0) {
+    words.textContent += data.all_calls === 0 ? " No call was made." : "";
+    holder.hidden = true;
+    return;
+  }
+  const pairs = Math.max(...data.calls.map((c) => c.ss.length));
+  const names = [["Call"], ["Increment"], [`SMIN, ${leader}`]];
+  const compared = data.lockstep ? others : [];
+  for (const k of compared) names.push([`${k}: SMIN off by, ULP`], ["any s off by, ULP"], ["values, different"]);
+  for (let i = 0; i < pairs; ++i) names.push([`s of pair ${i + 1}`]);
+  byId("call-table").replaceChildren(head(...names), element("tbody", {}, ...data.calls.map((c, n) => {
+    const cells = [element("th", { scope: "row" }, String(n + 1)), cell(c.step === 0 ? "settling" : `${c.step}.${c.number}`), cell(c.smin)];
+    compared.forEach((_, k) => {
+      const a = c.followers[k];
+      if (!a || a[4] === 1) cells.push(cell("no answer"), cell("no answer"), cell("–"));
+      else cells.push(cell(a[2]), cell(a[3]), element("td", {}, `${a[0]}, ${a[1]}`));
+    });
+    for (let i = 0; i < pairs; ++i) cells.push(cell(c.ss[i]));
+    return row(...cells);
+  })));
+  if (data.all_pairs > pairs) words.textContent += ` The table has s of the first ${pairs} of ${data.all_pairs} pairs; the distances are over all.`;
+}
+
+function showCertificate() {
+  const words = byId("certificate-words");
+  const say = (text, kind) => words.append(element("p", kind ? { class: kind } : {}, text));
+  say("Each step's final state is compared with the minimiser of the structure's energy, which an oracle finds apart: it knows neither the kernels nor the path.");
+  if (data.certified.length > 0) say(data.certified.join("; ") + ".", data.uncertified.length === 0 ? "good" : "bad");
+  for (const text of data.uncertified) say(text);
+  const steps = data.certificates;
+  if (steps.length === 0) {
+    say("No step came to its end, so there is nothing to certify.");
+    byId("certificate-table").parentElement.hidden = true;
+    return;
+  }
+  const small = (x) => (x === null || x === undefined ? "–" : minus(x === 0 ? "0" : x.toExponential(1)));
+  const fields = ["displacement_error", "shape_error", "equilibrium", "penetration", "tension", "tolerance"];
+  byId("certificate-table").replaceChildren(
+    head(["Step"], ["Verdict", true], ["deflections off by"], ["shape off by"], ["out of balance"], ["penetration"], ["tension"], ["allowed"], ["digits"]),
+    element("tbody", {}, ...steps.map((c, i) => row(element("th", { scope: "row" }, String(i + 1)), cell(c.mark),
+      ...fields.map((name) => element("td", c.numbers ? { title: String(c.numbers[name]) } : {}, c.numbers ? small(c.numbers[name]) : "–")),
+      element("td", {}, c.numbers ? String(c.numbers.digits) : "–")))));
+}
+
+// ---- the head of the page, and what stands still ----
+
+function showHead() {
+  byId("kernels").textContent = `${data.kernels.join(" and ")}, engine ${data.engine}`;
+  byId("size").textContent = [counted(data.nodes, "node"), counted(data.elements, "element"), counted(data.all_pairs, "pair"), counted(data.all_steps, "load step"), counted(data.all_increments, "increment")].join(", ");
+  const say = (text, kind) => byId("verdict").append(element("li", { class: kind }, text));
+  say(data.status === "solved" ? "All load is applied." : `Not solved: ${data.ended || data.status}.`, data.status === "solved" ? "good" : "bad");
+  if (data.equal === null) say("One kernel ran; nothing was compared.", "note");
+  else if (data.all_calls === 0) say("The kernels were never called; nothing was compared.", "note");
+  else say(`${data.kernels.join(" and ")} ${data.lockstep ? (data.equal ? "are equal to the bit" : "are NOT equal to the bit") : data.equal ? "agree on paths of their own" : "do NOT agree on paths of their own"}: ${data.comparison}.`, data.equal ? "good" : "bad");
+  if (data.certified.length > 0) say(data.certified.join("; ") + ".", data.uncertified.length === 0 ? "good" : "bad");
+  byId("facts").textContent = data.facts.join(" · ");
+}
+
+function showLog() {
+  byId("log-words").textContent = data.log === "" ? `${data.kernels[0]} wrote nothing there, or has no text.` : `What ${data.kernels[0]} wrote to unit 26.`;
+  byId("log-text").textContent = data.log;
+  byId("log-text").hidden = data.log === "";
+}
+
+function showThinned() {
+  const list = data.thinned.length > 0 ? data.thinned : ["Nothing: every increment, node, pair and call is here."];
+  byId("thinned").replaceChildren(...list.map((text) => element("li", {}, text)));
+}
+
+function showLegend() {
+  const item = (words, ...marks) => {
+    const s = svg("svg", { width: 22, height: 18, viewBox: "0 0 22 18", "aria-hidden": "true" }, ...marks);
+    return element("li", {}, s, words);
+  };
+  const list = [];
+  if (data.all_pairs > 0) {
+    list.push(item("closed: pressed", pairMark("c", 11, 9, 5)), item("open: a gap", pairMark("o", 11, 9, 5)),
+      item("at its face: no force", pairMark("f", 11, 9, 5)));
+  }
+  if (beam) {
+    if (data.all_pairs > 0) {
+      const face = svg("g", {}, line(2, 8, 20, 8, "face-line"));
+      for (let k = 4; k < 20; k += 6) face.append(line(k, 8, k - 4, 14, "hatch"));
+      list.push(item("face, hatched behind", face), item("force of a pair", arrow(11, 17, 0, -15, "force")));
+    }
+    list.push(item("load", arrow(11, 1, 0, 15, "load")), item("undeformed", line(0, 9, 22, 9, "undeformed")));
+    byId("picture-words").textContent = "Up is positive. Between two increments every point moves along a straight line. " +
+      "Moments and shears are the elements' values at their ends, joined by straight lines.";
+  } else {
+    list.push(item("load, down", svg("g", { class: "load" }, svg("circle", { cx: 11, cy: 9, r: 7, "fill-opacity": 0 }), svg("path", { d: "M7 5l8 8m-8 0l8 -8" }))),
+      item("support of w", svg("path", { d: "M11 3l6 11h-12Z", class: "support" })), item("support of a slope", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
+    byId("picture-words").textContent = "The colours are the same in all states: dark is low. Up is positive. A closed pair's square grows with its force; a bar over a pair says that its face stands above.";
+    byId("magnification").parentElement.hidden = true;
+  }
+  byId("legend").replaceChildren(...list);
+  byId("chart-words").textContent = "Straight between events; filled circles are pairs that make contact, rings pairs that break it, squares the ends of steps.";
+}
+
+// ---- where we are ----
+
+let current = 0;
+let timer = 0;
+let moving = 0;
+
+function draw(f) {
+  if (beam) drawBeam(f);
+  else if (plate) drawPlate(f);
+}
+
+function show(n) {
+  current = Math.max(0, Math.min(frames.length - 1, n));
+  cancelAnimationFrame(moving);
+  const f = frames[current];
+  const slider = byId("slider");
+  slider.value = String(current);
+  slider.setAttribute("aria-valuetext", `${where(f)}, state ${current + 1} of ${frames.length}`);
+  byId("state").textContent = stateWords(f);
+  draw(f);
+  drawChart(current);
+  showReadings(f);
+  showPairs(f);
+  markCurrentRow(f);
+}
+
+// A state between two: the truth too, since within an increment everything moves on straight lines.
+function between(a, b, share) {
+  const mixed = (p, q) => p.map((x, i) => (x === null ? null : x + share * (q[i] - x)));
+  const f = { ...a, w: mixed(a.w, b.w), at_pairs: mixed(a.at_pairs, b.at_pairs) };
+  if (!beam) return f;
+  f.slope = mixed(a.slope, b.slope);
+  for (const name of ["moment", "shear"]) f[name] = { ...b[name], left: mixed(a[name].left, b[name].left), right: mixed(a[name].right, b[name].right) };
+  const zeros = (q) => (q ? q.map(() => 0) : null);
+  if (a.q || b.q) f.q = mixed(a.q || zeros(b.q), b.q || zeros(a.q));
+  f.points = b.points.map((p) => {
+    const before = a.points.find((o) => o[4] === p[4] && o[2] === p[2]);
+    const value = before ? before[3] : 0;
+    return [p[0], p[1], p[2], value + share * (p[3] - value), p[4]];
+  });
+  return f;
+}
+
+function glide(from, to) {
+  const [a, b] = [frames[from], frames[to]];
+  const straight = b.at - a.at <= 1 && !b.rescued;
+  if (calm.matches || !straight) return show(to);
+  const began = performance.now();
+  const lasts = 450;
+  const step = (now) => {
+    const share = (now - began) / lasts;
+    if (share >= 1) return show(to);
+    draw(between(a, b, Math.max(0, share)));
+    moving = requestAnimationFrame(step);
+  };
+  moving = requestAnimationFrame(step);
+}
+
+function stopPlaying() {
+  clearInterval(timer);
+  timer = 0;
+  const play = byId("play");
+  play.setAttribute("aria-pressed", "false");
+  play.replaceChildren(element("span", { "aria-hidden": "true" }, "▶\uFE0E"), " Play");
+}
+
+function startPlaying() {
+  const play = byId("play");
+  play.setAttribute("aria-pressed", "true");
+  play.replaceChildren(element("span", { "aria-hidden": "true" }, "⏸\uFE0E"), " Pause");
+  if (current === frames.length - 1) show(0);
+  const step = () => {
+    if (current >= frames.length - 1) return stopPlaying();
+    const from = current++;
+    glide(from, current);
+  };
+  timer = setInterval(step, calm.matches ? 1600 : 1100);
+}
+
+function listen() {
+  const slider = byId("slider");
+  slider.max = String(frames.length - 1);
+  slider.addEventListener("input", () => { stopPlaying(); show(Number(slider.value)); });
+  byId("first").addEventListener("click", () => { stopPlaying(); show(0); });
+  byId("back").addEventListener("click", () => { stopPlaying(); show(current - 1); });
+  byId("next").addEventListener("click", () => { stopPlaying(); show(current + 1); });
+  byId("last").addEventListener("click", () => { stopPlaying(); show(frames.length - 1); });
+  byId("play").addEventListener("click", () => (timer ? stopPlaying() : startPlaying()));
+  byId("magnification").addEventListener("change", (e) => {
+    magnification = e.target.value === "" ? null : Number(e.target.value);
+    draw(frames[current]);
+  });
+  let width = innerWidth;
+  addEventListener("resize", () => {
+    if (innerWidth === width) return;
+    width = innerWidth;
+    show(current);
+  });
+  addEventListener("beforeprint", () => { stopPlaying(); show(frames.length - 1); });
+}
+
+showHead();
+showLegend();
+showEvents();
+showCalls();
+showCertificate();
+showLog();
+showThinned();
+listen();
+show(frames.length - 1);

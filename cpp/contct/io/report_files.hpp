@@ -1,0 +1,12 @@
+// The files of io/report, built into the library.
+#pragma once
+
+#include <string_view>
+
+namespace contct {
+
+extern const std::string_view report_html;
+extern const std::string_view report_css;
+extern const std::string_view report_js;
+
+}  // namespace contct

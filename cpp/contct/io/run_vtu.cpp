@@ -1,0 +1,155 @@
+#include "contct/io/run_vtu.hpp"
+
+#include <fmt/format.h>
+
+#include "contct/io/frame_numbers.hpp"
+#include "contct/io/load_text.hpp"
+#include "contct/io/markup_text.hpp"
+
+namespace contct {
+namespace {
+
+constexpr int vtk_vertex = 1, vtk_line = 3, vtk_quad = 9;
+
+/// The nodes of each element, from 0.
+std::vector<std::vector<int>> elements_of(const model& m) {
+  std::vector<std::vector<int>> list;
+  if (const auto* b = std::get_if<beam>(&m.kind)) {
+    for (int e = 0; e < b->elements(); ++e) list.push_back({e, e + 1});
+  } else if (const auto* p = std::get_if<plate>(&m.kind)) {
+    for (int e = 0; e < p->elements(); ++e) {
+      const auto corners = p->corners_of(e);
+      list.emplace_back(corners.begin(), corners.end());
+    }
+  }
+  return list;
+}
+
+template <class Number>
+std::string array(std::string_view name, std::string_view type, std::size_t components,
+                  const std::vector<Number>& values) {
+  return fmt::format(
+      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n        "
+      "</DataArray>\n",
+      type, markup_text(name), components, fmt::join(values, " "));
+}
+
+std::string reals(std::string_view name, std::size_t components, const std::vector<double>& values) {
+  return array(name, "Float64", components, values);
+}
+
+std::string whole(std::string_view name, const std::vector<int>& values) {
+  return array(name, "Int32", 1, values);
+}
+
+std::string points_of(const problem& p) {
+  std::vector<double> at;
+  for (int node = 0; node < nodes(p.geometry); ++node) {
+    const place where = place_of_node(p.geometry, node);
+    at.insert(at.end(), {where.x, where.y, 0.0});
+  }
+  return "      <Points>\n" + reals("points", 3, at) + "      </Points>\n";
+}
+
+std::string cells_of(const problem& p, const std::vector<std::vector<int>>& elements) {
+  std::vector<int> connectivity, offsets, types;
+  const auto add = [&](const std::vector<int>& at, int type) {
+    connectivity.insert(connectivity.end(), at.begin(), at.end());
+    offsets.push_back(static_cast<int>(connectivity.size()));
+    types.push_back(type);
+  };
+  for (const auto& corners : elements) add(corners, corners.size() == 2 ? vtk_line : vtk_quad);
+  for (const contact_pair& pair : p.pairs) add({pair.node}, vtk_vertex);
+  return "      <Cells>\n" + whole("connectivity", connectivity) + whole("offsets", offsets) +
+         array("types", "UInt8", 1, types) + "      </Cells>\n";
+}
+
+std::string point_data(const problem& p, const frame& f) {
+  const auto names = dof_names(p.geometry);
+  const auto stride = static_cast<std::size_t>(dofs_per_node(p.geometry));
+  std::vector<double> displacement;
+  std::vector<std::vector<double>> by_dof(names.size());
+  for (std::size_t i = 0; i < f.displacement.size(); i += stride) {
+    displacement.insert(displacement.end(), {0.0, 0.0, f.displacement[i]});
+    for (std::size_t dof = 0; dof < stride; ++dof) by_dof[dof].push_back(f.displacement[i + dof]);
+  }
+  std::string text =
+      "      <PointData Vectors=\"displacement\" Scalars=\"w\">\n" + reals("displacement", 3, displacement);
+  for (std::size_t dof = 0; dof < stride; ++dof) text += reals(names[dof], 1, by_dof[dof]);
+  return text + "      </PointData>\n";
+}
+
+/// What the elements read, with zeros for the pairs behind them.
+std::string element_data(const problem& p, const frame& f, std::size_t elements) {
+  const load_path loads(p);
+  const element_results results = results_in_elements(p.geometry, load_of(loads, f), f.displacement);
+  const auto places = static_cast<std::size_t>(results.places);
+  std::string text;
+  for (std::size_t name = 0; name < results.names.size(); ++name) {
+    std::vector<double> values;
+    for (std::size_t e = 0; e < elements; ++e) {
+      const auto at = results.at(e, name);
+      values.insert(values.end(), at.begin(), at.end());
+    }
+    values.resize((elements + p.pairs.size()) * places);
+    text += reals(results.names[name], places, values);
+  }
+  return text;
+}
+
+std::string cell_data(const problem& p, const frame& f, std::size_t elements) {
+  std::vector<int> number(elements, 0), state(elements, -1), surface(elements, 0);
+  std::vector<double> face(elements), gap(elements), force(elements);
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
+    const pair_reading r = reading_of(p, f, i);
+    number.push_back(static_cast<int>(i) + 1);
+    state.push_back(static_cast<int>(r.look));
+    surface.push_back(p.pairs[i].surface);
+    face.push_back(p.pairs[i].face);
+    gap.push_back(r.gap);
+    force.push_back(r.force);
+  }
+  return "      <CellData>\n" + whole("pair", number) + whole("state", state) + whole("surface", surface) +
+         reals("face", 1, face) + reals("gap", 1, gap) + reals("force", 1, force) +
+         element_data(p, f, elements) + "      </CellData>\n";
+}
+
+std::string field_data(const frame& f) {
+  const auto one = [](std::string_view name, std::string_view type, auto value) {
+    return fmt::format(
+        "      <DataArray type=\"{}\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n",
+        type, name, value);
+  };
+  return "    <FieldData>\n" + one("step", "Int32", f.step) + one("increment", "Int32", f.number) +
+         one("share", "Float64", f.fraction) + "    </FieldData>\n";
+}
+
+constexpr std::string_view head =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
+
+}  // namespace
+
+std::string vtu_of_frame(const problem& p, const frame& f) {
+  const auto elements = elements_of(p.geometry);
+  return fmt::format(fmt::runtime(head), "UnstructuredGrid") + "  <UnstructuredGrid>\n" + field_data(f) +
+         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", nodes(p.geometry),
+                     elements.size() + p.pairs.size()) +
+         point_data(p, f) + cell_data(p, f, elements.size()) + points_of(p) + cells_of(p, elements) +
+         "    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
+}
+
+std::string pvd_of_frames(const std::string& stem, std::size_t count) {
+  std::string text = fmt::format(fmt::runtime(head), "Collection") + "  <Collection>\n";
+  for (std::size_t i = 0; i < count; ++i) {
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", i,
+                        markup_text(name_of_frame(stem, i)));
+  }
+  return text + "  </Collection>\n</VTKFile>\n";
+}
+
+std::string name_of_frame(const std::string& stem, std::size_t number) {
+  return fmt::format("{}.{:03}.vtu", stem, number);
+}
+
+}  // namespace contct

@@ -1,0 +1,118 @@
+#include "contct/io/thinning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace contct {
+namespace {
+
+std::size_t watched_node(const finished_run& r) {
+  const auto stride = static_cast<std::size_t>(dofs_per_node(r.what.geometry));
+  std::size_t node = 0;
+  double most = -1.0;
+  for (const frame& f : r.kept.frames()) {
+    for (std::size_t i = 0; i < f.displacement.size(); i += stride) {
+      if (std::abs(f.displacement[i]) <= most) continue;
+      most = std::abs(f.displacement[i]);
+      node = i / stride;
+    }
+  }
+  return node;
+}
+
+void insert(std::vector<int>& sorted, int number) {
+  const auto at = std::lower_bound(sorted.begin(), sorted.end(), number);
+  if (at == sorted.end() || *at != number) sorted.insert(at, number);
+}
+
+void choose_nodes(const beam& b, const finished_run& r, shown_parts& shown) {
+  const auto frames = r.kept.frames().size();
+  shown.nodes = evenly(b.nodes(), static_cast<int>(std::max<std::size_t>(100, most_places / frames)));
+  if (static_cast<int>(shown.nodes.size()) == b.nodes()) return;
+  insert(shown.nodes, static_cast<int>(shown.watched));
+  for (const support& s : r.what.supports) {
+    if (shown.nodes.size() < 2 * most_places / frames) insert(shown.nodes, s.node);
+  }
+  shown.said.push_back(
+      fmt::format("Shapes, moments and shears are drawn at {} of {} nodes, evenly chosen, with the ends, the "
+                  "supports and the "
+                  "node that deflects most. The largest values are those of all nodes.",
+                  shown.nodes.size(), b.nodes()));
+}
+
+/// As many lines in either direction as the grid points that all frames may have together allow.
+void choose_lines(const plate& p, const finished_run& r, shown_parts& shown) {
+  const double points = static_cast<double>(most_grid_points) / static_cast<double>(r.kept.frames().size());
+  const double all = static_cast<double>(p.columns()) * p.rows();
+  const double share = std::min(1.0, std::sqrt(points / all));
+  const auto some = [&](int lines) { return evenly(lines, std::max(4, static_cast<int>(share * lines))); };
+  shown.columns = some(p.columns());
+  shown.rows = some(p.rows());
+  if (static_cast<int>(shown.columns.size()) == p.columns() &&
+      static_cast<int>(shown.rows.size()) == p.rows())
+    return;
+  const auto watched = static_cast<int>(shown.watched);
+  insert(shown.columns, watched % p.columns());
+  insert(shown.rows, watched / p.columns());
+  shown.said.push_back(
+      fmt::format("Contours go through {} of {} nodes: {} of {} grid lines by {} of {}, evenly chosen, with "
+                  "those of the node that deflects most. The largest values are those of all nodes.",
+                  shown.columns.size() * shown.rows.size(), p.nodes(), shown.columns.size(), p.columns(),
+                  shown.rows.size(), p.rows()));
+}
+
+void choose_pairs(const finished_run& r, shown_parts& shown) {
+  const std::size_t all = r.what.pairs.size();
+  const std::size_t most = std::max<std::size_t>(200, most_pair_states / r.kept.frames().size());
+  for (const int i : evenly(static_cast<int>(all), static_cast<int>(most)))
+    shown.pairs.push_back(static_cast<std::size_t>(i));
+  if (shown.pairs.size() == all) return;
+  shown.said.push_back(
+      fmt::format("{} of {} pairs are drawn and listed, evenly chosen. How many are open, closed or at their "
+                  "faces is counted "
+                  "over all of them, and events are those of all.",
+                  shown.pairs.size(), all));
+}
+
+void say_what_is_counted_only(const finished_run& r, shown_parts& shown) {
+  const frame_keeper& kept = r.kept;
+  if (kept.frames().size() < static_cast<std::size_t>(kept.increments()) + 1) {
+    shown.said.push_back(
+        fmt::format("The path has {} increments; the slider stops at {} states: the start, every {}th "
+                    "increment within a step, "
+                    "and ends of steps.",
+                    kept.increments(), kept.frames().size(), kept.stride()));
+  }
+  const auto first = [&](const char* what, std::size_t here, std::size_t all) {
+    if (here < all) shown.said.push_back(fmt::format("Of {} {} the first {} are listed.", all, what, here));
+  };
+  first("increments", r.record.increments.size(), r.record.all_increments);
+  first("calls", r.record.calls.size(), r.record.all_calls);
+  first("bytes of unit 26", r.record.log.size(), r.record.all_log);
+}
+
+}  // namespace
+
+std::vector<int> evenly(int all, int count) {
+  std::vector<int> chosen;
+  count = std::min(all, count);
+  for (int i = 0; i < count; ++i) {
+    const auto last = static_cast<long>(all) - 1;
+    chosen.push_back(count == 1 ? 0 : static_cast<int>(i * last / (count - 1)));
+  }
+  return chosen;
+}
+
+shown_parts choose_parts(const finished_run& r) {
+  shown_parts shown;
+  shown.watched = watched_node(r);
+  if (const auto* b = std::get_if<beam>(&r.what.geometry.kind)) choose_nodes(*b, r, shown);
+  if (const auto* p = std::get_if<plate>(&r.what.geometry.kind)) choose_lines(*p, r, shown);
+  choose_pairs(r, shown);
+  say_what_is_counted_only(r, shown);
+  return shown;
+}
+
+}  // namespace contct

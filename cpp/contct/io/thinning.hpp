@@ -1,0 +1,34 @@
+// What a page leaves out of a large problem, so that it stays quick: chosen evenly, and said.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "contct/io/finished_run.hpp"
+
+namespace contct {
+
+/// Which nodes, grid lines and pairs a page shows; all counted from 0, rising.
+struct shown_parts {
+  std::vector<int> nodes;    ///< of a beam
+  std::vector<int> columns;  ///< grid lines of a plate
+  std::vector<int> rows;
+  std::vector<std::size_t> pairs;
+  std::size_t watched = 0;  ///< the node that deflects most on the path; always shown
+
+  std::vector<std::string> said;  ///< what was left out and how it was chosen; empty: nothing was
+};
+
+/// At most so many places of a shape, and states of pairs, in all frames together.
+inline constexpr std::size_t most_places = 24'000;
+inline constexpr std::size_t most_grid_points = 90'000;
+inline constexpr std::size_t most_pair_states = 36'000;
+
+[[nodiscard]] shown_parts choose_parts(const finished_run& r);
+
+/// `count` of the numbers from 0 to `all` - 1, evenly, the first and last among them; all where they are
+/// no more than that.
+[[nodiscard]] std::vector<int> evenly(int all, int count);
+
+}  // namespace contct
