@@ -19,10 +19,9 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr std::size_t most_events = 60;      // of an increment
-constexpr std::size_t most_points = 60;      // loads that are drawn
-constexpr std::size_t most_supports = 2000;  // that are drawn
-constexpr int load_samples = 25;             // along a beam
+constexpr std::size_t most_events = 60;  // of an increment
+constexpr std::size_t most_points = 60;  // loads that are drawn
+constexpr int load_samples = 25;         // along a beam
 constexpr int load_words_width = 60;
 
 /// The events of an increment: [pair, node, side, 1 for make], numbers from 1.
@@ -35,17 +34,17 @@ json events_json(const problem& p, const std::vector<event>& events) {
   return list;
 }
 
-json supports_json(const problem& p) {
+json supports_json(const problem& p, const shown_parts& shown) {
   const auto names = dof_names(p.geometry);
   std::map<int, json> at;
   for (const support& s : p.supports) {
+    if (!std::binary_search(shown.supports.begin(), shown.supports.end(), s.node)) continue;
     const place where = place_of_node(p.geometry, s.node);
     json& entry = at[s.node];
     if (entry.is_null())
       entry = {{"node", s.node + 1}, {"x", where.x}, {"y", where.y}, {"dofs", json::array()}};
     entry["dofs"].push_back(
         {names[static_cast<std::size_t>(s.dof)], s.fixed ? json(nullptr) : json(s.spring)});
-    if (at.size() > most_supports) break;
   }
   json list = json::array();
   for (auto& [node, entry] : at) list.push_back(std::move(entry));
@@ -280,7 +279,7 @@ nlohmann::ordered_json page_data(const finished_run& r) {
               {"all_increments", r.record.all_increments},
               {"all_calls", r.record.all_calls},
               {"geometry", geometry_json(r.what, shown)},
-              {"supports", supports_json(r.what)},
+              {"supports", supports_json(r.what, shown)},
               {"pairs", pairs_json(r.what, shown)},
               {"increments", increments_json(r, loads)},
               {"calls", calls_json(r)},

@@ -30,8 +30,8 @@ struct call_record {
 /// of the unit-26 text. What is beyond is counted.
 class run_record final : public observer {
  public:
-  static constexpr std::size_t most_increments = 2000;
-  static constexpr std::size_t most_calls = 2000;
+  static constexpr std::size_t most_increments = 1200;
+  static constexpr std::size_t most_calls = 1200;
   static constexpr std::size_t most_ss = 8;
   static constexpr std::size_t most_log = 200'000;  ///< bytes
 

@@ -45,7 +45,8 @@ double round_down(double x) {
 std::vector<double> ticks(double from, double to, int about) {
   const double step = round_down((to - from) / about * 2);
   std::vector<double> at;
-  for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i) at.push_back(i * step);
+  for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
+    at.push_back(i * step + 0.0);  // no -0
   return at;
 }
 
@@ -106,6 +107,27 @@ std::string axis_below(const scale& X, double from, double to, double y) {
   return text;
 }
 
+/// The elements' cubics between the nodes shown, as Bezier curves: the same curves.
+std::string curve_of(const finished_run& r, const beam& b, const frame& f, const shown_parts& shown,
+                     const scale& X, const scale& Y) {
+  std::string path;
+  double x0 = 0.0, w0 = 0.0, slope0 = 0.0;
+  for (const int node : shown.nodes) {
+    const double x = b.x[static_cast<std::size_t>(node)];
+    const double w = deflection_of(r.what, f, static_cast<std::size_t>(node));
+    const double slope = f.displacement[static_cast<std::size_t>(node) * 2 + 1];
+    const double third = (x - x0) / 3;
+    path += path.empty()
+                ? fmt::format("M{:.2f} {:.2f}", X(x), Y(w))
+                : fmt::format("C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", X(x0 + third),
+                              Y(w0 + third * slope0), X(x - third), Y(w - third * slope), X(x), Y(w));
+    x0 = x;
+    w0 = w;
+    slope0 = slope;
+  }
+  return path;
+}
+
 /// From the side; deflections and faces magnified alike.
 drawn draw_beam(const finished_run& r, const beam& b, const frame& f, const shown_parts& shown) {
   span_of w;
@@ -124,11 +146,7 @@ drawn draw_beam(const finished_run& r, const beam& b, const frame& f, const show
   std::string text =
       text_at(60, picture_top, "strong", fmt::format("Final state, deflection × {:.6g}", magnified));
   text += line(X(b.x.front()), Y(0), X(b.x.back()), Y(0), "undeformed");
-  std::string shape;
-  for (const int node : shown.nodes) {
-    shape += fmt::format("{}{:.2f} {:.2f}", shape.empty() ? "M" : "L", X(b.x[static_cast<std::size_t>(node)]),
-                         Y(deflection_of(r.what, f, static_cast<std::size_t>(node))));
-  }
+  const std::string shape = curve_of(r, b, f, shown, X, Y);
   const double half =
       std::clamp((width - 120) / static_cast<double>(shown.pairs.size() + 1) * 0.36, 1.0, 14.0);
   for (const std::size_t i : shown.pairs) {
@@ -193,11 +211,13 @@ drawn draw_plate(const finished_run& r, const plate& p, const frame& f, const sh
           colour, colour);
     }
   }
+  text += "<g class=\"map\">\n";
   const double r_pair = std::clamp(per_unit * (p.x.back() - p.x.front()) / p.columns() * 0.25, 1.5, 6.0);
   for (const std::size_t i : shown.pairs) {
     const place at = place_of_node(r.what.geometry, r.what.pairs[i].node);
     text += mark(reading_of(r.what, f, i).look, X(at.x), Y(at.y), r_pair, pair_words(r.what, f, i));
   }
+  text += "</g>\n";
   const double right = X(p.x.back()) + 40;
   for (int i = 0; i <= 10; ++i) {
     const double value = all.most - (all.most - all.least) * i / 10;
@@ -256,6 +276,7 @@ path { fill: none; } .thin { stroke: #5f5e58; } .grid { stroke: #e4e1d8; } .unde
 .beam { stroke: #1d1d1b; stroke-width: 3.5; stroke-linejoin: round; } .support { stroke: #1d1d1b; stroke-width: 1.5; fill: #fff; } .clamp { stroke: #1d1d1b; stroke-width: 4; }
 .surface { stroke: #1d1d1b; stroke-width: 2; } .hatch { stroke: #5f5e58; }
 .open { fill: #fff; stroke: #6b6a64; stroke-width: 1.8; } .closed { fill: #0b61a4; stroke: #fff; } .face { fill: #fff; stroke: #a85b00; stroke-width: 2.2; }
+.map .closed { fill: #17181a; }
 .track { stroke: #1d1d1b; stroke-width: 2; stroke-linejoin: round; } .make { fill: #1d1d1b; } .break { fill: #fff; stroke: #1d1d1b; stroke-width: 1.8; } .stop { fill: #b9b6ac; }
 </style>
 )";

@@ -32,8 +32,10 @@ void choose_nodes(const beam& b, const finished_run& r, shown_parts& shown) {
   shown.nodes = evenly(b.nodes(), static_cast<int>(std::max<std::size_t>(100, most_places / frames)));
   if (static_cast<int>(shown.nodes.size()) == b.nodes()) return;
   insert(shown.nodes, static_cast<int>(shown.watched));
+  constexpr std::size_t most_more = 60;
+  const std::size_t most = shown.nodes.size() + most_more;
   for (const support& s : r.what.supports) {
-    if (shown.nodes.size() < 2 * most_places / frames) insert(shown.nodes, s.node);
+    if (s.fixed && shown.nodes.size() < most) insert(shown.nodes, s.node);
   }
   shown.said.push_back(
       fmt::format("Shapes, moments and shears are drawn at {} of {} nodes, evenly chosen, with the ends, the "
@@ -65,7 +67,8 @@ void choose_lines(const plate& p, const finished_run& r, shown_parts& shown) {
 
 void choose_pairs(const finished_run& r, shown_parts& shown) {
   const std::size_t all = r.what.pairs.size();
-  const std::size_t most = std::max<std::size_t>(200, most_pair_states / r.kept.frames().size());
+  const std::size_t most =
+      std::clamp<std::size_t>(most_pair_states / r.kept.frames().size(), 200, most_pairs);
   for (const int i : evenly(static_cast<int>(all), static_cast<int>(most)))
     shown.pairs.push_back(static_cast<std::size_t>(i));
   if (shown.pairs.size() == all) return;
@@ -74,6 +77,19 @@ void choose_pairs(const finished_run& r, shown_parts& shown) {
                   "faces is counted "
                   "over all of them, and events are those of all.",
                   shown.pairs.size(), all));
+}
+
+/// The nodes with supports that are drawn.
+void choose_supports(const finished_run& r, shown_parts& shown) {
+  std::vector<int> held;
+  for (const support& s : r.what.supports) held.push_back(s.node);
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  for (const int i : evenly(static_cast<int>(held.size()), static_cast<int>(most_supports)))
+    shown.supports.push_back(held[static_cast<std::size_t>(i)]);
+  if (shown.supports.size() == held.size()) return;
+  shown.said.push_back(fmt::format("Supports are drawn at {} of {} nodes that have them, evenly chosen.",
+                                   shown.supports.size(), held.size()));
 }
 
 void say_what_is_counted_only(const finished_run& r, shown_parts& shown) {
@@ -111,6 +127,7 @@ shown_parts choose_parts(const finished_run& r) {
   if (const auto* b = std::get_if<beam>(&r.what.geometry.kind)) choose_nodes(*b, r, shown);
   if (const auto* p = std::get_if<plate>(&r.what.geometry.kind)) choose_lines(*p, r, shown);
   choose_pairs(r, shown);
+  choose_supports(r, shown);
   say_what_is_counted_only(r, shown);
   return shown;
 }

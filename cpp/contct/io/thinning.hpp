@@ -15,7 +15,8 @@ struct shown_parts {
   std::vector<int> columns;  ///< grid lines of a plate
   std::vector<int> rows;
   std::vector<std::size_t> pairs;
-  std::size_t watched = 0;  ///< the node that deflects most on the path; always shown
+  std::vector<int> supports;  ///< the nodes whose supports are drawn
+  std::size_t watched = 0;    ///< the node that deflects most on the path; always shown
 
   std::vector<std::string> said;  ///< what was left out and how it was chosen; empty: nothing was
 };
@@ -24,6 +25,9 @@ struct shown_parts {
 inline constexpr std::size_t most_places = 24'000;
 inline constexpr std::size_t most_grid_points = 90'000;
 inline constexpr std::size_t most_pair_states = 36'000;
+/// And of these in any one frame.
+inline constexpr std::size_t most_pairs = 1000;
+inline constexpr std::size_t most_supports = 300;
 
 [[nodiscard]] shown_parts choose_parts(const finished_run& r);
 

@@ -16,6 +16,9 @@ const short = (x) => (x === null || x === undefined ? "–" : minus(String(Numbe
 const rough = (x) => minus(String(Number(x.toPrecision(4))));
 const counted = (n, what) => `${n.toLocaleString("en")} ${what}${n === 1 ? "" : "s"}`;
 const side = (surface) => (surface > 0 ? "above" : "below");
+const known = { fortran: "FORTRAN", cpp: "C++", "fortran-r4": "FORTRAN (4-byte REAL)", "cpp-r4": "C++ (4-byte REAL)" };
+const kernels = data.kernels.map((name) => known[name] || name);
+const sentence = (text) => text[0].toUpperCase() + text.slice(1) + ".";
 const where = (f) => (f.step === 0 ? "Start" : f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`);
 const looks = { o: "open", c: "closed", f: "at its face" };
 
@@ -55,6 +58,7 @@ function pairOf(frame, i) {
   };
 }
 
+const lookWords = (p) => (p.look === "f" ? `at its face, ${p.closed ? "in contact" : "separated"}` : looks[p.look]);
 const pairsOf = (frame) => data.pairs.map((_, i) => pairOf(frame, i));
 
 // ---- SVG ----
@@ -81,15 +85,14 @@ function canvas(holder, width, height, title) {
   return root;
 }
 
-// 1, 2 or 5 times a power of ten, not above x.
-function roundDown(x) {
+// One of these digits times a power of ten, not above x.
+function roundDown(x, digits = [1, 2, 5]) {
   const power = 10 ** Math.floor(Math.log10(x));
-  const digit = x / power;
-  return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
+  return Number((Math.max(...digits.filter((d) => d * power <= x * (1 + 1e-12)), 1) * power).toPrecision(3));
 }
 
 function ticks(from, to, about) {
-  const step = roundDown(((to - from) / about) * 2);
+  const step = roundDown(((to - from) / about) * 1.3);
   const list = [];
   if (!(step > 0) || !isFinite(step)) return list;
   for (let i = Math.ceil(from / step - 1e-9); i * step <= to + step * 1e-9; ++i) list.push(i * step);
@@ -120,12 +123,12 @@ function arrow(x, y, dx, dy, kind) {
     svg("path", { d: `M${x + dx} ${y + dy}L${bx - uy * 4} ${by + ux * 4}L${bx + uy * 4} ${by - ux * 4}Z`, "stroke-width": 0 }));
 }
 
-// The three looks differ in shape: open is a ring, closed a square, at its face a diamond.
-function pairMark(look, x, y, r) {
+// The looks differ in shape: open is a ring, closed a square, at its face a diamond, full when in contact.
+function pairMark(look, x, y, r, closed = false) {
   if (look === "o") return svg("circle", { cx: x, cy: y, r, class: "pair-open" });
   if (look === "c") return svg("rect", { x: x - r, y: y - r, width: 2 * r, height: 2 * r, class: "pair-closed" });
   const d = r * 1.3;
-  return svg("path", { d: `M${x} ${y - d}L${x + d} ${y}L${x} ${y + d}L${x - d} ${y}Z`, class: "pair-face" });
+  return svg("path", { d: `M${x} ${y - d}L${x + d} ${y}L${x} ${y + d}L${x - d} ${y}Z`, class: closed ? "pair-face in-contact" : "pair-face" });
 }
 
 // ---- the beam ----
@@ -152,7 +155,7 @@ const beam = geometry.kind !== "beam" ? null : (() => {
 function fittingMagnification(width, height) {
   const range = beam.high - beam.low;
   const scale = (width - margin.left - margin.right) / (beam.to - beam.from);
-  return range > 0 ? roundDown(height / (range * scale)) : 1;
+  return range > 0 ? roundDown(height / (range * scale), [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8]) : 1;
 }
 
 function hermite(x0, x1, w0, w1, t0, t1, share) {
@@ -223,7 +226,7 @@ function drawPairs(root, f, X, Y, top, bottom) {
   const xs = pairs.map((p) => X(p.x)).sort((a, b) => a - b);
   const gaps = xs.slice(1).map((x, i) => x - xs[i]).filter((d) => d > 0.01);
   const room = gaps.length > 0 ? Math.min(...gaps) : 60;
-  const half = Math.max(1, Math.min(16, room * 0.36));
+  const half = Math.max(1, Math.min(16, room * 0.36));  // of a face
   const r = Math.max(1.6, Math.min(5, room * 0.3));
   const numbered = room >= 34 && pairs.length <= 24;
   for (const p of pairs) {
@@ -232,20 +235,23 @@ function drawPairs(root, f, X, Y, top, bottom) {
     root.append(face);
     const out = -p.side;  // downwards on the page for a face below
     const length = beam.force > 0 ? 36 * Math.abs(p.force) / beam.force : 0;
-    const start = y + out * (10 + length);
+    // Beyond the face's hatches and the node, which has pressed the spring past its face.
+    const tip = out > 0 ? Math.max(y + 10, Y(p.w) + r + 3) : Math.min(y - 10, Y(p.w) - r - 3);
+    const start = tip + out * length;
+    if (p.closed && Math.abs(y - Y(p.w)) > 8) root.append(line(x, y, x, Y(p.w), "spring"));
     if (p.force > 0 && length >= 1) root.append(arrow(x, start, 0, -out * length, "force"));
     if (numbered) {
       const words = `${p.pair}`;
-      const at = y + out * (16 + Math.max(length, 0)) + (out > 0 ? 6 : 0);
+      const at = start + out * (out > 0 ? 14 : 6);
       root.append(label(x, at, words, { "text-anchor": "middle", class: "axis-word halo" }));
-      if (p.closed && room >= 60) {
+      if (p.look === "c" && room >= 60) {
         root.append(label(x, at + out * 15, rough(p.force), { "text-anchor": "middle", class: "value halo" }));
       }
     }
   }
   for (const p of pairs) {
-    const mark = pairMark(p.look, X(p.x), Y(p.w), r);
-    mark.append(svg("title", {}, `Pair ${p.pair}, node ${p.node}, ${looks[p.look]}: ` +
+    const mark = pairMark(p.look, X(p.x), Y(p.w), r, p.closed);
+    mark.append(svg("title", {}, `Pair ${p.pair}, node ${p.node}, ${lookWords(p)}: ` +
       (p.closed ? `force ${short(p.force)}` : `gap ${short(p.gap)}`)));
     root.append(mark);
   }
@@ -295,12 +301,13 @@ function drawBeamAxis(root, X, Y, bottom, width) {
 // A strip under the beam with a quantity that may jump at the nodes.
 function drawStrip(root, f, X, top, height, name, title) {
   const values = f[name];
+  const narrow = X(beam.to) - X(beam.from) < 520;
   const [low, high] = strips[name];
   const range = high - low || 1;
   const Y = (v) => top + 24 + ((high - v) / range) * (height - 34);
   for (const v of ticks(low, high, 3)) {
     if (v !== 0) root.append(line(margin.left, Y(v), X(beam.to), Y(v), "grid"));
-    root.append(label(margin.left - 8, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
+    root.append(label(margin.left - 16, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
   }
   root.append(line(margin.left, Y(0), X(beam.to), Y(0), "zero"));
   const points = [];
@@ -311,7 +318,7 @@ function drawStrip(root, f, X, top, height, name, title) {
   root.append(path([[X(beam.from), Y(0)], ...points, [X(beam.to), Y(0)]], name + "-area", "Z"));
   root.append(path(points, name));
   root.append(label(margin.left, top + 12, title, { class: "panel-title" }));
-  root.append(label(X(beam.to), top + 12, `largest ${rough(values.largest)} at node ${values.node}`,
+  root.append(label(X(beam.to), top + 12, `${narrow ? "" : "largest "}${rough(values.largest)} at node ${values.node}`,
     { "text-anchor": "end", class: "value" }));
 }
 
@@ -324,7 +331,9 @@ function drawBeam(f) {
   const holder = byId("picture");
   const width = Math.max(320, holder.clientWidth || 680);
   const room = width < 520 ? 150 : 190;  // for deflections
-  const [above, below] = [78, 92];       // for loads and for pairs' forces
+  const upper = data.pairs.some((p) => p.side > 0);
+  const lower = data.pairs.some((p) => p.side < 0);
+  const [above, below] = [upper ? 92 : 74, lower ? 84 : 52];  // for loads and pairs' forces
   const fitting = fittingMagnification(width, room);
   const factor = magnification || fitting;
   const scale = (width - margin.left - margin.right) / (beam.to - beam.from);
@@ -332,14 +341,15 @@ function drawBeam(f) {
   const middle = (beam.high + beam.low) / 2;
   const Y = (w) => above + room / 2 - (w - middle) * factor * scale;
   const bottom = above + room + below;
-  const strip = 112;
+  const strip = 126;
+  const wide = width >= 620;
   const height = bottom + 30 + 2 * (strip + 14);
   const root = canvas(holder, width, height, stateWords(f));
   root.append(label(margin.left, 16, `Deflection, drawn × ${factor.toLocaleString("en", { maximumSignificantDigits: 3 })}`, { class: "panel-title" }));
   const reach = room / 2 / (factor * scale);
   for (const w of ticks(middle - reach, middle + reach, 4)) {
     root.append(line(margin.left, Y(w), X(beam.to), Y(w), w === 0 ? "zero" : "grid"));
-    root.append(label(margin.left - 8, Y(w) + 4, rough(w), { "text-anchor": "end", class: "axis-word" }));
+    root.append(label(margin.left - 16, Y(w) + 4, rough(w), { "text-anchor": "end", class: "axis-word" }));
   }
   root.append(line(X(beam.from), Y(0), X(beam.to), Y(0), "undeformed"));
   for (const s of data.supports) root.append(drawSupport(s, f, X, Y));
@@ -347,8 +357,8 @@ function drawBeam(f) {
   drawLoads(root, f, X, Y);
   drawPairs(root, f, X, Y, 20, bottom);
   drawBeamAxis(root, X, Y, bottom, width);
-  drawStrip(root, f, X, bottom + 36, strip, "moment", "Moment M = EI w″, positive where it sags");
-  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", width < 520 ? "Shear V = dM/dx" : "Shear V = dM/dx: upward force of the left part on the right");
+  drawStrip(root, f, X, bottom + 36, strip, "moment", wide ? "Moment M = EI w″, positive where it sags" : "Moment M");
+  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", wide ? "Shear V = dM/dx: upward force of the left part on the right" : "Shear V");
   offerMagnifications(fitting);
 }
 
@@ -368,14 +378,16 @@ function offerMagnifications(fitting) {
 
 const plate = geometry.kind !== "plate" ? null : (() => {
   const [low, high] = spreadOfFrames((f) => f.w);
-  return { low, high, force: Math.max(0, ...frames.map((f) => Math.max(0, ...pairsOf(f).map((p) => p.force)))) };
+  const step = high > low ? roundDown(((high - low) / 9) * 1.3, [1, 2, 2.5, 5]) : 1;
+  const base = Math.floor(low / step + 1e-9);
+  const bands = Math.max(1, Math.ceil(high / step - 1e-9) - base);
+  const level = (i) => (base + i) * step;
+  return { bands, level, step, force: Math.max(0, ...frames.map((f) => Math.max(0, ...pairsOf(f).map((p) => p.force)))) };
 })();
-
-const bands = 10;
 
 // From deep blue, the lowest, to pale, the highest; light changes all along, so that grey prints tell too.
 function bandColour(i) {
-  const share = i / (bands - 1);
+  const share = plate.bands > 1 ? i / (plate.bands - 1) : 0.5;
   const stops = [[22, 52, 98], [38, 104, 160], [104, 165, 200], [178, 210, 222], [250, 244, 228]];
   const at = share * (stops.length - 1);
   const k = Math.min(stops.length - 2, Math.floor(at));
@@ -404,20 +416,19 @@ function clipped(corners, least, most) {
 
 function contourPaths(f, X, Y) {
   const [nx, ny] = [geometry.x.length, geometry.y.length];
-  const range = plate.high - plate.low || 1;
-  const paths = Array.from({ length: bands }, () => []);
+  const bandOf = (w) => Math.max(0, Math.min(plate.bands - 1, Math.floor((w - plate.level(0)) / plate.step)));
+  const paths = Array.from({ length: plate.bands }, () => []);
   const corner = (i, j) => [X(geometry.x[i]), Y(geometry.y[j]), f.w[j * nx + i]];
   for (let j = 0; j + 1 < ny; ++j) {
     for (let i = 0; i + 1 < nx; ++i) {
       const [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
       const m = [0, 1, 2].map((k) => (a[k] + b[k] + c[k] + d[k]) / 4);
       for (const triangle of [[a, b, m], [b, c, m], [c, d, m], [d, a, m]]) {
-        const values = triangle.map((p) => (p[2] - plate.low) / range);
-        const from = Math.max(0, Math.floor(Math.min(...values) * bands - 1e-9));
-        const to = Math.min(bands - 1, Math.floor(Math.max(...values) * bands));
-        for (let band = from; band <= to; ++band) {
-          const least = band === 0 ? -Infinity : plate.low + (range * band) / bands;
-          const most = band === bands - 1 ? Infinity : plate.low + (range * (band + 1)) / bands;
+        const values = triangle.map((p) => p[2]);
+        const to = bandOf(Math.max(...values));
+        for (let band = bandOf(Math.min(...values)); band <= to; ++band) {
+          const least = band === 0 ? -Infinity : plate.level(band);
+          const most = band === plate.bands - 1 ? Infinity : plate.level(band + 1);
           const part = clipped(triangle, least, most);
           if (part.length > 2) paths[band].push("M" + part.map((p) => `${p[0].toFixed(1)} ${p[1].toFixed(1)}`).join("L") + "Z");
         }
@@ -436,10 +447,11 @@ function drawPlate(f) {
   const room = { left: 62, right: narrow ? 22 : 150, top: 34, bottom: narrow ? 92 : 46 };
   const scale = Math.min((width - room.left - room.right) / (x1 - x0), 520 / (y1 - y0));
   const height = room.top + room.bottom + (y1 - y0) * scale;
-  const X = (x) => room.left + (x - x0) * scale;
+  const left = room.left + Math.max(0, (width - room.left - room.right - (x1 - x0) * scale) / 2);
+  const X = (x) => left + (x - x0) * scale;
   const Y = (y) => room.top + (y1 - y) * scale;
   const root = canvas(holder, width, height, stateWords(f));
-  root.append(label(room.left, 18, "Deflection w from above, and the pairs", { class: "panel-title" }));
+  root.append(label(left, 18, "Deflection w from above, and the pairs", { class: "panel-title" }));
   const map = svg("g");
   contourPaths(f, X, Y).forEach((d, i) => {
     if (d.length > 0) map.append(svg("path", { d: d.join(""), fill: bandColour(i), stroke: bandColour(i), "stroke-width": 0.7 }));
@@ -451,10 +463,12 @@ function drawPlate(f) {
   for (const y of ticks(y0, y1, 6)) {
     root.append(line(X(x0) - 5, Y(y), X(x0), Y(y), "zero"), label(X(x0) - 9, Y(y) + 4, rough(y), { "text-anchor": "end", class: "axis-word" }));
   }
-  root.append(label(X(x1), Y(y0) + 36, "x", { "text-anchor": "end", class: "axis-word" }), label(X(x0) - 9, Y(y1) - 6, "y", { "text-anchor": "end", class: "axis-word" }));
-  drawPlateSupports(root, X, Y);
-  drawPlatePairs(root, f, X, Y);
-  drawPlateLoads(root, f, X, Y);
+  root.append(label(X(x1), Y(y0) + 36, "x", { "text-anchor": "end", class: "axis-word" }), label(X(x0) - 9, Y(y1) - 14, "y", { "text-anchor": "end", class: "axis-word" }));
+  const over = svg("g", { class: "on-map" });
+  root.append(over);
+  drawPlateSupports(over, X, Y);
+  drawPlatePairs(over, f, X, Y);
+  drawPlateLoads(over, f, X, Y);
   if (narrow) drawScaleAcross(root, room.left, height - 44, width - room.left - room.right);
   else drawScaleDown(root, X(x1) + 26, room.top + 8, Math.min(300, Y(y0) - Y(y1) - 8));
 }
@@ -478,8 +492,8 @@ function drawPlatePairs(root, f, X, Y) {
     const grown = p.look === "c" && plate.force > 0 ? 0.35 + 0.65 * Math.sqrt(Math.max(0, p.force) / plate.force) : 0.5;
     const [x, y] = [X(p.x), Y(p.y)];
     const r = Math.max(1.5, most * grown);
-    const mark = pairMark(p.look, x, y, r);
-    mark.append(svg("title", {}, `Pair ${p.pair}, node ${p.node}, face ${side(p.side)}, ${looks[p.look]}: ` +
+    const mark = pairMark(p.look, x, y, r, p.closed);
+    mark.append(svg("title", {}, `Pair ${p.pair}, node ${p.node}, face ${side(p.side)}, ${lookWords(p)}: ` +
       (p.closed ? `force ${short(p.force)}` : `gap ${short(p.gap)}`)));
     root.append(mark);
     if (p.side > 0 && most > 3) root.append(svg("path", { d: `M${x - r - 1} ${y - r - 3}h${2 * r + 2}`, class: "face-line" }));
@@ -497,27 +511,27 @@ function drawPlateLoads(root, f, X, Y) {
   }
 }
 
-const bandEdge = (i) => plate.low + ((plate.high - plate.low) * i) / bands;
-
 function drawScaleDown(root, x, y, height) {
+  const bands = plate.bands;
   root.append(label(x, y - 12, "w", { class: "panel-title" }));
   for (let i = 0; i < bands; ++i) {
     root.append(svg("rect", { x, y: y + (height * (bands - 1 - i)) / bands, width: 20, height: height / bands + 0.5, fill: bandColour(i) }));
   }
   root.append(svg("rect", { x, y, width: 20, height, fill: "none", class: "zero" }));
-  for (let i = 0; i <= bands; i += 2) {
-    root.append(label(x + 28, y + (height * (bands - i)) / bands + 4, rough(bandEdge(i)), { class: "axis-word" }));
+  for (let i = 0; i <= bands; i += bands > 12 ? 2 : 1) {
+    root.append(label(x + 28, y + (height * (bands - i)) / bands + 4, rough(plate.level(i)), { class: "axis-word" }));
   }
 }
 
 function drawScaleAcross(root, x, y, width) {
+  const bands = plate.bands;
   for (let i = 0; i < bands; ++i) {
     root.append(svg("rect", { x: x + (width * i) / bands, y, width: width / bands + 0.5, height: 14, fill: bandColour(i) }));
   }
   root.append(svg("rect", { x, y, width, height: 14, fill: "none", class: "zero" }));
   root.append(label(x, y - 6, "w", { class: "panel-title" }));
-  for (const [i, anchor] of [[0, "start"], [bands / 2, "middle"], [bands, "end"]]) {
-    root.append(label(x + (width * i) / bands, y + 30, Number(bandEdge(i).toPrecision(3)), { "text-anchor": anchor, class: "axis-word" }));
+  for (const [i, anchor] of [[0, "start"], [Math.round(bands / 2), "middle"], [bands, "end"]]) {
+    root.append(label(x + (width * i) / bands, y + 30, rough(plate.level(i)), { "text-anchor": anchor, class: "axis-word" }));
   }
 }
 
@@ -579,7 +593,7 @@ function stateWords(f) {
   const n = data.all_pairs;
   const [open, closed, atFace] = f.counts;
   const place = f.step === 0 ? "Before any load."
-    : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid motion at constant load; " : ""}load ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
+    : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid motion at constant load; " : ""}load: ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
   const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
   const rescued = f.rescued ? " This state comes from the oracle: the path could not reach it." : "";
   const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} closed, ${open} open, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
@@ -594,7 +608,7 @@ function showReadings(f) {
     read("Share of the step", short(f.fraction), f.fraction),
     read("Scale factor s", f.number === 0 ? "–" : f.snap ? "snap" : short(f.s), f.s),
     read("Load", minus(f.load)),
-    read(`Largest deflection, node ${f.largest.node}`, short(f.largest.w), f.largest.w),
+    read(`Largest w, node ${f.largest.node}`, short(f.largest.w), f.largest.w),
   ];
   if (data.all_pairs > 0) list.push(read("Closed, open, at face", f.counts[1] + ", " + f.counts[0] + ", " + f.counts[2]));
   byId("readings").replaceChildren(...list);
@@ -624,7 +638,7 @@ function showPairs(f) {
   table.replaceChildren(head(["Pair"], ["Node"], ["Face", true], ["stands at"], ["State", true], ["Gap"], ["Force"]),
     element("tbody", {}, ...shown.map((p) => {
       const r = row(element("th", { scope: "row" }, String(p.pair)), cell(p.node), cell(side(p.side)), cell(p.face),
-        cell(looks[p.look]), cell(p.gap), cell(p.force));
+        cell(lookWords(p)), cell(p.gap), cell(p.force));
       r.dataset.pair = String(p.pair);
       return r;
     })));
@@ -660,10 +674,10 @@ function markCurrentRow(f) {
 }
 
 function showCalls() {
-  const [leader, ...others] = data.kernels;
+  const [leader, ...others] = kernels;
   const words = byId("comparison-words");
   const holder = byId("call-table").parentElement;
-  byId("comparison-heading").textContent = data.kernels.join(" against ");
+  byId("comparison-heading").textContent = kernels.join(" against ");
   if (others.length === 0) {
     byId("comparison-heading").textContent = `${leader} alone`;
     words.textContent = "One kernel ran, so none was compared. These are its answers.";
@@ -679,16 +693,16 @@ function showCalls() {
     return;
   }
   const pairs = Math.max(...data.calls.map((c) => c.ss.length));
-  const names = [["Call"], ["Increment"], [`SMIN, ${leader}`]];
+  const names = [["Call"], ["Increment", true], [`SMIN of ${leader}`]];
   const compared = data.lockstep ? others : [];
-  for (const k of compared) names.push([`${k}: SMIN off by, ULP`], ["any s off by, ULP"], ["values, different"]);
+  for (const k of compared) names.push([`ULP off in SMIN, ${k}`], ["ULP off in any s"], ["values compared"], ["different"]);
   for (let i = 0; i < pairs; ++i) names.push([`s of pair ${i + 1}`]);
   byId("call-table").replaceChildren(head(...names), element("tbody", {}, ...data.calls.map((c, n) => {
     const cells = [element("th", { scope: "row" }, String(n + 1)), cell(c.step === 0 ? "settling" : `${c.step}.${c.number}`), cell(c.smin)];
     compared.forEach((_, k) => {
       const a = c.followers[k];
-      if (!a || a[4] === 1) cells.push(cell("no answer"), cell("no answer"), cell("–"));
-      else cells.push(cell(a[2]), cell(a[3]), element("td", {}, `${a[0]}, ${a[1]}`));
+      if (!a || a[4] === 1) cells.push(cell("no answer"), cell("no answer"), cell("–"), cell("–"));
+      else cells.push(cell(a[2]), cell(a[3]), cell(a[0]), cell(a[1]));
     });
     for (let i = 0; i < pairs; ++i) cells.push(cell(c.ss[i]));
     return row(...cells);
@@ -700,8 +714,8 @@ function showCertificate() {
   const words = byId("certificate-words");
   const say = (text, kind) => words.append(element("p", kind ? { class: kind } : {}, text));
   say("Each step's final state is compared with the minimiser of the structure's energy, which an oracle finds apart: it knows neither the kernels nor the path.");
-  if (data.certified.length > 0) say(data.certified.join("; ") + ".", data.uncertified.length === 0 ? "good" : "bad");
-  for (const text of data.uncertified) say(text);
+  if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.uncertified.length === 0 ? "good" : "bad");
+  for (const text of data.uncertified) say(sentence(text));
   const steps = data.certificates;
   if (steps.length === 0) {
     say("No step came to its end, so there is nothing to certify.");
@@ -720,19 +734,19 @@ function showCertificate() {
 // ---- the head of the page, and what stands still ----
 
 function showHead() {
-  byId("kernels").textContent = `${data.kernels.join(" and ")}, engine ${data.engine}`;
+  byId("kernels").textContent = `${kernels.join(" and ")}, engine ${data.engine}`;
   byId("size").textContent = [counted(data.nodes, "node"), counted(data.elements, "element"), counted(data.all_pairs, "pair"), counted(data.all_steps, "load step"), counted(data.all_increments, "increment")].join(", ");
   const say = (text, kind) => byId("verdict").append(element("li", { class: kind }, text));
   say(data.status === "solved" ? "All load is applied." : `Not solved: ${data.ended || data.status}.`, data.status === "solved" ? "good" : "bad");
   if (data.equal === null) say("One kernel ran; nothing was compared.", "note");
   else if (data.all_calls === 0) say("The kernels were never called; nothing was compared.", "note");
-  else say(`${data.kernels.join(" and ")} ${data.lockstep ? (data.equal ? "are equal to the bit" : "are NOT equal to the bit") : data.equal ? "agree on paths of their own" : "do NOT agree on paths of their own"}: ${data.comparison}.`, data.equal ? "good" : "bad");
-  if (data.certified.length > 0) say(data.certified.join("; ") + ".", data.uncertified.length === 0 ? "good" : "bad");
+  else say(`${kernels.join(" and ")} ${data.lockstep ? (data.equal ? "are equal to the bit" : "are NOT equal to the bit") : data.equal ? "agree on paths of their own" : "do NOT agree on paths of their own"}: ${data.comparison}.`, data.equal ? "good" : "bad");
+  if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.uncertified.length === 0 ? "good" : "bad");
   byId("facts").textContent = data.facts.join(" · ");
 }
 
 function showLog() {
-  byId("log-words").textContent = data.log === "" ? `${data.kernels[0]} wrote nothing there, or has no text.` : `What ${data.kernels[0]} wrote to unit 26.`;
+  byId("log-words").textContent = data.log === "" ? `${kernels[0]} wrote nothing there, or has no text.` : `What ${kernels[0]} wrote to unit 26.`;
   byId("log-text").textContent = data.log;
   byId("log-text").hidden = data.log === "";
 }
@@ -750,7 +764,7 @@ function showLegend() {
   const list = [];
   if (data.all_pairs > 0) {
     list.push(item("closed: pressed", pairMark("c", 11, 9, 5)), item("open: a gap", pairMark("o", 11, 9, 5)),
-      item("at its face: no force", pairMark("f", 11, 9, 5)));
+      item("at its face, no force", pairMark("f", 11, 9, 5)), item("the same, in contact", pairMark("f", 11, 9, 5, true)));
   }
   if (beam) {
     if (data.all_pairs > 0) {
@@ -760,13 +774,15 @@ function showLegend() {
     }
     list.push(item("load", arrow(11, 1, 0, 15, "load")), item("undeformed", line(0, 9, 22, 9, "undeformed")));
     byId("picture-words").textContent = "Up is positive. Between two increments every point moves along a straight line. " +
-      "Moments and shears are the elements' values at their ends, joined by straight lines.";
+      "Moments M = EI w\u2033 (positive where the beam sags) and shears V = dM/dx (the upward force of the part left of a cut on the part right of it) " +
+      "are the elements' values at their ends, joined by straight lines.";
   } else {
     list.push(item("load, down", svg("g", { class: "load" }, svg("circle", { cx: 11, cy: 9, r: 7, "fill-opacity": 0 }), svg("path", { d: "M7 5l8 8m-8 0l8 -8" }))),
       item("support of w", svg("path", { d: "M11 3l6 11h-12Z", class: "support" })), item("support of a slope", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
     byId("picture-words").textContent = "The colours are the same in all states: dark is low. Up is positive. A closed pair's square grows with its force; a bar over a pair says that its face stands above.";
     byId("magnification").parentElement.hidden = true;
   }
+  byId("legend").classList.toggle("on-map", !beam);
   byId("legend").replaceChildren(...list);
   byId("chart-words").textContent = "Straight between events; filled circles are pairs that make contact, rings pairs that break it, squares the ends of steps.";
 }
@@ -817,7 +833,7 @@ function between(a, b, share) {
 function glide(from, to) {
   const [a, b] = [frames[from], frames[to]];
   const straight = b.at - a.at <= 1 && !b.rescued;
-  if (calm.matches || !straight) return show(to);
+  if (calm.matches || !straight || data.pairs.length > 200) return show(to);
   const began = performance.now();
   const lasts = 450;
   const step = (now) => {
@@ -834,13 +850,13 @@ function stopPlaying() {
   timer = 0;
   const play = byId("play");
   play.setAttribute("aria-pressed", "false");
-  play.replaceChildren(element("span", { "aria-hidden": "true" }, "▶\uFE0E"), " Play");
+  play.textContent = "Play";
 }
 
 function startPlaying() {
   const play = byId("play");
   play.setAttribute("aria-pressed", "true");
-  play.replaceChildren(element("span", { "aria-hidden": "true" }, "⏸\uFE0E"), " Pause");
+  play.textContent = "Pause";
   if (current === frames.length - 1) show(0);
   const step = () => {
     if (current >= frames.length - 1) return stopPlaying();
