@@ -15,7 +15,7 @@ inline std::string why_not_well_formed(const std::string& text) {
   bool had_root = false;
   std::size_t at = 0;
   const auto is_name = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == ':';
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == ':';
   };
   const auto name = [&] {
     const std::size_t from = at;

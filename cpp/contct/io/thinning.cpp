@@ -38,7 +38,7 @@ void choose_nodes(const beam& b, const finished_run& r, shown_parts& shown) {
     if (s.fixed && shown.nodes.size() < most) insert(shown.nodes, s.node);
   }
   shown.said.push_back(
-      fmt::format("Shapes, moments and shears are drawn at {} of {} nodes, evenly chosen, with the ends, the "
+      fmt::format("Shapes, moments and shears are drawn at {} of {} nodes, evenly chosen, with the ends, fixed "
                   "supports and the "
                   "node that deflects most. The largest values are those of all nodes.",
                   shown.nodes.size(), b.nodes()));
@@ -67,8 +67,9 @@ void choose_lines(const plate& p, const finished_run& r, shown_parts& shown) {
 
 void choose_pairs(const finished_run& r, shown_parts& shown) {
   const std::size_t all = r.what.pairs.size();
-  const std::size_t most =
-      std::clamp<std::size_t>(most_pair_states / r.kept.frames().size(), 200, most_pairs);
+  const bool on_a_plate = std::holds_alternative<plate>(r.what.geometry.kind);
+  const std::size_t most = std::clamp<std::size_t>(most_pair_states / r.kept.frames().size(), 200,
+                                                   on_a_plate ? most_pairs : most_pairs_of_a_beam);
   for (const int i : evenly(static_cast<int>(all), static_cast<int>(most)))
     shown.pairs.push_back(static_cast<std::size_t>(i));
   if (shown.pairs.size() == all) return;

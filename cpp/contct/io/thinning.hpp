@@ -27,6 +27,7 @@ inline constexpr std::size_t most_grid_points = 90'000;
 inline constexpr std::size_t most_pair_states = 36'000;
 /// And of these in any one frame.
 inline constexpr std::size_t most_pairs = 1000;
+inline constexpr std::size_t most_pairs_of_a_beam = 300;
 inline constexpr std::size_t most_supports = 300;
 
 [[nodiscard]] shown_parts choose_parts(const finished_run& r);

@@ -194,6 +194,10 @@ function drawSupport(s, f, X, Y) {
   const name = `Support at node ${s.node}: ` +
     s.dofs.map(([dof, spring]) => (spring === null ? `${dof} fixed` : `${dof} on a spring of ${short(spring)}`)).join(", ");
   const g = svg("g", {}, svg("title", {}, name));
+  if (data.supports.length > 40 && !(fixed && turns)) {  // a crowd: a stroke each
+    g.append(line(x, y + 4, x, y + (fixed ? 14 : 9), fixed ? "support" : "thin"));
+    return g;
+  }
   if (fixed && turns) {
     const out = s.x - beam.from < beam.to - s.x ? -1 : 1;
     g.append(svg("path", { d: `M${x} ${y - 20}V${y + 20}`, class: "support", "stroke-width": 3 }));
