@@ -91,10 +91,17 @@ function roundDown(x, digits = [1, 2, 5]) {
   return Number((Math.max(...digits.filter((d) => d * power <= x * (1 + 1e-12)), 1) * power).toPrecision(3));
 }
 
-function ticks(from, to, about) {
-  const step = roundDown(((to - from) / about) * 1.3);
+// 1, 2 or 5 times a power of ten, not below x.
+function roundUp(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return Number(([1, 2, 5, 10].find((d) => d * power >= x * (1 - 1e-12)) * power).toPrecision(3));
+}
+
+// Round numbers from one to the other, at most so many and one.
+function ticks(from, to, most) {
   const list = [];
-  if (!(step > 0) || !isFinite(step)) return list;
+  if (!(to > from) || !isFinite(to - from)) return list;
+  const step = roundUp((to - from) / Math.max(1, most));
   for (let i = Math.ceil(from / step - 1e-9); i * step <= to + step * 1e-9; ++i) list.push(i * step);
   return list;
 }
@@ -295,7 +302,7 @@ function drawLoads(root, f, X, Y) {
 }
 
 function drawBeamAxis(root, X, Y, bottom, width) {
-  for (const x of ticks(beam.from, beam.to, width < 520 ? 5 : 10)) {
+  for (const x of ticks(beam.from, beam.to, Math.floor(width / 75))) {
     root.append(line(X(x), bottom, X(x), bottom + 5, "zero"));
     root.append(label(X(x), bottom + 19, rough(x), { "text-anchor": "middle", class: "axis-word" }));
   }
@@ -309,7 +316,7 @@ function drawStrip(root, f, X, top, height, name, title) {
   const [low, high] = strips[name];
   const range = high - low || 1;
   const Y = (v) => top + 24 + ((high - v) / range) * (height - 34);
-  for (const v of ticks(low, high, 3)) {
+  for (const v of ticks(low, high, 4)) {
     if (v !== 0) root.append(line(margin.left, Y(v), X(beam.to), Y(v), "grid"));
     root.append(label(margin.left - 16, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
   }
@@ -361,8 +368,8 @@ function drawBeam(f) {
   drawLoads(root, f, X, Y);
   drawPairs(root, f, X, Y, 20, bottom);
   drawBeamAxis(root, X, Y, bottom, width);
-  drawStrip(root, f, X, bottom + 36, strip, "moment", wide ? "Moment M = EI w″, positive where it sags" : "Moment M");
-  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", wide ? "Shear V = dM/dx: upward force of the left part on the right" : "Shear V");
+  drawStrip(root, f, X, bottom + 36, strip, "moment", wide ? "Moment M = EI w″, positive where it sags" : "M");
+  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", wide ? "Shear V = dM/dx: upward force of the left part on the right" : "V");
   offerMagnifications(fitting);
 }
 
@@ -455,13 +462,13 @@ function drawPlate(f) {
   const X = (x) => left + (x - x0) * scale;
   const Y = (y) => room.top + (y1 - y) * scale;
   const root = canvas(holder, width, height, stateWords(f));
-  root.append(label(left, 18, "Deflection w from above, and the pairs", { class: "panel-title" }));
+  root.append(label(left, 18, narrow ? "Deflection w, and the pairs" : "Deflection w from above, and the pairs", { class: "panel-title" }));
   const map = svg("g");
   contourPaths(f, X, Y).forEach((d, i) => {
     if (d.length > 0) map.append(svg("path", { d: d.join(""), fill: bandColour(i), stroke: bandColour(i), "stroke-width": 0.7 }));
   });
   root.append(map, svg("rect", { x: X(x0), y: Y(y1), width: X(x1) - X(x0), height: Y(y0) - Y(y1), class: "edge" }));
-  for (const x of ticks(x0, x1, narrow ? 4 : 6)) {
+  for (const x of ticks(x0, x1, 6)) {
     root.append(line(X(x), Y(y0), X(x), Y(y0) + 5, "zero"), label(X(x), Y(y0) + 19, rough(x), { "text-anchor": "middle", class: "axis-word" }));
   }
   for (const y of ticks(y0, y1, 6)) {
@@ -559,7 +566,7 @@ function drawChart(current) {
   const f = frames[current];
   const root = canvas(holder, width, height,
     `Load against the deflection of node ${geometry.watched}, ${frames.length} states; now load ${rough(measure(f))}, deflection ${rough(f.watched)}`);
-  for (const v of ticks(x0, x1, width < 520 ? 4 : 7)) {
+  for (const v of ticks(x0, x1, Math.floor(width / 95))) {
     root.append(line(X(v), room.top, X(v), height - room.bottom, v === 0 ? "zero" : "grid"));
     root.append(label(X(v), height - room.bottom + 18, rough(v), { "text-anchor": "middle", class: "axis-word" }));
   }

@@ -1,0 +1,42 @@
+"""Writes problems for the browser's test, which are too long or too odd for reference/problems, to a folder."""
+import os
+import sys
+
+folder = sys.argv[1]
+
+
+def write(name, text):
+    with open(os.path.join(folder, name + ".toml"), "w", encoding="utf-8") as out:
+        out.write(text)
+
+
+cantilever = '[beam]\nlength = 2.0\nelements = 8\nEI = 1.0e4\n[[support]]\nnode = 1\nfix = ["w", "theta"]\n'
+stop = '[[contact]]\nnode = 9\nsurface = "below"\nface = -0.004\nstiffness = 5.0e4\n'
+above = '[[contact]]\nnode = 5\nsurface = "above"\nface = 0.001\nstiffness = 5.0e4\n'
+steps = '[[step]]\npoint = [ { node = 9, w = -60.0 } ]\n[[step]]\npoint = [ { node = 9, w = 60.0, theta = 5.0 } ]\n'
+write("alone", 'title = "One kernel"\n' + cantilever + stop + above + steps)
+write("own-ways", cantilever + stop + above + steps)
+write("no-pairs", cantilever + "[[step]]\nuniform = -3.0\n")
+write("free", 'title = "A free beam & <b>markup</b> \\"quoted\\" </script><script>alert(1)</script> {{data}}"\n'
+      "[beam]\nlength = 12.0\nelements = 48\nEI = 1000.0\n[[bed]]\nmodulus = 40.0\nface = 0.0\n"
+      "[[step]]\nuniform = -2.0\n[[step]]\nuniform = -2.0\npoint = [ { node = 10, w = -600.0 } ]\n"
+      "[[step]]\nuniform = -2.0\npoint = [ { node = 10, w = -60.0 }, { node = 40, w = -900.0 } ]\n")
+write("mechanism", '[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = "below"\nface = 0\nstiffness = 10\n'
+      '[[contact]]\nnode = 4\nsurface = "below"\nface = 0\nstiffness = 10\n[[step]]\npoint = [ { node = 3, w = -4 } ]\n'
+      "[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n")
+write("never", '[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = "below"\nface = -1\nstiffness = 1\n[[step]]\nuniform = -1\n')
+write("corrected", "[beam]\nlength = 2\nelements = 4\nEI = 100\n[[bed]]\nmodulus = 50\nface = -0.01\n[[step]]\nuniform = -3\n")
+
+# 5001 nodes on soft springs over a row of 1000 stops that lie deeper and deeper: about 2000 increments.
+long = '[beam]\nlength = 500.0\nelements = 5000\nEI = 1.0\n[[support]]\nnodes = [1, 5001]\nfix = ["w", "theta"]\n'
+long += '[[support]]\nnodes = "2..5000"\nspring = { w = 0.02 }\n'
+for k in range(1000):
+    long += f'[[contact]]\nnode = {3 + 5 * k}\nsurface = "below"\nface = {-(0.001 + 0.000009 * k)!r}\nstiffness = 0.5\n'
+write("long", long + "[[step]]\nuniform = -0.01\n[[step]]\nuniform = -0.0001\n")
+
+# 5041 nodes over a row of stops.
+wide = '[plate]\nsize = [7.0, 7.0]\nelements = [70, 70]\nD = 1.0\nnu = 0.3\n'
+wide += '[[support]]\nnodes = [' + ", ".join(str(n) for n in [*range(1, 72), *range(4971, 5042)]) + ']\nfix = ["w"]\n'
+for k in range(36):
+    wide += f'[[contact]]\nnode = {35 * 71 + 1 + 2 * k}\nsurface = "below"\nface = {-(0.01 + 0.002 * k)!r}\nstiffness = 50.0\n'
+write("wide", wide + "[[step]]\nuniform = -0.05\n[[step]]\nuniform = 0.0\n")

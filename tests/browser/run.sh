@@ -1,0 +1,43 @@
+#!/bin/sh
+# The page of `contct run --html` in a browser without a window: the slider by mouse and by keyboard, every number
+# against the run's JSON, dark and light, narrow and wide, on paper, read aloud, and with 5000 nodes.
+# usage: sh tests/browser/run.sh [BUILD]      (default: build/release)
+# Exit 0: all is as it should be; 77: skipped, chromium cannot be had; 1 otherwise. Pictures stay in BUILD/tests/browser.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+build=$(cd "${1:-build/release}" && pwd) || exit 1
+. cpp/install.sh
+
+has_browser() { command -v chromium >/dev/null 2>&1 && command -v python3 >/dev/null 2>&1; }
+has_browser || need "to open pages" chromium python3 fonts-dejavu-core || true
+has_browser || { echo "browser: SKIPPED: chromium cannot be had"; exit 77; }
+
+work=$build/tests/browser
+rm -rf "$work"
+mkdir -p "$work"
+wrong=0
+# page NAME FILE EXIT [ARGUMENT..]: run FILE, which must exit so.
+page() {
+  name=$1 file=$2 expected=$3
+  shift 3
+  "$build/contct" run "$file" --quiet --html "$work/$name.html" --json "$work/$name.json" "$@" 2>"$work/said"
+  status=$?
+  [ $status = "$expected" ] || { echo "browser: $name: exit $status, expected $expected"; cat "$work/said"; wrong=1; }
+}
+python3 tests/browser/problems.py "$work" || exit 1
+for problem in pb01-cantilever-tip-stop pb05-cantilever-over-flat-obstacle pb07-three-gap-supports \
+  pp03e-corners-and-settled-stop-n8 pp05a-free-plate-on-bed-n8; do
+  page "${problem%%-*}" "reference/problems/$problem.toml" 0
+done
+page free "$work/free.toml" 0
+page alone "$work/alone.toml" 0 --kernels cpp
+page own-ways "$work/own-ways.toml" 0 --free-run --kernels fortran,corrected
+(cd "$work" && "$build/contct" run no-pairs.toml --quiet --html no-pairs.html) || wrong=1
+page mechanism "$work/mechanism.toml" 4
+page never "$work/never.toml" 4
+page corrected "$work/corrected.toml" 0 --kernels corrected
+page long "$work/long.toml" 0
+page wide "$work/wide.toml" 0
+python3 tests/browser/check_pages.py "$work" || wrong=1
+[ $wrong = 0 ] || { echo "browser: FAILED"; exit 1; }
+echo "browser: passed"

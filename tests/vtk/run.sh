@@ -1,0 +1,28 @@
+#!/bin/sh
+# The grids of `contct run --vtu`, read back with VTK's own reader, from Debian's python3-vtk9: points, cells,
+# displacements, pairs and elements, each number against the run's JSON.
+# usage: sh tests/vtk/run.sh [BUILD]      (default: build/release)
+# Exit 0: all equal; 77: skipped, VTK cannot be had; 1 otherwise.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+build=$(cd "${1:-build/release}" && pwd) || exit 1
+. cpp/install.sh
+
+# Debian's package is for its own python.
+python=/usr/bin/python3
+reads() { $python -c 'from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader' >/dev/null 2>&1; }
+reads || need "to read grids back" python3-vtk9 || true
+reads || { echo "VTK: SKIPPED: python3-vtk9 cannot be had"; exit 77; }
+
+work=$build/tests/vtk
+rm -rf "$work"
+mkdir -p "$work"
+wrong=0
+for problem in pb01-cantilever-tip-stop pb05-cantilever-over-flat-obstacle pb07-three-gap-supports \
+  pp03e-corners-and-settled-stop-n8 pp05a-free-plate-on-bed-n8; do
+  "$build/contct" run "reference/problems/$problem.toml" --quiet --vtu "$work/$problem.vtu" \
+    --json "$work/$problem.json" 2>"$work/said" || { cat "$work/said"; wrong=1; continue; }
+  $python tests/vtk/read_back.py "$work/$problem.json" "$work/$problem.vtu" || { echo "VTK: $problem differs"; wrong=1; }
+done
+[ $wrong = 0 ] || { echo "VTK: FAILED"; exit 1; }
+echo "VTK: passed"
