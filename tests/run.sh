@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs what is missing, builds, and passes all tests. --full adds the legs that take longer: the
 # sanitizers, gfortran's run-time checks, the build without the program, the whole campaign of random
-# problems, the mutants of both kernels, a second LAPACK, other processors, formatting and clang-tidy.
+# problems, the mutants of both kernels, a second LAPACK, other processors, the page in a browser, grids read
+# back by VTK, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -55,6 +56,10 @@ if [ "$full" = yes ]; then
   sh tests/two_lapacks/run.sh build/release
   echo "== other processors"
   sh tests/emulated/run.sh || [ $? = 77 ]  # none of their compilers can be had
+  echo "== the page in a browser"
+  sh tests/browser/run.sh build/release || [ $? = 77 ]  # chromium cannot be had
+  echo "== grids read back by VTK"
+  sh tests/vtk/run.sh build/release || [ $? = 77 ]  # VTK cannot be had
   sh tests/tree/tidy.sh build/release
   # The last lines are ctest's own summary, of everything that the release build has.
   ctest --preset release -j "$(nproc 2>/dev/null || echo 2)" --progress

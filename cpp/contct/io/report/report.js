@@ -38,8 +38,8 @@ function eventWords([pair, node, surface, makes]) {
   return `pair ${pair} ${makes ? "makes" : "breaks"} contact (node ${node}, ${side(surface)})`;
 }
 
-function allEventWords(events, all) {
-  const named = events.slice(0, 8).map(eventWords);
+function allEventWords(events, all, most = 8) {
+  const named = events.slice(0, most).map(eventWords);
   if (all > named.length) named.push(`and ${all - named.length} more`);
   return named.join("; ");
 }
@@ -605,7 +605,7 @@ function stateWords(f) {
   const [open, closed, atFace] = f.counts;
   const place = f.step === 0 ? "Before any load."
     : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid motion at constant load; " : ""}load: ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
-  const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
+  const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
   const rescued = f.rescued ? " This state comes from the oracle: the path could not reach it." : "";
   const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} closed, ${open} open, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
   return `${place}${event}${rescued}${pairs} Largest deflection ${short(f.largest.w)} at node ${f.largest.node}.`;
