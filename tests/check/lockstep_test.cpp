@@ -55,6 +55,23 @@ TEST_CASE("FORTRAN and C++ walk PB1 in lockstep, and everything is counted") {
   CHECK(compared.last_call_equal());
 }
 
+TEST_CASE("how far each follower was off in the last call is told in ULPs, in SMIN and in the worst s") {
+  const lockstep good = in_lockstep_with(make_kernel("cpp"));
+  REQUIRE(good.last_answers().size() == 1);
+  CHECK(good.last_answers()[0].values == 4);
+  CHECK(good.last_answers()[0].mismatches == 0);
+  CHECK(good.last_answers()[0].smin_ulps == 0);
+  CHECK(good.last_answers()[0].ss_ulps == 0);
+  const lockstep off = with_fault([](call<double>& c, std::string&) {
+    c.smin = std::nextafter(c.smin, 2.0);
+    c.ss[0] = std::nextafter(std::nextafter(c.ss[0], 2.0), 2.0);
+  });
+  REQUIRE(off.last_answers().size() == 1);
+  CHECK(off.last_answers()[0].mismatches == 2);
+  CHECK(off.last_answers()[0].smin_ulps == 1);
+  CHECK(off.last_answers()[0].ss_ulps == 2);
+}
+
 TEST_CASE("a fault of one ULP in SMIN is caught at its first call") {
   int call_number = 0;
   const lockstep compared = with_fault([&](call<double>& c, std::string&) {

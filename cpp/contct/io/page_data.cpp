@@ -130,7 +130,8 @@ json point_loads_json(const problem& p, const load& l) {
 
 /// Deflection and slope at the nodes shown; moment and shear just left and just right of each.
 void add_beam_shape(const problem& p, const load& l, const frame& f, const shown_parts& shown, json& out) {
-  json w = json::array(), slope = json::array();
+  json w = json::array();
+  json slope = json::array();
   json sides[2][2] = {{json::array(), json::array()}, {json::array(), json::array()}};
   const element_results results = results_in_elements(p.geometry, l, f.displacement);
   const auto elements = static_cast<int>(results.elements());

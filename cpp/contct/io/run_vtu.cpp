@@ -52,7 +52,9 @@ std::string points_of(const problem& p) {
 }
 
 std::string cells_of(const problem& p, const std::vector<std::vector<int>>& elements) {
-  std::vector<int> connectivity, offsets, types;
+  std::vector<int> connectivity;
+  std::vector<int> offsets;
+  std::vector<int> types;
   const auto add = [&](const std::vector<int>& at, int type) {
     connectivity.insert(connectivity.end(), at.begin(), at.end());
     offsets.push_back(static_cast<int>(connectivity.size()));
@@ -98,8 +100,12 @@ std::string element_data(const problem& p, const frame& f, std::size_t elements)
 }
 
 std::string cell_data(const problem& p, const frame& f, std::size_t elements) {
-  std::vector<int> number(elements, 0), state(elements, -1), surface(elements, 0);
-  std::vector<double> face(elements), gap(elements), force(elements);
+  std::vector<int> number(elements, 0);
+  std::vector<int> state(elements, -1);
+  std::vector<int> surface(elements, 0);
+  std::vector<double> face(elements);
+  std::vector<double> gap(elements);
+  std::vector<double> force(elements);
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const pair_reading r = reading_of(p, f, i);
     number.push_back(static_cast<int>(i) + 1);
