@@ -164,7 +164,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("- is standard output, and then nothing else is printed") {
+TEST_CASE("with - for standard output nothing else is printed") {
   const scratch_directory dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);
