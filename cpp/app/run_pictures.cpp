@@ -46,9 +46,12 @@ void add_picture_options(CLI::App& command, picture_options& options) {
       "kernel against kernel, the certificate (- is standard output)");
   command.add_option("--svg", options.svg,
                      "Draw the final state and the load-deflection path to this file (- is standard output)");
-  command.add_option("--csv", options.csv,
-                     "Write a table, an increment a row, to this file (- is standard output); F.csv has "
-                     "F.pairs.csv beside it, a row for each pair and increment");
+  command.add_option(
+      "--csv", options.csv,
+      "Write a table, an increment a row, to this file (- is standard output); F.csv has "
+      "F.pairs.csv beside it, a row for each pair and increment. Columns: step, increment, kind, s, "
+      "share, force, events, closed, open, at_face, smin, kernels; and step, increment, pair, node, "
+      "surface, state, look, w, gap, force");
   command.add_option(
       "--vtu", options.vtu,
       "For ParaView: write the final state to this file; F.vtu has beside it F.000.vtu, F.001.vtu, "

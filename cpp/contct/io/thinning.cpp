@@ -37,11 +37,11 @@ void choose_nodes(const beam& b, const finished_run& r, shown_parts& shown) {
   for (const support& s : r.what.supports) {
     if (s.fixed && shown.nodes.size() < most) insert(shown.nodes, s.node);
   }
-  shown.said.push_back(
-      fmt::format("Shapes, moments and shears are drawn at {} of {} nodes, evenly chosen, with the ends, fixed "
-                  "supports and the "
-                  "node that deflects most. The largest values are those of all nodes.",
-                  shown.nodes.size(), b.nodes()));
+  shown.said.push_back(fmt::format(
+      "Shapes, moments and shears are drawn at {} of {} nodes, evenly chosen, with the ends, fixed "
+      "supports and the "
+      "node that deflects most. The largest values are those of all nodes.",
+      shown.nodes.size(), b.nodes()));
 }
 
 /// As many lines in either direction as the grid points that all frames may have together allow.
@@ -97,9 +97,8 @@ void say_what_is_counted_only(const finished_run& r, shown_parts& shown) {
   const frame_keeper& kept = r.kept;
   if (kept.frames().size() < static_cast<std::size_t>(kept.increments()) + 1) {
     shown.said.push_back(
-        fmt::format("The path has {} increments; the slider stops at {} states: the start, every {}th "
-                    "increment within a step, "
-                    "and ends of steps.",
+        fmt::format("The path has {} increments; the slider stops at {} states: the start, one in {} of the "
+                    "increments within a step, and ends of steps.",
                     kept.increments(), kept.frames().size(), kept.stride()));
   }
   const auto first = [&](const char* what, std::size_t here, std::size_t all) {

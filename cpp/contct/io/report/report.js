@@ -91,6 +91,10 @@ function roundDown(x, digits = [1, 2, 5]) {
   return Number((Math.max(...digits.filter((d) => d * power <= x * (1 + 1e-12)), 1) * power).toPrecision(3));
 }
 
+// On paper pictures have a width of their own, at which their words are as large as the text around.
+let printing = false;
+const widthOf = (holder) => (printing ? 720 : Math.max(320, holder.clientWidth));
+
 // 1, 2 or 5 times a power of ten, not below x.
 function roundUp(x) {
   const power = 10 ** Math.floor(Math.log10(x));
@@ -340,7 +344,7 @@ const strips = geometry.kind !== "beam" ? {} : Object.fromEntries(["moment", "sh
 
 function drawBeam(f) {
   const holder = byId("picture");
-  const width = Math.max(320, holder.clientWidth || 680);
+  const width = widthOf(holder);
   const room = width < 520 ? 150 : 190;  // for deflections
   const upper = data.pairs.some((p) => p.side > 0);
   const lower = data.pairs.some((p) => p.side < 0);
@@ -451,7 +455,7 @@ function contourPaths(f, X, Y) {
 
 function drawPlate(f) {
   const holder = byId("picture");
-  const width = Math.max(320, holder.clientWidth || 680);
+  const width = widthOf(holder);
   const [x0, x1] = [geometry.x[0], geometry.x[geometry.x.length - 1]];
   const [y0, y1] = [geometry.y[0], geometry.y[geometry.y.length - 1]];
   const narrow = width < 560;
@@ -556,7 +560,7 @@ const measure = (f) => (byForce ? f.force : progress(f));
 
 function drawChart(current) {
   const holder = byId("chart");
-  const width = Math.max(320, holder.clientWidth || 680);
+  const width = widthOf(holder);
   const height = width < 520 ? 280 : 340;
   const room = { left: 84, right: 28, top: 34, bottom: 54 };
   const [x0, x1] = padded(spread(frames.map((f) => f.watched)));
@@ -896,7 +900,8 @@ function listen() {
     width = innerWidth;
     show(current);
   });
-  addEventListener("beforeprint", () => { stopPlaying(); show(frames.length - 1); });
+  addEventListener("beforeprint", () => { stopPlaying(); printing = true; show(frames.length - 1); });
+  addEventListener("afterprint", () => { printing = false; show(current); });
 }
 
 showHead();
