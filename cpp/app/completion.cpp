@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/commands.hpp"
@@ -23,6 +24,7 @@ std::string shell_quoted(std::string_view text) {
 
 std::vector<std::string> names_of(const std::vector<described_option>& options) {
   std::vector<std::string> names;
+  names.reserve(options.size());
   for (const described_option& o : options) names.push_back(o.name);
   return names;
 }
@@ -56,9 +58,8 @@ std::string bash_command(const described_command& c) {
 }
 
 bool takes_files(const described_command& c) {
-  for (const described_option& p : c.positionals)
-    if (p.kind == takes::file) return true;
-  return false;
+  return std::any_of(c.positionals.begin(), c.positionals.end(),
+                     [](const described_option& p) { return p.kind == takes::file; });
 }
 
 /// What zsh does behind an option: an action of _arguments.

@@ -151,7 +151,7 @@ class explanation_run {
   }
 
   /// No increment was wanted, or none was reached.
-  exit_status nothing_told(const path_end& end, const explained_path& told) const {
+  [[nodiscard]] exit_status nothing_told(const path_end& end, const explained_path& told) const {
     if (end.status != path_status::solved) complain("{}: {}", options_.file, end_words(problem_, end));
     if (wanted_.step > told.steps())
       complain("--step: found {}; allowed: a step from 1 to {}: the path ends there", wanted_.step,

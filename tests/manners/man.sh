@@ -2,8 +2,9 @@
 set -eu
 program=$1
 shift
-page=$(mktemp)
-trap 'rm -f "$page"' EXIT
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+page=$folder/contct.1 # mandoc takes what stands behind the point for the section
 "$program" man >"$page"
 said=$("$@" "$page" 2>&1) || { echo "$said" >&2; exit 1; }
 [ -z "$said" ] || { echo "$said" >&2; exit 1; }

@@ -139,7 +139,7 @@ void explain_text::print_outcome(const explained_increment& i) const {
   if (i.apart && i.other == nullptr)
     say(paint::bad, fmt::format("{} gave no answer: {}", names_[1], i.apart->follower));
   if (i.apart && i.apart->field == "text")
-    say(paint::bad, fmt::format("Unit 26, line {}: {} wrote \"{}\", {} wrote \"{}\"", i.apart->index,
+    say(paint::bad, fmt::format(R"(Unit 26, line {}: {} wrote "{}", {} wrote "{}")", i.apart->index,
                                 names_[0], i.apart->leader, names_[1], i.apart->follower));
 }
 
