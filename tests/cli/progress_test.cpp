@@ -27,8 +27,8 @@ std::vector<long_work> long_works() {
   return {{"run", {"run", "big.toml", "--kernels", "corrected"}, "step 2 of 2, increment "},
           {"explain", {"explain", "big.toml", "--json", "/dev/null"}, "step 2 of 2, increment "},
           {"verify", {"verify", "--reference", "reference"}, " problems"},
-          {"atlas", {"atlas", "--problems", "60"}, " problems"},
-          {"fuzz", {"fuzz", "--calls", "1000000"}, " calls"}};
+          {"atlas", {"atlas", "--problems", "40"}, " problems"},
+          {"fuzz", {"fuzz", "--calls", "500000"}, " calls"}};
 }
 
 /// The reference problems four times over.
