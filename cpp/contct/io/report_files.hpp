@@ -8,5 +8,6 @@ namespace contct {
 extern const std::string_view report_html;
 extern const std::string_view report_css;
 extern const std::string_view report_js;
+extern const std::string_view parallel_edition_html;  ///< reference/parallel-edition.html
 
 }  // namespace contct

@@ -30,7 +30,7 @@ std::string embedded(const nlohmann::ordered_json& data) {
 }  // namespace
 
 /// The template's places are filled from its beginning to its end, so what is filled in is not looked at.
-std::string run_page(const finished_run& r, std::string_view edition) {
+std::string run_page(const finished_run& r) {
   struct filling {
     std::string_view place;
     std::string text;
@@ -38,7 +38,7 @@ std::string run_page(const finished_run& r, std::string_view edition) {
   const std::array<filling, 6> fillings = {{{"{{title}}", markup_text(title_of(r))},
                                             {"{{style}}", std::string(report_css)},
                                             {"{{heading}}", markup_text(title_of(r))},
-                                            {"{{edition}}", std::string(edition)},
+                                            {"{{edition}}", std::string(parallel_edition_html)},
                                             {"{{data}}", embedded(page_data(r))},
                                             {"{{script}}", std::string(report_js)}}};
   std::string_view rest = report_html;

@@ -2,14 +2,12 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "contct/io/finished_run.hpp"
 
 namespace contct {
 
-/// The page of a run. `edition` is an HTML fragment that goes into the place which the template leaves for
-/// it (report/report.html): its author answers for its markup; nothing is shown where it is empty.
-[[nodiscard]] std::string run_page(const finished_run& r, std::string_view edition = {});
+/// The page of a run. The parallel edition of the two kernels is in it, folded.
+[[nodiscard]] std::string run_page(const finished_run& r);
 
 }  // namespace contct

@@ -5,7 +5,7 @@ set(source "// Made by embed.cmake from the files of contct/io/report.\n#include
 string(REPLACE "," ";" files "${FILES}")
 foreach(file IN LISTS files)
   cmake_path(GET file FILENAME name)
-  string(REPLACE "." "_" variable ${name})
+  string(MAKE_C_IDENTIFIER ${name} variable)
   file(READ ${file} text)
   string(APPEND source "const std::string_view ${variable} = R\"embedded(${text})embedded\";\n\n")
 endforeach()
