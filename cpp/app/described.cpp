@@ -16,7 +16,11 @@ takes kind_of(const CLI::Option& o, const std::string& name) {
 
 std::vector<std::string> words_of(takes kind, const std::string& name) {
   if (kind == takes::kernels) return kernel_names();
-  if (kind == takes::engine) return engine_names();
+  if (kind == takes::engine) {
+    std::vector<std::string> names = engine_names();
+    names.insert(names.begin(), "auto");
+    return names;
+  }
   if (name == "SHAPE") return {"beam", "plate"};
   if (name == "SHELL") return {"bash", "zsh", "fish"};
   return {};

@@ -169,7 +169,7 @@ int run(options o) {
   std::optional<contct::output_file> picture;
   if (!o.svg_file.empty()) picture.emplace(o.svg_file);
   pin();
-  fmt::print("{}; core type: {}; one thread\n", contct::lapack_identity(), core_type());
+  fmt::print("{}; core type: {}; one thread, its processor time\n", contct::lapack_identity(), core_type());
   json kernels = bench_kernels();
   json rows = json::array();
   for (const std::string& name : o.problems) bench_problem(o, name, rows);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bench/cpu_clock.hpp"
 #include "contct/kernel/contct.h"
 #include "contct/kernel/contct.hpp"
 #include "contct/numeric/random.hpp"
@@ -39,9 +40,9 @@ struct quiet_pairs {
 
 template <class Call>
 double seconds_of(Call call, int repeats) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = cpu_clock::now();
   for (int k = 0; k < repeats; ++k) call();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / repeats;
+  return std::chrono::duration<double>(cpu_clock::now() - start).count() / repeats;
 }
 
 }  // namespace

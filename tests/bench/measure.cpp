@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "bench/cpu_clock.hpp"
 #include "contct/check/certificate.hpp"
 #include "contct/io/follow.hpp"
 #include "contct/path/factored_stiffness.hpp"
@@ -14,7 +15,7 @@
 namespace bench {
 namespace {
 
-using clock = std::chrono::steady_clock;
+using clock = cpu_clock;
 
 /// Peak memory of the process since the last call of forget_peak.
 long peak_kib() {

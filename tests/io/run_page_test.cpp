@@ -38,7 +38,7 @@ TEST_CASE("a title with markup stays text: no new element comes of it, and the d
   const a_run titled("title = \"" + nasty + "\"\n" + good_problem);
   const std::string page = run_page(titled.finished());
   CHECK(count(page, "<script") == count(run_page(plain.finished()), "<script"));
-  CHECK(count(page, "<b>") == 0);
+  CHECK(count(page, "<b>") == count(run_page(plain.finished()), "<b>"));
   CHECK_THAT(page, Contains("<title>&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; &lt;b&gt;&amp;"));
   CHECK(embedded_in(page)["title"] == "</script><script>alert(1)</script> <b>& \"{{data}}\" <!--");
 }

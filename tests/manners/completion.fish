@@ -13,7 +13,8 @@ end
 expect 'contct r' 'replay run'
 expect 'contct run --ker' --kernels
 expect 'contct explain --inc' --increment
-expect 'contct run --engine ' 'condensed refactor updated'
+expect 'contct run --engine re' refactor
+expect 'contct run --engine a' auto
 expect 'contct completion ' 'bash fish zsh'
 expect 'contct new b' beam
 test $failures = 0

@@ -44,7 +44,7 @@ frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, b
 
 void frame_keeper::called(const answered_call& c) {
   for (std::size_t i = 0; i < d_.size(); ++i) {
-    const auto dof = static_cast<std::size_t>(structure_.dof_of_pair(static_cast<int>(i)));
+    const auto dof = static_cast<std::size_t>(c.c.dof.dof_of(c.c.id[i]) - 1);
     d_[i] = c.c.dd[dof];
     d_star_[i] = c.c.dtest[dof];
   }
