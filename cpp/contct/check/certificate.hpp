@@ -52,9 +52,7 @@ class certifier final : public observer {
   void compare_with(const oracle_answer& a, const step_state& s, certificate& c) const;
   void remember_sizes(std::span<const double> displacement);
   [[nodiscard]] double largest_length() const;
-  [[nodiscard]] bool deflects(std::size_t dof) const {
-    return static_cast<int>(dof) % structure_.dofs_per_node == structure_.deflection;
-  }
+  [[nodiscard]] bool deflects(std::size_t dof) const { return structure_.deflects(static_cast<int>(dof)); }
 
   const linear_structure& structure_;
   load_history total_load_;

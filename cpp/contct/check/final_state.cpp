@@ -11,7 +11,7 @@ namespace {
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
 /// rest, their springs take no force.
 std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) {
-  rigid_rank rank;
+  rigid_rank rank = s.nothing_held();
   for (const rigid_row& row : s.held_by_supports) rank.hold(row);
   for (std::size_t i = 0; i < pressed.size(); ++i)
     if (pressed[i] != 0) rank.hold(s.held_by_pairs[i]);

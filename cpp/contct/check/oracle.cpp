@@ -77,13 +77,13 @@ bool oracle::holds_firmly() const {
     const contact_pair& p = structure_.pairs[i];
     firm[i] = p.stiffness * p.surface * (u_[row_of_pair(i)] - p.face) > rounding * largest_load_ ? 1 : 0;
   }
-  rigid_rank rank;
+  rigid_rank rank = structure_.nothing_held();
   return holds(firm, rank);
 }
 
 /// Is the load's work on this motion more than the rounding of its sums?
 bool oracle::drives(const rigid_row& motion) const {
-  constexpr double rounding = 1e-12;
+  const double rounding = std::max(1e-12, structure_.rigid_rounding);
   double work = 0.0;
   double size = 0.0;
   for (std::size_t m = 0; m < motion.size(); ++m) {
@@ -95,7 +95,7 @@ bool oracle::drives(const rigid_row& motion) const {
 
 /// Does no open pair stand in the way of this rigid motion?
 bool oracle::nothing_stops(const numbers& motion) const {
-  constexpr long double rounding = 1e-10L;
+  const long double rounding = std::max(1e-10, structure_.rigid_rounding);
   long double largest = 0.0L;
   for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
     largest = std::max(largest, std::abs(motion[static_cast<std::size_t>(structure_.row_of(dof))]));
@@ -267,7 +267,7 @@ void oracle::hold_where_it_stands(rigid_rank& rank) {
 /// E falls for ever along p: there is no equilibrium, unless supports or numbers out of range belie it.
 oracle_answer::outcome oracle::why_endless(const numbers& p) const {
   using outcome = oracle_answer::outcome;
-  rigid_rank rank;
+  rigid_rank rank = structure_.nothing_held();
   if (holds(pair_set(set_.size()), rank)) return outcome::not_found;
   const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
   return finite ? outcome::no_equilibrium : outcome::not_found;
@@ -296,7 +296,7 @@ oracle_answer oracle::search() {
   using outcome = oracle_answer::outcome;
   numbers p(u_.size());
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    rigid_rank rank;
+    rigid_rank rank = structure_.nothing_held();
     const bool held = holds(set_, rank);
     holders_.clear();
     if (held || !rigid_direction(rank, p)) {

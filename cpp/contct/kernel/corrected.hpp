@@ -17,8 +17,8 @@ namespace contct {
 inline constexpr double quiet_share = 1e-10;
 
 /// s of one pair under the corrected rule, 1 where the pair has no event ahead: it must move in its own
-/// direction, i_sep n d* > 0. A pair at its face, or beyond it by rounding, has s = 0. Nothing branches, since
-/// half of all pairs go either way: on thousands of them that is what a call costs.
+/// direction, i_sep n d* > 0. A pair at its face, or beyond it by rounding, has s = 0. Nothing branches,
+/// since half of all pairs go either way: on thousands of them that is what a call costs.
 [[nodiscard]] inline double corrected_scale_factor(double d, double d_star, double c, int i_sep, int i_surf,
                                                    double largest_response) {
   const double sense = i_sep * i_surf;

@@ -25,10 +25,10 @@ enum class path_status {
 
 struct path_end {
   path_status status = path_status::solved;
-  int step = 0;            ///< the step in which it ended, from 1
-  double fraction = 1.0;   ///< share of that step's load reached
-  std::vector<int> pairs;  ///< mechanism: whose opening freed the structure; cycle and limit: those
-                           ///< that keep toggling; from 0, empty when none did
+  int step = 0;             ///< the step in which it ended, from 1
+  double fraction = 1.0;    ///< share of that step's load reached
+  std::vector<int> pairs;   ///< mechanism: whose opening freed the structure; cycle and limit: those
+                            ///< that keep toggling; from 0, empty when none did
   engine_counts work = {};  ///< what the engine did
 };
 

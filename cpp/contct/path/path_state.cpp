@@ -74,7 +74,7 @@ bool path_state::advance(double s_min, bool gathers) {
 }
 
 rigid_rank path_state::held_by() const {
-  rigid_rank rank;
+  rigid_rank rank = structure.nothing_held();
   for (const rigid_row& row : structure.held_by_supports) {
     if (rank.rank() == structure.rigid_motions) return rank;
     rank.hold(row);

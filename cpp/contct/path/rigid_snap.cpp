@@ -11,18 +11,10 @@ namespace {
 constexpr double rounding_of_work = 1e-12;
 constexpr double rounding_of_motion = 1e-10;
 
-double along(const rigid_row& motion, const rigid_row& row) {
-  return motion[0] * row[0] + motion[1] * row[1] + motion[2] * row[2];
-}
-
-double largest_of(const rigid_row& row) {
-  return std::max({std::abs(row[0]), std::abs(row[1]), std::abs(row[2])});
-}
-
 /// The free motion on which the load does most work, its largest part 1; all zero when it does none.
 rigid_row driven_motion(const linear_structure& s, std::span<const int> status,
                         std::span<const double> increment) {
-  rigid_rank rank;
+  rigid_rank rank = s.nothing_held();
   for (const rigid_row& row : s.held_by_supports) rank.hold(row);
   for (std::size_t i = 0; i < status.size(); ++i) {
     if (status[i] == in_contact) rank.hold(s.held_by_pairs[i]);
@@ -38,7 +30,7 @@ rigid_row driven_motion(const linear_structure& s, std::span<const int> status,
   }
   rigid_row motion = rank.free_part(work);
   const double driven = largest_of(motion);
-  if (!(driven > rounding_of_work * largest_of(size))) return {};
+  if (!(driven > std::max(rounding_of_work, s.rigid_rounding) * largest_of(size))) return {};
   for (double& part : motion) part /= driven;
   return motion;
 }
@@ -49,10 +41,11 @@ bool rigid_snap(const linear_structure& s, std::span<const int> status, std::spa
                 std::span<const double> d, std::span<double> d_star) {
   const rigid_row motion = driven_motion(s, status, increment);
   if (largest_of(motion) == 0.0) return false;
+  const double still = std::max(rounding_of_motion, s.rigid_rounding);
   double longest_way = 0.0;
   for (std::size_t i = 0; i < status.size(); ++i) {
     d_star[i] = along(motion, s.held_by_pairs[i]);
-    if (status[i] == in_contact || std::abs(d_star[i]) < rounding_of_motion) continue;
+    if (status[i] == in_contact || std::abs(d_star[i]) < still) continue;
     longest_way = std::max(longest_way, (s.pairs[i].face - d[i]) / d_star[i]);
   }
   for (std::size_t i = 0; i < status.size(); ++i) {

@@ -22,6 +22,10 @@ element_results table_of(const plate& p, const load& /*l*/, std::span<const doub
   return r;
 }
 
+element_results table_of(const assembled& /*a*/, const load& /*l*/, std::span<const double> /*u*/) {
+  return {};  // a matrix has no elements
+}
+
 // A consistent vector has the same resultant as the load itself.
 resultant resultant_of_vector(const beam& b, std::span<const double> f) {
   resultant r{0.0, {0.0}};
@@ -46,6 +50,12 @@ resultant resultant_of_vector(const plate& p, std::span<const double> f) {
   return r;
 }
 
+resultant resultant_of_vector(const assembled& /*a*/, std::span<const double> f) {
+  resultant r;
+  for (const double at_dof : f) r.force += at_dof;
+  return r;
+}
+
 }  // namespace
 
 int nodes(const model& m) {
@@ -66,6 +76,11 @@ int dofs_per_node(const model& m) {
 
 std::span<const char* const> dof_names(const model& m) {
   return std::visit([](const auto& kind) { return std::span<const char* const>(kind.dof_names); }, m.kind);
+}
+
+std::string place_words(const model& m, int node) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  return a != nullptr ? "dof " + a->label_of(node) : "node " + std::to_string(node + 1);
 }
 
 linear_structure build(const model& m, std::span<const support> supports, std::vector<contact_pair> pairs) {

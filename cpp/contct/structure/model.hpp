@@ -3,10 +3,12 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "contct/structure/assembled.hpp"
 #include "contct/structure/beam.hpp"
 #include "contct/structure/plate.hpp"
 
@@ -14,7 +16,7 @@ namespace contct {
 
 /// A structure without its supports. A new kind joins the variant and gives each verb below its answer.
 struct model {
-  std::variant<beam, plate> kind;
+  std::variant<beam, plate, assembled> kind;
 };
 
 [[nodiscard]] int nodes(const model& m);
@@ -22,8 +24,12 @@ struct model {
 [[nodiscard]] int dofs(const model& m);
 [[nodiscard]] int dofs_per_node(const model& m);
 
-/// Names of a node's dofs, in order, as problem files have them: the deflection "w" first.
+/// Names of a node's dofs, in order, as problem files have them: the deflection "w" first. A matrix has one
+/// dof a node, whose name is that of its loads, "value".
 [[nodiscard]] std::span<const char* const> dof_names(const model& m);
+
+/// A node as people know it: "node 3", or, where each dof is a node of its own, "dof 185.3". From 0.
+[[nodiscard]] std::string place_words(const model& m, int node);
 
 /// Assemble it on its supports. Throws std::invalid_argument when an entry of the stiffness matrix is
 /// not a finite number, naming the element (from 1).
@@ -41,14 +47,14 @@ void add_consistent_loads(const model& m, const load& l, std::span<double> f);
                                             std::span<const double> u);
 
 /// What an engineer reads off the elements: beams have "shear" and "moment" at 2 ends, plates "mx", "my"
-/// and "mxy" at 4 corners.
+/// and "mxy" at 4 corners, matrices nothing.
 struct element_results {
   std::vector<std::string_view> names;
   int places = 0;              ///< in an element
   std::vector<double> values;  ///< [elements][names][places]
 
   [[nodiscard]] std::size_t elements() const {
-    return values.size() / (names.size() * static_cast<std::size_t>(places));
+    return names.empty() ? 0 : values.size() / (names.size() * static_cast<std::size_t>(places));
   }
   /// Quantity `name` of an element, at all its places. Elements and names from 0.
   [[nodiscard]] std::span<const double> at(std::size_t element, std::size_t name) const {
@@ -62,7 +68,7 @@ struct element_results {
 
 /// The sum of all upward forces, and the moments about the origin that go with it: one for each slope
 /// among the dofs, positive as the slope is. A beam has one (sum of F x + theta's loads), a plate two
-/// (F x + wx's loads, F y + wy's).
+/// (F x + wx's loads, F y + wy's). A matrix has the sum of all its loads, whatever these are, and no moments.
 struct resultant {
   double force = 0.0;
   std::vector<double> moments;

@@ -1,6 +1,7 @@
 // A linear elastic structure with its candidate contact pairs, as the path sees it.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -46,15 +47,26 @@ struct linear_structure {
 
   std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
 
-  int rigid_motions = 0;                    ///< 2 for a beam, 3 for a plate
+  int rigid_motions = 0;                    ///< 2 for a beam, 3 for a plate, up to 6 for other bodies
   std::vector<rigid_row> rigid_rows;        ///< [dofs] what the rigid motions do there
   std::vector<rigid_row> held_by_supports;  ///< a row for each dof that a support holds
   std::vector<rigid_row> held_by_pairs;     ///< [pairs] the row that a closed pair holds
+  /// How far off `rigid_rows` may be, relative to the largest: 0 where they are known by a formula, more
+  /// where they are found from the matrix.
+  double rigid_rounding = 0.0;
+
+  std::vector<char>
+      lengths;  ///< [dofs] 1 where a displacement is a deflection; empty: `deflection` of a node
 
   [[nodiscard]] int dofs() const { return stiffness.order(); }
   /// The row of the stiffness matrix that belongs to a dof: plates are numbered along their shorter
   /// side there, for the smaller bandwidth.
   [[nodiscard]] int row_of(int dof) const { return rows.empty() ? dof : rows[static_cast<std::size_t>(dof)]; }
+  [[nodiscard]] bool deflects(int dof) const {
+    return lengths.empty() ? dof % dofs_per_node == deflection : lengths[static_cast<std::size_t>(dof)] != 0;
+  }
+  /// What stops rigid motions while no dof is held.
+  [[nodiscard]] rigid_rank nothing_held() const { return rigid_rank(std::max(1e-12, rigid_rounding)); }
   /// The dof, from 0, at which pair `i` (from 0) acts.
   [[nodiscard]] int dof_of_pair(int i) const {
     return pairs[static_cast<std::size_t>(i)].node * dofs_per_node + deflection;

@@ -1,0 +1,237 @@
+#include "contct/structure/free_motions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "contct/numeric/random.hpp"
+#include "contct/structure/cholesky.hpp"
+#include "contct/structure/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
+
+extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* uplo, const int* n, double* a,
+                                               const int* lda, double* w, double* work, const int* lwork,
+                                               int* info, std::size_t jobz_length, std::size_t uplo_length);
+
+namespace contct {
+namespace {
+
+constexpr std::size_t most_tried = 10;   // six motions, and some more that tell them from what follows
+constexpr double held_for_sure = 1e-11;  // a reciprocal condition
+constexpr double free_if_said = 1e-10;   // an eigenvalue
+constexpr double shifts[] = {1e-13, 1e-12, 1e-11, 1e-10};
+constexpr int most_iterations = 40;
+
+using numbers = std::vector<double>;
+
+double dot(const numbers& a, const numbers& b) {
+  long double sum = 0.0L;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<long double>(a[i]) * b[i];
+  return static_cast<double>(sum);
+}
+
+std::string short_words(double x) {
+  char text[40];
+  (void)std::snprintf(text, sizeof text, "%.2g", x);
+  return text;
+}
+
+[[noreturn]] void refuse_negative(const std::string& size) {
+  throw std::invalid_argument(
+      "the matrix is not positive semidefinite: with its diagonal scaled to 1 it has "
+      "an eigenvalue " +
+      size + "; allowed: none below -" + short_words(negative_beyond));
+}
+
+/// D A D with 1 on the diagonal; `d` becomes the diagonal of D.
+band_matrix scaled(const band_matrix& k, numbers& d) {
+  band_matrix a = k;
+  for (int j = 0; j < k.order(); ++j) d.push_back(1.0 / std::sqrt(k.at(j, j)));
+  for (int j = 0; j < k.order(); ++j) {
+    for (int i = j; i <= std::min(j + k.subdiagonals(), k.order() - 1); ++i)
+      a.at(i, j) *= d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(j)];
+  }
+  return a;
+}
+
+/// The factor of A with as little on top of the diagonal as it takes.
+band_matrix factor_shifted(const band_matrix& a) {
+  for (const double shift : shifts) {
+    band_matrix l = a;
+    for (int j = 0; j < a.order(); ++j) l.at(j, j) += shift;
+    if (factor(l)) return l;
+  }
+  refuse_negative("below -" + short_words(negative_beyond));
+}
+
+/// The smallest eigenvalues of A and their vectors, by inverse iteration of some at once.
+class subspace {
+ public:
+  explicit subspace(const band_matrix& a) : a_(a), factor_(factor_shifted(a)) {
+    random_numbers random(1);
+    x_.assign(std::min(most_tried, static_cast<std::size_t>(a.order())), {});
+    for (numbers& x : x_)
+      for (int i = 0; i < a.order(); ++i) x.push_back(random.unit() - 0.5);
+  }
+
+  /// One more iteration.
+  void improve() {
+    for (numbers& x : x_) solve_with(factor_, x);
+    for (int pass = 0; pass < 2; ++pass) make_orthonormal();
+    rotate();
+  }
+
+  [[nodiscard]] const numbers& values() const { return values_; }
+  [[nodiscard]] const std::vector<numbers>& vectors() const { return x_; }
+  /// How far vector i is from being one: the length of A x - lambda x.
+  [[nodiscard]] double left_over(std::size_t i) const { return left_[i]; }
+
+ private:
+  void make_orthonormal() {
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double share = dot(x_[i], x_[j]);
+        for (std::size_t r = 0; r < x_[i].size(); ++r) x_[i][r] -= share * x_[j][r];
+      }
+      const double length = std::sqrt(dot(x_[i], x_[i]));
+      for (double& entry : x_[i]) entry /= length;
+    }
+  }
+
+  /// Rayleigh and Ritz: the best approximations to eigenvectors that the space has.
+  void rotate() {
+    const std::size_t m = x_.size();
+    std::vector<std::vector<long double>> minus_ax;
+    for (const numbers& x : x_) {
+      minus_ax.emplace_back(x.size(), 0.0L);
+      a_.subtract_product(x, minus_ax.back());
+    }
+    numbers h(m * m);
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < m; ++j) {
+        long double sum = 0.0L;
+        for (std::size_t r = 0; r < x_[i].size(); ++r) sum -= x_[i][r] * minus_ax[j][r];
+        h[i * m + j] = static_cast<double>(sum);
+      }
+    diagonalise(h);
+    const std::vector<numbers> before = x_;
+    left_.assign(m, 0.0);
+    for (std::size_t i = 0; i < m; ++i) {
+      long double left = 0.0L;
+      for (std::size_t r = 0; r < x_[i].size(); ++r) {
+        long double entry = 0.0L;
+        long double ax = 0.0L;
+        for (std::size_t j = 0; j < m; ++j) {
+          entry += static_cast<long double>(h[i * m + j]) * before[j][r];
+          ax -= h[i * m + j] * minus_ax[j][r];
+        }
+        x_[i][r] = static_cast<double>(entry);
+        left += (ax - values_[i] * entry) * (ax - values_[i] * entry);
+      }
+      left_[i] = static_cast<double>(std::sqrt(left));
+    }
+  }
+
+  /// h becomes its eigenvectors, one after the other.
+  void diagonalise(numbers& h) {
+    const int m = static_cast<int>(x_.size());
+    values_.assign(x_.size(), 0.0);
+    numbers work(8 * x_.size());
+    const int room = static_cast<int>(work.size());
+    int info = 0;
+    CONTCT_FC_GLOBAL(dsyev, DSYEV)
+    ("V", "L", &m, h.data(), &m, values_.data(), work.data(), &room, &info, 1, 1);
+    if (info != 0) throw std::runtime_error("dsyev found no eigenvalues of " + std::to_string(m) + " rows");
+  }
+
+  const band_matrix& a_;
+  band_matrix factor_;
+  std::vector<numbers> x_;  // orthonormal
+  numbers values_, left_;
+};
+
+int count_free(const numbers& values) {
+  return static_cast<int>(
+      std::count_if(values.begin(), values.end(), [](double v) { return v <= free_below; }));
+}
+
+/// Until the smallest eigenvalues stand still and the vectors of free motions get no better.
+void converge(subspace& space, std::optional<int> known) {
+  double before = std::numeric_limits<double>::infinity();
+  double first_held_before = 0.0;
+  for (int iteration = 1; iteration <= most_iterations; ++iteration) {
+    space.improve();
+    const auto m = static_cast<std::size_t>(known.value_or(count_free(space.values())));
+    double left = 0.0;
+    for (std::size_t i = 0; i < std::min(m, space.values().size()); ++i)
+      left = std::max(left, space.left_over(i));
+    const double first_held = m < space.values().size() ? space.values()[m] : 1.0;
+    const bool still = std::abs(first_held - first_held_before) <= 0.01 * first_held;
+    if (still && iteration > 2 && left >= before / 2) return;
+    before = left;
+    first_held_before = first_held;
+  }
+}
+
+/// Each row of the vectors as displacements; what is no more than rounding becomes 0.
+std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const free_motions& f) {
+  std::vector<rigid_row> rows(d.size());
+  numbers sizes(d.size());
+  for (std::size_t r = 0; r < d.size(); ++r) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(f.count); ++i) rows[r][i] = space.vectors()[i][r];
+    sizes[r] = largest_of(rows[r]);
+  }
+  const double rounding = f.rounding * *std::max_element(sizes.begin(), sizes.end());
+  double largest = 0.0;
+  for (std::size_t r = 0; r < d.size(); ++r) {
+    for (double& entry : rows[r]) entry = sizes[r] > rounding ? entry * d[r] : 0.0;
+    largest = std::max(largest, largest_of(rows[r]));
+  }
+  for (rigid_row& row : rows)
+    for (double& entry : row) entry /= largest;
+  return rows;
+}
+
+void refuse_count(const numbers& values, std::optional<int> known) {
+  if (values.front() < -negative_beyond) refuse_negative("of " + short_words(values.front()));
+  const auto said = static_cast<std::size_t>(known.value_or(0));
+  if (said > values.size() || (said > 0 && values[said - 1] > free_if_said))
+    throw std::invalid_argument("the matrix, on its supports, is said to leave " + std::to_string(said) +
+                                " motions free, but it leaves " + std::to_string(count_free(values)));
+  if (!known && count_free(values) > most_rigid_motions)
+    throw std::invalid_argument("the matrix, on its supports, leaves more than " +
+                                std::to_string(most_rigid_motions) +
+                                " motions free; allowed: one body's, or parts that supports hold");
+}
+
+}  // namespace
+
+free_motions find_free_motions(const band_matrix& k, std::optional<int> known) {
+  free_motions found;
+  found.rows.assign(static_cast<std::size_t>(k.order()), rigid_row{});
+  if (known.value_or(0) == 0) {
+    band_matrix copy = k;
+    const double rcond = reciprocal_condition(copy);
+    if (rcond > held_for_sure || (known && rcond > 0.0)) return found;
+  }
+  numbers d;
+  const band_matrix a = scaled(k, d);
+  subspace space(a);
+  converge(space, known);
+  refuse_count(space.values(), known);
+  found.count = known.value_or(count_free(space.values()));
+  const auto m = static_cast<std::size_t>(found.count);
+  if (m == 0) return found;
+  double off = std::numeric_limits<double>::epsilon();
+  for (std::size_t i = 0; i < m; ++i) {
+    found.stiffest_free = std::max(found.stiffest_free, std::abs(space.values()[i]));
+    off = std::max({off, space.left_over(i), found.stiffest_free});
+  }
+  if (m < space.values().size()) found.softest_held = space.values()[m];
+  found.rounding = std::clamp(16 * off / found.softest_held, 1e-12, 1e-2);
+  found.rows = rows_of(space, d, found);
+  return found;
+}
+
+}  // namespace contct
