@@ -39,5 +39,5 @@ need_core() {
 }
 
 need_program() {
-  need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
+  need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libboost-dev
 }

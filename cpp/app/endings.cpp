@@ -13,8 +13,8 @@ std::string pair_words(const problem& p, const std::vector<int>& pairs) {
   std::string words;
   for (std::size_t i = 0; i < pairs.size() && i < most_named; ++i) {
     const contact_pair& at = p.pairs[static_cast<std::size_t>(pairs[i])];
-    words += fmt::format("{}pair {} (node {}, {})", i == 0 ? "" : ", ", pairs[i] + 1, at.node + 1,
-                         surface_name(at.surface));
+    words += fmt::format("{}pair {} ({}, {})", i == 0 ? "" : ", ", pairs[i] + 1,
+                         place_words(p.geometry, at.node), surface_name(at.surface));
   }
   if (pairs.size() > most_named) words += fmt::format(" and {} more", pairs.size() - most_named);
   return words;

@@ -233,7 +233,7 @@ class run {
     for (const std::string& line : wrap({problem_.title}, terminal_.width))
       if (!line.empty()) fmt::print("{}\n", painted(terminal_, paint::strong, line));
     const std::vector<std::string> facts = {
-        fmt::format("{}, {}, {}", counted(nodes(problem_.geometry), "node"),
+        fmt::format("{}, {}, {}", counted(nodes(problem_.geometry), node_name(problem_.geometry)),
                     counted(problem_.pairs.size(), "pair"), counted(problem_.steps.size(), "step")),
         options_.final_only ? "only the end" : fmt::format("kernels {}", fmt::join(options_.kernels, ", ")),
         "engine " + engine_};

@@ -33,10 +33,10 @@ const early_toggle* worst_until(int step, const early_toggles& early) {
 std::string words_for(const early_toggle& t, const problem& p) {
   const contact_pair& at = p.pairs[static_cast<std::size_t>(t.what.pair)];
   return fmt::format(
-      "increment {}.{} let pair {} (node {}, {}) {} contact {:.2g} away from its face ({:.2g} of "
+      "increment {}.{} let pair {} ({}, {}) {} contact {:.2g} away from its face ({:.2g} of "
       "the largest deflection)",
-      t.step, t.number, t.what.pair + 1, at.node + 1, surface_name(at.surface), change_name(t.what.what),
-      t.distance, t.share);
+      t.step, t.number, t.what.pair + 1, place_words(p.geometry, at.node), surface_name(at.surface),
+      change_name(t.what.what), t.distance, t.share);
 }
 
 }  // namespace

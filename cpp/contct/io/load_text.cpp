@@ -67,7 +67,7 @@ bool load_path::has_many_parts(int step) const {
 nlohmann::ordered_json load_path::json_at(int step, double fraction) const {
   const resultant r = resultant_at(step, fraction);
   const auto names = dof_names(problem_.geometry);
-  json out = {{"force", r.force}};
+  json out = {{of_matrix() ? "sum" : "force", r.force}};
   for (std::size_t i = 0; i < r.moments.size(); ++i)
     out[r.moments.size() == 1 ? "moment" : fmt::format("moment_{}", names[i + 1])] = r.moments[i];
   if (has_many_parts(step)) return out;
@@ -83,7 +83,14 @@ nlohmann::ordered_json load_path::json_at(int step, double fraction) const {
     out["uniform"].push_back(std::move(part));
   }
   for (const point_load& p : l.points) {
-    out["point"].push_back({{"node", p.node + 1}, {names[static_cast<std::size_t>(p.dof)], p.value}});
+    json point;
+    if (of_matrix()) {
+      point["dof"] = std::get<assembled>(problem_.geometry.kind).label_of(p.node);
+    } else {
+      point["node"] = p.node + 1;
+    }
+    point[names[static_cast<std::size_t>(p.dof)]] = p.value;
+    out["point"].push_back(std::move(point));
   }
   return out;
 }
@@ -91,13 +98,14 @@ nlohmann::ordered_json load_path::json_at(int step, double fraction) const {
 load_path::words load_path::words_for(const load& l, const resultant& r) const {
   if (l.points.size() == 1 && l.distributed.empty()) {
     const point_load& p = l.points[0];
-    return {fmt::format("{} ", dof_names(problem_.geometry)[static_cast<std::size_t>(p.dof)]), p.value,
-            fmt::format(" at node {}", p.node + 1)};
+    const char* const name = dof_names(problem_.geometry)[static_cast<std::size_t>(p.dof)];
+    return {of_matrix() ? "" : fmt::format("{} ", name), p.value,
+            " at " + place_words(problem_.geometry, p.node)};
   }
   if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1) {
     return {"uniform ", l.distributed[0].polynomial[0], ""};
   }
-  return {"force ", r.force, ""};
+  return {of_matrix() ? "sum " : "force ", r.force, ""};
 }
 
 std::string load_path::words_at(int step, double fraction, int width) const {

@@ -19,8 +19,8 @@ class load_path {
 
   /// As a problem file's `uniform` and `point`, with the resultant: an event's load in absolute
   /// terms. A beam's resultant has "force" and "moment", a plate's "force", "moment_wx" and
-  /// "moment_wy". The parts are left out when there are more than 32 of them, where each element of a
-  /// scattered list counts: they would be written again at every event.
+  /// "moment_wy", a matrix's the "sum" of all its loads. The parts are left out when there are more than 32
+  /// of them, where each element of a scattered list counts: they would be written again at every event.
   [[nodiscard]] nlohmann::ordered_json json_at(int step, double fraction) const;
 
   /// A few words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load; with
@@ -42,6 +42,7 @@ class load_path {
   };
   [[nodiscard]] words words_for(const load& l, const resultant& r) const;
   [[nodiscard]] bool has_many_parts(int step) const;
+  [[nodiscard]] bool of_matrix() const { return std::holds_alternative<assembled>(problem_.geometry.kind); }
 
   const problem& problem_;
   std::vector<resultant> totals_;   // at the start, then at the end of each step

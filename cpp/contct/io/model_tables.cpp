@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "contct/io/matrix_tables.hpp"
+
 namespace contct {
 namespace {
 
@@ -182,13 +184,20 @@ plate read_plate(const table_reader& t) {
 
 }  // namespace
 
-model read_model(const table_reader& top) {
-  const char* const allowed = "exactly one of [beam] and [plate]";
-  if (top.has("beam") && top.has("plate"))
-    top.refuse(top.required("plate", ""), "plate", "this beside beam", allowed);
+model read_model(const table_reader& top, const std::string& folder) {
+  const char* const allowed = "exactly one of [beam], [plate], [matrix] and [calculix]";
+  const char* kind = nullptr;
+  for (const char* other : {"beam", "plate", "matrix", "calculix"}) {
+    if (!top.has(other)) continue;
+    if (kind != nullptr)
+      top.refuse(top.required(other, ""), other, fmt::format("this beside {}", kind), allowed);
+    kind = other;
+  }
   if (top.has("beam")) return {read_beam(top.table("beam"))};
   if (top.has("plate")) return {read_plate(top.table("plate"))};
-  top.refuse("neither beam nor plate", allowed);
+  if (top.has("matrix")) return {read_matrix(top.table("matrix"), folder)};
+  if (top.has("calculix")) return {read_calculix(top.table("calculix"), folder)};
+  top.refuse("neither beam nor plate, matrix or calculix", allowed);
 }
 
 }  // namespace contct

@@ -1,5 +1,7 @@
-// The structure itself in a problem file: [beam] or [plate].
+// The structure itself in a problem file: [beam], [plate], [matrix] or [calculix].
 #pragma once
+
+#include <string>
 
 #include "contct/io/toml_reader.hpp"
 #include "contct/structure/model.hpp"
@@ -7,7 +9,7 @@
 namespace contct {
 
 /// Read the one table of the document `top` that describes a structure; refuses a document with none
-/// of them, or with several.
-[[nodiscard]] model read_model(const table_reader& top);
+/// of them, or with several. Other files that it names are in `folder`.
+[[nodiscard]] model read_model(const table_reader& top, const std::string& folder);
 
 }  // namespace contct

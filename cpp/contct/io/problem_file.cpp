@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <utility>
 
+#include "contct/io/contact_face.hpp"
+#include "contct/io/matrix_problem.hpp"
 #include "contct/io/model_tables.hpp"
 #include "contct/io/number_list.hpp"
 #include "contct/kernel/call.hpp"
@@ -24,9 +27,14 @@ class problem_reader {
       : file_(file), top_(document, "", file) {}
 
   problem read() {
-    top_.allow_only({"title", "beam", "plate", "support", "contact", "bed", "step"});
+    top_.allow_only({"title", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
     if (top_.has("title")) problem_.title = top_.text("title");
-    problem_.geometry = read_model(top_);
+    const std::string folder = std::filesystem::path(file_).parent_path().string();
+    problem_.geometry = read_model(top_, folder);
+    if (std::holds_alternative<assembled>(problem_.geometry.kind)) {
+      read_on_matrix(top_, folder, file_, problem_);
+      return std::move(problem_);
+    }
     for (const char* name : dof_names(problem_.geometry)) dof_names_.emplace_back(name);
     fixed_.assign(static_cast<std::size_t>(dofs(problem_.geometry)), 0);
     if (top_.has("support")) {
@@ -109,31 +117,6 @@ class problem_reader {
       const double stiffness = t.real(dof_names_[static_cast<std::size_t>(dof)], positive_real);
       for (const int node : at) problem_.supports.push_back({node, dof, false, stiffness});
     }
-  }
-
-  /// surface, face and state, which pairs and beds share.
-  static contact_pair read_face(const table_reader& t, int default_surface) {
-    contact_pair p{};
-    p.surface = default_surface;
-    if (default_surface == 0 || t.has("surface")) {
-      p.surface = t.choice("surface", {"below", "above"}) == 0 ? face_below : face_above;
-    }
-    p.face = t.real("face", any_real);
-    if (p.surface * p.face < 0) {
-      t.refuse(t.required("face", ""), "face",
-               fmt::format("{:g}: the face stands inside the undeformed structure", p.face),
-               p.surface < 0 ? "at most 0 for a face below" : "at least 0 for a face above");
-    }
-    p.closed = p.face == 0;
-    if (t.has("state")) {
-      p.closed = t.choice("state", {"separated", "contact"}) == 1;
-      if (p.closed && p.face != 0) {
-        t.refuse(t.required("state", ""), "state", fmt::format("\"contact\" at face {:g}", p.face),
-                 "\"contact\" only where face = 0: nothing touches a face elsewhere before the structure "
-                 "deflects");
-      }
-    }
-    return p;
   }
 
   void read_contact(const table_reader& t) {

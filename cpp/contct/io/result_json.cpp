@@ -28,6 +28,16 @@ std::string_view end_reason(path_status status) {
   return "";
 }
 
+/// "node": 3, or "dof": "185.3" where each dof is a node of its own.
+void put_place(json& entry, const model& m, int node) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  if (a != nullptr) {
+    entry["dof"] = a->label_of(node);
+  } else {
+    entry["node"] = node + 1;
+  }
+}
+
 json numbered(const std::vector<int>& pairs) {
   json list = json::array();
   for (const int pair : pairs) list.push_back(pair + 1);
@@ -68,10 +78,11 @@ void result_json::incremented(const increment& i) {
   json events = json::array();
   for (const event& e : i.events) {
     const contact_pair& p = problem_.pairs[static_cast<std::size_t>(e.pair)];
-    events.push_back({{"pair", e.pair + 1},
-                      {"node", p.node + 1},
-                      {"surface", surface_name(p.surface)},
-                      {"change", change_name(e.what)}});
+    json words = {{"pair", e.pair + 1}};
+    put_place(words, problem_.geometry, p.node);
+    words["surface"] = surface_name(p.surface);
+    words["change"] = change_name(e.what);
+    events.push_back(std::move(words));
   }
   json entry = {{"increment", i.number},
                 {"s", i.s},
@@ -119,13 +130,13 @@ void result_json::write_pairs(const step_state& s) {
     const contact_pair& p = problem_.pairs[i];
     const double w = s.displacement[static_cast<std::size_t>(p.node) * stride];
     const bool closed = s.isep[i] == in_contact;
-    return json{{"pair", i + 1},
-                {"node", p.node + 1},
-                {"surface", surface_name(p.surface)},
-                {"state", closed ? "contact" : "separated"},
-                {"gap", gap_of(p, w, closed)},
-                {"force", force_of(p, w, closed)}}
-        .dump();
+    json entry = {{"pair", i + 1}};
+    put_place(entry, problem_.geometry, p.node);
+    entry["surface"] = surface_name(p.surface);
+    entry["state"] = closed ? "contact" : "separated";
+    entry["gap"] = gap_of(p, w, closed);
+    entry["force"] = force_of(p, w, closed);
+    return entry.dump();
   });
 }
 
@@ -134,8 +145,11 @@ void result_json::write_reactions(const step_state& s, const load& total) {
   const auto names = dof_names(problem_.geometry);
   write_list("reactions", values.size(), [&](std::size_t i) {
     const support& at = problem_.supports[i];
-    return json{{"node", at.node + 1}, {"dof", names[static_cast<std::size_t>(at.dof)]}, {"value", values[i]}}
-        .dump();
+    json entry;
+    put_place(entry, problem_.geometry, at.node);
+    if (!entry.contains("dof")) entry["dof"] = names[static_cast<std::size_t>(at.dof)];
+    entry["value"] = values[i];
+    return entry.dump();
   });
 }
 

@@ -22,23 +22,27 @@ constexpr int events_width_at_least = 24;
 constexpr std::size_t most_events_shown = 12;
 
 /// "make 1: node 3 below".
-std::string event_words(change what, int pair, const contact_pair& p) {
-  return fmt::format("{} {}: node {} {}", change_name(what), pair + 1, p.node + 1, surface_name(p.surface));
+std::string event_words(const problem& p, change what, int pair) {
+  const contact_pair& at = p.pairs[static_cast<std::size_t>(pair)];
+  return fmt::format("{} {}: {} {}", change_name(what), pair + 1, place_words(p.geometry, at.node),
+                     surface_name(at.surface));
 }
 
 /// Columns that any one event of a problem may take.
 int widest_event(const problem& p) {
   std::size_t widest = events_width_at_least;
   for (std::size_t i = 0; i < p.pairs.size(); ++i)
-    widest = std::max(widest, event_words(change::break_, static_cast<int>(i), p.pairs[i]).size());
+    widest = std::max(widest, event_words(p, change::break_, static_cast<int>(i)).size());
   return static_cast<int>(widest);
 }
 
 /// With as many digits, nine at most, as fit.
-std::string deflection_words(double w, std::size_t node, int width) {
+std::string deflection_words(const model& m, double w, std::size_t node, int width) {
+  const std::string at = place_words(m, static_cast<int>(node));
+  const char* const name = std::holds_alternative<assembled>(m.kind) ? "u" : "w";
   std::string text;
   for (int digits = 9; digits >= 3; --digits) {
-    text = fmt::format("w = {:.{}g} at node {}", w, digits, node);
+    text = fmt::format("{} = {:.{}g} at {}", name, w, digits, at);
     if (static_cast<int>(text.size()) <= width) break;
   }
   return text;
@@ -89,7 +93,7 @@ std::vector<std::string> table::event_lines(const increment& i) const {
   std::vector<std::string> events;
   for (std::size_t k = 0; k < std::min(i.events.size(), most_events_shown); ++k) {
     const event& e = i.events[k];
-    events.push_back(event_words(e.what, e.pair, problem_.pairs[static_cast<std::size_t>(e.pair)]));
+    events.push_back(event_words(problem_, e.what, e.pair));
   }
   if (i.events.size() > most_events_shown)
     events.push_back(fmt::format("{} more in --json", i.events.size() - most_events_shown));
@@ -121,10 +125,10 @@ void table::step_ended(const step_state& s) {
   const auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
   std::string label = events_below_ ? "end " : "   end  ";
   const int width = terminal_.width - static_cast<int>(label.size());
-  std::vector<std::string> items = {deflection_words(s.displacement[largest], largest / stride + 1, width),
-                                    fmt::format("{} of {} in contact", closed, s.isep.size()),
-                                    fmt::format("{} digits", digits_left(s.rcond)),
-                                    certificate_mark(judged_.steps().back())};
+  std::vector<std::string> items = {
+      deflection_words(problem_.geometry, s.displacement[largest], largest / stride, width),
+      fmt::format("{} of {} in contact", closed, s.isep.size()),
+      fmt::format("{} digits", digits_left(s.rcond)), certificate_mark(judged_.steps().back())};
   if (s.rescued) items.emplace_back("ended by the oracle");
   for (const std::string& line : wrap(items, width)) {
     fmt::print("{}\n", painted(terminal_, paint::quiet, label + line));

@@ -18,6 +18,7 @@ struct assembled {
   std::string name;                 ///< of the matrix, for messages: its file
   sparse_matrix stiffness;          ///< positive semidefinite
   std::vector<std::string> labels;  ///< [dofs] each once; empty: "1", "2", ...
+  std::string labels_from;          ///< the file that has them
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
   std::optional<int> free_motions;  ///< how many motions it leaves free on its supports, where that is known
 

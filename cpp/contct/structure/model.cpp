@@ -78,6 +78,10 @@ std::span<const char* const> dof_names(const model& m) {
   return std::visit([](const auto& kind) { return std::span<const char* const>(kind.dof_names); }, m.kind);
 }
 
+std::string_view node_name(const model& m) {
+  return std::holds_alternative<assembled>(m.kind) ? "dof" : "node";
+}
+
 std::string place_words(const model& m, int node) {
   const auto* a = std::get_if<assembled>(&m.kind);
   return a != nullptr ? "dof " + a->label_of(node) : "node " + std::to_string(node + 1);

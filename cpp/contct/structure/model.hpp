@@ -28,6 +28,9 @@ struct model {
 /// dof a node, whose name is that of its loads, "value".
 [[nodiscard]] std::span<const char* const> dof_names(const model& m);
 
+/// "node"; "dof" where each dof is a node of its own.
+[[nodiscard]] std::string_view node_name(const model& m);
+
 /// A node as people know it: "node 3", or, where each dof is a node of its own, "dof 185.3". From 0.
 [[nodiscard]] std::string place_words(const model& m, int node);
 

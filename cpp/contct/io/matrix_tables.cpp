@@ -1,0 +1,81 @@
+#include "contct/io/matrix_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "contct/io/bandwidth.hpp"
+#include "contct/io/calculix_matrix.hpp"
+#include "contct/io/dof_labels.hpp"
+#include "contct/io/matrix_market.hpp"
+#include "contct/io/memory_limit.hpp"
+
+namespace contct {
+namespace {
+
+std::string bytes_words(std::int64_t bytes) {
+  constexpr double mib = 1 << 20;
+  constexpr double gib = 1 << 30;
+  const auto amount = static_cast<double>(bytes);
+  return amount < gib ? fmt::format("{:.2g} MiB", amount / mib) : fmt::format("{:.1f} GiB", amount / gib);
+}
+
+/// Before any band is made.
+void refuse_too_large(const table_reader& t, const assembled& a) {
+  const std::int64_t needs = bytes_of_run(a);
+  const std::int64_t limit = memory_limit();
+  if (needs <= limit) return;
+  t.refuse(fmt::format("{} dofs with a half bandwidth of {}, which take {}", a.dofs(),
+                       subdiagonals_of(a.stiffness, a.rows), bytes_words(needs)),
+           fmt::format("{} (CONTCT_MEMORY_MIB in the environment sets another limit); condense the matrix "
+                       "onto the dofs that have pairs and loads, or use a coarser model",
+                       bytes_words(limit)));
+}
+
+/// What both tables end with.
+void finish(const table_reader& t, assembled& a) {
+  if (t.has("free_motions")) a.free_motions = t.integer("free_motions", 0, most_rigid_motions);
+  a.rows = rows_for_small_band(a.stiffness);
+  refuse_too_large(t, a);
+}
+
+}  // namespace
+
+std::string beside(const std::string& folder, const std::string& name) {
+  const std::string path = (std::filesystem::path(folder) / name).string();
+  return path == "-" ? "./-" : path;  // a file of that name: standard input holds the problem, if anything
+}
+
+std::int64_t bytes_of_run(const assembled& a) {
+  return 3 * bytes_of_band(a.stiffness, a.rows);
+}
+
+assembled read_matrix(const table_reader& t, const std::string& folder) {
+  t.allow_only({"stiffness", "dofs", "free_motions"});
+  assembled a;
+  a.name = beside(folder, t.text("stiffness"));
+  a.stiffness = read_symmetric(a.name);
+  if (t.has("dofs")) {
+    a.labels_from = beside(folder, t.text("dofs"));
+    a.labels = read_labels(a.labels_from);
+    if (a.labels.size() != static_cast<std::size_t>(a.dofs()))
+      t.refuse(t.required("dofs", ""), "dofs", fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
+               fmt::format("{}, one for each row of {}", a.dofs(), a.name));
+  }
+  finish(t, a);
+  return a;
+}
+
+assembled read_calculix(const table_reader& t, const std::string& folder) {
+  t.allow_only({"job", "free_motions"});
+  const std::string job = beside(folder, t.text("job"));
+  assembled a;
+  a.name = job + ".sti";
+  a.labels_from = job + ".dof";
+  a.labels = read_labels(a.labels_from);
+  a.stiffness = read_calculix_stiffness(a.name, static_cast<int>(a.labels.size()));
+  finish(t, a);
+  return a;
+}
+
+}  // namespace contct
