@@ -26,7 +26,7 @@ void refuse_line(std::string_view file, std::int64_t line, std::string_view foun
 }
 
 std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 40;
+  constexpr std::size_t longest = 60;
   std::size_t end = std::min(text.size(), longest);
   while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   std::string safe = "\"";
@@ -42,6 +42,8 @@ bool field_lines::next() {
     rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
     ++line_;
     split();
+    if (count_ > 0 && end == std::string_view::npos)
+      refuse(quoted(here_) + " without a line's end: the file may be cut short", "a line's end behind it");
     if (count_ > 0) return true;
   }
   here_ = {};

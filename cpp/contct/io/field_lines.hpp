@@ -10,7 +10,8 @@
 namespace contct {
 
 /// Goes through a text line by line; blanks and tabs part the fields of a line, and blank lines are passed
-/// by. Linear in the text. Refusals are input_errors: "K.mtx:12: found ...; allowed: ...".
+/// by. A last line without an end is refused: a number cut in its middle is a number too. Linear in the text.
+/// Refusals are input_errors: "K.mtx:12: found ...; allowed: ...".
 class field_lines {
  public:
   /// `text` and `file`, its name for messages, must outlive this object.
