@@ -17,7 +17,9 @@ std::string bytes_words(std::int64_t bytes) {
   constexpr double mib = 1 << 20;
   constexpr double gib = 1 << 30;
   const auto amount = static_cast<double>(bytes);
-  return amount < gib ? fmt::format("{:.2g} MiB", amount / mib) : fmt::format("{:.1f} GiB", amount / gib);
+  if (amount >= gib) return fmt::format("{:.1f} GiB", amount / gib);
+  return amount >= 10 * mib ? fmt::format("{:.0f} MiB", amount / mib)
+                            : fmt::format("{:.1f} MiB", amount / mib);
 }
 
 /// Before any band is made.
