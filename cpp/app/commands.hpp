@@ -36,6 +36,9 @@ void add_atlas(CLI::App& program, exit_status& status);
 /// Add `contct fuzz`.
 void add_fuzz(CLI::App& program, exit_status& status);
 
+/// Add `contct export`.
+void add_export(CLI::App& program, exit_status& status);
+
 /// Add `contct replay`; describe_replay gives the same to a program of its own.
 void add_replay(CLI::App& program, exit_status& status);
 void describe_replay(CLI::App& command, exit_status& status);

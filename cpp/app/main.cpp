@@ -30,6 +30,7 @@ contct::exit_status run_program(int argc, char** argv) {
   contct::add_fuzz(program, status);
   contct::add_replay(program, status);
   contct::add_atlas(program, status);
+  contct::add_export(program, status);
   contct::add_kernels(program, status);
   contct::add_completion(program);
   contct::add_man(program);
