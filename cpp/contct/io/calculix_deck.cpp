@@ -18,9 +18,12 @@ namespace contct {
 namespace {
 
 /// Largest deflection over the structure's length: CalculiX's NLGEOM must not notice that anything turns.
-constexpr double smallness = 1e-8;
+constexpr double smallness = 1e-7;
 /// How far a spring's table reaches, in largest deflections: Newton's first steps may go far.
 constexpr double reach = 1e6;
+/// A point of the table where the answer will be, likewise: from the far end alone, rounded to the digits of
+/// a field, a stiff spring would stand a good deal beside its face.
+constexpr double within = 4;
 
 /// CalculiX cuts a field after 20 characters; this has 19 at most.
 std::string number(double x) {
@@ -244,9 +247,8 @@ class deck_writer {
       }
       line("*SPRING,ELSET=SPRINGS{},NONLINEAR", set);
       const double face = -law.from * scale_;
-      // The end as it is written, so that the line through it has the slope k and not its rounding.
-      const double end = std::stod(number(face - far));
-      line("{},{}", number(law.stiffness * (end - face)), number(end));
+      const double near = within * deflection_ * scale_;
+      for (const double end : {-far, -near}) line("{},{}", number(law.stiffness * end), number(face + end));
       if (!law.both_ways) line("0.,{}", number(face));
       line("{},{}", law.both_ways ? number(law.stiffness * far) : "0.", number(face + far));
     }
