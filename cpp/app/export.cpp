@@ -31,8 +31,8 @@ exit_status run_export(const export_options& options) {
   if (!file->is_standard_output()) {
     fmt::print("{}: step {} of {}, {} elements, {} nodes, {} pairs\n", options.calculix, deck.step,
                p.steps.size(), deck.elements, deck.nodes, p.pairs.size());
-    fmt::print("loads and faces are {:.12e} times the problem's; divide CalculiX's answers by it\n",
-               deck.scale);
+    fmt::print("displacements are {:.12e} times the problem's, forces {:.12e} times\n",
+               deck.displacement_scale, deck.force_scale);
   }
   flush_standard_output();
   file->finish();

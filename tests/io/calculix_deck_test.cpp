@@ -69,12 +69,13 @@ TEST_CASE("a deck has NLGEOM, nonlinear SPRINGA and no field of more than 20 cha
 TEST_CASE("loads and faces are scaled so that the largest deflection is small, and the deck says by what") {
   const calculix_deck deck = deck_of(beam_text);
   CHECK(deck.step == 2);
-  CHECK_THAT(deck.text, Contains("** contct-scale "));
+  CHECK_THAT(deck.text, Contains("\n** displacement-scale "));
   // Tip: -0.004 and what the spring gives way; 2e-7 is 1e-7 of the length.
-  CHECK(deck.scale < 2e-7 / 0.004);
-  CHECK(deck.scale > 2e-7 / 0.008);
-  const std::string face = fmt::format("0.,{:.12e}\n", -0.004 * deck.scale);
+  CHECK(deck.displacement_scale < 2e-7 / 0.004);
+  CHECK(deck.displacement_scale > 2e-7 / 0.008);
+  const std::string face = fmt::format("0.,{:.12e}\n", -0.004 * deck.displacement_scale);
   CHECK_THAT(deck.text, Contains(face));
+  CHECK(deck.force_scale == Catch::Detail::Approx(1e6 / 64));  // of 60 and 4
   CHECK(deck.first_ground == deck.nodes + 1);
 }
 

@@ -21,6 +21,8 @@ namespace {
 constexpr double smallness = 1e-7;
 /// How far a spring's table reaches, in largest deflections: Newton's first steps may go far.
 constexpr double reach = 1e6;
+/// All forces together, in the unit of force that the deck counts in.
+constexpr double total_force = 1e6;
 /// A point of the table where the answer will be, likewise: from the far end alone, rounded to the digits of
 /// a field, a stiff spring would stand a good deal beside its face.
 constexpr double within = 4;
@@ -66,6 +68,7 @@ class deck_writer {
     write_step();
     return {std::move(text_),
             scale_,
+            force_scale(),
             choice_.step,
             static_cast<int>(mesh_.nodes.size()),
             static_cast<int>(mesh_.elements.size()),
@@ -130,6 +133,9 @@ class deck_writer {
       deflection_ = std::max(deflection_, std::abs(found.displacement[dof]));
     if (deflection_ == 0.0) deflection_ = length_;  // whatever it is
     scale_ = smallness * length_ / deflection_;
+    double forces = 0.0;
+    for (const auto& [at, value] : mesh_.forces) forces += std::abs(value);
+    if (forces > 0.0) unit_ = total_force / (forces * scale_);
   }
 
   void gather_springs() {
@@ -140,6 +146,7 @@ class deck_writer {
     }
   }
 
+  [[nodiscard]] double force_scale() const { return scale_ * unit_; }
   [[nodiscard]] int first_ground() const { return static_cast<int>(mesh_.nodes.size()) + 1; }
 
   template <class... Arguments>
@@ -151,11 +158,15 @@ class deck_writer {
   void write_heading() {
     line("** One state of a problem of contct: the end of its load step {} of {}.", choice_.step,
          problem_.steps.size());
-    line("** Loads and faces are {} times the problem's, because NLGEOM, without which", number(scale_));
-    line("** CalculiX takes one-sided springs for linear ones, also counts every turn: here");
-    line("** the largest deflection is {:g} of the length. Divide what comes back by it.", smallness);
+    line("** Displacements and faces are the problem's times the first of these, forces times the second:");
+    line("** displacement-scale {}", number(scale_));
+    line("** force-scale {}", number(force_scale()));
+    line("** NLGEOM, without which CalculiX takes one-sided springs for linear ones, also counts every");
+    line("** turn: so the largest deflection is {:g} of the length. And it takes forces far below 0.01 for",
+         smallness);
+    line("** none, and is content too early: so the loads, with everything elastic, are in smaller units.");
     line("** The problem's node i is node i here; pair i presses on ground node {} + i.", first_ground() - 1);
-    line("** contct-scale {}", number(scale_));
+    line("** No field has more than 20 characters: CalculiX cuts it there.");
   }
 
   void write_nodes() {
@@ -202,7 +213,7 @@ class deck_writer {
       element_lines(which);
       line("*MATERIAL,NAME=EI{}", part);
       line("*ELASTIC");
-      line("{},0.", number(12 * EI / thickness_ / thickness_ / thickness_ / thickness_));
+      line("{},0.", number(unit_ * 12 * EI / thickness_ / thickness_ / thickness_ / thickness_));
       line("*BEAM SECTION,ELSET=PART{},MATERIAL=EI{},SECTION=RECT", part, part);
       line("{},{}", number(thickness_), number(thickness_));
       line("0.,0.,1.");
@@ -218,7 +229,8 @@ class deck_writer {
     element_lines(all);
     line("*MATERIAL,NAME=D");
     line("*ELASTIC");
-    line("{},{}", number(12 * p.D * (1 - p.nu * p.nu) / thickness_ / thickness_ / thickness_), number(p.nu));
+    line("{},{}", number(unit_ * 12 * p.D * (1 - p.nu * p.nu) / thickness_ / thickness_ / thickness_),
+         number(p.nu));
     line("*SHELL SECTION,ELSET=PLATE,MATERIAL=D");
     line("{}", number(thickness_));
   }
@@ -248,9 +260,10 @@ class deck_writer {
       line("*SPRING,ELSET=SPRINGS{},NONLINEAR", set);
       const double face = -law.from * scale_;
       const double near = within * deflection_ * scale_;
-      for (const double end : {-far, -near}) line("{},{}", number(law.stiffness * end), number(face + end));
+      for (const double end : {-far, -near})
+        line("{},{}", number(unit_ * law.stiffness * end), number(face + end));
       if (!law.both_ways) line("0.,{}", number(face));
-      line("{},{}", law.both_ways ? number(law.stiffness * far) : "0.", number(face + far));
+      line("{},{}", law.both_ways ? number(unit_ * law.stiffness * far) : "0.", number(face + far));
     }
   }
 
@@ -269,7 +282,7 @@ class deck_writer {
     line("1.,1.");
     line("*CLOAD");
     for (const auto& [at, value] : mesh_.forces) {
-      if (value != 0.0) line("{},{},{}", at.first + 1, at.second, number(value * scale_));
+      if (value != 0.0) line("{},{},{}", at.first + 1, at.second, number(value * force_scale()));
     }
     line("*NSET,NSET=GIVEN,GENERATE");
     line("1,{},1", nodes(problem_.geometry));
@@ -292,7 +305,8 @@ class deck_writer {
   double length_ = 0.0;
   double thickness_ = 0.0;
   double deflection_ = 0.0;  // the largest
-  double scale_ = 1.0;
+  double scale_ = 1.0;       // of displacements
+  double unit_ = 1.0;        // of force: everything elastic is so much stiffer than the problem's
   std::string text_;
 };
 

@@ -19,10 +19,11 @@ struct calculix_choice {
 /// pair i presses on node `first_ground` + i.
 struct calculix_deck {
   std::string text;
-  double scale = 1.0;  ///< loads and faces are this many times the problem's, and so are the answers
-  int step = 0;        ///< from 1
-  int nodes = 0;       ///< of the mesh, without the springs' ground
-  int elements = 0;    ///< likewise
+  double displacement_scale = 1.0;  ///< displacements and faces are this many times the problem's
+  double force_scale = 1.0;         ///< forces likewise
+  int step = 0;                     ///< from 1
+  int nodes = 0;                    ///< of the mesh, without the springs' ground
+  int elements = 0;                 ///< likewise
   int first_ground = 0;
 };
 
