@@ -1,0 +1,207 @@
+// Solids: the matrix is CalculiX's own, so nothing but the contact is left to differ.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "peer/programs.hpp"
+
+namespace contct::peer {
+namespace {
+
+using nlohmann::json;
+
+/// A block of C3D8I bricks, clamped at x = 0, over springs with gaps.
+struct gap_support {
+  int node;
+  double face, stiffness;
+};
+struct block {
+  std::string name;
+  int nx, ny, nz;
+  double length, width, height;
+  std::vector<gap_support> supports;
+  int loaded;
+  std::vector<double> loads;  ///< a step each
+
+  [[nodiscard]] int nodes() const { return (nx + 1) * (ny + 1) * (nz + 1); }
+  [[nodiscard]] int at(int i, int j, int k) const { return (i * (ny + 1) + j) * (nz + 1) + k + 1; }
+};
+
+constexpr double youngs = 1e4;
+/// CalculiX's NLGEOM must not notice the turns: see calculix_deck.cpp. Its forces must not be small.
+constexpr double small = 1e-8;
+constexpr double unit_of_force = 1e6 / small;
+
+std::string mesh_of(const block& b, double modulus) {
+  std::string text = "*NODE,NSET=ALL\n";
+  for (int i = 0; i <= b.nx; ++i) {
+    for (int j = 0; j <= b.ny; ++j) {
+      for (int k = 0; k <= b.nz; ++k) {
+        text += fmt::format("{},{:.12e},{:.12e},{:.12e}\n", b.at(i, j, k), b.length * i / b.nx,
+                            b.width * j / b.ny, b.height * k / b.nz);
+      }
+    }
+  }
+  text += "*ELEMENT,TYPE=C3D8I,ELSET=BLOCK\n";
+  int element = 0;
+  for (int i = 0; i < b.nx; ++i) {
+    for (int j = 0; j < b.ny; ++j) {
+      for (int k = 0; k < b.nz; ++k) {
+        text += fmt::format("{}", ++element);
+        for (const int up : {0, 1}) {
+          for (const auto& [di, dj] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+            text += fmt::format(",{}", b.at(i + di, j + dj, k + up));
+        }
+        text += '\n';
+      }
+    }
+  }
+  text += fmt::format(
+      "*MATERIAL,NAME=M\n*ELASTIC\n{:.12e},0.3\n*DENSITY\n1.\n*SOLID SECTION,ELSET=BLOCK,MATERIAL=M\n",
+      modulus);
+  text += "*BOUNDARY\n";
+  for (int j = 0; j <= b.ny; ++j) {
+    for (int k = 0; k <= b.nz; ++k) text += fmt::format("{},1,3\n", b.at(0, j, k));
+  }
+  return text;
+}
+
+std::string matrix_deck_of(const block& b) {
+  return mesh_of(b, youngs) + "*STEP\n*FREQUENCY,SOLVER=MATRIXSTORAGE\n1\n*END STEP\n";
+}
+
+/// CalculiX's own nonlinear run under one step's load. Its springs' ground is a tenth of the height below.
+std::string peer_deck_of(const block& b, double load) {
+  const auto where = [&](int node) {
+    const int column = (node - 1) / (b.nz + 1);
+    return std::array{b.length * (column / (b.ny + 1)) / b.nx, b.width * (column % (b.ny + 1)) / b.ny,
+                      b.height * ((node - 1) % (b.nz + 1)) / b.nz};
+  };
+  std::string text = mesh_of(b, youngs * unit_of_force);
+  int ground = b.nodes();
+  int element = b.nx * b.ny * b.nz;
+  for (const gap_support& s : b.supports) {
+    const auto [x, y, z] = where(s.node);
+    ++ground;
+    text += fmt::format("*NODE,NSET=GROUND\n{},{:.12e},{:.12e},{:.12e}\n", ground, x, y, z - b.height / 10);
+    text += fmt::format("*ELEMENT,TYPE=SPRINGA,ELSET=S{}\n{},{},{}\n*SPRING,ELSET=S{},NONLINEAR\n", ground,
+                        ++element, s.node, ground, ground);
+    for (const double end : {-1e6, -4.0})
+      text +=
+          fmt::format("{:.12e},{:.12e}\n", s.stiffness * end * small * unit_of_force, (s.face + end) * small);
+    text += fmt::format("0.,{:.12e}\n0.,{:.12e}\n", s.face * small, (s.face + 1e6) * small);
+  }
+  text += "*BOUNDARY\nGROUND,1,3\n*STEP,NLGEOM\n*STATIC\n1.,1.\n";
+  text += fmt::format("*CLOAD\n{},3,{:.12e}\n", b.loaded, load * small * unit_of_force);
+  return text + "*NODE PRINT,NSET=ALL\nU\n*NODE PRINT,NSET=GROUND\nRF\n*END STEP\n";
+}
+
+std::string problem_of(const block& b) {
+  std::string text = fmt::format("title = \"{}\"\n\n[calculix]\njob = \"{}\"\n", b.name, b.name);
+  for (const gap_support& s : b.supports) {
+    text += fmt::format("\n[[contact]]\ndof = \"{}.3\"\nsurface = \"below\"\nface = {}\nstiffness = {}\n",
+                        s.node, s.face, s.stiffness);
+  }
+  for (const double load : b.loads)
+    text += fmt::format("\n[[step]]\npoint = [ {{ dof = \"{}.3\", value = {} }} ]\n", b.loaded, load);
+  return text;
+}
+
+/// The labels of a matrix's dofs, in its order.
+std::vector<std::pair<int, int>> labels_in(const std::string& path) {
+  std::vector<std::pair<int, int>> labels;
+  int node = 0;
+  int direction = 0;
+  const std::string text = read_text(path);
+  for (const char* at = text.c_str(); std::sscanf(at, "%d.%d", &node, &direction) == 2;
+       at = std::strchr(at, '\n') + 1)
+    labels.emplace_back(node, direction);
+  return labels;
+}
+
+difference compare(const places& p, const block& b, const json& step,
+                   const std::vector<calculix_table>& tables) {
+  difference d;
+  const auto ours = step["displacement"].get<std::vector<double>>();
+  const auto labels = labels_in(p.work + "/" + b.name + ".dof");
+  if (labels.size() != ours.size())
+    throw std::runtime_error(b.name + ": as many displacements as labels are needed");
+  const auto theirs = values_at_end(tables, "displacements", "ALL", 1, b.nodes(), b.name);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const auto [node, direction] = labels[i];
+    if (node > b.nodes()) continue;  // C3D8I's own modes, which CalculiX numbers as nodes
+    const double u =
+        theirs[static_cast<std::size_t>(node - 1)][static_cast<std::size_t>(direction - 1)] / small;
+    d.displacement = std::max(d.displacement, std::abs(u - ours[i]));
+    largest = std::max(largest, std::abs(ours[i]));
+    ++d.values;
+  }
+  d.displacement /= largest;
+  const auto held =
+      values_at_end(tables, "forces", "GROUND", b.nodes() + 1, static_cast<int>(b.supports.size()), b.name);
+  double pressing = 0.0;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const double force = step["pairs"][i]["force"];
+    const double their_force = held[i][2] / (small * unit_of_force);
+    d.force = std::max(d.force, std::abs(their_force - force));
+    pressing = std::max(pressing, std::abs(force));
+    d.same_pairs = d.same_pairs && (their_force > 0.0) == (step["pairs"][i]["state"] == "contact");
+    ++d.values;
+  }
+  if (pressing > 0.0) d.force /= pressing;
+  return d;
+}
+
+/// One block: its matrix, the path by both kernels, and CalculiX's own end of every step.
+void check_block(const places& p, verdicts& v, const block& b, int events) {
+  write_text(p.work + "/" + b.name + ".toml", problem_of(b));
+  run_deck(p, b.name, matrix_deck_of(b));
+  const json result = run_contct(p, p.work + "/" + b.name + ".toml");
+  int found = 0;
+  int closed = 0;
+  for (const json& step : result["steps"]) {
+    for (const json& i : step["increments"]) found += static_cast<int>(i["events"].size());
+  }
+  v.check(found >= events,
+          fmt::format("{}: both kernels equal and certified on {} events, {} calls, {} values compared",
+                      b.name, found, result["lockstep"]["calls"].get<int>(),
+                      result["lockstep"]["values_compared"].get<int>()));
+  for (std::size_t i = 0; i < b.loads.size(); ++i) {
+    const json& step = result["steps"][i];
+    const auto tables = run_calculix(p, b.name + "-peer", peer_deck_of(b, b.loads[i]));
+    const difference d = compare(p, b, step, tables);
+    int here = 0;
+    for (const json& pair : step["pairs"]) here += pair["state"] == "contact" ? 1 : 0;
+    closed += here;
+    v.check(d.same_pairs && d.displacement <= 1e-6 && d.force <= 1e-6 && d.values >= 100,
+            fmt::format("{} step {}: {} closed; u within {:.1e}, forces within {:.1e}, {} values", b.name,
+                        i + 1, here, d.displacement, d.force, d.values));
+  }
+  v.check(closed >= 3, fmt::format("{}: {} closed pairs were compared", b.name, closed));
+}
+
+}  // namespace
+
+void check_solids(const places& p, verdicts& v) {
+  block beam{"cantilever", 10, 2, 2, 10, 1, 1, {}, 0, {-2, -10, -1, 3}};
+  beam.supports = {
+      {beam.at(4, 1, 0), -0.05, 100}, {beam.at(7, 1, 0), -0.1, 100}, {beam.at(10, 1, 0), -0.2, 50}};
+  beam.loaded = beam.at(10, 1, 2);
+  check_block(p, v, beam, 4);
+  block plate{"slab", 8, 6, 1, 8, 6, 0.5, {}, 0, {-5, -20, -4}};
+  plate.supports = {{plate.at(8, 0, 0), -0.2, 40},
+                    {plate.at(8, 6, 0), -0.3, 40},
+                    {plate.at(4, 3, 0), -0.15, 40},
+                    {plate.at(8, 3, 0), -0.4, 40}};
+  plate.loaded = plate.at(8, 2, 1);
+  check_block(p, v, plate, 4);
+}
+
+}  // namespace contct::peer
