@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs what is missing, builds, and passes all tests. --full adds the legs that take longer: the
 # sanitizers, gfortran's run-time checks, the build without the program, the whole campaign of random
-# problems, the mutants of both kernels, a second LAPACK, other processors, the page in a browser, grids read
-# back by VTK, formatting and clang-tidy.
+# problems, the mutants of both kernels, a second LAPACK, CalculiX, other processors, the page in a browser, grids
+# read back by VTK, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -54,6 +54,8 @@ if [ "$full" = yes ]; then
   build/release/tests/contct_mutants
   echo "== two LAPACKs"
   sh tests/two_lapacks/run.sh build/release
+  echo "== CalculiX as a peer"
+  sh tests/peer/run.sh build/release || [ $? = 77 ]  # skipped, which is said
   echo "== other processors"
   sh tests/emulated/run.sh || [ $? = 77 ]  # none of their compilers can be had
   echo "== the page in a browser"

@@ -1,0 +1,32 @@
+#!/bin/sh
+# Another program as a witness: CalculiX (ccx) comes to the states that contct comes to, on beams and plates that
+# `contct export` wrote for it, and on solids whose matrix it wrote for contct.
+# usage: sh tests/peer/run.sh [BUILD]      (default: build/release; what it needs of it is built)
+# Exit 0: all agrees; 1: something does not; 2: usage; 77: skipped, CalculiX cannot be had.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+. cpp/install.sh
+[ $# -le 1 ] || { echo "usage: sh tests/peer/run.sh [BUILD]" >&2; exit 2; }
+build=${1:-build/release}
+
+command -v ccx >/dev/null 2>&1 || need "as a peer" calculix-ccx || true
+if ! command -v ccx >/dev/null 2>&1; then
+  echo "CalculiX as a peer: SKIPPED: ccx is not found and cannot be installed"
+  exit 77
+fi
+need_core || exit 1
+need_program || exit 1
+need "to test" catch2 pkgconf python3 || exit 1
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+if ! { cmake --preset release -B "$build" -DCONTCT_BUILD_TESTS=ON &&
+  cmake --build "$build" --target contct contct_peer; } >"$work/log" 2>&1; then
+  tail -n 30 "$work/log"
+  echo "CalculiX as a peer: it does not build" >&2
+  exit 1
+fi
+# One thread: its sums, and so its last digits, depend on how many there are.
+export OMP_NUM_THREADS=1
+build=$(cd "$build" && pwd)
+"$build/tests/contct_peer" "$build/contct" "$(command -v ccx)" reference "$work"
