@@ -1,0 +1,87 @@
+#!/bin/sh
+# check.sh EXERCISE FILE: says whether FILE is an answer to exercise a, b or c of reference/course/exercises.md.
+# From the project's root, after the release build. Exit status: 0 right, 1 wrong, 2 it could not be judged.
+set -u
+contct=build/release/contct
+usage() { echo "usage: sh reference/course/exercises/check.sh a|b|c FILE, from the project's root" >&2; exit 2; }
+right() { echo "right: $*"; exit 0; }
+wrong() { echo "wrong: $*"; exit 1; }
+
+[ $# = 2 ] || usage
+file=$2
+[ -x "$contct" ] || { echo "check.sh: found no $contct; build it: cmake --preset release && cmake --build --preset release" >&2; exit 2; }
+[ -r "$file" ] || { echo "check.sh: cannot read $file" >&2; exit 2; }
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+
+# What contct calls the kernel in $file: a shared library from C or Fortran, a command otherwise.
+kernel_of() {
+  case $file in
+    *.c) cc -std=c11 -O2 -ffp-contract=off -shared -fPIC -I cpp -o "$scratch/kernel.so" "$file" || wrong "it does not compile" ;;
+    *.f90) gfortran -std=f2018 -O2 -ffp-contract=off -shared -fPIC -J "$scratch" -o "$scratch/kernel.so" "$file" ||
+             wrong "it does not compile" ;;
+    *.py) kernel="pipe:python3 $file"; return ;;
+    *.pl) kernel="pipe:perl $file"; return ;;
+    *) echo "check.sh: found $file; allowed: a file that ends in .c, .f90, .py or .pl" >&2; exit 2 ;;
+  esac
+  kernel=plugin:$scratch/kernel.so
+}
+
+# The golden set: the names of the traces that notice a difference.
+golden_set() {
+  "$contct" replay --kernel "$kernel" reference/traces/*.trace >"$scratch/replay" 2>/dev/null
+  status=$?
+  [ $status -lt 2 ] || wrong "contct replay ends with exit status $status"
+  sed -n 's,^reference/traces/\(.*\)\.trace: .*: mismatch;.*,\1,p' "$scratch/replay"
+}
+
+# The hunt: 0 where it finds nothing, 1 where it finds a difference.
+hunt() {
+  "$contct" fuzz --calls "$1" --kernels "fortran,$kernel" --quiet >"$scratch/fuzz" 2>&1
+  status=$?
+  [ $status -lt 2 ] || wrong "contct fuzz ends with exit status $status"
+  sed -n 's/^contct: call .* differs in \([A-Z]*\)([0-9]*):.*/contct fuzz notices: \1 differs/p; s/^contct: call .* differs in SMIN:.*/contct fuzz notices: SMIN differs/p' "$scratch/fuzz" | head -n 1
+  return $status
+}
+
+# The code of exercise (a) but for its marked line.
+code() { sed -n '/^#include/,$p' "$1" | sed 's/.*BREAK THIS LINE.*/BREAK THIS LINE/'; }
+
+case $1 in
+  a)
+    code "$file" >"$scratch/theirs"
+    code reference/course/exercises/a-break.c >"$scratch/ours"
+    cmp -s "$scratch/theirs" "$scratch/ours" || wrong "another line than the marked one is changed, or its mark is gone"
+    kernel_of
+    noticed=$(golden_set) || { echo "$noticed"; exit 1; }
+    count=$(echo "$noticed" | grep -c .)
+    echo "the golden set notices in:" ${noticed:-nothing}
+    hunt 20000 && wrong "contct fuzz notices nothing: it is not broken"
+    [ "$count" = 0 ] && wrong "the hunt notices, but no trace of the golden set does"
+    [ "$count" = 1 ] || wrong "$count traces notice; allowed: 1"
+    right "one trace notices, and the hunt does"
+    ;;
+  b)
+    kernel_of
+    noticed=$(golden_set) || { echo "$noticed"; exit 1; }
+    [ -z "$noticed" ] || wrong "these traces notice a difference:" $noticed
+    hunt 5000 || wrong "the golden set notices nothing, but contct fuzz does"
+    right "equal to the bit, in the golden set and in 5000 calls"
+    ;;
+  c)
+    "$contct" run "$file" --kernels fortran,cpp --strict --quiet >/dev/null 2>"$scratch/told"
+    faithful=$?
+    "$contct" run "$file" --kernels corrected --strict --quiet >/dev/null 2>&1
+    corrected=$?
+    echo "contct run --strict: the listing ends with $faithful, the corrected rule with $corrected"
+    [ $faithful = 2 ] && { sed 's/^/  /' "$scratch/told"; wrong "it is no problem file"; }
+    [ $faithful = 0 ] && wrong "the listing gets it right"
+    [ $faithful = 3 ] || wrong "exit status of the listing: found $faithful; allowed: 3, solved but not certified"
+    [ $corrected = 0 ] || wrong "exit status of the corrected rule: found $corrected; allowed: 0"
+    "$contct" explain "$file" >"$scratch/explained" 2>/dev/null
+    grep '^      TAKEN ALONG: it is closed before it touches' "$scratch/explained" | head -n 1 | grep . ||
+      wrong "it goes wrong in another way: no pair is closed before it touches"
+    right "a pair is toggled too early, and only the corrected rule is certified"
+    ;;
+  *) usage ;;
+esac

@@ -1,0 +1,65 @@
+"""What a page of the course shows: commands, and what they print.
+
+A block fenced as `sh` is a command; the fenced block behind it is its output, standard error included, line by line and to
+the letter. <...> stands for characters of one line that differ from machine to machine. A command ends with 0: one that
+does not is shown with || echo "exit status $?" behind it.
+"""
+import re
+import subprocess
+import tempfile
+from pathlib import Path
+
+FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.M | re.S)
+WILD = "<...>"
+
+
+def shown(text):
+    """The commands of a page, each with the lines that the page shows behind it."""
+    blocks = [(m.group(1), m.group(2), text.count("\n", 0, m.start()) + 1) for m in FENCE.finditer(text)]
+    found = []
+    for number, (kind, body, line) in enumerate(blocks):
+        if kind != "sh":
+            continue
+        following, lines, _ = blocks[number + 1] if number + 1 < len(blocks) else ("nothing", "", 0)
+        if following != "text" or not lines.strip():
+            raise ValueError(f"line {line}: a command without output: a text block must follow, found {following}")
+        found.append((body, lines.splitlines()))
+    return found
+
+
+def line_fits(pattern, line):
+    return re.fullmatch(".*".join(re.escape(part) for part in pattern.split(WILD)), line) is not None
+
+
+def difference(patterns, lines):
+    """None where the lines are what the page shows; else the first that is not, in words."""
+    for number in range(max(len(patterns), len(lines))):
+        pattern = patterns[number] if number < len(patterns) else None
+        found = lines[number] if number < len(lines) else None
+        if pattern is None or found is None or not line_fits(pattern, found):
+            ends = "nothing more"
+            return f"output line {number + 1}:\n  shown {pattern or ends}\n  found {found if found is not None else ends}"
+    return None
+
+
+def wildcards(patterns):
+    return sum(pattern.count(WILD) for pattern in patterns)
+
+
+class place:
+    """A folder like the project's root after the release build, in which commands may leave files."""
+
+    def __init__(self, root, programs):
+        self.folder = tempfile.TemporaryDirectory()
+        here = Path(self.folder.name)
+        for entry in Path(root).resolve().iterdir():
+            if entry.name != "build" and not entry.name.startswith("."):
+                (here / entry.name).symlink_to(entry)
+        (here / "build").mkdir()
+        (here / "build/release").symlink_to(Path(programs).resolve())
+
+    def run(self, command):
+        """The lines that it prints, and its exit status."""
+        finished = subprocess.run(["sh", "-eu", "-c", command], cwd=self.folder.name, stdin=subprocess.DEVNULL,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return [line.rstrip() for line in finished.stdout.splitlines()], finished.returncode
