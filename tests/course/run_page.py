@@ -7,7 +7,7 @@ its last letter or digit, and every one of these must be noticed.
 import sys
 from pathlib import Path
 
-from page import WILD, difference, place, shown, wildcards
+from page import WILD, broken_link, difference, place, shown, wildcards
 
 
 def with_another_letter(pattern):
@@ -35,7 +35,11 @@ def doctored(patterns):
 
 
 def main(root, programs, name, least, most):
-    commands = shown((Path(root) / name).read_text())
+    text = (Path(root) / name).read_text()
+    broken = broken_link(Path(root) / name, text)
+    if broken:
+        return f"{name}: a link leads nowhere: {broken}"
+    commands = shown(text)
     if len(commands) < int(least):
         return f"{name}: found {len(commands)} commands, allowed: {least} or more"
     wild = sum(wildcards(patterns) for _, patterns in commands)
