@@ -51,6 +51,7 @@ std::string refusal_of(const assembled& a, const std::vector<support>& supports)
 }
 
 int rank_of(const linear_structure& s) {
+  REQUIRE(s.held_by_pairs.size() == s.pairs.size());
   rigid_rank rank = s.nothing_held();
   for (const rigid_row& row : s.held_by_pairs) rank.hold(row);
   return rank.rank();
@@ -109,6 +110,17 @@ TEST_CASE("a body in space: four vertical pairs stop three motions, and six well
   CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(0), at_dof(6), at_dof(1)})) == 6);
 }
 
+TEST_CASE("a dof that no free motion moves holds none: what is left there is rounding") {
+  assembled body;
+  body.stiffness = braced(box_at(0), 1e5);
+  std::vector<support> only_x_is_left;
+  for (const int dof : {2, 5, 8, 1, 4})
+    only_x_is_left.push_back({dof, 0, true});  // z at three corners, y at two
+  REQUIRE(build(body, only_x_is_left, {}).rigid_motions == 1);
+  for (const int dof : {7, 10, 14, 20, 23}) CHECK(rank_of(build(body, only_x_is_left, {at_dof(dof)})) == 0);
+  CHECK(rank_of(build(body, only_x_is_left, {at_dof(21)})) == 1);
+}
+
 TEST_CASE("a long cantilever's matrix is held, and where rounding hides that, it can be said") {
   const std::vector<support> clamp = {{0, 0, true}, {1, 0, true}};
   CHECK(by_matrix(build(even_beam(1000), {}, {}), clamp, {}).rigid_motions == 0);
@@ -151,6 +163,14 @@ TEST_CASE("the order of rows changes neither motions nor reactions") {
   CHECK(mixed.stiffness.subdiagonals() > plain.stiffness.subdiagonals());
   for (int dof = 0; dof < a.dofs(); ++dof) {
     CHECK(mixed.stiffness.at(mixed.row_of(dof), mixed.row_of(dof)) == plain.stiffness.at(dof, dof));
+  }
+  const linear_structure loose = build(a, {}, {});
+  REQUIRE(loose.rigid_motions == 2);
+  for (std::size_t motion = 0; motion < 2; ++motion) {
+    for (std::size_t dof = 2; dof < 24; dof += 2) {  // straight
+      const auto w = [&](std::size_t at) { return loose.rigid_rows[at][motion]; };
+      CHECK(w(dof - 2) - 2 * w(dof) + w(dof + 2) == Approx(0).margin(1e-9));
+    }
   }
   std::vector<double> u(26, 0.0);
   u[24] = -0.25;

@@ -19,7 +19,7 @@ sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view f
     if (row > column)
       lines.refuse(fmt::format("row {} and column {}, below the diagonal", row + 1, column + 1),
                    "the upper triangle, row <= column, as CalculiX writes it");
-    entries.add(column, row, lines.real(2, "an entry"), lines.line());
+    entries.add({column, row, lines.real(2, "an entry")}, lines.line());  // the same place below
   }
   return entries.finish(rows, file);
 }

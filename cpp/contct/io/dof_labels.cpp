@@ -53,7 +53,7 @@ std::optional<int> dof_index::find(std::string_view label) const {
 }
 
 std::string dof_index::allowed() const {
-  if (structure_.labels.empty()) return fmt::format("a label, \"1\" to \"{}\"", structure_.dofs());
+  if (structure_.labels.empty()) return fmt::format(R"(a label, "1" to "{}")", structure_.dofs());
   return fmt::format("a label of {}, such as {}", structure_.labels_from, quoted(structure_.labels.front()));
 }
 

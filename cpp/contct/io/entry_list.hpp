@@ -15,9 +15,7 @@ class entry_list {
   /// Room for as many entries as come.
   void reserve(std::size_t entries) { entries_.reserve(entries); }
   /// An entry of the lower triangle, row >= column, from 0, and the line it stands in.
-  void add(int row, int column, double value, std::int64_t line) {
-    entries_.push_back({row, column, value, line});
-  }
+  void add(const matrix_entry& e, std::int64_t line) { entries_.push_back({e.row, e.column, e.value, line}); }
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
   /// The matrix, without entries that are 0. Refuses (input_error, with `file` and line) more rows than

@@ -113,7 +113,7 @@ sparse_matrix parse_symmetric(std::string_view text, std::string_view file) {
     if (row < column)
       lines.refuse(fmt::format("row {} and column {}, above the diagonal", row + 1, column + 1),
                    "the lower triangle, row >= column: what symmetric means in this format");
-    entries.add(row, column, lines.real(2, "an entry"), lines.line());
+    entries.add({row, column, lines.real(2, "an entry")}, lines.line());
   }
   if (entries.size() < said) refuse_count(lines, entries.size(), said, size_line);
   return entries.finish(rows, file);

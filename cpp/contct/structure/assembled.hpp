@@ -25,7 +25,7 @@ struct assembled {
   static constexpr int dofs_per_node = 1;
   static constexpr std::array<const char*, 1> dof_names = {"value"};
   [[nodiscard]] int nodes() const { return stiffness.order; }
-  [[nodiscard]] int elements() const { return 0; }
+  [[nodiscard]] static int elements() { return 0; }
   [[nodiscard]] int dofs() const { return stiffness.order; }
   [[nodiscard]] std::string label_of(int dof) const {
     return labels.empty() ? std::to_string(dof + 1) : labels[static_cast<std::size_t>(dof)];
