@@ -170,6 +170,7 @@ TEST_CASE("the order of rows changes neither motions nor reactions") {
     for (std::size_t dof = 2; dof < 24; dof += 2) {  // straight
       const auto w = [&](std::size_t at) { return loose.rigid_rows[at][motion]; };
       CHECK(w(dof - 2) - 2 * w(dof) + w(dof + 2) == Approx(0).margin(1e-9));
+      CHECK((w(dof) - w(dof - 2)) / 0.5 == Approx(w(dof + 1)).margin(1e-9));
     }
   }
   std::vector<double> u(26, 0.0);

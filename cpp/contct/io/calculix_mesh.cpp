@@ -160,7 +160,7 @@ class fine_grid {
 /// have w and the slope along the line fixed, the second where both have it fixed.
 void fix_between(const std::set<std::pair<int, int>>& fixed, int one, int other, int along, int node,
                  calculix_mesh& m) {
-  const auto both = [&](int dof) { return fixed.count({one, dof}) != 0 && fixed.count({other, dof}) != 0; };
+  const auto both = [&](int dof) { return fixed.contains({one, dof}) && fixed.contains({other, dof}); };
   const int across = 3 - along;
   if (both(0) && both(along)) {
     m.fixed.push_back({node, turned[0].direction});

@@ -1,0 +1,72 @@
+// A matrix from elsewhere, run as a person would.
+#include "catch.hpp"
+#include "cli/process.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::filesystem::path root = CONTCT_ROOT;
+const std::string header = "%%MatrixMarket matrix coordinate real symmetric\n";
+const std::string problem =
+    "[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndof = \"2\"\nsurface = \"below\"\nface = -0.5\nstiffness "
+    "= 10\n"
+    "[[step]]\npoint = [ { dof = \"2\", value = -3 } ]\n";
+
+}  // namespace
+
+TEST_CASE("the frame by its matrix is solved in lockstep and certified, from any folder") {
+  const scratch_directory elsewhere;
+  const finished f = contct_program(elsewhere.path(),
+                                    {"run", (root / "reference/structures/frame.toml").string(), "--strict"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("33 dofs, 2 pairs, 3 steps; kernels fortran, cpp"));
+  CHECK_THAT(f.out, Contains("make 1: dof 6.y below"));
+  CHECK_THAT(f.out, Contains("0 mismatches"));
+  CHECK_THAT(f.out, Contains("all 3 final states are certified"));
+}
+
+TEST_CASE("the engines agree that the frame is certified, and so does the oracle alone") {
+  for (const char* how :
+       {"--engine=updated", "--engine=refactor", "--engine=auto", "--final-only", "--kernels=corrected"}) {
+    const finished f = contct_program(root, {"run", "reference/structures/frame.toml", "--strict", how});
+    INFO(how << "\n" << f.err);
+    CHECK(f.exit == 0);
+    CHECK_THAT(f.out, Contains("certified"));
+  }
+}
+
+TEST_CASE("a matrix that is no stiffness, is missing or too large ends in exit 2 and one line that says so") {
+  const scratch_directory here;
+  here.write("p.toml", problem);
+  finished f = contct_program(here.path(), {"run", "p.toml"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("K.mtx: cannot be read"));
+  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
+  f = contct_program(here.path(), {"run", "p.toml", "--json", "r.json"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("K.mtx: the matrix is not positive semidefinite"));
+  CHECK(here.files() == std::vector<std::string>{"K.mtx", "p.toml"});
+  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 nan\n2 2 1\n");
+  f = contct_program(here.path(), {"run", "p.toml"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("K.mtx:4: found \"nan\" for an entry"));
+  CHECK(f.out.empty());
+}
+
+TEST_CASE("two springs in a row, free at both ends, fall off their one face: a mechanism, exit 4") {
+  const scratch_directory here;
+  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 -1\n2 2 1\n");
+  here.write("p.toml", problem);
+  const finished f = contct_program(here.path(), {"run", "p.toml"});
+  INFO(f.err);
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.err, Contains("no equilibrium"));
+  const finished mended =
+      contct_program(here.path(), {"run", "p.toml", "--kernels", "corrected", "--strict"});
+  INFO(mended.out << mended.err);
+  CHECK(mended.exit == 0);
+  CHECK_THAT(mended.out, Contains("make 1: dof 2 below"));
+}
