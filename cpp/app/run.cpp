@@ -98,9 +98,23 @@ class run {
   void read() {
     problem_ = read_problem(options_.file);
     for (const std::string& w : problem_.warnings) complain("warning: {}", w);
+    refuse_pictures_without_coordinates();
     structure_ = structure_of(problem_);
     judged_.emplace(structure_, loads_of(problem_));
     engine_ = engine_for(options_.kernels.front());
+  }
+
+  void refuse_pictures_without_coordinates() const {
+    const picture_options& p = options_.pictures;
+    if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return;
+    for (const auto& [name, file] :
+         {std::pair("--html", p.html), {"--svg", p.svg}, {"--csv", p.csv}, {"--vtu", p.vtu}}) {
+      if (!file.empty())
+        throw std::invalid_argument(std::string(name) +
+                                    ": found a structure given by its matrix, which has no coordinates; "
+                                    "allowed: beams and plates. --json has "
+                                    "all its numbers, by label");
+    }
   }
 
   [[nodiscard]] std::vector<output_option> outputs() const {
@@ -128,9 +142,8 @@ class run {
     const path_end end = find_final_states(structure_, static_cast<int>(problem_.steps.size()),
                                            loads_of(problem_), observers(nullptr));
     shown_.reset();
-    print_verdict(paint::quiet,
-                  {"only the end: the oracle's, judged by equilibrium, penetration and tension",
-                   fmt::format("{} factorisations", end.work.factors)});
+    print_verdict(paint::quiet, {"only the end: the oracle's, judged by equilibrium, penetration and tension",
+                                 fmt::format("{} factorisations", end.work.factors)});
     return finish(end, true, nullptr);
   }
 

@@ -70,3 +70,18 @@ TEST_CASE("two springs in a row, free at both ends, fall off their one face: a m
   CHECK(mended.exit == 0);
   CHECK_THAT(mended.out, Contains("make 1: dof 2 below"));
 }
+
+TEST_CASE("a structure without coordinates is not drawn, and what is told of it names dofs by their labels") {
+  const scratch_directory dir;
+  const std::string frame = std::string(CONTCT_ROOT) + "/reference/structures/frame.toml";
+  for (const std::string option : {"--html", "--svg", "--csv", "--vtu"}) {
+    const finished f = contct_program(dir.path(), {"run", frame, option, "out.vtu"});
+    CHECK(f.exit == 2);
+    CHECK_THAT(f.err, Contains(option) && Contains("no coordinates") && Contains("--json"));
+    CHECK(dir.files().empty());
+  }
+  const finished explained = contct_program(dir.path(), {"explain", frame, "--json", "why.json"});
+  CHECK(explained.exit == 0);
+  CHECK_THAT(explained.out, Contains("Pair 1, dof 6.y, face below"));
+  CHECK_THAT(dir.read("why.json"), Contains("\"dof\":\"6.y\"") && !Contains("\"node\""));
+}

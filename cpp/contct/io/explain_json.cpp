@@ -57,11 +57,11 @@ std::string_view state_name(int isep) {
   return isep == in_contact ? "contact" : "separated";
 }
 
-json pair_json(const explained_increment& i, const explained_pair& p, const std::vector<std::string>& names,
-               int real_bytes) {
+json pair_json(const model& m, const explained_increment& i, const explained_pair& p,
+               const std::vector<std::string>& names, int real_bytes) {
   const auto at = static_cast<std::size_t>(p.pair);
   json out = {{"pair", p.pair + 1},
-              {"node", p.node},
+              {"node", p.node},  // a dof's label below, where there are no nodes
               {"surface", surface_name(p.surface)},
               {"before", state_name(p.isep_before)},
               {"after", state_name(p.isep_after)},
@@ -71,6 +71,10 @@ json pair_json(const explained_increment& i, const explained_pair& p, const std:
               {"d_star", p.d_star},
               {"gap", p.gap},
               {"s", p.s}};
+  if (const auto* a = std::get_if<assembled>(&m.kind)) {
+    out.erase("node");
+    out["dof"] = a->label_of(p.node - 1);
+  }
   if (p.at(branch::check_positive).reached) out["s_chk"] = p.s_chk;
   if (p.at(branch::within_epsmul).reached) out["diff"] = p.diff;
   out["leads"] = p.took_the_lead();
@@ -112,7 +116,7 @@ json narrowest_json(const std::optional<decision>& d) {
 
 explain_json::explain_json(const problem& p, std::vector<std::string> names, int real_bytes, int pair,
                            output_file& out)
-    : loads_(p), names_(std::move(names)), real_bytes_(real_bytes), pair_(pair), out_(out) {
+    : problem_(p), loads_(p), names_(std::move(names)), real_bytes_(real_bytes), pair_(pair), out_(out) {
   out_.write(
       fmt::format("{{\n  \"format\": \"contct-explain-1\",\n  \"title\": {},\n  \"kernels\": {},\n"
                   "  \"real_bytes\": {},\n  \"increments\": [",
@@ -145,7 +149,7 @@ void explain_json::write(const explained_increment& i) {
   for (const explained_pair& p : i.call.pairs) {
     if (pair_ != 0 && pair_ != p.pair + 1) continue;
     out_.write(fmt::format("{}\n      {}", std::exchange(first_pair, false) ? "" : ",",
-                           pair_json(i, p, names_, real_bytes_).dump()));
+                           pair_json(problem_.geometry, i, p, names_, real_bytes_).dump()));
   }
   out_.write("]}");
 }

@@ -23,6 +23,7 @@ class explain_json {
   void finish(std::string_view status, const explained_path& path);
 
  private:
+  const problem& problem_;
   load_path loads_;
   std::vector<std::string> names_;
   int real_bytes_;

@@ -15,8 +15,10 @@ constexpr int statement_width = 49;
 constexpr int width_with_statements = 120;
 
 /// "pair 1, node 5, face below, separated: advancing".
-std::string pair_words(const explained_pair& p) {
-  return fmt::format("Pair {}, node {}, face {}, {}: {}", p.pair + 1, p.node, surface_name(p.surface),
+std::string pair_words(const model& m, const explained_pair& p) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  const std::string place = a != nullptr ? "dof " + a->label_of(p.node - 1) : fmt::format("node {}", p.node);
+  return fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1, place, surface_name(p.surface),
                      p.isep_before == separated ? "separated" : "in contact", kind_of_contact(p));
 }
 
@@ -84,7 +86,7 @@ void explain_text::print_load(const explained_increment& i) const {
 
 void explain_text::print_pair(const explained_increment& i, const explained_pair& p) const {
   fmt::print("\n");
-  say(paint::strong, pair_words(p));
+  say(paint::strong, pair_words(problem_.geometry, p));
   for (const told& t : scale_factor_story(p)) say(t);
   if (i.other == nullptr) return;
   const double second = i.other->ss[static_cast<std::size_t>(p.pair)];
