@@ -29,18 +29,18 @@ std::vector<long_work> long_works() {
            "step 2 of 2, increment "},
           {"explain", {"explain", "big.toml", "--json", "/dev/null"}, "step 2 of 2, increment "},
           {"verify", {"verify", "--reference", "reference"}, " problems"},
-          {"atlas", {"atlas", "--problems", "20"}, " problems"},
+          {"atlas", {"atlas", "--problems", "60"}, " problems"},
           {"fuzz", {"fuzz", "--calls", "500000"}, " % of "}};
 }
 
-/// The reference problems where they can be asked for.
+/// The reference problems, twice over.
 void write_reference(const scratch_directory& dir) {
   const fs::path reference = CONTCT_ROOT "/reference";
   std::ostringstream once;
   once << std::ifstream(reference / "verification.toml").rdbuf();
   fs::create_directory(dir.path() / "reference");
   fs::create_symlink(reference / "problems", dir.path() / "reference/problems");
-  dir.write("reference/verification.toml", once.str());
+  dir.write("reference/verification.toml", once.str() + once.str());
 }
 
 /// The plate of `contct new` with twenty times as many elements.
