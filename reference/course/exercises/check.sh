@@ -1,5 +1,6 @@
 #!/bin/sh
 # check.sh EXERCISE FILE: says whether FILE is an answer to exercise a, b or c of reference/course/exercises.md.
+# A FILE that ends in .sed edits reference/kernels/contct_kernel.c into one.
 # From the project's root, after the release build. Exit status: 0 right, 1 wrong, 2 it could not be judged.
 set -u
 contct=build/release/contct
@@ -9,10 +10,17 @@ wrong() { echo "wrong: $*"; exit 1; }
 
 [ $# = 2 ] || usage
 file=$2
+original=reference/kernels/contct_kernel.c
 [ -x "$contct" ] || { echo "check.sh: found no $contct; build it: cmake --preset release && cmake --build --preset release" >&2; exit 2; }
 [ -r "$file" ] || { echo "check.sh: cannot read $file" >&2; exit 2; }
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
+
+case $file in
+  *.sed)
+    sed -f "$file" $original >"$scratch/edited.c" || wrong "it does not edit $original"
+    file=$scratch/edited.c ;;
+esac
 
 # What contct calls the kernel in $file: a shared library from C or Fortran, a command otherwise.
 kernel_of() {
@@ -22,7 +30,7 @@ kernel_of() {
              wrong "it does not compile" ;;
     *.py) kernel="pipe:python3 $file"; return ;;
     *.pl) kernel="pipe:perl $file"; return ;;
-    *) echo "check.sh: found $file; allowed: a file that ends in .c, .f90, .py or .pl" >&2; exit 2 ;;
+    *) echo "check.sh: found $file; allowed: a file that ends in .c, .f90, .py, .pl or .sed" >&2; exit 2 ;;
   esac
   kernel=plugin:$scratch/kernel.so
 }
@@ -44,14 +52,14 @@ hunt() {
   return $status
 }
 
-# The code of exercise (a) but for its marked line.
-code() { sed -n '/^#include/,$p' "$1" | sed 's/.*BREAK THIS LINE.*/BREAK THIS LINE/'; }
+# A kernel but for the one line that exercise (a) has broken.
+but_for_that_line() { sed "$(grep -n 'epsmul) isep' $original | cut -d : -f 1)d" "$1"; }
 
 case $1 in
   a)
-    code "$file" >"$scratch/theirs"
-    code reference/course/exercises/a-break.c >"$scratch/ours"
-    cmp -s "$scratch/theirs" "$scratch/ours" || wrong "another line than the marked one is changed, or its mark is gone"
+    but_for_that_line "$file" >"$scratch/theirs"
+    but_for_that_line $original >"$scratch/ours"
+    cmp -s "$scratch/theirs" "$scratch/ours" || wrong "another line is changed"
     kernel_of
     noticed=$(golden_set) || { echo "$noticed"; exit 1; }
     count=$(echo "$noticed" | grep -c .)

@@ -1,0 +1,2 @@
+# Exercise (a), answered wrongly: a name that nothing declares.
+s/< epsmul) isep/< epsmal) isep/
