@@ -18,11 +18,12 @@ namespace {
 struct atlas_options {
   atlas_request request;
   std::string csv, json, svg;
+  bool quiet = false;
 };
 
-atlas measured(const atlas_request& r) {
+atlas measured(const atlas_request& r, bool quiet) {
   atlas a{r, atlas_cells()};
-  progress shown(static_cast<long>(a.cells.size()) * r.problems, "problems");
+  progress shown(static_cast<long>(a.cells.size()) * r.problems, "problems", quiet);
   for (atlas_cell& c : a.cells) fill(c, r, [&shown] { shown.one_more(); });
   return a;
 }
@@ -42,8 +43,8 @@ exit_status run_atlas(const atlas_options& options) {
   files.reserve(outputs.size());
   for (const output_option& o : outputs) files.push_back(open_output(o));
 
-  const atlas a = measured(options.request);
-  if (!takes_standard_output(outputs)) fmt::print("{}", atlas_table(a, look_at_terminal()));
+  const atlas a = measured(options.request, options.quiet);
+  if (!options.quiet && !takes_standard_output(outputs)) fmt::print("{}", atlas_table(a, look_at_terminal()));
   flush_standard_output();  // no files when the table is lost
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i] == nullptr) continue;
@@ -71,6 +72,7 @@ void add_atlas(CLI::App& program, exit_status& status) {
   command->add_option("--csv", options->csv, "Write the cells to this file (- is standard output)");
   command->add_option("--json", options->json, "Write the cells to this file (- is standard output)");
   command->add_option("--svg", options->svg, "Draw the picture to this file (- is standard output)");
+  command->add_flag("--quiet", options->quiet, "Print nothing but what is wrong");
   command->callback([options, &status] { status = run_atlas(*options); });
 }
 

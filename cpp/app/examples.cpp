@@ -25,6 +25,7 @@ constexpr example all_examples[] = {
     {"replay", "calls.trace", "recorded calls put to the 1989 code again"},
     {"replay", "--kernel fortran,cpp calls.trace", "the same to two kernels"},
     {"atlas", "--problems 2 --csv atlas.csv", "how often the 1989 rule goes wrong, in a hurry"},
+    {"atlas", "--problems 2 --quiet --svg atlas.svg", "the picture alone"},
     {"kernels", "", "what is built in"},
     {"completion", "bash", "what makes a shell complete the words of contct"},
     {"man", "", "the manual page, for man -l -"},

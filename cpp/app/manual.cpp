@@ -70,6 +70,20 @@ std::string exit_section() {
   return text;
 }
 
+std::string environment_section() {
+  constexpr std::pair<const char*, const char*> variables[] = {
+      {"COLUMNS", "How wide tables are, from 40 to 160."},
+      {"CONTCT_MEMORY_MIB",
+       "The most memory, in MiB, that a matrix from elsewhere may take; otherwise three quarters of the "
+       "machine's."},
+      {"CONTCT_PROGRESS_AFTER", "Seconds before a terminal is shown how far the work has come; otherwise 1."},
+      {"NO_COLOR", "No colours, whatever it is set to."}};
+  std::string text = ".SH ENVIRONMENT\n";
+  for (const auto& [name, meaning] : variables)
+    text += fmt::format(".TP\n\\fB{}\\fR\n", name) + filled(meaning);
+  return text;
+}
+
 std::string examples_section() {
   std::string text = ".SH EXAMPLES\n";
   for (const example& e : examples_of())
@@ -95,10 +109,7 @@ std::string manual_page(const CLI::App& program) {
   text += ".SH COMMANDS\n";
   for (const described_command& c : describe_commands(program)) text += command_section(c);
   text += exit_section();
-  text +=
-      ".SH ENVIRONMENT\n.TP\n\\fBCOLUMNS\\fR\nHow wide tables are, from 40 to "
-      "160.\n.TP\n\\fBNO_COLOR\\fR\nNo "
-      "colours, whatever it is set to.\n";
+  text += environment_section();
   text += examples_section();
   text +=
       ".SH SEE ALSO\nN. J. Salamon, Receding/advancing contact of structural elements simplified,\n.I "

@@ -4,13 +4,41 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
 #include <utility>
 
+#include "contct/io/field_lines.hpp"
+
 namespace contct {
+namespace {
+
+/// Seconds before anything is shown.
+double seconds_from(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0.0))
+    throw std::invalid_argument("CONTCT_PROGRESS_AFTER: found " + quoted(text) +
+                                "; allowed: seconds, 0 or more");
+  return value;
+}
+
+double wait_before_progress() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
+  const char* const said = std::getenv("CONTCT_PROGRESS_AFTER");
+  return said == nullptr ? 1.0 : seconds_from(said);
+}
+
+}  // namespace
 
 progress::progress(long all, std::string what, bool quiet)
-    : wanted_(!quiet && isatty(STDERR_FILENO) != 0), all_(all), what_(std::move(what)) {}
+    : wanted_(!quiet && isatty(STDERR_FILENO) != 0),
+      after_(wait_before_progress()),
+      between_(std::min(0.2, after_.count())),
+      all_(all),
+      what_(std::move(what)) {}
 
 progress::~progress() {
   erase();
@@ -18,7 +46,7 @@ progress::~progress() {
 
 bool progress::is_due() const {
   const auto now = clock::now();
-  return wanted_ && now - begun_ >= std::chrono::seconds(1) && now - last_ >= std::chrono::milliseconds(200);
+  return wanted_ && now - begun_ >= after_ && now - last_ >= between_;
 }
 
 void progress::draw(std::string_view words) {

@@ -7,11 +7,12 @@
 
 namespace contct {
 
-/// One line on standard error, written over and over and gone in the end. Nothing at all in the first second,
-/// where standard error is not a terminal, or where it is to be quiet.
+/// One line on standard error, written over and over and gone in the end. Nothing at all in the first second
+/// (or as many as CONTCT_PROGRESS_AFTER in the environment says), where standard error is not a terminal, or
+/// where it is to be quiet.
 class progress {
  public:
-  /// `what` is counted: "problems".
+  /// `what` is counted: "problems". Throws std::invalid_argument when CONTCT_PROGRESS_AFTER is no time.
   progress(long all, std::string what, bool quiet = false);
   ~progress();
   progress(const progress&) = delete;
@@ -28,10 +29,12 @@ class progress {
 
  private:
   using clock = std::chrono::steady_clock;
+  using seconds = std::chrono::duration<double>;
   [[nodiscard]] bool is_due() const;
   void draw(std::string_view words);
 
   bool wanted_;
+  seconds after_, between_;
   bool shown_ = false;
   long done_ = 0, all_;
   std::string what_;

@@ -1,7 +1,4 @@
 // Progress: on a terminal that waits, gone in the end, and nowhere else.
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "catch.hpp"
@@ -10,13 +7,12 @@
 using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
-namespace fs = std::filesystem;
 
 namespace {
 
 const char* const erased = "\r\033[K";
 
-/// Work of each command that takes some seconds on any machine of today.
+/// Work of each command that would take long if there were more of it.
 struct long_work {
   const char* name;
   std::vector<std::string> arguments;
@@ -24,55 +20,36 @@ struct long_work {
 };
 
 std::vector<long_work> long_works() {
-  return {{"run",
-           {"run", "big.toml", "--kernels", "corrected", "--engine", "refactor"},
-           "step 2 of 2, increment "},
-          {"explain", {"explain", "big.toml", "--json", "/dev/null"}, "step 2 of 2, increment "},
-          {"verify", {"verify", "--reference", "reference"}, " problems"},
-          {"atlas", {"atlas", "--problems", "60"}, " problems"},
-          {"fuzz", {"fuzz", "--calls", "500000"}, " % of "}};
+  return {{"run", {"run", "plate.toml"}, "step 2 of 2, increment "},
+          {"explain", {"explain", "plate.toml", "--json", "/dev/null"}, "step 2 of 2, increment "},
+          {"verify", {"verify", "--reference", CONTCT_ROOT "/reference"}, " problems"},
+          {"atlas", {"atlas", "--problems", "1"}, " problems"},
+          {"fuzz", {"fuzz", "--calls", "2000"}, " % of "}};
 }
 
-/// The reference problems, twice over.
-void write_reference(const scratch_directory& dir) {
-  const fs::path reference = CONTCT_ROOT "/reference";
-  std::ostringstream once;
-  once << std::ifstream(reference / "verification.toml").rdbuf();
-  fs::create_directory(dir.path() / "reference");
-  fs::create_symlink(reference / "problems", dir.path() / "reference/problems");
-  dir.write("reference/verification.toml", once.str() + once.str());
-}
-
-/// The plate of `contct new` with twenty times as many elements.
-void write_big(const scratch_directory& dir) {
-  std::string text = contct_program(dir.path(), {"new", "plate", "-"}).out;
-  const auto replace = [&text](const std::string& from, const std::string& to) {
-    REQUIRE(text.find(from) != std::string::npos);
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace("elements  = [8, 4]", "elements = [40, 20]");
-  replace("node      = 45", "node = 861");
-  dir.write("big.toml", text);
-}
-
+/// At a terminal whose owner waits for so many seconds before he wonders.
 finished at_terminal(const scratch_directory& dir, const std::vector<std::string>& arguments,
-                     bool both = false) {
+                     const std::string& seconds, bool both = false) {
   process_options o;
   o.terminal = both;
   o.error_terminal = true;
-  o.environment = {{"TERM", "dumb"}};
+  o.environment = {{"TERM", "dumb"}, {"CONTCT_PROGRESS_AFTER", seconds}};
   return contct_program(dir.path(), arguments, o);
 }
 
+/// With a plate.toml in it.
+class plate_directory : public scratch_directory {
+ public:
+  plate_directory() { REQUIRE(contct_program(path(), {"new", "plate"}).exit == 0); }
+};
+
 }  // namespace
 
-TEST_CASE("whatever takes over a second shows its progress on a terminal, and erases it in the end") {
-  const scratch_directory dir;
-  write_big(dir);
-  write_reference(dir);
+TEST_CASE("whatever takes long shows its progress on a terminal, and erases it in the end") {
+  const plate_directory dir;
   for (const long_work& w : long_works()) {
     INFO(w.name);
-    const finished f = at_terminal(dir, w.arguments);
+    const finished f = at_terminal(dir, w.arguments, "0");
     CHECK(f.exit == 0);
     CHECK_THAT(f.err, Contains(w.shows));
     CHECK_THAT(f.err, EndsWith(erased));
@@ -82,27 +59,26 @@ TEST_CASE("whatever takes over a second shows its progress on a terminal, and er
 }
 
 TEST_CASE("quiet takes the progress away, and so does a standard error that is no terminal") {
-  const scratch_directory dir;
-  write_big(dir);
-  write_reference(dir);
+  const plate_directory dir;
   for (const long_work& w : long_works()) {
-    if (std::string(w.name) == "atlas") continue;  // it has no --quiet
     INFO(w.name);
     std::vector<std::string> arguments = w.arguments;
     arguments.emplace_back("--quiet");
-    const finished quiet = at_terminal(dir, arguments);
+    const finished quiet = at_terminal(dir, arguments, "0");
     CHECK(quiet.exit == 0);
     CHECK(quiet.err.empty());
+    CHECK(quiet.out.empty());
   }
-  CHECK(contct_program(dir.path(), {"run", "big.toml", "--kernels", "corrected"}).err.empty());
+  process_options at_once;
+  at_once.environment = {{"CONTCT_PROGRESS_AFTER", "0"}};
+  CHECK(contct_program(dir.path(), {"run", "plate.toml"}, at_once).err.empty());
 }
 
 TEST_CASE("where table and progress share a terminal, every row of the table begins on a clean line") {
-  const scratch_directory dir;
-  write_big(dir);
-  const std::vector<std::string> run = {"run", "big.toml", "--kernels", "corrected", "--engine", "refactor"};
+  const plate_directory dir;
+  const std::vector<std::string> run = {"run", "plate.toml", "--kernels", "corrected"};
   const finished plain = contct_program(dir.path(), run);
-  std::string seen = at_terminal(dir, run, true).out;
+  std::string seen = at_terminal(dir, run, "0", true).out;
   CHECK_THAT(seen, Contains("step 2 of 2, increment "));
   // What remains on the screen: a line up to where it was last erased is gone.
   std::string screen;
@@ -117,10 +93,20 @@ TEST_CASE("where table and progress share a terminal, every row of the table beg
   CHECK(screen == plain.out);
 }
 
-TEST_CASE("what is quick shows no progress") {
-  const scratch_directory dir;
-  REQUIRE(contct_program(dir.path(), {"new", "beam"}).exit == 0);
-  CHECK(at_terminal(dir, {"run", "beam.toml"}).err.empty());
-  CHECK(at_terminal(dir, {"explain", "beam.toml"}).err.empty());
-  CHECK(at_terminal(dir, {"kernels"}).err.empty());
+TEST_CASE("what is quicker than one waits shows no progress") {
+  const plate_directory dir;
+  for (const long_work& w : long_works()) {
+    INFO(w.name);
+    CHECK(at_terminal(dir, w.arguments, "3600").err.empty());
+  }
+  CHECK(at_terminal(dir, {"kernels"}, "0").err.empty());
+}
+
+TEST_CASE("a wait that is no time is refused") {
+  const plate_directory dir;
+  for (const char* const wrong : {"soon", "-1", "nan", "1s", ""}) {
+    const finished f = at_terminal(dir, {"run", "plate.toml"}, wrong);
+    CHECK(f.exit == 2);
+    CHECK_THAT(f.err, Contains("CONTCT_PROGRESS_AFTER") && Contains("allowed: seconds, 0 or more"));
+  }
 }
