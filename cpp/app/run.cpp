@@ -249,7 +249,7 @@ class run {
         fmt::format("{}, {}, {}", counted(nodes(problem_.geometry), node_name(problem_.geometry)),
                     counted(problem_.pairs.size(), "pair"), counted(problem_.steps.size(), "step")),
         options_.final_only ? "only the end" : fmt::format("kernels {}", fmt::join(options_.kernels, ", ")),
-        "engine " + engine_};
+        "engine " + engine_ + (structure_.stiffness.is_band() ? "" : ", sparse")};
     for (const std::string& line : wrap(facts, terminal_.width)) fmt::print("{}\n", line);
     fmt::print("\n");
   }

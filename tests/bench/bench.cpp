@@ -119,7 +119,7 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   const double solve_ms = 1e3 * bench::seconds_of_a_solve(s);
   std::optional<bench::run_of_engine> reference;
   fmt::print("{}: {} dofs, half bandwidth {}, {} pairs; one dpbtrs {:.3f} ms\n", name, s.dofs(),
-             s.stiffness.subdiagonals(), s.pairs.size(), solve_ms);
+             s.stiffness.band().subdiagonals(), s.pairs.size(), solve_ms);
   for (const std::string& engine : o.engines) {
     if (engine == "condensed" && !contct::condensed_engine::suits(s)) continue;
     show(name + ": " + engine);

@@ -52,8 +52,8 @@ inline void solve_dense(long_numbers& a, long_numbers& b) {
   long_numbers a(n * n);
   long_numbers b(n);
   for (int j = 0; j < s.dofs(); ++j) {
-    for (int i = j; i <= std::min(j + s.stiffness.subdiagonals(), s.dofs() - 1); ++i)
-      a[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)] = s.stiffness.at(i, j);
+    for (int i = j; i <= std::min(j + s.stiffness.band().subdiagonals(), s.dofs() - 1); ++i)
+      a[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)] = s.stiffness.band().at(i, j);
   }
   for (std::size_t dof = 0; dof < n; ++dof) b[row(dof)] = load[dof];
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {

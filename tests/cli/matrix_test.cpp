@@ -14,6 +14,31 @@ const std::string problem =
     "= 10\n"
     "[[step]]\npoint = [ { dof = \"2\", value = -3 } ]\n";
 
+/// A cube of points, each tied to its neighbours and to the ground; pairs along one edge: p.toml and K.mtx.
+void write_cube(const scratch_directory& here) {
+  constexpr int side = 12;
+  std::string entries;
+  int count = 0;
+  const auto entry = [&](int row, int column, const char* value) {
+    entries += std::to_string(row) + " " + std::to_string(column) + " " + value + "\n";
+    ++count;
+  };
+  for (int n = 0; n < side * side * side; ++n) {
+    entry(n + 1, n + 1, "6.1");
+    for (const int stride : {1, side, side * side})
+      if (n / stride % side + 1 < side) entry(n + stride + 1, n + 1, "-1");
+  }
+  const std::string rows = std::to_string(side * side * side);
+  here.write("K.mtx", header + rows + " " + rows + " " + std::to_string(count) + "\n" + entries);
+  std::string text = "[matrix]\nstiffness = \"K.mtx\"\n";
+  for (int i = 1; i <= side; ++i)
+    text += "[[contact]]\ndof = \"" + std::to_string(i) +
+            "\"\nsurface = \"below\"\nface = " + std::to_string(-0.01 * i) + "\nstiffness = 2.0\n";
+  text += "[[step]]\npoint = [ { dof = \"1\", value = -9.0 }, { dof = \"12\", value = -8.0 } ]\n";
+  text += "[[step]]\npoint = [ { dof = \"1\", value = -1.0 }, { dof = \"12\", value = 2.0 } ]\n";
+  here.write("p.toml", text);
+}
+
 }  // namespace
 
 TEST_CASE("the frame by its matrix is solved in lockstep and certified, from any folder") {
@@ -54,6 +79,40 @@ TEST_CASE("a matrix that is no stiffness, is missing or too large ends in exit 2
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("K.mtx:4: found \"nan\" for an entry"));
   CHECK(f.out.empty());
+}
+
+TEST_CASE("what a band cannot hold is solved by its entries, and the certificate is the same") {
+  const scratch_directory here;
+  write_cube(here);
+  CHECK_THAT(contct_program(here.path(), {"run", "p.toml", "--strict"}).out, Contains("engine refactor\n"));
+  process_options little;
+  little.environment = {{"CONTCT_MEMORY_MIB", "4"}};
+  const finished f = contct_program(here.path(), {"run", "p.toml", "--strict"}, little);
+  INFO(f.err);
+  if (f.exit == 2) {
+    CHECK_THAT(f.err, Contains("build with CHOLMOD"));
+    CHECK_THAT(contct_program(root, {"run", "--help"}).out, !Contains("cholmod"));
+    return;
+  }
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("engine refactor, sparse\n"));
+  CHECK_THAT(f.out, Contains("make 1: dof 1 below"));
+  CHECK_THAT(f.out, Contains("0 mismatches"));
+  CHECK_THAT(f.out, Contains("both final states are certified"));
+  for (const char* how :
+       {"--engine=cholmod", "--engine=auto", "--final-only", "--kernels=corrected", "--free-run"}) {
+    const finished other = contct_program(here.path(), {"run", "p.toml", "--strict", how}, little);
+    INFO(how << "\n" << other.err);
+    CHECK(other.exit == 0);
+    CHECK_THAT(other.out, Contains("certified"));
+  }
+  const finished banded = contct_program(here.path(), {"run", "p.toml", "--engine", "updated"}, little);
+  CHECK(banded.exit == 2);
+  CHECK_THAT(banded.err, Contains("is not stored as a band; allowed: refactor or cholmod"));
+  little.environment = {{"CONTCT_MEMORY_MIB", "1"}};
+  const finished refused = contct_program(here.path(), {"run", "p.toml"}, little);
+  CHECK(refused.exit == 2);
+  CHECK_THAT(refused.err, Contains(" MiB in CHOLMOD's sparse factors; allowed: 1.0 MiB"));
 }
 
 TEST_CASE("two springs in a row, free at both ends, fall off their one face: a mechanism, exit 4") {

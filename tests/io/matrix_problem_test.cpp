@@ -14,6 +14,7 @@
 #include "contct/io/problem_file.hpp"
 #include "contct/io/result_json.hpp"
 #include "contct/kernel/kernel.hpp"
+#include "contct/structure/sparse_factor.hpp"
 #include "contct/text/output_file.hpp"
 #include "path/beams.hpp"
 #include "structure/matrices.hpp"
@@ -392,6 +393,9 @@ TEST_CASE(
       {with("spring = 2.0", "spring = -2.0"), "p.toml:6:10: support[1].spring", "-2", "greater than 0"},
       {with("dof = \"c\"\n", "dof = \"d\"\n"), "p.toml:8:7: contact[1].dof", "\"d\"", "a label of"},
       {with("dof = \"c\"\n", "node = 3\n"), "p.toml:8:1: contact[1].node", "unknown", "dof, surface"},
+      {with("[matrix]\n", "[matrix]\nstorage = \"skyline\"\n"), "p.toml:2:11: matrix.storage", "\"skyline\"",
+       "\"band\", or \"sparse\""},
+      {with("[matrix]\n", "[matrix]\nstorage = 3\n"), "p.toml:2:11: matrix.storage", "3", "\"band\""},
       {with("face = -0.5", "face = 0.5"), "p.toml:10:8: contact[1].face", "inside", "at most 0"},
       {with("[[step]]", "[[bed]]\nmodulus = 1\n[[step]]"), "p.toml:12:1: bed", "this with a matrix",
        "[[contact]]"},
@@ -441,13 +445,26 @@ TEST_CASE("what takes more memory than there is, or than is said, is refused bef
   (void)here.write("arrow.mtx", arrow);
   const std::string tail = "\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
   const std::string small = here.write("p.toml", "[matrix]\nstiffness = \"K.mtx" + tail);
-  const std::string large = here.write("q.toml", "[matrix]\nstiffness = \"arrow.mtx" + tail);
+  const std::string large =
+      here.write("q.toml", "[matrix]\nstorage = \"band\"\nstiffness = \"arrow.mtx" + tail);
+  const std::string open = here.write("r.toml", "[matrix]\nstiffness = \"arrow.mtx" + tail);
   setenv("CONTCT_MEMORY_MIB", "100", 1);
   CHECK(message_of(small) == "accepted");
   CHECK_THAT(message_of(large),
              Catch::Matchers::Contains("q.toml:1:1: matrix: found 40000 dofs with a half bandwidth of"));
   CHECK_THAT(message_of(large), Catch::Matchers::Contains("GiB; allowed: 100 MiB (CONTCT_MEMORY_MIB"));
   CHECK_THAT(message_of(large), Catch::Matchers::Contains("condense the matrix"));
+  CHECK_THAT(message_of(large), Catch::Matchers::Contains(sparse_factor::available() ? "storage = \"sparse\""
+                                                                                     : "build with CHOLMOD"));
+  if (sparse_factor::available()) {  // which has few entries to keep, and no fill
+    CHECK(message_of(open) == "accepted");
+    setenv("CONTCT_MEMORY_MIB", "3", 1);
+    CHECK_THAT(message_of(open),
+               Catch::Matchers::Contains("GiB, or ") &&
+                   Catch::Matchers::Contains(" MiB in CHOLMOD's sparse factors; allowed: 3.0 MiB"));
+  } else {
+    CHECK(message_of(open) == message_of(large));
+  }
   for (const char* wrong : {"", "0", "-5", "lots", "1.5", "99999999999999999999"}) {
     setenv("CONTCT_MEMORY_MIB", wrong, 1);
     INFO(wrong);

@@ -50,7 +50,7 @@ TEST_CASE("engines are made by name, an unknown one is refused, and the known on
 TEST_CASE("a stiffness matrix without a factor is an exception, not a number") {
   beam_problem p{even_beam(1.0, 1, 1.0), {}, {}, {}};
   linear_structure s = p.structure();
-  s.stiffness.add(0, 0, -100.0);
+  s.stiffness.band().add(0, 0, -100.0);
   refactor_engine engine(s);
   std::vector<double> d_star(0);
   CHECK_THROWS_AS(engine.respond({std::vector<double>(4, 1.0), 1.0}, d_star), no_factor);
@@ -74,7 +74,7 @@ TEST_CASE(
     const linear_structure s =
         build(*p, supports, {{place(*p, 5, 2), -1, 0.0, 2.0, false}, {place(*p, 2, 1), -1, 0.0, 5.0, true}});
     CHECK(s.rows.empty() == (p == &standing));
-    CHECK(s.stiffness.subdiagonals() == 14);
+    CHECK(s.stiffness.band().subdiagonals() == 14);
     refactor_engine engine(s);
     engine.switch_spring(0, true);
     std::vector<double> increment(static_cast<std::size_t>(p->dofs()), 0.0);

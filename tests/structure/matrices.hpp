@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "contct/numeric/random.hpp"
+#include "contct/structure/band_matrix.hpp"
 #include "contct/structure/sparse_matrix.hpp"
 #include "contct/structure/structure.hpp"
 
@@ -17,8 +19,9 @@ inline sparse_matrix entries_of(const linear_structure& s) {
     for (int row = column; row < s.dofs(); ++row) {
       const int i = std::max(s.row_of(row), s.row_of(column));
       const int j = std::min(s.row_of(row), s.row_of(column));
-      if (i - j > s.stiffness.subdiagonals()) continue;
-      if (const double value = s.stiffness.at(i, j); value != 0.0) a.entries.push_back({row, column, value});
+      if (i - j > s.stiffness.band().subdiagonals()) continue;
+      if (const double value = s.stiffness.band().at(i, j); value != 0.0)
+        a.entries.push_back({row, column, value});
     }
   }
   return a;
@@ -58,6 +61,25 @@ inline std::vector<std::array<double, 3>> box_at(double x) {
   std::vector<std::array<double, 3>> points;
   for (int i = 0; i < 8; ++i) points.push_back({x + i % 2, 0.9 * (i / 2 % 2), 1.3 * (i / 4)});
   return points;
+}
+
+/// Positive definite, with many zeros inside the band.
+inline band_matrix random_band(int order, int subdiagonals, std::uint64_t seed) {
+  random_numbers random(seed);
+  band_matrix k(order, subdiagonals);
+  for (int column = 0; column < order; ++column) {
+    for (int row = column + 1; row <= std::min(order - 1, column + subdiagonals); ++row)
+      if (random.unit() < 0.4) k.at(row, column) = random.unit() - 0.5;
+    k.at(column, column) = 4.0 + random.unit();
+  }
+  return k;
+}
+
+inline std::vector<double> random_vector(int order, std::uint64_t seed) {
+  random_numbers random(seed);
+  std::vector<double> x;
+  for (int i = 0; i < order; ++i) x.push_back(random.unit() - 0.5);
+  return x;
 }
 
 }  // namespace contct

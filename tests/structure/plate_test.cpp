@@ -36,7 +36,7 @@ std::vector<double> multiply(const linear_structure& s, const std::vector<double
   std::vector<double> out(u.size());
   for (int d = 0; d < s.dofs(); ++d)
     in[static_cast<std::size_t>(s.row_of(d))] = u[static_cast<std::size_t>(d)];
-  s.stiffness.multiply(in, out);
+  s.stiffness.band().multiply(in, out);
   std::vector<double> f(u.size());
   for (int d = 0; d < s.dofs(); ++d)
     f[static_cast<std::size_t>(d)] = out[static_cast<std::size_t>(s.row_of(d))];
@@ -52,8 +52,8 @@ std::vector<double> solve(const plate& p, const std::vector<support>& supports, 
     const auto i = static_cast<std::size_t>(d);
     x[static_cast<std::size_t>(s.row_of(d))] = s.fixed[i] != 0 ? 0.0 : f[i];
   }
-  REQUIRE(factor(s.stiffness));
-  solve_with(s.stiffness, x);
+  REQUIRE(factor(s.stiffness.band()));
+  solve_with(s.stiffness.band(), x);
   for (int d = 0; d < s.dofs(); ++d)
     f[static_cast<std::size_t>(d)] = x[static_cast<std::size_t>(s.row_of(d))];
   return f;
@@ -172,8 +172,9 @@ const load unit_pressure_down{{}, {{{-1.0}, {}}}};
 /// The stiffness matrix with every entry's sign taken off: what rounding in K u is measured by.
 linear_structure magnitudes(linear_structure s) {
   const std::size_t entries =
-      static_cast<std::size_t>(s.dofs()) * static_cast<std::size_t>(s.stiffness.subdiagonals() + 1);
-  for (std::size_t i = 0; i < entries; ++i) s.stiffness.data()[i] = std::abs(s.stiffness.data()[i]);
+      static_cast<std::size_t>(s.dofs()) * static_cast<std::size_t>(s.stiffness.band().subdiagonals() + 1);
+  for (std::size_t i = 0; i < entries; ++i)
+    s.stiffness.band().data()[i] = std::abs(s.stiffness.band().data()[i]);
   return s;
 }
 
@@ -356,7 +357,7 @@ TEST_CASE("numbered along either side, long one way or the other, a plate is a b
     plate p{even_lines(10.0, 40), even_lines(width, 2), 3.0, 0.0};
     if (!along_x) std::swap(p.x, p.y);
     const linear_structure s = build(p, {}, {});
-    CHECK(s.stiffness.subdiagonals() == 14);
+    CHECK(s.stiffness.band().subdiagonals() == 14);
     CHECK(s.rows.empty() == !along_x);
     std::vector<support> clamp;
     load tip;

@@ -45,8 +45,7 @@ std::string worst_of(const certificate& c) {
 certifier::certifier(const linear_structure& s, load_history total_load)
     : structure_(s), total_load_(std::move(total_load)), oracle_(s) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
-    const int row = s.row_of(dof);
-    scale_.push_back(std::sqrt(s.stiffness.at(row, row)));
+    scale_.push_back(std::sqrt(s.stiffness.diagonal(s.row_of(dof))));
     const auto at = static_cast<std::size_t>(dof);
     if (deflects(at) && s.fixed[at] == 0) largest_scale_ = std::max(largest_scale_, scale_[at]);
   }
@@ -120,7 +119,7 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
     u[row(dof)] = s.displacement[dof];
     left[row(dof)] = load[dof];
   }
-  structure_.stiffness.subtract_product(u, left);
+  structure_.stiffness.subtract_product(std::span<const double>(u), left);
   std::vector<double> stiffness(load.size());  // on the diagonal, springs included
   for (std::size_t dof = 0; dof < load.size(); ++dof) stiffness[dof] = scale_[dof] * scale_[dof];
   double deepest = 0.0;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "contct/structure/cholesky.hpp"
-
 namespace contct {
 namespace {
 
@@ -14,19 +12,11 @@ constexpr int most_refinements = 40;
 constexpr long double good_enough = 1e-7L;  // of a refined answer, in the worst of cases
 constexpr long double finest = std::numeric_limits<long double>::epsilon();
 
-/// y = K x in long double.
-void multiply(const band_matrix& k, const std::vector<long double>& x, std::vector<long double>& y) {
+/// y = -K x.
+void multiply_minus(const stiffness_matrix& k, const std::vector<long double>& x,
+                    std::vector<long double>& y) {
   std::fill(y.begin(), y.end(), 0.0L);
-  for (int column = 0; column < k.order(); ++column) {
-    const auto c = static_cast<std::size_t>(column);
-    y[c] += k.at(column, column) * x[c];
-    const int last = std::min(column + k.subdiagonals(), k.order() - 1);
-    for (int row = column + 1; row <= last; ++row) {
-      const auto r = static_cast<std::size_t>(row);
-      y[r] += k.at(row, column) * x[c];
-      y[c] += k.at(row, column) * x[r];
-    }
-  }
+  k.subtract_product(std::span<const long double>(x), y);
 }
 
 long double dot(const std::vector<long double>& a, const std::vector<long double>& b) {
@@ -37,7 +27,7 @@ long double dot(const std::vector<long double>& a, const std::vector<long double
 
 }  // namespace
 
-oracle::oracle(const linear_structure& s) : structure_(s) {
+oracle::oracle(const linear_structure& s) : structure_(s), factor_(s.stiffness) {
   const auto n = static_cast<std::size_t>(s.dofs());
   load_.resize(n);
   u_.resize(n);
@@ -46,7 +36,7 @@ oracle::oracle(const linear_structure& s) : structure_(s) {
   }
   set_.resize(s.pairs.size());
   start_undeformed();
-  for (int row = 0; row < s.dofs(); ++row) scale_.push_back(std::sqrt(s.stiffness.at(row, row)));
+  for (int row = 0; row < s.dofs(); ++row) scale_.push_back(std::sqrt(s.stiffness.diagonal(row)));
 }
 
 /// n (w - c) > 0; a pair within `tie` of its face keeps the state that `tied` has for it.
@@ -108,22 +98,22 @@ bool oracle::nothing_stops(const numbers& motion) const {
 }
 
 bool oracle::factor_with(const pair_set& set) {
-  factor_ = structure_.stiffness;
+  std::vector<spring_at> springs;
   for (std::size_t i = 0; i < set.size(); ++i) {
     const int dof = structure_.dof_of_pair(static_cast<int>(i));
     const int row = structure_.row_of(dof);
     if (set[i] != 0 && structure_.fixed[static_cast<std::size_t>(dof)] == 0) {
-      factor_.add(row, row, structure_.pairs[i].stiffness);
+      springs.push_back({row, structure_.pairs[i].stiffness});
     }
   }
-  for (const holder& h : holders_) factor_.add(static_cast<int>(h.row), static_cast<int>(h.row), h.stiffness);
+  for (const holder& h : holders_) springs.push_back({static_cast<int>(h.row), h.stiffness});
   ++factorisations_;
-  return factor(factor_);
+  return factor_.factor(springs);
 }
 
 void oracle::residual(const numbers& u, const pair_set& set, numbers& r) const {
-  multiply(structure_.stiffness, u, r);
-  for (std::size_t i = 0; i < r.size(); ++i) r[i] = load_[i] - r[i];
+  multiply_minus(structure_.stiffness, u, r);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] += load_[i];
   for (std::size_t i = 0; i < set.size(); ++i) {
     if (set[i] == 0) continue;
     const contact_pair& p = structure_.pairs[i];
@@ -146,7 +136,7 @@ long double oracle::refined_solve(const pair_set& set, numbers& u) {
   for (int pass = 0; pass < most_refinements; ++pass) {
     residual(u, set, r);
     for (std::size_t i = 0; i < r.size(); ++i) step[i] = static_cast<double>(r[i]);
-    solve_with(factor_, step);
+    factor_.solve(step);
     long double correction = 0.0L;
     long double largest_step = 0.0L;
     for (std::size_t i = 0; i < u.size(); ++i) {
@@ -168,10 +158,10 @@ long double oracle::refined_solve(const pair_set& set, numbers& u) {
 /// Where E is least along u + alpha p, alpha > 0: its slope grows with alpha and bends where a pair
 /// meets its face. Infinite when E falls for ever.
 long double oracle::best_step(const numbers& u, const numbers& p) const {
-  numbers kp(p.size());
-  multiply(structure_.stiffness, p, kp);
-  long double slope = dot(kp, u) - dot(load_, p);
-  long double growth = dot(kp, p);
+  numbers minus_kp(p.size());
+  multiply_minus(structure_.stiffness, p, minus_kp);
+  long double slope = -dot(minus_kp, u) - dot(load_, p);
+  long double growth = -dot(minus_kp, p);
   struct bend {
     long double at, slope, growth;
   };
@@ -259,7 +249,7 @@ void oracle::hold_where_it_stands(rigid_rank& rank) {
     rank.hold(structure_.rigid_rows[dof]);
     if (rank.rank() == before) continue;
     const int row = structure_.row_of(static_cast<int>(dof));
-    holders_.push_back({static_cast<std::size_t>(row), structure_.stiffness.at(row, row),
+    holders_.push_back({static_cast<std::size_t>(row), structure_.stiffness.diagonal(row),
                         u_[static_cast<std::size_t>(row)]});
   }
 }

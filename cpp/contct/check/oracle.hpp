@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "contct/structure/band_matrix.hpp"
+#include "contct/structure/stiffness_factor.hpp"
 #include "contct/structure/structure.hpp"
 
 namespace contct {
@@ -94,7 +94,7 @@ class oracle {
   long double largest_load_ = 0.0L;     // sum of all forces on deflections, the largest so far
   numbers u_;                           // the last answer [rows]
   pair_set set_;                        // and its pressed pairs
-  band_matrix factor_;
+  stiffness_factor factor_;
   std::vector<double> scale_;  // square roots of K's diagonal [rows]
   int factorisations_ = 0;
 };

@@ -192,13 +192,13 @@ class drawing {
     add_consistent_loads(problem_.geometry, problem_.steps.front(), f);
     const auto stride = static_cast<std::size_t>(s.dofs_per_node);
     std::vector<double> w(f.size() / stride, 0.01 * problem_.unit);
-    if (!problem_.held || !factor(s.stiffness)) return w;
+    if (!problem_.held || !factor(s.stiffness.band())) return w;
     const auto row = [&s](std::size_t dof) {
       return static_cast<std::size_t>(s.row_of(static_cast<int>(dof)));
     };
     std::vector<double> u(f.size());
     for (std::size_t dof = 0; dof < f.size(); ++dof) u[row(dof)] = s.fixed[dof] != 0 ? 0.0 : f[dof];
-    solve_with(s.stiffness, u);
+    solve_with(s.stiffness.band(), u);
     for (std::size_t node = 0; node < w.size(); ++node) w[node] = u[row(node * stride)];
     return w;
   }

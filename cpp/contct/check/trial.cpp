@@ -57,7 +57,11 @@ std::string_view name_of(verdict v) {
 }
 
 trial try_problem(const random_problem& p, kernel& leader, std::string_view engine) {
-  const linear_structure s = build(p.geometry, p.supports, p.pairs);
+  return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, engine);
+}
+
+trial try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
+                    std::string_view engine) {
   const load_history total = [&p](int step, std::span<double> f) {
     add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
   };

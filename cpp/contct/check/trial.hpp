@@ -38,4 +38,8 @@ struct trial {
 [[nodiscard]] trial try_problem(const random_problem& p, kernel& leader,
                                 std::string_view engine = "refactor");
 
+/// The same on `s`, which is p's structure, however its stiffness is stored.
+[[nodiscard]] trial try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
+                                  std::string_view engine);
+
 }  // namespace contct

@@ -7,8 +7,10 @@
 #include "contct/io/bandwidth.hpp"
 #include "contct/io/calculix_matrix.hpp"
 #include "contct/io/dof_labels.hpp"
+#include "contct/io/field_lines.hpp"
 #include "contct/io/matrix_market.hpp"
 #include "contct/io/memory_limit.hpp"
+#include "contct/structure/sparse_factor.hpp"
 
 namespace contct {
 namespace {
@@ -22,23 +24,49 @@ std::string bytes_words(std::int64_t bytes) {
                             : fmt::format("{:.1f} MiB", amount / mib);
 }
 
-/// Before any band is made.
-void refuse_too_large(const table_reader& t, const assembled& a) {
-  const std::int64_t needs = bytes_of_run(a);
-  const std::int64_t limit = memory_limit();
-  if (needs <= limit) return;
-  t.refuse(fmt::format("{} dofs with a half bandwidth of {}, which take {}", a.dofs(),
-                       subdiagonals_of(a.stiffness, a.rows), bytes_words(needs)),
-           fmt::format("{} (CONTCT_MEMORY_MIB in the environment sets another limit); condense the matrix "
+/// What a run takes beyond what there may be, and what to do about it.
+[[noreturn]] void refuse_too_large(const table_reader& t, const assembled& a, const std::string& takes,
+                                   const std::string& remedy) {
+  t.refuse(fmt::format("{} dofs with {}", a.dofs(), takes),
+           fmt::format("{} (CONTCT_MEMORY_MIB in the environment sets another limit); {}condense the matrix "
                        "onto the dofs that have pairs and loads, or use a coarser model",
-                       bytes_words(limit)));
+                       bytes_words(memory_limit()), remedy));
+}
+
+/// "band", "sparse" or nothing: what is to be found out.
+std::string read_storage(const table_reader& t) {
+  if (!t.has("storage")) return "";
+  constexpr const char* allowed = "\"band\", or \"sparse\" where CHOLMOD is built in";
+  const toml::node& node = t.required("storage", allowed);
+  const std::string said(t.text_of(node, "storage", allowed));
+  if (said != "band" && (said != "sparse" || !sparse_factor::available()))
+    t.refuse(node, "storage", contct::quoted(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
+  return said;
+}
+
+/// A band, unless that is too large and CHOLMOD is there; before any of it is made.
+void choose_storage(const table_reader& t, assembled& a) {
+  const std::string said = read_storage(t);
+  const std::int64_t limit = memory_limit();
+  const std::string band_takes =
+      fmt::format("a half bandwidth of {}, which take {}", subdiagonals_of(a.stiffness, a.rows),
+                  bytes_words(bytes_of_run(a)));
+  if (said != "sparse" && bytes_of_run(a) <= limit) return;
+  if (said == "band" || !sparse_factor::available())
+    refuse_too_large(t, a, band_takes,
+                     sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ");
+  a.as_band = false;
+  const std::int64_t needs = bytes_of_run(a);
+  if (needs > limit)
+    refuse_too_large(
+        t, a, fmt::format("{}, or {} in CHOLMOD's sparse factors", band_takes, bytes_words(needs)), "");
 }
 
 /// What both tables end with.
 void finish(const table_reader& t, assembled& a) {
   if (t.has("free_motions")) a.free_motions = t.integer("free_motions", 0, most_rigid_motions);
   a.rows = rows_for_small_band(a.stiffness);
-  refuse_too_large(t, a);
+  choose_storage(t, a);
 }
 
 }  // namespace
@@ -49,11 +77,16 @@ std::string beside(const std::string& folder, const std::string& name) {
 }
 
 std::int64_t bytes_of_run(const assembled& a) {
-  return 3 * bytes_of_band(a.stiffness, a.rows);
+  if (a.as_band) return 3 * bytes_of_band(a.stiffness, a.rows);
+  // An engine's factor that is updated takes half as much again as the oracle's.
+  constexpr std::int64_t as_read = sizeof(matrix_entry);
+  constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
+  const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());
+  return (as_read + 3 * in_columns) * entries + 5 * sparse_factor(columns_of(a.stiffness)).bytes() / 2;
 }
 
 assembled read_matrix(const table_reader& t, const std::string& folder) {
-  t.allow_only({"stiffness", "dofs", "free_motions"});
+  t.allow_only({"stiffness", "dofs", "free_motions", "storage"});
   assembled a;
   a.name = beside(folder, t.text("stiffness"));
   a.stiffness = read_symmetric(a.name);
@@ -69,7 +102,7 @@ assembled read_matrix(const table_reader& t, const std::string& folder) {
 }
 
 assembled read_calculix(const table_reader& t, const std::string& folder) {
-  t.allow_only({"job", "free_motions"});
+  t.allow_only({"job", "free_motions", "storage"});
   const std::string job = beside(folder, t.text("job"));
   assembled a;
   a.name = job + ".sti";

@@ -16,7 +16,8 @@ namespace contct {
 [[nodiscard]] assembled read_matrix(const table_reader& t, const std::string& folder);
 [[nodiscard]] assembled read_calculix(const table_reader& t, const std::string& folder);
 
-/// Bytes that a run holds at its largest: the structure's band, an engine's and the oracle's.
+/// Bytes that a run holds at its largest, K as it is stored: the structure's, an engine's and the oracle's.
+/// Where it is sparse, CHOLMOD is asked for an order.
 [[nodiscard]] std::int64_t bytes_of_run(const assembled& a);
 
 }  // namespace contct

@@ -1,7 +1,5 @@
 #include "contct/path/cholmod_engine.hpp"
 
-#include <cholmod.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -9,6 +7,8 @@
 #include "contct/path/factored_stiffness.hpp"
 #include "contct/path/refine.hpp"
 #include "contct/structure/cholesky.hpp"
+#include "contct/structure/cholmod_library.hpp"
+#include "contct/structure/sparse_columns.hpp"
 
 namespace contct {
 namespace {
@@ -17,42 +17,27 @@ constexpr int first_check = 16;
 constexpr int longest_between_checks = 256;
 constexpr double drift_allowed = 1e-10;  // of the response, relative to the largest
 
-/// The library's working space; it says nothing by itself.
-class library {
- public:
-  library() {
-    cholmod_start(&common_);
-    common_.print = 0;
-    common_.final_ll = 0;
-    common_.supernodal = CHOLMOD_SIMPLICIAL;  // what can be updated
-    common_.nmethods = 1;
-    common_.method[0].ordering = CHOLMOD_AMD;
-    common_.quick_return_if_not_posdef = 1;
-  }
-  ~library() { cholmod_finish(&common_); }
-  library(const library&) = delete;
-  library& operator=(const library&) = delete;
-  library(library&&) = delete;
-  library& operator=(library&&) = delete;
-  operator cholmod_common*() { return &common_; }
-  [[nodiscard]] int status() const { return common_.status; }
-
- private:
-  cholmod_common common_{};
-};
-
 }  // namespace
 
 class cholmod_engine::sparse {
  public:
   explicit sparse(const linear_structure& s)
-      : structure_(s), wanted_(s.pairs.size()), applied_(s.pairs.size()), work_(rows()) {
+      : structure_(s),
+        wanted_(s.pairs.size()),
+        applied_(s.pairs.size()),
+        k_(entries_of(s.stiffness)),
+        work_(rows()) {
     for (std::size_t i = 0; i < wanted_.size(); ++i) wanted_[i] = s.pairs[i].closed ? 1 : 0;
-    take_matrix();
-    right_hand_side_ = need(cholmod_zeros(rows(), 1, CHOLMOD_REAL, common_));
+    common_->final_ll = 0;
+    common_->supernodal = CHOLMOD_SIMPLICIAL;  // what can be updated
+    if (s.stiffness.is_band()) {               // no better order than AMD's is worth its search then
+      common_->nmethods = 1;
+      common_->method[0].ordering = CHOLMOD_AMD;
+    }
+    for (int row = 0; row < s.stiffness.order(); ++row) bare_diagonal_.push_back(k_.diagonal(row));
+    right_hand_side_ = made_by_cholmod(cholmod_zeros(rows(), 1, CHOLMOD_REAL, common_));
   }
   ~sparse() {
-    cholmod_free_sparse(&k_, common_);
     cholmod_free_factor(&factor_, common_);
     cholmod_free_dense(&right_hand_side_, common_);
     cholmod_free_dense(&solution_, common_);
@@ -81,17 +66,22 @@ class cholmod_engine::sparse {
     switched_.clear();
   }
 
+  /// A factor that no update has been through.
+  void factor_afresh() {
+    const bool fresh = sound_ && applied_ == wanted_ && counts.updates == updates_at_factor_;
+    if (!fresh) factor_anew();
+  }
+
   void factor_anew() {
     applied_ = wanted_;
     switched_.clear();
-    auto* const values = static_cast<double*>(k_->x);
-    for (std::size_t row = 0; row < rows(); ++row) values[diagonal_[row]] = bare_diagonal_[row];
-    for (std::size_t i = 0; i < applied_.size(); ++i)
-      if (applied_[i] != 0 && !is_fixed(i)) values[diagonal_[row_of(i)]] += structure_.pairs[i].stiffness;
-    if (factor_ == nullptr) factor_ = need(cholmod_analyze(k_, common_));
+    set_diagonal(diagonal_with_springs());
+    cholmod_sparse k = seen_by_cholmod(k_.columns());
+    if (factor_ == nullptr) factor_ = made_by_cholmod(cholmod_analyze(&k, common_));
     ++counts.factors;
-    sound_ = cholmod_factorize(k_, factor_, common_) != 0 && common_.status() == CHOLMOD_OK &&
+    sound_ = cholmod_factorize(&k, factor_, common_) != 0 && common_->status == CHOLMOD_OK &&
              factor_->minor == factor_->n;
+    set_diagonal(bare_diagonal_);
     if (!sound_)
       throw no_factor(
           "the structure is held, but its stiffness matrix is too ill-conditioned to be factored in double "
@@ -113,17 +103,7 @@ class cholmod_engine::sparse {
   /// b - K x with the springs in the factor; products and sums in long double.
   void residual(std::span<const double> b, std::span<const double> x, std::span<double> left) {
     std::vector<long double> r(b.begin(), b.end());
-    const auto* const starts = static_cast<const int*>(k_->p);
-    const auto* const at = static_cast<const int*>(k_->i);
-    const auto* const values = static_cast<const double*>(k_->x);
-    for (std::size_t column = 0; column < rows(); ++column) {
-      r[column] -= static_cast<long double>(bare_diagonal_[column]) * x[column];
-      for (int place = starts[column] + 1; place < starts[column + 1]; ++place) {
-        const auto row = static_cast<std::size_t>(at[place]);
-        r[row] -= static_cast<long double>(values[place]) * x[column];
-        r[column] -= static_cast<long double>(values[place]) * x[row];
-      }
-    }
+    k_.subtract_product(x, r);
     for (std::size_t i = 0; i < applied_.size(); ++i) {
       if (applied_[i] != 0 && !is_fixed(i))
         r[row_of(i)] -= static_cast<long double>(structure_.pairs[i].stiffness) * x[row_of(i)];
@@ -131,14 +111,12 @@ class cholmod_engine::sparse {
     for (std::size_t i = 0; i < r.size(); ++i) left[i] = static_cast<double>(r[i]);
   }
 
-  /// K as it is factored now.
-  [[nodiscard]] band_matrix with_springs() const {
-    band_matrix k = structure_.stiffness;
-    for (std::size_t i = 0; i < applied_.size(); ++i) {
-      const auto at = static_cast<int>(row_of(i));
-      if (applied_[i] != 0 && !is_fixed(i)) k.add(at, at, structure_.pairs[i].stiffness);
-    }
-    return k;
+  /// Of K as it is factored now.
+  [[nodiscard]] std::vector<double> diagonal_with_springs() const {
+    std::vector<double> diagonal = bare_diagonal_;
+    for (std::size_t i = 0; i < applied_.size(); ++i)
+      if (applied_[i] != 0 && !is_fixed(i)) diagonal[row_of(i)] += structure_.pairs[i].stiffness;
+    return diagonal;
   }
 
   /// A load by dofs, in the order of the rows; none on what is fixed.
@@ -188,41 +166,8 @@ class cholmod_engine::sparse {
   std::uint64_t version = 0;
 
  private:
-  template <class T>
-  static T* need(T* made) {
-    if (made == nullptr) throw std::bad_alloc();
-    return made;
-  }
-
   [[nodiscard]] bool is_fixed(std::size_t pair) const {
     return structure_.fixed[static_cast<std::size_t>(structure_.dof_of_pair(static_cast<int>(pair)))] != 0;
-  }
-
-  /// K's lower triangle by columns, without zeros but with every diagonal entry.
-  void take_matrix() {
-    const band_matrix& band = structure_.stiffness;
-    const int n = band.order();
-    const auto last_of = [&band, n](int column) { return std::min(column + band.subdiagonals(), n - 1); };
-    std::size_t entries = 0;
-    for (int column = 0; column < n; ++column)
-      for (int r = column; r <= last_of(column); ++r)
-        entries += r == column || band.at(r, column) != 0.0 ? 1 : 0;
-    k_ = need(cholmod_allocate_sparse(rows(), rows(), entries, 1, 1, -1, CHOLMOD_REAL, common_));
-    auto* const starts = static_cast<int*>(k_->p);
-    auto* const at = static_cast<int*>(k_->i);
-    auto* const values = static_cast<double*>(k_->x);
-    int next = 0;
-    for (int column = 0; column < n; ++column) {
-      starts[column] = next;
-      diagonal_.push_back(static_cast<std::size_t>(next));
-      bare_diagonal_.push_back(band.at(column, column));
-      for (int r = column; r <= last_of(column); ++r) {
-        if (r != column && band.at(r, column) == 0.0) continue;
-        at[next] = r;
-        values[next++] = band.at(r, column);
-      }
-    }
-    starts[n] = next;
   }
 
   /// L D L^T + sigma k e e^T for one pair. False when the factor has lost its soundness.
@@ -254,16 +199,24 @@ class cholmod_engine::sparse {
     ++counts.updates;
     // What a spring stiffer than the structure has swamped is not there again when it opens: look at once.
     if (wanted_[p] == 0 && structure_.pairs[p].stiffness > bare_diagonal_[row_of(p)]) until_check = 1;
-    sound_ = cholmod_updown(wanted_[p] != 0 ? 1 : 0, &one, factor_, common_) != 0 &&
-             common_.status() == CHOLMOD_OK;
+    sound_ =
+        cholmod_updown(wanted_[p] != 0 ? 1 : 0, &one, factor_, common_) != 0 && common_->status == CHOLMOD_OK;
     return sound_;
   }
 
-  library common_;
+  void set_diagonal(std::span<const double> diagonal) {
+    for (std::size_t row = 0; row < rows(); ++row)
+      k_.columns().diagonal(static_cast<int>(row)) = diagonal[row];
+  }
+
+  static sparse_columns entries_of(const stiffness_matrix& k) {
+    return k.is_band() ? columns_of(k.band()) : k.columns();
+  }
+
+  cholmod_library common_;
   std::vector<char> wanted_, applied_;  // [pairs] closed
   std::vector<int> switched_;
-  cholmod_sparse* k_ = nullptr;
-  std::vector<std::size_t> diagonal_;  // place of each diagonal entry among the values [rows]
+  stiffness_matrix k_;                 // without zeros
   std::vector<double> bare_diagonal_;  // K's, without springs of pairs [rows]
   cholmod_factor* factor_ = nullptr;
   bool sound_ = false;
@@ -307,13 +260,12 @@ void cholmod_engine::respond(const residual_load& residual, std::span<double> d_
 void cholmod_engine::recover(std::span<const double> load, std::span<const double> pair_forces,
                              std::span<double> u) {
   sparse& k = *sparse_;
-  k.factor_anew();
+  k.factor_afresh();
   const std::vector<double> b = k.in_rows(with_pair_forces(k.structure_, load, pair_forces));
   std::vector<double> x(k.rows());
   k.solve(b, x);
-  const band_matrix& stiffness = k.structure_.stiffness;
-  const auto scale = [&stiffness](std::size_t row) {
-    return std::sqrt(stiffness.at(static_cast<int>(row), static_cast<int>(row)));
+  const auto scale = [&k](std::size_t row) {
+    return std::sqrt(k.structure_.stiffness.diagonal(static_cast<int>(row)));
   };
   std::vector<double> left(k.rows());
   refine(std::span<double>(x), scale, [&](std::span<const double> at, std::span<double> correction) {
@@ -326,15 +278,16 @@ void cholmod_engine::recover(std::span<const double> load, std::span<const doubl
 double cholmod_engine::reciprocal_condition() {
   sparse& k = *sparse_;
   try {
-    k.factor_anew();
+    k.factor_afresh();
   } catch (const no_factor&) {
     return 0.0;
   }
   std::vector<double> x(k.rows());
-  return contct::reciprocal_condition(k.with_springs(), [&k, &x](std::span<double> b) {
-    k.solve(b, x);
-    std::copy(x.begin(), x.end(), b.begin());
-  });
+  return contct::reciprocal_condition(k.structure_.stiffness, k.diagonal_with_springs(),
+                                      [&k, &x](std::span<double> b) {
+                                        k.solve(b, x);
+                                        std::copy(x.begin(), x.end(), b.begin());
+                                      });
 }
 
 }  // namespace contct

@@ -65,8 +65,8 @@ node_matrix block(const band_matrix& k, int row_node, int column_node) {
 }  // namespace
 
 bool condensed_engine::suits(const linear_structure& s) {
-  return s.dofs_per_node == 2 && s.stiffness.subdiagonals() == 3 && s.rows.empty() && s.deflection == 0 &&
-         !s.pairs.empty();
+  return s.dofs_per_node == 2 && s.stiffness.is_band() && s.stiffness.band().subdiagonals() == 3 &&
+         s.rows.empty() && s.deflection == 0 && !s.pairs.empty();
 }
 
 condensed_engine::condensed_engine(const linear_structure& s)
@@ -91,7 +91,7 @@ condensed_engine::condensed_engine(const linear_structure& s)
 
 /// Eliminate the nodes between two kept ones; node -1 and node `nodes` stand for the beam's ends.
 void condensed_engine::eliminate_between(int left_node, int right_node, std::size_t left) {
-  const band_matrix& k = structure_.stiffness;
+  const band_matrix& k = structure_.stiffness.band();
   const bool has_left = left_node >= 0;
   const bool has_right = right_node < k.order() / 2;
   if (left_node + 1 == right_node) {
@@ -124,7 +124,7 @@ void condensed_engine::condense() {
   e_.assign(n, {});
   reach_.clear();
   for (const int node : kept_) {
-    d_.push_back(block(structure_.stiffness, node, node));
+    d_.push_back(block(structure_.stiffness.band(), node, node));
     reach_.push_back(std::sqrt(d_.back().tt / d_.back().ww));
   }
   eliminate_between(-1, kept_.front(), 0);

@@ -19,6 +19,7 @@ std::vector<std::string> engine_names() {
 }
 
 std::string_view quickest_engine(const linear_structure& s) {
+  if (!s.stiffness.is_band()) return "cholmod";
   return condensed_engine::suits(s) ? "condensed" : "updated";
 }
 
@@ -38,7 +39,12 @@ std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linea
 #ifdef CONTCT_HAS_CHOLMOD
   if (name == "cholmod") return std::make_unique<cholmod_engine>(s);
 #endif
-  if (name == "updated") return std::make_unique<updated_engine>(s);
+  if (name == "updated") {
+    if (!s.stiffness.is_band())
+      throw std::invalid_argument(
+          "engine \"updated\": found a stiffness that is not stored as a band; allowed: refactor or cholmod");
+    return std::make_unique<updated_engine>(s);
+  }
   return std::make_unique<refactor_engine>(s);
 }
 

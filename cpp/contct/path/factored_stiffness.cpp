@@ -6,19 +6,15 @@
 #include "contct/path/engine.hpp"
 #include "contct/path/refine.hpp"
 #include "contct/structure/band_solve.hpp"
-#include "contct/structure/cholesky.hpp"
 
 namespace contct {
 
 factored_stiffness::factored_stiffness(const linear_structure& s)
-    : structure_(s),
-      closed_(s.pairs.size()),
-      work_(s.stiffness.order(), s.stiffness.subdiagonals()),
-      ordered_(s.rows.size()) {}
+    : structure_(s), closed_(s.pairs.size()), factor_(s.stiffness), ordered_(s.rows.size()) {}
 
 void factored_stiffness::factor(std::span<const char> closed) {
-  assemble(closed);
-  if (!contct::factor(work_)) {
+  closed_.assign(closed.begin(), closed.end());
+  if (!factor_.factor(springs(closed))) {
     throw no_factor(
         "the structure is held, but its stiffness matrix is too ill-conditioned to be factored "
         "in double precision");
@@ -31,11 +27,11 @@ void factored_stiffness::solve(std::span<double> x) {
   }
   const std::vector<int>& rows = structure_.rows;
   if (rows.empty()) {
-    solve_with(work_, x);
+    factor_.solve(x);
     return;
   }
   for (std::size_t i = 0; i < x.size(); ++i) ordered_[static_cast<std::size_t>(rows[i])] = x[i];
-  solve_with(work_, ordered_);
+  factor_.solve(ordered_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = ordered_[static_cast<std::size_t>(rows[i])];
 }
 
@@ -45,32 +41,32 @@ void factored_stiffness::solve_unit(int dof, std::span<double> x) {
   const std::vector<int>& rows = structure_.rows;
   if (rows.empty()) {
     x[static_cast<std::size_t>(row)] = 1.0;
-    return solve_from(work_, row, x);
+    return solve_from(factor_.band(), row, x);
   }
   std::fill(ordered_.begin(), ordered_.end(), 0.0);
   ordered_[static_cast<std::size_t>(row)] = 1.0;
-  solve_from(work_, row, ordered_);
+  solve_from(factor_.band(), row, ordered_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = ordered_[static_cast<std::size_t>(rows[i])];
 }
 
 void factored_stiffness::solve_units(std::span<const int> dofs, std::vector<double>& x) {
-  x.assign(static_cast<std::size_t>(work_.order()) * many, 0.0);
-  int first = work_.order();
+  const band_matrix& l = factor_.band();
+  x.assign(static_cast<std::size_t>(l.order()) * many, 0.0);
+  int first = l.order();
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     if (structure_.fixed[static_cast<std::size_t>(dofs[i])] != 0) continue;
     const int row = structure_.row_of(dofs[i]);
     x[static_cast<std::size_t>(row) * many + i] = 1.0;
     first = std::min(first, row);
   }
-  if (first < work_.order()) solve_many_from(work_, first, x);
+  if (first < l.order()) solve_many_from(l, first, x);
 }
 
 void factored_stiffness::solve_refined(std::span<const double> right_hand_side, std::span<double> u) {
   std::copy(right_hand_side.begin(), right_hand_side.end(), u.begin());
   solve(u);
   const auto scale = [this](std::size_t dof) {
-    const int row = structure_.row_of(static_cast<int>(dof));
-    return std::sqrt(structure_.stiffness.at(row, row));
+    return std::sqrt(structure_.stiffness.diagonal(structure_.row_of(static_cast<int>(dof))));
   };
   refine(u, scale, [this, right_hand_side](std::span<const double> x, std::span<double> correction) {
     residual(right_hand_side, x, correction);
@@ -90,7 +86,7 @@ void factored_stiffness::residual(std::span<const double> right_hand_side, std::
     x[row(dof)] = u[dof];
     r[row(dof)] = right_hand_side[dof];
   }
-  structure_.stiffness.subtract_product(x, r);
+  structure_.stiffness.subtract_product(std::span<const double>(x), r);
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     const auto dof = static_cast<std::size_t>(structure_.dof_of_pair(static_cast<int>(i)));
     if (closed_[i] != 0) r[row(dof)] -= static_cast<long double>(structure_.pairs[i].stiffness) * u[dof];
@@ -99,21 +95,18 @@ void factored_stiffness::residual(std::span<const double> right_hand_side, std::
 }
 
 double factored_stiffness::reciprocal_condition(std::span<const char> closed) {
-  assemble(closed);
-  return contct::reciprocal_condition(work_);
+  closed_.assign(closed.begin(), closed.end());
+  return factor_.reciprocal_condition(springs(closed));
 }
 
-void factored_stiffness::assemble(std::span<const char> closed) {
-  closed_.assign(closed.begin(), closed.end());
-  std::copy_n(structure_.stiffness.data(),
-              static_cast<std::size_t>(work_.order()) * static_cast<std::size_t>(work_.subdiagonals() + 1),
-              work_.data());
-  for (std::size_t i = 0; i < closed_.size(); ++i) {
+std::vector<spring_at> factored_stiffness::springs(std::span<const char> closed) const {
+  std::vector<spring_at> list;
+  for (std::size_t i = 0; i < closed.size(); ++i) {
     const int dof = structure_.dof_of_pair(static_cast<int>(i));
-    if (closed_[i] != 0 && structure_.fixed[static_cast<std::size_t>(dof)] == 0) {
-      work_.add(structure_.row_of(dof), structure_.row_of(dof), structure_.pairs[i].stiffness);
-    }
+    if (closed[i] != 0 && structure_.fixed[static_cast<std::size_t>(dof)] == 0)
+      list.push_back({structure_.row_of(dof), structure_.pairs[i].stiffness});
   }
+  return list;
 }
 
 std::vector<double> with_pair_forces(const linear_structure& s, std::span<const double> load,

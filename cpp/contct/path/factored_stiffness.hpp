@@ -1,28 +1,28 @@
-// The stiffness with a set of closed springs, factored by LAPACK: what engines have in common.
+// The stiffness with a set of closed springs, factored anew: what engines have in common.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "contct/structure/stiffness_factor.hpp"
 #include "contct/structure/structure.hpp"
 
 namespace contct {
 
 /// K with the springs of some pairs, and its Cholesky factor. Dofs and pairs are numbered from 0.
-/// Memory: one band, besides the structure's own.
+/// Memory: the factor, besides the structure's own.
 class factored_stiffness {
  public:
   explicit factored_stiffness(const linear_structure& s);
 
-  /// Assemble K with the springs of the pairs that are `closed` [pairs] and factor it (dpbtrf). Throws
-  /// no_factor.
+  /// Factor K with the springs of the pairs that are `closed` [pairs] (dpbtrf). Throws no_factor.
   void factor(std::span<const char> closed);
 
   /// Solve K x = x in place for every dof by the factor (dpbtrs); fixed dofs stay where they are.
   void solve(std::span<double> x);
 
   /// Solve K x = e for the unit vector of one dof: x [dofs], which comes zeroed. Half a pass over the factor
-  /// less than `solve`.
+  /// less than `solve`. Of a band only, as what follows.
   void solve_unit(int dof, std::span<double> x);
 
   /// The same for up to `many` dofs in one pass over the factor: x[row * many + i] for the i-th, in the
@@ -38,16 +38,16 @@ class factored_stiffness {
   [[nodiscard]] double reciprocal_condition(std::span<const char> closed);
 
   /// The factor itself, in the order of the structure's rows.
-  [[nodiscard]] const band_matrix& factor_band() const { return work_; }
+  [[nodiscard]] const band_matrix& factor_band() const { return factor_.band(); }
 
  private:
-  void assemble(std::span<const char> closed);
+  [[nodiscard]] std::vector<spring_at> springs(std::span<const char> closed) const;
   void residual(std::span<const double> right_hand_side, std::span<const double> u,
                 std::span<double> left) const;
 
   const linear_structure& structure_;
   std::vector<char> closed_;  // the springs in the factor [pairs]
-  band_matrix work_;
+  stiffness_factor factor_;
   std::vector<double> ordered_;  // a right-hand side in the order of the rows, where that is another
 };
 

@@ -14,7 +14,7 @@ constexpr double digits_kept = 1e-2;  // of 1 in 1 - k c: less, and a stiff spri
 /// Columns until their sums cost what a factor costs: c^2 / 2 columns of pairs against n kd^2 / 2, twice as
 /// many, since a factor's products come from the cache and the columns' do not. Together they are then least.
 std::size_t columns_worth_keeping(const linear_structure& s) {
-  const double kd = s.stiffness.subdiagonals();
+  const double kd = s.stiffness.band().subdiagonals();
   const double products_of_factor = static_cast<double>(s.dofs()) * kd * kd;
   const double worth =
       std::sqrt(2 * products_of_factor / static_cast<double>(std::max<std::size_t>(s.pairs.size(), 1)));

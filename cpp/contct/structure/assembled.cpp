@@ -12,7 +12,7 @@ namespace {
 void refuse_without_stiffness(const assembled& a, const linear_structure& s) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
     const int row = s.row_of(dof);
-    if (s.stiffness.at(row, row) > 0.0) continue;
+    if (s.stiffness.diagonal(row) > 0.0) continue;
     throw std::invalid_argument(a.name + ": dof " + a.label_of(dof) +
                                 ": found no stiffness and no support; allowed: a positive entry on the "
                                 "diagonal, or a support");
@@ -41,8 +41,12 @@ linear_structure build(const assembled& a, std::span<const support> supports,
                        std::vector<contact_pair> pairs) {
   linear_structure s;
   s.dofs_per_node = assembled::dofs_per_node;
-  s.rows = a.rows;
-  s.stiffness = band_of(a.stiffness, a.rows);
+  if (a.as_band) s.rows = a.rows;
+  if (a.as_band) {
+    s.stiffness = band_of(a.stiffness, a.rows);
+  } else {
+    s.stiffness = columns_of(a.stiffness);
+  }
   s.rigid_rows.assign(static_cast<std::size_t>(a.dofs()), rigid_row{});
   put_on_supports(s, supports, std::move(pairs));
   refuse_without_stiffness(a, s);

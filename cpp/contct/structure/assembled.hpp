@@ -20,6 +20,7 @@ struct assembled {
   std::vector<std::string> labels;  ///< [dofs] each once; empty: "1", "2", ...
   std::string labels_from;          ///< the file that has them
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
+  bool as_band = true;              ///< otherwise K is kept by its entries: CHOLMOD alone can solve with it
   std::optional<int> free_motions;  ///< how many motions it leaves free on its supports, where that is known
 
   static constexpr int dofs_per_node = 1;

@@ -27,18 +27,4 @@ void band_matrix::multiply(std::span<const double> x, std::span<double> y) const
   }
 }
 
-void band_matrix::subtract_product(std::span<const double> x, std::span<long double> r) const {
-  for (int column = 0; column < order_; ++column) {
-    const auto c = static_cast<std::size_t>(column);
-    const long double x_column = x[c];
-    r[c] -= at(column, column) * x_column;
-    const int last = std::min(column + subdiagonals_, order_ - 1);
-    for (int row = column + 1; row <= last; ++row) {
-      const auto i = static_cast<std::size_t>(row);
-      r[i] -= at(row, column) * x_column;
-      r[c] -= at(row, column) * static_cast<long double>(x[i]);
-    }
-  }
-}
-
 }  // namespace contct

@@ -35,9 +35,6 @@ class band_matrix {
   /// y = A x. x and y have n entries and do not overlap.
   void multiply(std::span<const double> x, std::span<double> y) const;
 
-  /// r = r - A x, with every product and sum in long double.
-  void subtract_product(std::span<const double> x, std::span<long double> r) const;
-
   [[nodiscard]] double* data() { return entries_.data(); }
   [[nodiscard]] const double* data() const { return entries_.data(); }
 

@@ -100,7 +100,7 @@ linear_structure build(const beam& b, std::span<const support> supports, std::ve
   linear_structure s;
   s.dofs_per_node = beam::dofs_per_node;
   s.stiffness = band_matrix(b.dofs(), 3);
-  assemble_elements(b, s.stiffness);
+  assemble_elements(b, s.stiffness.band());
   s.rigid_motions = 2;
   s.rigid_rows = rigid_rows_of(b);
   put_on_supports(s, supports, std::move(pairs));

@@ -100,16 +100,21 @@ double reciprocal_condition(band_matrix& matrix) {
       norm, norm_of_inverse(matrix.order(), [&matrix](std::span<double> x) { solve_with(matrix, x); }));
 }
 
-double reciprocal_condition(band_matrix matrix, const in_place_solver& solve) {
-  const int n = matrix.order();
-  std::vector<double> root(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) root[static_cast<std::size_t>(i)] = std::sqrt(matrix.at(i, i));
-  if (!scale_to_unit_diagonal(matrix)) return 0.0;
-  return reciprocal(one_norm(matrix), norm_of_inverse(n, [&root, &solve](std::span<double> x) {
-                      for (std::size_t i = 0; i < x.size(); ++i) x[i] *= root[i];
-                      solve(x);
-                      for (std::size_t i = 0; i < x.size(); ++i) x[i] *= root[i];
-                    }));
+double reciprocal_condition(const stiffness_matrix& k, std::span<const double> diagonal,
+                            const in_place_solver& solve) {
+  std::vector<double> root;
+  std::vector<double> scale;
+  for (const double entry : diagonal) {
+    if (!(entry > 0.0)) return 0.0;
+    root.push_back(std::sqrt(entry));
+    scale.push_back(1.0 / root.back());
+  }
+  const double inverse_norm = norm_of_inverse(k.order(), [&root, &solve](std::span<double> x) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= root[i];
+    solve(x);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= root[i];
+  });
+  return reciprocal(k.one_norm(diagonal, scale), inverse_norm);
 }
 
 int digits_left(double rcond) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "contct/structure/band_matrix.hpp"
+#include "contct/structure/stiffness_matrix.hpp"
 
 namespace contct {
 
@@ -25,8 +26,9 @@ void solve_with(const band_matrix& factor_of_a, std::span<double> b);
 /// Solves A x = b in place.
 using in_place_solver = std::function<void(std::span<double>)>;
 
-/// The same with somebody else's way to solve with `matrix` itself, unscaled.
-[[nodiscard]] double reciprocal_condition(band_matrix matrix, const in_place_solver& solve);
+/// The same of `k` with `diagonal` [rows] for its own, with somebody else's way to solve with that, unscaled.
+[[nodiscard]] double reciprocal_condition(const stiffness_matrix& k, std::span<const double> diagonal,
+                                          const in_place_solver& solve);
 
 /// Whole decimal digits that a solution keeps at this reciprocal condition: -log10(eps / rcond),
 /// never negative, at most 15.

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "contct/numeric/random.hpp"
-#include "contct/structure/cholesky.hpp"
 #include "contct/structure/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
+#include "contct/structure/stiffness_factor.hpp"
 
 extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* uplo, const int* n, double* a,
                                                const int* lda, double* w, double* work, const int* lwork,
@@ -44,23 +44,20 @@ std::string short_words(double x) {
       size + "; allowed: none below -" + short_words(negative_beyond));
 }
 
-/// D A D with 1 on the diagonal; `d` becomes the diagonal of D.
-band_matrix scaled(const band_matrix& k, numbers& d) {
-  band_matrix a = k;
-  for (int j = 0; j < k.order(); ++j) d.push_back(1.0 / std::sqrt(k.at(j, j)));
-  for (int j = 0; j < k.order(); ++j) {
-    for (int i = j; i <= std::min(j + k.subdiagonals(), k.order() - 1); ++i)
-      a.at(i, j) *= d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(j)];
-  }
+/// D K D with 1 on the diagonal; `d` becomes the diagonal of D.
+stiffness_matrix scaled(const stiffness_matrix& k, numbers& d) {
+  stiffness_matrix a = k;
+  for (int row = 0; row < k.order(); ++row) d.push_back(1.0 / std::sqrt(k.diagonal(row)));
+  a.scale(d);
   return a;
 }
 
-/// The factor of A with as little on top of the diagonal as it takes.
-band_matrix factor_shifted(const band_matrix& a) {
+/// Factor A with as little on top of the diagonal as it takes.
+void factor_shifted(stiffness_factor& a, int order) {
   for (const double shift : shifts) {
-    band_matrix l = a;
-    for (int j = 0; j < a.order(); ++j) l.at(j, j) += shift;
-    if (factor(l)) return l;
+    std::vector<spring_at> everywhere;
+    for (int row = 0; row < order; ++row) everywhere.push_back({row, shift});
+    if (a.factor(everywhere)) return;
   }
   refuse_negative("below -" + short_words(negative_beyond));
 }
@@ -68,7 +65,8 @@ band_matrix factor_shifted(const band_matrix& a) {
 /// The smallest eigenvalues of A and their vectors, by inverse iteration of some at once.
 class subspace {
  public:
-  explicit subspace(const band_matrix& a) : a_(a), factor_(factor_shifted(a)) {
+  explicit subspace(const stiffness_matrix& a) : a_(a), factor_(a) {
+    factor_shifted(factor_, a.order());
     random_numbers random(1);
     x_.assign(std::min(most_tried, static_cast<std::size_t>(a.order())), {});
     for (numbers& x : x_)
@@ -77,7 +75,7 @@ class subspace {
 
   /// One more iteration.
   void improve() {
-    for (numbers& x : x_) solve_with(factor_, x);
+    for (numbers& x : x_) factor_.solve(x);
     for (int pass = 0; pass < 2; ++pass) make_orthonormal();
     rotate();
   }
@@ -105,7 +103,7 @@ class subspace {
     std::vector<std::vector<long double>> minus_ax;
     for (const numbers& x : x_) {
       minus_ax.emplace_back(x.size(), 0.0L);
-      a_.subtract_product(x, minus_ax.back());
+      a_.subtract_product(std::span<const double>(x), minus_ax.back());
     }
     numbers h(m * m);
     for (std::size_t i = 0; i < m; ++i)
@@ -145,8 +143,8 @@ class subspace {
     if (info != 0) throw std::runtime_error("dsyev found no eigenvalues of " + std::to_string(m) + " rows");
   }
 
-  const band_matrix& a_;
-  band_matrix factor_;
+  const stiffness_matrix& a_;
+  stiffness_factor factor_;
   std::vector<numbers> x_;  // orthonormal
   numbers values_, left_;
 };
@@ -207,16 +205,15 @@ void refuse_count(const numbers& values, std::optional<int> known) {
 
 }  // namespace
 
-free_motions find_free_motions(const band_matrix& k, std::optional<int> known) {
+free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> known) {
   free_motions found;
   found.rows.assign(static_cast<std::size_t>(k.order()), rigid_row{});
   if (known.value_or(0) == 0) {
-    band_matrix copy = k;
-    const double rcond = reciprocal_condition(copy);
+    const double rcond = stiffness_factor(k).reciprocal_condition({});
     if (rcond > held_for_sure || (known && rcond > 0.0)) return found;
   }
   numbers d;
-  const band_matrix a = scaled(k, d);
+  const stiffness_matrix a = scaled(k, d);
   subspace space(a);
   converge(space, known);
   refuse_count(space.values(), known);

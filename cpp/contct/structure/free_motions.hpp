@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "contct/structure/band_matrix.hpp"
 #include "contct/structure/rigid_modes.hpp"
+#include "contct/structure/stiffness_matrix.hpp"
 
 namespace contct {
 
@@ -26,10 +26,10 @@ struct free_motions {
 
 /// Find them in `k`, whose diagonal is positive. With `known` there are as many as it says, as long as they
 /// are free to 1e-10. Takes a factorisation, and up to three times that and some forty solves where the
-/// matrix is close to leaving something free; memory for another band.
+/// matrix is close to leaving something free; memory for K once more and a factor.
 ///
 /// Throws std::invalid_argument when k has a negative eigenvalue, leaves more than six motions free, or
 /// stops one that is said to be free; the message speaks of "the matrix".
-[[nodiscard]] free_motions find_free_motions(const band_matrix& k, std::optional<int> known);
+[[nodiscard]] free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> known);
 
 }  // namespace contct

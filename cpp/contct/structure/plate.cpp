@@ -73,7 +73,7 @@ void assemble_elements(const plate& p, linear_structure& s) {
           throw std::invalid_argument("the stiffness of element " + std::to_string(e + 1) +
                                       " is not a finite number");
         }
-        s.stiffness.add(s.row_of(dofs[i]), s.row_of(dofs[j]), k[i][j]);
+        s.stiffness.band().add(s.row_of(dofs[i]), s.row_of(dofs[j]), k[i][j]);
       }
     }
   }

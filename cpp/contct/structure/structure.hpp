@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "contct/structure/band_matrix.hpp"
 #include "contct/structure/rigid_modes.hpp"
+#include "contct/structure/stiffness_matrix.hpp"
 
 namespace contct {
 
@@ -41,7 +41,7 @@ struct contact_pair {
 struct linear_structure {
   int dofs_per_node = 0;
   int deflection = 0;               ///< which dof of a node deflects, from 0 (INDOF - 1)
-  band_matrix stiffness;            ///< with elastic supports; a fixed dof has a row of the identity
+  stiffness_matrix stiffness;       ///< with elastic supports; a fixed dof has a row of the identity
   std::vector<char> fixed;          ///< [dofs] 1 where a support fixes the dof
   std::vector<contact_pair> pairs;  ///< in the order of their numbers
 

@@ -1,0 +1,40 @@
+// Where CHOLMOD is not built in.
+#include <stdexcept>
+
+#include "contct/structure/sparse_factor.hpp"
+
+namespace contct {
+namespace {
+
+[[noreturn]] void refuse() {
+  throw std::logic_error("a sparse factor needs CHOLMOD, which is not built in");
+}
+
+}  // namespace
+
+class sparse_factor::library {};
+
+bool sparse_factor::available() {
+  return false;
+}
+
+sparse_factor::sparse_factor(const sparse_columns& /*a*/) {
+  refuse();
+}
+sparse_factor::~sparse_factor() = default;
+sparse_factor::sparse_factor(sparse_factor&&) noexcept = default;
+sparse_factor& sparse_factor::operator=(sparse_factor&&) noexcept = default;
+
+std::int64_t sparse_factor::bytes() const {
+  refuse();
+}
+
+bool sparse_factor::factor(std::span<const double> /*diagonal*/) {
+  refuse();
+}
+
+void sparse_factor::solve(std::span<double> /*b*/) {
+  refuse();
+}
+
+}  // namespace contct

@@ -1,0 +1,81 @@
+#include "contct/structure/sparse_factor.hpp"
+
+#include <algorithm>
+
+#include "contct/structure/cholmod_library.hpp"
+
+namespace contct {
+
+class sparse_factor::library {
+ public:
+  explicit library(const sparse_columns& a) : a_(a) {
+    common_->supernodal = CHOLMOD_SUPERNODAL;  // dense blocks by BLAS
+    cholmod_sparse k = seen_by_cholmod(a_);
+    factor_ = made_by_cholmod(cholmod_analyze(&k, common_));
+    b_ = made_by_cholmod(cholmod_zeros(k.nrow, 1, CHOLMOD_REAL, common_));
+  }
+  ~library() {
+    cholmod_free_factor(&factor_, common_);
+    cholmod_free_dense(&b_, common_);
+    cholmod_free_dense(&x_, common_);
+    cholmod_free_dense(&y_, common_);
+    cholmod_free_dense(&e_, common_);
+  }
+  library(const library&) = delete;
+  library& operator=(const library&) = delete;
+  library(library&&) = delete;
+  library& operator=(library&&) = delete;
+
+  [[nodiscard]] std::int64_t bytes() const {
+    return static_cast<std::int64_t>(sizeof(double) * factor_->xsize + sizeof(int) * factor_->ssize);
+  }
+
+  [[nodiscard]] bool factor(std::span<const double> diagonal) {
+    for (std::size_t row = 0; row < diagonal.size(); ++row)
+      a_.diagonal(static_cast<int>(row)) = diagonal[row];
+    cholmod_sparse k = seen_by_cholmod(a_);
+    const bool done = cholmod_factorize(&k, factor_, common_) != 0;
+    if (common_->status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    return done && common_->status == CHOLMOD_OK && factor_->minor == factor_->n;
+  }
+
+  void solve(std::span<double> b) {
+    auto* const right_hand_side = static_cast<double*>(b_->x);
+    std::copy(b.begin(), b.end(), right_hand_side);
+    if (cholmod_solve2(CHOLMOD_A, factor_, b_, nullptr, &x_, nullptr, &y_, &e_, common_) == 0)
+      throw std::bad_alloc();
+    std::copy_n(static_cast<const double*>(x_->x), b.size(), b.begin());
+  }
+
+ private:
+  cholmod_library common_;
+  sparse_columns a_;
+  cholmod_factor* factor_ = nullptr;
+  cholmod_dense* b_ = nullptr;
+  cholmod_dense* x_ = nullptr;
+  cholmod_dense* y_ = nullptr;
+  cholmod_dense* e_ = nullptr;
+};
+
+bool sparse_factor::available() {
+  return true;
+}
+
+sparse_factor::sparse_factor(const sparse_columns& a) : library_(std::make_unique<library>(a)) {}
+sparse_factor::~sparse_factor() = default;
+sparse_factor::sparse_factor(sparse_factor&&) noexcept = default;
+sparse_factor& sparse_factor::operator=(sparse_factor&&) noexcept = default;
+
+std::int64_t sparse_factor::bytes() const {
+  return library_->bytes();
+}
+
+bool sparse_factor::factor(std::span<const double> diagonal) {
+  return library_->factor(diagonal);
+}
+
+void sparse_factor::solve(std::span<double> b) {
+  library_->solve(b);
+}
+
+}  // namespace contct

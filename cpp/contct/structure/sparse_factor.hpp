@@ -1,0 +1,40 @@
+// CHOLMOD's Cholesky factor of a sparse matrix; every build has this header, not every one has the library.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "contct/structure/sparse_columns.hpp"
+
+namespace contct {
+
+/// A = L L^T of a symmetric positive definite matrix, in an order of little fill.
+class sparse_factor {
+ public:
+  /// Is the library built in? Without it nothing below can be called: std::logic_error.
+  [[nodiscard]] static bool available();
+
+  /// Finds the order, and keeps a copy of A. Throws std::bad_alloc.
+  explicit sparse_factor(const sparse_columns& a);
+  ~sparse_factor();
+  sparse_factor(sparse_factor&&) noexcept;
+  sparse_factor& operator=(sparse_factor&&) noexcept;
+  sparse_factor(const sparse_factor&) = delete;
+  sparse_factor& operator=(const sparse_factor&) = delete;
+
+  /// Bytes that the factor takes; known before it is made.
+  [[nodiscard]] std::int64_t bytes() const;
+
+  /// Factor A with `diagonal` [order] for its own. False when a pivot is not positive. Throws std::bad_alloc.
+  [[nodiscard]] bool factor(std::span<const double> diagonal);
+
+  /// Solve A x = b in place.
+  void solve(std::span<double> b);
+
+ private:
+  class library;
+  std::unique_ptr<library> library_;
+};
+
+}  // namespace contct
