@@ -32,6 +32,7 @@ struct options {
   std::string json_file;
   std::string svg_file;
   bool growth = false;
+  bool without_kernels = false;
 };
 
 /// One thread on one processor: ratios then mean what they say.
@@ -170,7 +171,7 @@ int run(options o) {
   if (!o.svg_file.empty()) picture.emplace(o.svg_file);
   pin();
   fmt::print("{}; core type: {}; one thread, its processor time\n", contct::lapack_identity(), core_type());
-  json kernels = bench_kernels();
+  json kernels = o.without_kernels ? json::array() : bench_kernels();
   json rows = json::array();
   for (const std::string& name : o.problems) bench_problem(o, name, rows);
   if (out) {
@@ -205,6 +206,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 99))
       ->capture_default_str();
   program.add_flag("--growth", o.growth, "Run every family at sizes that grow, in place of --problem");
+  program.add_flag("--without-kernels", o.without_kernels,
+                   "Engines only; the kernels alone take some seconds");
   program.add_option("--svg", o.svg_file,
                      "Draw ms/event against size, log-log, with slopes, to this file (- is standard output)");
   program.add_option("--json", o.json_file, "Write the rows to this file (- is standard output)");

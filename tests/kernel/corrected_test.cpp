@@ -95,6 +95,43 @@ TEST_CASE("corrected: no event at full load or beyond it, nor where nothing resp
   CHECK(c.ss == std::vector<double>(6, 1.0));
 }
 
+TEST_CASE(
+    "corrected: where the pairs stand among the dofs does not matter, and neither does the number of pairs") {
+  random_numbers random(31);
+  int happened = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const std::vector<pair_at<double>> pairs = random_pairs(random);
+    const answered in_order(pairs);
+    // The same pairs at nodes from the last to the first, three dofs a node, of which the second deflects.
+    small_call<double> elsewhere(pairs);
+    const std::size_t n = pairs.size();
+    elsewhere.dd.assign(3 * n, 77.0);
+    elsewhere.dtest.assign(3 * n, -0.5);
+    for (std::size_t i = 0; i < n; ++i) {
+      elsewhere.id[i] = static_cast<int>(n - i);
+      elsewhere.dd[3 * (n - 1 - i) + 1] = pairs[i].d;
+      elsewhere.dtest[3 * (n - 1 - i) + 1] = pairs[i].d_star;
+    }
+    call<double> c = elsewhere.arguments();
+    c.dof = {2, 3};
+    CHECK(contct_corrected(c, 0) == in_order.happened);
+    CHECK(c.smin == in_order.smin);
+    CHECK(elsewhere.ss == in_order.ss);
+    CHECK(elsewhere.isep == in_order.isep);
+    // And one pair alone has the s that it has beside others with the same largest response.
+    happened += in_order.happened ? 1 : 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      double largest = 0.0;
+      for (const pair_at<double>& p : pairs) largest = std::max(largest, std::abs(p.d_star));
+      const pair_at<double>& p = pairs[i];
+      CHECK(in_order.ss[i] ==
+            corrected_scale_factor<double>(p.d, p.d_star, p.c, p.isep * p.isurf,
+                                           p.isep == separated ? quiet_share * largest : 0.0));
+    }
+  }
+  CHECK(happened >= 500);
+}
+
 TEST_CASE("corrected: a face overshot by rounding counts as reached") {
   for (const double beyond : {0.0, eps, 1e-9}) {
     const answered makes_at_once({{-1.0 - beyond, -1.0, -1.0, apart, below}});

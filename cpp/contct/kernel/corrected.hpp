@@ -16,18 +16,19 @@ namespace contct {
 /// that is missed locks in a force, a make that is missed costs only that share in position.
 inline constexpr double quiet_share = 1e-10;
 
-/// s of one pair under the corrected rule, 1 where the pair has no event ahead: it must move in its own
-/// direction, i_sep n d* > 0. A pair at its face, or beyond it by rounding, has s = 0. Nothing branches,
-/// since half of all pairs go either way: on thousands of them that is what a call costs.
-[[nodiscard]] inline double corrected_scale_factor(double d, double d_star, double c, int i_sep, int i_surf,
-                                                   double largest_response) {
-  const double sense = i_sep * i_surf;
-  const double towards_event = sense * d_star;
-  const double threshold = i_sep == separated ? quiet_share * largest_response : 0.0;
-  const bool moves = towards_event > threshold;
-  const double way = sense * (c - d);
-  const double s = (way > 0.0 ? way : 0.0) / (moves ? towards_event : 1.0);
-  return moves && !(s > 1.0) ? s : 1.0;
+/// s of one pair under the corrected rule, or of several side by side (a vector of Real), 1 where a pair has
+/// no event ahead: it must move in its own direction, i_sep n d* > 0, by more than the threshold. A pair at
+/// its face, or beyond it by rounding, has s = 0. Nothing branches, since half of all pairs go either way: on
+/// thousands of them that is what a call costs. `sense` is i_sep n.
+template <class Real>
+[[nodiscard]] inline Real corrected_scale_factor(Real d, Real d_star, Real c, Real sense, Real threshold) {
+  const Real one = Real{} + 1.0;
+  const Real towards_event = sense * d_star;
+  const auto moves = towards_event > threshold;
+  const Real way = sense * (c - d);
+  const Real s = (way > 0.0 ? way : Real{}) / (moves ? towards_event : one);
+  const Real within = s > 1.0 ? one : s;
+  return moves ? within : one;
 }
 
 /// One call of the corrected CONTCT: c.ss, c.smin and c.isep as the listing sets them, but one

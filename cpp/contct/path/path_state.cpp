@@ -1,6 +1,7 @@
 #include "contct/path/path_state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 
@@ -44,15 +45,27 @@ double path_state::ask(kernel& leader, std::span<const double> d_test, std::span
     arguments.dof = {structure.deflection + 1, structure.dofs_per_node};
   }
   leader.answer(arguments);
-  events.clear();
-  for (std::size_t i = 0; i < pairs(); ++i) {
-    if (status[i] != sprung[i]) {
-      events.push_back({static_cast<int>(i), status[i] == in_contact ? change::make : change::break_});
-    }
-  }
+  find_events();
   const std::string text = leader.take_text();
   for (observer* o : observers) o->called({arguments, sprung, text});
   return arguments.smin;
+}
+
+/// Thousands of pairs, and one or two events: whole stretches are the same.
+void path_state::find_events() {
+  constexpr std::size_t stretch = 16;
+  events.clear();
+  const auto look_at = [this](std::size_t i) {
+    if (status[i] != sprung[i])
+      events.push_back({static_cast<int>(i), status[i] == in_contact ? change::make : change::break_});
+  };
+  std::size_t i = 0;
+  for (; i + stretch <= pairs(); i += stretch) {
+    int differs = 0;
+    for (std::size_t j = 0; j < stretch; ++j) differs |= status[i + j] ^ sprung[i + j];
+    for (std::size_t j = 0; differs != 0 && j < stretch; ++j) look_at(i + j);
+  }
+  for (; i < pairs(); ++i) look_at(i);
 }
 
 void path_state::take_back_toggles() {
@@ -64,12 +77,10 @@ bool path_state::advance(double s_min, bool gathers) {
   for (std::size_t i = 0; gathers && i < pairs(); ++i) {
     if (sprung[i] == in_contact) pair_force[i] -= structure.pairs[i].stiffness * (s_min * d_star[i]);
   }
-  bool moved = 1.0 - s_min != 1.0;
-  for (std::size_t i = 0; i < pairs(); ++i) {
-    const double before = d[i];
-    d[i] += s_min * d_star[i];
-    moved |= d[i] != before;
-  }
+  const bool consumes = 1.0 - s_min != 1.0;
+  bool moved = consumes;
+  for (std::size_t i = 0; !consumes && i < pairs(); ++i) moved |= d[i] + s_min * d_star[i] != d[i];
+  for (std::size_t i = 0; i < pairs(); ++i) d[i] += s_min * d_star[i];
   return moved;
 }
 
@@ -90,9 +101,12 @@ bool path_state::held() const {
 }
 
 bool path_state::response_is_finite() const {
-  bool finite = true;
-  for (const double x : d_star) finite &= x - x == 0.0;
-  return finite;
+  std::array<double, 4> off{};  // sums of zeros, unless there is one that is not finite
+  std::size_t i = 0;
+  for (; i + off.size() <= d_star.size(); i += off.size())
+    for (std::size_t j = 0; j < off.size(); ++j) off[j] += d_star[i + j] - d_star[i + j];
+  for (; i < d_star.size(); ++i) off[0] += d_star[i] - d_star[i];
+  return off[0] + off[1] + off[2] + off[3] == 0.0;
 }
 
 std::vector<int> path_state::opened() const {

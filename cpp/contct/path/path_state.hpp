@@ -59,6 +59,8 @@ struct path_state {
   [[nodiscard]] std::vector<double> forces_by_law() const;
 
  private:
+  void find_events();
+
   bool as_listed_;
   std::vector<double> dd_, dtest_;  // D and d* over the structure, where the kernel is called so [dofs]
 };
