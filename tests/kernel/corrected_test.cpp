@@ -118,8 +118,8 @@ TEST_CASE(
     CHECK(c.smin == in_order.smin);
     CHECK(elsewhere.ss == in_order.ss);
     CHECK(elsewhere.isep == in_order.isep);
-    // And one pair alone has the s that it has beside others with the same largest response.
     happened += in_order.happened ? 1 : 0;
+    // And a pair alone has the s that it has beside others, for the same largest response.
     for (std::size_t i = 0; i < n; ++i) {
       double largest = 0.0;
       for (const pair_at<double>& p : pairs) largest = std::max(largest, std::abs(p.d_star));
