@@ -44,22 +44,27 @@ std::string read_storage(const table_reader& t) {
   return said;
 }
 
-/// A band, unless that is too large and CHOLMOD is there; before any of it is made.
+/// A band, unless CHOLMOD is there and the band is too large, or so wide that sparse factors take far less:
+/// before any of it is made.
 void choose_storage(const table_reader& t, assembled& a) {
+  constexpr std::int64_t worth_asking = std::int64_t{256} << 20;
+  constexpr std::int64_t far_less = 4;
   const std::string said = read_storage(t);
   const std::int64_t limit = memory_limit();
-  const std::string band_takes =
-      fmt::format("a half bandwidth of {}, which take {}", subdiagonals_of(a.stiffness, a.rows),
-                  bytes_words(bytes_of_run(a)));
-  if (said != "sparse" && bytes_of_run(a) <= limit) return;
-  if (said == "band" || !sparse_factor::available())
+  const std::int64_t band = bytes_of_run(a);
+  const bool may_be_sparse = said != "band" && sparse_factor::available();
+  if (said != "sparse" && band <= limit && (!may_be_sparse || band <= worth_asking)) return;
+  const std::string band_takes = fmt::format("a half bandwidth of {}, which take {}",
+                                             subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
+  if (!may_be_sparse && band > limit)
     refuse_too_large(t, a, band_takes,
                      sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ");
   a.as_band = false;
-  const std::int64_t needs = bytes_of_run(a);
-  if (needs > limit)
+  const std::int64_t sparse = bytes_of_run(a);
+  if (said != "sparse" && band <= limit) a.as_band = band <= far_less * sparse;
+  if (!a.as_band && sparse > limit)
     refuse_too_large(
-        t, a, fmt::format("{}, or {} in CHOLMOD's sparse factors", band_takes, bytes_words(needs)), "");
+        t, a, fmt::format("{}, or {} in CHOLMOD's sparse factors", band_takes, bytes_words(sparse)), "");
 }
 
 /// What both tables end with.
