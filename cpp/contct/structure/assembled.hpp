@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contct/structure/load.hpp"
+#include "contct/structure/placed_nodes.hpp"
 #include "contct/structure/sparse_matrix.hpp"
 #include "contct/structure/structure.hpp"
 
@@ -21,6 +22,7 @@ struct assembled {
   std::string labels_from;          ///< the file that has them
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
   std::optional<int> free_motions;  ///< how many motions it leaves free on its supports, where that is known
+  placed_nodes places;              ///< for pictures; nothing is computed from them
 
   static constexpr int dofs_per_node = 1;
   static constexpr std::array<const char*, 1> dof_names = {"value"};
