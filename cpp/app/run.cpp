@@ -339,7 +339,7 @@ class run {
             early_,
             options_.file,
             options_.kernels,
-            options_.engine,
+            engine_,
             std::string(equal ? status_name(end.status) : "kernels-disagree"),
             end_words(problem_, end),
             in_lockstep,

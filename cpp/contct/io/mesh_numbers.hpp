@@ -15,6 +15,8 @@ using in_space = std::array<double, 3>;
 struct dofs_of_node {
   std::array<int, 3> along{-1, -1, -1};
   std::array<int, 3> about{-1, -1, -1};
+
+  [[nodiscard]] bool operator==(const dofs_of_node&) const = default;
 };
 
 /// Of each node.

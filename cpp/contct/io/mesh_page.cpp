@@ -30,9 +30,6 @@ class shown_mesh {
         number_(places_.nodes.size(), -1) {
     for (std::size_t i = 0; i < shown.nodes.size(); ++i)
       number_[static_cast<std::size_t>(shown.nodes[i])] = static_cast<int>(i);
-    for (const frame& f : r.kept.frames()) {
-      for (const int node : shown.nodes) reach_ = std::max(reach_, length_of(displacement(node, f)));
-    }
   }
 
   [[nodiscard]] json geometry() const {
@@ -43,7 +40,7 @@ class shown_mesh {
       const auto node = static_cast<std::size_t>(shown_.nodes[i]);
       names.push_back(places_.nodes[node].name);
       for (std::size_t axis = 0; axis < 3; ++axis) at[axis].push_back(places_.nodes[node].at[axis]);
-      if (is_still(of_node_[node])) still.push_back(i);
+      if (of_node_[node] == dofs_of_node{}) still.push_back(i);
     }
     json edges = json::array();
     for (const int i : shown_.edges) {
@@ -61,7 +58,7 @@ class shown_mesh {
             {"edges", std::move(edges)},
             {"axes", axes_},
             {"unit", unit()},
-            {"reach", reach_},
+            {"reach", shown_.reach},
             {"still", std::move(still)},
             {"views", views_json()},
             {"view", fitting_view(places_)}};
@@ -108,12 +105,7 @@ class shown_mesh {
   [[nodiscard]] in_space displacement(int node, const frame& f) const {
     return reading_at(of_node_[static_cast<std::size_t>(node)].along, f);
   }
-  [[nodiscard]] double unit() const { return reach_ > 0.0 ? reach_ / units : 1.0; }
-
-  [[nodiscard]] static bool is_still(const dofs_of_node& of) {
-    return std::all_of(of.along.begin(), of.along.end(), [](int dof) { return dof < 0; }) &&
-           std::all_of(of.about.begin(), of.about.end(), [](int dof) { return dof < 0; });
-  }
+  [[nodiscard]] double unit() const { return shown_.reach > 0.0 ? shown_.reach / units : 1.0; }
 
   [[nodiscard]] static json views_json() {
     json list = json::array();
@@ -129,7 +121,6 @@ class shown_mesh {
   std::vector<dofs_of_node> of_node_;
   std::vector<int> axes_;
   std::vector<int> number_;  // of a node on the page; -1: it is not there
-  double reach_ = 0.0;
 };
 
 }  // namespace

@@ -39,7 +39,7 @@ class mesh_picture {
                 fmt::format("Final state ({}), displacement × {:.6g}", view_.words, magnified_));
     text += edges("was", 0.0) + edges("member", magnified_);
     if (shown_.edges.empty()) text += points();
-    text += supports();
+    text += still_nodes() + supports();
     for (const std::size_t i : shown_.pairs) text += pair(i);
     return {text, bottom_ + 24};
   }
@@ -49,15 +49,15 @@ class mesh_picture {
   void fit() {
     span_of x;
     span_of y;
-    double reach = 0.0;
     for (const int node : shown_.nodes) {
       x.take(view_.x_of(at(node)));
       y.take(view_.y_of(at(node)));
-      reach = std::max(reach, length_of(displacement(node)));
     }
     const double size = std::max({x.most - x.least, y.most - y.least, 0.0});
-    magnified_ = reach > 0.0 && size > 0.0 ? round_down(share_of_displacements * size / reach) : 1.0;
-    const double room = std::max(magnified_ * reach, 0.02 * size);
+    // By the whole path: a structure that came back is drawn where it was.
+    magnified_ =
+        shown_.reach > 0.0 && size > 0.0 ? round_down(share_of_displacements * size / shown_.reach) : 1.0;
+    const double room = std::max(magnified_ * shown_.reach, 0.02 * size);
     for (span_of* s : {&x, &y}) {
       s->take(s->least - room);
       s->take(s->most + room);
@@ -100,6 +100,17 @@ class mesh_picture {
     return text;
   }
 
+  /// A cross at each node that has no dof.
+  [[nodiscard]] std::string still_nodes() const {
+    std::string path;
+    for (const int node : shown_.nodes) {
+      if (of_node_[static_cast<std::size_t>(node)] != dofs_of_node{}) continue;
+      const spot s = displaced(node, 0.0);
+      path += fmt::format("M{:.1f} {:.1f}l6 6m-6 0l6 -6", s.x - 3, s.y - 3);
+    }
+    return path.empty() ? "" : fmt::format("<path d=\"{}\" class=\"thin\"/>\n", path);
+  }
+
   /// An axis on the page, of length 1 where it does not point at the eye.
   [[nodiscard]] spot axis_on_page(int direction) const {
     in_space unit{};
@@ -107,6 +118,13 @@ class mesh_picture {
     const spot d{view_.x_of(unit), -view_.y_of(unit)};
     const double length = std::hypot(d.x, d.y);
     return length < 0.1 ? spot{0, 0} : spot{d.x / length, d.y / length};
+  }
+
+  /// How long a displacement of 1 along an axis is on the page.
+  [[nodiscard]] double pixels(int direction) const {
+    in_space unit{};
+    unit.at(static_cast<std::size_t>(direction - 1)) = 1.0;
+    return magnified_ * X_.per_unit * std::hypot(view_.x_of(unit), view_.y_of(unit));
   }
 
   /// A triangle behind the node in each direction in which it is held, a square where it cannot turn.
@@ -137,15 +155,11 @@ class mesh_picture {
     const std::string mark = mark_of_pair(problem_, frame_, i, node.x, node.y, 5.0);
     const spot t = d.is_length() ? axis_on_page(d.direction) : spot{0, 0};
     if (t.x == 0 && t.y == 0) return mark;
-    in_space stands = at(d.node);
-    stands.at(static_cast<std::size_t>(d.direction - 1)) += magnified_ * p.face;
-    const spot was = displaced(d.node, 0.0);
-    const spot face = on_page(stands);
-    // One that is too far away stands at the edge of what is drawn.
+    // The face is drawn beside the node, along which it has no end; one that is too far away, at the edge.
     constexpr double far = 90.0;
-    const double away = (face.x - was.x) * t.x + (face.y - was.y) * t.y;
-    const double cut = std::clamp(away, -far, far);
-    const spot m{was.x + cut * t.x, was.y + cut * t.y};
+    const double w = deflection_of(problem_, frame_, static_cast<std::size_t>(p.node));
+    const double away = std::clamp(pixels(d.direction) * p.face, -far, far) - pixels(d.direction) * w;
+    const spot m{node.x + away * t.x, node.y + away * t.y};
     std::string text = line(m.x - face_half * t.y, m.y + face_half * t.x, m.x + face_half * t.y,
                             m.y - face_half * t.x, "surface");
     for (double k = -face_half + 2; k < face_half; k += 6) {
@@ -167,6 +181,15 @@ class mesh_picture {
   double magnified_ = 1.0;
   double bottom_ = 0.0;
 };
+
+/// A label fit for a column, cut between characters.
+std::string cut(std::string label) {
+  constexpr std::size_t longest = 26;
+  if (label.size() <= longest) return label;
+  std::size_t end = longest - 3;
+  while (end > 0 && (static_cast<unsigned char>(label[end]) & 0xC0U) == 0x80U) --end;
+  return label.substr(0, end) + "...";
+}
 
 constexpr double columns[] = {60, 130, 330, 500, 620, 740};
 constexpr double row_height = 22.0;
@@ -190,14 +213,14 @@ drawn draw_table(const problem& p, const frame& f, const shown_parts& shown) {
   std::string text = text_at(60, y, "strong", "Final state: no coordinates are known, so this is a table");
   text += table_row(y += 30, "quiet", {"pair", "dof", "state", "displacement", "gap", "force"});
   text += table_row(y += row_height, "plain",
-                    {"", place_name(p.geometry, static_cast<int>(shown.watched)), "moves most on the path",
-                     number(deflection_of(p, f, shown.watched))});
+                    {"", cut(place_name(p.geometry, static_cast<int>(shown.watched))),
+                     "moves most on the path", number(deflection_of(p, f, shown.watched))});
   const std::size_t rows = std::min(most_rows, shown.pairs.size());
   for (std::size_t k = 0; k < rows; ++k) {
     const std::size_t i = shown.pairs[k];
     const pair_reading r = reading_of(p, f, i);
     text += table_row(y += row_height, "plain",
-                      {std::to_string(i + 1), place_name(p.geometry, p.pairs[i].node), words_of(r.look),
+                      {std::to_string(i + 1), cut(place_name(p.geometry, p.pairs[i].node)), words_of(r.look),
                        number(r.w), number(r.gap), number(r.force)});
   }
   if (rows < p.pairs.size())

@@ -97,7 +97,7 @@ std::string run_svg(const finished_run& r) {
       "{}: step {}, share {:.6g}; {} {:.6g} at {}; pairs: {} closed (square), {} open (ring), {} at "
       "their faces (diamond)",
       r.status, last.step, last.fraction,
-      std::holds_alternative<assembled>(r.what.geometry.kind) ? "displacement" : "w =", most.value,
+      std::holds_alternative<assembled>(r.what.geometry.kind) ? "u =" : "w =", most.value,
       place_words(r.what.geometry, static_cast<int>(most.at)), n.closed, n.open, n.at_face);
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1:.0f}\" width=\"{0}\" "

@@ -117,6 +117,12 @@ void choose_mesh(const placed_nodes& places, const finished_run& r, shown_parts&
     for (const int node : evenly(all, static_cast<int>(most))) choose(node);
   for (int node = 0; node < all; ++node)
     if (chosen[static_cast<std::size_t>(node)] != 0) shown.nodes.push_back(node);
+  const std::vector<dofs_of_node> of_node = dofs_of_nodes(places);
+  for (const frame& f : r.kept.frames()) {
+    for (const int node : shown.nodes)
+      shown.reach =
+          std::max(shown.reach, length_of(reading_at(of_node[static_cast<std::size_t>(node)].along, f)));
+  }
   if (shown.edges.size() < places.edges.size() || shown.nodes.size() < places.nodes.size())
     shown.said.push_back(fmt::format(
         "{} of {} edges and {} of {} nodes are drawn: edges of the fewest elements first, which are the "

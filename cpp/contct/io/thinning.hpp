@@ -13,6 +13,7 @@ namespace contct {
 struct shown_parts {
   std::vector<int> nodes;    ///< of a beam, or of a structure from elsewhere whose places are known
   std::vector<int> edges;    ///< of the latter
+  double reach = 0.0;        ///< of the latter: the largest displacement of these nodes on the path
   std::vector<int> columns;  ///< grid lines of a plate
   std::vector<int> rows;
   std::vector<std::size_t> pairs;

@@ -672,22 +672,23 @@ function drawMeshLoads(root, f, spots, say) {
   }
 }
 
-// The face stands across the pair's direction, at the undeformed node's place and c; hatched on the far side.
-function drawMeshFace(root, p, t, was, layout) {
+// The face stands across the pair's direction, as far from where the node was as c is; beside the node, along
+// which it has no end. Hatched on the far side.
+function drawMeshFace(root, p, t, [x, y], pixels) {
   const far = 90;
-  const { right, up } = geometry.views[view];
-  const along = layout.factor * p.face * layout.scale * Math.hypot(right[p.direction - 1], up[p.direction - 1]);
+  const along = pixels * p.face;
   const cut = Math.max(-far, Math.min(far, along));
-  const at = (a, across) => [was[0] + a * t[0] - across * t[1], was[1] + a * t[1] + across * t[0]];
+  const at = (a, across) => [x + (a - pixels * p.w) * t[0] - across * t[1], y + (a - pixels * p.w) * t[1] + across * t[0]];
   const half = 13;
   const g = svg("g", {}, svg("title", {}, `Pair ${p.pair}, dof ${p.node}: face ${side(p.side)} at ${short(p.face)}${cut === along ? "" : ", farther than drawn"}`));
   g.append(line(...at(cut, -half), ...at(cut, half), "face-line" + (cut === along ? "" : " far")));
   for (let k = -half + 2; k < half; k += 6) g.append(line(...at(cut, k), ...at(cut + p.side * 6, k - 4), "hatch"));
   root.append(g);
-  return [cut, at(cut, 0)];
+  return cut;
 }
 
-function drawMeshPairs(root, f, was, spots, layout, say) {
+function drawMeshPairs(root, f, spots, layout, say) {
+  const { right, up } = geometry.views[view];
   const pairs = pairsOf(f).filter((p) => p.at !== null);
   const r = pairs.length > 60 ? 3.2 : 5;
   for (const p of pairs) {
@@ -697,10 +698,10 @@ function drawMeshPairs(root, f, was, spots, layout, say) {
     mark.append(svg("title", {}, `Pair ${p.pair}, dof ${p.node}, face ${side(p.side)}, ${lookWords(p)}: ` +
       (p.closed ? `force ${short(p.force)}` : `gap ${short(p.gap)}`)));
     if (t !== null) {
-      const [first, second] = [was[2 * p.at], was[2 * p.at + 1]];
-      const [face, foot] = drawMeshFace(root, p, t, [first, second], layout);
-      const node = (x - first) * t[0] + (y - second) * t[1];
-      if (p.closed && Math.hypot(foot[0] - x, foot[1] - y) > 8) root.append(line(foot[0], foot[1], x, y, "spring"));
+      const pixels = layout.factor * layout.scale * Math.hypot(right[p.direction - 1], up[p.direction - 1]);
+      const node = pixels * p.w;  // from where it was, along the pair's direction
+      const face = drawMeshFace(root, p, t, [x, y], pixels);
+      if (p.closed && Math.abs(face - node) > 8) root.append(line(x + (face - node) * t[0], y + (face - node) * t[1], x, y, "spring"));
       const length = mesh.force > 0 ? (36 * Math.abs(p.force)) / mesh.force : 0;
       // Beyond the face's hatches and the node's mark.
       const tip = (p.side > 0 ? Math.max(face + 10, node + r + 3) : Math.min(face - 10, node - r - 3)) - node;
@@ -749,7 +750,7 @@ function drawMesh(f) {
   }
   const say = wordsInFreePlaces(root, width, layout.height - 62);
   drawMeshLoads(root, f, spots, say);
-  drawMeshPairs(root, f, was, spots, layout, say);
+  drawMeshPairs(root, f, spots, layout, say);
   drawMeshAxes(root, width, layout.height, layout);
   offerMagnifications(layout.fitting);
 }
@@ -766,9 +767,10 @@ function offerViews() {
 // ---- and where they have none ----
 
 function drawNothingButNumbers(f) {
+  const none = () => element("td", {}, "–");
   const rows = pairsOf(f).slice(0, mostPairRows).map((p) => row(element("th", { scope: "row", class: "words" }, p.node),
     cell(`pair ${p.pair}, face ${side(p.side)} at ${short(p.face)}`), cell(lookWords(p)), cell(p.w), cell(p.gap), cell(p.force)));
-  rows.unshift(row(element("th", { scope: "row", class: "words" }, String(geometry.watched)), cell("moves most on the path"), cell("–"), cell(f.watched), cell("–"), cell("–")));
+  rows.unshift(row(element("th", { scope: "row", class: "words" }, String(geometry.watched)), cell("moves most on the path"), cell("–"), cell(f.watched), none(), none()));
   const table = element("table", { id: "state-table" }, head(["Dof", true], ["What it is", true], ["State", true], ["Displacement"], ["Gap"], ["Force"]), element("tbody", {}, ...rows));
   // Kept, so that its place in a long table is too.
   const holder = byId("picture");
@@ -1029,7 +1031,8 @@ function showLegend() {
     if (data.supports.length > 0) list.push(item("support of a dof", svg("path", { d: "M11 3l7 12h-14Z", class: "support" })));
     if (geometry.still.length > 0) list.push(item("node without a dof: it stands still", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
     byId("picture-words").textContent = "Edges are drawn straight between their nodes. Between two increments every point moves along a straight line. " +
-      "A face stands across the direction of its pair's dof, at the undeformed node's place and its own distance from it, magnified alike.";
+      "A face stands across the direction of its pair's dof, as far from where the node was as the problem says, magnified alike, and is drawn beside the node.";
+    byId("magnification-label").textContent = "Displacements drawn";
   } else if (!plate) {
     list.length = 0;
     byId("picture-words").textContent = "No coordinates of this structure are known, so its numbers stand in the picture's place: " +
