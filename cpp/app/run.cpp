@@ -99,6 +99,7 @@ class run {
     problem_ = read_problem(options_.file);
     for (const std::string& w : problem_.warnings) complain("warning: {}", w);
     refuse_grid_without_coordinates();
+    warn_of_pairs_without_cell();
     structure_ = structure_of(problem_);
     judged_.emplace(structure_, loads_of(problem_));
     engine_ = engine_for(options_.kernels.front());
@@ -115,6 +116,17 @@ class run {
                     "mesh = \"FILE\" in "
                     "[calculix]. --csv and --json have all its numbers, by label",
                     a->name));
+  }
+
+  void warn_of_pairs_without_cell() const {
+    const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
+    if (a == nullptr || options_.pictures.vtu.empty()) return;
+    const auto lost = std::count_if(problem_.pairs.begin(), problem_.pairs.end(), [a](const contact_pair& p) {
+      return a->places.dofs[static_cast<std::size_t>(p.node)].node < 0;
+    });
+    if (lost > 0)
+      complain("warning: --vtu: {} of {} pairs {} no cell: the places of their dofs are not known", lost,
+               problem_.pairs.size(), lost == 1 ? "has" : "have");
   }
 
   [[nodiscard]] std::vector<output_option> outputs() const {
