@@ -202,7 +202,7 @@ class run {
          pictures_->observe(problem_, structure_, loads_of(problem_), compared, forces_by_law))
       watching.push_back(drawing);
     if (record != nullptr) watching.push_back(record);
-    const path_end end = follow(problem_, structure_, engine_, leader, watching, limits());
+    path_end end = follow(problem_, structure_, engine_, leader, watching, limits());
     shown_.reset();
     return end;
   }

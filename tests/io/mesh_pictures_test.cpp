@@ -237,10 +237,10 @@ TEST_CASE("tables of structures from elsewhere name dofs by their labels, with c
 TEST_CASE("labels that are no plain words stay text in pictures and fields in tables") {
   std::ofstream("odd.mtx") << "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n";
   std::ofstream("odd.dof") << "<b>,\"&.x\n";
-  const a_run r("[matrix]\nstiffness = \"" + std::string("odd.mtx") + "\"\ndofs = \"" +
-                std::string("odd.dof") +
-                "\"\n[[contact]]\ndof = '<b>,\"&.x'\nsurface = \"below\"\nface = 0\nstiffness = 1\n[[step]]\n"
-                "point = [ { dof = '<b>,\"&.x', value = -1 } ]\n");
+  const a_run r(
+      "[matrix]\nstiffness = \"odd.mtx\"\ndofs = \"odd.dof\"\n[[contact]]\ndof = '<b>,\"&.x'\nsurface = "
+      "\"below\"\nface = 0\nstiffness = 1\n[[step]]\n"
+      "point = [ { dof = '<b>,\"&.x', value = -1 } ]\n");
   CHECK(why_not_well_formed(run_svg(r.finished())).empty());
   CHECK_THAT(run_svg(r.finished()), Contains("&lt;b&gt;,&quot;&amp;.x"));
   CHECK(csv_field(place_name(r.what.geometry, 0)) == "\"<b>,\"\"&.x\"");
@@ -267,8 +267,7 @@ TEST_CASE("a large mesh is drawn as far as a page stays quick: outer edges first
   std::ofstream("block.inp") << inp;
   std::ofstream("block.sti") << "1 1 2\n1 2 -1\n2 2 2\n";
   std::ofstream("block.dof") << "6000.3\n6001.3\n";
-  const a_run r("[calculix]\njob = \"" + std::string("block") +
-                "\"\n[[step]]\npoint = [ { dof = \"6000.3\", value = -1 } ]\n");
+  const a_run r("[calculix]\njob = \"block\"\n[[step]]\npoint = [ { dof = \"6000.3\", value = -1 } ]\n");
   const auto& places = std::get<assembled>(r.what.geometry.kind).places;
   REQUIRE(places.edges.size() == 30 * 31 * 13 * 2 + 31 * 31 * 12);
   const shown_parts shown = choose_parts(r.finished());

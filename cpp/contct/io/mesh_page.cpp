@@ -12,7 +12,6 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr std::size_t most_points = 60;  // loads that are drawn
 constexpr double units = 1e5;  // in the largest displacement: a tenth of a pixel is some hundred of them
 
 const assembled& structure_in(const finished_run& r) {
@@ -84,7 +83,7 @@ class shown_mesh {
     std::stable_sort(drawn.begin(), drawn.end(), [](const point_load& one, const point_load& other) {
       return std::abs(one.value) > std::abs(other.value);
     });
-    drawn.resize(std::min(drawn.size(), most_points));
+    drawn.resize(std::min(drawn.size(), most_loads));
     json list = json::array();
     for (const point_load& p : drawn) {
       const placed_dof& at = places_.dofs[static_cast<std::size_t>(p.node)];

@@ -16,6 +16,7 @@ constexpr double side = 60.0;
 constexpr double most_height = 430.0;
 constexpr double share_of_displacements = 0.12;  // of the picture's size, for the largest of them
 constexpr double face_half = 13.0;
+constexpr int hatches = 4;
 
 struct spot {
   double x, y;
@@ -152,7 +153,7 @@ class mesh_picture {
     const placed_dof& d = places_.dofs[static_cast<std::size_t>(p.node)];
     if (d.node < 0) return "";
     const spot node = displaced(d.node, magnified_);
-    const std::string mark = mark_of_pair(problem_, frame_, i, node.x, node.y, 5.0);
+    std::string mark = mark_of_pair(problem_, frame_, i, node.x, node.y, 5.0);
     const spot t = d.is_length() ? axis_on_page(d.direction) : spot{0, 0};
     if (t.x == 0 && t.y == 0) return mark;
     // The face is drawn beside the node, along which it has no end; one that is too far away, at the edge.
@@ -162,7 +163,8 @@ class mesh_picture {
     const spot m{node.x + away * t.x, node.y + away * t.y};
     std::string text = line(m.x - face_half * t.y, m.y + face_half * t.x, m.x + face_half * t.y,
                             m.y - face_half * t.x, "surface");
-    for (double k = -face_half + 2; k < face_half; k += 6) {
+    for (int hatch = 0; hatch < hatches; ++hatch) {
+      const double k = 2 - face_half + 6 * hatch;
       const spot from{m.x + k * t.y, m.y - k * t.x};
       text += line(from.x, from.y, from.x + p.surface * 6 * t.x - 3 * t.y,
                    from.y + p.surface * 6 * t.y + 3 * t.x, "hatch");

@@ -123,6 +123,10 @@ void choose_mesh(const placed_nodes& places, const finished_run& r, shown_parts&
       shown.reach =
           std::max(shown.reach, length_of(reading_at(of_node[static_cast<std::size_t>(node)].along, f)));
   }
+  const auto is_long = [](const load& l) { return l.points.size() > most_loads; };
+  if (std::any_of(r.what.steps.begin(), r.what.steps.end(), is_long))
+    shown.said.push_back(
+        fmt::format("Of loads at more dofs than {} the largest so many are drawn.", most_loads));
   if (shown.edges.size() < places.edges.size() || shown.nodes.size() < places.nodes.size())
     shown.said.push_back(fmt::format(
         "{} of {} edges and {} of {} nodes are drawn: edges of the fewest elements first, which are the "

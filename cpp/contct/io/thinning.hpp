@@ -34,6 +34,7 @@ inline constexpr std::size_t most_pairs = 1000;
 inline constexpr std::size_t most_pairs_of_a_beam = 300;
 inline constexpr std::size_t most_supports = 300;
 inline constexpr std::size_t most_edges = 20'000;
+inline constexpr std::size_t most_loads = 60;
 
 [[nodiscard]] shown_parts choose_parts(const finished_run& r);
 

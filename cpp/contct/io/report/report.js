@@ -743,7 +743,7 @@ function drawMesh(f) {
   const all = Array.from({ length: mesh.nodes }, (_, i) => i);
   if (mesh.edges > 0) root.append(edgePath(was, "mesh-was"), edgePath(spots, mesh.edges > 400 ? "member many" : "member"));
   else root.append(marksAt(all, was, "h0", "mesh-was dots"), marksAt(all, spots, "h0", "member dots"));
-  if (geometry.still.length > 0) root.append(marksAt(geometry.still, was, "m-3 -3l6 6m-6 0l6 -6", "thin"));
+  if (geometry.still.length > 0) root.append(marksAt(geometry.still, was, "m-3 -3l6 6m-6 0l6 -6", "thin still"));
   drawMeshSupports(root, spots);
   if (mesh.nodes <= 200) {
     for (const i of all) root.append(svg("circle", { cx: spots[2 * i], cy: spots[2 * i + 1], r: 2.2, class: "mesh-node" }, svg("title", {}, `node ${geometry.names[i]}`)));
