@@ -383,7 +383,8 @@ TEST_CASE("where no label has its node nothing is known") {
 }
 
 TEST_CASE(
-    "nodes that the matrix couples have an edge, as long as these are few, and an entry of 0 couples nothing") {
+    "nodes that the matrix couples have an edge, as long as these are few, and an entry of 0 couples "
+    "nothing") {
   placed_nodes places;
   places.nodes = parse_coordinates("a 0 0\nb 1 0\nc 2 0\n", "K.xyz");
   const assembled chain =
