@@ -98,23 +98,35 @@ class run {
   void read() {
     problem_ = read_problem(options_.file);
     for (const std::string& w : problem_.warnings) complain("warning: {}", w);
-    refuse_pictures_without_coordinates();
+    refuse_grid_without_coordinates();
+    warn_of_pairs_without_cell();
     structure_ = structure_of(problem_);
     judged_.emplace(structure_, loads_of(problem_));
     engine_ = engine_for(options_.kernels.front());
   }
 
-  void refuse_pictures_without_coordinates() const {
-    const picture_options& p = options_.pictures;
-    if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return;
-    for (const auto& [name, file] :
-         {std::pair("--html", p.html), {"--svg", p.svg}, {"--csv", p.csv}, {"--vtu", p.vtu}}) {
-      if (!file.empty())
-        throw std::invalid_argument(std::string(name) +
-                                    ": found a structure given by its matrix, which has no coordinates; "
-                                    "allowed: beams and plates. --json has "
-                                    "all its numbers, by label");
-    }
+  /// A grid has points. Everything else that is asked for does without, as a table.
+  void refuse_grid_without_coordinates() const {
+    const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
+    if (a == nullptr || options_.pictures.vtu.empty() || a->places.known()) return;
+    throw std::invalid_argument(
+        fmt::format("--vtu: found a structure given by its matrix, {}, without coordinates; allowed: one "
+                    "with coordinates, by "
+                    "coordinates = \"FILE\" in [matrix] or CalculiX's mesh, JOB.inp beside its matrix or "
+                    "mesh = \"FILE\" in "
+                    "[calculix]. --csv and --json have all its numbers, by label",
+                    a->name));
+  }
+
+  void warn_of_pairs_without_cell() const {
+    const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
+    if (a == nullptr || options_.pictures.vtu.empty()) return;
+    const auto lost = std::count_if(problem_.pairs.begin(), problem_.pairs.end(), [a](const contact_pair& p) {
+      return a->places.dofs[static_cast<std::size_t>(p.node)].node < 0;
+    });
+    if (lost > 0)
+      complain("warning: --vtu: {} of {} pairs {} no cell: the places of their dofs are not known", lost,
+               problem_.pairs.size(), lost == 1 ? "has" : "have");
   }
 
   [[nodiscard]] std::vector<output_option> outputs() const {
@@ -339,7 +351,7 @@ class run {
             early_,
             options_.file,
             options_.kernels,
-            options_.engine,
+            engine_,
             std::string(equal ? status_name(end.status) : "kernels-disagree"),
             end_words(problem_, end),
             in_lockstep,

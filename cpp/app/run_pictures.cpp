@@ -43,7 +43,9 @@ void add_picture_options(CLI::App& command, picture_options& options) {
   command.add_option(
       "--html", options.html,
       "Write the run as one page to this file: the structure increment by increment, its events, "
-      "kernel against kernel, the certificate (- is standard output)");
+      "kernel against kernel, the certificate (- is standard output). A structure given by its matrix is "
+      "drawn "
+      "where coordinates are known, and is a table otherwise");
   command.add_option("--svg", options.svg,
                      "Draw the final state and the load-deflection path to this file (- is standard output)");
   command.add_option(
@@ -56,7 +58,7 @@ void add_picture_options(CLI::App& command, picture_options& options) {
       "--vtu", options.vtu,
       "For ParaView: write the final state to this file; F.vtu has beside it F.000.vtu, F.001.vtu, "
       ".. for the start and each kept increment, every step's final state among them, and F.pvd, "
-      "which collects these");
+      "which collects these. A structure given by its matrix must have coordinates");
 }
 
 std::vector<output_option> with_pictures(std::vector<output_option> others, const picture_options& options) {

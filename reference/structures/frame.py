@@ -1,4 +1,4 @@
-"""Writes frame.mtx, frame.dof and wind.mtx: what another program would hand to contct.
+"""Writes frame.mtx, frame.dof, frame.xyz and wind.mtx: what another program would hand to contct.
 
 A portal frame of Hermite beams with axial stiffness, three dofs a node: x, y and r, the rotation
 counter-clockwise. No supports: these stand in frame.toml. Run it in the folder the files shall be in.
@@ -63,6 +63,7 @@ def main():
         + [f"{row + 1} {column + 1} {value!r}" for (row, column), value in sorted(matrix.items())],
     )
     write("frame.dof", [f"{n + 1}.{name}" for n in range(len(nodes)) for name in ("x", "y", "r")])
+    write("frame.xyz", ["# node, x, y; m"] + [f"{n + 1} {x} {y}" for n, (x, y) in enumerate(nodes)])
     # 8 kN to the right on the left column, shared by its upper nodes; 20 kN down on the middle of the beam.
     load = [0.0] * size
     for node, x, y in ((2, 3e3, 0.0), (3, 3e3, 0.0), (4, 2e3, 0.0), (6, 0.0, -2e4)):

@@ -40,3 +40,28 @@ wide += '[[support]]\nnodes = [' + ", ".join(str(n) for n in [*range(1, 72), *ra
 for k in range(36):
     wide += f'[[contact]]\nnode = {35 * 71 + 1 + 2 * k}\nsurface = "below"\nface = {-(0.01 + 0.002 * k)!r}\nstiffness = 50.0\n'
 write("wide", wide + "[[step]]\nuniform = -0.05\n[[step]]\nuniform = 0.0\n")
+
+# The frame of reference/structures by its matrix alone: no coordinates.
+structures = os.path.abspath("reference/structures")
+with open(os.path.join(structures, "frame.toml"), encoding="utf-8") as file:
+    lines = [line for line in file if not line.startswith("coordinates")]
+for name in ("frame.mtx", "frame.dof", "wind.mtx"):
+    lines = [line.replace(f'"{name}"', f'"{structures}/{name}"') for line in lines]
+write("bare", "".join(lines))
+
+# A net of 110 x 110 nodes on springs, 23,980 edges between them, over a row of stops.
+side = 110
+entries, count = [], side * side
+for at in range(count):
+    entries.append(f"{at + 1} {at + 1} 4.5")
+    entries += [f"{next + 1} {at + 1} -1" for next, there in ((at + 1, at % side + 1 < side), (at + side, at + side < count)) if there]
+for name, rows in (("mtx", ["%%MatrixMarket matrix coordinate real symmetric", f"{count} {count} {len(entries)}", *entries]),
+                   ("dof", [f"{at}.z" for at in range(count)]),
+                   ("xyz", [f"{at} {at % side} {at // side} 0" for at in range(count)])):
+    with open(os.path.join(folder, "grid." + name), "w", encoding="utf-8") as out:
+        out.write("\n".join(rows) + "\n")
+net = '[matrix]\nstiffness = "grid.mtx"\ndofs = "grid.dof"\ncoordinates = "grid.xyz"\n'
+for k in range(18):
+    net += f'[[contact]]\ndof = "{55 * side + 10 + 5 * k}.z"\nsurface = "below"\nface = {-(0.1 + 0.004 * k)!r}\nstiffness = 5.0\n'
+point = ", ".join(f'{{ dof = "{55 * side + at}.z", value = -{load} }}' for at in range(5, 105) for load in ["1.0"])
+write("grid", net + f"[[step]]\npoint = [ {point} ]\n" + '[[step]]\npoint = [ { dof = "0.z", value = 0 } ]\n')

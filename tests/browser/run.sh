@@ -1,6 +1,7 @@
 #!/bin/sh
 # The page of `contct run --html` in a browser without a window: the slider by mouse and by keyboard, every number
-# against the run's JSON, dark and light, narrow and wide, on paper, read aloud, and with 5000 nodes.
+# against the run's JSON, dark and light, narrow and wide, on paper, read aloud, with 5000 nodes; structures from
+# elsewhere with coordinates, with CalculiX's mesh, with neither, and with 20,000 edges.
 # usage: sh tests/browser/run.sh [BUILD]      (default: build/release)
 # Exit 0: all is as it should be; 77: skipped, chromium cannot be had; 1 otherwise. Pictures stay in BUILD/tests/browser.
 set -u
@@ -38,6 +39,10 @@ page never "$work/never.toml" 4
 page corrected "$work/corrected.toml" 0 --kernels corrected
 page long "$work/long.toml" 0
 page wide "$work/wide.toml" 0
+page frame reference/structures/frame.toml 0
+page console reference/structures/calculix/console.toml 0
+page bare "$work/bare.toml" 0
+page grid "$work/grid.toml" 0
 python3 tests/browser/check_pages.py "$work" || wrong=1
 [ $wrong = 0 ] || { echo "browser: FAILED"; exit 1; }
 echo "browser: passed"

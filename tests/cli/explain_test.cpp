@@ -134,7 +134,7 @@ TEST_CASE("the lines fit their terminal, from 40 columns to 160, and the words a
   }
 }
 
-TEST_CASE("step, increment and pair narrow what is told; STEP.INCREMENT is as the table has it") {
+TEST_CASE("step, increment and pair narrow what is told, and STEP.INCREMENT is as the table has it") {
   const auto count = [](const std::string& text, const char* piece) {
     std::size_t n = 0;
     for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++n;

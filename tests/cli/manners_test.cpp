@@ -133,7 +133,7 @@ TEST_CASE("a mistyped key or word in a problem file is guessed, at its place") {
   CHECK_THAT(refused("stiffness", "colour"), Contains("found an unknown key; allowed: "));
 }
 
-TEST_CASE("a new problem runs, has events, and is certified; its comments name every table") {
+TEST_CASE("a new problem runs, has events, and is certified, and its comments name every table") {
   for (const char* shape : {"beam", "plate"}) {
     const scratch_directory dir;
     INFO(shape);

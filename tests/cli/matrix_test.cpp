@@ -130,15 +130,64 @@ TEST_CASE("two springs in a row, free at both ends, fall off their one face: a m
   CHECK_THAT(mended.out, Contains("make 1: dof 2 below"));
 }
 
-TEST_CASE("a structure without coordinates is not drawn, and what is told of it names dofs by their labels") {
+TEST_CASE("a structure without coordinates has its page, picture and tables, and no grid, which is said") {
+  const scratch_directory dir;
+  dir.write("K.mtx", header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
+  dir.write("p.toml", problem);
+  const finished f =
+      contct_program(dir.path(), {"run", "p.toml", "--html", "o.html", "--svg", "o.svg", "--csv", "o.csv"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(dir.read("o.html"), Contains("\"geometry\":{\"kind\":\"none\",\"watched\":\"2\"}"));
+  CHECK_THAT(dir.read("o.html"), Contains("\"engine\":\"refactor\""));
+  CHECK_THAT(dir.read("o.svg"),
+             Contains("no coordinates are known") && Contains("over the displacement of dof 2"));
+  CHECK_THAT(dir.read("o.pairs.csv"), Contains("\r\n1,1,1,2,below,contact,"));
+  const auto before = dir.files();
+  const finished grid = contct_program(dir.path(), {"run", "p.toml", "--vtu", "o.vtu", "--json", "o.json"});
+  CHECK(grid.exit == 2);
+  CHECK(grid.out.empty());
+  CHECK_THAT(grid.err,
+             Contains("--vtu: found a structure given by its matrix, K.mtx, without coordinates; allowed:"));
+  CHECK_THAT(grid.err, Contains("coordinates = \"FILE\" in [matrix]") &&
+                           Contains("mesh = \"FILE\" in [calculix]") && Contains("--csv and --json"));
+  CHECK(dir.files() == before);
+}
+
+TEST_CASE(
+    "a structure with coordinates is drawn, all of it, and a pair without a place has no cell, which is "
+    "said") {
+  const scratch_directory dir;
+  const std::string frame = std::string(CONTCT_ROOT) + "/reference/structures/";
+  const finished f = contct_program(dir.path(), {"run", frame + "frame.toml", "--html", "o.html", "--svg",
+                                                 "o.svg", "--csv", "o.csv", "--vtu", "o.vtu"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  CHECK(f.err.empty());
+  CHECK_THAT(dir.read("o.html"), Contains("\"kind\":\"mesh\""));
+  CHECK_THAT(dir.read("o.svg"), Contains("class=\"member\""));
+  CHECK_THAT(dir.read("o.vtu"), Contains("NumberOfPoints=\"11\" NumberOfCells=\"12\""));
+  const std::string two = header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
+  dir.write("K.mtx", two);
+  dir.write("K.dof", "a.x\n2\n");
+  dir.write("K.xyz", "a 1 2 3\n");
+  std::string text = problem;
+  text.insert(text.find("[[contact]]"), "dofs = \"K.dof\"\ncoordinates = \"K.xyz\"\n");
+  dir.write("p.toml", text);
+  const finished lost = contct_program(dir.path(), {"run", "p.toml", "--vtu", "p.vtu", "--html", "p.html"});
+  CHECK(lost.exit == 0);
+  CHECK_THAT(lost.err,
+             Contains("warning: --vtu: 1 of 1 pairs has no cell: the places of their dofs are not known"));
+  CHECK_THAT(dir.read("p.html"), Contains("1 of 2 dofs have no known node and direction"));
+  dir.write("K.xyz", "a 1 2 3\nb 1 2 nan\n");
+  const finished wrong = contct_program(dir.path(), {"run", "p.toml", "--vtu", "q.vtu"});
+  CHECK(wrong.exit == 2);
+  CHECK_THAT(wrong.err, Contains("K.xyz:2: found \"nan\" for z; allowed: a finite number"));
+}
+
+TEST_CASE("what is explained of a structure given by its matrix names dofs by their labels") {
   const scratch_directory dir;
   const std::string frame = std::string(CONTCT_ROOT) + "/reference/structures/frame.toml";
-  for (const std::string option : {"--html", "--svg", "--csv", "--vtu"}) {
-    const finished f = contct_program(dir.path(), {"run", frame, option, "out.vtu"});
-    CHECK(f.exit == 2);
-    CHECK_THAT(f.err, Contains(option) && Contains("no coordinates") && Contains("--json"));
-    CHECK(dir.files().empty());
-  }
   const finished explained = contct_program(dir.path(), {"explain", frame, "--json", "why.json"});
   CHECK(explained.exit == 0);
   CHECK_THAT(explained.out, Contains("Pair 1, dof 6.y, face below"));

@@ -308,7 +308,8 @@ TEST_CASE("corrected in lockstep with the listing is refused: rules differ") {
   CHECK_THAT(f.err, Contains("--free-run"));
 }
 
-TEST_CASE("the 1989 rule keeps the 1989 way of solving unless asked; the corrected rule takes the quickest") {
+TEST_CASE(
+    "the 1989 rule keeps the 1989 way of solving unless asked, and the corrected rule takes the quickest") {
   const scratch_directory dir;
   dir.write("pb.toml", good_problem);
   const auto engine_of = [&dir](std::vector<std::string> more) {

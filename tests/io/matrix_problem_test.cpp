@@ -238,12 +238,12 @@ TEST_CASE(
   const std::string command =
       fmt::format("cd '{}' && python3 '{}'", here.path().string(), (frame / "frame.py").string());
   REQUIRE(std::system(command.c_str()) == 0);
-  for (const char* name : {"frame.mtx", "frame.dof", "wind.mtx"}) {
+  for (const char* name : {"frame.mtx", "frame.dof", "frame.xyz", "wind.mtx"}) {
     INFO(name);
     std::ostringstream kept;
     kept << std::ifstream(frame / name, std::ios::binary).rdbuf();
     CHECK(here.read(name) == kept.str());
-    CHECK(kept.str().size() > 100);
+    CHECK(kept.str().size() > 50);
   }
   const problem p = read_problem((frame / "frame.toml").string());
   const run_of_problem r = run(p);
@@ -282,6 +282,43 @@ TEST_CASE("a frame from CalculiX's own files is the frame from Matrix Market's")
   const run_of_problem a = run(p);
   const run_of_problem b = run(read_problem(here.write("c.toml", toml)));
   check_same(a, b);
+}
+
+TEST_CASE(
+    "CalculiX's mesh is read from beside its matrix where it is there, or from the file that is named") {
+  const folder here;
+  (void)here.write("job.sti", "1 1 2\n1 2 -1\n2 2 2\n");
+  (void)here.write("job.dof", "2.3\n3.3\n");
+  const std::string mesh =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,9,9,9\n*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n";
+  const auto with_mesh = [&](const std::string& key) {
+    return here.write("p.toml", "[calculix]\njob = \"job\"\n" + key +
+                                    "[[step]]\npoint = [ { dof = \"2.3\", value = 1 } ]\n");
+  };
+  const auto places = [&](const std::string& key) {
+    return std::get<assembled>(read_problem(with_mesh(key)).geometry.kind).places;
+  };
+  CHECK_FALSE(places("").known());
+  (void)here.write("other.inp", mesh);
+  CHECK(places("mesh = \"other.inp\"\n").edges.size() == 6);
+  CHECK_FALSE(places("").known());
+  (void)here.write("job.inp", mesh);
+  const placed_nodes found = places("");
+  CHECK(found.nodes.size() == 4);
+  CHECK(found.edges.size() == 6);
+  CHECK(found.dofs[1].node == 2);
+  CHECK(found.dofs[1].direction == 3);
+  // Another job's input beside it is no mistake, but naming one is.
+  (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
+  CHECK_FALSE(places("").known());
+  CHECK_THAT(places("").said.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));
+  CHECK_THAT(message_of(with_mesh("mesh = \"job.inp\"\n")),
+             Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node in") &&
+                 Catch::Matchers::Contains("allowed: nodes by what stands before the last dot"));
+  CHECK_THAT(message_of(with_mesh("mesh = \"none.inp\"\n")),
+             Catch::Matchers::Contains("none.inp: cannot be read"));
+  (void)here.write("job.inp", "*NODE\n2,0,0,x\n");
+  CHECK_THAT(message_of(with_mesh("")), Catch::Matchers::Contains("job.inp:2: found \"x\" for a coordinate"));
 }
 
 TEST_CASE("what is given on a matrix is read: springs, lists of dofs, loads from files and points together") {
@@ -356,6 +393,8 @@ TEST_CASE(
   (void)here.write("K.mtx", small_matrix);
   (void)here.write("K.dof", "a\nb\nc\n");
   (void)here.write("two.dof", "a\nb\n");
+  (void)here.write("K.xyz", "a 0 0\n");
+  (void)here.write("bad.xyz", "a 0 0\nb 1 nan\n");
   (void)here.write("bad.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 x\n");
   (void)here.write("f.mtx", "%%MatrixMarket matrix array real general\n2 1\n1\n1\n");
   struct bad_problem {
@@ -376,6 +415,14 @@ TEST_CASE(
       {with("K.mtx", "bad.mtx"), "bad.mtx:3", "\"x\" for an entry", "finite"},
       {with("K.dof", "two.dof"), "p.toml:3:8: matrix.dofs", "2 labels in", "3, one for each row"},
       {with("dofs = \"K.dof\"\n", "labels = \"K.dof\"\n"), "p.toml:3:1: matrix.labels", "unknown",
+       "stiffness, dofs, coordinates"},
+      {with("[[support]]", "coordinates = \"K.xyz\"\n[[support]]"), "p.toml:4:15: matrix.coordinates",
+       "no node in", "before the last dot"},
+      {with("[[support]]", "coordinates = \"bad.xyz\"\n[[support]]"), "bad.xyz:2", "\"nan\" for y", "finite"},
+      {with("[[support]]", "coordinates = \"none.xyz\"\n[[support]]"), "none.xyz: cannot be read",
+       "No such file", ""},
+      {with("[[support]]", "coordinates = 3\n[[support]]"), "p.toml:4:15: matrix.coordinates", "3", "text"},
+      {with("[[support]]", "mesh = \"K.xyz\"\n[[support]]"), "p.toml:4:1: matrix.mesh", "unknown",
        "stiffness, dofs"},
       {with("[[support]]", "free_motions = 7\n[[support]]"), "p.toml:4:16: matrix.free_motions", "7",
        "from 0 to 6"},

@@ -78,7 +78,8 @@ TEST_CASE("a pair touches from the start where its face is at 0, unless told oth
   CHECK_FALSE(state("face = -1e-12\n"));
 }
 
-TEST_CASE("a bed is a pair at every free node, modulus times tributary length; limiting it moves no share") {
+TEST_CASE(
+    "a bed is a pair at every free node, modulus times tributary length, and limiting it moves no share") {
   const std::string head = "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n";
   const std::string tail = "[[step]]\nuniform = -1\n";
   const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");
@@ -215,7 +216,8 @@ TEST_CASE("an even plate by its size, D as it is, springs on every dof, nu at bo
 }
 
 TEST_CASE(
-    "a plate's bed is a pair at every free node, modulus times tributary area; limiting it moves no share") {
+    "a plate's bed is a pair at every free node, modulus times tributary area, and limiting it moves no "
+    "share") {
   const std::string head =
       "[plate]\nx = [0, 1, 3]\ny = [0, 2]\nD = 1\nnu = 0\n[[support]]\nnode = 4\nfix = [\"w\"]\n"
       "[[support]]\nnode = 5\nfix = [\"wx\", \"wy\"]\n";

@@ -1,5 +1,6 @@
 """Reads the grids of a run with VTK's own reader and compares every number with the run's result.
-usage: python3 read_back.py RESULT.json FINAL.vtu"""
+usage: python3 read_back.py RESULT.json FINAL.vtu [LABELS NODES]
+LABELS has the dofs' labels of a structure from elsewhere, NODES its coordinates or CalculiX's input with its mesh."""
 import json
 import os
 import sys
@@ -7,7 +8,7 @@ import xml.etree.ElementTree as xml
 
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-result_file, final_file = sys.argv[1:]
+result_file, final_file = sys.argv[1:3]
 result = json.load(open(result_file, encoding="utf-8"))
 compared = 0
 
@@ -35,7 +36,78 @@ def same(found, expected, what):
     assert list(found) == list(expected), f"{what}: found {list(found)[:6]}.., expected {list(expected)[:6]}.."
 
 
+directions = {"x": 0, "y": 1, "z": 2, "1": 0, "2": 1, "3": 2, "r": 5}
+
+
+def read_structure(labels_file, nodes_file):
+    """Labels, places of nodes by name, and pairs of nodes with an edge; of bricks, and else of Hermite beams."""
+    labels = open(labels_file, encoding="utf-8").read().split()
+    lines = [line.strip() for line in open(nodes_file, encoding="utf-8")]
+    if not nodes_file.endswith(".inp"):
+        rows = [line.split() for line in lines if line and line[0] != "#"]
+        return labels, {r[0]: tuple([*map(float, r[1:]), 0.0][:3]) for r in rows}, None
+    places, edges, block = {}, set(), ""
+    for line in lines:
+        if line[:1] == "*":
+            block = block if line[:2] == "**" else line.split(",")[0].upper()
+        elif block == "*NODE":
+            number, *at = line.split(",")
+            places[number] = tuple(map(float, at))
+        elif block == "*ELEMENT":
+            n = line.split(",")[1:]
+            for i in range(4):
+                edges |= {frozenset((n[i], n[(i + 1) % 4])), frozenset((n[4 + i], n[4 + (i + 1) % 4])), frozenset((n[i], n[4 + i]))}
+    return labels, places, edges
+
+
+def compare_structure(grid, step, where):
+    """A structure from elsewhere: its nodes where its files have them, their displacements by label, and its pairs."""
+    labels, places, edges = structure
+    names = list(places)
+    points = [grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())]
+    assert points == [places[n] for n in names], f"{where}: the points are not the nodes"
+    value = dict(zip(labels, step["displacement"]))
+    read = {n: [0.0] * 6 for n in names}
+    for label, u in value.items():
+        node, direction = label.rsplit(".", 1)
+        if node in read:
+            read[node][directions[direction]] = u
+    same([x for row in array(grid.GetPointData(), "displacement", 3) for x in row],
+         [x for n in names for x in read[n][:3]], where + ", displacement")
+    assert (grid.GetPointData().GetArray("rotation") is not None) == any(n[3:] != [0.0] * 3 for n in read.values()), where
+    if any(n[3:] != [0.0] * 3 for n in read.values()):
+        same([x for row in array(grid.GetPointData(), "rotation", 3) for x in row],
+             [x for n in names for x in read[n][3:]], where + ", rotation")
+    pairs, cells = step["pairs"], grid.GetCellData()
+    count = grid.GetNumberOfCells() - len(pairs)
+    drawn = {frozenset(names[grid.GetCell(i).GetPointId(k)] for k in (0, 1)) for i in range(count)}
+    assert len(drawn) == count and count > 0, f"{where}: edges are there twice, or none"
+    if edges is not None:
+        assert drawn == edges, f"{where}: the edges are not the elements'"
+    else:  # members are straight and one long here
+        assert all(sum(abs(a - b) for a, b in zip(*(places[n] for n in e))) == 1 for e in drawn), f"{where}: {drawn}"
+        assert count == len(names) - 1
+    same([grid.GetCellType(i) for i in range(grid.GetNumberOfCells())], [3] * count + [1] * len(pairs), where + ", types")
+    same([names[grid.GetCell(count + i).GetPointId(0)] for i in range(len(pairs))],
+         [p["dof"].rsplit(".", 1)[0] for p in pairs], where + ", pairs' nodes")
+    tail = slice(count, None)
+    same(array(cells, "direction", 1)[tail], [directions[p["dof"].rsplit(".", 1)[1]] + 1 for p in pairs], where + ", direction")
+    for name in ("pair", "gap", "force"):
+        same(array(cells, name, 1)[tail], [p[name] for p in pairs], f"{where}, {name}")
+    same(array(cells, "surface", 1)[tail], [1 if p["surface"] == "above" else -1 for p in pairs], where + ", surface")
+    w = [value[p["dof"]] for p in pairs]
+    same(array(cells, "state", 1)[tail],
+         [2 if abs(c - d) < 1e-10 else 1 if p["state"] == "contact" else 0 for p, c, d in zip(pairs, array(cells, "face", 1)[tail], w)],
+         where + ", state")
+
+
 def compare(grid, step, where):
+    if structure:
+        return compare_structure(grid, step, where)
+    return compare_own(grid, step, where)
+
+
+def compare_own(grid, step, where):
     """All of a grid with a step of the result, to the bit."""
     names = {1: [], 2: ["w", "theta"], 3: ["w", "wx", "wy"]}[len(step["displacement"]) // len(step["w"])]
     same(array(grid.GetPointData(), "w", 1), step["w"], where + ", w")
@@ -70,6 +142,7 @@ def field(grid, name):
     return grid.GetFieldData().GetArray(name).GetTuple(0)[0]
 
 
+structure = read_structure(*sys.argv[3:]) if len(sys.argv) > 3 else None
 compare(read(final_file), result["steps"][-1], "the final state")
 stem = os.path.splitext(final_file)[0]
 ends = 0
@@ -84,7 +157,7 @@ for name in [d.get("file") for d in sets]:
     at = (int(field(grid, "step")), int(field(grid, "increment")))
     seen.add(at)
     if at[0] == 0:
-        same(array(grid.GetPointData(), "w", 1), [0.0] * grid.GetNumberOfPoints(), "the start")
+        same([row[2] for row in array(grid.GetPointData(), "displacement", 3)], [0.0] * grid.GetNumberOfPoints(), "the start")
         continue
     same([field(grid, "share")], [increments[at]["fraction"]], f"{name}, share")
     if at[1] == last[at[0]]:

@@ -24,5 +24,16 @@ for problem in pb01-cantilever-tip-stop pb05-cantilever-over-flat-obstacle pb07-
     --json "$work/$problem.json" 2>"$work/said" || { cat "$work/said"; wrong=1; continue; }
   $python tests/vtk/read_back.py "$work/$problem.json" "$work/$problem.vtu" || { echo "VTK: $problem differs"; wrong=1; }
 done
+# Structures from elsewhere: with coordinates, and with CalculiX's mesh.
+structures=reference/structures
+for given in "frame $structures/frame.dof $structures/frame.xyz" \
+  "calculix/console $structures/calculix/console.dof $structures/calculix/console.inp"; do
+  # shellcheck disable=SC2086
+  set -- $given
+  name=$(basename "$1")
+  "$build/contct" run "$structures/$1.toml" --quiet --vtu "$work/$name.vtu" --json "$work/$name.json" 2>"$work/said" ||
+    { cat "$work/said"; wrong=1; continue; }
+  $python tests/vtk/read_back.py "$work/$name.json" "$work/$name.vtu" "$2" "$3" || { echo "VTK: $name differs"; wrong=1; }
+done
 [ $wrong = 0 ] || { echo "VTK: FAILED"; exit 1; }
 echo "VTK: passed"

@@ -19,9 +19,24 @@ pair_reading reading_of(const problem& p, const frame& f, std::size_t pair) {
   return {w, gap_of(at, w, closed), force_of(at, w, closed), look_of(at, w, closed)};
 }
 
-extreme largest_deflection(const problem& p, const frame& f) {
-  extreme most;
-  for (std::size_t node = 0; node < static_cast<std::size_t>(nodes(p.geometry)); ++node) {
+std::vector<int> deflecting_nodes(const problem& p) {
+  std::vector<char> is_length(static_cast<std::size_t>(nodes(p.geometry)), 1);
+  const auto* a = std::get_if<assembled>(&p.geometry.kind);
+  if (a != nullptr && (a->places.known() || !p.pairs.empty())) {
+    for (std::size_t dof = 0; dof < is_length.size(); ++dof)
+      is_length[dof] = a->places.known() && a->places.dofs[dof].is_length() ? 1 : 0;
+    for (const contact_pair& pair : p.pairs) is_length[static_cast<std::size_t>(pair.node)] = 1;
+  }
+  std::vector<int> list;
+  for (std::size_t node = 0; node < is_length.size(); ++node)
+    if (is_length[node] != 0) list.push_back(static_cast<int>(node));
+  return list;
+}
+
+extreme largest_deflection(const problem& p, const frame& f, std::span<const int> among) {
+  extreme most{among.empty() ? 0 : static_cast<std::size_t>(among.front()), 0.0};
+  for (const int number : among) {
+    const auto node = static_cast<std::size_t>(number);
     const double w = deflection_of(p, f, node);
     if (std::abs(w) > std::abs(most.value)) most = {node, w};
   }
@@ -44,6 +59,11 @@ const char* words_of(pair_look look) {
       return "at its face";
   }
   return "";
+}
+
+std::string place_name(const model& m, int node) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  return a != nullptr ? a->label_of(node) : std::to_string(node + 1);
 }
 
 place place_of_node(const model& m, int node) {

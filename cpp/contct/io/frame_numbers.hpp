@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "contct/check/frames.hpp"
@@ -29,8 +31,13 @@ struct extreme {
   double value = 0.0;
 };
 
-/// The node that deflects most.
-[[nodiscard]] extreme largest_deflection(const problem& p, const frame& f);
+/// The nodes whose displacement is a deflection: all of a beam and a plate. Of a matrix the dofs that are
+/// known to be lengths: those that meet faces, and those along an axis where places are known; all where
+/// there are neither.
+[[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
+
+/// The one of these nodes that deflects most.
+[[nodiscard]] extreme largest_deflection(const problem& p, const frame& f, std::span<const int> among);
 
 /// Pairs of each look: open, closed, at their faces.
 struct pair_counts {
@@ -43,6 +50,9 @@ struct pair_counts {
 
 /// A word for a look: "open", "closed", "at its face".
 [[nodiscard]] const char* words_of(pair_look look);
+
+/// A node's name in tables: its number, from 1, or its label where each dof is a node of its own.
+[[nodiscard]] std::string place_name(const model& m, int node);
 
 /// Where a node is: x along a beam; x and y on a plate.
 struct place {

@@ -9,6 +9,7 @@
 #include "contct/io/dof_labels.hpp"
 #include "contct/io/field_lines.hpp"
 #include "contct/io/matrix_market.hpp"
+#include "contct/io/matrix_places.hpp"
 #include "contct/io/memory_limit.hpp"
 #include "contct/structure/sparse_factor.hpp"
 
@@ -74,6 +75,24 @@ void finish(const table_reader& t, assembled& a) {
   choose_storage(t, a);
 }
 
+/// A file that does not know any of the nodes is another structure's.
+void refuse_unknown_nodes(const table_reader& t, std::string_view key, const std::string& path,
+                          const assembled& a) {
+  if (a.places.known()) return;
+  t.refuse(
+      t.required(key, ""), key,
+      fmt::format("no node in {} of any label, as {}", path, contct::quoted(a.label_of(0))),
+      "nodes by what stands before the last dot of labels, and behind it x, y, z, r, rx, ry, rz or 1 to 6");
+}
+
+/// The mesh that the table names, or else the one beside the job's matrix, where there is one.
+void find_mesh(const table_reader& t, const std::string& folder, const std::string& job, assembled& a) {
+  const std::string path = t.has("mesh") ? beside(folder, t.text("mesh")) : job + ".inp";
+  if (!t.has("mesh") && !std::filesystem::exists(path)) return;
+  a.places = places_from_inp(path, a);
+  if (t.has("mesh")) refuse_unknown_nodes(t, "mesh", path, a);
+}
+
 }  // namespace
 
 std::string beside(const std::string& folder, const std::string& name) {
@@ -91,7 +110,7 @@ std::int64_t bytes_of_run(const assembled& a) {
 }
 
 assembled read_matrix(const table_reader& t, const std::string& folder) {
-  t.allow_only({"stiffness", "dofs", "free_motions", "storage"});
+  t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
   assembled a;
   a.name = beside(folder, t.text("stiffness"));
   a.stiffness = read_symmetric(a.name);
@@ -103,11 +122,16 @@ assembled read_matrix(const table_reader& t, const std::string& folder) {
                fmt::format("{}, one for each row of {}", a.dofs(), a.name));
   }
   finish(t, a);
+  if (t.has("coordinates")) {
+    const std::string path = beside(folder, t.text("coordinates"));
+    a.places = places_from_coordinates(path, a);
+    refuse_unknown_nodes(t, "coordinates", path, a);
+  }
   return a;
 }
 
 assembled read_calculix(const table_reader& t, const std::string& folder) {
-  t.allow_only({"job", "free_motions", "storage"});
+  t.allow_only({"job", "mesh", "free_motions", "storage"});
   const std::string job = beside(folder, t.text("job"));
   assembled a;
   a.name = job + ".sti";
@@ -115,6 +139,7 @@ assembled read_calculix(const table_reader& t, const std::string& folder) {
   a.labels = read_labels(a.labels_from);
   a.stiffness = read_calculix_stiffness(a.name, static_cast<int>(a.labels.size()));
   finish(t, a);
+  find_mesh(t, folder, job, a);
   return a;
 }
 

@@ -11,6 +11,7 @@
 #include "contct/io/certificate_text.hpp"
 #include "contct/io/frame_numbers.hpp"
 #include "contct/io/load_text.hpp"
+#include "contct/io/mesh_page.hpp"
 #include "contct/io/thinning.hpp"
 #include "contct/structure/cholesky.hpp"
 
@@ -24,12 +25,19 @@ constexpr std::size_t most_points = 60;  // loads that are drawn
 constexpr int load_samples = 25;         // along a beam
 constexpr int load_words_width = 60;
 
+/// A node as the page names it: its number, from 1, or its label.
+json named(const problem& p, int node) {
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return place_name(p.geometry, node);
+  return node + 1;
+}
+
 /// The events of an increment: [pair, node, side, 1 for make], numbers from 1.
 json events_json(const problem& p, const std::vector<event>& events) {
   json list = json::array();
   for (std::size_t i = 0; i < std::min(events.size(), most_events); ++i) {
     const contact_pair& at = p.pairs[static_cast<std::size_t>(events[i].pair)];
-    list.push_back({events[i].pair + 1, at.node + 1, at.surface, events[i].what == change::make ? 1 : 0});
+    list.push_back(
+        {events[i].pair + 1, named(p, at.node), at.surface, events[i].what == change::make ? 1 : 0});
   }
   return list;
 }
@@ -42,7 +50,7 @@ json supports_json(const problem& p, const shown_parts& shown) {
     const place where = place_of_node(p.geometry, s.node);
     json& entry = at[s.node];
     if (entry.is_null())
-      entry = {{"node", s.node + 1}, {"x", where.x}, {"y", where.y}, {"dofs", json::array()}};
+      entry = {{"node", named(p, s.node)}, {"x", where.x}, {"y", where.y}, {"dofs", json::array()}};
     entry["dofs"].push_back(
         {names[static_cast<std::size_t>(s.dof)], s.fixed ? json(nullptr) : json(s.spring)});
   }
@@ -57,7 +65,7 @@ json pairs_json(const problem& p, const shown_parts& shown) {
     const contact_pair& at = p.pairs[i];
     const place where = place_of_node(p.geometry, at.node);
     list.push_back({{"pair", i + 1},
-                    {"node", at.node + 1},
+                    {"node", named(p, at.node)},
                     {"x", where.x},
                     {"y", where.y},
                     {"side", at.surface},
@@ -67,7 +75,8 @@ json pairs_json(const problem& p, const shown_parts& shown) {
   return list;
 }
 
-json geometry_json(const problem& p, const shown_parts& shown) {
+json geometry_json(const finished_run& r, const shown_parts& shown) {
+  const problem& p = r.what;
   json out = json::object();
   const auto lines = [](const std::vector<double>& all, const std::vector<int>& chosen) {
     json list = json::array();
@@ -89,9 +98,9 @@ json geometry_json(const problem& p, const shown_parts& shown) {
            {"rows", numbered(shown.rows)},
            {"all_columns", plate_of->columns()}};
   } else {
-    out = {{"kind", "other"}};
+    out = mesh_json(r, shown);
   }
-  out["watched"] = shown.watched + 1;
+  out["watched"] = named(p, static_cast<int>(shown.watched));
   return out;
 }
 
@@ -176,6 +185,8 @@ void add_shape(const problem& p, const load& l, const frame& f, const shown_part
         w.push_back(deflection_of(p, f, static_cast<std::size_t>(plate_of->node_at(i, j))));
     }
     out["w"] = std::move(w);
+  } else {
+    return;
   }
   out["points"] = point_loads_json(p, l);
 }
@@ -199,7 +210,7 @@ void add_pairs(const problem& p, const frame& f, const shown_parts& shown, json&
 
 json frame_json(const finished_run& r, const load_path& loads, const frame& f, const shown_parts& shown) {
   const load l = load_of(loads, f);
-  const extreme most = largest_deflection(r.what, f);
+  const extreme most = largest_deflection(r.what, f, shown.deflecting);
   json out = {{"at", f.at},
               {"step", f.step},
               {"number", f.number},
@@ -210,7 +221,7 @@ json frame_json(const finished_run& r, const load_path& loads, const frame& f, c
               {"rescued", f.rescued},
               {"load", f.step == 0 ? "none" : loads.words_at(f.step, f.fraction, load_words_width)},
               {"force", resultant_of(r.what.geometry, l).force},
-              {"largest", {{"w", most.value}, {"node", most.at + 1}}},
+              {"largest", {{"w", most.value}, {"node", named(r.what, static_cast<int>(most.at))}}},
               {"watched", deflection_of(r.what, f, shown.watched)},
               {"events", events_json(r.what, f.events)},
               {"all_events", f.events.size()}};
@@ -273,13 +284,14 @@ nlohmann::ordered_json page_data(const finished_run& r) {
               {"lockstep", r.in_lockstep},
               {"equal", r.kernels.size() < 2 ? json(nullptr) : json(r.equal)},
               {"comparison", r.comparison},
+              {"place", node_name(r.what.geometry)},
               {"nodes", nodes(r.what.geometry)},
               {"elements", elements(r.what.geometry)},
               {"all_pairs", r.what.pairs.size()},
               {"all_steps", r.what.steps.size()},
               {"all_increments", r.record.all_increments},
               {"all_calls", r.record.all_calls},
-              {"geometry", geometry_json(r.what, shown)},
+              {"geometry", geometry_json(r, shown)},
               {"supports", supports_json(r.what, shown)},
               {"pairs", pairs_json(r.what, shown)},
               {"increments", increments_json(r, loads)},
@@ -291,6 +303,7 @@ nlohmann::ordered_json page_data(const finished_run& r) {
               {"thinned", shown.said}};
   json frames = json::array();
   for (const frame& f : r.kept.frames()) frames.push_back(frame_json(r, loads, f, shown));
+  if (std::holds_alternative<assembled>(r.what.geometry.kind)) add_mesh(r, loads, shown, out, frames);
   out["frames"] = std::move(frames);
   return out;
 }

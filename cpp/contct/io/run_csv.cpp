@@ -89,10 +89,10 @@ void run_csv::write_pairs(const state& of) {
   for (std::size_t i = 0; i < of.w.size(); ++i) {
     const contact_pair& p = problem_.pairs[i];
     const bool closed = of.isep[i] == in_contact;
-    pairs_->write(fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", of.step, of.number, i + 1, p.node + 1,
-                              surface_name(p.surface), closed ? "contact" : "separated",
-                              words_of(look_of(p, of.w[i], closed)), of.w[i], gap_of(p, of.w[i], closed),
-                              force_of(p, of.w[i], closed)));
+    pairs_->write(fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", of.step, of.number, i + 1,
+                              csv_field(place_name(problem_.geometry, p.node)), surface_name(p.surface),
+                              closed ? "contact" : "separated", words_of(look_of(p, of.w[i], closed)),
+                              of.w[i], gap_of(p, of.w[i], closed), force_of(p, of.w[i], closed)));
   }
 }
 

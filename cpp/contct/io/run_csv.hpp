@@ -26,7 +26,8 @@ namespace contct {
 /// pairs), smin (of the call, as the kernel gave it), kernels ("equal" or "differ"; empty: not compared).
 ///
 /// The second has a row for each pair in each of these: step, increment, pair, node, surface, state
-/// ("contact", "separated"), look ("closed", "open", "at its face"), w, gap, force.
+/// ("contact", "separated"; a dof's label stands for the node where each dof is one), look ("closed", "open",
+/// "at its face"), w, gap, force.
 class run_csv final : public observer {
  public:
   /// `compared` and `pairs` may be null; all must outlive this object, which observes behind `compared`.

@@ -23,6 +23,11 @@ std::string kind_of(const frame& f) {
   return makes ? "make" : "break";
 }
 
+/// A matrix does not say what is a deflection.
+const char* moves_by(const model& m) {
+  return std::holds_alternative<assembled>(m.kind) ? "displacement" : "deflection";
+}
+
 /// The sum of the loads over the deflection of the node that deflects most, state by state.
 drawn draw_path(const finished_run& r, const shown_parts& shown, double top) {
   const load_path loads(r.what);
@@ -39,9 +44,9 @@ drawn draw_path(const finished_run& r, const shown_parts& shown, double top) {
   const scale X{w.least, (page_width - 170) / w.range(), 110.0};
   const scale Y{force.most, -height / force.range(), top + 44};
   const double bottom = top + 44 + height;
-  std::string text =
-      text_at(60, top + 16, "strong",
-              fmt::format("Sum of the loads over the deflection of node {}", shown.watched + 1));
+  std::string text = text_at(60, top + 16, "strong",
+                             fmt::format("Sum of the loads over the {} of {}", moves_by(r.what.geometry),
+                                         place_words(r.what.geometry, static_cast<int>(shown.watched))));
   for (const double v : ticks(force.least, force.least + force.range(), 5)) {
     text += line(104, Y(v), page_width - 60, Y(v), "grid");
     text += text_at(98, Y(v) + 4, "quiet end", fmt::format("{:.4g}", v));
@@ -69,6 +74,7 @@ path { fill: none; } .thin { stroke: #5f5e58; } .grid { stroke: #e4e1d8; } .unde
 .surface { stroke: #1d1d1b; stroke-width: 2; } .hatch { stroke: #5f5e58; }
 .open { fill: #fff; stroke: #6b6a64; stroke-width: 1.8; } .closed { fill: #0b61a4; stroke: #fff; } .face { fill: #fff; stroke: #a85b00; stroke-width: 2.2; }
 .map .closed { fill: #17181a; }
+.was { stroke: #c4c0b5; } .member { stroke: #1d1d1b; stroke-width: 1.6; } .node { fill: #1d1d1b; } .force { stroke: #0b61a4; stroke-width: 2; }
 .track { stroke: #1d1d1b; stroke-width: 2; stroke-linejoin: round; } .make { fill: #1d1d1b; } .break { fill: #fff; stroke: #1d1d1b; stroke-width: 1.8; } .stop { fill: #b9b6ac; }
 </style>
 )";
@@ -82,13 +88,17 @@ std::string run_svg(const finished_run& r) {
   if (const auto* b = std::get_if<beam>(&r.what.geometry.kind)) picture = draw_beam(r.what, *b, last, shown);
   if (const auto* p = std::get_if<plate>(&r.what.geometry.kind))
     picture = draw_plate(r.what, *p, last, shown);
+  if (const auto* a = std::get_if<assembled>(&r.what.geometry.kind))
+    picture = a->places.known() ? draw_mesh(r.what, a->places, last, shown) : draw_table(r.what, last, shown);
   const drawn path = draw_path(r, shown, picture.bottom + 20);
   const pair_counts n = count_pairs(r.what, last);
-  const extreme most = largest_deflection(r.what, last);
+  const extreme most = largest_deflection(r.what, last, shown.deflecting);
   const std::string words = fmt::format(
-      "{}: step {}, share {:.6g}; w = {:.6g} at node {}; pairs: {} closed (square), {} open (ring), {} at "
+      "{}: step {}, share {:.6g}; {} {:.6g} at {}; pairs: {} closed (square), {} open (ring), {} at "
       "their faces (diamond)",
-      r.status, last.step, last.fraction, most.value, most.at + 1, n.closed, n.open, n.at_face);
+      r.status, last.step, last.fraction,
+      std::holds_alternative<assembled>(r.what.geometry.kind) ? "u =" : "w =", most.value,
+      place_words(r.what.geometry, static_cast<int>(most.at)), n.closed, n.open, n.at_face);
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1:.0f}\" width=\"{0}\" "
              "height=\"{1:.0f}\" role=\"img\">\n"

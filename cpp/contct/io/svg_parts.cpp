@@ -14,9 +14,9 @@ namespace {
 
 std::string pair_words(const problem& p, std::size_t pair, const pair_reading& r, bool closed) {
   const contact_pair& at = p.pairs[pair];
-  return fmt::format("pair {}, node {}, face {} at {:.6g}, {}: {} {:.6g}", pair + 1, at.node + 1,
-                     surface_name(at.surface), at.face, words_of(r.look), closed ? "force" : "gap",
-                     closed ? r.force : r.gap);
+  return fmt::format("pair {}, {}, face {} at {:.6g}, {}: {} {:.6g}", pair + 1,
+                     place_words(p.geometry, at.node), surface_name(at.surface), at.face, words_of(r.look),
+                     closed ? "force" : "gap", closed ? r.force : r.gap);
 }
 
 }  // namespace

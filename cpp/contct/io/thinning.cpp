@@ -4,22 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "contct/io/frame_numbers.hpp"
+#include "contct/io/mesh_numbers.hpp"
 
 namespace contct {
 namespace {
 
-std::size_t watched_node(const finished_run& r) {
-  const auto stride = static_cast<std::size_t>(dofs_per_node(r.what.geometry));
-  std::size_t node = 0;
-  double most = -1.0;
+std::size_t watched_node(const finished_run& r, const std::vector<int>& among) {
+  extreme most{among.empty() ? 0 : static_cast<std::size_t>(among.front()), 0.0};
   for (const frame& f : r.kept.frames()) {
-    for (std::size_t i = 0; i < f.displacement.size(); i += stride) {
-      if (std::abs(f.displacement[i]) <= most) continue;
-      most = std::abs(f.displacement[i]);
-      node = i / stride;
-    }
+    const extreme here = largest_deflection(r.what, f, among);
+    if (std::abs(here.value) > std::abs(most.value)) most = here;
   }
-  return node;
+  return most.at;
 }
 
 void insert(std::vector<int>& sorted, int number) {
@@ -65,11 +64,82 @@ void choose_lines(const plate& p, const finished_run& r, shown_parts& shown) {
                   shown.rows.size(), p.rows()));
 }
 
+/// Edges in the order in which they are drawn until there are too many: those of the fewest elements first,
+/// which are the outer ones of a solid, and among equals so that any beginning of them is spread over all.
+std::vector<int> edges_by_weight(const placed_nodes& places) {
+  constexpr double golden = 0.6180339887498949;
+  const auto spread = [](int i) { return i * golden - std::floor(i * golden); };
+  std::vector<int> order(places.edges.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    const int of_a = places.edges[static_cast<std::size_t>(a)].elements;
+    const int of_b = places.edges[static_cast<std::size_t>(b)].elements;
+    return of_a != of_b ? of_a < of_b : spread(a) < spread(b);
+  });
+  return order;
+}
+
+/// The nodes of what is marked: pairs, supports, and the dof that is watched.
+std::vector<char> marked_nodes(const finished_run& r, const placed_nodes& places, const shown_parts& shown) {
+  std::vector<char> marked(places.nodes.size(), 0);
+  const auto mark = [&](int dof) {
+    const int node = places.dofs[static_cast<std::size_t>(dof)].node;
+    if (node >= 0) marked[static_cast<std::size_t>(node)] = 1;
+  };
+  mark(static_cast<int>(shown.watched));
+  for (const std::size_t i : shown.pairs) mark(r.what.pairs[i].node);
+  for (const int dof : shown.supports) mark(dof);
+  return marked;
+}
+
+/// As many edges as the numbers of all frames together allow; where there are none, nodes.
+void choose_mesh(const placed_nodes& places, const finished_run& r, shown_parts& shown) {
+  std::vector<char> chosen = marked_nodes(r, places, shown);
+  const std::size_t numbers = r.kept.frames().size() * std::max<std::size_t>(1, axes_of(places).size());
+  const std::size_t most = std::max<std::size_t>(300, most_mesh_numbers / numbers);
+  auto count = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), 1));
+  const auto choose = [&](int node) {
+    char& mark = chosen[static_cast<std::size_t>(node)];
+    count += mark == 0 ? 1 : 0;
+    mark = 1;
+  };
+  for (const int i : edges_by_weight(places)) {
+    if (shown.edges.size() == most_edges || count + 2 > most) break;
+    const mesh_edge& e = places.edges[static_cast<std::size_t>(i)];
+    choose(e.from);
+    choose(e.to);
+    shown.edges.push_back(i);
+  }
+  std::sort(shown.edges.begin(), shown.edges.end());
+  // Nodes without an edge are points of their own.
+  const auto all = static_cast<int>(places.nodes.size());
+  if (shown.edges.size() == places.edges.size())
+    for (const int node : evenly(all, static_cast<int>(most))) choose(node);
+  for (int node = 0; node < all; ++node)
+    if (chosen[static_cast<std::size_t>(node)] != 0) shown.nodes.push_back(node);
+  const std::vector<dofs_of_node> of_node = dofs_of_nodes(places);
+  for (const frame& f : r.kept.frames()) {
+    for (const int node : shown.nodes)
+      shown.reach =
+          std::max(shown.reach, length_of(reading_at(of_node[static_cast<std::size_t>(node)].along, f)));
+  }
+  const auto is_long = [](const load& l) { return l.points.size() > most_loads; };
+  if (std::any_of(r.what.steps.begin(), r.what.steps.end(), is_long))
+    shown.said.push_back(
+        fmt::format("Of loads at more dofs than {} the largest so many are drawn.", most_loads));
+  if (shown.edges.size() < places.edges.size() || shown.nodes.size() < places.nodes.size())
+    shown.said.push_back(fmt::format(
+        "{} of {} edges and {} of {} nodes are drawn: edges of the fewest elements first, which are the "
+        "outer "
+        "ones of a solid, and evenly chosen among equals. The largest displacement is that of all.",
+        shown.edges.size(), places.edges.size(), shown.nodes.size(), places.nodes.size()));
+}
+
 void choose_pairs(const finished_run& r, shown_parts& shown) {
   const std::size_t all = r.what.pairs.size();
-  const bool on_a_plate = std::holds_alternative<plate>(r.what.geometry.kind);
+  const bool on_a_beam = std::holds_alternative<beam>(r.what.geometry.kind);
   const std::size_t most = std::clamp<std::size_t>(most_pair_states / r.kept.frames().size(), 200,
-                                                   on_a_plate ? most_pairs : most_pairs_of_a_beam);
+                                                   on_a_beam ? most_pairs_of_a_beam : most_pairs);
   for (const int i : evenly(static_cast<int>(all), static_cast<int>(most)))
     shown.pairs.push_back(static_cast<std::size_t>(i));
   if (shown.pairs.size() == all) return;
@@ -89,8 +159,8 @@ void choose_supports(const finished_run& r, shown_parts& shown) {
   for (const int i : evenly(static_cast<int>(held.size()), static_cast<int>(most_supports)))
     shown.supports.push_back(held[static_cast<std::size_t>(i)]);
   if (shown.supports.size() == held.size()) return;
-  shown.said.push_back(fmt::format("Supports are drawn at {} of {} nodes that have them, evenly chosen.",
-                                   shown.supports.size(), held.size()));
+  shown.said.push_back(fmt::format("Supports are drawn at {} of {} {}s that have them, evenly chosen.",
+                                   shown.supports.size(), held.size(), node_name(r.what.geometry)));
 }
 
 void say_what_is_counted_only(const finished_run& r, shown_parts& shown) {
@@ -123,11 +193,16 @@ std::vector<int> evenly(int all, int count) {
 
 shown_parts choose_parts(const finished_run& r) {
   shown_parts shown;
-  shown.watched = watched_node(r);
+  shown.deflecting = deflecting_nodes(r.what);
+  shown.watched = watched_node(r, shown.deflecting);
   if (const auto* b = std::get_if<beam>(&r.what.geometry.kind)) choose_nodes(*b, r, shown);
   if (const auto* p = std::get_if<plate>(&r.what.geometry.kind)) choose_lines(*p, r, shown);
   choose_pairs(r, shown);
   choose_supports(r, shown);
+  if (const auto* a = std::get_if<assembled>(&r.what.geometry.kind)) {
+    if (a->places.known()) choose_mesh(a->places, r, shown);
+    shown.said.insert(shown.said.end(), a->places.said.begin(), a->places.said.end());
+  }
   say_what_is_counted_only(r, shown);
   return shown;
 }

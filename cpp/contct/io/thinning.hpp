@@ -11,12 +11,15 @@ namespace contct {
 
 /// Which nodes, grid lines and pairs a page shows; all counted from 0, rising.
 struct shown_parts {
-  std::vector<int> nodes;    ///< of a beam
+  std::vector<int> nodes;    ///< of a beam, or of a structure from elsewhere whose places are known
+  std::vector<int> edges;    ///< of the latter
+  double reach = 0.0;        ///< of the latter: the largest displacement of these nodes on the path
   std::vector<int> columns;  ///< grid lines of a plate
   std::vector<int> rows;
   std::vector<std::size_t> pairs;
-  std::vector<int> supports;  ///< the nodes whose supports are drawn
-  std::size_t watched = 0;    ///< the node that deflects most on the path; always shown
+  std::vector<int> supports;    ///< the nodes whose supports are drawn
+  std::vector<int> deflecting;  ///< all nodes that deflect: see deflecting_nodes
+  std::size_t watched = 0;      ///< the one that does so most on the path; always shown
 
   std::vector<std::string> said;  ///< what was left out and how it was chosen; empty: nothing was
 };
@@ -25,10 +28,13 @@ struct shown_parts {
 inline constexpr std::size_t most_places = 24'000;
 inline constexpr std::size_t most_grid_points = 90'000;
 inline constexpr std::size_t most_pair_states = 36'000;
+inline constexpr std::size_t most_mesh_numbers = 900'000;
 /// And of these in any one frame.
 inline constexpr std::size_t most_pairs = 1000;
 inline constexpr std::size_t most_pairs_of_a_beam = 300;
 inline constexpr std::size_t most_supports = 300;
+inline constexpr std::size_t most_edges = 20'000;
+inline constexpr std::size_t most_loads = 60;
 
 [[nodiscard]] shown_parts choose_parts(const finished_run& r);
 

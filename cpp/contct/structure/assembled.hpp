@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contct/structure/load.hpp"
+#include "contct/structure/placed_nodes.hpp"
 #include "contct/structure/sparse_matrix.hpp"
 #include "contct/structure/structure.hpp"
 
@@ -22,6 +23,7 @@ struct assembled {
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
   bool as_band = true;              ///< otherwise K is kept by its entries: CHOLMOD alone can solve with it
   std::optional<int> free_motions;  ///< how many motions it leaves free on its supports, where that is known
+  placed_nodes places;              ///< for pictures; nothing is computed from them
 
   static constexpr int dofs_per_node = 1;
   static constexpr std::array<const char*, 1> dof_names = {"value"};

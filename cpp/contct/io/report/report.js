@@ -20,6 +20,10 @@ const known = { fortran: "FORTRAN", cpp: "C++", "fortran-r4": "FORTRAN (4-byte R
 const kernels = data.kernels.map((name) => known[name] || name);
 const sentence = (text) => text[0].toUpperCase() + text.slice(1) + ".";
 const where = (f) => (f.step === 0 ? "Start" : f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`);
+const ofMatrix = data.place === "dof";
+// What moves and how it is named: "deflection w of node 3", "displacement of dof 6.y".
+const moves = ofMatrix ? "displacement" : "deflection";
+const placed = (name) => `${data.place} ${name}`;
 const looks = { o: "open", c: "closed", f: "at its face" };
 
 function element(name, attributes = {}, ...children) {
@@ -35,7 +39,7 @@ function cell(value, attributes = {}) {
 }
 
 function eventWords([pair, node, surface, makes]) {
-  return `pair ${pair} ${makes ? "makes" : "breaks"} contact (node ${node}, ${side(surface)})`;
+  return `pair ${pair} ${makes ? "makes" : "breaks"} contact (${placed(node)}, ${side(surface)})`;
 }
 
 function allEventWords(events, all, most = 8) {
@@ -550,6 +554,230 @@ function drawScaleAcross(root, x, y, width) {
   }
 }
 
+// ---- a structure from elsewhere, where its nodes have places ----
+
+const mesh = geometry.kind !== "mesh" ? null : {
+  nodes: geometry.names.length,
+  edges: geometry.edges.length / 2,
+  force: Math.max(0, ...frames.map((f) => Math.max(0, ...pairsOf(f).map((p) => p.force)))),
+  point: Math.max(0, ...frames.map((f) => Math.max(0, ...f.points.filter((p) => p[1] <= 3).map((p) => Math.abs(p[3]))))),
+};
+let view = mesh ? geometry.view : 0;
+const mostMovingEdges = 4000;  // more do not glide from state to state
+
+// Right and up on the page, in units of length: two numbers a node.
+function projected(f, times) {
+  const { right, up } = geometry.views[view];
+  const { axes, unit } = geometry;
+  const out = new Float64Array(2 * mesh.nodes);
+  for (let i = 0; i < mesh.nodes; ++i) {
+    const at = [geometry.x[i], geometry.y[i], geometry.z[i]];
+    axes.forEach((axis, k) => { at[axis] += times * unit * f.u[i * axes.length + k]; });
+    out[2 * i] = right[0] * at[0] + right[1] * at[1] + right[2] * at[2];
+    out[2 * i + 1] = up[0] * at[0] + up[1] * at[1] + up[2] * at[2];
+  }
+  return out;
+}
+
+// Room for the structure as it was, and around it for the largest displacement: the same in all states.
+function meshLayout(width) {
+  const was = projected(frames[0], 0);
+  const [x0, x1] = spread(was.filter((_, i) => i % 2 === 0));
+  const [y0, y1] = spread(was.filter((_, i) => i % 2 === 1));
+  const size = Math.max(x1 - x0, y1 - y0);
+  const fitting = geometry.reach > 0 && size > 0 ? roundDown((0.12 * size) / geometry.reach, [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8]) : 1;
+  const factor = magnification || fitting;
+  const room = Math.max(factor * geometry.reach, 0.02 * size);
+  const [wide, high] = [x1 - x0 + 2 * room || 1, y1 - y0 + 2 * room || 1];
+  const edge = { side: width < 520 ? 46 : 66, top: 76, bottom: 100 };
+  const scale = Math.min((width - 2 * edge.side) / wide, 440 / high);
+  const left = (width - wide * scale) / 2;
+  return {
+    fitting, factor, scale, size,
+    height: edge.top + high * scale + edge.bottom,
+    X: (x) => left + (x - x0 + room) * scale,
+    Y: (y) => edge.top + (y1 + room - y) * scale,
+  };
+}
+
+// A direction on the page, of length 1; nothing where it points at the eye.
+function onPage(direction) {
+  if (direction < 1 || direction > 3) return null;
+  const { right, up } = geometry.views[view];
+  const [x, y] = [right[direction - 1], -up[direction - 1]];
+  const length = Math.hypot(x, y);
+  return length < 0.1 ? null : [x / length, y / length];
+}
+
+function edgePath(spots, kind) {
+  const d = [];
+  for (let k = 0; k < geometry.edges.length; k += 2) {
+    const [a, b] = [2 * geometry.edges[k], 2 * geometry.edges[k + 1]];
+    d.push(`M${spots[a].toFixed(1)} ${spots[a + 1].toFixed(1)}L${spots[b].toFixed(1)} ${spots[b + 1].toFixed(1)}`);
+  }
+  return svg("path", { d: d.join(""), class: kind });
+}
+
+// Small marks of one kind at many nodes, as one path.
+const marksAt = (numbers, spots, mark, kind) =>
+  svg("path", { d: numbers.map((i) => `M${spots[2 * i].toFixed(1)} ${spots[2 * i + 1].toFixed(1)}${mark}`).join(""), class: kind });
+
+function drawMeshSupports(root, spots) {
+  for (const s of data.supports) {
+    if (s.at === null) continue;
+    const [x, y] = [spots[2 * s.at], spots[2 * s.at + 1]];
+    const spring = s.dofs[s.dofs.length - 1][1];
+    const t = onPage(s.direction);
+    const g = svg("g", {}, svg("title", {}, `Support of dof ${s.node}: ${spring === null ? "fixed" : `on a spring of ${short(spring)}`}`));
+    if (t === null) g.append(svg("path", { d: `M${x - 5} ${y - 5}h10v10h-10Z`, class: "support", "fill-opacity": 0 }));
+    else {
+      const at = (along, across) => `${(x - along * t[0] + across * t[1]).toFixed(1)} ${(y - along * t[1] - across * t[0]).toFixed(1)}`;
+      if (spring === null) g.append(svg("path", { d: `M${at(2, 0)}L${at(14, 7)}L${at(14, -7)}Z`, class: "support" }));
+      else g.append(svg("path", { d: `M${at(2, 0)}L${at(4, 5)}L${at(8, -5)}L${at(12, 5)}L${at(16, -5)}L${at(18, 0)}M${at(18, 8)}L${at(18, -8)}`, class: "thin" }));
+    }
+    root.append(g);
+  }
+}
+
+// A word where no other stands, and inside the picture; otherwise none.
+function wordsInFreePlaces(root, width, height) {
+  const boxes = [];
+  return (x, y, words, kind) => {
+    const half = 4.4 * words.length + 2;
+    const box = [x - half, y - 13, x + half, y + 5];
+    const free = box[0] >= 2 && box[2] <= width - 2 && box[1] >= 24 && box[3] <= height - 4 &&
+      boxes.every((b) => b[0] >= box[2] || b[2] <= box[0] || b[1] >= box[3] || b[3] <= box[1]);
+    if (!free) return;
+    boxes.push(box);
+    root.append(label(x, y, words, { "text-anchor": "middle", class: `${kind} halo` }));
+  };
+}
+
+function drawMeshLoads(root, f, spots, say) {
+  for (const [at, direction, , value, name] of f.points) {
+    const t = onPage(direction);
+    const [x, y] = [spots[2 * at], spots[2 * at + 1]];
+    const title = svg("title", {}, `Load ${short(value)} at dof ${name}`);
+    if (t === null) {
+      root.append(svg("g", {}, title, svg("path", { d: `M${x + 13} ${y + 7}A15 15 0 1 ${value > 0 ? 0 : 1} ${x + 13} ${y - 7}`, class: "load-line", "stroke-width": 2 })));
+      continue;
+    }
+    const size = (40 * Math.abs(value)) / mesh.point;
+    const sign = Math.sign(value);
+    const from = [x - sign * (9 + size) * t[0], y - sign * (9 + size) * t[1]];
+    const g = arrow(from[0], from[1], sign * size * t[0], sign * size * t[1], "load");
+    g.append(title);
+    root.append(g);
+    if (size >= 8) say(from[0] - sign * 12 * t[0], from[1] - sign * 12 * t[1] + 4, rough(value), "value");
+  }
+}
+
+// The face stands across the pair's direction, as far from where the node was as c is; beside the node, along
+// which it has no end. Hatched on the far side.
+function drawMeshFace(root, p, t, [x, y], pixels) {
+  const far = 90;
+  const along = pixels * p.face;
+  const cut = Math.max(-far, Math.min(far, along));
+  const at = (a, across) => [x + (a - pixels * p.w) * t[0] - across * t[1], y + (a - pixels * p.w) * t[1] + across * t[0]];
+  const half = 13;
+  const g = svg("g", {}, svg("title", {}, `Pair ${p.pair}, dof ${p.node}: face ${side(p.side)} at ${short(p.face)}${cut === along ? "" : ", farther than drawn"}`));
+  g.append(line(...at(cut, -half), ...at(cut, half), "face-line" + (cut === along ? "" : " far")));
+  for (let k = -half + 2; k < half; k += 6) g.append(line(...at(cut, k), ...at(cut + p.side * 6, k - 4), "hatch"));
+  root.append(g);
+  return cut;
+}
+
+function drawMeshPairs(root, f, spots, layout, say) {
+  const { right, up } = geometry.views[view];
+  const pairs = pairsOf(f).filter((p) => p.at !== null);
+  const r = pairs.length > 60 ? 3.2 : 5;
+  for (const p of pairs) {
+    const t = onPage(p.direction);
+    const [x, y] = [spots[2 * p.at], spots[2 * p.at + 1]];
+    const mark = pairMark(p.look, x, y, r, p.closed);
+    mark.append(svg("title", {}, `Pair ${p.pair}, dof ${p.node}, face ${side(p.side)}, ${lookWords(p)}: ` +
+      (p.closed ? `force ${short(p.force)}` : `gap ${short(p.gap)}`)));
+    if (t !== null) {
+      const pixels = layout.factor * layout.scale * Math.hypot(right[p.direction - 1], up[p.direction - 1]);
+      const node = pixels * p.w;  // from where it was, along the pair's direction
+      const face = drawMeshFace(root, p, t, [x, y], pixels);
+      if (p.closed && Math.abs(face - node) > 8) root.append(line(x + (face - node) * t[0], y + (face - node) * t[1], x, y, "spring"));
+      const length = mesh.force > 0 ? (36 * Math.abs(p.force)) / mesh.force : 0;
+      // Beyond the face's hatches and the node's mark.
+      const tip = (p.side > 0 ? Math.max(face + 10, node + r + 3) : Math.min(face - 10, node - r - 3)) - node;
+      const start = tip + p.side * length;
+      if (p.force > 0 && length >= 1) root.append(arrow(x + start * t[0], y + start * t[1], -p.side * length * t[0], -p.side * length * t[1], "force"));
+      if (pairs.length <= 60) say(x + (start + p.side * 11) * t[0], y + (start + p.side * 11) * t[1] + 4, String(p.pair), "axis-word");
+    } else if (pairs.length <= 60) say(x + 13, y - 8, String(p.pair), "axis-word");
+    root.append(mark);
+  }
+}
+
+// Where the axes point, and how long a length is.
+function drawMeshAxes(root, width, height, layout) {
+  const [x, y] = [40, height - 34];
+  const { right, up } = geometry.views[view];
+  ["x", "y", "z"].forEach((name, axis) => {
+    const [dx, dy] = [26 * right[axis], -26 * up[axis]];
+    if (Math.hypot(dx, dy) < 3) return;
+    root.append(line(x, y, x + dx, y + dy, "thin"),
+      label(x + dx * 1.45, y + dy * 1.45 + 4, name, { "text-anchor": "middle", class: "axis-word" }));
+  });
+  if (!(layout.size > 0)) return;
+  const length = roundUp(layout.size / 8);
+  const [to, bar] = [width - 30, length * layout.scale];
+  root.append(path([[to - bar, y - 4], [to - bar, y], [to, y], [to, y - 4]], "thin"),
+    label(to, y + 18, `length ${rough(length)}`, { "text-anchor": "end", class: "axis-word" }));
+}
+
+function drawMesh(f) {
+  const holder = byId("picture");
+  const width = widthOf(holder);
+  const layout = meshLayout(width);
+  const place = (list) => list.map((v, i) => (i % 2 === 0 ? layout.X(v) : layout.Y(v)));
+  const was = place(projected(f, 0));
+  const spots = place(projected(f, layout.factor));
+  const root = canvas(holder, width, layout.height, stateWords(f));
+  const factor = layout.factor.toLocaleString("en", { maximumSignificantDigits: 3 });
+  root.append(label(16, 18, width < 520 ? `Displacement × ${factor}` : `Displacement, drawn × ${factor}; ${geometry.views[view].words}`, { class: "panel-title" }));
+  const all = Array.from({ length: mesh.nodes }, (_, i) => i);
+  if (mesh.edges > 0) root.append(edgePath(was, "mesh-was"), edgePath(spots, mesh.edges > 400 ? "member many" : "member"));
+  else root.append(marksAt(all, was, "h0", "mesh-was dots"), marksAt(all, spots, "h0", "member dots"));
+  if (geometry.still.length > 0) root.append(marksAt(geometry.still, was, "m-3 -3l6 6m-6 0l6 -6", "thin still"));
+  drawMeshSupports(root, spots);
+  if (mesh.nodes <= 200) {
+    for (const i of all) root.append(svg("circle", { cx: spots[2 * i], cy: spots[2 * i + 1], r: 2.2, class: "mesh-node" }, svg("title", {}, `node ${geometry.names[i]}`)));
+  }
+  const say = wordsInFreePlaces(root, width, layout.height - 62);
+  drawMeshLoads(root, f, spots, say);
+  drawMeshPairs(root, f, spots, layout, say);
+  drawMeshAxes(root, width, layout.height, layout);
+  offerMagnifications(layout.fitting);
+}
+
+function offerViews() {
+  const select = byId("view");
+  byId("view-label").hidden = select.hidden = !mesh;
+  if (!mesh) return;
+  select.replaceChildren(...geometry.views.map((v, i) => element("option", { value: String(i) }, v.words)));
+  select.value = String(view);
+  select.addEventListener("change", () => { view = Number(select.value); draw(frames[current]); });
+}
+
+// ---- and where they have none ----
+
+function drawNothingButNumbers(f) {
+  const none = () => element("td", {}, "–");
+  const rows = pairsOf(f).slice(0, mostPairRows).map((p) => row(element("th", { scope: "row", class: "words" }, p.node),
+    cell(`pair ${p.pair}, face ${side(p.side)} at ${short(p.face)}`), cell(lookWords(p)), cell(p.w), cell(p.gap), cell(p.force)));
+  rows.unshift(row(element("th", { scope: "row", class: "words" }, String(geometry.watched)), cell("moves most on the path"), cell("–"), cell(f.watched), none(), none()));
+  const table = element("table", { id: "state-table" }, head(["Dof", true], ["What it is", true], ["State", true], ["Displacement"], ["Gap"], ["Force"]), element("tbody", {}, ...rows));
+  // Kept, so that its place in a long table is too.
+  const holder = byId("picture");
+  if (!holder.firstChild) holder.append(element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Pairs, and the dof that moves most" }));
+  holder.firstChild.replaceChildren(table);
+}
+
 // ---- load against deflection ----
 
 const totals = frames.map((f) => f.force);
@@ -569,7 +797,7 @@ function drawChart(current) {
   const Y = (v) => height - room.bottom - ((v - y0) / (y1 - y0)) * (height - room.top - room.bottom);
   const f = frames[current];
   const root = canvas(holder, width, height,
-    `Load against the deflection of node ${geometry.watched}, ${frames.length} states; now load ${rough(measure(f))}, deflection ${rough(f.watched)}`);
+    `Load against the ${moves} of ${placed(geometry.watched)}, ${frames.length} states; now load ${rough(measure(f))}, ${moves} ${rough(f.watched)}`);
   for (const v of ticks(x0, x1, Math.floor(width / 95))) {
     root.append(line(X(v), room.top, X(v), height - room.bottom, v === 0 ? "zero" : "grid"));
     root.append(label(X(v), height - room.bottom + 18, rough(v), { "text-anchor": "middle", class: "axis-word" }));
@@ -578,8 +806,8 @@ function drawChart(current) {
     root.append(line(room.left, Y(v), width - room.right, Y(v), v === 0 ? "zero" : "grid"));
     root.append(label(room.left - 8, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
   }
-  root.append(label(room.left, 18, byForce ? "Sum of the loads, positive up" : "Steps of load applied", { class: "panel-title" }));
-  root.append(label(width - room.right, height - 12, `deflection w of node ${geometry.watched}`, { "text-anchor": "end", class: "axis-word" }));
+  root.append(label(room.left, 18, byForce ? (ofMatrix ? "Sum of the loads" : "Sum of the loads, positive up") : "Steps of load applied", { class: "panel-title" }));
+  root.append(label(width - room.right, height - 12, `${ofMatrix ? moves : "deflection w"} of ${placed(geometry.watched)}`, { "text-anchor": "end", class: "axis-word" }));
   root.append(line(X(f.watched), Y(measure(f)), X(f.watched), height - room.bottom, "cross"), line(room.left, Y(measure(f)), X(f.watched), Y(measure(f)), "cross"));
   root.append(path(frames.map((g) => [X(g.watched), Y(measure(g))]), "track"));
   for (const g of frames) root.append(chartMark(g, X(g.watched), Y(measure(g))));
@@ -612,7 +840,7 @@ function stateWords(f) {
   const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
   const rescued = f.rescued ? " This state comes from the oracle: the path could not reach it." : "";
   const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} closed, ${open} open, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
-  return `${place}${event}${rescued}${pairs} Largest deflection ${short(f.largest.w)} at node ${f.largest.node}.`;
+  return `${place}${event}${rescued}${pairs} Largest ${moves} ${short(f.largest.w)} at ${placed(f.largest.node)}.`;
 }
 
 function showReadings(f) {
@@ -623,7 +851,7 @@ function showReadings(f) {
     read("Share of the step", short(f.fraction), f.fraction),
     read("Scale factor s", f.number === 0 ? "–" : f.snap ? "snap" : short(f.s), f.s),
     read("Load", minus(f.load)),
-    read(`Largest w, node ${f.largest.node}`, short(f.largest.w), f.largest.w),
+    read(`Largest ${ofMatrix ? moves : "w"}, ${placed(f.largest.node)}`, short(f.largest.w), f.largest.w),
   ];
   if (data.all_pairs > 0) list.push(read("Closed, open, at face", f.counts[1] + ", " + f.counts[0] + ", " + f.counts[2]));
   byId("readings").replaceChildren(...list);
@@ -650,9 +878,9 @@ function showPairs(f) {
   const shown = pairs.slice(0, mostPairRows);
   byId("pairs-words").textContent = `State ${where(f)}. Gaps are those of open pairs; forces press on the structure, and a negative one is tension.` +
     (shown.length < pairs.length ? ` The first ${shown.length} of the ${pairs.length} that the page holds.` : "");
-  table.replaceChildren(head(["Pair"], ["Node"], ["Face", true], ["stands at"], ["State", true], ["Gap"], ["Force"]),
+  table.replaceChildren(head(["Pair"], ofMatrix ? ["Dof", true] : ["Node"], ["Face", true], ["stands at"], ["State", true], ["Gap"], ["Force"]),
     element("tbody", {}, ...shown.map((p) => {
-      const r = row(element("th", { scope: "row" }, String(p.pair)), cell(p.node), cell(side(p.side)), cell(p.face),
+      const r = row(element("th", { scope: "row" }, String(p.pair)), cell(p.node, { "data-value": String(p.node) }), cell(side(p.side)), cell(p.face),
         cell(lookWords(p)), cell(p.gap), cell(p.force));
       r.dataset.pair = String(p.pair);
       return r;
@@ -750,7 +978,9 @@ function showCertificate() {
 
 function showHead() {
   byId("kernels").textContent = `${kernels.join(" and ")}, engine ${data.engine}`;
-  byId("size").textContent = [counted(data.nodes, "node"), counted(data.elements, "element"), counted(data.all_pairs, "pair"), counted(data.all_steps, "load step"), counted(data.all_increments, "increment")].join(", ");
+  const size = mesh ? [counted(geometry.all_nodes, "node"), counted(geometry.all_edges, "edge"), counted(data.nodes, "dof")]
+    : ofMatrix ? [counted(data.nodes, "dof")] : [counted(data.nodes, "node"), counted(data.elements, "element")];
+  byId("size").textContent = [...size, counted(data.all_pairs, "pair"), counted(data.all_steps, "load step"), counted(data.all_increments, "increment")].join(", ");
   const say = (text, kind) => byId("verdict").append(element("li", { class: kind }, text));
   say(data.status === "solved" ? "All load is applied." : `Not solved: ${data.ended || data.status}.`, data.status === "solved" ? "good" : "bad");
   if (data.equal === null) say("One kernel ran; nothing was compared.", "note");
@@ -767,7 +997,7 @@ function showLog() {
 }
 
 function showThinned() {
-  const list = data.thinned.length > 0 ? data.thinned : ["Nothing: every increment, node, pair and call is here."];
+  const list = data.thinned.length > 0 ? data.thinned : [`Nothing: every increment, ${data.place}, pair and call is here.`];
   byId("thinned").replaceChildren(...list.map((text) => element("li", {}, text)));
 }
 
@@ -791,13 +1021,30 @@ function showLegend() {
     byId("picture-words").textContent = "Up is positive. Between two increments every point moves along a straight line. " +
       "Moments M = EI w\u2033 (positive where the beam sags) and shears V = dM/dx (the upward force of the part left of a cut on the part right of it) " +
       "are the elements' values at their ends, joined by straight lines.";
+  } else if (mesh) {
+    if (data.all_pairs > 0) {
+      const face = svg("g", {}, line(2, 8, 20, 8, "face-line"));
+      for (let k = 4; k < 20; k += 6) face.append(line(k, 8, k - 4, 14, "hatch"));
+      list.push(item("face, hatched behind", face), item("force of a pair", arrow(11, 17, 0, -15, "force")));
+    }
+    list.push(item("load", arrow(11, 1, 0, 15, "load")), item("undeformed", line(0, 9, 22, 9, "mesh-was")));
+    if (data.supports.length > 0) list.push(item("support of a dof", svg("path", { d: "M11 3l7 12h-14Z", class: "support" })));
+    if (geometry.still.length > 0) list.push(item("node without a dof: it stands still", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
+    byId("picture-words").textContent = "Edges are drawn straight between their nodes. Between two increments every point moves along a straight line. " +
+      "A face stands across the direction of its pair's dof, as far from where the node was as the problem says, magnified alike, and is drawn beside the node.";
+    byId("magnification-label").textContent = "Displacements drawn";
+  } else if (!plate) {
+    list.length = 0;
+    byId("picture-words").textContent = "No coordinates of this structure are known, so its numbers stand in the picture's place: " +
+      "the dof that moves most on the path, and the pairs. [matrix] takes coordinates, [calculix] the mesh in CalculiX's input.";
+    byId("magnification").parentElement.hidden = true;
   } else {
     list.push(item("load, down", svg("g", { class: "load" }, svg("circle", { cx: 11, cy: 9, r: 7, "fill-opacity": 0 }), svg("path", { d: "M7 5l8 8m-8 0l8 -8" }))),
       item("support of w", svg("path", { d: "M11 3l6 11h-12Z", class: "support" })), item("support of a slope", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
     byId("picture-words").textContent = "The colours are the same in all states: dark is low. Up is positive. A closed pair's square grows with its force; a bar over a pair says that its face stands above.";
     byId("magnification").parentElement.hidden = true;
   }
-  byId("legend").classList.toggle("on-map", !beam);
+  byId("legend").classList.toggle("on-map", Boolean(plate));
   byId("legend").replaceChildren(...list);
   byId("chart-words").textContent = "Straight between events; filled circles are pairs that make contact, rings pairs that break it, squares the ends of steps.";
 }
@@ -811,6 +1058,8 @@ let moving = 0;
 function draw(f) {
   if (beam) drawBeam(f);
   else if (plate) drawPlate(f);
+  else if (mesh) drawMesh(f);
+  else drawNothingButNumbers(f);
 }
 
 function show(n) {
@@ -831,24 +1080,28 @@ function show(n) {
 // A state between two: the truth too, since within an increment everything moves on straight lines.
 function between(a, b, share) {
   const mixed = (p, q) => p.map((x, i) => (x === null ? null : x + share * (q[i] - x)));
-  const f = { ...a, w: mixed(a.w, b.w), at_pairs: mixed(a.at_pairs, b.at_pairs) };
+  const f = { ...a, at_pairs: mixed(a.at_pairs, b.at_pairs) };
+  const mixedPoints = (same) => b.points.map((p) => {
+    const before = a.points.find((o) => same(o, p));
+    const value = before ? before[3] : 0;
+    return [p[0], p[1], p[2], value + share * (p[3] - value), p[4]];
+  });
+  if (mesh) return { ...f, u: mixed(a.u, b.u), points: mixedPoints((o, p) => o[2] === p[2]) };
+  f.w = mixed(a.w, b.w);
   if (!beam) return f;
   f.slope = mixed(a.slope, b.slope);
   for (const name of ["moment", "shear"]) f[name] = { ...b[name], left: mixed(a[name].left, b[name].left), right: mixed(a[name].right, b[name].right) };
   const zeros = (q) => (q ? q.map(() => 0) : null);
   if (a.q || b.q) f.q = mixed(a.q || zeros(b.q), b.q || zeros(a.q));
-  f.points = b.points.map((p) => {
-    const before = a.points.find((o) => o[4] === p[4] && o[2] === p[2]);
-    const value = before ? before[3] : 0;
-    return [p[0], p[1], p[2], value + share * (p[3] - value), p[4]];
-  });
+  f.points = mixedPoints((o, p) => o[4] === p[4] && o[2] === p[2]);
   return f;
 }
 
 function glide(from, to) {
   const [a, b] = [frames[from], frames[to]];
   const straight = b.at - a.at <= 1 && !b.rescued;
-  if (calm.matches || !straight || data.pairs.length > 200) return show(to);
+  const heavy = geometry.kind === "none" || data.pairs.length > 200 || (mesh && Math.max(mesh.edges, mesh.nodes) > mostMovingEdges);
+  if (calm.matches || !straight || heavy) return show(to);
   const began = performance.now();
   const lasts = 450;
   const step = (now) => {
@@ -905,6 +1158,7 @@ function listen() {
 }
 
 showHead();
+offerViews();
 showLegend();
 showEvents();
 showCalls();

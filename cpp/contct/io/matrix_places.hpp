@@ -1,0 +1,33 @@
+// The dofs of a matrix on nodes whose places are known.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "contct/structure/assembled.hpp"
+
+namespace contct {
+
+/// The direction of a label's last part: x, y, z or 1, 2, 3 are 1 to 3, rx, ry, rz or 4, 5, 6 are 4 to 6, and
+/// r, the turn of a plane structure, is 6; 0 for anything else.
+[[nodiscard]] int direction_of(std::string_view name);
+
+/// Find each dof's node by its label "NAME.DIRECTION"; of two labels for one place the second has none. Says
+/// what is not drawn. False where no label has a node; then nothing is known.
+[[nodiscard]] bool place_dofs(const assembled& a, placed_nodes& places);
+
+/// Edges for a structure of which only the matrix is known: between nodes that it couples. None where there
+/// are more than this many for each node, as in a solid or a plate: what couples there is no member that one
+/// could see. A space frame has 3 at most, a plane one 2.
+inline constexpr std::size_t most_couplings_of_a_node = 3;
+void add_coupling_edges(const assembled& a, placed_nodes& places);
+
+/// Without the nodes that have neither a dof nor an edge.
+void drop_idle_nodes(placed_nodes& places);
+
+/// Of `[matrix]`: the nodes of a file of coordinates. Of `[calculix]`: the mesh in an input file. Nothing is
+/// known where no label has its node in them. Throw input_error.
+[[nodiscard]] placed_nodes places_from_coordinates(const std::string& path, const assembled& a);
+[[nodiscard]] placed_nodes places_from_inp(const std::string& path, const assembled& a);
+
+}  // namespace contct
