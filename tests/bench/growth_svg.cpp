@@ -116,6 +116,7 @@ std::string panel(const std::vector<growth_point>& points, const std::string& fa
     const std::string colour = engine == "refactor"    ? "#555555"
                                : engine == "updated"   ? "#0072b2"
                                : engine == "condensed" ? "#009e73"
+                               : engine == "dissected" ? "#aa4499"
                                                        : "#d55e00";
     svg += line_of(a, line, colour, label_floor);
   }

@@ -34,7 +34,7 @@ for row in rows:
 plain = engines - {"condensed"}
 expected = {(name, engine) for name in problems for engine in (engines if name.startswith("rail") else plain)}
 assert {(row["problem"], row["engine"]) for row in rows} == expected and len(rows) == len(expected), rows
-assert engines == {"refactor", "updated", "condensed"} | ({"cholmod"} if has_cholmod else set()), engines
+assert engines == {"refactor", "updated", "condensed"} | ({"cholmod", "dissected"} if has_cholmod else set()), engines
 assert events >= 200, events
 for family in ("rail", "grid"):
     assert family in words, words

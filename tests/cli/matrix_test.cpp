@@ -99,8 +99,8 @@ TEST_CASE("what a band cannot hold is solved by its entries, and the certificate
   CHECK_THAT(f.out, Contains("make 1: dof 1 below"));
   CHECK_THAT(f.out, Contains("0 mismatches"));
   CHECK_THAT(f.out, Contains("both final states are certified"));
-  for (const char* how :
-       {"--engine=cholmod", "--engine=auto", "--final-only", "--kernels=corrected", "--free-run"}) {
+  for (const char* how : {"--engine=cholmod", "--engine=dissected", "--engine=auto", "--final-only",
+                          "--kernels=corrected", "--free-run"}) {
     const finished other = contct_program(here.path(), {"run", "p.toml", "--strict", how}, little);
     INFO(how << "\n" << other.err);
     CHECK(other.exit == 0);
@@ -108,7 +108,7 @@ TEST_CASE("what a band cannot hold is solved by its entries, and the certificate
   }
   const finished banded = contct_program(here.path(), {"run", "p.toml", "--engine", "updated"}, little);
   CHECK(banded.exit == 2);
-  CHECK_THAT(banded.err, Contains("is not stored as a band; allowed: refactor or cholmod"));
+  CHECK_THAT(banded.err, Contains("is not stored as a band; allowed: refactor, cholmod or dissected"));
   little.environment = {{"CONTCT_MEMORY_MIB", "1"}};
   const finished refused = contct_program(here.path(), {"run", "p.toml"}, little);
   CHECK(refused.exit == 2);

@@ -2,6 +2,8 @@
 #include "contct/structure/stiffness_factor.hpp"
 
 #include "catch.hpp"
+#include "contct/structure/row_of_many.hpp"
+#include "contct/structure/supernodal_solve.hpp"
 #include "structure/matrices.hpp"
 
 using namespace contct;
@@ -41,4 +43,52 @@ TEST_CASE("a matrix that is not positive definite has no factor in either storag
   CHECK(f.reciprocal_condition({}) == 0.0);
   const std::vector<spring_at> enough = {{20, 10.0}};
   CHECK(f.factor(enough));  // and the failure leaves nothing behind
+}
+
+TEST_CASE("eight unit vectors go through either factor at once, and come out as one at a time") {
+  for (const int order : {1, 9, 40, 300}) {
+    const stiffness_matrix wide(
+        random_band(order, std::min(order - 1, 12), static_cast<std::uint64_t>(order)));
+    const stiffness_matrix narrow(columns_of(wide.band()));
+    for (const stiffness_matrix* k : {&wide, &narrow}) {
+      stiffness_factor f(*k);
+      REQUIRE(f.factor({}));
+      CHECK(f.flops() >= 0.0);
+      const std::vector<int> rows = {0, order / 2, -1, order - 1, order / 3};
+      std::vector<double> all;
+      f.solve_units(rows, all);
+      REQUIRE(all.size() == static_cast<std::size_t>(order) * many);
+      for (std::size_t i = 0; i < many; ++i) {
+        std::vector<double> one(static_cast<std::size_t>(order));
+        const bool is_asked = i < rows.size() && rows[i] >= 0;
+        if (is_asked) one[static_cast<std::size_t>(rows[i])] = 1.0;
+        f.solve(one);
+        for (std::size_t row = 0; row < one.size(); ++row)
+          CHECK(all[row * many + i] == Approx(one[row]).epsilon(1e-12).margin(1e-15));
+      }
+    }
+  }
+}
+
+TEST_CASE("supernodes of any width, with rows far below, are solved as the matrix that they make") {
+  // Columns 0 and 1 with rows 0, 1, 3; column 2 with rows 2, 4; columns 3, 4.
+  const std::vector<int> columns = {0, 2, 3, 5};
+  const std::vector<int> row_places = {0, 3, 5, 7};
+  const std::vector<int> entry_places = {0, 6, 8};
+  const std::vector<int> rows = {0, 1, 3, 2, 4, 3, 4};
+  const std::vector<double> entries = {2, 1, 3, 0, 4, 5, 6, 7, 8, 9, 0, 10};
+  const double l[5][5] = {
+      {2, 0, 0, 0, 0}, {1, 4, 0, 0, 0}, {0, 0, 6, 0, 0}, {3, 5, 0, 8, 0}, {0, 0, 7, 9, 10}};
+  random_numbers random(8);
+  std::vector<double> x(5 * many);
+  for (double& entry : x) entry = random.unit() - 0.5;
+  for (std::size_t i = 0; i < 5; ++i) x[i * many + 3] = 0.0;  // one right-hand side of nothing
+  std::vector<double> b(x.size());
+  for (std::size_t row = 0; row < 5; ++row)
+    for (std::size_t column = 0; column < 5; ++column)
+      for (std::size_t k = 0; k < 5; ++k)
+        for (std::size_t i = 0; i < many; ++i)
+          b[row * many + i] += l[row][k] * l[column][k] * x[column * many + i];
+  solve_many({columns, row_places, entry_places, rows, entries}, b);
+  for (std::size_t i = 0; i < x.size(); ++i) CHECK(b[i] == Approx(x[i]).epsilon(1e-12).margin(1e-13));
 }

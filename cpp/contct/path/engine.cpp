@@ -13,14 +13,16 @@ namespace contct {
 std::vector<std::string> engine_names() {
   std::vector<std::string> names = {"refactor", "updated", "condensed"};
 #ifdef CONTCT_HAS_CHOLMOD
-  names.emplace_back("cholmod");
+  names.insert(names.end(), {"cholmod", "dissected"});
 #endif
   return names;
 }
 
 std::string_view quickest_engine(const linear_structure& s) {
   if (!s.stiffness.is_band()) return "cholmod";
-  return condensed_engine::suits(s) ? "condensed" : "updated";
+  if (condensed_engine::suits(s)) return "condensed";
+  constexpr int wide = 128;  // subdiagonals from which another order than the band's pays
+  return sparse_factor::available() && s.stiffness.band().subdiagonals() >= wide ? "dissected" : "updated";
 }
 
 void refuse_unknown_engine(std::string_view name) {
@@ -38,11 +40,13 @@ std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linea
   if (name == "condensed") return std::make_unique<condensed_engine>(s);
 #ifdef CONTCT_HAS_CHOLMOD
   if (name == "cholmod") return std::make_unique<cholmod_engine>(s);
+  if (name == "dissected") return std::make_unique<updated_engine>(s, true);
 #endif
   if (name == "updated") {
     if (!s.stiffness.is_band())
       throw std::invalid_argument(
-          "engine \"updated\": found a stiffness that is not stored as a band; allowed: refactor or cholmod");
+          "engine \"updated\": found a stiffness that is not stored as a band; allowed: refactor, cholmod or "
+          "dissected");
     return std::make_unique<updated_engine>(s);
   }
   return std::make_unique<refactor_engine>(s);

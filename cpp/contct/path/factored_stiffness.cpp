@@ -9,8 +9,21 @@
 
 namespace contct {
 
-factored_stiffness::factored_stiffness(const linear_structure& s)
-    : structure_(s), closed_(s.pairs.size()), factor_(s.stiffness), ordered_(s.rows.size()) {}
+namespace {
+
+std::optional<stiffness_matrix> entries_of(const linear_structure& s, bool dissected) {
+  if (!dissected || !s.stiffness.is_band()) return {};
+  return columns_of(s.stiffness.band());
+}
+
+}  // namespace
+
+factored_stiffness::factored_stiffness(const linear_structure& s, bool dissected)
+    : structure_(s),
+      entries_(entries_of(s, dissected)),
+      closed_(s.pairs.size()),
+      factor_(entries_ ? *entries_ : s.stiffness),
+      ordered_(s.rows.size()) {}
 
 void factored_stiffness::factor(std::span<const char> closed) {
   closed_.assign(closed.begin(), closed.end());
@@ -37,6 +50,10 @@ void factored_stiffness::solve(std::span<double> x) {
 
 void factored_stiffness::solve_unit(int dof, std::span<double> x) {
   if (structure_.fixed[static_cast<std::size_t>(dof)] != 0) return;
+  if (entries_ || !structure_.stiffness.is_band()) {
+    x[static_cast<std::size_t>(dof)] = 1.0;
+    return solve(x);
+  }
   const int row = structure_.row_of(dof);
   const std::vector<int>& rows = structure_.rows;
   if (rows.empty()) {
@@ -50,16 +67,10 @@ void factored_stiffness::solve_unit(int dof, std::span<double> x) {
 }
 
 void factored_stiffness::solve_units(std::span<const int> dofs, std::vector<double>& x) {
-  const band_matrix& l = factor_.band();
-  x.assign(static_cast<std::size_t>(l.order()) * many, 0.0);
-  int first = l.order();
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (structure_.fixed[static_cast<std::size_t>(dofs[i])] != 0) continue;
-    const int row = structure_.row_of(dofs[i]);
-    x[static_cast<std::size_t>(row) * many + i] = 1.0;
-    first = std::min(first, row);
-  }
-  if (first < l.order()) solve_many_from(l, first, x);
+  std::vector<int> rows;
+  for (const int dof : dofs)
+    rows.push_back(structure_.fixed[static_cast<std::size_t>(dof)] != 0 ? -1 : structure_.row_of(dof));
+  factor_.solve_units(rows, x);
 }
 
 void factored_stiffness::solve_refined(std::span<const double> right_hand_side, std::span<double> u) {

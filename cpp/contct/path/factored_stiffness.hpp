@@ -1,6 +1,7 @@
 // The stiffness with a set of closed springs, factored anew: what engines have in common.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace contct {
 /// Memory: the factor, besides the structure's own.
 class factored_stiffness {
  public:
-  explicit factored_stiffness(const linear_structure& s);
+  /// `dissected`: by CHOLMOD, in its order, also where K is stored as a band.
+  explicit factored_stiffness(const linear_structure& s, bool dissected = false);
 
   /// Factor K with the springs of the pairs that are `closed` [pairs] (dpbtrf). Throws no_factor.
   void factor(std::span<const char> closed);
@@ -22,7 +24,7 @@ class factored_stiffness {
   void solve(std::span<double> x);
 
   /// Solve K x = e for the unit vector of one dof: x [dofs], which comes zeroed. Half a pass over the factor
-  /// less than `solve`. Of a band only, as what follows.
+  /// less than `solve` where K is a band.
   void solve_unit(int dof, std::span<double> x);
 
   /// The same for up to `many` dofs in one pass over the factor: x[row * many + i] for the i-th, in the
@@ -40,13 +42,17 @@ class factored_stiffness {
   /// The factor itself, in the order of the structure's rows.
   [[nodiscard]] const band_matrix& factor_band() const { return factor_.band(); }
 
+  /// Products and sums that a factorisation takes.
+  [[nodiscard]] double flops() const { return factor_.flops(); }
+
  private:
   [[nodiscard]] std::vector<spring_at> springs(std::span<const char> closed) const;
   void residual(std::span<const double> right_hand_side, std::span<const double> u,
                 std::span<double> left) const;
 
   const linear_structure& structure_;
-  std::vector<char> closed_;  // the springs in the factor [pairs]
+  std::optional<stiffness_matrix> entries_;  // of a band that CHOLMOD factors
+  std::vector<char> closed_;                 // the springs in the factor [pairs]
   stiffness_factor factor_;
   std::vector<double> ordered_;  // a right-hand side in the order of the rows, where that is another
 };

@@ -13,24 +13,22 @@ constexpr double digits_kept = 1e-2;  // of 1 in 1 - k c: less, and a stiff spri
 
 /// Columns until their sums cost what a factor costs: c^2 / 2 columns of pairs against n kd^2 / 2, twice as
 /// many, since a factor's products come from the cache and the columns' do not. Together they are then least.
-std::size_t columns_worth_keeping(const linear_structure& s) {
-  const double kd = s.stiffness.band().subdiagonals();
-  const double products_of_factor = static_cast<double>(s.dofs()) * kd * kd;
-  const double worth =
-      std::sqrt(2 * products_of_factor / static_cast<double>(std::max<std::size_t>(s.pairs.size(), 1)));
+std::size_t columns_worth_keeping(double flops_of_factor, std::size_t pairs) {
+  const double worth = std::sqrt(2 * flops_of_factor / static_cast<double>(std::max<std::size_t>(pairs, 1)));
   return static_cast<std::size_t>(std::clamp(worth, 8.0, 1000.0));
 }
 
 }  // namespace
 
-updated_engine::updated_engine(const linear_structure& s)
+updated_engine::updated_engine(const linear_structure& s, bool dissected)
     : structure_(s),
+      dissected_(dissected),
       pairs_(s.pairs.size()),
       wanted_(pairs_),
       applied_(pairs_),
-      stiffness_(s),
+      stiffness_(s, dissected),
       columns_(s, stiffness_),
-      most_toggles_(columns_worth_keeping(s)),
+      most_toggles_(columns_worth_keeping(stiffness_.flops(), pairs_)),
       response_(pairs_),
       work_(static_cast<std::size_t>(s.dofs())),
       until_check_(first_check),

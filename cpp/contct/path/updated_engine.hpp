@@ -17,15 +17,16 @@ namespace contct {
 ///     g = sigma k / (1 + sigma k c_p),   x' = x - g x_p c
 ///
 /// `inverse_columns` has the columns. Nothing else costs more than O(pairs) an event.
-/// Memory: a band, and a column of pairs a toggle.
+/// Memory: a factor, and a column of pairs a toggle.
 ///
 /// Updates drift: on a schedule that the drift itself sets, x is put back into the equations by one more
 /// solve; and the factor is made anew when too much is left over, when the columns cost more than it would,
 /// or when 1 + sigma k c_p has lost its digits.
 class updated_engine final : public stiffness_engine {
  public:
-  explicit updated_engine(const linear_structure& s);
-  [[nodiscard]] std::string_view name() const override { return "updated"; }
+  /// `dissected`: over CHOLMOD's factor in place of a band's.
+  explicit updated_engine(const linear_structure& s, bool dissected = false);
+  [[nodiscard]] std::string_view name() const override { return dissected_ ? "dissected" : "updated"; }
   void switch_spring(int pair, bool closed) override;
   void respond(const residual_load& residual, std::span<double> d_star) override;
   void recover(std::span<const double> load, std::span<const double> pair_forces,
@@ -43,6 +44,7 @@ class updated_engine final : public stiffness_engine {
   void gather(std::span<const double> at_dofs, std::span<double> at_pairs) const;
 
   const linear_structure& structure_;
+  bool dissected_;
   std::size_t pairs_;
   std::vector<char> wanted_;   // closed, as switched [pairs]
   std::vector<char> applied_;  // closed, in factor and toggles [pairs]

@@ -37,4 +37,12 @@ void sparse_factor::solve(std::span<double> /*b*/) {
   refuse();
 }
 
+void sparse_factor::solve_units(std::span<const int> /*rows*/, std::vector<double>& /*x*/) {
+  refuse();
+}
+
+double sparse_factor::flops() const {
+  refuse();
+}
+
 }  // namespace contct

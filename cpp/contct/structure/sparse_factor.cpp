@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "contct/structure/cholmod_library.hpp"
+#include "contct/structure/row_of_many.hpp"
+#include "contct/structure/supernodal_solve.hpp"
 
 namespace contct {
 
@@ -10,9 +12,16 @@ class sparse_factor::library {
  public:
   explicit library(const sparse_columns& a) : a_(a) {
     common_->supernodal = CHOLMOD_SUPERNODAL;  // dense blocks by BLAS
+    common_->nmethods = 2;                     // the better of both
+    common_->method[0].ordering = CHOLMOD_METIS;
+    common_->method[1].ordering = CHOLMOD_AMD;
     cholmod_sparse k = seen_by_cholmod(a_);
     factor_ = made_by_cholmod(cholmod_analyze(&k, common_));
     b_ = made_by_cholmod(cholmod_zeros(k.nrow, 1, CHOLMOD_REAL, common_));
+    flops_ = common_->fl;
+    places_.resize(k.nrow);
+    const auto* const order = static_cast<const int*>(factor_->Perm);
+    for (std::size_t i = 0; i < k.nrow; ++i) places_[static_cast<std::size_t>(order[i])] = i;
   }
   ~library() {
     cholmod_free_factor(&factor_, common_);
@@ -39,6 +48,18 @@ class sparse_factor::library {
     return done && common_->status == CHOLMOD_OK && factor_->minor == factor_->n;
   }
 
+  [[nodiscard]] double flops() const { return flops_; }
+
+  void solve_units(std::span<const int> rows, std::vector<double>& x) {
+    in_order_.assign(factor_->n * many, 0.0);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (rows[i] >= 0) in_order_[place_of(rows[i]) * many + i] = 1.0;
+    solve_many(in_supernodes(), in_order_);
+    x.resize(in_order_.size());
+    for (std::size_t row = 0; row < factor_->n; ++row)
+      std::copy_n(&in_order_[place_of(static_cast<int>(row)) * many], many, &x[row * many]);
+  }
+
   void solve(std::span<double> b) {
     auto* const right_hand_side = static_cast<double*>(b_->x);
     std::copy(b.begin(), b.end(), right_hand_side);
@@ -48,8 +69,25 @@ class sparse_factor::library {
   }
 
  private:
+  [[nodiscard]] std::size_t place_of(int row) const { return places_[static_cast<std::size_t>(row)]; }
+
+  [[nodiscard]] supernodes in_supernodes() const {
+    const auto* const f = factor_;
+    const auto ints = [](const void* at, std::size_t count) {
+      return std::span<const int>(static_cast<const int*>(at), count);
+    };
+    return {ints(f->super, f->nsuper + 1),
+            ints(f->pi, f->nsuper + 1),
+            ints(f->px, f->nsuper),
+            ints(f->s, f->ssize),
+            {static_cast<const double*>(f->x), f->xsize}};
+  }
+
   cholmod_library common_;
   sparse_columns a_;
+  double flops_ = 0.0;
+  std::vector<std::size_t> places_;  // of each row in the factor's order
+  std::vector<double> in_order_;
   cholmod_factor* factor_ = nullptr;
   cholmod_dense* b_ = nullptr;
   cholmod_dense* x_ = nullptr;
@@ -76,6 +114,14 @@ bool sparse_factor::factor(std::span<const double> diagonal) {
 
 void sparse_factor::solve(std::span<double> b) {
   library_->solve(b);
+}
+
+void sparse_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
+  library_->solve_units(rows, x);
+}
+
+double sparse_factor::flops() const {
+  return library_->flops();
 }
 
 }  // namespace contct

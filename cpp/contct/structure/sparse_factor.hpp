@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "contct/structure/sparse_columns.hpp"
 
@@ -31,6 +32,13 @@ class sparse_factor {
 
   /// Solve A x = b in place.
   void solve(std::span<double> b);
+
+  /// Solve A x = e for the unit vectors of up to `many` rows in one pass over the factor: x[row * many + i]
+  /// for the i-th. A row of -1 leaves zeros.
+  void solve_units(std::span<const int> rows, std::vector<double>& x);
+
+  /// Products and sums that a factorisation takes.
+  [[nodiscard]] double flops() const;
 
  private:
   class library;

@@ -1,19 +1,23 @@
 #include "contct/structure/stiffness_factor.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "contct/structure/band_solve.hpp"
 #include "contct/structure/cholesky.hpp"
+#include "contct/structure/row_of_many.hpp"
 
 namespace contct {
 
-stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {}
+stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
+  if (!k_.is_band()) sparse_.emplace(k_.columns());
+}
 
 bool stiffness_factor::factor(std::span<const spring_at> springs) {
   if (k_.is_band()) {
     assemble(springs);
     return contct::factor(band_);
   }
-  if (!sparse_) sparse_.emplace(k_.columns());
   return sparse_->factor(diagonal_with(springs));
 }
 
@@ -23,6 +27,24 @@ void stiffness_factor::solve(std::span<double> b) {
   } else {
     solve_with(band_, b);
   }
+}
+
+void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
+  if (sparse_) return sparse_->solve_units(rows, x);
+  x.assign(static_cast<std::size_t>(band_.order()) * many, 0.0);
+  int first = band_.order();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
+    x[static_cast<std::size_t>(rows[i]) * many + i] = 1.0;
+    first = std::min(first, rows[i]);
+  }
+  if (first < band_.order()) solve_many_from(band_, first, x);
+}
+
+double stiffness_factor::flops() const {
+  if (sparse_) return sparse_->flops();
+  const double kd = k_.band().subdiagonals();
+  return static_cast<double>(k_.order()) * kd * kd;
 }
 
 double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {

@@ -29,6 +29,13 @@ class stiffness_factor {
   /// Solve in place, by rows.
   void solve(std::span<double> b);
 
+  /// Solve for the unit vectors of up to `many` rows in one pass over the factor: x[row * many + i] for the
+  /// i-th. A row of -1 leaves zeros.
+  void solve_units(std::span<const int> rows, std::vector<double>& x);
+
+  /// Products and sums that a factorisation takes.
+  [[nodiscard]] double flops() const;
+
   /// Reciprocal condition of K with `springs`, its diagonal scaled to 1: see cholesky.hpp. The factor is gone
   /// afterwards.
   [[nodiscard]] double reciprocal_condition(std::span<const spring_at> springs);
