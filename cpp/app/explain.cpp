@@ -10,6 +10,7 @@
 #include "app/endings.hpp"
 #include "app/output_options.hpp"
 #include "app/path_progress.hpp"
+#include "app/read_problem.hpp"
 #include "app/streams.hpp"
 #include "contct/check/explained_path.hpp"
 #include "contct/conform/follower.hpp"
@@ -92,7 +93,7 @@ class explanation_run {
   exit_status go() {
     refuse_unknown_engine(options_.engine);
     refuse_kernels(options_.kernels);
-    problem_ = read_problem(options_.file);
+    problem_ = read_as_one_waits(options_.file, options_.quiet);
     for (const std::string& w : problem_.warnings) complain("warning: {}", w);
     refuse_what_is_not_there();
     refuse_shared_outputs({{"--json", options_.json}}, {{"the problem", options_.file}});
@@ -103,7 +104,7 @@ class explanation_run {
       text_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), look_at_terminal());
     if (file) json_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), *file);
     explained_path told(leader->facts(), second(), wanted_, [this](const auto& i) { tell(i); });
-    const linear_structure structure = structure_of(problem_);
+    const linear_structure structure = build_as_one_waits(problem_, options_.quiet);
     path_progress shown(problem_.steps.size(), options_.quiet);
     const path_end end =
         follow(problem_, structure, options_.engine, *leader, {shown.before(), &told, shown.behind()});

@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "app/output_options.hpp"
+#include "app/read_problem.hpp"
 #include "app/streams.hpp"
 #include "contct/io/calculix_deck.hpp"
 #include "contct/io/problem_file.hpp"
@@ -23,7 +24,7 @@ struct export_options {
 exit_status run_export(const export_options& options) {
   const output_option output = {"--calculix", options.calculix};
   refuse_shared_outputs({output}, {{"the problem", options.file}});
-  const problem p = read_problem(options.file);
+  const problem p = read_as_one_waits(options.file, false);
   for (const std::string& w : p.warnings) complain("warning: {}", w);
   const calculix_deck deck = calculix_deck_of(p, options.choice);
   const std::unique_ptr<output_file> file = open_output(output);

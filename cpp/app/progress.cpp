@@ -10,8 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contct/io/field_lines.hpp"
-
 namespace contct {
 namespace {
 
@@ -20,10 +18,12 @@ double seconds_from(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0.0))
-    throw std::invalid_argument("CONTCT_PROGRESS_AFTER: found " + quoted(text) +
-                                "; allowed: seconds, 0 or more");
+    throw std::invalid_argument("CONTCT_PROGRESS_AFTER: found \"" + std::string(text) +
+                                "\"; allowed: seconds, 0 or more");
   return value;
 }
+
+}  // namespace
 
 double wait_before_progress() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
@@ -31,10 +31,12 @@ double wait_before_progress() {
   return said == nullptr ? 1.0 : seconds_from(said);
 }
 
-}  // namespace
+bool waits_at_terminal(bool quiet) {
+  return !quiet && isatty(STDERR_FILENO) != 0;
+}
 
 progress::progress(long all, std::string what, bool quiet)
-    : wanted_(!quiet && isatty(STDERR_FILENO) != 0),
+    : wanted_(waits_at_terminal(quiet)),
       after_(wait_before_progress()),
       between_(std::min(0.2, after_.count())),
       all_(all),

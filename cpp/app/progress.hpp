@@ -7,9 +7,15 @@
 
 namespace contct {
 
-/// One line on standard error, written over and over and gone in the end. Nothing at all in the first second
-/// (or as many as CONTCT_PROGRESS_AFTER in the environment says), where standard error is not a terminal, or
-/// where it is to be quiet.
+/// Seconds before anything is shown: what CONTCT_PROGRESS_AFTER in the environment says, or 1. Throws
+/// std::invalid_argument when that is no time.
+[[nodiscard]] double wait_before_progress();
+
+/// Does anybody wait at a terminal?
+[[nodiscard]] bool waits_at_terminal(bool quiet);
+
+/// One line on standard error, written over and over and gone in the end. Nothing at all in the first second,
+/// where standard error is not a terminal, or where it is to be quiet.
 class progress {
  public:
   /// `what` is counted: "problems". Throws std::invalid_argument when CONTCT_PROGRESS_AFTER is no time.

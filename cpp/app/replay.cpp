@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/commands.hpp"
+#include "app/progress.hpp"
 #include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/numeric/probe.hpp"
@@ -46,7 +47,8 @@ std::string verdict_of(const replay_report& r) {
 }
 
 /// One trace against one kernel.
-check_result replay_one(const std::string& file, const std::string& text, const std::string& name) {
+check_result replay_one(const std::string& file, const std::string& text, const std::string& name,
+                        bool quiet) {
   trace_reader calls(text, file);
   const trace_header h = calls.read_header();
   const std::string kernel = name.empty() ? usual_kernel(h) : name;
@@ -60,7 +62,11 @@ check_result replay_one(const std::string& file, const std::string& text, const 
     return result;
   }
   const std::unique_ptr<class kernel> k = make_kernel(kernel);
-  const replay_report r = replay(h, calls, *k);
+  progress shown(1, "trace", quiet);
+  const replay_report r = replay(h, calls, *k, [&shown, &file](std::int64_t done) {
+    shown.say(fmt::format("{}: {} calls", file, done));
+  });
+  shown.erase();
   if (r.calls == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
   result.what = r.compared.mismatches == 0 ? outcome::passed : outcome::failed;
   result.summary = fmt::format("{}; {} calls, {} values compared, {} mismatches", verdict_of(r), r.calls,
@@ -85,7 +91,7 @@ exit_status run_replay(const replay_options& options) {
   for (const std::string& file : options.traces) {
     const std::string text = read_input(file, "trace", 2048);
     for (const std::string& kernel : kernels) {
-      check_result r = replay_one(file == "-" ? "standard input" : file, text, kernel);
+      check_result r = replay_one(file == "-" ? "standard input" : file, text, kernel, options.report.quiet);
       const paint p = r.what == outcome::failed   ? paint::bad
                       : r.what == outcome::passed ? paint::good
                                                   : paint::quiet;

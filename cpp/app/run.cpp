@@ -14,6 +14,7 @@
 #include "app/commands.hpp"
 #include "app/endings.hpp"
 #include "app/path_progress.hpp"
+#include "app/read_problem.hpp"
 #include "app/report_options.hpp"
 #include "app/run_pictures.hpp"
 #include "app/streams.hpp"
@@ -96,11 +97,11 @@ class run {
   }
 
   void read() {
-    problem_ = read_problem(options_.file);
+    problem_ = read_as_one_waits(options_.file, options_.report.quiet);
     for (const std::string& w : problem_.warnings) complain("warning: {}", w);
     refuse_grid_without_coordinates();
     warn_of_pairs_without_cell();
-    structure_ = structure_of(problem_);
+    structure_ = build_as_one_waits(problem_, options_.report.quiet);
     judged_.emplace(structure_, loads_of(problem_));
     engine_ = engine_for(options_.kernels.front());
   }

@@ -24,7 +24,8 @@ std::vector<long_work> long_works() {
           {"explain", {"explain", "plate.toml", "--json", "/dev/null"}, "step 2 of 2, increment "},
           {"verify", {"verify", "--reference", CONTCT_ROOT "/reference"}, " problems"},
           {"atlas", {"atlas", "--problems", "1"}, " problems"},
-          {"fuzz", {"fuzz", "--calls", "2000"}, " % of "}};
+          {"fuzz", {"fuzz", "--calls", "2000"}, " % of "},
+          {"replay", {"replay", CONTCT_ROOT "/reference/traces/ties.trace"}, "ties.trace: 1 calls"}};
 }
 
 /// At a terminal whose owner waits for so many seconds before he wonders.
@@ -91,6 +92,18 @@ TEST_CASE("where table and progress share a terminal, every row of the table beg
     from = end + 1;
   }
   CHECK(screen == plain.out);
+}
+
+TEST_CASE("what cannot say how far it has come says what it is doing") {
+  const plate_directory dir;
+  for (const char* command : {"run", "explain"}) {
+    const finished f = at_terminal(dir, {command, "plate.toml"}, "0");
+    CHECK_THAT(f.err, Contains("\rreading plate.toml, 0 s\033[K\r\033[K"));
+    CHECK_THAT(f.err, Contains("\rbuilding the structure, 0 s\033[K\r\033[K"));
+    CHECK(at_terminal(dir, {command, "plate.toml", "--quiet"}, "0").err.empty());
+  }
+  CHECK_THAT(at_terminal(dir, {"export", "plate.toml", "--calculix", "plate.inp"}, "0").err,
+             Contains("\rreading plate.toml, 0 s\033[K\r\033[K"));
 }
 
 TEST_CASE("what is quicker than one waits shows no progress") {

@@ -24,7 +24,8 @@ bool comparable(const trace_header& h, const kernel_facts& k) {
   return h.real_bytes == k.real_bytes && h.rule == k.rule;
 }
 
-replay_report replay(const trace_header& h, trace_reader& calls, kernel& k) {
+replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
+                     const std::function<void(std::int64_t)>& told) {
   replay_report report;
   recorded_call c;
   call_outputs answered;
@@ -34,6 +35,7 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k) {
     const call<double> recorded{c.in.dd, c.in.dtest, c.in.cc,    c.out.ss, c.out.smin,
                                 c.in.id, c.out.isep, c.in.isurf, c.in.dof};
     report.branches.count(recorded, c.in.isep);
+    if (told) told(report.calls);
     const auto found = put_to(k, recorded, c.in.isep, recorded_text(c), equality, answered, report.compared);
     if (!found || report.first) continue;
     report.first = finding{c.number, "the trace", k.facts().name, *found,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "contct/conform/branches.hpp"
@@ -23,7 +24,9 @@ struct replay_report {
 [[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
 
 /// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
-/// both have it, by what it means where one of them is f2c. Throws input_error where the trace is malformed.
-[[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k);
+/// both have it, by what it means where one of them is f2c. `told` hears after each how many calls are done.
+/// Throws input_error where the trace is malformed.
+[[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
+                                   const std::function<void(std::int64_t)>& told = nullptr);
 
 }  // namespace contct
