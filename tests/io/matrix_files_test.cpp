@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <sstream>
 
 #include "catch.hpp"
@@ -13,6 +12,7 @@
 #include "contct/io/matrix_market.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/text/input_text.hpp"
+#include "io/refusals.hpp"
 
 using namespace contct;
 
@@ -26,16 +26,6 @@ const std::string good_job = "1 1  4.0000000000000e+00\n1 2  0.0000000000000e+00
 
 std::string replaced(std::string text, const std::string& piece, const std::string& mistake) {
   return text.replace(text.find(piece), piece.size(), mistake);
-}
-
-/// What is said of a file, or "accepted".
-std::string verdict(const std::function<void()>& reads) {
-  try {
-    reads();
-  } catch (const input_error& e) {
-    return e.what();
-  }
-  return "accepted";
 }
 
 std::string of_matrix(const std::string& text) {
@@ -59,25 +49,6 @@ std::vector<std::vector<double>> full(const sparse_matrix& a) {
     m[static_cast<std::size_t>(e.column)][static_cast<std::size_t>(e.row)] = e.value;
   }
   return m;
-}
-
-struct bad_file {
-  std::string text;
-  const char* place;  ///< with the file's name
-  const char* found;
-  const char* allowed;
-};
-
-void check_refusals(const std::vector<bad_file>& files, std::string (*verdict_of)(const std::string&)) {
-  for (const bad_file& f : files) {
-    const std::string message = verdict_of(f.text);
-    INFO(f.text << "\n" << message);
-    CHECK_THAT(message, Catch::Matchers::StartsWith(f.place));
-    CHECK_THAT(message, Catch::Matchers::Contains(std::string("found ") + f.found));
-    CHECK_THAT(message, Catch::Matchers::Contains(f.allowed));
-    CHECK(message.find('\n') == std::string::npos);
-    CHECK(message.size() < 300);
-  }
 }
 
 /// How many lines a text has behind its size, and how many its size says: read in the plainest way.

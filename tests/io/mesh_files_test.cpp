@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 
 #include "catch.hpp"
 #include "contct/io/inp_mesh.hpp"
@@ -12,6 +11,7 @@
 #include "contct/io/node_coordinates.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/text/input_text.hpp"
+#include "io/refusals.hpp"
 
 using namespace contct;
 using Catch::Matchers::Contains;
@@ -21,40 +21,11 @@ namespace {
 using place = std::array<double, 3>;
 using edge = std::array<int, 3>;  ///< from, to, and how many elements have it
 
-/// What is said of a file, or "accepted".
-std::string verdict(const std::function<void()>& reads) {
-  try {
-    reads();
-  } catch (const input_error& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-
 std::string of_coordinates(const std::string& text) {
   return verdict([&] { (void)parse_coordinates(text, "K.xyz"); });
 }
 std::string of_mesh(const std::string& text) {
   return verdict([&] { (void)parse_inp_mesh(text, "job.inp"); });
-}
-
-struct bad_file {
-  std::string text;
-  const char* place;  ///< with the file's name
-  const char* found;
-  const char* allowed;
-};
-
-void check_refusals(const std::vector<bad_file>& files, std::string (*verdict_of)(const std::string&)) {
-  for (const bad_file& f : files) {
-    const std::string message = verdict_of(f.text);
-    INFO(f.text << "\n" << message);
-    CHECK_THAT(message, Catch::Matchers::StartsWith(f.place));
-    CHECK_THAT(message, Contains(std::string("found ") + f.found));
-    CHECK_THAT(message, Contains(f.allowed));
-    CHECK(message.find('\n') == std::string::npos);
-    CHECK(message.size() < 300);
-  }
 }
 
 std::vector<edge> edges_of(const placed_nodes& m) {

@@ -1,0 +1,43 @@
+// Files that must be refused, and what is to be said of them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "contct/text/input_text.hpp"
+
+namespace contct {
+
+/// What is said of a file, or "accepted".
+inline std::string verdict(const std::function<void()>& reads) {
+  try {
+    reads();
+  } catch (const input_error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+struct bad_file {
+  std::string text;
+  const char* place;  ///< with the file's name
+  const char* found;
+  const char* allowed;
+};
+
+inline void check_refusals(const std::vector<bad_file>& files,
+                           std::string (*verdict_of)(const std::string&)) {
+  for (const bad_file& f : files) {
+    const std::string message = verdict_of(f.text);
+    INFO(f.text << "\n" << message);
+    CHECK_THAT(message, Catch::Matchers::StartsWith(f.place));
+    CHECK_THAT(message, Catch::Matchers::Contains(std::string("found ") + f.found));
+    CHECK_THAT(message, Catch::Matchers::Contains(f.allowed));
+    CHECK(message.find('\n') == std::string::npos);
+    CHECK(message.size() < 300);
+  }
+}
+
+}  // namespace contct
