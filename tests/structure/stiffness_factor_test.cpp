@@ -2,6 +2,7 @@
 #include "contct/structure/stiffness_factor.hpp"
 
 #include "catch.hpp"
+#include "contct/structure/assembled.hpp"
 #include "contct/structure/row_of_many.hpp"
 #include "contct/structure/supernodal_solve.hpp"
 #include "structure/matrices.hpp"
@@ -91,4 +92,28 @@ TEST_CASE("supernodes of any width, with rows far below, are solved as the matri
           b[row * many + i] += l[row][k] * l[column][k] * x[column * many + i];
   solve_many({columns, row_places, entry_places, rows, entries}, b);
   for (std::size_t i = 0; i < x.size(); ++i) CHECK(b[i] == Approx(x[i]).epsilon(1e-12).margin(1e-13));
+}
+
+TEST_CASE("free motions are found without a band as with one") {
+  assembled body;
+  body.name = "K";
+  body.stiffness = braced(box_at(0), 1e5);
+  const std::vector<contact_pair> six = {{2, -1, 0, 1, true}, {5, -1, 0, 1, true}, {8, -1, 0, 1, true},
+                                         {0, -1, 0, 1, true}, {6, -1, 0, 1, true}, {1, -1, 0, 1, true}};
+  const std::vector<support> two_corners = {{0, 0, true}, {1, 0, true}, {2, 0, true}, {5, 0, true}};
+  for (const auto& supports : {std::vector<support>{}, two_corners}) {
+    body.as_band = true;
+    const linear_structure wide = build(body, supports, six);
+    body.as_band = false;
+    const linear_structure narrow = build(body, supports, six);
+    CHECK_FALSE(narrow.stiffness.is_band());
+    CHECK(narrow.rigid_motions == wide.rigid_motions);
+    CHECK(narrow.rigid_motions == (supports.empty() ? 6 : 2));
+    CHECK(narrow.rigid_rounding < 1e-6);
+    rigid_rank rank = narrow.nothing_held();
+    for (const rigid_row& row : narrow.held_by_pairs) rank.hold(row);
+    CHECK(rank.rank() == narrow.rigid_motions);
+  }
+  body.stiffness.entries.front().value = -1e5;
+  CHECK_THROWS_WITH(build(body, {}, {}), Catch::Matchers::Contains("K: "));
 }
