@@ -510,7 +510,8 @@ TEST_CASE("what takes more memory than there is, or than is said, is refused bef
                Catch::Matchers::Contains("GiB, or ") &&
                    Catch::Matchers::Contains(" MiB in CHOLMOD's sparse factors; allowed: 3.0 MiB"));
   } else {
-    CHECK(message_of(open) == message_of(large));
+    CHECK_THAT(message_of(open), Catch::Matchers::Contains("/r.toml:1:1: matrix: found 40000 dofs"));
+    CHECK_THAT(message_of(open), Catch::Matchers::Contains("build with CHOLMOD"));
   }
   for (const char* wrong : {"", "0", "-5", "lots", "1.5", "99999999999999999999"}) {
     setenv("CONTCT_MEMORY_MIB", wrong, 1);
