@@ -37,9 +37,9 @@ std::string bytes_words(std::int64_t bytes) {
 /// "band", "sparse" or nothing: what is to be found out.
 std::string read_storage(const table_reader& t) {
   if (!t.has("storage")) return "";
-  constexpr const char* allowed = "\"band\", or \"sparse\" where CHOLMOD is built in";
+  constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
   const toml::node& node = t.required("storage", allowed);
-  const std::string said(t.text_of(node, "storage", allowed));
+  std::string said(t.text_of(node, "storage", allowed));
   if (said != "band" && (said != "sparse" || !sparse_factor::available()))
     t.refuse(node, "storage", contct::quoted(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
   return said;

@@ -54,7 +54,7 @@ void find_scale_factors(call<double>& c, At at) {
                                   threshold);
   };
   const std::size_t nc = c.cc.size();
-  std::array<two, chains / 2> least;
+  std::array<two, chains / 2> least{};
   least.fill(two{1.0, 1.0});
   std::size_t i = 0;
   for (; i + chains <= nc; i += chains) {

@@ -25,6 +25,8 @@ class cholmod_library {
 
   operator cholmod_common*() { return &common_; }
   cholmod_common* operator->() { return &common_; }
+  /// Of the last order that was found.
+  [[nodiscard]] double flops() const { return common_.fl; }
 
  private:
   cholmod_common common_{};

@@ -56,6 +56,7 @@ stiffness_matrix scaled(const stiffness_matrix& k, numbers& d) {
 void factor_shifted(stiffness_factor& a, int order) {
   for (const double shift : shifts) {
     std::vector<spring_at> everywhere;
+    everywhere.reserve(static_cast<std::size_t>(order));
     for (int row = 0; row < order; ++row) everywhere.push_back({row, shift});
     if (a.factor(everywhere)) return;
   }

@@ -18,13 +18,14 @@ bool sparse_factor::available() {
   return false;
 }
 
-sparse_factor::sparse_factor(const sparse_columns& /*a*/) {
-  refuse();
+sparse_factor::sparse_factor(sparse_columns /*a*/)  // NOLINT(performance-unnecessary-value-param) {
+    refuse();
 }
 sparse_factor::~sparse_factor() = default;
-sparse_factor::sparse_factor(sparse_factor&&) noexcept = default;
-sparse_factor& sparse_factor::operator=(sparse_factor&&) noexcept = default;
+sparse_factor::sparse_factor(sparse_factor&& other) noexcept = default;
+sparse_factor& sparse_factor::operator=(sparse_factor&& other) noexcept = default;
 
+// NOLINTBEGIN(readability-convert-member-functions-to-static): the header is that of the real one
 std::int64_t sparse_factor::bytes() const {
   refuse();
 }
@@ -44,5 +45,6 @@ void sparse_factor::solve_units(std::span<const int> /*rows*/, std::vector<doubl
 double sparse_factor::flops() const {
   refuse();
 }
+// NOLINTEND(readability-convert-member-functions-to-static)
 
 }  // namespace contct

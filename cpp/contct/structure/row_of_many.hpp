@@ -17,7 +17,7 @@ struct row_of_many {
   std::array<lanes, parts> part;
 
   static row_of_many load(const double* from) {
-    row_of_many r;
+    row_of_many r{};
     std::memcpy(r.part.data(), from, sizeof r.part);
     return r;
   }

@@ -1,6 +1,7 @@
 #include "contct/structure/sparse_factor.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "contct/structure/cholmod_library.hpp"
 #include "contct/structure/row_of_many.hpp"
@@ -10,7 +11,7 @@ namespace contct {
 
 class sparse_factor::library {
  public:
-  explicit library(const sparse_columns& a) : a_(a) {
+  explicit library(sparse_columns a) : a_(std::move(a)) {
     common_->supernodal = CHOLMOD_SUPERNODAL;  // dense blocks by BLAS
     common_->nmethods = 2;                     // the better of both
     common_->method[0].ordering = CHOLMOD_METIS;
@@ -18,7 +19,6 @@ class sparse_factor::library {
     cholmod_sparse k = seen_by_cholmod(a_);
     factor_ = made_by_cholmod(cholmod_analyze(&k, common_));
     b_ = made_by_cholmod(cholmod_zeros(k.nrow, 1, CHOLMOD_REAL, common_));
-    flops_ = common_->fl;
     places_.resize(k.nrow);
     const auto* const order = static_cast<const int*>(factor_->Perm);
     for (std::size_t i = 0; i < k.nrow; ++i) places_[static_cast<std::size_t>(order[i])] = i;
@@ -48,7 +48,7 @@ class sparse_factor::library {
     return done && common_->status == CHOLMOD_OK && factor_->minor == factor_->n;
   }
 
-  [[nodiscard]] double flops() const { return flops_; }
+  [[nodiscard]] double flops() const { return common_.flops(); }
 
   void solve_units(std::span<const int> rows, std::vector<double>& x) {
     in_order_.assign(factor_->n * many, 0.0);
@@ -85,7 +85,6 @@ class sparse_factor::library {
 
   cholmod_library common_;
   sparse_columns a_;
-  double flops_ = 0.0;
   std::vector<std::size_t> places_;  // of each row in the factor's order
   std::vector<double> in_order_;
   cholmod_factor* factor_ = nullptr;
@@ -99,10 +98,10 @@ bool sparse_factor::available() {
   return true;
 }
 
-sparse_factor::sparse_factor(const sparse_columns& a) : library_(std::make_unique<library>(a)) {}
+sparse_factor::sparse_factor(sparse_columns a) : library_(std::make_unique<library>(std::move(a))) {}
 sparse_factor::~sparse_factor() = default;
-sparse_factor::sparse_factor(sparse_factor&&) noexcept = default;
-sparse_factor& sparse_factor::operator=(sparse_factor&&) noexcept = default;
+sparse_factor::sparse_factor(sparse_factor&& other) noexcept = default;
+sparse_factor& sparse_factor::operator=(sparse_factor&& other) noexcept = default;
 
 std::int64_t sparse_factor::bytes() const {
   return library_->bytes();

@@ -16,11 +16,11 @@ class sparse_factor {
   /// Is the library built in? Without it nothing below can be called: std::logic_error.
   [[nodiscard]] static bool available();
 
-  /// Finds the order, and keeps a copy of A. Throws std::bad_alloc.
-  explicit sparse_factor(const sparse_columns& a);
+  /// Finds the order, and keeps A. Throws std::bad_alloc.
+  explicit sparse_factor(sparse_columns a);
   ~sparse_factor();
-  sparse_factor(sparse_factor&&) noexcept;
-  sparse_factor& operator=(sparse_factor&&) noexcept;
+  sparse_factor(sparse_factor&& other) noexcept;
+  sparse_factor& operator=(sparse_factor&& other) noexcept;
   sparse_factor(const sparse_factor&) = delete;
   sparse_factor& operator=(const sparse_factor&) = delete;
 
