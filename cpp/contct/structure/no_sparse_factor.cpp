@@ -18,8 +18,9 @@ bool sparse_factor::available() {
   return false;
 }
 
-sparse_factor::sparse_factor(sparse_columns /*a*/)  // NOLINT(performance-unnecessary-value-param) {
-    refuse();
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
+sparse_factor::sparse_factor(sparse_columns /*a*/) {
+  refuse();
 }
 sparse_factor::~sparse_factor() = default;
 sparse_factor::sparse_factor(sparse_factor&& other) noexcept = default;
