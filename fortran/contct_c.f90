@@ -1,10 +1,10 @@
-!> The door from C to the 1989 code: the library's only file with bind(C). The procedures' names in C
+!> C calls into the 1989 code: the library's only file with bind(C). The procedures' names in C
 !> are their own, so that a second compiler's preprocessor can rename them (fortran/flang.cmake): unit 26
 !> belongs to each compiler's run-time library.
 !>
 !> Two builds of contct.f stand behind it, CONTC4 (default REAL, as printed) and CONTC8
 !> (8-byte REAL). Both share COMMON /DOF/ and write to unit 26, and both of these are global
-!> to the process: calls through this door must be serialised by the caller.
+!> to the process: calls must be serialised by the caller.
 !>
 !> Unit 26 is connected to the null device until contct_log_open gives it a file, so that the
 !> listing never leaves a fort.26 behind.

@@ -1,4 +1,4 @@
-# The listing translated to C by f2c, behind a door in C: unit 26 belongs to libf2c.
+# The listing translated to C by f2c, called from C: unit 26 belongs to libf2c.
 # Defines the library contct_f2c, where f2c, its header and its library are found.
 find_program(CONTCT_F2C_TRANSLATOR NAMES f2c DOC "f2c")
 find_path(CONTCT_F2C_HEADER f2c.h)
@@ -18,9 +18,9 @@ add_custom_command(OUTPUT ${folder}/contct_f2c.c
                    COMMAND ${CONTCT_F2C_TRANSLATOR} -r8 -d${folder} ${folder}/contct_f2c.f
                    DEPENDS contct.f copy_with.cmake COMMENT "f2c: contct.f" VERBATIM)
 
-add_library(contct_f2c STATIC f2c_door.c ${folder}/contct_f2c.c)
+add_library(contct_f2c STATIC f2c_calls.c ${folder}/contct_f2c.c)
 set_source_files_properties(${folder}/contct_f2c.c PROPERTIES COMPILE_OPTIONS -fcommon)  # COMMON /DOF/ is shared
-set_source_files_properties(f2c_door.c PROPERTIES COMPILE_OPTIONS "-Wall;-Wextra;-Werror")
+set_source_files_properties(f2c_calls.c PROPERTIES COMPILE_OPTIONS "-Wall;-Wextra;-Werror")
 target_include_directories(contct_f2c SYSTEM PRIVATE ${CONTCT_F2C_HEADER})
 target_link_libraries(contct_f2c PRIVATE contct_strict $<BUILD_INTERFACE:${CONTCT_F2C_LIBRARY}> m)
 set_target_properties(contct_f2c PROPERTIES POSITION_INDEPENDENT_CODE ON

@@ -1,4 +1,4 @@
-# The listing by LLVM's flang, behind a door of its own: unit 26 belongs to flang's run-time library.
+# The listing by LLVM's flang, behind bind(C) procedures of its own: unit 26 belongs to flang's run-time library.
 # CMake knows one FORTRAN compiler at a time and that is gfortran, so flang is called by hand.
 # Defines the library contct_flang, where flang and its run-time libraries are found.
 find_program(CONTCT_FLANG_COMPILER NAMES flang-new-16 DOC "LLVM 16's flang")
@@ -37,7 +37,7 @@ set(renamed -Dcontc4=flang4 -Dcontc8=flang8)
 foreach(name call_r4 call_r8 log_open log_flush log_rewind log_close)
   list(APPEND renamed -Dcontct_${name}=contct_flang_${name})
 endforeach()
-add_flang_object(door contct_c.f90 ${renamed})
+add_flang_object(calls contct_c.f90 ${renamed})
 
 add_library(contct_flang STATIC ${flang_objects})
 set_target_properties(contct_flang PROPERTIES LINKER_LANGUAGE CXX)

@@ -1,5 +1,5 @@
 // contct atlas: where the 1989 code goes wrong, measured on random problems.
-#include "contct/check/atlas.hpp"
+#include "contct/lab/atlas.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include "app/commands.hpp"
 #include "app/output_options.hpp"
 #include "app/progress.hpp"
-#include "contct/io/atlas_data.hpp"
-#include "contct/io/atlas_svg.hpp"
-#include "contct/io/atlas_table.hpp"
+#include "contct/lab/atlas_data.hpp"
+#include "contct/lab/atlas_svg.hpp"
+#include "contct/lab/atlas_table.hpp"
 
 namespace contct {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
-#include "app/described.hpp"
+#include "app/option_metadata.hpp"
 
 namespace contct {
 namespace {

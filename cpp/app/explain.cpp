@@ -7,21 +7,21 @@
 #include <stdexcept>
 
 #include "app/commands.hpp"
-#include "app/endings.hpp"
+#include "app/exit_messages.hpp"
 #include "app/output_options.hpp"
 #include "app/path_progress.hpp"
 #include "app/read_problem.hpp"
 #include "app/streams.hpp"
-#include "contct/check/explained_path.hpp"
-#include "contct/conform/follower.hpp"
-#include "contct/io/explain_json.hpp"
-#include "contct/io/explain_text.hpp"
-#include "contct/io/follow.hpp"
-#include "contct/io/problem_file.hpp"
-#include "contct/io/result_json.hpp"
-#include "contct/kernel/kernel.hpp"
-#include "contct/path/engine.hpp"
+#include "contct/compare/explained_path.hpp"
+#include "contct/compare/follower.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/solve/engine.hpp"
 #include "contct/text/terminal.hpp"
+#include "contct/write/explain_json.hpp"
+#include "contct/write/explain_text.hpp"
+#include "contct/write/result_json.hpp"
 
 namespace contct {
 namespace {

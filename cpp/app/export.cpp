@@ -7,8 +7,8 @@
 #include "app/output_options.hpp"
 #include "app/read_problem.hpp"
 #include "app/streams.hpp"
-#include "contct/io/calculix_deck.hpp"
-#include "contct/io/problem_file.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/write/calculix_deck.hpp"
 
 namespace contct {
 namespace {

@@ -1,5 +1,5 @@
 // contct fuzz: random and adversarial calls and problems, kernels against each other.
-#include "contct/check/fuzz.hpp"
+#include "contct/lab/fuzz.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "app/progress.hpp"
 #include "app/report_options.hpp"
 #include "app/streams.hpp"
-#include "contct/io/fuzz_json.hpp"
+#include "contct/lab/fuzz_json.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/text/terminal.hpp"
 
@@ -61,7 +61,7 @@ std::string follower_words(const fuzz_follower& f, const std::string& leader) {
   return fmt::format("{} is NOT equal to {}{}; {} of {} values differ; highest rung that holds: {}{}", f.name,
                      leader, fp.strict() ? "" : " (environment, not kernel)", f.compared.mismatches,
                      f.compared.values, name_of(f.highest),
-                     f.highest == rung::ulps ? fmt::format(" (within {})", f.most_ulps) : "");
+                     f.highest == equality_level::ulps ? fmt::format(" (within {})", f.most_ulps) : "");
 }
 
 check_report report_of(const fuzz_result& r, const std::string& missed) {
@@ -71,7 +71,7 @@ check_report report_of(const fuzz_result& r, const std::string& missed) {
     const bool equal = f.compared.mismatches == 0;
     report.results.push_back(
         {f.name + " against " + r.request.kernels[0], equal ? outcome::passed : outcome::failed,
-         follower_words(f, r.request.kernels[0]), fmt::format("{}", fmt::join(f.findings, "\n"))});
+         follower_words(f, r.request.kernels[0]), fmt::format("{}", fmt::join(f.mismatch_reports, "\n"))});
   }
   report.results.push_back(
       {"floors", missed.empty() ? outcome::passed : outcome::failed,
@@ -115,7 +115,7 @@ exit_status run_fuzz_command(fuzz_options options) {
   if (!options.report.quiet && !takes_standard_output(outputs)) print_result(r);
   flush_standard_output();
   for (const fuzz_follower& f : r.followers)
-    for (const std::string& line : f.findings) complain("{}", line);
+    for (const std::string& line : f.mismatch_reports) complain("{}", line);
   if (!missed.empty()) complain("{}", missed);
   if (!options.out.empty())
     for (const std::string& name : write_cases(run.cases, options.out, request.seed))

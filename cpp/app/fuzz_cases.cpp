@@ -5,7 +5,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "contct/kernel/kernel.hpp"
+#include "contct/outside/registry.hpp"
 #include "contct/text/output_file.hpp"
 
 namespace contct {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/conform/case_files.hpp"
+#include "contct/lab/case_files.hpp"
 
 namespace contct {
 

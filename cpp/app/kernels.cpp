@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "contct/kernel/kernel.hpp"
 #include "contct/numeric/probe.hpp"
+#include "contct/outside/registry.hpp"
 
 namespace contct {
 

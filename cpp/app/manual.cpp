@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/described.hpp"
 #include "app/examples.hpp"
+#include "app/option_metadata.hpp"
 #include "contct/text/terminal.hpp"
 
 namespace contct {

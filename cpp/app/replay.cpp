@@ -1,5 +1,5 @@
 // contct replay, and contct-replay: recorded calls put to a kernel. Neither LAPACK nor finite elements.
-#include "contct/conform/replay.hpp"
+#include "contct/compare/replay.hpp"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@
 #include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/numeric/probe.hpp"
+#include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/terminal.hpp"
 

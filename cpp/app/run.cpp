@@ -12,29 +12,29 @@
 #include <utility>
 
 #include "app/commands.hpp"
-#include "app/endings.hpp"
+#include "app/exit_messages.hpp"
 #include "app/path_progress.hpp"
 #include "app/read_problem.hpp"
 #include "app/report_options.hpp"
 #include "app/run_pictures.hpp"
 #include "app/streams.hpp"
-#include "contct/check/certificate.hpp"
-#include "contct/check/early_toggles.hpp"
-#include "contct/check/final_state.hpp"
-#include "contct/check/free_run.hpp"
-#include "contct/check/lockstep.hpp"
-#include "contct/check/rescue.hpp"
-#include "contct/check/trace_recorder.hpp"
-#include "contct/io/certificate_text.hpp"
-#include "contct/io/follow.hpp"
-#include "contct/io/problem_file.hpp"
-#include "contct/io/result_json.hpp"
-#include "contct/io/table.hpp"
-#include "contct/kernel/kernel.hpp"
+#include "contct/certify/certificate.hpp"
+#include "contct/certify/fallback.hpp"
+#include "contct/certify/final_state.hpp"
+#include "contct/compare/early_toggles.hpp"
+#include "contct/compare/free_run.hpp"
+#include "contct/compare/lockstep.hpp"
+#include "contct/compare/trace_recorder.hpp"
+#include "contct/matrix/lapack.hpp"
 #include "contct/numeric/probe.hpp"
-#include "contct/path/engine.hpp"
-#include "contct/structure/lapack.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/solve/engine.hpp"
 #include "contct/text/output_file.hpp"
+#include "contct/write/certificate_text.hpp"
+#include "contct/write/result_json.hpp"
+#include "contct/write/table.hpp"
 
 namespace contct {
 namespace {
@@ -224,7 +224,9 @@ class run {
     return watching;
   }
 
-  [[nodiscard]] path_limits limits() const { return {options_.max_increments, rescue_by_oracle(structure_)}; }
+  [[nodiscard]] path_limits limits() const {
+    return {options_.max_increments, fallback_to_reference(structure_)};
+  }
 
   /// Before anything is solved: a place that cannot be written is found out at once.
   void open_outputs() {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "contct/io/run_page.hpp"
-#include "contct/io/run_svg.hpp"
-#include "contct/io/run_vtu.hpp"
+#include "contct/write/run_page.hpp"
+#include "contct/write/run_svg.hpp"
+#include "contct/write/run_vtu.hpp"
 
 namespace contct {
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "app/output_options.hpp"
-#include "contct/check/frames.hpp"
-#include "contct/io/finished_run.hpp"
-#include "contct/io/run_csv.hpp"
-#include "contct/io/run_record.hpp"
+#include "contct/path/frames.hpp"
+#include "contct/write/finished_run.hpp"
+#include "contct/write/run_csv.hpp"
+#include "contct/write/run_record.hpp"
 
 namespace contct {
 

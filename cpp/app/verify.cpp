@@ -13,12 +13,12 @@
 #include "app/progress.hpp"
 #include "app/report_options.hpp"
 #include "app/streams.hpp"
-#include "contct/io/certificate_text.hpp"
-#include "contct/io/problem_file.hpp"
-#include "contct/io/verified.hpp"
+#include "contct/lab/verified.hpp"
+#include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
+#include "contct/write/certificate_text.hpp"
 
 namespace contct {
 namespace {

@@ -15,9 +15,9 @@
 #include "bench/kernels.hpp"
 #include "bench/measure.hpp"
 #include "bench/problems.hpp"
-#include "contct/io/follow.hpp"
-#include "contct/path/condensed_engine.hpp"
-#include "contct/structure/lapack.hpp"
+#include "contct/matrix/lapack.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/solve/condensed_engine.hpp"
 #include "contct/text/output_file.hpp"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "contct/conform/hunt.hpp"
 #include "contct/kernel/fortran.hpp"
+#include "contct/lab/call_campaign.hpp"
 
 namespace {
 
@@ -44,7 +44,7 @@ int main() {
                          }
                        }));
     lockstep = std::min(lockstep, seconds_of([&] {
-                          contct::hunt h("fortran", {"cpp"}, seed);
+                          contct::call_campaign h("fortran", {"cpp"}, seed);
                           h.put(1, calls, 1);
                           read += static_cast<double>(h.calls());
                         }));

@@ -7,10 +7,11 @@
 #include <limits>
 
 #include "bench/cpu_clock.hpp"
-#include "contct/check/certificate.hpp"
-#include "contct/io/follow.hpp"
-#include "contct/path/factored_stiffness.hpp"
-#include "contct/structure/cholesky.hpp"
+#include "contct/certify/certificate.hpp"
+#include "contct/matrix/cholesky.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/solve/factored_stiffness.hpp"
 
 namespace bench {
 namespace {
@@ -41,14 +42,14 @@ class watch final : public contct::observer {
   void step_ended(const contct::step_state& s) override {
     r_.displacement.assign(s.displacement.begin(), s.displacement.end());
     isep_.assign(s.isep.begin(), s.isep.end());
-    last_state_ = contct::step_state{s.step, s.fraction, r_.displacement, isep_, s.rcond, s.rescued};
+    last_state_ = contct::step_state{s.step, s.fraction, r_.displacement, isep_, s.rcond, s.from_fallback};
   }
 
   void start() { last_ = start_ = clock::now(); }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(last_ - start_).count(); }
   [[nodiscard]] contct::step_state last_state() const {
-    return {last_state_.step,  last_state_.fraction, r_.displacement, isep_,
-            last_state_.rcond, last_state_.rescued};
+    return {last_state_.step,  last_state_.fraction,     r_.displacement, isep_,
+            last_state_.rcond, last_state_.from_fallback};
   }
 
  private:

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "contct/io/problem.hpp"
-#include "contct/path/engine.hpp"
 #include "contct/path/observer.hpp"
+#include "contct/solve/engine.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace bench {
 

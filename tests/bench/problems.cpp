@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "contct/io/problem_file.hpp"
+#include "contct/read/problem_file.hpp"
 
 namespace bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/io/problem.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace bench {
 

@@ -7,8 +7,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "contct/check/certificate.hpp"
-#include "contct/check/trial.hpp"
+#include "contct/certify/certificate.hpp"
+#include "contct/lab/problem_result.hpp"
+#include "contct/outside/registry.hpp"
 
 using namespace contct;
 
@@ -17,13 +18,13 @@ namespace {
 /// What the problems of one kind came to.
 struct tally_of_trials {
   std::array<long, verdicts> came_to{};
-  long problems = 0, rescued = 0, snapped = 0, at_rest = 0, events = 0, needed_more = 0;
+  long problems = 0, from_fallback = 0, snapped = 0, at_rest = 0, events = 0, needed_more = 0;
   double worst = 0.0, factor = 0.0;
 
-  void add(const trial& t) {
+  void add(const problem_result& t) {
     ++problems;
     ++came_to[static_cast<std::size_t>(t.came_to)];
-    rescued += t.rescues > 0 ? 1 : 0;
+    from_fallback += t.fallbacks > 0 ? 1 : 0;
     snapped += t.snaps > 0 ? 1 : 0;
     at_rest += t.at_rest > 0 ? 1 : 0;
     needed_more += t.needed > 1e-8 ? 1 : 0;
@@ -36,7 +37,7 @@ struct tally_of_trials {
 void print(const std::string& name, const tally_of_trials& t) {
   std::printf("%-24s %8ld", name.c_str(), t.problems);
   for (const long count : t.came_to) std::printf(" %8ld", count);
-  std::printf(" %7ld %6ld %8ld %9.1e %6.0f\n", t.rescued, t.snapped, t.needed_more, t.worst, t.factor);
+  std::printf(" %7ld %6ld %8ld %9.1e %6.0f\n", t.from_fallback, t.snapped, t.needed_more, t.worst, t.factor);
 }
 
 long as_number(const char* text) {
@@ -66,7 +67,7 @@ int main(int argc, char** argv) {
   for (long number = 0; number < problems; ++number) {
     const random_problem p =
         make_random_problem(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(number));
-    const trial t = try_problem(p, *corrected);
+    const problem_result t = try_problem(p, *corrected);
     const std::size_t held = p.held ? 0 : 1;
     by_hold[held].add(t);
     by_layout[held][static_cast<std::size_t>(p.layout)].add(t);
@@ -94,7 +95,8 @@ int main(int argc, char** argv) {
   const tally_of_trials& free = by_hold[1];
   const auto at = [](const tally_of_trials& t, verdict v) { return t.came_to[static_cast<std::size_t>(v)]; };
   bool good = expect(at(held, verdict::certified) == held.problems, "every held problem is certified");
-  good &= expect(held.rescued * 10000 <= held.problems, "the oracle ends at most one held problem in 10,000");
+  good &= expect(held.from_fallback * 10000 <= held.problems,
+                 "the oracle ends at most one held problem in 10,000");
   good &= expect((held.needed_more + free.needed_more) * 100 <= problems, "at most 1 % need more than 1e-8");
   good &= expect(held.factor <= certificate_factor, "C is enough");
   good &=

@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "contct/io/toml_reader.hpp"
+#include "contct/read/toml_reader.hpp"
 
 namespace contct_test {
 namespace {

@@ -1,5 +1,5 @@
-#include "contct/kernel/kernel.hpp"
-#include "contct/kernel/trace.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/trace/trace.hpp"
 #include "golden/cases.hpp"
 
 namespace golden {

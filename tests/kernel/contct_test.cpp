@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "kernel/one_pair.hpp"
+#include "support/one_pair.hpp"
 
 using namespace contct;
 

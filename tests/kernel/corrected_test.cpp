@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/kernel/kernel.hpp"
 #include "contct/numeric/bits.hpp"
 #include "contct/numeric/random.hpp"
-#include "kernel/one_pair.hpp"
+#include "contct/outside/registry.hpp"
+#include "support/one_pair.hpp"
 
 using namespace contct;
 

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "catch.hpp"
-#include "kernel/one_pair.hpp"
+#include "support/one_pair.hpp"
 
 using namespace contct;
 

@@ -1,7 +1,7 @@
 // An initial state that its faces contradict: the listing does not notice, and toggles the wrong way
 // round. Problem files refuse such states (reference/DIVERGENCES.md, way 5).
 #include "catch.hpp"
-#include "contct/kernel/kernel.hpp"
+#include "contct/outside/registry.hpp"
 
 using namespace contct;
 

@@ -1,9 +1,8 @@
-#include "contct/kernel/kernel.hpp"
-
 #include <stdexcept>
 
 #include "catch.hpp"
-#include "kernel/one_pair.hpp"
+#include "contct/outside/registry.hpp"
+#include "support/one_pair.hpp"
 
 using namespace contct;
 

@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 #include "contct/kernel/fortran.hpp"
-#include "kernel/one_pair.hpp"
+#include "support/one_pair.hpp"
 
 using namespace contct;
 

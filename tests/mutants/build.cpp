@@ -48,7 +48,7 @@ words compile_listing(const fs::path& source, const fs::path& folder) {
 /// tree, so that a header in it is the one that is included.
 words compile_cpp(const fs::path& source, const fs::path& folder) {
   const bool header = source.extension() == ".hpp";
-  const fs::path unit = header ? root / "cpp/contct/kernel/kernel.cpp" : source;
+  const fs::path unit = header ? root / "cpp/contct/kernel/built_in.cpp" : source;
   run_tool(words{CONTCT_CXX_COMPILER_PATH} + split(CONTCT_CXX_BUILD_FLAGS) +
                words{"-O1", "-std=c++20", "-ffp-contract=off", "-DCONTCT_FORTRAN_COMPILER=\"\"",
                      "-DCONTCT_CXX_COMPILER=\"\"", "-DCONTCT_FORTRAN_FLAGS=\"\"", "-DCONTCT_CXX_FLAGS=\"\"",
@@ -76,10 +76,7 @@ fs::path build_program(const mutant& m, const std::string& source, const fs::pat
   std::ofstream(copy, std::ios::binary) << source;
   const words objects = is_fortran(m) ? compile_listing(copy, folder) : compile_cpp(copy, folder);
   run_tool(words{CONTCT_CXX_COMPILER_PATH} + split(CONTCT_CXX_BUILD_FLAGS) + words{CONTCT_JUDGE_OBJECT} +
-               objects +
-               words{CONTCT_LIBRARY_CONFORM, CONTCT_LIBRARY_KERNEL, CONTCT_LIBRARY_TEXT,
-                     CONTCT_LIBRARY_NUMERIC, CONTCT_LIBRARY_FORTRAN} +
-               split(CONTCT_LINK_FLAGS) + words{"-o", "mutant"},
+               objects + split(CONTCT_LIBRARIES) + split(CONTCT_LINK_FLAGS) + words{"-o", "mutant"},
            folder);
   return folder / "mutant";
 }

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "contct/conform/follower.hpp"
-#include "contct/conform/hunt.hpp"
-#include "contct/conform/replay.hpp"
-#include "contct/kernel/kernel.hpp"
+#include "contct/compare/follower.hpp"
+#include "contct/compare/replay.hpp"
+#include "contct/lab/call_campaign.hpp"
+#include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct_test {
@@ -29,7 +29,7 @@ void say(const std::string& line) {
   (void)std::fflush(stdout);
 }
 
-void say_difference(std::int64_t call, const contct::divergence& where) {
+void say_difference(std::int64_t call, const contct::mismatch& where) {
   std::string field = where.field;
   if (where.field == "text") field += " line " + std::to_string(where.index);
   if (where.field != "text" && where.index > 0) field += "(" + std::to_string(where.index) + ")";

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "path/beams.hpp"
+#include "support/beams.hpp"
 
 using namespace contct;
 

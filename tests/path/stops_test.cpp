@@ -3,7 +3,8 @@
 #include <functional>
 
 #include "catch.hpp"
-#include "path/beams.hpp"
+#include "contct/outside/registry.hpp"
+#include "support/beams.hpp"
 
 using namespace contct;
 

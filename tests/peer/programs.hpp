@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/io/calculix_results.hpp"
+#include "peer/calculix_results.hpp"
 
 namespace contct::peer {
 

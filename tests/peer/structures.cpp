@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contct/io/calculix_deck.hpp"
-#include "contct/io/problem_file.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/write/calculix_deck.hpp"
 #include "peer/programs.hpp"
 
 namespace contct::peer {

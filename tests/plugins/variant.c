@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "contct/kernel/plugin.h"
+#include "contct/outside/plugin.h"
 
 #ifndef WITHIN
 #define WITHIN(diff) ((diff) < .390625E-02)

@@ -5,7 +5,7 @@
 #include "contct/structure/beam.hpp"
 #include "contct/structure/free_motions.hpp"
 #include "contct/structure/plate.hpp"
-#include "structure/matrices.hpp"
+#include "support/matrices.hpp"
 
 using namespace contct;
 

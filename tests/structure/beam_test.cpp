@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "catch.hpp"
-#include "contct/structure/cholesky.hpp"
+#include "contct/matrix/cholesky.hpp"
 
 using namespace contct;
 

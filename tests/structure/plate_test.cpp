@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "catch.hpp"
-#include "contct/structure/cholesky.hpp"
+#include "contct/matrix/cholesky.hpp"
 
 using namespace contct;
 

@@ -25,7 +25,7 @@ void contct(call<float>& c) {
                  c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
 }
 
-void contct(call<double>& c, const door& by) {
+void contct(call<double>& c, const compiled_listing& by) {
   const std::scoped_lock lock(process_wide());
   by.call(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
           c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
@@ -37,33 +37,33 @@ void forget_unit_26() {
   (void)gfortran.open(nowhere.data(), static_cast<int>(nowhere.size()));
 }
 
-unit_26::unit_26(door& of) : door_(of) {
+unit_26::unit_26(compiled_listing& of) : listing_(of) {
   const std::scoped_lock lock(process_wide());
-  if (door_.unit_26_is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
+  if (listing_.unit_26_is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
   std::string path = (std::filesystem::temp_directory_path() / "contct-unit26-XXXXXX").string();
   const signals_wait until_unlinked;
   file_ = mkstemp(path.data());
   if (file_ < 0)
     throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + path);
-  const int status = door_.open(path.data(), static_cast<int>(path.size()));
+  const int status = listing_.open(path.data(), static_cast<int>(path.size()));
   unlink(path.c_str());  // both sides hold it open
   if (status != 0) {
     close(file_);
     throw std::runtime_error("cannot connect unit 26 to " + path);
   }
-  door_.unit_26_is_open = true;
+  listing_.unit_26_is_open = true;
 }
 
 unit_26::~unit_26() {
   const std::scoped_lock lock(process_wide());
-  door_.close();
+  listing_.close();
   close(file_);
-  door_.unit_26_is_open = false;
+  listing_.unit_26_is_open = false;
 }
 
 std::string unit_26::take() const {
   const std::scoped_lock lock(process_wide());
-  door_.flush();
+  listing_.flush();
   std::string text;
   char block[1 << 16];
   ssize_t got = 0;
@@ -71,7 +71,7 @@ std::string unit_26::take() const {
     text.append(block, static_cast<std::size_t>(got));
   }
   if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
-  door_.rewind();
+  listing_.rewind();
   if (ftruncate(file_, 0) != 0)
     throw std::system_error(errno, std::generic_category(), "cannot empty unit 26's file");
   return text;

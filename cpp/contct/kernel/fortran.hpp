@@ -5,7 +5,7 @@
 #include <string>
 
 #include "contct/kernel/call.hpp"
-#include "contct/kernel/door.hpp"
+#include "contct/kernel/compiled_listing.hpp"
 
 namespace contct::fortran {
 
@@ -17,7 +17,7 @@ namespace contct::fortran {
 /// COMMON /DOF/ and unit 26 belong to the whole process, so calls are serialised by a lock.
 /// The text goes to the unit_26 of that door that is open, or nowhere.
 void contct(call<float>& c);
-void contct(call<double>& c, const door& by = gfortran);
+void contct(call<double>& c, const compiled_listing& by = gfortran);
 
 /// In a child process: let go of the parent's unit 26 of gfortran, which leads to the null device from now
 /// on.
@@ -28,7 +28,7 @@ void forget_unit_26();
 /// unlinked at once, so nothing is left behind however the process ends.
 class unit_26 {
  public:
-  explicit unit_26(door& of = gfortran);
+  explicit unit_26(compiled_listing& of = gfortran);
   ~unit_26();
   unit_26(const unit_26&) = delete;
   unit_26& operator=(const unit_26&) = delete;
@@ -37,7 +37,7 @@ class unit_26 {
   [[nodiscard]] std::string take() const;
 
  private:
-  door& door_;
+  compiled_listing& listing_;
   int file_ = -1;
 };
 

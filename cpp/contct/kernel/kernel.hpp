@@ -1,11 +1,8 @@
 // A kernel: anything that answers one call of CONTCT.
 #pragma once
 
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "contct/kernel/call.hpp"
 
@@ -43,17 +40,5 @@ class kernel {
   /// The unit-26 text of the calls since the last take; empty where facts().has_text is false.
   virtual std::string take_text() = 0;
 };
-
-/// Make a kernel by name: "fortran", "fortran-r4", "cpp", "cpp-r4", "corrected", "plugin:LIBRARY",
-/// "pipe:COMMAND"; "flang" and "f2c" where built. Throws std::invalid_argument, naming what there is, when
-/// there is none of that name.
-[[nodiscard]] std::unique_ptr<kernel> make_kernel(std::string_view name);
-
-/// What the kernel of that name is, without making it: of the FORTRAN ones there is one at a time.
-/// Throws as make_kernel does.
-[[nodiscard]] kernel_facts facts_of_kernel(std::string_view name);
-
-/// The names that make_kernel knows.
-[[nodiscard]] std::vector<std::string> kernel_names();
 
 }  // namespace contct

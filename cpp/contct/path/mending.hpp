@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "contct/path/engine.hpp"
 #include "contct/path/path_state.hpp"
+#include "contct/solve/engine.hpp"
 
 namespace contct {
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "contct/path/cycle_detector.hpp"
 #include "contct/path/mending.hpp"
 #include "contct/path/path_state.hpp"
 #include "contct/path/rigid_snap.hpp"
-#include "contct/path/standstill.hpp"
 
 namespace contct {
 namespace {
@@ -19,17 +19,17 @@ namespace {
 class path {
  public:
   path(const linear_structure& s, stiffness_engine& engine, kernel& leader,
-       std::span<observer* const> observers, int increments_allowed, const rescuer& rescue)
+       std::span<observer* const> observers, int increments_allowed, const fallback_solver& fallback)
       : now_(s, leader.facts().rule == "listing"),
         engine_(engine),
         leader_(leader),
         observers_(observers),
         increments_allowed_(increments_allowed),
-        rescue_(rescue),
+        rescue_(fallback),
         mend_(now_, engine, leader.facts().rule != "listing"),
         total_(static_cast<std::size_t>(s.dofs())),
         increment_(static_cast<std::size_t>(s.dofs())),
-        standstill_(s.pairs.size()) {}
+        cycles_(s.pairs.size()) {}
 
   /// The paper's loop, for one load step.
   path_end follow_step(int step, const load_history& total_load) {
@@ -44,7 +44,7 @@ class path {
       double s_min = now_.ask(leader_, mend_.d_test(), observers_);
       if (snaps && s_min == 1.0) return set_free(step, residual);
       if (s_min < 1.0 && falls_at_full_load(residual.share * (1.0 - s_min))) s_min = leave_undone();
-      if (mend_.on() && mend_.mute(s_min)) standstill_.reset();
+      if (mend_.on() && mend_.mute(s_min)) cycles_.reset();
       residual.last_s = now_.s;
       const bool moved = now_.advance(s_min, !mend_.on());  // D <- D + s_min d*
       if (!snaps) residual.share *= 1.0 - s_min;            // R* <- (1 - s_min) R*
@@ -56,11 +56,11 @@ class path {
         if (mend_.on()) settle(step, number);
         return stop(path_status::solved, step, residual, {});
       }
-      if (standstill_.repeats(moved, now_.status, now_.events)) {
-        return stop(path_status::cycle, step, residual, standstill_.restless_pairs());
+      if (cycles_.repeats(moved, now_.status, now_.events)) {
+        return stop(path_status::cycle, step, residual, cycles_.restless_pairs());
       }
     }
-    return stop(path_status::iteration_limit, step, residual, standstill_.restless_pairs());
+    return stop(path_status::iteration_limit, step, residual, cycles_.restless_pairs());
   }
 
   /// The share of the step's load applied by now.
@@ -68,9 +68,9 @@ class path {
 
   /// The step could not be followed to its end: go on from an equilibrium that comes from
   /// elsewhere, if the leader's rule allows it and there is one.
-  bool rescued(int step) {
+  bool from_fallback(int step) {
     if (!mend_.on() || !rescue_) return false;
-    const std::optional<rest_state> found = rescue_(total_);
+    const std::optional<equilibrium_state> found = rescue_(total_);
     if (!found) return false;
     mend_.stand_up();
     for (std::size_t i = 0; i < now_.pairs(); ++i) {
@@ -91,7 +91,7 @@ class path {
     std::fill(total_.begin(), total_.end(), 0.0);
     total_load(step, total_);
     std::transform(total_.begin(), total_.end(), increment_.begin(), increment_.begin(), std::plus<>());
-    standstill_.reset();
+    cycles_.reset();
     mend_.begin_step();
     last_opened_.clear();
     fraction_ = 0.0;
@@ -203,7 +203,7 @@ class path {
 
   /// Nothing holds the structure from the start: it has not moved, and nothing can be solved.
   path_end never_held(int step) {
-    if (rescued(step)) return {path_status::solved, step, 1.0, {}};
+    if (from_fallback(step)) return {path_status::solved, step, 1.0, {}};
     const std::vector<double> u(total_.size());
     for (observer* o : observers_) o->step_ended({step, 0.0, u, now_.status, 0.0});
     return {path_status::mechanism, step, 0.0, {}};
@@ -212,7 +212,7 @@ class path {
   /// Tell the state reached, and end.
   path_end stop(path_status status, int step, const residual_load& residual, std::vector<int> pairs) {
     const double fraction = 1.0 - residual.share;
-    if (status != path_status::solved && rescued(step)) return {path_status::solved, step, 1.0, {}};
+    if (status != path_status::solved && from_fallback(step)) return {path_status::solved, step, 1.0, {}};
     if (status == path_status::not_factored) return {status, step, fraction, {}};
     const std::vector<double> u = displacement(residual);
     if (!std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); })) {
@@ -227,7 +227,7 @@ class path {
   kernel& leader_;
   std::span<observer* const> observers_;
   int increments_allowed_;
-  const rescuer& rescue_;
+  const fallback_solver& rescue_;
   mending mend_;
 
   std::vector<double> total_;      // total load at the end of the step [dofs]
@@ -235,7 +235,7 @@ class path {
   std::uint64_t version_ = 0;      // of the increment
   double fraction_ = 0.0;          // share of the step's load applied by now
   std::vector<int> last_opened_;   // by the last increment that opened any
-  standstill standstill_;
+  cycle_detector cycles_;
 };
 
 }  // namespace
@@ -249,13 +249,13 @@ int increments_allowed(const path_limits& limits, std::size_t pairs) {
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,
                      stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,
                      const path_limits& limits) {
-  path p(s, engine, leader, observers, increments_allowed(limits, s.pairs.size()), limits.rescue);
+  path p(s, engine, leader, observers, increments_allowed(limits, s.pairs.size()), limits.fallback);
   path_end end;
   for (int step = 1; step <= steps && end.status == path_status::solved; ++step) {
     try {
       end = p.follow_step(step, total_load);
     } catch (const no_factor&) {
-      end = {p.rescued(step) ? path_status::solved : path_status::not_factored, step, p.fraction(), {}};
+      end = {p.from_fallback(step) ? path_status::solved : path_status::not_factored, step, p.fraction(), {}};
     }
   }
   end.work = engine.counts();

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "contct/kernel/kernel.hpp"
-#include "contct/path/engine.hpp"
 #include "contct/path/observer.hpp"
+#include "contct/solve/engine.hpp"
 #include "contct/structure/structure.hpp"
 
 namespace contct {
@@ -37,18 +37,18 @@ struct path_end {
 using load_history = std::function<void(int step, std::span<double> total)>;
 
 /// An equilibrium from elsewhere.
-struct rest_state {
+struct equilibrium_state {
   std::vector<double> displacement;  ///< [dofs]
   std::vector<char> closed;          ///< [pairs] 1 in contact
 };
 
 /// Finds the equilibrium under a step's total load [dofs] when a path that may be mended cannot go
 /// on; nothing where there is none.
-using rescuer = std::function<std::optional<rest_state>(std::span<const double> load)>;
+using fallback_solver = std::function<std::optional<equilibrium_state>(std::span<const double> load)>;
 
 struct path_limits {
-  int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
-  rescuer rescue = nullptr;     ///< used only when the leader's rule is not the listing's
+  int increments_per_step = 0;         ///< 0: 1000, and 50 for each pair
+  fallback_solver fallback = nullptr;  ///< used only when the leader's rule is not the listing's
 };
 
 /// Most increments of a step that anybody may ask for.

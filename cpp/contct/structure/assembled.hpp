@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "contct/matrix/sparse_matrix.hpp"
 #include "contct/structure/load.hpp"
 #include "contct/structure/placed_nodes.hpp"
-#include "contct/structure/sparse_matrix.hpp"
 #include "contct/structure/structure.hpp"
 
 namespace contct {

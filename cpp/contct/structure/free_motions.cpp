@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
+#include "contct/matrix/stiffness_factor.hpp"
 #include "contct/numeric/random.hpp"
-#include "contct/structure/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
-#include "contct/structure/stiffness_factor.hpp"
 
 extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* uplo, const int* n, double* a,
                                                const int* lda, double* w, double* work, const int* lwork,

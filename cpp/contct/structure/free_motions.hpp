@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/structure/rigid_modes.hpp"
-#include "contct/structure/stiffness_matrix.hpp"
 
 namespace contct {
 

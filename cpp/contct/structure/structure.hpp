@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/structure/rigid_modes.hpp"
-#include "contct/structure/stiffness_matrix.hpp"
 
 namespace contct {
 

@@ -1,9 +1,9 @@
 // A C++ program with CONTCT in it: the template, the kernels by name, the comparison.
-#include <contct/conform/random_calls.hpp>
-#include <contct/conform/side_by_side.hpp>
 #include <contct/kernel/contct.hpp>
 #include <contct/kernel/kernel.hpp>
+#include <contct/lab/random_calls.hpp>
 #include <cstdio>
+#include <support/side_by_side.hpp>
 #include <vector>
 
 namespace {

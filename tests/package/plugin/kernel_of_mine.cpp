@@ -1,6 +1,6 @@
 // The installed C++ CONTCT as a plug-in: a library of everything that contct::cxx has, behind the ABI of
 // plugin.h.
-#include <contct/kernel/plugin.h>
+#include <contct/outside/plugin.h>
 
 #include <contct/kernel/kernel.hpp>
 

@@ -1,6 +1,6 @@
 // A problem file, read and followed by the installed rooms.
-#include <contct/io/follow.hpp>
-#include <contct/io/problem_file.hpp>
+#include <contct/path/solve_problem.hpp>
+#include <contct/read/problem_file.hpp>
 #include <cstdio>
 
 namespace {

@@ -1,0 +1,67 @@
+// Is the final state of a step right? Judged by what shares no code with the kernels or the path.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contct/certify/reference_solution.hpp"
+#include "contct/path/observer.hpp"
+#include "contct/path/path.hpp"
+
+namespace contct {
+
+/// The tolerance of a certificate is this many eps / rcond, and never more than the next.
+inline constexpr double certificate_factor = 1024.0;
+inline constexpr double certificate_never_above = 1e-6;
+
+/// What is known about the state that a step ended in. Lengths are relative to the largest
+/// deflection that the path has seen, so that a state of no load has a measure too; and where slopes
+/// count for more, relative to what these come to as deflections, so that a structure whose deflections
+/// are rounding is not measured by rounding.
+struct certificate {
+  bool exact = false;               ///< within the tolerance in every respect
+  double displacement_error = 0.0;  ///< of any deflection, against the oracle
+  double shape_error = 0.0;  ///< of any dof, each scaled by the root of its stiffness, against the largest
+  double equilibrium = 0.0;  ///< load left over by K D and the pairs' forces, scaled likewise
+  double penetration = 0.0;  ///< of open pairs
+  double tension = 0.0;      ///< how far the springs of closed pairs are stretched
+  double rcond = 0.0;        ///< of the equilibrated stiffness
+  double tolerance = 0.0;    ///< what all of these may reach
+  bool unique = true;        ///< false: other states are as good, so D is not compared
+  bool unfounded = false;    ///< there is no equilibrium at all
+  std::string problem;       ///< what is wrong, in words; empty when exact
+};
+
+/// Observes a path and certifies the end of every step that was solved.
+class certifier final : public observer {
+ public:
+  /// `s` and what `total_load` refers to must outlive this object.
+  certifier(const linear_structure& s, load_history total_load);
+
+  void step_ended(const step_state& s) override;
+
+  /// One for each step ended so far; none for a step that did not reach its load.
+  [[nodiscard]] const std::vector<std::optional<certificate>>& steps() const { return steps_; }
+  [[nodiscard]] bool all_exact() const;
+
+ private:
+  [[nodiscard]] certificate judge(const step_state& s);
+  void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
+  void compare_with(const oracle_answer& a, const step_state& s, certificate& c) const;
+  void remember_sizes(std::span<const double> displacement);
+  [[nodiscard]] double largest_length() const;
+  [[nodiscard]] bool deflects(std::size_t dof) const { return structure_.deflects(static_cast<int>(dof)); }
+
+  const linear_structure& structure_;
+  load_history total_load_;
+  oracle oracle_;
+  std::vector<double> scale_;          // roots of the stiffness at each dof [dofs]
+  double largest_scale_ = 0.0;         // of a deflection that is not fixed
+  double largest_deflection_ = 0.0;    // of path and oracle, so far
+  double largest_displacement_ = 0.0;  // scaled, any dof
+  std::vector<std::optional<certificate>> steps_;
+};
+
+}  // namespace contct

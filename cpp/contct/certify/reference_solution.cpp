@@ -1,0 +1,313 @@
+#include "contct/certify/reference_solution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contct {
+namespace {
+
+constexpr int most_iterations = 500;
+constexpr int most_refinements = 40;
+constexpr long double good_enough = 1e-7L;  // of a refined answer, in the worst of cases
+constexpr long double finest = std::numeric_limits<long double>::epsilon();
+
+/// y = -K x.
+void multiply_minus(const stiffness_matrix& k, const std::vector<long double>& x,
+                    std::vector<long double>& y) {
+  std::fill(y.begin(), y.end(), 0.0L);
+  k.subtract_product(std::span<const long double>(x), y);
+}
+
+long double dot(const std::vector<long double>& a, const std::vector<long double>& b) {
+  long double sum = 0.0L;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace
+
+oracle::oracle(const linear_structure& s) : structure_(s), factor_(s.stiffness) {
+  const auto n = static_cast<std::size_t>(s.dofs());
+  load_.resize(n);
+  u_.resize(n);
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+    pair_rows_.push_back(static_cast<std::size_t>(s.row_of(s.dof_of_pair(static_cast<int>(i)))));
+  }
+  set_.resize(s.pairs.size());
+  start_undeformed();
+  for (int row = 0; row < s.dofs(); ++row) scale_.push_back(std::sqrt(s.stiffness.diagonal(row)));
+}
+
+/// n (w - c) > 0; a pair within `tie` of its face keeps the state that `tied` has for it.
+oracle::pair_set oracle::pressed_at(const numbers& u, long double tie, const pair_set& tied) const {
+  pair_set set(pair_rows_.size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const contact_pair& p = structure_.pairs[i];
+    const long double pressing = p.surface * (u[row_of_pair(i)] - p.face);
+    set[i] = std::abs(pressing) <= tie ? tied[i] : static_cast<char>(pressing > 0.0L);
+  }
+  return set;
+}
+
+bool oracle::holds(const pair_set& set, rigid_rank& rank) const {
+  for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
+  for (std::size_t i = 0; i < set.size() && rank.rank() < structure_.rigid_motions; ++i) {
+    if (set[i] != 0) rank.hold(structure_.held_by_pairs[i]);
+  }
+  return rank.rank() == structure_.rigid_motions;
+}
+
+/// Do the supports and the pairs that press with more than the rounding of the load hold the structure?
+/// Otherwise other places are as good: a structure lying on its faces without load, or balanced.
+bool oracle::holds_firmly() const {
+  constexpr long double rounding = 1e-12L;
+  pair_set firm(set_.size());
+  for (std::size_t i = 0; i < firm.size(); ++i) {
+    const contact_pair& p = structure_.pairs[i];
+    firm[i] = p.stiffness * p.surface * (u_[row_of_pair(i)] - p.face) > rounding * largest_load_ ? 1 : 0;
+  }
+  rigid_rank rank = structure_.nothing_held();
+  return holds(firm, rank);
+}
+
+/// Is the load's work on this motion more than the rounding of its sums?
+bool oracle::drives(const rigid_row& motion) const {
+  const double rounding = std::max(1e-12, structure_.rigid_rounding);
+  double work = 0.0;
+  double size = 0.0;
+  for (std::size_t m = 0; m < motion.size(); ++m) {
+    work = std::max(work, std::abs(motion[m]));
+    size = std::max(size, resultant_size_[m]);
+  }
+  return work > rounding * size;
+}
+
+/// Does no open pair stand in the way of this rigid motion?
+bool oracle::nothing_stops(const numbers& motion) const {
+  const long double rounding = std::max(1e-10, structure_.rigid_rounding);
+  long double largest = 0.0L;
+  for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
+    largest = std::max(largest, std::abs(motion[static_cast<std::size_t>(structure_.row_of(dof))]));
+  }
+  for (std::size_t i = 0; i < pair_rows_.size(); ++i) {
+    if (set_[i] == 0 && structure_.pairs[i].surface * motion[row_of_pair(i)] > rounding * largest)
+      return false;
+  }
+  return true;
+}
+
+bool oracle::factor_with(const pair_set& set) {
+  std::vector<spring_at> springs;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const int dof = structure_.dof_of_pair(static_cast<int>(i));
+    const int row = structure_.row_of(dof);
+    if (set[i] != 0 && structure_.fixed[static_cast<std::size_t>(dof)] == 0) {
+      springs.push_back({row, structure_.pairs[i].stiffness});
+    }
+  }
+  for (const holder& h : holders_) springs.push_back({static_cast<int>(h.row), h.stiffness});
+  ++factorisations_;
+  return factor_.factor(springs);
+}
+
+void oracle::residual(const numbers& u, const pair_set& set, numbers& r) const {
+  multiply_minus(structure_.stiffness, u, r);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] += load_[i];
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (set[i] == 0) continue;
+    const contact_pair& p = structure_.pairs[i];
+    const std::size_t row = row_of_pair(i);
+    r[row] -= p.stiffness * (u[row] - p.face);
+  }
+  for (const holder& h : holders_) r[h.row] -= h.stiffness * (u[h.row] - h.stands_at);
+  for (std::size_t dof = 0; dof < structure_.fixed.size(); ++dof) {
+    if (structure_.fixed[dof] != 0)
+      r[static_cast<std::size_t>(structure_.row_of(static_cast<int>(dof)))] = 0.0L;
+  }
+}
+
+long double oracle::refined_solve(const pair_set& set, numbers& u) {
+  numbers r(u.size());
+  std::vector<double> step(u.size());
+  long double before = std::numeric_limits<long double>::infinity();
+  long double size = 0.0L;  // the largest that u has been, so that an answer of 0 is reached
+  for (std::size_t i = 0; i < u.size(); ++i) size = std::max(size, scale_[i] * std::abs(u[i]));
+  for (int pass = 0; pass < most_refinements; ++pass) {
+    residual(u, set, r);
+    for (std::size_t i = 0; i < r.size(); ++i) step[i] = static_cast<double>(r[i]);
+    factor_.solve(step);
+    long double correction = 0.0L;
+    long double largest_step = 0.0L;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      u[i] += step[i];
+      correction = std::max(correction, static_cast<long double>(scale_[i] * std::abs(step[i])));
+      size = std::max(size, scale_[i] * std::abs(u[i]));
+    }
+    for (const std::size_t row : pair_rows_)
+      largest_step = std::max(largest_step, static_cast<long double>(std::abs(step[row])));
+    if (!std::isfinite(correction)) return -1.0L;
+    if (correction <= 4 * finest * size || (pass > 1 && correction > before / 2)) {
+      return correction <= good_enough * size ? largest_step : -1.0L;
+    }
+    before = correction;
+  }
+  return -1.0L;
+}
+
+/// Where E is least along u + alpha p, alpha > 0: its slope grows with alpha and bends where a pair
+/// meets its face. Infinite when E falls for ever.
+long double oracle::best_step(const numbers& u, const numbers& p) const {
+  numbers minus_kp(p.size());
+  multiply_minus(structure_.stiffness, p, minus_kp);
+  long double slope = -dot(minus_kp, u) - dot(load_, p);
+  long double growth = -dot(minus_kp, p);
+  struct bend {
+    long double at, slope, growth;
+  };
+  std::vector<bend> bends;
+  for (std::size_t i = 0; i < pair_rows_.size(); ++i) {
+    const contact_pair& c = structure_.pairs[i];
+    const long double w = u[row_of_pair(i)];
+    const long double dw = p[row_of_pair(i)];
+    const bool pressed = c.surface * (w - c.face) > 0;
+    if (pressed) {
+      slope += c.stiffness * dw * (w - c.face);
+      growth += c.stiffness * dw * dw;
+    }
+    const long double at = dw != 0 ? (c.face - w) / dw : -1.0L;
+    if (at < 0 || (at == 0 && c.surface * dw <= 0)) continue;
+    const int sign = pressed ? -1 : 1;
+    bends.push_back({at, sign * c.stiffness * dw * (w - c.face), sign * c.stiffness * dw * dw});
+  }
+  std::sort(bends.begin(), bends.end(), [](const bend& a, const bend& b) { return a.at < b.at; });
+  for (const bend& b : bends) {
+    if (slope + b.at * growth >= 0) break;
+    slope += b.slope;
+    growth += b.growth;
+  }
+  return growth > 0 ? -slope / growth : std::numeric_limits<long double>::infinity();
+}
+
+void oracle::take(std::span<const double> load) {
+  resultant_ = {};
+  resultant_size_ = {};
+  for (std::size_t dof = 0; dof < load.size(); ++dof) {
+    const bool fixed = structure_.fixed[dof] != 0;
+    load_[static_cast<std::size_t>(structure_.row_of(static_cast<int>(dof)))] = fixed ? 0.0L : load[dof];
+    if (fixed) continue;
+    for (std::size_t m = 0; m < resultant_.size(); ++m) {
+      resultant_[m] += load[dof] * structure_.rigid_rows[dof][m];
+      resultant_size_[m] += std::abs(load[dof] * structure_.rigid_rows[dof][m]);
+    }
+  }
+}
+
+void oracle::remember_size_of_load() {
+  long double whole = 0.0L;
+  for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
+    whole += std::abs(load_[static_cast<std::size_t>(structure_.row_of(dof))]);
+  }
+  largest_load_ = std::max(largest_load_, whole);
+}
+
+oracle_answer oracle::end(oracle_answer::outcome how, bool unique) const {
+  oracle_answer answer;
+  answer.how = how;
+  answer.unique = unique;
+  answer.factorisations = factorisations_;
+  answer.pressed = set_;
+  for (int dof = 0; dof < structure_.dofs(); ++dof) {
+    answer.displacement.push_back(static_cast<double>(u_[static_cast<std::size_t>(structure_.row_of(dof))]));
+  }
+  return answer;
+}
+
+/// p = the rigid motion that the load drives and no held dof stops; false when it drives none.
+bool oracle::rigid_direction(const rigid_rank& rank, numbers& p) const {
+  const rigid_row motion = rank.free_part(resultant_);
+  if (!drives(motion)) return false;
+  for (int dof = 0; dof < structure_.dofs(); ++dof) {
+    long double along = 0.0L;
+    for (std::size_t m = 0; m < motion.size(); ++m)
+      along += motion[m] * structure_.rigid_rows[static_cast<std::size_t>(dof)][m];
+    p[static_cast<std::size_t>(structure_.row_of(dof))] =
+        structure_.fixed[static_cast<std::size_t>(dof)] != 0 ? 0.0L : along;
+  }
+  for (std::size_t i = 0; i < set_.size(); ++i) {
+    if (set_[i] != 0) p[row_of_pair(i)] = 0.0L;  // what is left there is rounding
+  }
+  return true;
+}
+
+/// Springs at rest where the structure stands, at as many dofs as it takes to hold it: on motions
+/// that the load does not drive they have nothing to do.
+void oracle::hold_where_it_stands(rigid_rank& rank) {
+  for (std::size_t dof = 0; dof < structure_.fixed.size() && rank.rank() < structure_.rigid_motions; ++dof) {
+    const int before = rank.rank();
+    if (structure_.fixed[dof] != 0) continue;
+    rank.hold(structure_.rigid_rows[dof]);
+    if (rank.rank() == before) continue;
+    const int row = structure_.row_of(static_cast<int>(dof));
+    holders_.push_back({static_cast<std::size_t>(row), structure_.stiffness.diagonal(row),
+                        u_[static_cast<std::size_t>(row)]});
+  }
+}
+
+/// E falls for ever along p: there is no equilibrium, unless supports or numbers out of range belie it.
+oracle_answer::outcome oracle::why_endless(const numbers& p) const {
+  using outcome = oracle_answer::outcome;
+  rigid_rank rank = structure_.nothing_held();
+  if (holds(pair_set(set_.size()), rank)) return outcome::not_found;
+  const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
+  return finite ? outcome::no_equilibrium : outcome::not_found;
+}
+
+/// Where the structure is before any load.
+void oracle::start_undeformed() {
+  std::fill(u_.begin(), u_.end(), 0.0L);
+  for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
+}
+
+oracle_answer oracle::solve(std::span<const double> load) {
+  factorisations_ = 0;
+  take(load);
+  remember_size_of_load();
+  oracle_answer answer = search();
+  if (answer.how == oracle_answer::outcome::found) return answer;
+  // A start far from the answer, seen from the load, may have spoilt it by rounding.
+  start_undeformed();
+  answer = search();
+  if (answer.how != oracle_answer::outcome::found) start_undeformed();
+  return answer;
+}
+
+oracle_answer oracle::search() {
+  using outcome = oracle_answer::outcome;
+  numbers p(u_.size());
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    rigid_rank rank = structure_.nothing_held();
+    const bool held = holds(set_, rank);
+    holders_.clear();
+    if (held || !rigid_direction(rank, p)) {
+      if (!held) hold_where_it_stands(rank);
+      if (!factor_with(set_)) return end(outcome::not_found, held);
+      numbers target = u_;
+      const long double error = refined_solve(set_, target);
+      if (error >= 0 && pressed_at(target, 4 * error, set_) == set_) {
+        u_ = target;
+        return end(outcome::found, held && holds_firmly());
+      }
+      for (std::size_t i = 0; i < p.size(); ++i) p[i] = target[i] - u_[i];
+    } else if (nothing_stops(p)) {
+      return end(outcome::no_equilibrium, false);
+    }
+    const long double alpha = best_step(u_, p);
+    if (!std::isfinite(alpha)) return end(why_endless(p), false);
+    for (std::size_t i = 0; i < p.size(); ++i) u_[i] += alpha * p[i];
+    set_ = pressed_at(u_, 0.0L, set_);
+  }
+  return end(outcome::not_found, false);
+}
+
+}  // namespace contct

@@ -1,0 +1,107 @@
+#include "contct/compare/explanation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contct/compare/float_call.hpp"
+
+namespace contct {
+namespace {
+
+constexpr std::size_t at(branch b) {
+  return static_cast<std::size_t>(b);
+}
+
+/// What went into the DO 10 loop for pair `i`, and GAP.
+template <class Real>
+explained_pair start_of(const call<Real>& c, std::span<const int> isep_before, std::size_t i) {
+  const auto dof = static_cast<std::size_t>(c.dof.dof_of(c.id[i]) - 1);
+  explained_pair p;
+  p.pair = static_cast<int>(i);
+  p.node = c.id[i];
+  p.surface = c.isurf[i];
+  p.isep_before = isep_before[i];
+  p.isep_after = c.isep[i];
+  p.c = c.cc[i];
+  p.d = c.dd[dof];
+  p.d_star = c.dtest[dof];
+  const Real gap = c.cc[i] - c.dd[dof];
+  p.gap = gap;
+  p.s = c.ss[i];
+  p.distance = std::abs(p.c - (p.d + static_cast<double>(c.smin) * p.d_star));
+  return p;
+}
+
+way_to_s way_of(const explained_pair& p) {
+  if (p.at(branch::no_response).outcome) return way_to_s::no_response;
+  if (!p.at(branch::stationary).outcome) return way_to_s::moving;
+  return p.at(branch::check_positive).outcome ? way_to_s::stationary_event : way_to_s::stationary;
+}
+
+/// Every decision in its pair, with the numbers that only decisions show.
+template <class Real>
+void take_decisions(const call<Real>& c, std::span<const int> isep_before, explained_call& out) {
+  for_each_decision(c, isep_before, [&out](branch b, std::size_t i, bool outcome, Real left, Real right) {
+    const std::uint64_t ulps = margin_between(left, right);
+    if (b != branch::was_separated && (!out.narrowest || ulps < out.narrowest->ulps))
+      out.narrowest = decision{b, b == branch::no_events ? -1 : static_cast<int>(i), outcome, ulps};
+    if (b == branch::no_events) return;
+    explained_pair& p = out.pairs[i];
+    p.taken[at(b)] = {true, outcome, ulps};
+    if (b == branch::check_positive) p.s_chk = left;
+    if (b == branch::s_is_smallest) p.smin_before = right;
+    if (b == branch::within_epsmul) p.diff = left;
+  });
+}
+
+void find_winner(explained_call& out) {
+  for (const explained_pair& p : out.pairs) {
+    if (p.took_the_lead()) out.winner = p.pair;
+  }
+  for (const explained_pair& p : out.pairs) {
+    if (p.pair == out.winner || !p.is_candidate()) continue;
+    if (out.next < 0 || p.s < out.pairs[static_cast<std::size_t>(out.next)].s) out.next = p.pair;
+  }
+}
+
+why_toggled reason(const explained_pair& p, int winner, double rounding) {
+  if (!p.at(branch::within_epsmul).outcome) return why_toggled::not_toggled;
+  if (p.pair == winner) return why_toggled::winner;
+  if (!p.is_candidate()) return why_toggled::by_mark;
+  if (p.way == way_to_s::stationary_event) return why_toggled::same_moment;
+  return p.distance > rounding ? why_toggled::too_early : why_toggled::same_moment;
+}
+
+template <class Real>
+explained_call explain_in(const call<Real>& c, std::span<const int> isep_before, double& largest) {
+  explained_call out;
+  out.real_bytes = sizeof(Real);
+  out.smin = c.smin;
+  out.pairs.reserve(c.cc.size());
+  for (std::size_t i = 0; i < c.cc.size(); ++i) out.pairs.push_back(start_of(c, isep_before, i));
+  take_decisions(c, isep_before, out);
+  for (explained_pair& p : out.pairs) {
+    p.way = way_of(p);
+    const double reached = std::abs(p.d + out.smin * p.d_star);
+    if (std::isfinite(reached)) largest = std::max(largest, reached);
+  }
+  find_winner(out);
+  if (out.winner >= 0 && out.next >= 0) {
+    out.ulps_ahead =
+        margin_between(c.ss[static_cast<std::size_t>(out.winner)], c.ss[static_cast<std::size_t>(out.next)]);
+  }
+  const double rounding = rounding_share(sizeof(Real)) * largest;
+  for (explained_pair& p : out.pairs) p.why = reason(p, out.winner, rounding);
+  return out;
+}
+
+}  // namespace
+
+explained_call explain(const call<double>& c, std::span<const int> isep_before, int real_bytes,
+                       double& largest) {
+  if (real_bytes == 8) return explain_in<double>(c, isep_before, largest);
+  float_call rounded(c);
+  return explain_in<float>(rounded.as_call(), isep_before, largest);
+}
+
+}  // namespace contct

@@ -1,0 +1,89 @@
+// What the listing did in one call, pair by pair, and why.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contct/compare/branches.hpp"
+#include "contct/compare/margin.hpp"
+#include "contct/kernel/call.hpp"
+
+namespace contct {
+
+/// Which branch of the DO 10 loop gave a pair its s.
+enum class way_to_s {
+  no_response,       ///< d* = 0: s is 1, the mark for "no event"
+  stationary,        ///< at its face, and the load keeps it as it is: s is 1, the same mark
+  stationary_event,  ///< at its face, and the load changes it: eq. 12
+  moving,            ///< advancing or receding: eq. 4
+};
+
+/// Why a pair was toggled.
+enum class why_toggled {
+  not_toggled,
+  winner,       ///< its s is SMIN
+  same_moment,  ///< it is at its face at SMIN too, but for rounding
+  too_early,    ///< within EPSMUL, and not yet at its face
+  by_mark,      ///< it has no event at all: its mark, s = 1, lies within EPSMUL of SMIN
+};
+
+/// How one IF went for one pair.
+struct taken_branch {
+  bool reached = false;
+  bool outcome = false;
+  std::uint64_t ulps = 0;  ///< as in `decision`
+};
+
+/// What one call did with one pair. Numbers of a 4-byte call are widened.
+struct explained_pair {
+  int pair = 0;  ///< from 0
+  int node = 0;  ///< from 1
+  int surface = face_below;
+  int isep_before = separated;
+  int isep_after = separated;
+  double c = 0.0, d = 0.0, d_star = 0.0;
+  double gap = 0.0;    ///< GAP, c - D: eq. 5 without its n
+  double s_chk = 0.0;  ///< SSCHK, where it was computed
+  double s = 0.0;
+  way_to_s way = way_to_s::no_response;
+  double smin_before = 1.0;  ///< what s was compared with, where it was positive
+  double diff = 0.0;         ///< DIFF, where there was an event
+  why_toggled why = why_toggled::not_toggled;
+  double distance = 0.0;  ///< |c - (D + SMIN d*)|: from its face at SMIN
+  std::array<taken_branch, branch_names.size()> taken;
+
+  [[nodiscard]] const taken_branch& at(branch b) const { return taken[static_cast<std::size_t>(b)]; }
+  [[nodiscard]] bool toggled() const { return isep_before != isep_after; }
+  [[nodiscard]] bool took_the_lead() const { return at(branch::s_is_smallest).outcome; }
+  /// Could it be toggled by right? A mark is not a candidate, however it compares.
+  [[nodiscard]] bool is_candidate() const {
+    return (way == way_to_s::moving || way == way_to_s::stationary_event) && s > 0.0;
+  }
+};
+
+/// What one call did.
+struct explained_call {
+  int real_bytes = 8;
+  double smin = 1.0;
+  std::vector<explained_pair> pairs;
+  int winner = -1;                    ///< pair from 0; -1: no event
+  int next = -1;                      ///< the candidate that comes closest behind it; -1: none
+  std::uint64_t ulps_ahead = 0;       ///< numbers between the winner's s and the next one's
+  std::optional<decision> narrowest;  ///< of the whole call
+};
+
+/// A distance from a face that rounding explains, as a share of the largest deflection.
+[[nodiscard]] constexpr double rounding_share(int real_bytes) {
+  return real_bytes == 4 ? 1e-5 : 1e-11;
+}
+
+/// Explain a finished call of a kernel of `real_bytes`: `c` with its outputs, `isep_before` as it went in.
+/// `largest` is the largest deflection of the path so far; this call's are looked at as well, and it is
+/// raised. Nothing of a kernel's code is used: this follows the listing's text.
+[[nodiscard]] explained_call explain(const call<double>& c, std::span<const int> isep_before, int real_bytes,
+                                     double& largest);
+
+}  // namespace contct

@@ -1,0 +1,82 @@
+#include "contct/compare/free_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace contct {
+namespace {
+
+std::string words(const timed_event& e) {
+  return "step " + std::to_string(e.step) + ": pair " + std::to_string(e.what.pair + 1) +
+         (e.what.what == change::make ? " makes" : " breaks");
+}
+
+std::string words_at(const std::vector<timed_event>& events, std::size_t i) {
+  return i < events.size() ? words(events[i]) : "no further event";
+}
+
+void compare_events(const path_record& leader, const path_record& other, free_run_difference& d) {
+  const std::size_t most = std::max(leader.events.size(), other.events.size());
+  for (std::size_t i = 0; i < most; ++i) {
+    const bool both = i < leader.events.size() && i < other.events.size();
+    if (!both || leader.events[i].step != other.events[i].step ||
+        leader.events[i].what != other.events[i].what) {
+      d.same_events = false;
+      if (d.first_difference.empty()) {
+        d.first_difference = words_at(leader.events, i) + " against " + words_at(other.events, i);
+      }
+      return;
+    }
+    d.fraction = std::max(d.fraction, std::abs(leader.events[i].fraction - other.events[i].fraction));
+  }
+}
+
+/// Largest difference of one kind of dof in any step, relative to the largest that this kind has on
+/// the whole path: a step that takes all load off leaves nothing but rounding to measure by.
+double relative_difference(const path_record& leader, const path_record& other, std::size_t kind,
+                           std::size_t stride) {
+  double difference = 0.0;
+  double largest = 0.0;
+  const std::size_t steps = std::min(leader.displacement.size(), other.displacement.size());
+  for (std::size_t step = 0; step < steps; ++step) {
+    const std::vector<double>& a = leader.displacement[step];
+    const std::vector<double>& b = other.displacement[step];
+    for (std::size_t i = kind; i < a.size(); i += stride) {
+      difference = std::max(difference, std::abs(a[i] - b[i]));
+      largest = std::max({largest, std::abs(a[i]), std::abs(b[i])});
+    }
+  }
+  return largest > 0.0 ? difference / largest : 0.0;
+}
+
+}  // namespace
+
+void path_record::incremented(const increment& i) {
+  for (const event& e : i.events) events.push_back({i.step, i.fraction, e});
+}
+
+void path_record::step_ended(const step_state& s) {
+  displacement.emplace_back(s.displacement.begin(), s.displacement.end());
+}
+
+double free_run_bound(const kernel_facts& leader, const kernel_facts& other) {
+  return leader.real_bytes == other.real_bytes && leader.rule == other.rule ? 1e-9 : 1e-4;
+}
+
+free_run_difference compare_paths(const path_record& leader, const path_record& other, double bound,
+                                  int dofs_per_node) {
+  free_run_difference d;
+  d.bound = bound;
+  if (leader.end.status != other.end.status || leader.end.step != other.end.step) {
+    d.same_end = false;
+    d.first_difference = "the paths end differently";
+  }
+  compare_events(leader, other, d);
+  const auto stride = static_cast<std::size_t>(dofs_per_node);
+  for (std::size_t kind = 0; kind < stride; ++kind) {
+    d.displacement = std::max(d.displacement, relative_difference(leader, other, kind, stride));
+  }
+  return d;
+}
+
+}  // namespace contct

@@ -1,0 +1,61 @@
+// Tier 1: every call of the leader put to other kernels, and the answers compared to the bit.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contct/compare/mismatch_report.hpp"
+#include "contct/kernel/call_inputs.hpp"
+#include "contct/kernel/kernel.hpp"
+#include "contct/path/observer.hpp"
+
+namespace contct {
+
+/// How one follower answered one call of the leader.
+struct follower_answer {
+  std::int64_t values = 0, mismatches = 0;
+  std::uint64_t smin_ulps = 0;  ///< distance of SMIN
+  std::uint64_t ss_ulps = 0;    ///< largest distance of an s
+  bool failed = false;          ///< it gave no answer
+};
+
+/// Observes a path: each call that the leader answered goes to every follower, with identical
+/// inputs, and SMIN, all of SS, all of ISEP and the unit-26 text are compared.
+class lockstep final : public observer {
+ public:
+  /// Throws std::invalid_argument when a follower has another precision or rule than the leader.
+  lockstep(kernel_facts leader, std::vector<std::unique_ptr<kernel>> followers);
+
+  void called(const answered_call& c) override;
+
+  [[nodiscard]] std::int64_t calls() const { return calls_; }
+  [[nodiscard]] const tally& compared() const { return tally_; }
+  /// The first call in which a follower did not answer as the leader.
+  [[nodiscard]] const std::optional<mismatch_report>& first() const { return first_; }
+  /// Did every follower answer the last call as the leader did?
+  [[nodiscard]] bool last_call_equal() const { return last_call_equal_; }
+  /// How each follower answered the last call.
+  [[nodiscard]] const std::vector<follower_answer>& last_answers() const { return last_answers_; }
+
+ private:
+  void ask(kernel& follower, const answered_call& c);
+
+  kernel_facts leader_;
+  std::vector<std::unique_ptr<kernel>> followers_;
+  std::int64_t calls_ = 0;
+  tally tally_;
+  std::optional<mismatch_report> first_;
+  bool last_call_equal_ = true;
+  std::vector<follower_answer> last_answers_;
+  call_outputs answered_;
+};
+
+/// A leader's lockstep with kernels by name. All are known and refused by their facts before the
+/// first is made. Throws std::invalid_argument.
+[[nodiscard]] lockstep make_lockstep(const kernel_facts& leader, std::span<const std::string> followers);
+
+}  // namespace contct

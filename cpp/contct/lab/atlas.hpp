@@ -1,0 +1,80 @@
+// Where the 1989 code goes wrong, measured: kernels on random problems, cell by cell.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "contct/lab/problem_result.hpp"
+
+namespace contct {
+
+/// An answer is wrong when it is off by more than this share of the largest deflection. One measure
+/// for all kernels: a 4-byte kernel rounds at 6e-8 and cannot meet the certificate's tolerance, which
+/// is a matter of 8-byte rounding; 1e-3 is far from both, and more than anybody would accept.
+inline constexpr double wrong_beyond = 1e-3;
+
+/// One kernel on random problems of one kind in one unit of length, and what they came to.
+struct atlas_cell {
+  std::string kernel;   ///< as contct knows it
+  double epsmul = 0.0;  ///< of the listing, printed or replaced; 0 where the rule has none
+  double unit = 1.0;    ///< of length
+  bool held = true;     ///< by supports; otherwise by pairs alone
+
+  int problems = 0;
+  int wrong = 0;              ///< silently: a length is off by more than wrong_beyond, or a false equilibrium
+  int false_equilibrium = 0;  ///< where there is none
+  int false_mechanism = 0;    ///< the path stopped for one, and there is an equilibrium
+  int never_held = 0;         ///< of these: nothing held the structure before the first increment
+  int no_end = 0;             ///< the path stopped for a cycle, increments without end, or no factor
+  int uncertified = 0;        ///< all that is not right to rounding in 8 bytes: the above, and more
+  std::vector<double> errors = {};  ///< in deflections, of the wrong answers, sorted
+
+  /// Take in what one problem came to.
+  void add(const problem_result& t);
+};
+
+/// The middle and the last of the errors; 0 when there is none.
+[[nodiscard]] double median_error(const atlas_cell& c);
+[[nodiscard]] double worst_error(const atlas_cell& c);
+
+/// Is the cell one of the listing with another EPSMUL than printed?
+[[nodiscard]] bool has_other_epsmul(const atlas_cell& c);
+
+/// Shares of a whole, with 95 % confidence (E. B. Wilson, 1927): honest for no hits at all, too.
+struct confidence {
+  double least, most;
+};
+[[nodiscard]] confidence wilson(int hits, int tried);
+
+/// The units of length in which EPSMUL is varied: 1, and the one in which the listing's other
+/// constant, EPSGAP, does least harm.
+inline constexpr double epsmul_units[] = {1.0, 100.0};
+
+/// All cells, empty: held structures first; `fortran`, `fortran-r4` and `corrected` in every unit, then
+/// the listing with every other EPSMUL, in 8 bytes.
+[[nodiscard]] std::vector<atlas_cell> atlas_cells();
+
+struct atlas_request {
+  int problems = 600;  ///< a cell
+  std::uint64_t seed = 1;
+};
+
+/// What was asked for, and what came of it.
+struct atlas {
+  atlas_request request;
+  std::vector<atlas_cell> cells;
+};
+
+/// The cells with EPSMUL as printed, or without any: kernels over the unit of length. In order.
+[[nodiscard]] std::vector<atlas_cell> over_unit(const atlas& a, bool held);
+
+/// The cells of the 8-byte listing in one unit, the printed EPSMUL first.
+[[nodiscard]] std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit);
+
+/// Try the problems of a cell, numbers 0 and up of the seed: in every cell of a kind they are the same
+/// problems in another unit. `tried` is called after each.
+void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried = nullptr);
+
+}  // namespace contct

@@ -1,0 +1,219 @@
+#include "contct/lab/atlas_svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "contct/lab/epsmul_variants.hpp"
+
+namespace contct {
+namespace {
+
+constexpr double least_share = 1e-3;  // the scale is logarithmic down to here; below it stands "none"
+
+/// Where a panel stands, and what its x axis spans, in decades.
+struct panel {
+  double left, top, width, height;
+  double from, to;
+
+  [[nodiscard]] double x(double decade) const {
+    return left + 14 + (width - 28) * (decade - from) / (to - from);
+  }
+  [[nodiscard]] double bottom() const { return top + height; }
+  [[nodiscard]] double none() const { return bottom() - 16; }
+  [[nodiscard]] double y(double share) const {
+    constexpr double gap = 34;  // between 0.1 % and none
+    const double of_scale = std::log10(std::max(share, least_share) / least_share) / -std::log10(least_share);
+    return share <= 0.0 ? none() : none() - gap - (none() - gap - top - 12) * of_scale;
+  }
+};
+
+enum class marker { disc, triangle, square, ring };
+
+/// How a line of points looks. Colours are of M. Okabe and K. Ito's set, which all eyes can tell apart.
+struct look {
+  const char* name;
+  const char* colour;
+  marker shape;
+  const char* dashes;
+};
+constexpr look as_8_bytes = {"fortran: the listing, REAL of 8 bytes", "#0072B2", marker::disc, ""};
+constexpr look as_printed = {"fortran-r4: as printed, REAL of 4 bytes", "#D55E00", marker::triangle, "7 4"};
+constexpr look as_corrected = {"corrected: the repaired rule", "#007F5F", marker::square, ""};
+constexpr look in_unit_1 = {"unit of length 1", "#0072B2", marker::disc, ""};
+constexpr look in_unit_100 = {"unit of length 100", "#56A0D0", marker::ring, "2 3"};
+
+look look_of(const atlas_cell& c) {
+  if (c.kernel == "fortran-r4") return as_printed;
+  return c.kernel == "corrected" ? as_corrected : as_8_bytes;
+}
+
+std::string text_at(double x, double y, std::string_view style, std::string_view words) {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, words);
+}
+
+std::string line_between(double x1, double y1, double x2, double y2, std::string_view style) {
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1, y1, x2, y2,
+                     style);
+}
+
+std::string mark(const look& l, double x, double y) {
+  switch (l.shape) {
+    case marker::disc:
+      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"", x, y, l.colour);
+    case marker::ring:
+      return fmt::format(
+          "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"#ffffff\" stroke=\"{}\" stroke-width=\"2\"",
+          x, y, l.colour);
+    case marker::triangle:
+      return fmt::format("<path d=\"M{:.1f} {:.1f} l7 12 h-14 z\" fill=\"{}\" stroke=\"#ffffff\"", x, y - 8,
+                         l.colour);
+    case marker::square:
+      return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"9\" fill=\"{}\"", x - 4.5,
+                         y - 4.5, l.colour);
+  }
+  return "";
+}
+
+/// "fortran, unit 1e-12, held: 92.5 % wrong (88.9 to 95.0 %) of 300".
+std::string words_of(const atlas_cell& c) {
+  const confidence sure = wilson(c.wrong, c.problems);
+  return fmt::format("{}{}, unit {:.0e}, {}: {:.1f} % wrong ({:.1f} to {:.1f} %) of {}", c.kernel,
+                     has_other_epsmul(c) ? fmt::format(" with EPSMUL {:.0e}", c.epsmul) : "", c.unit,
+                     c.held ? "held" : "free", 100.0 * c.wrong / c.problems, 100 * sure.least,
+                     100 * sure.most, c.problems);
+}
+
+/// A band, a line and a point for each cell; `decade` is where a cell stands.
+template <class Decade>
+std::string curve(const panel& p, std::span<const atlas_cell> cells, const look& l, Decade decade) {
+  std::string upper, lower, line, points;
+  for (const atlas_cell& c : cells) {
+    const confidence sure = wilson(c.wrong, c.problems);
+    const double x = p.x(decade(c));
+    const double y = p.y(static_cast<double>(c.wrong) / c.problems);
+    upper += fmt::format("{:.1f},{:.1f} ", x, p.y(sure.most));
+    lower = fmt::format("{:.1f},{:.1f} ", x, p.y(sure.least)) + lower;
+    line += fmt::format("{:.1f},{:.1f} ", x, y);
+    points += fmt::format("{} class=\"point\"><title>{}</title></{}>\n", mark(l, x, y), words_of(c),
+                          l.shape == marker::triangle ? "path"
+                          : l.shape == marker::square ? "rect"
+                                                      : "circle");
+  }
+  return fmt::format("<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.15\"/>\n", upper, lower,
+                     l.colour) +
+         fmt::format(
+             "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" "
+             "stroke-dasharray=\"{}\"/>\n",
+             line, l.colour, *l.dashes == '\0' ? "none" : l.dashes) +
+         points;
+}
+
+/// 10 to the power, with a raised exponent.
+std::string power_of_ten(int decade) {
+  if (decade == 0) return "1";
+  return fmt::format("10<tspan dy=\"-5\" font-size=\"10\">{}{}</tspan>", decade < 0 ? "\u2212" : "",
+                     std::abs(decade));
+}
+
+std::string frame(const panel& p) {
+  std::string text = fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#ffffff\" "
+      "stroke=\"#888888\"/>\n",
+      p.left, p.top, p.width, p.height);
+  constexpr std::pair<double, const char*> shares[] = {
+      {1.0, "100 %"}, {0.1, "10 %"}, {0.01, "1 %"}, {0.001, "\u2264 0.1 %"}, {0.0, "none"}};
+  for (const auto& [share, words] : shares) {
+    text += line_between(p.left, p.y(share), p.left + p.width, p.y(share), "stroke=\"#dddddd\"");
+    text += text_at(p.left - 8, p.y(share) + 4, "text-anchor=\"end\"", words);
+  }
+  return text;
+}
+
+std::string x_axis(const panel& p, int every) {
+  std::string text;
+  for (int decade = static_cast<int>(std::ceil(p.from)); decade <= p.to; decade += every) {
+    text += line_between(p.x(decade), p.bottom(), p.x(decade), p.bottom() + 5, "stroke=\"#888888\"");
+    text += text_at(p.x(decade), p.bottom() + 20, "text-anchor=\"middle\"", power_of_ten(decade));
+  }
+  return text;
+}
+
+std::string unit_panel(const panel& p, const atlas& a, bool held) {
+  std::string text = frame(p) + x_axis(p, 4);
+  const std::vector<atlas_cell> all = over_unit(a, held);
+  for (const char* name : {"corrected", "fortran-r4", "fortran"}) {
+    std::vector<atlas_cell> cells;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(cells),
+                 [name](const atlas_cell& c) { return c.kernel == name; });
+    if (!cells.empty())
+      text += curve(p, cells, look_of(cells.front()), [](const atlas_cell& c) { return std::log10(c.unit); });
+  }
+  return text;
+}
+
+std::string epsmul_panel(const panel& p, const atlas& a, bool held) {
+  const double printed = std::log10(printed_epsmul);
+  std::string text = frame(p) + x_axis(p, 2);
+  text += line_between(p.x(printed), p.top, p.x(printed), p.bottom() + 30,
+                       "stroke=\"#888888\" stroke-dasharray=\"3 3\"");
+  text += text_at(p.x(printed) + 14, p.bottom() + 42, "text-anchor=\"end\"",
+                  "as printed: 2<tspan dy=\"-5\" font-size=\"10\">\u22128</tspan>");
+  const auto decade = [](const atlas_cell& c) { return std::log10(c.epsmul); };
+  text += curve(p, over_epsmul(a, held, epsmul_units[1]), in_unit_100, decade);
+  return text + curve(p, over_epsmul(a, held, epsmul_units[0]), in_unit_1, decade);
+}
+
+std::string legend(double y, std::initializer_list<std::pair<double, look>> entries) {
+  std::string text;
+  for (const auto& [x, l] : entries) {
+    text += line_between(x, y, x + 34, y,
+                         fmt::format("stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\"", l.colour,
+                                     *l.dashes == '\0' ? "none" : l.dashes));
+    text += mark(l, x + 17, y) + "/>\n" + text_at(x + 42, y + 4, "", l.name);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string atlas_svg(const atlas& a) {
+  constexpr double left = 86, right = 640, wide = 450, narrow = 300, height = 230;
+  constexpr const char* strong = "font-weight=\"bold\" font-size=\"15\"";
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 980 800\" width=\"980\" height=\"800\" "
+      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#222222\">\n"
+      "<title>Where the 1989 code goes wrong</title>\n"
+      "<rect width=\"980\" height=\"800\" fill=\"#ffffff\"/>\n";
+  text += text_at(left, 36, "font-weight=\"bold\" font-size=\"22\"", "Where the 1989 code goes wrong");
+  text += text_at(left, 60, "",
+                  "Share of random problems answered wrong without a word: off by more than 0.1 % of the "
+                  "largest deflection.");
+  text += text_at(left, 79, "",
+                  fmt::format("{} problems a point, the same ones along each line (seed {}); bands: 95 % "
+                              "confidence.",
+                              a.request.problems, a.request.seed));
+  text += legend(108, {{left, as_8_bytes}, {left + 310, as_printed}, {left + 630, as_corrected}});
+  text += text_at(left, 148, strong, "By the unit of length");
+  text += text_at(right, 148, strong, "By EPSMUL, in 8 bytes");
+  double top = 184;
+  text += legend(top - 14, {{right, in_unit_1}, {right + 155, in_unit_100}});
+  for (const bool held : {true, false}) {
+    text += text_at(left, top - 10, "",
+                    held ? "Structures held by supports" : "Free structures, held by contact alone");
+    text += unit_panel({left, top, wide, height, -12, 12}, a, held);
+    text += epsmul_panel({right, top, narrow, height, -12, std::log10(printed_epsmul)}, a, held);
+    top += height + 74;
+  }
+  text += text_at(left + wide / 2, top - 24, "text-anchor=\"middle\"",
+                  "size of the structure in the unit it is put in; EPSGAP stays 10<tspan dy=\"-5\" "
+                  "font-size=\"10\">\u221210</tspan>");
+  text += text_at(left + wide / 2, top - 4, "text-anchor=\"middle\"",
+                  "Paths that stop for a mechanism or a cycle say so, and are not counted as wrong.");
+  return text + "</svg>\n";
+}
+
+}  // namespace contct

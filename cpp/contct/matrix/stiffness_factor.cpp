@@ -1,0 +1,77 @@
+#include "contct/matrix/stiffness_factor.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "contct/matrix/band_solve.hpp"
+#include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/several_right_hand_sides.hpp"
+
+namespace contct {
+
+stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
+  if (!k_.is_band()) sparse_.emplace(k_.columns());
+}
+
+bool stiffness_factor::factor(std::span<const spring_at> springs) {
+  if (k_.is_band()) {
+    assemble(springs);
+    return contct::factor(band_);
+  }
+  return sparse_->factor(diagonal_with(springs));
+}
+
+void stiffness_factor::solve(std::span<double> b) {
+  if (sparse_) {
+    sparse_->solve(b);
+  } else {
+    solve_with(band_, b);
+  }
+}
+
+void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
+  if (sparse_) return sparse_->solve_units(rows, x);
+  x.assign(static_cast<std::size_t>(band_.order()) * side_by_side, 0.0);
+  int first = band_.order();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
+    x[static_cast<std::size_t>(rows[i]) * side_by_side + i] = 1.0;
+    first = std::min(first, rows[i]);
+  }
+  if (first < band_.order()) solve_many_from(band_, first, x);
+}
+
+double stiffness_factor::flops() const {
+  if (sparse_) return sparse_->flops();
+  const double kd = k_.band().subdiagonals();
+  return static_cast<double>(k_.order()) * kd * kd;
+}
+
+double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {
+  if (k_.is_band()) {
+    assemble(springs);
+    return contct::reciprocal_condition(band_);
+  }
+  if (!factor(springs)) return 0.0;
+  return contct::reciprocal_condition(k_, diagonal_with(springs), [this](std::span<double> b) { solve(b); });
+}
+
+const band_matrix& stiffness_factor::band() const {
+  if (!k_.is_band()) throw std::logic_error("a sparse stiffness has no band");
+  return band_;
+}
+
+/// In place where the last factor stood.
+void stiffness_factor::assemble(std::span<const spring_at> springs) {
+  band_ = k_.band();
+  for (const spring_at& s : springs) band_.at(s.row, s.row) += s.stiffness;
+}
+
+std::vector<double> stiffness_factor::diagonal_with(std::span<const spring_at> springs) const {
+  std::vector<double> diagonal(static_cast<std::size_t>(k_.order()));
+  for (int row = 0; row < k_.order(); ++row) diagonal[static_cast<std::size_t>(row)] = k_.diagonal(row);
+  for (const spring_at& s : springs) diagonal[static_cast<std::size_t>(s.row)] += s.stiffness;
+  return diagonal;
+}
+
+}  // namespace contct

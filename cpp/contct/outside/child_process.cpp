@@ -1,0 +1,132 @@
+#include "contct/outside/child_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <stdio_ext.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+#include <thread>
+
+namespace contct {
+namespace {
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+/// The parent's files, its unprinted text and its core dumps are none of the child's business.
+void leave_parents_things(int channel) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  __fpurge(stdout);
+  const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+  dup2(nothing, STDIN_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+  // The parent's handlers neither: a crash must be one, and be told as one.
+  for (const int signal :
+       {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS})
+    (void)std::signal(signal, SIG_DFL);
+  const auto kept = static_cast<unsigned>(channel);
+  if (kept > 3) close_range(3, kept - 1, 0);
+  close_range(kept + 1, ~0U, 0);
+}
+
+int milliseconds_until(child_process::clock::time_point deadline) {
+  const auto left =
+      std::chrono::ceil<std::chrono::milliseconds>(deadline - child_process::clock::now()).count();
+  return static_cast<int>(std::clamp<long long>(left, 0, 1'000'000'000));
+}
+
+/// Wait until the channel is ready for `events`. False when the deadline comes first.
+bool ready(int channel, short events, child_process::clock::time_point deadline) {
+  while (true) {
+    pollfd p{channel, events, 0};
+    const int found = poll(&p, 1, milliseconds_until(deadline));
+    if (found > 0) return true;
+    if (found == 0 || errno != EINTR) return false;
+  }
+}
+
+}  // namespace
+
+child_process::child_process(const std::function<void(int channel)>& body) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    fail("no channel to a kernel from outside");
+  pid_ = fork();
+  if (pid_ < 0) {
+    close(ends[0]);
+    close(ends[1]);
+    fail("no process for a kernel from outside");
+  }
+  if (pid_ == 0) {
+    leave_parents_things(ends[1]);
+    body(ends[1]);
+    _exit(0);
+  }
+  close(ends[1]);
+  channel_ = ends[0];
+}
+
+child_process::~child_process() {
+  (void)end();
+}
+
+child_process::sent child_process::send(std::string_view message, clock::time_point deadline) const {
+  while (!message.empty()) {
+    if (!ready(channel_, POLLOUT, deadline)) return sent::late;
+    const ssize_t n = ::send(channel_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n < 0 && (errno == EAGAIN || errno == EINTR)) continue;
+    if (n <= 0) return sent::gone;
+    message.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return sent::whole;
+}
+
+child_process::sent child_process::receive(std::string& message, clock::time_point deadline) const {
+  char block[1 << 14];
+  while (true) {
+    if (!ready(channel_, POLLIN, deadline)) return sent::late;
+    const ssize_t n = recv(channel_, block, sizeof block, 0);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return sent::gone;
+    message.append(block, static_cast<std::size_t>(n));
+    return sent::whole;
+  }
+}
+
+std::string child_process::end() {
+  if (pid_ < 0) return was_stopped;
+  if (channel_ >= 0) close(channel_);
+  channel_ = -1;
+  // One that is on its way out has a moment to say how.
+  int status = 0;
+  pid_t waited = 0;
+  for (int i = 0; i < 50 && (waited = waitpid(pid_, &status, WNOHANG)) == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(i < 10 ? 1 : 4));
+  const bool stopped = waited == 0;
+  if (stopped) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, &status, 0);
+  }
+  pid_ = -1;
+  if (stopped) return was_stopped;
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+  }
+  return "ended with status " + std::to_string(WEXITSTATUS(status));
+}
+
+}  // namespace contct

@@ -1,0 +1,45 @@
+#include "contct/outside/registry.hpp"
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "contct/outside/outside.hpp"
+#include "contct/text/did_you_mean.hpp"
+
+namespace contct {
+namespace {
+
+/// What stands behind "plugin:" or "pipe:"; nothing when the name begins with something else.
+std::optional<std::string> behind(std::string_view prefix, std::string_view name) {
+  if (name.substr(0, prefix.size()) != prefix || name.size() == prefix.size()) return {};
+  return std::string(name.substr(prefix.size()));
+}
+
+[[noreturn]] void refuse_unknown(std::string_view name) {
+  std::string known;
+  for (const std::string& n : kernel_names()) known += n + ", ";
+  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"" +
+                              did_you_mean(name, kernel_names()) + "; there are: " + known +
+                              "plugin:LIBRARY, pipe:COMMAND");
+}
+
+}  // namespace
+
+std::unique_ptr<kernel> make_kernel(std::string_view name) {
+  if (const auto path = behind("plugin:", name)) return make_plugin(*path);
+  if (const auto command = behind("pipe:", name)) return make_pipe(*command);
+  std::unique_ptr<kernel> made = make_built_in(name);
+  if (!made) refuse_unknown(name);
+  return made;
+}
+
+kernel_facts facts_of_kernel(std::string_view name) {
+  if (const auto path = behind("plugin:", name)) return facts_of_plugin(*path);
+  if (const auto command = behind("pipe:", name)) return facts_of_pipe(*command);
+  const std::optional<kernel_facts> facts = facts_of_built_in(name);
+  if (!facts) refuse_unknown(name);
+  return *facts;
+}
+
+}  // namespace contct

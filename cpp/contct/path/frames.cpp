@@ -1,0 +1,146 @@
+#include "contct/path/frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contct/solve/engine.hpp"
+
+namespace contct {
+namespace {
+
+constexpr double epsgap = 1e-10;  // the listing's
+
+std::size_t affordable(const frame_limits& limits, std::size_t dofs) {
+  constexpr std::size_t never_fewer = 4;
+  return std::max(never_fewer,
+                  std::min(limits.most_frames, limits.most_numbers / std::max<std::size_t>(dofs, 1)));
+}
+
+}  // namespace
+
+pair_look look_of(const contact_pair& p, double w, bool closed) {
+  if (std::abs(p.face - w) < epsgap) return pair_look::at_face;
+  return closed ? pair_look::closed : pair_look::open;
+}
+
+frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, bool forces_by_law,
+                           const frame_limits& limits)
+    : structure_(s),
+      total_load_(std::move(total_load)),
+      forces_by_law_(forces_by_law),
+      most_frames_(affordable(limits, static_cast<std::size_t>(s.dofs()))),
+      before_(static_cast<std::size_t>(s.dofs())),
+      after_(before_),
+      d_(s.pairs.size()),
+      d_star_(s.pairs.size()),
+      pair_force_(s.pairs.size()) {
+  for (const contact_pair& p : s.pairs) isep_.push_back(p.closed ? in_contact : separated);
+  frame start;
+  start.displacement.resize(before_.size());
+  start.isep = isep_;
+  frames_.push_back(std::move(start));
+}
+
+void frame_keeper::called(const answered_call& c) {
+  for (std::size_t i = 0; i < d_.size(); ++i) {
+    const auto dof = static_cast<std::size_t>(c.c.dof.dof_of(c.c.id[i]) - 1);
+    d_[i] = c.c.dd[dof];
+    d_star_[i] = c.c.dtest[dof];
+  }
+  isep_.assign(c.isep_before.begin(), c.isep_before.end());
+}
+
+void frame_keeper::begin_step(int step) {
+  if (step == step_) return;
+  step_ = step;
+  std::swap(before_, after_);
+  std::fill(after_.begin(), after_.end(), 0.0);
+  total_load_(step, after_);
+}
+
+void frame_keeper::incremented(const increment& i) {
+  begin_step(i.step);
+  ++increments_;
+  for (std::size_t p = 0; p < d_.size(); ++p) {  // as the path itself advances
+    if (isep_[p] == in_contact) pair_force_[p] -= structure_.pairs[p].stiffness * (i.s * d_star_[p]);
+    d_[p] += i.s * d_star_[p];
+  }
+  for (const event& e : i.events)
+    isep_[static_cast<std::size_t>(e.pair)] = e.what == change::make ? in_contact : separated;
+  last_ = {increments_, i.step, i.number,
+           i.fraction,  i.s,    i.snaps,
+           false,       false,  {i.events.begin(), i.events.end()},
+           {},          isep_};
+  if (increments_ % stride_ != 0) return;
+  frame f = last_;
+  f.displacement = shape(i.fraction);
+  if (!f.displacement.empty()) keep(std::move(f));
+}
+
+void frame_keeper::step_ended(const step_state& s) {
+  begin_step(s.step);
+  const bool after_increment = last_.step == s.step && !s.from_fallback;
+  frame f = after_increment ? last_ : frame{increments_, s.step,          0,  s.fraction, 0.0, false,
+                                            true,        s.from_fallback, {}, {},         {}};
+  f.step_end = true;
+  f.fraction = s.fraction;
+  f.displacement.assign(s.displacement.begin(), s.displacement.end());
+  f.isep.assign(s.isep.begin(), s.isep.end());
+  if (after_increment && frames_.back().at == f.at && frames_.back().step == f.step) frames_.pop_back();
+  keep(std::move(f));
+}
+
+/// Empty where even all pairs together do not hold the structure.
+std::vector<double> frame_keeper::shape(double fraction) {
+  try {
+    if (!can_be_solved()) return {};
+    std::vector<double> load(before_.size());
+    for (std::size_t i = 0; i < load.size(); ++i) load[i] = before_[i] + fraction * (after_[i] - before_[i]);
+    std::vector<double> forces(d_.size());
+    for (std::size_t p = 0; p < forces.size(); ++p) {
+      const contact_pair& at = structure_.pairs[p];
+      const double by_law = isep_[p] == in_contact ? -at.stiffness * (d_[p] - at.face) : 0.0;
+      forces[p] = (forces_by_law_ ? by_law : pair_force_[p]) + at.stiffness * d_[p];
+    }
+    std::vector<double> u(load.size());
+    stiffness_->solve_refined(with_pair_forces(structure_, load, forces), u);
+    return u;
+  } catch (const no_factor&) {
+    unsolvable_ = true;
+    return {};
+  }
+}
+
+/// Do supports and all pairs together hold the structure? Then the factor is there.
+bool frame_keeper::can_be_solved() {
+  if (stiffness_ || unsolvable_) return !unsolvable_;
+  rigid_rank rank;
+  for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
+  for (const rigid_row& row : structure_.held_by_pairs) rank.hold(row);
+  unsolvable_ = rank.rank() < structure_.rigid_motions;
+  if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(d_.size(), 1));
+  return !unsolvable_;
+}
+
+void frame_keeper::keep(frame f) {
+  frames_.push_back(std::move(f));
+  if (frames_.size() > most_frames_) thin();
+}
+
+bool frame_keeper::is_kept(const frame& f) const {
+  return f.step_end ? f.step % step_stride_ == 0 : f.at % stride_ == 0;
+}
+
+/// The first frame and the latest stay in any case.
+void frame_keeper::thin() {
+  const bool steps_crowd =
+      static_cast<std::size_t>(std::count_if(frames_.begin(), frames_.end(),
+                                             [](const frame& f) { return f.step_end; })) > most_frames_ / 2;
+  (steps_crowd ? step_stride_ : stride_) *= 2;
+  frames_.erase(
+      std::remove_if(frames_.begin() + 1, frames_.end() - 1, [this](const frame& f) { return !is_kept(f); }),
+      frames_.end() - 1);
+}
+
+}  // namespace contct

@@ -1,0 +1,93 @@
+// The path as pictures need it: the whole structure after increments of the path.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contct/path/observer.hpp"
+#include "contct/path/path.hpp"
+#include "contct/solve/factored_stiffness.hpp"
+
+namespace contct {
+
+/// What a picture tells apart: at its face are pairs whose gap the listing takes for zero (under EPSGAP),
+/// whatever their status: stationary ones, which carry no force worth the name.
+enum class pair_look { open, closed, at_face };
+
+[[nodiscard]] pair_look look_of(const contact_pair& p, double w, bool closed);
+
+/// The structure after one increment.
+struct frame {
+  int at = 0;                  ///< increments since the start of the path; 0: nothing is loaded yet
+  int step = 0;                ///< from 1; 0 before the first
+  int number = 0;              ///< of the increment within its step, from 1; 0: there was none
+  double fraction = 0.0;       ///< share of the step's load consumed
+  double s = 0.0;              ///< of the increment
+  bool snaps = false;          ///< the increment was a rigid motion at constant load
+  bool step_end = false;       ///< the state that the step ended in, exactly
+  bool from_fallback = false;  ///< that came from elsewhere
+  std::vector<event> events;
+  std::vector<double> displacement;  ///< [dofs]
+  std::vector<int> isep;             ///< [pairs]
+
+  [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
+};
+
+struct frame_limits {
+  std::size_t most_frames = 120;          ///< at least 4
+  std::size_t most_numbers = 16'000'000;  ///< in all their displacements together; 8 bytes each
+};
+
+/// Observes a path and keeps frames of it. The path itself knows the pairs' dofs only, so the
+/// whole shape is solved for here: all pairs' springs are in K, each at rest where its node stands, and
+/// the forces that the pairs exert are loads. So one factor serves every frame, also where the closed
+/// pairs alone would not hold the structure. The end of a step is kept as the path itself tells it.
+///
+/// Where a path is longer than `most_frames`, increments in between are let go of, evenly: first all but
+/// every second, then all but every fourth. Ends of steps are let go of last, and likewise.
+class frame_keeper final : public observer {
+ public:
+  /// `s` and what `total_load` refers to must outlive this object. `forces_by_law`: the leader's rule is
+  /// not the listing's, and a pair's force is -k (D - c); otherwise it is what the pair has gathered.
+  frame_keeper(const linear_structure& s, load_history total_load, bool forces_by_law,
+               const frame_limits& limits = {});
+
+  void called(const answered_call& c) override;
+  void incremented(const increment& i) override;
+  void step_ended(const step_state& s) override;
+
+  /// In the order of the path, the unloaded structure first.
+  [[nodiscard]] const std::vector<frame>& frames() const { return frames_; }
+  /// Increments of the path, kept or not.
+  [[nodiscard]] int increments() const { return increments_; }
+  /// Of the increments within a step, one of so many is kept.
+  [[nodiscard]] int stride() const { return stride_; }
+
+ private:
+  void begin_step(int step);
+  void keep(frame f);
+  void thin();
+  [[nodiscard]] bool is_kept(const frame& f) const;
+  [[nodiscard]] std::vector<double> shape(double fraction);
+  [[nodiscard]] bool can_be_solved();
+
+  const linear_structure& structure_;
+  load_history total_load_;
+  bool forces_by_law_;
+  std::size_t most_frames_;
+  std::optional<factored_stiffness> stiffness_;  // with the springs of all pairs; made at the first use
+  bool unsolvable_ = false;
+  std::vector<double> before_, after_;  // total loads at the step's ends [dofs]
+  int step_ = 0;
+  int increments_ = 0;
+  int stride_ = 1, step_stride_ = 1;
+  std::vector<double> d_, d_star_;  // at the pairs, of the last call [pairs]
+  std::vector<double> pair_force_;  // on the structure, gathered [pairs]
+  std::vector<int> isep_;           // before the last call's toggles, then after them [pairs]
+  frame last_;                      // the last increment, without its shape
+  std::vector<frame> frames_;
+};
+
+}  // namespace contct

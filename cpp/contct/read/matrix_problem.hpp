@@ -1,0 +1,16 @@
+// Supports, pairs and loads of a structure whose dofs have labels.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "contct/read/toml_reader.hpp"
+#include "contct/structure/problem.hpp"
+
+namespace contct {
+
+/// Read [[support]], [[contact]] and [[step]] of `top` into `p`, whose geometry is a matrix. `folder` is
+/// where load vectors are, `file` the problem file's name for warnings. Throws input_error.
+void read_on_matrix(const table_reader& top, const std::string& folder, std::string_view file, problem& p);
+
+}  // namespace contct

@@ -1,0 +1,23 @@
+// [matrix] and [calculix]: a structure that another program assembled.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "contct/read/toml_reader.hpp"
+#include "contct/structure/assembled.hpp"
+
+namespace contct {
+
+/// A file that a problem file names: relative to the folder of the latter.
+[[nodiscard]] std::string beside(const std::string& folder, const std::string& name);
+
+/// Read the table [matrix] with the files it names, or [calculix]. Throws input_error.
+[[nodiscard]] assembled read_matrix(const table_reader& t, const std::string& folder);
+[[nodiscard]] assembled read_calculix(const table_reader& t, const std::string& folder);
+
+/// Bytes that a run holds at its largest, K as it is stored: the structure's, an engine's and the oracle's.
+/// Where it is sparse, CHOLMOD is asked for an order.
+[[nodiscard]] std::int64_t bytes_of_run(const assembled& a);
+
+}  // namespace contct

@@ -1,0 +1,15 @@
+// The structure itself in a problem file: [beam], [plate], [matrix] or [calculix].
+#pragma once
+
+#include <string>
+
+#include "contct/read/toml_reader.hpp"
+#include "contct/structure/model.hpp"
+
+namespace contct {
+
+/// Read the one table of the document `top` that describes a structure; refuses a document with none
+/// of them, or with several. Other files that it names are in `folder`.
+[[nodiscard]] model read_model(const table_reader& top, const std::string& folder);
+
+}  // namespace contct

@@ -1,0 +1,19 @@
+// Reading problem files (TOML).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "contct/read/toml_reader.hpp"
+#include "contct/structure/problem.hpp"
+
+namespace contct {
+
+/// Read and check the problem in the file at `path`; "-" is standard input.
+/// Throws input_error: nothing is half-accepted.
+[[nodiscard]] problem read_problem(const std::string& path);
+
+/// The same for text already in memory; `file` is its name in messages.
+[[nodiscard]] problem parse_problem(std::string_view text, std::string_view file);
+
+}  // namespace contct

@@ -1,0 +1,305 @@
+#include "contct/solve/condensed_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace contct {
+namespace {
+
+constexpr int first_check = 32;
+constexpr int longest_between_checks = 512;
+constexpr double drift_allowed = 1e-11;
+constexpr double below_rounding = 1e-18;
+constexpr double stiff =
+    100.0;  // k c_p of a spring that opens: so many times is the rounding of x_p multiplied
+
+node_matrix operator-(const node_matrix& a, const node_matrix& b) {
+  return {a.ww - b.ww, a.wt - b.wt, a.tw - b.tw, a.tt - b.tt};
+}
+node_matrix operator+(const node_matrix& a, const node_matrix& b) {
+  return {a.ww + b.ww, a.wt + b.wt, a.tw + b.tw, a.tt + b.tt};
+}
+node_matrix operator*(const node_matrix& a, const node_matrix& b) {
+  return {a.ww * b.ww + a.wt * b.tw, a.ww * b.wt + a.wt * b.tt, a.tw * b.ww + a.tt * b.tw,
+          a.tw * b.wt + a.tt * b.tt};
+}
+node_vector operator*(const node_matrix& a, const node_vector& v) {
+  return {a.ww * v.w + a.wt * v.theta, a.tw * v.w + a.tt * v.theta};
+}
+node_matrix transposed(const node_matrix& a) {
+  return {a.ww, a.tw, a.wt, a.tt};
+}
+node_matrix negative(const node_matrix& a) {
+  return {-a.ww, -a.wt, -a.tw, -a.tt};
+}
+bool same(const node_matrix& a, const node_matrix& b) {
+  return a.ww == b.ww && a.wt == b.wt && a.tw == b.tw && a.tt == b.tt;
+}
+
+/// A^-1 B for a symmetric positive definite A. Throws no_factor where A is not.
+node_matrix solved(const node_matrix& a, const node_matrix& b) {
+  const double ratio = a.tw / a.ww;
+  const double pivot = a.tt - ratio * a.wt;
+  if (!(a.ww > 0.0) || !(pivot > 0.0))
+    throw no_factor(
+        "the structure is held, but its condensed stiffness matrix is too ill-conditioned for double "
+        "precision");
+  const double tw = (b.tw - ratio * b.ww) / pivot;
+  const double tt = (b.tt - ratio * b.wt) / pivot;
+  return {(b.ww - a.wt * tw) / a.ww, (b.wt - a.wt * tt) / a.ww, tw, tt};
+}
+node_vector solved(const node_matrix& a, const node_vector& v) {
+  const node_matrix m = solved(a, node_matrix{v.w, 0.0, v.theta, 0.0});
+  return {m.ww, m.tw};
+}
+
+node_matrix block(const band_matrix& k, int row_node, int column_node) {
+  const auto entry = [&k](int row, int column) {
+    return row >= column ? k.at(row, column) : k.at(column, row);
+  };
+  const int r = 2 * row_node;
+  const int c = 2 * column_node;
+  return {entry(r, c), entry(r, c + 1), entry(r + 1, c), entry(r + 1, c + 1)};
+}
+
+}  // namespace
+
+bool condensed_engine::suits(const linear_structure& s) {
+  return s.dofs_per_node == 2 && s.stiffness.is_band() && s.stiffness.band().subdiagonals() == 3 &&
+         s.rows.empty() && s.deflection == 0 && !s.pairs.empty();
+}
+
+condensed_engine::condensed_engine(const linear_structure& s)
+    : structure_(s), until_check_(first_check), check_every_(first_check), stiffness_(s) {
+  if (!suits(s))
+    throw std::invalid_argument(
+        "engine \"condensed\": found a structure that is no beam with pairs; allowed: those");
+  for (const contact_pair& p : s.pairs) kept_.push_back(p.node);
+  std::sort(kept_.begin(), kept_.end());
+  kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
+  for (const contact_pair& p : s.pairs) {
+    place_.push_back(
+        static_cast<std::size_t>(std::lower_bound(kept_.begin(), kept_.end(), p.node) - kept_.begin()));
+    spring_factor_.push_back(s.fixed[static_cast<std::size_t>(2 * p.node)] != 0 ? 0.0 : 1.0);
+    wanted_.push_back(p.closed ? 1 : 0);
+  }
+  x_.resize(kept_.size());
+  load_.resize(kept_.size());
+  column_.resize(kept_.size());
+  condense();
+}
+
+/// Eliminate the nodes between two kept ones; node -1 and node `nodes` stand for the beam's ends.
+void condensed_engine::eliminate_between(int left_node, int right_node, std::size_t left) {
+  const band_matrix& k = structure_.stiffness.band();
+  const bool has_left = left_node >= 0;
+  const bool has_right = right_node < k.order() / 2;
+  if (left_node + 1 == right_node) {
+    if (has_left && has_right) e_[left] = block(k, left_node, right_node);
+    return;
+  }
+  // From the right to the left would do as well; the error of a long chain is the same.
+  node_matrix pivot = block(k, left_node + 1, left_node + 1);
+  node_matrix to_left = has_left ? block(k, left_node, left_node + 1) : node_matrix{};
+  for (int node = left_node + 1; node < right_node; ++node) {
+    if (has_left) d_[left] = d_[left] - to_left * solved(pivot, transposed(to_left));
+    if (node + 1 == k.order() / 2) return;
+    const node_matrix next = block(k, node, node + 1);
+    const node_matrix by_pivot = solved(pivot, next);
+    to_left = negative(to_left * by_pivot);
+    const node_matrix less = transposed(next) * by_pivot;
+    if (node + 1 < right_node) {
+      pivot = block(k, node + 1, node + 1) - less;
+    } else {
+      const std::size_t right = has_left ? left + 1 : 0;
+      d_[right] = d_[right] - less;
+      if (has_left) e_[left] = to_left;
+    }
+  }
+}
+
+void condensed_engine::condense() {
+  const std::size_t n = kept_.size();
+  d_.clear();
+  e_.assign(n, {});
+  reach_.clear();
+  for (const int node : kept_) {
+    d_.push_back(block(structure_.stiffness.band(), node, node));
+    reach_.push_back(std::sqrt(d_.back().tt / d_.back().ww));
+  }
+  eliminate_between(-1, kept_.front(), 0);
+  for (std::size_t i = 0; i + 1 < n; ++i) eliminate_between(kept_[i], kept_[i + 1], i);
+  eliminate_between(kept_.back(), structure_.stiffness.order() / 2, n - 1);
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    if (wanted_[i] != 0) d_[place_[i]].ww += spring_factor_[i] * structure_.pairs[i].stiffness;
+  }
+  applied_ = wanted_;
+  left_.assign(n, {});
+  right_.assign(n, {});
+  go_left_.assign(n, {});
+  go_right_.assign(n, {});
+  sweep_all();
+}
+
+/// L_i, and how a column goes on from i + 1 to i.
+void condensed_engine::step_right(std::size_t i) {
+  left_[i] = i == 0 ? d_[0] : d_[i] + transposed(e_[i - 1]) * go_left_[i - 1];
+  if (i + 1 < d_.size()) go_left_[i] = negative(solved(left_[i], e_[i]));
+}
+
+/// R_i, and how a column goes on from i - 1 to i.
+void condensed_engine::step_left(std::size_t i) {
+  right_[i] = i + 1 == d_.size() ? d_[i] : d_[i] + e_[i] * go_right_[i + 1];
+  if (i > 0) go_right_[i] = negative(solved(right_[i], transposed(e_[i - 1])));
+}
+
+void condensed_engine::sweep_all() {
+  for (std::size_t i = 0; i < d_.size(); ++i) step_right(i);
+  for (std::size_t i = d_.size(); i-- > 0;) step_left(i);
+}
+
+/// D_at has changed: the sweeps from there on, as far as they come out different.
+void condensed_engine::sweep_from(std::size_t at) {
+  for (std::size_t i = at; i < d_.size(); ++i) {
+    const node_matrix before = left_[i];
+    step_right(i);
+    if (i > at && same(before, left_[i])) break;
+  }
+  for (std::size_t i = at + 1; i-- > 0;) {
+    const node_matrix before = right_[i];
+    step_left(i);
+    if (i < at && same(before, right_[i])) break;
+  }
+}
+
+void condensed_engine::inverse_column(std::size_t at) {
+  column_[at] = solved(left_[at] + right_[at] - d_[at], node_vector{1.0, 0.0});
+  const auto size = [this](std::size_t i) {
+    return std::abs(column_[i].w) + reach_[i] * std::abs(column_[i].theta);
+  };
+  const double negligible = below_rounding * size(at);
+  first_ = at;
+  while (first_ > 0) {
+    --first_;
+    column_[first_] = go_left_[first_] * column_[first_ + 1];
+    if (size(first_) < negligible) break;
+  }
+  last_ = at;
+  while (last_ + 1 < d_.size()) {
+    ++last_;
+    column_[last_] = go_right_[last_] * column_[last_ - 1];
+    if (size(last_) < negligible) break;
+  }
+}
+
+void condensed_engine::switch_spring(int pair, bool closed) {
+  wanted_[static_cast<std::size_t>(pair)] = closed ? 1 : 0;
+  switched_.push_back(pair);
+}
+
+/// The response under one more spring, or one less: x' = x - g x_p c, where c is already the column with that
+/// spring: K' c = e, so x' = x - sigma k x_p c.
+void condensed_engine::take_in(int pair) {
+  const auto p = static_cast<std::size_t>(pair);
+  const std::size_t at = place_[p];
+  const double k = spring_factor_[p] * structure_.pairs[p].stiffness;
+  const double sigma_k = wanted_[p] != 0 ? k : -k;
+  applied_[p] = wanted_[p];
+  ++counts_.updates;
+  if (k == 0.0) return;
+  d_[at].ww += sigma_k;
+  sweep_from(at);
+  inverse_column(at);
+  if (-sigma_k * column_[at].w > stiff) until_check_ = 0;
+  const double much = sigma_k * x_[at].w;
+  for (std::size_t i = first_; i <= last_; ++i) {
+    x_[i].w -= much * column_[i].w;
+    x_[i].theta -= much * column_[i].theta;
+  }
+}
+
+void condensed_engine::respond(const residual_load& residual, std::span<double> d_star) {
+  // What closes first, then what opens: the structure is held all the while.
+  for (const char closed : {char{1}, char{0}}) {
+    for (const int pair : switched_) {
+      const auto p = static_cast<std::size_t>(pair);
+      if (wanted_[p] == closed && applied_[p] != closed) take_in(pair);
+    }
+  }
+  switched_.clear();
+  if (response_to_ != residual.version) {
+    respond_anew(residual);
+  } else if (--until_check_ <= 0) {
+    refine_response();
+  }
+  for (std::size_t i = 0; i < place_.size(); ++i) d_star[i] = residual.share * x_[place_[i]].w;
+}
+
+/// One solve of the whole beam; the condensed load is what the condensed stiffness makes of it.
+void condensed_engine::respond_anew(const residual_load& residual) {
+  stiffness_.factor(applied_);
+  std::vector<double> u(residual.increment.begin(), residual.increment.end());
+  stiffness_.solve(u);
+  ++counts_.factors;
+  ++counts_.solves;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    const auto dof = static_cast<std::size_t>(2 * kept_[i]);
+    x_[i] = {u[dof], u[dof + 1]};
+    load_[i] = {};
+  }
+  residual_of_response();
+  for (std::size_t i = 0; i < kept_.size(); ++i) load_[i] = {-column_[i].w, -column_[i].theta};
+  response_to_ = residual.version;
+  until_check_ = check_every_;
+}
+
+/// column_ = load - K x.
+void condensed_engine::residual_of_response() {
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    node_vector sum = d_[i] * x_[i];
+    const auto add = [&sum](const node_vector& v) { sum = {sum.w + v.w, sum.theta + v.theta}; };
+    if (i > 0) add(transposed(e_[i - 1]) * x_[i - 1]);
+    if (i + 1 < kept_.size()) add(e_[i] * x_[i + 1]);
+    column_[i] = {load_[i].w - sum.w, load_[i].theta - sum.theta};
+  }
+}
+
+/// x + K^-1 (load - K x): the drift is taken out, and its size says when to look again.
+void condensed_engine::refine_response() {
+  ++counts_.checks;
+  ++counts_.solves;
+  residual_of_response();
+  for (std::size_t i = 1; i < kept_.size(); ++i) {  // forwards: r_i - E^T L^-1 r
+    const node_vector carried = transposed(go_left_[i - 1]) * column_[i - 1];
+    column_[i] = {column_[i].w + carried.w, column_[i].theta + carried.theta};
+  }
+  double size = 0.0;
+  double off = 0.0;
+  for (std::size_t i = kept_.size(); i-- > 0;) {
+    node_vector correction = solved(left_[i], column_[i]);
+    if (i + 1 < kept_.size()) {
+      const node_vector carried = go_left_[i] * column_[i + 1];
+      correction = {correction.w + carried.w, correction.theta + carried.theta};
+    }
+    column_[i] = correction;
+    x_[i] = {x_[i].w + correction.w, x_[i].theta + correction.theta};
+    size = std::max(size, std::abs(x_[i].w));
+    off = std::max(off, std::abs(correction.w));
+  }
+  if (off > drift_allowed * size) check_every_ = std::max(check_every_ / 2, 4);
+  if (off < drift_allowed / 4 * size) check_every_ = std::min(2 * check_every_, longest_between_checks);
+  until_check_ = check_every_;
+}
+
+void condensed_engine::recover(std::span<const double> load, std::span<const double> pair_forces,
+                               std::span<double> u) {
+  stiffness_.factor(wanted_);
+  ++counts_.factors;
+  stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
+}
+
+double condensed_engine::reciprocal_condition() {
+  return stiffness_.reciprocal_condition(wanted_);
+}
+
+}  // namespace contct

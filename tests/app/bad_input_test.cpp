@@ -1,0 +1,120 @@
+// Whatever is wrong: exit 2, one clear message with file, line and column, and no output file.
+#include <algorithm>
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "read/bad_plates.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+/// Run `file` in `dir` with an output asked for; nothing but the refusal may come of it.
+std::string refusal(const scratch_directory& dir, const std::string& file,
+                    const process_options& options = {}) {
+  const auto before = dir.files();
+  const finished f =
+      contct_program(dir.path(), {"run", file, "--json", "out.json", "--log", "out.log"}, options);
+  CHECK(f.exit == 2);
+  CHECK(f.out.empty());
+  CHECK(std::count(f.err.begin(), f.err.end(), '\n') == 1);
+  CHECK(dir.files() == before);
+  return f.err;
+}
+
+}  // namespace
+
+TEST_CASE("every kind of bad problem file: exit 2, one message with its place, nothing written") {
+  const scratch_directory dir;
+  auto kinds = bad_inputs();
+  const auto plates = bad_plates();
+  kinds.insert(kinds.end(), plates.begin(), plates.end());
+  REQUIRE(kinds.size() >= 110);
+  for (const bad_input& kind : kinds) {
+    INFO(kind.what);
+    const std::string message = refusal(dir, dir.write("bad.toml", kind.text));
+    CHECK_THAT(message, StartsWith("contct: bad.toml:" + std::string(kind.place)));
+    CHECK_THAT(message, Contains(kind.found));
+  }
+}
+
+TEST_CASE("no such file, a directory, a file without permission to be one") {
+  const scratch_directory dir;
+  CHECK_THAT(refusal(dir, "missing.toml"), Contains("missing.toml: cannot be read: No such file"));
+  CHECK_THAT(refusal(dir, "."), Contains("found a directory"));
+  CHECK_THAT(refusal(dir, ""), Contains("cannot be read"));
+}
+
+TEST_CASE("a key of endless parts is refused, and ends nothing else") {
+  const scratch_directory dir;
+  std::string dotted = "a";
+  for (int i = 0; i < 300000; ++i) dotted += ".a";
+  dir.write("dotted.toml", dotted + " = 1\n");
+  CHECK_THAT(refusal(dir, "dotted.toml"), Contains("a key of over 1000 parts"));
+}
+
+TEST_CASE("a binary file is refused at its first byte that is no text") {
+  const scratch_directory dir;
+  dir.write("program.toml", std::string("\x7f"
+                                        "ELF\x02\x01\x01\x00",
+                                        8) +
+                                std::string(1000, '\xfe'));
+  CHECK_THAT(refusal(dir, "program.toml"), StartsWith("contct: program.toml:1:") && Contains("not TOML"));
+}
+
+TEST_CASE("a file of 50 MB is refused by its size, however well it begins") {
+  const scratch_directory dir;
+  dir.write("huge.toml", std::string(good_problem) + "# " + std::string(50'000'000, 'x'));
+  CHECK_THAT(refusal(dir, "huge.toml"), Contains("32 MiB or more"));
+}
+
+TEST_CASE("standard input is named in the message") {
+  const scratch_directory dir;
+  CHECK_THAT(refusal(dir, "-", {"[beam]\nEI = 0\n", {}, false}), StartsWith("contct: standard input:"));
+}
+
+TEST_CASE("a place that cannot be written is refused before anything is solved") {
+  const scratch_directory dir;
+  dir.write("good.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "good.toml", "--json", "no/such/place.json"});
+  CHECK(f.exit == 2);
+  CHECK(f.out.empty());
+  CHECK_THAT(f.err, Contains("no/such/place.json"));
+  CHECK(dir.files() == std::vector<std::string>{"good.toml"});
+}
+
+TEST_CASE("wrong usage: exit 2, and what there is") {
+  const scratch_directory dir;
+  dir.write("good.toml", good_problem);
+  const auto refused = [&](const std::vector<std::string>& arguments, const char* words) {
+    const finished f = contct_program(dir.path(), arguments);
+    INFO(f.err);
+    CHECK(f.exit == 2);
+    CHECK(f.out.empty());
+    CHECK_THAT(f.err, Contains(words));
+  };
+  refused({}, "--help");
+  refused({}, "a command is missing; the commands are: run, ");
+  refused({"walk"}, "\"walk\" is no command of contct; the commands are: run, ");
+  refused({"walk", "good.toml"}, "\"walk\"");
+  refused({"--fast"}, "\"--fast\" is no option of contct");
+  refused({"run"}, "FILE");
+  refused({"run", "good.toml", "--josn", "x"}, "--josn");
+  refused({"run", "good.toml", "--kernels", "fortran,basic"}, "fortran-r4");
+  refused({"run", "good.toml", "--kernels", "fortran,cpp,fortran"}, "named twice");
+  refused({"run", "good.toml", "--kernels", "fortran,cpp-r4"}, "--free-run");
+  // What does not fit is said of precision, whichever is FORTRAN, and before unit 26 is asked for twice.
+  for (const char* pair : {"fortran,fortran-r4", "fortran-r4,fortran", "cpp,fortran-r4", "cpp-r4,fortran"}) {
+    refused({"run", "good.toml", "--kernels", pair}, "-byte REAL, rule \"listing\") differ in precision");
+    refused({"run", "good.toml", "--kernels", pair}, "--free-run");
+  }
+  refused({"run", "good.toml", "--engine", "warp"}, "refactor");
+  refused({"run", "good.toml", "--max-increments", "0"}, "--max-increments: Value 0 not in range");
+  refused({"run", "good.toml", "--max-increments", "0"}, "1000000000");
+  refused({"run", "good.toml", "--max-increments", "many"}, "--max-increments");
+  refused({"run", "good.toml", "--json", "-", "--log", "-"}, "cannot both be -");
+  CHECK(dir.files() == std::vector<std::string>{"good.toml"});
+}

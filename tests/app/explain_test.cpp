@@ -1,0 +1,345 @@
+// contct explain: what a student at a terminal reads, and what a program gets.
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "read/bad_inputs.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using json = nlohmann::json;
+const std::filesystem::path root = CONTCT_ROOT;
+const std::string pb7 = "reference/problems/pb07-three-gap-supports.toml";
+const std::string pb5 = "reference/problems/pb05-cantilever-over-flat-obstacle.toml";
+
+/// A beam that touches its stop just before full load, and a pair on its fixed end, which no load moves.
+const char* const marked =
+    "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+    "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.999\nstiffness = 1\n"
+    "[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
+    "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Lines of fortran/contct.f, without the blanks at their ends and the six columns before the statement.
+std::vector<std::string> listing_lines() {
+  std::ostringstream text;
+  text << std::ifstream(root / "fortran/contct.f").rdbuf();
+  std::vector<std::string> lines = lines_of(text.str());
+  for (std::string& line : lines) {
+    const std::size_t from = line.find_first_not_of(' ', std::min<std::size_t>(6, line.size()));
+    line = from == std::string::npos ? "" : line.substr(from);
+  }
+  return lines;
+}
+
+finished explained(const std::vector<std::string>& more, const char* columns = "80") {
+  std::vector<std::string> arguments = {"explain"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return contct_program(root, arguments, {"", {{"COLUMNS", columns}}});
+}
+
+}  // namespace
+
+TEST_CASE("an increment is told pair by pair, with the listing's lines and the paper's equations") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"explain", "pb.toml"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+  CHECK(f.err.empty());
+  CHECK_THAT(f.out,
+             Contains("Step 1, increment 1\n"
+                      "-------------------\n"
+                      "The residual load leads from w 0 at node 3 to w -60 at node 3.\n"
+                      "\n"
+                      "Pair 1, node 3, face below, separated: advancing\n"
+                      "  30  GAP = c - D = -0.004 - (0) = -0.004                                    (5)\n"
+                      "  31  d* = -0.016, not 0: the pair responds.\n"
+                      "  33  |GAP| is not less than EPSGAP = 1E-10: not stationary.\n"
+                      "  38  s = GAP / d* = 0.25. Advancing: it touches its face at 25 % of the\n"
+                      "      residual load.                                                         (4)\n"
+                      "  40  0 < s < SMIN = 1: SMIN becomes s; this pair leads.                     (9)\n"));
+  CHECK_THAT(f.out,
+             Contains("\nThe smallest s\n"
+                      "  42  SMIN = 0.25, not 1. Pair 1 wins.                                       (9)\n"
+                      "      No other pair has an event ahead of it.\n"));
+  CHECK_THAT(f.out, Contains("\nPair 1: winner\n"
+                             "  51  DIFF = 0: s is SMIN.\n"
+                             "  52  Less than EPSMUL = 1/256: toggled.\n"
+                             "  54  ISEP = 1: it was separated.\n"
+                             "  55  ISEP = -1: in contact. Make.\n"));
+  CHECK_THAT(f.out, Contains("0.25 of the residual load is applied: D + s d* is the new D (10)."));
+  CHECK_THAT(f.out, Contains("  42  SMIN is still 1: no event on the way."));
+  CHECK_THAT(f.out, Contains("fortran and cpp are equal to the bit in the whole run"));
+}
+
+TEST_CASE("each line that an explanation cites holds the statement shown beside it") {
+  const std::vector<std::string> listing = listing_lines();
+  const scratch_directory dir;
+  dir.write("marked.toml", marked);
+  std::set<int> cited;
+  for (const std::string& file : {pb5, std::string("reference/problems/pb08c-heavy-beam-down-40.toml"),
+                                  (dir.path() / "marked.toml").string()}) {
+    const finished f = explained({file}, "160");
+    REQUIRE(f.exit == 0);
+    for (const std::string& line : lines_of(f.out)) {
+      if (line.size() < 7 || line.rfind("  ", 0) != 0 ||
+          std::isdigit(static_cast<unsigned char>(line[3])) == 0)
+        continue;
+      const int number = std::stoi(line);
+      const std::string shown = line.substr(6, line.find("  ", 6) - 6);
+      REQUIRE(static_cast<std::size_t>(number) <= listing.size());
+      if (listing[static_cast<std::size_t>(number - 1)] != shown) FAIL(number << ": " << shown);
+      cited.insert(number);
+    }
+  }
+  CHECK(cited == std::set<int>{30, 31, 32, 33, 34, 35, 36, 38, 40, 42, 45, 51, 52, 54, 55, 58});
+}
+
+TEST_CASE("the lines fit their terminal, from 40 columns to 160, and the words are the same") {
+  // Equations move to the right or to a line of their own; all else stands in the same order.
+  const auto words = [](const std::string& text) {
+    std::string all;
+    for (const std::string& line : lines_of(text)) {
+      const std::size_t equation =
+          line.size() > 3 && line.back() == ')' ? line.rfind('(') : std::string::npos;
+      const bool cited = equation != std::string::npos && equation + 4 >= line.size();
+      for (const char ch : cited ? line.substr(0, equation) : line)
+        if (ch != ' ' && ch != ';') all += ch;
+    }
+    return all;
+  };
+  const std::string at_80 = words(explained({pb7, "--increment", "2.1"}).out);
+  for (const char* columns : {"40", "59", "80", "119", "160"}) {
+    const finished f = explained({pb7, "--increment", "2.1"}, columns);
+    INFO(columns << " columns\n" << f.out);
+    CHECK(f.exit == 0);
+    for (const std::string& line : lines_of(f.out)) CHECK(line.size() <= std::stoul(columns));
+    CHECK(f.out.find(" \n") == std::string::npos);
+    if (std::stoul(columns) < 120) CHECK(words(f.out) == at_80);  // beyond, statements come in between
+  }
+}
+
+TEST_CASE("step, increment and pair narrow what is told, and STEP.INCREMENT is as the table has it") {
+  const auto count = [](const std::string& text, const char* piece) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++n;
+    return n;
+  };
+  CHECK(count(explained({pb7}).out, ", increment ") == 8);
+  CHECK(count(explained({pb7, "--step", "4"}).out, ", increment ") == 3);
+  CHECK(count(explained({pb7, "--increment", "2"}).out, ", increment ") == 3);
+  const finished one = explained({pb7, "--increment", "4.2", "--pair", "3"});
+  CHECK(count(one.out, ", increment ") == 1);
+  CHECK(count(one.out, "Step 4, increment 2\n") == 1);
+  CHECK(count(one.out, ", node ") == 1);
+  CHECK_THAT(one.out, Contains("Pair 3, node 13, face below, in contact: receding"));
+  CHECK_THAT(one.out, Contains("58  ISEP = 1: separated. Break."));
+  CHECK(explained({pb7, "--increment", "2", "--step", "4", "--pair", "3"}).out == one.out);
+}
+
+TEST_CASE("what is out of range is exit 2, says what is allowed, and writes nothing") {
+  const scratch_directory dir;
+  const std::string out = (dir.path() / "out.json").string();
+  const auto refused = [&](std::vector<std::string> arguments, const char* words) {
+    arguments.insert(arguments.end(), {"--json", out});
+    const finished f = explained(arguments);
+    INFO(f.err);
+    CHECK(f.exit == 2);
+    CHECK(f.out.empty());
+    CHECK_THAT(f.err, Contains(words));
+    CHECK(dir.files().empty());
+  };
+  refused({pb7, "--pair", "4"}, "--pair: found 4; allowed: a pair from 1 to 3");
+  refused({pb7, "--pair", "0"}, "--pair: found 0; allowed: a pair from 1 to 3");
+  refused({pb7, "--step", "5"}, "--step: found 5; allowed: a step from 1 to 4");
+  refused({pb7, "--step", "-1"}, "--step: found -1; allowed: a step from 1 to 4");
+  refused({pb7, "--increment", "5.1"}, "--step: found 5; allowed: a step from 1 to 4");
+  refused({pb7, "--increment", "4"}, "--increment: found 4; allowed: an increment from 1 to 3");
+  refused({pb7, "--increment", "1.2"},
+          "--increment: found 1.2; allowed: an increment from 1 to 1, as many as step 1 has");
+  refused({pb7, "--increment", "two"},
+          "--increment: found two; allowed: a whole number from 1, or STEP.INCREMENT");
+  refused({pb7, "--increment", "0"}, "--increment: found 0");
+  refused({pb7, "--increment", "2."}, "--increment: found 2.");
+  refused({pb7, "--increment", "2.1", "--step", "3"}, "allowed: one step");
+  refused({pb7, "--kernels", "corrected"}, "no line of the listing says what it does");
+  refused({pb7, "--kernels", "fortran,corrected"}, "reference/corrected-rule.md");
+  refused({pb7, "--kernels", "fortran,cpp-r4"}, "differ in precision");
+  refused({pb7, "--kernels", "cpp,cpp"}, "named twice");
+  refused({pb7, "--kernels", "cpp,fortran,cpp"}, "found 3; allowed: one or two");
+  refused({pb7, "--kernels", "pipe:cat"}, "comes from outside and cannot lead");
+  refused({pb7, "--engine", "warp"}, "refactor");
+}
+
+TEST_CASE("a pair that EPSMUL takes along before it touches is said to be, and how far off it was") {
+  const finished f = explained({pb5});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains(": too early\n"));
+  CHECK_THAT(f.out, Contains("TAKEN ALONG: it is closed before it touches") ||
+                        Contains("TAKEN ALONG: it is let go before it comes to its face"));
+}
+
+TEST_CASE("a pair without any event that is toggled by its mark SS = 1 is said to be") {
+  const scratch_directory dir;
+  dir.write("marked.toml", marked);
+  const finished f = contct_program(dir.path(), {"explain", "marked.toml", "--json", "out.json"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("Pair 2: by its mark\n") && Contains("BY ITS MARK: this pair has no event.") &&
+                        Contains("It is 1 from its face"));
+  const json pair = json::parse(dir.read("out.json"))["increments"][0]["pairs"][1];
+  CHECK(pair["why"] == "by its mark");
+  CHECK(pair["kind"] == "no response");
+  CHECK(pair["before"] == "separated");
+  CHECK(pair["after"] == "contact");
+}
+
+TEST_CASE("the JSON has the numbers, the branches with their margins, and both kernels' bits") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"explain", "pb.toml", "--json", "-"});
+  CHECK(f.exit == 0);
+  const json all = json::parse(f.out);
+  CHECK(all["format"] == "contct-explain-1");
+  CHECK(all["status"] == "solved");
+  CHECK(all["lockstep"] == json({{"calls", 2}, {"values_compared", 8}, {"mismatches", 0}}));
+  REQUIRE(all["increments"].size() == 2);
+  const json& first = all["increments"][0];
+  CHECK(first["smin"]["fortran"] == first["smin"]["cpp"]);
+  CHECK(first["smin"]["ulps"] == 0);
+  CHECK(first["winner"] == json({{"pair", 1}}));
+  const json& pair = first["pairs"][0];
+  CHECK(pair["gap"] == -0.004);
+  CHECK(pair["s"].get<double>() == Approx(0.25));
+  CHECK(pair["kind"] == "advancing");
+  CHECK(pair["bits"] == first["smin"]);
+  CHECK(pair["branches"][0]["if"] == "DTEST(NDOF).EQ.0.");
+  CHECK(pair["branches"][0]["outcome"] == false);
+  CHECK(all["increments"][1]["winner"].is_null());
+}
+
+TEST_CASE("every line in the JSON is the listing's") {
+  const scratch_directory dir;
+  const std::vector<std::string> listing = listing_lines();
+  const finished f = explained({pb7, "--json", "-"});
+  const json all = json::parse(f.out);
+  int cited = 0;
+  const auto check = [&](const json& story) {
+    for (const json& t : story) {
+      if (!t.contains("line")) continue;
+      ++cited;
+      if (listing[t["line"].get<std::size_t>() - 1] != t["statement"].get<std::string>()) FAIL(t.dump());
+    }
+  };
+  for (const json& i : all["increments"]) {
+    check(i["story"]);
+    for (const json& p : i["pairs"]) check(p["story"]);
+  }
+  CHECK(cited > 150);
+}
+
+TEST_CASE("a second kernel that rounds otherwise is told by its ULP, and is exit 1") {
+  const scratch_directory dir;
+  const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
+  const finished f =
+      explained({pb7, "--kernels", "fortran," + plugin, "--json", (dir.path() / "out.json").string()});
+  INFO(f.err);
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("ULP") && Contains("NOT"));  // long paths are wrapped
+  CHECK_THAT(f.err, Contains("differs in"));
+  const json all = json::parse(dir.read("out.json"));
+  CHECK(all["status"] == "kernels-disagree");
+  CHECK(all["lockstep"]["mismatches"] > 0);
+  int apart = 0;
+  for (const json& i : all["increments"]) {
+    for (const json& p : i["pairs"]) apart += p["bits"]["ulps"] > 0 ? 1 : 0;
+  }
+  CHECK(apart > 0);
+}
+
+TEST_CASE("a kernel alone, and the listing as printed, are explained too") {
+  const finished alone = explained({pb7, "--kernels", "cpp"});
+  CHECK(alone.exit == 0);
+  CHECK(alone.out.find("equal") == std::string::npos);
+  const finished single = explained({pb7, "--kernels", "fortran-r4,cpp-r4", "--increment", "2.1"});
+  CHECK(single.exit == 0);
+  CHECK_THAT(single.out, Contains("cpp-r4 equal to the bit") && Contains(": same moment\n"));
+  CHECK(single.out.find("too early") == std::string::npos);
+}
+
+TEST_CASE("a path that ends in a mechanism is explained as far as it goes: exit 4") {
+  const scratch_directory dir;
+  dir.write("freed.toml",
+            "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
+            "0\nstiffness = 10\n[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n"
+            "[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n");
+  const finished f = contct_program(dir.path(), {"explain", "freed.toml", "--json", "out.json"});
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.out, Contains("Pair 1, node 2, face below, in contact: stationary") &&
+                        Contains("  35  SSCHK = ISEP * ISURF / d* = (-1) * (-1) / ") && Contains("(11)") &&
+                        Contains("(12)"));
+  CHECK_THAT(f.err, Contains("rigid body"));
+  CHECK(json::parse(dir.read("out.json"))["status"] == "mechanism");
+  const finished beyond = contct_program(dir.path(), {"explain", "freed.toml", "--increment", "9"});
+  CHECK(beyond.exit == 2);
+}
+
+TEST_CASE("a long run is explained as it goes: memory does not grow with it") {
+  const std::string plate = "reference/problems/pp05c-free-plate-on-bed-n16.toml";
+  const finished narrow = explained({plate, "--pair", "1", "--quiet", "--json", "/dev/null"});
+  const finished all = explained({plate, "--quiet", "--json", "/dev/null"});
+  CHECK(narrow.exit == 0);
+  CHECK(all.exit == 0);
+  CHECK(all.out.empty());
+#if !defined(__SANITIZE_ADDRESS__)
+  CHECK(all.peak_kib < narrow.peak_kib + 8 * 1024);  // some 30 MB of JSON are written
+#endif
+}
+
+TEST_CASE("an event so near to full load that only rounding is left is told, and that the driver undoes it") {
+  // Unloading to nothing opens the pairs exactly at the end: computed, now and then just before it.
+  const scratch_directory dir;
+  int undone = 0;
+  for (int elements = 4; elements <= 30; elements += 2) {
+    for (const char* stiffness : {"1e5", "7.7e5"}) {
+      std::ostringstream text;
+      text << "[beam]\nlength = 8\nelements = " << elements << "\nEI = 1e5\n[[support]]\nnodes = [1, "
+           << elements + 1 << "]\nfix = [\"w\"]\n";
+      const int middle = elements / 2 + 1;
+      for (const int node : {2, middle, elements})
+        text << "[[contact]]\nnode = " << node
+             << "\nsurface = \"below\"\nface = 0\nstiffness = " << (node == middle ? "1.3e5" : stiffness)
+             << "\nstate = \"separated\"\n";
+      dir.write("pb.toml", text.str() + "[[step]]\nuniform = -13.7\n[[step]]\nuniform = 0\n");
+      const finished f = contct_program(dir.path(), {"explain", "pb.toml", "--json", "out.json"});
+      CHECK(f.exit == 0);
+      bool here = false;
+      const json all = json::parse(dir.read("out.json"));
+      for (const json& i : all["increments"]) {
+        if (!i["left_undone"].get<bool>()) continue;
+        here = true;
+        CHECK(i["s"] == 1.0);
+        CHECK(i["fraction"] == 1.0);
+        CHECK_FALSE(i["winner"].is_null());
+      }
+      CHECK((f.out.find("What would be left of the load after this event") != std::string::npos) == here);
+      undone += here ? 1 : 0;
+    }
+  }
+  CHECK(undone >= 1);
+}

@@ -1,0 +1,183 @@
+// contct fuzz: what it says of kernels that agree, and of plug-ins with a fault.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The plug-in of tests/plugins/variant.c with a fault.
+std::string variant(const char* fault) {
+  return "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_" + fault + ".so";
+}
+
+finished fuzz(const scratch_directory& dir, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "fuzz");
+  return contct_program(dir.path(), arguments);
+}
+
+nlohmann::json json_of(const scratch_directory& dir, const char* name) {
+  return nlohmann::json::parse(dir.read(name));
+}
+
+std::string output_of(const std::string& command, int& exit) {
+  std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::string out;
+  std::array<char, 4096> block{};
+  while (const std::size_t n = std::fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
+  exit = pclose(pipe);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("fortran and cpp are equal to the bit, and the run says how much it compared") {
+  const scratch_directory dir;
+  for (const char* kernels : {"fortran,cpp", "fortran-r4,cpp-r4"}) {
+    const finished f =
+        fuzz(dir, {"--kernels", kernels, "--calls", "30000", "--json", "f.json", "--junit", "f.xml"});
+    INFO(f.out << f.err);
+    CHECK(f.exit == 0);
+    CHECK_THAT(f.out, Contains("to the bit"));
+    const nlohmann::json j = json_of(dir, "f.json");
+    CHECK(j.at("calls") >= 30000);
+    CHECK(j.at("problems") == 60);
+    CHECK(j.at("values_compared") > 500'000);
+    CHECK(j.at("mismatches") == 0);
+    CHECK(j.at("seed") == 1989);
+    CHECK(j.at("branches").size() == 16);
+    for (const auto& [name, count] : j.at("branches").items()) CHECK(count > 1000);
+    for (const char* kind : {"make", "break", "stationary"}) CHECK(j.at("events").at(kind) > 1000);
+    CHECK_THAT(dir.read("f.xml"), Contains("failures=\"0\""));
+  }
+}
+
+TEST_CASE("a right kernel in C, called as a plug-in, is CONTCT") {
+  const scratch_directory dir;
+  const finished f = fuzz(dir, {"--kernels", "fortran," + variant("right"), "--calls", "20000"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+}
+
+TEST_CASE("the printed line runs the same once more") {
+  const scratch_directory dir;
+  const std::string kernels = "fortran," + variant("less_equal");
+  const finished a = fuzz(dir, {"--kernels", kernels, "--calls", "8000", "--seed", "77", "--shard", "2/3"});
+  CHECK_THAT(a.out, Contains("--calls 8000 --problems 16 --seed 77 --shard 2/3"));
+  const finished b = fuzz(
+      dir, {"--kernels", kernels, "--calls", "8000", "--problems", "16", "--seed", "77", "--shard", "2/3"});
+  CHECK(a.err == b.err);
+  CHECK(a.exit == 1);
+}
+
+TEST_CASE("an EPSMUL compared by less-or-equal is found, read as a tie, and shrunk to two pairs") {
+  const scratch_directory dir;
+  const finished f = fuzz(dir, {"--kernels", "fortran," + variant("less_equal"), "--calls", "20000", "--out",
+                                "found", "--json", "f.json"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("certificate"));
+  CHECK(fs::exists(dir.path() / "found/plugin-libvariant-less-equal-so-seed1989.trace"));
+  CHECK_THAT(f.err, Contains("IF (DIFF.LT.EPSMUL) was false, exactly on the threshold: a tie"));
+  CHECK_THAT(f.err, Contains("shrunk to 1 call(s), 2 pair(s)"));
+  const nlohmann::json its = json_of(dir, "f.json").at("followers").at(0);
+  CHECK(its.at("rung") == "certificate");
+  CHECK(its.at("mismatches") > 0);
+
+  // The three files: a trace that tells the two apart, a main program that runs, a test that compiles.
+  std::string stem;
+  for (const auto& entry : fs::directory_iterator(dir.path() / "found"))
+    if (entry.path().extension() == ".f")
+      stem = entry.path().string().substr(0, entry.path().string().size() - 2);
+  REQUIRE_FALSE(stem.empty());
+  CHECK(contct_program(dir.path(), {"replay", stem + ".trace", "--kernel", "fortran,cpp"}).exit == 0);
+  CHECK(contct_program(dir.path(), {"replay", stem + ".trace", "--kernel", variant("less_equal")}).exit == 1);
+  int exit = 0;
+  const std::string main =
+      output_of(std::string(CONTCT_FORTRAN) + " -std=legacy -fdefault-real-8 -fno-range-check " +
+                    "-ffp-contract=off " + stem + ".f " + CONTCT_ROOT + "/fortran/contct.f -o " + stem +
+                    " && cd " + (dir.path() / "found").string() + " && " + stem,
+                exit);
+  INFO(main);
+  CHECK(exit == 0);
+  CHECK_THAT(main, Contains("SMIN") && Contains("-1"));
+  output_of(
+      std::string(CONTCT_CXX) + " -std=c++20 -fsyntax-only -I" + CONTCT_ROOT + "/cpp " + stem + "_test.cpp",
+      exit);
+  CHECK(exit == 0);
+}
+
+TEST_CASE("a reassociated quotient is found in the last place, and its ULPs are counted") {
+  const scratch_directory dir;
+  const finished f =
+      fuzz(dir, {"--kernels", "fortran," + variant("reassociated"), "--calls", "4000", "--problems", "0"});
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.err, Contains("(1 ULP)"));
+}
+
+TEST_CASE("a kernel that remembers the call before is shrunk to two calls") {
+  const scratch_directory dir;
+  const finished f =
+      fuzz(dir, {"--kernels", "fortran," + variant("remembers"), "--calls", "4000", "--problems", "0"});
+  INFO(f.err);
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.err, Contains("shrunk to 2 call(s)"));
+}
+
+TEST_CASE("a plug-in that aborts now and then is a verdict, not the end of the run") {
+  const scratch_directory dir;
+  const finished f = fuzz(dir, {"--kernels", "fortran," + variant("crashes"), "--calls", "4000", "--problems",
+                                "0", "--json", "f.json"});
+  INFO(f.err);
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.err, Contains("gave no answer: it was ended by signal 6"));
+  CHECK(json_of(dir, "f.json").at("followers").at(0).at("rung") == "none");
+  CHECK(json_of(dir, "f.json").at("calls") == 4000);
+}
+
+TEST_CASE("a plug-in that leads and aborts ends the run with the status of kernels that disagree") {
+  const scratch_directory dir;
+  const finished f = fuzz(dir, {"--kernels", variant("crashes") + ",fortran", "--calls", "4000"});
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.err, Contains("the leading kernel gave no answer: it was ended by signal 6"));
+}
+
+TEST_CASE("shards are added up again, and a missing or doubled one is refused") {
+  const scratch_directory dir;
+  for (const char* shard : {"1", "2", "3"}) {
+    CHECK(fuzz(dir, {"--calls", "9000", "--problems", "9", "--shard", std::string(shard) + "/3", "--json",
+                     std::string(shard) + ".json"})
+              .exit == 0);
+  }
+  CHECK(fuzz(dir, {"--calls", "9000", "--problems", "9", "--json", "all.json"}).exit == 0);
+  CHECK(fuzz(dir, {"--merge", "1.json", "2.json", "3.json", "--json", "merged.json"}).exit == 0);
+  nlohmann::json merged = json_of(dir, "merged.json");
+  nlohmann::json all = json_of(dir, "all.json");
+  for (const char* key : {"calls", "problems", "events", "branches", "mismatches"})
+    CHECK(merged.at(key) == all.at(key));
+  CHECK_THAT(fuzz(dir, {"--merge", "1.json", "3.json"}).err, Contains("found 2 of 3 shards (1, 3)"));
+  CHECK_THAT(fuzz(dir, {"--merge", "1.json", "1.json", "3.json"}).err, Contains("found shard 1 once more"));
+  CHECK_THAT(fuzz(dir, {"--merge", "1.json", "all.json"}).err, Contains("found another run"));
+  dir.write("not.json", "{}");
+  CHECK_THAT(fuzz(dir, {"--merge", "not.json"}).err, Contains("not.json: found no fuzz result"));
+}
+
+TEST_CASE("a hunt that finds too little to compare fails") {
+  const scratch_directory dir;
+  CHECK(fuzz(dir, {"--calls", "0"}).exit == 2);
+  CHECK(fuzz(dir, {"--kernels", "fortran"}).exit == 2);
+  CHECK(fuzz(dir, {"--shard", "3/2"}).exit == 2);
+  CHECK(fuzz(dir, {"--shard", "1/2x"}).exit == 2);
+  // Shard 5 of 9 has no call when there are four.
+  const finished f = fuzz(dir, {"--calls", "4", "--problems", "0", "--shard", "5/9"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("nothing was compared"));
+}

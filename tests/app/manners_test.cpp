@@ -1,0 +1,192 @@
+// How the program treats people: help with examples, guesses at what was meant, a file to start from.
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "read/bad_inputs.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+using words = std::vector<std::string>;
+
+words split(const std::string& text, char at) {
+  words parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, at);)
+    if (!part.empty()) parts.push_back(part);
+  return parts;
+}
+
+/// The commands that `contct --help` lists.
+words commands() {
+  const std::string help = contct_program(".", {"--help"}).out;
+  const std::size_t from = help.find("Subcommands:\n");
+  REQUIRE(from != std::string::npos);
+  words names;
+  for (const std::string& line : split(help.substr(from, help.find("\n\n", from) - from), '\n'))
+    if (line.rfind("  ", 0) == 0) names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return names;
+}
+
+/// The command lines under "Examples:", each as arguments.
+std::vector<words> examples_in(const std::string& help) {
+  const std::size_t from = help.find("Examples:\n");
+  REQUIRE(from != std::string::npos);
+  std::vector<words> found;
+  for (const std::string& line : split(help.substr(from), '\n')) {
+    if (line.rfind("  contct ", 0) != 0) continue;
+    words arguments = split(line, ' ');
+    arguments.erase(arguments.begin());
+    found.push_back(arguments);
+  }
+  return found;
+}
+
+/// What the examples speak of.
+void prepare(const scratch_directory& dir, bool with_problems) {
+  if (!with_problems) return;
+  REQUIRE(contct_program(dir.path(), {"new", "beam", "beam.toml"}).exit == 0);
+  REQUIRE(contct_program(dir.path(), {"run", "beam.toml", "--quiet", "--trace", "calls.trace"}).exit == 0);
+  fs::create_symlink(CONTCT_PLUGINS "/libvariant_right.so", dir.path() / "mine.so");
+}
+
+}  // namespace
+
+TEST_CASE("every command has help with examples, and every example runs as it stands") {
+  const words all = commands();
+  CHECK(all.size() >= 10);
+  std::size_t run = 0;
+  for (const std::string& command : all) {
+    const finished help = contct_program(".", {command, "--help"});
+    INFO(command);
+    CHECK(help.exit == 0);
+    CHECK(help.err.empty());
+    const auto examples = examples_in(help.out);
+    CHECK_FALSE(examples.empty());
+    for (const words& arguments : examples) {
+      CHECK(arguments.at(0) == command);
+      const scratch_directory dir;
+      prepare(dir, command != "new");
+      const finished f = contct_program(dir.path(), arguments);
+      std::string line = "contct";
+      for (const std::string& a : arguments) line += " " + a;
+      INFO(line << "\n" << f.out << f.err);
+      CHECK(f.exit == 0);
+      ++run;
+    }
+  }
+  CHECK(run >= 15);
+  const finished help = contct_program(".", {"--help"});
+  CHECK(help.exit == 0);
+  CHECK(examples_in(help.out).size() == all.size());
+}
+
+TEST_CASE("a mistyped command or option is guessed, and far off ones are not") {
+  const scratch_directory dir;
+  dir.write("good.toml", good_problem);
+  const auto refused = [&](const words& arguments) {
+    const finished f = contct_program(dir.path(), arguments);
+    CHECK(f.exit == 2);
+    CHECK(f.out.empty());
+    return f.err;
+  };
+  CHECK_THAT(refused({"rnu", "good.toml"}),
+             Contains("\"rnu\" is no command of contct (did you mean \"run\"?)"));
+  CHECK_THAT(refused({"explian", "good.toml"}), Contains("(did you mean \"explain\"?)"));
+  CHECK_THAT(refused({"Verify"}), Contains("(did you mean \"verify\"?)"));
+  CHECK_THAT(refused({"--versoin"}), Contains("(did you mean \"--version\"?)"));
+  CHECK_THAT(refused({"run", "good.toml", "--josn", "x"}), Contains("(did you mean \"--json\"?)"));
+  CHECK_THAT(refused({"run", "good.toml", "--kernls=cpp"}), Contains("(did you mean \"--kernels\"?)"));
+  CHECK_THAT(refused({"explain", "good.toml", "--pairs", "1"}), Contains("(did you mean \"--pair\"?)"));
+  CHECK_THAT(refused({"run", "good.toml", "--kernels", "fortan"}), Contains("(did you mean \"fortran\"?)"));
+  CHECK_THAT(refused({"run", "good.toml", "--engine", "refacter"}), Contains("(did you mean \"refactor\"?)"));
+  CHECK_THAT(refused({"new", "bean"}), Contains("(did you mean \"beam\"?)"));
+  for (const words& arguments :
+       {words{"walk"}, {"run", "good.toml", "--colour"}, {"run", "good.toml", "more"}})
+    CHECK_THAT(refused(arguments), !Contains("did you mean"));
+}
+
+TEST_CASE("a mistyped key or word in a problem file is guessed, at its place") {
+  const scratch_directory dir;
+  const auto refused = [&](const std::string& piece, const std::string& mistake) {
+    dir.write("bad.toml", with(piece, mistake));
+    const finished f = contct_program(dir.path(), {"run", "bad.toml"});
+    CHECK(f.exit == 2);
+    return f.err;
+  };
+  CHECK_THAT(
+      refused("stiffness", "stifness"),
+      Contains("bad.toml:11:1: contact[1].stifness: found an unknown key (did you mean \"stiffness\"?); "
+               "allowed: "));
+  CHECK_THAT(refused("[[contact]]", "[[contacts]]"), Contains("(did you mean \"contact\"?)"));
+  CHECK_THAT(refused("EI", "ei"), Contains("(did you mean \"EI\"?)"));
+  CHECK_THAT(refused("\"below\"", "\"bellow\""),
+             Contains("found \"bellow\" (did you mean \"below\"?); allowed: "));
+  CHECK_THAT(refused("stiffness", "colour"), Contains("found an unknown key; allowed: "));
+}
+
+TEST_CASE("a new problem runs, has events, and is certified, and its comments name every table") {
+  for (const char* shape : {"beam", "plate"}) {
+    const scratch_directory dir;
+    INFO(shape);
+    const finished made = contct_program(dir.path(), {"new", shape});
+    const std::string name = std::string(shape) + ".toml";
+    CHECK(made.exit == 0);
+    CHECK_THAT(made.out, Contains(name + " is written; now: contct run " + name));
+    CHECK(dir.files() == words{name});
+    const std::string text = dir.read(name);
+    for (const char* piece : {"[[support]]", "[[contact]]", "[[bed]]", "[[step]]", "positive up"})
+      CHECK_THAT(text, Contains(piece));
+    const finished f = contct_program(dir.path(), {"run", name, "--strict", "--json", "out.json"});
+    INFO(f.out << f.err);
+    CHECK(f.exit == 0);
+    CHECK(f.err.empty());
+    CHECK_THAT(f.out, Contains("make ") && Contains("break ") && Contains("are certified"));
+    const auto result = nlohmann::json::parse(dir.read("out.json"));
+    REQUIRE(result["steps"].size() == 2);
+    for (const auto& step : result["steps"]) CHECK(step["certificate"]["exact"] == true);
+  }
+}
+
+TEST_CASE("what is commented out in a new problem may be put in") {
+  for (const char* shape : {"beam", "plate"}) {
+    const scratch_directory dir;
+    std::string text = contct_program(dir.path(), {"new", shape, "-"}).out;
+    int put_in = 0;
+    for (const char* piece : {"# [[", "# spring", "# nodes", "# fix", "# modulus", "# face"}) {
+      for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at)) {
+        text.erase(at, 2);
+        ++put_in;
+      }
+    }
+    CHECK(put_in >= 3);
+    dir.write("own.toml", text);
+    const finished f = contct_program(dir.path(), {"run", "own.toml"});
+    INFO(text << f.out << f.err);
+    CHECK(f.exit == 0);
+  }
+}
+
+TEST_CASE("a new problem overwrites nothing, not even a link that leads nowhere") {
+  const scratch_directory dir;
+  dir.write("beam.toml", "mine");
+  fs::create_symlink("nowhere", dir.path() / "link.toml");
+  for (const char* file : {"beam.toml", "link.toml", "."}) {
+    const finished f = contct_program(dir.path(), {"new", "beam", file});
+    CHECK(f.exit == 2);
+    CHECK_THAT(f.err, Contains("which is there already"));
+  }
+  CHECK(contct_program(dir.path(), {"new", "beam"}).exit == 2);
+  CHECK(dir.read("beam.toml") == "mine");
+  CHECK(dir.files() == words{"beam.toml", "link.toml"});
+  CHECK(contct_program(dir.path(), {"new", "beam", "no/such/folder.toml"}).exit == 2);
+  CHECK(contct_program(dir.path(), {"new", "tower"}).exit == 2);
+}

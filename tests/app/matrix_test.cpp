@@ -1,0 +1,195 @@
+// A matrix from elsewhere, run as a person would.
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::filesystem::path root = CONTCT_ROOT;
+const std::string header = "%%MatrixMarket matrix coordinate real symmetric\n";
+const std::string problem =
+    "[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndof = \"2\"\nsurface = \"below\"\nface = -0.5\nstiffness "
+    "= 10\n"
+    "[[step]]\npoint = [ { dof = \"2\", value = -3 } ]\n";
+
+/// A cube of points, each tied to its neighbours and to the ground; pairs along one edge: p.toml and K.mtx.
+void write_cube(const scratch_directory& here) {
+  constexpr int side = 12;
+  std::string entries;
+  int count = 0;
+  const auto entry = [&](int row, int column, const char* value) {
+    entries += std::to_string(row) + " " + std::to_string(column) + " " + value + "\n";
+    ++count;
+  };
+  for (int n = 0; n < side * side * side; ++n) {
+    entry(n + 1, n + 1, "6.1");
+    for (const int stride : {1, side, side * side})
+      if (n / stride % side + 1 < side) entry(n + stride + 1, n + 1, "-1");
+  }
+  const std::string rows = std::to_string(side * side * side);
+  here.write("K.mtx", header + rows + " " + rows + " " + std::to_string(count) + "\n" + entries);
+  std::string text = "[matrix]\nstiffness = \"K.mtx\"\n";
+  for (int i = 1; i <= side; ++i)
+    text += "[[contact]]\ndof = \"" + std::to_string(i) +
+            "\"\nsurface = \"below\"\nface = " + std::to_string(-0.01 * i) + "\nstiffness = 2.0\n";
+  text += "[[step]]\npoint = [ { dof = \"1\", value = -9.0 }, { dof = \"12\", value = -8.0 } ]\n";
+  text += "[[step]]\npoint = [ { dof = \"1\", value = -1.0 }, { dof = \"12\", value = 2.0 } ]\n";
+  here.write("p.toml", text);
+}
+
+}  // namespace
+
+TEST_CASE("the frame by its matrix is solved in lockstep and certified, from any folder") {
+  const scratch_directory elsewhere;
+  const finished f = contct_program(elsewhere.path(),
+                                    {"run", (root / "reference/structures/frame.toml").string(), "--strict"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("33 dofs, 2 pairs, 3 steps; kernels fortran, cpp"));
+  CHECK_THAT(f.out, Contains("make 1: dof 6.y below"));
+  CHECK_THAT(f.out, Contains("0 mismatches"));
+  CHECK_THAT(f.out, Contains("all 3 final states are certified"));
+}
+
+TEST_CASE("the engines agree that the frame is certified, and so does the oracle alone") {
+  for (const char* how :
+       {"--engine=updated", "--engine=refactor", "--engine=auto", "--final-only", "--kernels=corrected"}) {
+    const finished f = contct_program(root, {"run", "reference/structures/frame.toml", "--strict", how});
+    INFO(how << "\n" << f.err);
+    CHECK(f.exit == 0);
+    CHECK_THAT(f.out, Contains("certified"));
+  }
+}
+
+TEST_CASE("a matrix that is no stiffness, is missing or too large ends in exit 2 and one line that says so") {
+  const scratch_directory here;
+  here.write("p.toml", problem);
+  finished f = contct_program(here.path(), {"run", "p.toml"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("K.mtx: cannot be read"));
+  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
+  f = contct_program(here.path(), {"run", "p.toml", "--json", "r.json"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("K.mtx: the matrix is not positive semidefinite"));
+  CHECK(here.files() == std::vector<std::string>{"K.mtx", "p.toml"});
+  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 nan\n2 2 1\n");
+  f = contct_program(here.path(), {"run", "p.toml"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("K.mtx:4: found \"nan\" for an entry"));
+  CHECK(f.out.empty());
+}
+
+TEST_CASE("what a band cannot hold is solved by its entries, and the certificate is the same") {
+  const scratch_directory here;
+  write_cube(here);
+  CHECK_THAT(contct_program(here.path(), {"run", "p.toml", "--strict"}).out, Contains("engine refactor\n"));
+  process_options little;
+  little.environment = {{"CONTCT_MEMORY_MIB", "4"}};
+  const finished f = contct_program(here.path(), {"run", "p.toml", "--strict"}, little);
+  INFO(f.err);
+  if (f.exit == 2) {
+    CHECK_THAT(f.err, Contains("build with CHOLMOD"));
+    CHECK_THAT(contct_program(root, {"run", "--help"}).out, !Contains("cholmod"));
+    return;
+  }
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("engine refactor, sparse\n"));
+  CHECK_THAT(f.out, Contains("make 1: dof 1 below"));
+  CHECK_THAT(f.out, Contains("0 mismatches"));
+  CHECK_THAT(f.out, Contains("both final states are certified"));
+  for (const char* how : {"--engine=cholmod", "--engine=dissected", "--engine=auto", "--final-only",
+                          "--kernels=corrected", "--free-run"}) {
+    const finished other = contct_program(here.path(), {"run", "p.toml", "--strict", how}, little);
+    INFO(how << "\n" << other.err);
+    CHECK(other.exit == 0);
+    CHECK_THAT(other.out, Contains("certified"));
+  }
+  const finished banded = contct_program(here.path(), {"run", "p.toml", "--engine", "updated"}, little);
+  CHECK(banded.exit == 2);
+  CHECK_THAT(banded.err, Contains("is not stored as a band; allowed: refactor, cholmod or dissected"));
+  little.environment = {{"CONTCT_MEMORY_MIB", "1"}};
+  const finished refused = contct_program(here.path(), {"run", "p.toml"}, little);
+  CHECK(refused.exit == 2);
+  CHECK_THAT(refused.err, Contains(" MiB in CHOLMOD's sparse factors; allowed: 1.0 MiB"));
+}
+
+TEST_CASE("two springs in a row, free at both ends, fall off their one face: a mechanism, exit 4") {
+  const scratch_directory here;
+  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 -1\n2 2 1\n");
+  here.write("p.toml", problem);
+  const finished f = contct_program(here.path(), {"run", "p.toml"});
+  INFO(f.err);
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.err, Contains("no equilibrium"));
+  const finished mended =
+      contct_program(here.path(), {"run", "p.toml", "--kernels", "corrected", "--strict"});
+  INFO(mended.out << mended.err);
+  CHECK(mended.exit == 0);
+  CHECK_THAT(mended.out, Contains("make 1: dof 2 below"));
+}
+
+TEST_CASE("a structure without coordinates has its page, picture and tables, and no grid, which is said") {
+  const scratch_directory dir;
+  dir.write("K.mtx", header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
+  dir.write("p.toml", problem);
+  const finished f =
+      contct_program(dir.path(), {"run", "p.toml", "--html", "o.html", "--svg", "o.svg", "--csv", "o.csv"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(dir.read("o.html"), Contains("\"geometry\":{\"kind\":\"none\",\"watched\":\"2\"}"));
+  CHECK_THAT(dir.read("o.html"), Contains("\"engine\":\"refactor\""));
+  CHECK_THAT(dir.read("o.svg"),
+             Contains("no coordinates are known") && Contains("over the displacement of dof 2"));
+  CHECK_THAT(dir.read("o.pairs.csv"), Contains("\r\n1,1,1,2,below,contact,"));
+  const auto before = dir.files();
+  const finished grid = contct_program(dir.path(), {"run", "p.toml", "--vtu", "o.vtu", "--json", "o.json"});
+  CHECK(grid.exit == 2);
+  CHECK(grid.out.empty());
+  CHECK_THAT(grid.err,
+             Contains("--vtu: found a structure given by its matrix, K.mtx, without coordinates; allowed:"));
+  CHECK_THAT(grid.err, Contains("coordinates = \"FILE\" in [matrix]") &&
+                           Contains("mesh = \"FILE\" in [calculix]") && Contains("--csv and --json"));
+  CHECK(dir.files() == before);
+}
+
+TEST_CASE(
+    "a structure with coordinates is drawn, all of it, and a pair without a place has no cell, which is "
+    "said") {
+  const scratch_directory dir;
+  const std::string frame = std::string(CONTCT_ROOT) + "/reference/structures/";
+  const finished f = contct_program(dir.path(), {"run", frame + "frame.toml", "--html", "o.html", "--svg",
+                                                 "o.svg", "--csv", "o.csv", "--vtu", "o.vtu"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  CHECK(f.err.empty());
+  CHECK_THAT(dir.read("o.html"), Contains("\"kind\":\"mesh\""));
+  CHECK_THAT(dir.read("o.svg"), Contains("class=\"member\""));
+  CHECK_THAT(dir.read("o.vtu"), Contains("NumberOfPoints=\"11\" NumberOfCells=\"12\""));
+  const std::string two = header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
+  dir.write("K.mtx", two);
+  dir.write("K.dof", "a.x\n2\n");
+  dir.write("K.xyz", "a 1 2 3\n");
+  std::string text = problem;
+  text.insert(text.find("[[contact]]"), "dofs = \"K.dof\"\ncoordinates = \"K.xyz\"\n");
+  dir.write("p.toml", text);
+  const finished lost = contct_program(dir.path(), {"run", "p.toml", "--vtu", "p.vtu", "--html", "p.html"});
+  CHECK(lost.exit == 0);
+  CHECK_THAT(lost.err,
+             Contains("warning: --vtu: 1 of 1 pairs has no cell: the places of their dofs are not known"));
+  CHECK_THAT(dir.read("p.html"), Contains("1 of 2 dofs have no known node and direction"));
+  dir.write("K.xyz", "a 1 2 3\nb 1 2 nan\n");
+  const finished wrong = contct_program(dir.path(), {"run", "p.toml", "--vtu", "q.vtu"});
+  CHECK(wrong.exit == 2);
+  CHECK_THAT(wrong.err, Contains("K.xyz:2: found \"nan\" for z; allowed: a finite number"));
+}
+
+TEST_CASE("what is explained of a structure given by its matrix names dofs by their labels") {
+  const scratch_directory dir;
+  const std::string frame = std::string(CONTCT_ROOT) + "/reference/structures/frame.toml";
+  const finished explained = contct_program(dir.path(), {"explain", frame, "--json", "why.json"});
+  CHECK(explained.exit == 0);
+  CHECK_THAT(explained.out, Contains("Pair 1, dof 6.y, face below"));
+  CHECK_THAT(dir.read("why.json"), Contains("\"dof\":\"6.y\"") && !Contains("\"node\""));
+}

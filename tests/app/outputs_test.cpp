@@ -1,0 +1,127 @@
+// Where results go: never onto one another, never half, and never lost without a word.
+#include <filesystem>
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "read/bad_inputs.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+using words = std::vector<std::string>;
+
+/// A run that must be refused, and leave every file as it was.
+std::string refusal(const scratch_directory& dir, const words& arguments,
+                    const process_options& options = {}) {
+  const auto before = dir.files();
+  const finished f = contct_program(dir.path(), arguments, options);
+  INFO(f.out << f.err);
+  CHECK(f.exit == 2);
+  CHECK(f.out.empty());
+  CHECK(dir.files() == before);
+  return f.err;
+}
+
+}  // namespace
+
+TEST_CASE("two results in one file are refused, however it is named") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  fs::create_symlink("out", dir.path() / "link");
+  fs::create_directory(dir.path() / "folder");
+  for (const char* log : {"out", "./out", "folder/../out", "link"}) {
+    INFO(log);
+    CHECK_THAT(refusal(dir, {"run", "pb.toml", "--json", "out", "--log", log}),
+               Contains(std::string("--log ") + log + ": found the file of --json"));
+  }
+  CHECK(contct_program(dir.path(), {"run", "pb.toml", "--json", "/dev/null", "--log", "/dev/null"}).exit ==
+        0);
+}
+
+TEST_CASE("a result in the problem's own file is refused, also through a link, also from standard input") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  fs::create_symlink("pb.toml", dir.path() / "link");
+  fs::create_hard_link(dir.path() / "pb.toml", dir.path() / "hard");
+  for (const char* out : {"pb.toml", "link", "hard"}) {
+    INFO(out);
+    CHECK_THAT(refusal(dir, {"run", "pb.toml", "--json", out}), Contains("the file of the problem"));
+    CHECK_THAT(refusal(dir, {"run", "link", "--log", out}), Contains("the file of the problem"));
+  }
+  CHECK(dir.read("pb.toml") == good_problem);
+}
+
+TEST_CASE("a result in the file that standard output goes to is refused: - is the way") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  dir.write("out", "");
+  CHECK_THAT(
+      refusal(dir, {"run", "pb.toml", "--json", "out"}, {"", {}, false, (dir.path() / "out").string()}),
+      Contains("the file of standard output"));
+}
+
+TEST_CASE("a result goes through a symbolic link to its target") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  fs::create_symlink("target", dir.path() / "link");
+  for (int time = 0; time < 2; ++time) {
+    CHECK(contct_program(dir.path(), {"run", "pb.toml", "--json", "link"}).exit == 0);
+    CHECK(fs::is_symlink(dir.path() / "link"));
+    CHECK_THAT(dir.read("target"), Contains("contct-result-1"));
+  }
+}
+
+TEST_CASE("standard output that is full or closed is exit 2, with a message, and no file either") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  for (const words& arguments : {words{"run", "pb.toml"},
+                                 {"run", "pb.toml", "--json", "out.json"},
+                                 {"run", "pb.toml", "--json", "-"},
+                                 {"kernels"},
+                                 {"--help"},
+                                 {"run", "--help"},
+                                 {"--version"}}) {
+    for (const char* output : {"/dev/full", "closed"}) {
+      INFO(arguments[0] << " to " << output);
+      CHECK_THAT(refusal(dir, arguments, {"", {}, false, output}), Contains("standard output: "));
+    }
+  }
+}
+
+TEST_CASE("a long table that does not fit on a full device is exit 2 too") {
+  const scratch_directory dir;
+  std::string text = good_problem;
+  for (int i = 0; i < 200; ++i) text += "[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n";
+  dir.write("long.toml", text);
+  CHECK_THAT(refusal(dir, {"run", "long.toml", "--json", "out.json"}, {"", {}, false, "/dev/full"}),
+             Contains("standard output: ") && Contains("No space left"));
+}
+
+TEST_CASE("an answer without numbers leaves no files: exit 2") {
+  // PB9, so stiff that the springs vanish in the rounding of the beam's own stiffness.
+  const scratch_directory dir;
+  dir.write("stiff.toml",
+            "[beam]\nlength = 2.0\nelements = 16\nEI = 1e15\n[[bed]]\nmodulus = 5000.0\nface = 0.0\n"
+            "[[step]]\nuniform = [ { polynomial = [-20.0, 20.0, -5.0] } ]\n");
+  const finished f =
+      contct_program(dir.path(), {"run", "stiff.toml", "--json", "out.json", "--log", "out.log"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("too ill-conditioned"));
+  CHECK(dir.files() == words{"stiff.toml"});
+}
+
+TEST_CASE("kernels that were never called are not said to be equal") {
+  const scratch_directory dir;
+  dir.write("loose.toml",
+            "[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\n"
+            "stiffness = 1\n[[step]]\nuniform = -1\n");
+  const finished f = contct_program(dir.path(), {"run", "loose.toml"});
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.out, Contains("fortran and cpp were never called: nothing is compared"));
+  CHECK_THAT(f.out, !Contains("equal to the bit"));
+}

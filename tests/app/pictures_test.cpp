@@ -1,0 +1,187 @@
+// contct run's pictures and tables, as a person asks for them.
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "read/bad_plates.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using words = std::vector<std::string>;
+
+const words all_of_them = {"--html", "o.html", "--svg", "o.svg", "--csv", "o.csv", "--vtu", "o.vtu"};
+
+words run_of(const words& more) {
+  words all = {"run", "pb.toml"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+nlohmann::json data_of(const std::string& page) {
+  const std::string before = "id=\"data\">";
+  const std::size_t from = page.find(before) + before.size();
+  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+/// Everything that a run of `text` writes; the page's data.
+nlohmann::json written(const std::string& text, int exit, const words& more = {}) {
+  const scratch_directory dir;
+  dir.write("pb.toml", text);
+  words arguments = run_of(all_of_them);
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const finished f = contct_program(dir.path(), arguments);
+  INFO(f.out << f.err);
+  CHECK(f.exit == exit);
+  for (const char* name : {"o.html", "o.svg", "o.csv", "o.pairs.csv", "o.vtu", "o.pvd", "o.000.vtu"}) {
+    INFO(name);
+    CHECK_FALSE(dir.read(name).empty());
+  }
+  return data_of(dir.read("o.html"));
+}
+
+const char* const no_pairs =
+    "[beam]\nlength = 2\nelements = 4\nEI = 10\n[[support]]\nnodes = [1, 5]\nfix = "
+    "[\"w\"]\n[[step]]\nuniform = -1\n";
+
+}  // namespace
+
+TEST_CASE("a run writes its page, picture, tables and grids, and nothing beside them") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), run_of(all_of_them));
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("equal to the bit"));
+  CHECK(dir.files() == words{"o.000.vtu", "o.001.vtu", "o.002.vtu", "o.csv", "o.html", "o.pairs.csv", "o.pvd",
+                             "o.svg", "o.vtu", "pb.toml"});
+}
+
+TEST_CASE("the page's last state is the result's, number for number, step by step") {
+  for (const char* file :
+       {"pb01-cantilever-tip-stop", "pb07-three-gap-supports", "pp03d-corners-and-settled-stop-n4"}) {
+    INFO(file);
+    const scratch_directory dir;
+    const finished f =
+        contct_program(dir.path(), {"run", std::string(CONTCT_ROOT) + "/reference/problems/" + file + ".toml",
+                                    "--json", "o.json", "--html", "o.html"});
+    REQUIRE(f.exit == 0);
+    const auto result = nlohmann::json::parse(dir.read("o.json"));
+    const auto data = data_of(dir.read("o.html"));
+    std::size_t ends = 0;
+    for (const auto& frame : data["frames"]) {
+      if (!frame["end"].get<bool>()) continue;
+      const auto& step = result["steps"][frame["step"].get<std::size_t>() - 1];
+      ++ends;
+      CHECK(frame["w"] == step["w"]);
+      REQUIRE(frame["at_pairs"].size() == step["pairs"].size());
+      for (std::size_t i = 0; i < step["pairs"].size(); ++i) {
+        const auto node = step["pairs"][i]["node"].get<std::size_t>();
+        CHECK(frame["at_pairs"][i] == step["w"][node - 1]);
+        CHECK((frame["closed"][i] == 1) == (step["pairs"][i]["state"] == "contact"));
+      }
+      for (std::size_t e = 0; data["geometry"]["kind"] == "beam" && e < step["elements"].size(); ++e) {
+        CHECK(frame["moment"]["right"][e] == step["elements"][e]["moment"][0]);
+        CHECK(frame["shear"]["left"][e + 1] == step["elements"][e]["shear"][1]);
+      }
+    }
+    CHECK(ends == result["steps"].size());
+  }
+}
+
+TEST_CASE("one kernel alone: nothing is said to be compared") {
+  const auto data = written(good_problem, 0, {"--kernels", "cpp"});
+  CHECK(data["equal"].is_null());
+  CHECK(data["lockstep"] == false);
+  CHECK(data["calls"][0]["followers"].empty());
+}
+
+TEST_CASE("three kernels: each call has two distances") {
+  const auto data = written(good_problem, 0, {"--kernels", "fortran,cpp,corrected", "--free-run"});
+  CHECK(data["lockstep"] == false);
+  CHECK(data["equal"] == true);
+  const auto narrow = written(good_problem, 0, {"--kernels", "fortran-r4,cpp-r4"});
+  CHECK(narrow["lockstep"] == true);
+  CHECK(narrow["calls"][0]["followers"][0][1] == 0);
+}
+
+TEST_CASE("a problem without pairs or a title has its page too") {
+  const auto data = written(no_pairs, 0);
+  CHECK(data["title"] == "pb.toml");
+  CHECK(data["all_pairs"] == 0);
+  CHECK(data["frames"].size() == 2);
+  const auto still = written(std::string(no_pairs) + "[[step]]\nuniform = -2\n[[step]]\nuniform = 0\n", 0);
+  CHECK(still["frames"].size() == 4);
+}
+
+TEST_CASE("a mechanism has a page that says so, up to the state reached") {
+  const auto loose = written(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]"), 4);
+  CHECK(loose["status"] == "mechanism");
+  CHECK(loose["frames"].size() == 2);
+  const auto freed = written(
+      "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
+      "0\nstiffness = 10\n"
+      "[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n[[step]]\n"
+      "point = [ { node = 3, w = -4 } ]\n[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n",
+      4);
+  CHECK_THAT(freed["ended"].get<std::string>(), Contains("left the structure free"));
+  CHECK(freed["frames"].back()["step"] == 2);
+  CHECK(freed["frames"].back()["fraction"].get<double>() < 1.0);
+  CHECK(freed["frames"].back()["end"] == true);
+}
+
+TEST_CASE(
+    "the corrected rule's free fall onto its faces has frames, and the certificate stands in the page") {
+  const auto data = written(
+      "[beam]\nlength = 2\nelements = 4\nEI = 100\n[[bed]]\nmodulus = 50\nface = -0.01\n[[step]]\nuniform = "
+      "-3\n",
+      0, {"--kernels", "corrected"});
+  CHECK(data["frames"].size() >= 2);
+  CHECK_THAT(data["certified"].dump(), Contains("certified"));
+}
+
+TEST_CASE(
+    "pictures in one file with another result are refused, all files that --csv and --vtu make included") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  for (const words& two : {words{"--html", "out", "--svg", "out"},
+                           {"--html", "pb.toml"},
+                           {"--csv", "out.csv", "--json", "out.pairs.csv"},
+                           {"--vtu", "out.vtu", "--html", "out.pvd"},
+                           {"--vtu", "out.vtu", "--svg", "./out.000.vtu"},
+                           {"--vtu", "out.vtu", "--log", "out.119.vtu"},
+                           {"--html", "-", "--csv", "-"},
+                           {"--vtu", "-"},
+                           {"--vtu", "out"}}) {
+    INFO(two[0] << " " << two[1]);
+    const finished f = contct_program(dir.path(), run_of(two));
+    CHECK(f.exit == 2);
+    CHECK(f.out.empty());
+    CHECK_THAT(f.err, Contains("found") || Contains("cannot both be -"));
+    CHECK(dir.files() == words{"pb.toml"});
+  }
+}
+
+TEST_CASE("with - for standard output nothing else is printed") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);
+  CHECK(contct_program(dir.path(), run_of({"--svg", "-"})).out.rfind("<svg ", 0) == 0);
+  const std::string csv = contct_program(dir.path(), run_of({"--csv", "-"})).out;
+  CHECK(csv.rfind("step,increment,", 0) == 0);
+  CHECK(dir.files() == words{"pb.toml"});  // and no table of pairs
+}
+
+TEST_CASE("a place that cannot be written is found out before anything is solved") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  for (const char* option : {"--html", "--svg", "--csv", "--vtu"}) {
+    INFO(option);
+    const finished f = contct_program(dir.path(), run_of({option, "nowhere/o.vtu"}));
+    CHECK(f.exit == 2);
+    CHECK(f.out.empty());
+    CHECK_THAT(f.err, Contains("nowhere/o.vtu: cannot be written"));
+  }
+}

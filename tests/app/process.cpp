@@ -1,0 +1,117 @@
+#include "app/process.hpp"
+
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace contct {
+namespace {
+
+std::string contents(const std::filesystem::path& p) {
+  std::ostringstream text;
+  text << std::ifstream(p, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// In the child: become the program. Streams that are files keep clear of pipes that fill up.
+[[noreturn]] void become(const std::filesystem::path& directory, std::vector<std::string> arguments,
+                         const process_options& options, const std::filesystem::path& streams, int terminal) {
+  dup2(open((streams / "in").c_str(), O_RDONLY), STDIN_FILENO);
+  dup2(options.error_terminal ? terminal : open((streams / "err").c_str(), O_WRONLY), STDERR_FILENO);
+  if (chdir(directory.c_str()) != 0) _exit(127);
+  const std::string output = options.output.empty() ? (streams / "out").string() : options.output;
+  dup2(options.terminal ? terminal : open(output.c_str(), O_WRONLY), STDOUT_FILENO);
+  for (int left_over = STDERR_FILENO + 1; left_over < 10; ++left_over) close(left_over);
+  if (output == "closed") close(STDOUT_FILENO);
+  clearenv();
+  setenv("PATH", "/usr/bin:/bin", 1);
+  for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
+  arguments.insert(arguments.begin(), "contct");
+  std::vector<char*> argv;
+  for (std::string& a : arguments) argv.push_back(a.data());
+  argv.push_back(nullptr);
+  execv(CONTCT_PROGRAM, argv.data());
+  _exit(127);
+}
+
+/// Everything that the program writes to its terminal.
+std::string drain(int terminal) {
+  std::string text;
+  char block[4096];
+  ssize_t got = 0;
+  while ((got = ::read(terminal, block, sizeof block)) > 0) text.append(block, static_cast<std::size_t>(got));
+  return text;  // reading from a terminal whose last writer is gone fails: that is its end
+}
+
+}  // namespace
+
+finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
+                        const process_options& options) {
+  const scratch_directory streams;
+  streams.write("in", options.input);
+  streams.write("out", "");
+  streams.write("err", "");
+  int leader = -1;
+  int terminal = -1;
+  winsize size{24, 80, 0, 0};
+  const bool wants_terminal = options.terminal || options.error_terminal;
+  if (wants_terminal && openpty(&leader, &terminal, nullptr, nullptr, &size) != 0) {
+    throw std::runtime_error("no pseudo-terminal can be had");
+  }
+  const pid_t child = fork();
+  if (child == 0) become(directory, arguments, options, streams.path(), terminal);
+  finished f;
+  if (terminal >= 0) {
+    close(terminal);
+    (options.terminal ? f.out : f.err) = drain(leader);
+    close(leader);
+  }
+  int status = 0;
+  rusage used{};
+  wait4(child, &status, 0, &used);
+  f.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  f.peak_kib = used.ru_maxrss;
+  if (!options.terminal) f.out = streams.read("out");
+  if (!options.error_terminal) f.err = streams.read("err");
+  return f;
+}
+
+scratch_directory::scratch_directory() {
+  static std::atomic<int> count = 0;
+  path_ = std::filesystem::temp_directory_path() /
+          ("contct-cli-test-" + std::to_string(getpid()) + "-" + std::to_string(++count));
+  std::filesystem::create_directories(path_);
+}
+
+scratch_directory::~scratch_directory() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string scratch_directory::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path_ / name, std::ios::binary) << text;
+  return name;
+}
+
+std::string scratch_directory::read(const std::string& name) const {
+  return contents(path_ / name);
+}
+
+std::vector<std::string> scratch_directory::files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path_))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace contct

@@ -1,0 +1,125 @@
+// Progress: on a terminal that waits, gone in the end, and nowhere else.
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+
+namespace {
+
+const char* const erased = "\r\033[K";
+
+/// Work of each command that would take long if there were more of it.
+struct long_work {
+  const char* name;
+  std::vector<std::string> arguments;
+  const char* shows;
+};
+
+std::vector<long_work> long_works() {
+  return {{"run", {"run", "plate.toml"}, "step 2 of 2, increment "},
+          {"explain", {"explain", "plate.toml", "--json", "/dev/null"}, "step 2 of 2, increment "},
+          {"verify", {"verify", "--reference", CONTCT_ROOT "/reference"}, " problems"},
+          {"atlas", {"atlas", "--problems", "1"}, " problems"},
+          {"fuzz", {"fuzz", "--calls", "2000"}, " % of "},
+          {"replay", {"replay", CONTCT_ROOT "/reference/traces/ties.trace"}, "ties.trace: 1 calls"}};
+}
+
+/// At a terminal whose owner waits for so many seconds before he wonders.
+finished at_terminal(const scratch_directory& dir, const std::vector<std::string>& arguments,
+                     const std::string& seconds, bool both = false) {
+  process_options o;
+  o.terminal = both;
+  o.error_terminal = true;
+  o.environment = {{"TERM", "dumb"}, {"CONTCT_PROGRESS_AFTER", seconds}};
+  return contct_program(dir.path(), arguments, o);
+}
+
+/// With a plate.toml in it.
+class plate_directory : public scratch_directory {
+ public:
+  plate_directory() { REQUIRE(contct_program(path(), {"new", "plate"}).exit == 0); }
+};
+
+}  // namespace
+
+TEST_CASE("whatever takes long shows its progress on a terminal, and erases it in the end") {
+  const plate_directory dir;
+  for (const long_work& w : long_works()) {
+    INFO(w.name);
+    const finished f = at_terminal(dir, w.arguments, "0");
+    CHECK(f.exit == 0);
+    CHECK_THAT(f.err, Contains(w.shows));
+    CHECK_THAT(f.err, EndsWith(erased));
+    CHECK(f.err.find('\n') == std::string::npos);
+    CHECK(f.out.find('\r') == std::string::npos);
+  }
+}
+
+TEST_CASE("quiet takes the progress away, and so does a standard error that is no terminal") {
+  const plate_directory dir;
+  for (const long_work& w : long_works()) {
+    INFO(w.name);
+    std::vector<std::string> arguments = w.arguments;
+    arguments.emplace_back("--quiet");
+    const finished quiet = at_terminal(dir, arguments, "0");
+    CHECK(quiet.exit == 0);
+    CHECK(quiet.err.empty());
+    CHECK(quiet.out.empty());
+  }
+  process_options at_once;
+  at_once.environment = {{"CONTCT_PROGRESS_AFTER", "0"}};
+  CHECK(contct_program(dir.path(), {"run", "plate.toml"}, at_once).err.empty());
+}
+
+TEST_CASE("where table and progress share a terminal, every row of the table begins on a clean line") {
+  const plate_directory dir;
+  const std::vector<std::string> run = {"run", "plate.toml", "--kernels", "corrected"};
+  const finished plain = contct_program(dir.path(), run);
+  std::string seen = at_terminal(dir, run, "0", true).out;
+  CHECK_THAT(seen, Contains("step 2 of 2, increment "));
+  // What remains on the screen: a line up to where it was last erased is gone.
+  std::string screen;
+  for (std::size_t from = 0; from < seen.size();) {
+    const std::size_t end = std::min(seen.find('\n', from), seen.size());
+    std::string line = seen.substr(from, end - from);
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (const std::size_t last = line.rfind(erased); last != std::string::npos) line.erase(0, last + 4);
+    if (end < seen.size()) screen += line + "\n";
+    from = end + 1;
+  }
+  CHECK(screen == plain.out);
+}
+
+TEST_CASE("what cannot say how far it has come says what it is doing") {
+  const plate_directory dir;
+  for (const char* command : {"run", "explain"}) {
+    const finished f = at_terminal(dir, {command, "plate.toml"}, "0");
+    CHECK_THAT(f.err, Contains("\rreading plate.toml, 0 s\033[K\r\033[K"));
+    CHECK_THAT(f.err, Contains("\rbuilding the structure, 0 s\033[K\r\033[K"));
+    CHECK(at_terminal(dir, {command, "plate.toml", "--quiet"}, "0").err.empty());
+  }
+  CHECK_THAT(at_terminal(dir, {"export", "plate.toml", "--calculix", "plate.inp"}, "0").err,
+             Contains("\rreading plate.toml, 0 s\033[K\r\033[K"));
+}
+
+TEST_CASE("what is quicker than one waits shows no progress") {
+  const plate_directory dir;
+  for (const long_work& w : long_works()) {
+    INFO(w.name);
+    CHECK(at_terminal(dir, w.arguments, "3600").err.empty());
+  }
+  CHECK(at_terminal(dir, {"kernels"}, "0").err.empty());
+}
+
+TEST_CASE("a wait that is no time is refused") {
+  const plate_directory dir;
+  for (const char* const wrong : {"soon", "-1", "nan", "1s", ""}) {
+    const finished f = at_terminal(dir, {"run", "plate.toml"}, wrong);
+    CHECK(f.exit == 2);
+    CHECK_THAT(f.err, Contains("CONTCT_PROGRESS_AFTER") && Contains("allowed: seconds, 0 or more"));
+  }
+}

@@ -1,0 +1,77 @@
+// What the README shows is what the program does.
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct;
+
+namespace {
+
+const std::filesystem::path root = CONTCT_ROOT;
+
+std::string page(const char* name) {
+  std::ostringstream text;
+  text << std::ifstream(root / name).rdbuf();
+  return text.str();
+}
+
+std::string readme() {
+  return page("README.md");
+}
+
+/// What stands between `from` and `to`.
+std::string between(const std::string& text, const std::string& from, const std::string& to) {
+  const std::size_t begin = text.find(from);
+  REQUIRE(begin != std::string::npos);
+  const std::size_t end = text.find(to, begin + from.size());
+  REQUIRE(end != std::string::npos);
+  return text.substr(begin + from.size(), end - begin - from.size());
+}
+
+}  // namespace
+
+TEST_CASE("the README's run is a real run") {
+  const std::string problem = "reference/problems/pb07-three-gap-supports.toml";
+  const std::string shown = between(readme(), "$ build/release/contct run " + problem + "\n", "```");
+  const finished f = contct_program(root, {"run", problem});
+  CHECK(f.exit == 0);
+  CHECK(shown == f.out);
+}
+
+TEST_CASE("the README's beam and its plate can be run") {
+  const std::string text = readme();
+  int problems = 0;
+  for (std::size_t at = text.find("```toml\n"); at != std::string::npos;
+       at = text.find("```toml\n", at + 1)) {
+    const scratch_directory dir;
+    dir.write("own.toml", between(text.substr(at), "```toml\n", "```"));
+    const finished f = contct_program(dir.path(), {"run", "own.toml"});
+    INFO(f.out << f.err);
+    CHECK(f.exit == 0);
+    CHECK_THAT(f.out, Catch::Matchers::Contains("make 1:") || Catch::Matchers::Contains("break 1:"));
+    ++problems;
+  }
+  CHECK(problems == 2);
+}
+
+TEST_CASE("the README cites the program as the program names itself") {
+  const std::string cited = between(readme(), "@software{contct,", "```");
+  const finished f = contct_program(root, {"--version"});
+  const std::string version = between(f.out, "contct ", "\n");
+  const std::string checksum = between(f.out + "\n", "listing sha256 ", "\n");
+  CHECK(checksum.size() == 64);
+  CHECK_THAT(cited, Catch::Matchers::Contains("{" + version + "}"));
+  CHECK_THAT(cited, Catch::Matchers::Contains("Listing SHA-256 " + checksum + "}"));
+}
+
+TEST_CASE("the trace that the format's page shows is one, and FORTRAN and C++ answer it so") {
+  process_options shown;
+  shown.input = between(page("reference/trace-format.md"), "```trace\n", "```");
+  const finished f = contct_program(root, {"replay", "--kernel", "fortran,cpp", "-"}, shown);
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Catch::Matchers::Contains("1 calls") && Catch::Matchers::Contains("2 passed, 0 failed"));
+}

@@ -1,0 +1,141 @@
+// contct run --trace, contct replay and contct-replay: recorded calls, and who answers them otherwise.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = CONTCT_ROOT;
+
+std::string reference_problem(const char* name) {
+  return (root / "reference/problems" / name).string();
+}
+
+/// Record a problem's path in `dir`.
+std::string recorded(const scratch_directory& dir, const char* problem) {
+  const finished f =
+      contct_program(dir.path(), {"run", reference_problem(problem), "--trace", "t.trace", "--quiet"});
+  INFO(f.err);
+  REQUIRE(f.exit == 0);
+  CHECK(f.out.empty());
+  return dir.read("t.trace");
+}
+
+std::string output_of(const std::string& command) {
+  std::FILE* const pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::string out;
+  std::array<char, 4096> block{};
+  while (const std::size_t n = std::fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
+  CHECK(pclose(pipe) == 0);
+  return out;
+}
+
+void replace_once(std::string& text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("a recorded path replays equal to the bit, by FORTRAN and by its twin") {
+  const scratch_directory dir;
+  const std::string trace = recorded(dir, "pb07-three-gap-supports.toml");
+  CHECK_THAT(trace, Contains("\nlapack LAPACK ") && Contains("\nfloating-point strict\n"));
+  const finished f = contct_program(dir.path(), {"replay", "t.trace", "--kernel", "fortran,cpp"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out,
+             Contains("t.trace: fortran: equal to the bit; 8 calls, 64 values compared, 0 mismatches"));
+  CHECK_THAT(f.out, Contains("t.trace: cpp: equal to the bit"));
+  const finished piped = contct_program(dir.path(), {"replay", "-"}, {.input = trace, .environment = {}});
+  CHECK(piped.exit == 0);
+  CHECK_THAT(piped.out, Contains("standard input: fortran: equal"));
+}
+
+TEST_CASE("a trace of one precision is not put to a kernel of another") {
+  const scratch_directory dir;
+  recorded(dir, "pb01-cantilever-tip-stop.toml");
+  const finished f = contct_program(dir.path(), {"replay", "t.trace", "--kernel", "cpp-r4"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("nothing was compared"));
+  CHECK_THAT(f.out, Contains("skipped: recorded with 8-byte REAL"));
+}
+
+TEST_CASE(
+    "one bit, one status or one character of the text that differs is found, and told with its margin") {
+  const scratch_directory dir;
+  const std::string trace = recorded(dir, "pb01-cantilever-tip-stop.toml");
+  struct doctored {
+    const char *what, *by, *words;
+  };
+  for (const doctored d :
+       {doctored{"smin 0x1.99999999999c1p-4", "smin 0x1.99999999999c0p-4",
+                 "differs in SMIN: the trace has 0x1.99999999999cp-4, fortran has "
+                 "0x1.99999999999c1p-4 (1 ULP)"},
+        {"ss 0x1.99999999999c1p-4 isep -1", "ss 0x1.99999999999c1p-4 isep 1", "differs in ISEP(1)"},
+        {"MAKING", "NAKING", "differs in text, line 1"}}) {
+    std::string changed = trace;
+    replace_once(changed, d.what, d.by);
+    dir.write("d.trace", changed);
+    const finished f =
+        contct_program(dir.path(), {"replay", "d.trace", "--junit", "r.xml", "--markdown", "r.md"});
+    INFO(f.err);
+    CHECK(f.exit == 1);
+    CHECK_THAT(f.err, Contains(d.words) && Contains("branch margin: "));
+    CHECK_THAT(f.out, Contains("mismatch; 6 calls, 24 values compared, 1 mismatches"));
+    CHECK_THAT(dir.read("r.xml"), Contains("failures=\"1\""));
+    CHECK_THAT(dir.read("r.md"), Contains("## contct replay: failed"));
+  }
+}
+
+TEST_CASE("a trace that is none is refused with file and line") {
+  const scratch_directory dir;
+  dir.write("empty.trace", "");
+  dir.write("header.trace", "contct-trace-1 2026-11-21\nkernel fortran\n");
+  CHECK_THAT(contct_program(dir.path(), {"replay", "empty.trace"}).err, Contains("empty.trace:0: found"));
+  const finished f = contct_program(dir.path(), {"replay", "header.trace"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("found no call"));
+  CHECK(contct_program(dir.path(), {"replay", "missing.trace"}).exit == 2);
+  CHECK(contct_program(dir.path(), {"replay"}).exit == 2);
+}
+
+TEST_CASE("contct-replay is the same code, and needs neither LAPACK nor BLAS") {
+  const scratch_directory dir;
+  recorded(dir, "pb07-three-gap-supports.toml");
+  const std::string program = (fs::path(CONTCT_PROGRAM).parent_path() / "contct-replay").string();
+  const std::string out = output_of(program + " " + (dir.path() / "t.trace").string());
+  const finished f = contct_program(dir.path(), {"replay", (dir.path() / "t.trace").string()});
+  CHECK(out == f.out);
+  const std::string libraries = output_of("ldd " + program);
+  CHECK_THAT(libraries, Contains("libc.so") && !Contains("lapack") && !Contains("blas"));
+  CHECK_THAT(output_of("ldd " + std::string(CONTCT_PROGRAM)), Contains("lapack"));  // the look would see it
+}
+
+TEST_CASE("run tells a CI system the kernels, the path and the certificate") {
+  const scratch_directory dir;
+  const finished f =
+      contct_program(dir.path(), {"run", reference_problem("pb05-cantilever-over-flat-obstacle.toml"),
+                                  "--strict", "--quiet", "--junit", "-"});
+  CHECK(f.exit == 3);
+  CHECK_THAT(f.out, Contains("tests=\"3\" failures=\"1\"") && Contains("name=\"certificate\"") &&
+                        Contains("NOT certified") && Contains("listing sha256"));
+}
+
+TEST_CASE("verify writes one test for each problem") {
+  const scratch_directory dir;
+  const finished f =
+      contct_program(dir.path(), {"verify", "--quiet", "--junit", "v.xml", "--markdown", "v.md"});
+  CHECK(f.exit == 0);
+  CHECK(f.out.empty());
+  CHECK_THAT(dir.read("v.xml"), Contains("failures=\"0\"") && Contains("pb07-three-gap-supports.toml"));
+  CHECK_THAT(dir.read("v.md"), Contains("## contct verify: passed"));
+}

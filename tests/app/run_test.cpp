@@ -1,0 +1,387 @@
+// contct run, as a person at the terminal meets it.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "read/bad_plates.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const char* const freed =
+    "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness "
+    "= 10\n"
+    "[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n[[step]]\n"
+    "point = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n";
+
+std::size_t longest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+  return longest;
+}
+
+}  // namespace
+
+TEST_CASE("the table shows share, s, load, event, node and side, and that the kernels agreed") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml"});
+  CHECK(f.exit == 0);
+  CHECK(f.err.empty());
+  CHECK_THAT(f.out, Contains("1.1  0.25"));
+  CHECK_THAT(f.out, Contains("equal    w -15 at node 3  make 1: node 3 below"));
+  CHECK_THAT(f.out, Contains("w = -0.0048372093 at node 3; 1 of 1 in contact"));
+  CHECK_THAT(f.out,
+             Contains("fortran and cpp are equal to the bit; 2 calls, 8 values compared, 0 mismatches"));
+  CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // and no fort.26
+}
+
+TEST_CASE("the table fits its terminal, from 40 columns to 160") {
+  const scratch_directory dir;
+  std::string busy =
+      "title = \"A beam of a long name, with which the narrowest of all terminals has its trouble\"\n"
+      "[beam]\nlength = 2000\nelements = 2000\nEI = 1e9\n[[support]]\nnodes = [1, 2001]\nfix = [\"w\"]\n";
+  for (int node = 990; node <= 1010; ++node) {
+    busy += "[[contact]]\nnode = " + std::to_string(node) +
+            "\nsurface = \"below\"\nface = -1e-5\nstiffness = 1e-9\n";
+  }
+  dir.write("busy.toml", busy + "[[step]]\nuniform = -1e-6\n[[step]]\nuniform = 1e-6\n");
+  dir.write("pb.toml", good_problem);
+  const std::string pb7 = std::string(CONTCT_ROOT) + "/reference/problems/pb07-three-gap-supports.toml";
+  for (const char* columns : {"40", "59", "60", "63", "80", "120", "160"}) {
+    for (const std::string& file : {std::string("pb.toml"), std::string("busy.toml"), pb7}) {
+      for (const char* kernels : {"cpp", "fortran,cpp", "fortran-r4,cpp-r4"}) {
+        const finished f = contct_program(dir.path(), {"run", file, "--kernels", kernels},
+                                          {"", {{"COLUMNS", columns}}, false});
+        INFO(columns << " columns\n" << f.out << f.err);
+        CHECK(f.exit == 0);
+        CHECK(longest_line(f.out) <= std::stoul(columns));
+        CHECK_THAT(f.out, Contains("make 1: node"));
+        CHECK(f.out.find(" \n") == std::string::npos);
+      }
+    }
+  }
+}
+
+TEST_CASE("on a narrow terminal an increment's events stand on lines of their own") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml"}, {"", {{"COLUMNS", "40"}}, false});
+  CHECK_THAT(f.out, Contains("  incr  share      s          kernels\n"
+                             "   1.1  0.25       0.25       equal\n"
+                             "    make 1: node 3 below\n"
+                             "   1.2  1          1          equal\n"
+                             "end w = -0.0048372093 at node 3\n"
+                             "    1 of 1 in contact; 14 digits\n"
+                             "    certified\n"));
+}
+
+TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on a dumb one") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const auto escapes = [&](const process_options& o) {
+    const finished f = contct_program(dir.path(), {"run", "pb.toml"}, o);
+    CHECK(f.exit == 0);
+    CHECK_THAT(f.out, Contains("equal"));
+    return std::count(f.out.begin(), f.out.end(), '\033');
+  };
+  CHECK(escapes({"", {{"TERM", "xterm"}}, true}) > 0);
+  CHECK(escapes({"", {{"TERM", "xterm"}}, false}) == 0);
+  CHECK(escapes({"", {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, true}) == 0);
+  CHECK(escapes({"", {{"TERM", "dumb"}}, true}) == 0);
+}
+
+TEST_CASE("the problem may come by standard input, and the result leave by standard output, alone") {
+  const scratch_directory dir;
+  const finished f = contct_program(dir.path(), {"run", "-", "--json", "-"}, {good_problem, {}, false});
+  CHECK(f.exit == 0);
+  const auto result = nlohmann::json::parse(f.out);
+  CHECK(result["status"] == "solved");
+  CHECK(dir.files().empty());
+}
+
+TEST_CASE("unit 26 of the leader can be kept, and FORTRAN's and C++'s are the same file") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  CHECK(contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran", "--log", "fortran.log"}).exit ==
+        0);
+  CHECK(contct_program(dir.path(), {"run", "pb.toml", "--kernels", "cpp", "--log", "cpp.log"}).exit == 0);
+  CHECK(dir.read("fortran.log") ==
+        "  ******* MAKING CONTACT ********\n"
+        "   CONTACT PAIR:   1 NODE:   3 SURFACE:  -1 SCALE FACTOR =  0.2500E+00\n"
+        "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n");
+  CHECK(dir.read("cpp.log") == dir.read("fortran.log"));
+}
+
+TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose opening freed the beam") {
+  const scratch_directory dir;
+  dir.write("freed.toml", freed);
+  const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.err, Contains("step 1") && Contains("pair 1 (node 2, below)") && Contains("rigid body"));
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result["status"] == "mechanism");
+  // Moments about pair 2: the load at node 5 lifts pair 1 as soon as 6 f > 4 f. At once, then.
+  CHECK(result["steps"][0]["fraction"].get<double>() < 1e-9);
+}
+
+TEST_CASE("the limit of increments: exit 5, with a result that says so") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f =
+      contct_program(dir.path(), {"run", "pb.toml", "--max-increments", "1", "--json", "out.json"});
+  CHECK(f.exit == 5);
+  CHECK_THAT(f.err, Contains("limit of increments"));
+  CHECK(nlohmann::json::parse(dir.read("out.json"))["status"] == "iteration-limit");
+}
+
+TEST_CASE("a kernel alone compares nothing, and says so") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f =
+      contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran-r4", "--json", "out.json"});
+  CHECK(f.exit == 0);
+  CHECK(f.out.find("equal") == std::string::npos);
+  CHECK(nlohmann::json::parse(dir.read("out.json"))["lockstep"].is_null());
+}
+
+TEST_CASE("single precision walks in lockstep with single precision") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran-r4,cpp-r4"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("fortran-r4 and cpp-r4 are equal to the bit"));
+}
+
+TEST_CASE("free run: every kernel on a path of its own, r4 against r8 within a stated bound") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--free-run", "--kernels",
+                                                 "fortran,cpp,fortran-r4,cpp-r4", "--json", "out.json"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("cpp on a path of its own: events the same") && Contains("bound 1e-09") &&
+                        Contains("bound 1e-04"));
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result["lockstep"].is_null());
+  REQUIRE(result["free_run"].size() == 3);
+  CHECK(result["free_run"][0]["displacement"] == 0.0);
+  CHECK(result["free_run"][1]["displacement"] > 0.0);
+}
+
+TEST_CASE("free run: r4 against r8 through a step that takes all load off") {
+  const scratch_directory dir;
+  const finished f = contct_program(
+      dir.path(),
+      {"run", std::string(CONTCT_ROOT) + "/reference/problems/" + "pb06-settled-middle-support.toml",
+       "--free-run", "--kernels", "fortran,fortran-r4"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("fortran-r4 on a path of its own: events the same"));
+}
+
+TEST_CASE("free run: a load fraction beyond its bound is exit 1, and the message says by how much") {
+  // The face is met 1e-5 before and left 1e-5 behind: single precision cannot tell where in between.
+  const scratch_directory dir;
+  dir.write("near.toml",
+            "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+            "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1\nstiffness = 1e-3\n"
+            "[[step]]\npoint = [ { node = 2, w = -2.99997 } ]\n"
+            "[[step]]\npoint = [ { node = 2, w = -3.00003 } ]\n");
+  const finished f =
+      contct_program(dir.path(), {"run", "near.toml", "--free-run", "--kernels", "fortran,fortran-r4",
+                                  "--json", "out.json", "--log", "out.log"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("events the same"));
+  CHECK_THAT(f.err, Contains("fortran-r4: a load fraction differs by") && Contains("allowed: 1e-04"));
+  CHECK_THAT(f.err, !Contains("first difference"));
+  CHECK(nlohmann::json::parse(dir.read("out.json"))["status"] == "kernels-disagree");
+  CHECK_THAT(dir.read("out.log"), Contains("MAKING"));
+}
+
+TEST_CASE("contct kernels and --version name the listing's checksum and the floating-point probe") {
+  const scratch_directory dir;
+  const finished kernels = contct_program(dir.path(), {"kernels"});
+  CHECK(kernels.exit == 0);
+  CHECK_THAT(kernels.out, Contains("fortran-r4") && Contains("cpp") && Contains("floating point: strict"));
+  const finished version = contct_program(dir.path(), {"--version"});
+  CHECK(version.exit == 0);
+  const std::string checksum = version.out.substr(version.out.find("sha256") + 7, 64);
+  CHECK(checksum.find_first_not_of("0123456789abcdef") == std::string::npos);
+  CHECK_THAT(kernels.out, Contains(checksum));
+}
+
+TEST_CASE("help is on standard output and is no error") {
+  const scratch_directory dir;
+  for (const auto& arguments :
+       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"kernels", "--help"}}) {
+    const finished f = contct_program(dir.path(), arguments);
+    CHECK(f.exit == 0);
+    CHECK(f.err.empty());
+    CHECK_THAT(f.out, Contains("--help"));
+  }
+}
+
+TEST_CASE("a plate goes the same ways: lockstep, free run, table and results") {
+  const scratch_directory dir;
+  dir.write("plate.toml", good_plate);
+  const finished lockstep = contct_program(dir.path(), {"run", "plate.toml", "--json", "out.json"});
+  CHECK(lockstep.exit == 0);
+  CHECK_THAT(lockstep.out, Contains("6 nodes, 1 pair, 1 step") && Contains("make 1: node 6 below") &&
+                               Contains("at node 3; 1 of 1 in contact") && Contains("equal to the bit"));
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result["steps"][0]["reactions"][5]["dof"] == "wy");
+  CHECK(result["steps"][0]["elements"][1]["mxy"].size() == 4);
+  const finished free_run =
+      contct_program(dir.path(), {"run", "plate.toml", "--free-run", "--kernels", "fortran,cpp,fortran-r4"});
+  CHECK(free_run.exit == 0);
+  CHECK_THAT(free_run.out, Contains("fortran-r4 on a path of its own: events the same"));
+}
+
+TEST_CASE("a plate that loses its hold is a mechanism: exit 4") {
+  const scratch_directory dir;
+  dir.write("freed.toml",
+            "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n[[contact]]\nnode = 1\nsurface = "
+            "\"below\"\nface = 0\nstiffness = 10\n[[contact]]\nnode = 3\nsurface = \"below\"\nface = 0\n"
+            "stiffness = 10\n[[contact]]\nnode = 8\nsurface = \"below\"\nface = 0\nstiffness = 10\n"
+            "[[step]]\nuniform = -1\n[[step]]\nuniform = 1\n");
+  const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.err, Contains("step 2") && Contains("rigid body"));
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result["steps"][0]["pairs"][2]["force"].get<double>() == Approx(0.5).epsilon(1e-9));
+  CHECK(result["steps"][1]["fraction"].get<double>() == Approx(0.5).epsilon(1e-9));  // nothing left to press
+  // Three pairs in a line never held it.
+  std::string line = "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n";
+  for (const char* node : {"1", "5", "9"})
+    line += std::string("[[contact]]\nnode = ") + node + "\nsurface = \"below\"\nface = 0\nstiffness = 10\n";
+  dir.write("line.toml", line + "[[step]]\nuniform = -1\n");
+  CHECK(contct_program(dir.path(), {"run", "line.toml"}).exit == 4);
+}
+
+TEST_CASE("a free beam above its bed: the 1989 rule has no start, the corrected one lets it fall") {
+  const scratch_directory dir;
+  dir.write("drop.toml",
+            "[beam]\nlength = 2.0\nelements = 8\nEI = 10.0\n[[bed]]\nmodulus = 1000.0\nface = -0.01\n"
+            "[[step]]\nuniform = -5.0\n");
+  const finished listing = contct_program(dir.path(), {"run", "drop.toml"});
+  CHECK(listing.exit == 4);
+  CHECK_THAT(listing.out, Contains("no certificate"));
+  CHECK_THAT(listing.err, Contains("--kernels corrected"));
+  const finished corrected = contct_program(
+      dir.path(), {"run", "drop.toml", "--kernels", "corrected", "--strict", "--json", "d.json"});
+  CHECK(corrected.exit == 0);
+  CHECK_THAT(corrected.out, Contains("snap") && Contains("the final state is certified"));
+  const auto r = nlohmann::json::parse(dir.read("d.json"));
+  CHECK(r["lockstep"].is_null());
+  CHECK(r["steps"][0]["increments"][0]["snap"] == true);
+  CHECK(r["steps"][0]["certificate"]["exact"] == true);
+}
+
+TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that was too early is named") {
+  const scratch_directory dir;
+  const std::string pb5 = CONTCT_ROOT "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
+  CHECK(contct_program(dir.path(), {"run", pb5}).exit == 0);
+  const finished strict = contct_program(dir.path(), {"run", pb5, "--strict", "--json", "s.json"});
+  CHECK(strict.exit == 3);
+  CHECK_THAT(strict.out, Contains("step 4 is NOT certified: the deflections are off by 1.2e-06"));
+  CHECK_THAT(strict.err, Contains("increment 4.2 let pair 1 (node 41, below) break contact"));
+  const auto r = nlohmann::json::parse(dir.read("s.json"));
+  CHECK(r["status"] == "solved");
+  CHECK(r["steps"][0]["certificate"]["exact"] == true);
+  CHECK(r["steps"][3]["certificate"]["exact"] == false);
+  CHECK(contct_program(dir.path(), {"run", pb5, "--strict", "--kernels", "corrected"}).exit == 0);
+}
+
+TEST_CASE("corrected in lockstep with the listing is refused: rules differ") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,corrected"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("--free-run"));
+}
+
+TEST_CASE(
+    "the 1989 rule keeps the 1989 way of solving unless asked, and the corrected rule takes the quickest") {
+  const scratch_directory dir;
+  dir.write("pb.toml", good_problem);
+  const auto engine_of = [&dir](std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", "pb.toml", "--json", "-"});
+    const finished f = contct_program(dir.path(), more);
+    INFO(f.err);
+    CHECK(f.exit == 0);
+    const auto result = nlohmann::json::parse(f.out);
+    CHECK(result["engine_work"]["factors"] >= 1);
+    return result["engine"].get<std::string>();
+  };
+  CHECK(engine_of({}) == "refactor");
+  CHECK(engine_of({"--kernels", "corrected"}) == "condensed");
+  CHECK(engine_of({"--engine", "auto"}) == "condensed");
+  CHECK(engine_of({"--engine", "updated"}) == "updated");
+  CHECK(engine_of({"--kernels", "corrected", "--engine", "refactor"}) == "refactor");
+  dir.write("plate.toml",
+            "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n[[bed]]\nmodulus = 4\nface = 0\n"
+            "[[step]]\nuniform = -1\n");
+  const finished plate =
+      contct_program(dir.path(), {"run", "plate.toml", "--kernels", "corrected", "--json", "-"});
+  CHECK(nlohmann::json::parse(plate.out)["engine"] == "updated");
+  const finished unsuited = contct_program(dir.path(), {"run", "plate.toml", "--engine", "condensed"});
+  CHECK(unsuited.exit == 2);
+  CHECK_THAT(unsuited.err, Contains("no beam with pairs"));
+  const finished unknown = contct_program(dir.path(), {"run", "pb.toml", "--engine", "warp"});
+  CHECK(unknown.exit == 2);
+  CHECK_THAT(unknown.err, Contains("no engine is named \"warp\"") && Contains("condensed"));
+}
+
+TEST_CASE("only the end: the path's final states without a path, certified") {
+  const scratch_directory dir;
+  const std::string pb5 =
+      std::string(CONTCT_ROOT) + "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
+  const finished path = contct_program(dir.path(), {"run", pb5, "--kernels", "corrected", "--json", "-"});
+  const finished end = contct_program(dir.path(), {"run", pb5, "--final-only", "--json", "-"});
+  REQUIRE(path.exit == 0);
+  REQUIRE(end.exit == 0);
+  const auto by_path = nlohmann::json::parse(path.out);
+  const auto at_once = nlohmann::json::parse(end.out);
+  CHECK(at_once["engine"] == "oracle");
+  CHECK(at_once["kernels"].empty());
+  CHECK(at_once["lockstep"].is_null());
+  REQUIRE(at_once["steps"].size() == by_path["steps"].size());
+  int compared = 0;
+  for (std::size_t step = 0; step < by_path["steps"].size(); ++step) {
+    const auto& a = by_path["steps"][step];
+    const auto& b = at_once["steps"][step];
+    CHECK(b["increments"].empty());
+    CHECK(b["certificate"]["exact"] == true);
+    for (std::size_t node = 0; node < a["w"].size(); ++node) {
+      CHECK(a["w"][node].get<double>() == Approx(b["w"][node].get<double>()).epsilon(1e-9).margin(1e-11));
+      ++compared;
+    }
+    for (std::size_t pair = 0; pair < a["pairs"].size(); ++pair)
+      CHECK(a["pairs"][pair]["state"] == b["pairs"][pair]["state"]);
+  }
+  CHECK(compared == 6 * 41);
+  CHECK(at_once["engine_work"]["factors"] <= 40);  // 55 increments on the path
+
+  dir.write("freed.toml", freed);
+  const finished none = contct_program(dir.path(), {"run", "freed.toml", "--final-only"});
+  CHECK(none.exit == 4);
+  CHECK_THAT(none.err, Contains("no equilibrium"));
+  for (const std::vector<std::string>& not_with : {std::vector<std::string>{"--free-run"},
+                                                   {"--kernels", "cpp"},
+                                                   {"--engine", "refactor"},
+                                                   {"--trace", "t"}}) {
+    std::vector<std::string> all = {"run", pb5, "--final-only"};
+    all.insert(all.end(), not_with.begin(), not_with.end());
+    const finished refused = contct_program(dir.path(), all);
+    CHECK(refused.exit == 2);
+    CHECK_THAT(refused.err, Contains("excludes"));
+  }
+}

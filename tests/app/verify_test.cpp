@@ -1,0 +1,69 @@
+// contct verify: the numbers that the whole project stands on.
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace fs = std::filesystem;
+
+TEST_CASE("verify passes every number of reference/, and says what kind of evidence each is") {
+  const scratch_directory dir;
+  const finished f = contct_program(dir.path(), {"verify", "--json", "v.json"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("0 failed"));
+  CHECK_THAT(f.out, Contains("none of their numbers is claimed"));
+  const auto v = nlohmann::json::parse(std::ifstream(dir.path() / "v.json"));
+  CHECK(v["format"] == "contct-verify-1");
+  CHECK(v["failed"] == 0);
+  CHECK(v["numbers"].get<int>() >= 500);
+  CHECK(v["kinds"]["published"].get<int>() >= 11);
+  CHECK(v["kinds"]["closed form"].get<int>() >= 200);
+  CHECK(v["known_differences"] == 6);
+  int uncertified = 0;
+  int calls = 0;
+  for (const auto& c : v["cases"]) {
+    CHECK(c["mismatches"] == 0);
+    calls += c["calls"].get<int>();
+    for (const auto& check : c["checks"]) {
+      CHECK(check["passed"] == true);
+      CHECK_FALSE(check["source"].get<std::string>().empty());
+      uncertified += check["certified"] == true ? 0 : 1;
+    }
+  }
+  CHECK(calls > 300);
+  CHECK(v["cases"].size() >= 45);
+  CHECK(uncertified > 0);  // PB5 after its early toggle: said, not hidden
+  CHECK(uncertified < 40);
+}
+
+TEST_CASE("verify fails, with exit 1, on one wrong number in five hundred") {
+  const scratch_directory dir;
+  const fs::path reference = fs::path(CONTCT_ROOT) / "reference";
+  fs::create_directory(dir.path() / "reference");
+  fs::copy(reference / "problems", dir.path() / "reference/problems", fs::copy_options::recursive);
+  std::stringstream table;
+  table << std::ifstream(reference / "verification.toml").rdbuf();
+  std::string text = table.str();
+  const auto at = text.find("-0.00266666667");
+  REQUIRE(at != std::string::npos);
+  text.replace(at, 14, "-0.00266666697");
+  std::ofstream(dir.path() / "reference/verification.toml") << text;
+  const finished f = contct_program(dir.path(), {"verify", "--reference", "reference"});
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("FAILED"));
+  CHECK_THAT(f.out, Contains("1 failed"));
+}
+
+TEST_CASE("verify says what it misses when there is no table") {
+  const scratch_directory dir;
+  const finished f = contct_program(dir.path(), {"verify", "--reference", "nowhere"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("nowhere/verification.toml"));
+}

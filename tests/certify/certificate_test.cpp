@@ -1,0 +1,412 @@
+// Right states are certified, and each thing that can be wrong with a state is seen by itself.
+#include "contct/certify/certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "catch.hpp"
+#include "contct/compare/early_toggles.hpp"
+#include "support/beams.hpp"
+
+using namespace contct;
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// A state that a test may disturb, and what is said of it.
+struct told_state {
+  std::vector<double> u;
+  std::vector<int> isep;
+  double rcond = 1e-3;
+  double fraction = 1.0;
+
+  [[nodiscard]] step_state at(int step) const { return {step, fraction, u, isep, rcond}; }
+};
+
+/// The right state under `l`, as the oracle has it: the certificate's own measures start at zero there.
+told_state right_state(const beam_problem& p, const load& l) {
+  const linear_structure s = p.structure();
+  std::vector<double> f(static_cast<std::size_t>(s.dofs()), 0.0);
+  add_consistent_loads(p.geometry, l, f);
+  const oracle_answer a = oracle(s).solve(f);
+  REQUIRE(a.how == oracle_answer::outcome::found);
+  told_state t{a.displacement, {}};
+  for (const char pressed : a.pressed) t.isep.push_back(pressed != 0 ? in_contact : separated);
+  return t;
+}
+
+/// Tells the certifier of step after step.
+struct judge {
+  linear_structure s;
+  certifier c;
+
+  explicit judge(const beam_problem& p)
+      : s(p.structure()), c(s, [p](int step, std::span<double> f) {
+          add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
+        }) {}
+  certificate of(const told_state& t) {
+    c.step_ended(t.at(static_cast<int>(c.steps().size()) + 1));
+    return c.steps().back().value();
+  }
+};
+
+certificate judged(const beam_problem& p, const told_state& t) {
+  return judge(p).of(t);
+}
+
+/// Which of the five measures are above the tolerance, as in "DSEPT".
+std::string wrong_in(const certificate& c) {
+  std::string wrong;
+  if (!(c.displacement_error <= c.tolerance)) wrong += 'D';
+  if (!(c.shape_error <= c.tolerance)) wrong += 'S';
+  if (!(c.equilibrium <= c.tolerance)) wrong += 'E';
+  if (!(c.penetration <= c.tolerance)) wrong += 'P';
+  if (!(c.tension <= c.tolerance)) wrong += 'T';
+  return wrong;
+}
+
+bool says(const certificate& c, const std::string& words) {
+  return c.problem.find(words) != std::string::npos;
+}
+
+constexpr double weak = 1e-12;  // a spring that no equilibrium notices
+constexpr double stiff = 1e12;
+
+/// A span with a pair of every kind: pressed and open ones on a spring that counts and on one that is
+/// too weak to count. Node 4 sinks below -0.1, node 1 stays above -0.2.
+beam_problem span_with_pairs() {
+  return {even_beam(8.0, 8, 1e3),
+          {{0, 0, true}, {8, 0, true}},
+          {{4, face_below, -0.1, 500.0, false},
+           {3, face_below, -0.05, weak, false},
+           {1, face_below, -0.2, 500.0, false},
+           {7, face_below, -0.2, weak, false}},
+          {{{}, {{{-12.0}, {}}}}}};
+}
+
+}  // namespace
+
+TEST_CASE("a right state is certified, with nothing wrong in any respect") {
+  const beam_problem p = span_with_pairs();
+  const told_state right = right_state(p, p.steps[0]);
+  REQUIRE(right.isep == std::vector<int>{in_contact, in_contact, separated, separated});
+  const certificate c = judged(p, right);
+  CHECK(c.exact);
+  CHECK(c.unique);
+  CHECK(c.problem.empty());
+  CHECK(c.displacement_error == 0.0);
+  CHECK(c.shape_error == 0.0);
+  CHECK(c.equilibrium < 1e-15);
+  CHECK(c.penetration == 0.0);
+  CHECK(c.tension == 0.0);
+  CHECK(c.rcond == right.rcond);
+}
+
+TEST_CASE("the tolerance is 1024 eps / rcond, and never above 1e-6") {
+  const beam_problem p = span_with_pairs();
+  told_state t = right_state(p, p.steps[0]);
+  for (const double rcond : {1.0, 1e-3, 1e-6}) {
+    t.rcond = rcond;
+    CHECK(judged(p, t).tolerance == Approx(1024 * eps / rcond).epsilon(1e-14));
+  }
+  for (const double rcond : {1e-7, 1e-16, 0.0}) {
+    t.rcond = rcond;
+    CHECK(judged(p, t).tolerance == 1e-6);
+  }
+}
+
+TEST_CASE("a deflection that is off by more than the tolerance is seen, by less it passes") {
+  const beam_problem p = span_with_pairs();
+  told_state t = right_state(p, p.steps[0]);
+  const double largest = std::abs(t.u[8]);  // at the middle
+  t.u[8] -= 1e-9 * largest;
+  const certificate off = judged(p, t);
+  CHECK(off.displacement_error == Approx(1e-9).epsilon(1e-5));
+  CHECK(wrong_in(off) == "DSE");
+  CHECK_FALSE(off.exact);
+  CHECK(says(off, "the deflections are off by 1e-09"));
+  t.rcond = 1e-6;
+  CHECK(judged(p, t).exact);
+}
+
+TEST_CASE("a deflection that hardly disturbs the balance is seen by the oracle alone") {
+  // A nearly rigid beam on soft springs, sunk by a millionth too much.
+  beam_problem p = free_beam_on_springs(4.0, 4, 1e10, 1.0);
+  p.steps = {{{}, {{{-1.0}, {}}}}};
+  told_state t = right_state(p, p.steps[0]);
+  REQUIRE(judged(p, t).exact);
+  for (std::size_t i = 0; i < t.u.size(); i += 2) t.u[i] *= 1 + 1e-6;
+  const certificate c = judged(p, t);
+  CHECK(wrong_in(c) == "DS");
+  CHECK(c.displacement_error == Approx(1e-6).epsilon(1e-3));
+}
+
+TEST_CASE("a rotation that is off is seen, though no deflection is") {
+  const beam_problem p = span_with_pairs();
+  told_state t = right_state(p, p.steps[0]);
+  t.u[5] += 1e-7;
+  const certificate c = judged(p, t);
+  CHECK(wrong_in(c) == "SE");
+  CHECK(c.displacement_error == 0.0);
+  CHECK(says(c, "the displacements are off"));
+}
+
+TEST_CASE("an open pair beyond its face is seen alone, when its spring is too weak for the balance to tell") {
+  const beam_problem p = span_with_pairs();
+  told_state t = right_state(p, p.steps[0]);
+  t.isep[1] = separated;
+  const certificate c = judged(p, t);
+  CHECK(wrong_in(c) == "P");
+  CHECK(c.penetration == Approx((-0.05 - t.u[6]) / std::abs(t.u[8])).epsilon(1e-10));
+  CHECK(says(c, "an open pair is beyond its face"));
+  t.isep[1] = in_contact;
+  t.isep[0] = separated;  // with a spring that counts the load is not carried either
+  CHECK(wrong_in(judged(p, t)) == "EP");
+}
+
+TEST_CASE("a closed pair that pulls is seen alone, when its spring is too weak for the balance to tell") {
+  const beam_problem p = span_with_pairs();
+  told_state t = right_state(p, p.steps[0]);
+  t.isep[3] = in_contact;
+  const certificate c = judged(p, t);
+  CHECK(wrong_in(c) == "T");
+  CHECK(c.tension == Approx((t.u[14] + 0.2) / std::abs(t.u[8])).epsilon(1e-10));
+  CHECK(says(c, "a closed pair pulls"));
+  t.isep[3] = separated;
+  t.isep[2] = in_contact;
+  CHECK(wrong_in(judged(p, t)) == "ET");
+}
+
+TEST_CASE("forces that do not balance are seen alone, where they move nothing") {
+  // The changed load stands on a support that hardly gives.
+  beam_problem p = span_with_pairs();
+  p.pairs[0] = {4, face_below, -0.1, stiff, false};
+  const told_state t = right_state(p, p.steps[0]);
+  REQUIRE(judged(p, t).exact);
+  beam_problem changed = p;
+  changed.steps[0].points = {{4, 0, -1e-2}};
+  const certificate c = judged(changed, t);
+  CHECK(wrong_in(c) == "E");
+  CHECK(says(c, "loads and forces do not balance"));
+  changed.steps[0].points = {{2, 0, -1e-2}};
+  CHECK(wrong_in(judged(changed, t)) == "DSE");
+}
+
+TEST_CASE("a fixed dof has no balance of its own, and a load on it goes to the support") {
+  beam_problem p = span_with_pairs();
+  const told_state t = right_state(p, p.steps[0]);
+  p.steps[0].points = {{0, 0, -1e6}};
+  CHECK(judged(p, t).exact);
+}
+
+TEST_CASE("either status is right for a pair that stands exactly at its face") {
+  beam_problem p = span_with_pairs();
+  p.supports.push_back({0, 1, true});
+  told_state t = right_state(p, {});
+  p.pairs[2].face = 0.0;
+  p.steps = {{}};
+  for (const int status : {in_contact, separated}) {
+    t.isep[2] = status;
+    CHECK(judged(p, t).exact);
+  }
+}
+
+TEST_CASE("a step that did not reach its load has no certificate") {
+  const beam_problem p = span_with_pairs();
+  told_state t = right_state(p, p.steps[0]);
+  judge j(p);
+  t.fraction = std::nextafter(1.0, 0.0);
+  j.c.step_ended(t.at(1));
+  REQUIRE(j.c.steps().size() == 1);
+  CHECK_FALSE(j.c.steps()[0].has_value());
+  CHECK_FALSE(j.c.all_exact());
+}
+
+TEST_CASE("all is exact when every step is") {
+  beam_problem p = span_with_pairs();
+  p.steps.push_back(p.steps[0]);
+  told_state t = right_state(p, p.steps[0]);
+  judge j(p);
+  CHECK(j.of(t).exact);
+  CHECK(j.c.all_exact());
+  t.u[2] += 1e-3;
+  CHECK_FALSE(j.of(t).exact);
+  CHECK_FALSE(j.c.all_exact());
+}
+
+TEST_CASE("where there is no equilibrium no state is right, and the certificate says why") {
+  beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
+  p.steps = {{{}, {{{1.0}, {}}}}};
+  const certificate c = judged(p, {std::vector<double>(10, 0.0), std::vector<int>(5, separated)});
+  CHECK_FALSE(c.exact);
+  CHECK(says(c, "there is no equilibrium"));
+}
+
+TEST_CASE("where other states are as good, D is not compared, and all else still is") {
+  beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
+  p.steps = {{{}, {{{-2.0}, {}}}}};
+  told_state t = right_state(p, p.steps[0]);
+  for (std::size_t i = 0; i < 5; ++i) {  // turned about its one pair
+    t.u[2 * i] += 0.01 * (static_cast<double>(i) - 2);
+    t.u[2 * i + 1] += 0.01;
+  }
+  const certificate c = judged(p, t);
+  CHECK_FALSE(c.unique);
+  CHECK(c.exact);
+  CHECK(c.displacement_error == 0.0);
+  for (std::size_t i = 0; i < 5; ++i) t.u[2 * i] -= 0.01;
+  CHECK(wrong_in(judged(p, t)) == "E");
+}
+
+TEST_CASE("an unloaded state is measured by the largest deflection that the path has seen") {
+  beam_problem p = span_with_pairs();
+  p.steps.emplace_back();
+  told_state loaded = right_state(p, p.steps[0]);
+  told_state unloaded{std::vector<double>(loaded.u.size(), 0.0), std::vector<int>(4, separated)};
+  CHECK(judged(p, right_state(p, p.steps[0])).exact);
+  unloaded.u[8] = 1e-9 * loaded.u[8];
+  for (const double rcond : {1e-6, 1e-3}) {
+    judge j(p);
+    CHECK(j.of(loaded).exact);
+    unloaded.rcond = rcond;
+    const certificate c = j.of(unloaded);
+    CHECK(c.displacement_error == Approx(1e-9).epsilon(1e-4));
+    CHECK(c.exact == (rcond < 1e-5));
+  }
+  // Without a path before it, any deflection is all there is.
+  p.steps = {{}};
+  CHECK(wrong_in(judged(p, unloaded)) == "DSE");
+  unloaded.u[8] = 0.0;
+  CHECK(judged(p, unloaded).exact);
+}
+
+TEST_CASE("a structure that turns and does not sink is not measured by the rounding of its deflections") {
+  // Equal moments at both ends of a span: its middle stays where it is, to about eps of what it turns.
+  beam_problem p{
+      even_beam(2.0, 2, 1.0), {{0, 0, true}, {2, 0, true}}, {{1, face_below, -1.0, 5.0, false}}, {}};
+  p.steps = {{{{0, 1, 0.7}, {2, 1, 0.7}}, {}}};
+  told_state t = right_state(p, p.steps[0]);
+  REQUIRE(std::abs(t.u[2]) < 1e-15);
+  REQUIRE(std::abs(t.u[1]) > 0.1);
+  for (const double rounding : {-1e-17, 0.0, 3e-17}) {
+    t.u[2] = rounding;
+    CHECK(judged(p, t).exact);
+  }
+  t.u[2] = 1e-9;
+  CHECK(judged(p, t).displacement_error > 1e-9);
+}
+
+TEST_CASE("units do not matter: lengths and forces from 1e-12 to 1e12") {
+  const auto in_units = [](double length, double force) {
+    beam_problem p = span_with_pairs();
+    for (double& x : p.geometry.x) x *= length;
+    for (double& EI : p.geometry.EI) EI *= force * length * length;
+    for (contact_pair& c : p.pairs) {
+      c.face *= length;
+      c.stiffness *= force / length;
+    }
+    p.steps[0].distributed[0].polynomial[0] *= force / length;
+    return p;
+  };
+  // Everything is a little wrong at once.
+  const auto measured = [&](double length, double force) {
+    const beam_problem p = in_units(length, force);
+    told_state t = right_state(p, p.steps[0]);
+    CHECK(judged(p, t).exact);
+    t.u[8] += 1e-6 * length;
+    t.u[3] += 1e-6;
+    t.isep = {in_contact, separated, in_contact, separated};
+    return judged(p, t);
+  };
+  const certificate here = measured(1, 1);
+  REQUIRE(wrong_in(here) == "DSEPT");
+  for (const double length : {1e-12, 1e-3, 1e12}) {
+    for (const double force : {1e-12, 1.0, 1e12}) {
+      const certificate there = measured(length, force);
+      INFO(length << ", " << force);
+      CHECK(there.displacement_error == Approx(here.displacement_error).epsilon(1e-8));
+      CHECK(there.shape_error == Approx(here.shape_error).epsilon(1e-8));
+      CHECK(there.equilibrium == Approx(here.equilibrium).epsilon(1e-8));
+      CHECK(there.penetration == Approx(here.penetration).epsilon(1e-8));
+      CHECK(there.tension == Approx(here.tension).epsilon(1e-8));
+    }
+  }
+}
+
+TEST_CASE("what is not a number is not right, wherever it stands") {
+  const beam_problem p = span_with_pairs();
+  for (const double odd :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const std::size_t dof : {std::size_t{5}, std::size_t{8}, std::size_t{10}}) {
+      told_state t = right_state(p, p.steps[0]);
+      t.u[dof] = odd;
+      const certificate c = judged(p, t);
+      CHECK_FALSE(c.exact);
+      CHECK_FALSE(c.problem.empty());
+    }
+  }
+  told_state t = right_state(p, p.steps[0]);
+  t.rcond = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(judged(p, t).exact);
+}
+
+TEST_CASE("PB1 is exact under every kernel in double precision, and nobody toggled early") {
+  for (const char* kernel : {"fortran", "cpp", "corrected"}) {
+    const beam_problem p = cantilever_over_a_stop();
+    judge j(p);
+    early_toggles early;
+    CHECK(p.run(kernel, {&j.c, &early}).status == path_status::solved);
+    CHECK(j.c.steps().size() == 4);
+    CHECK(j.c.all_exact());
+    CHECK(early.all().empty());
+  }
+}
+
+namespace {
+
+/// Two stops alike under a symmetric load, the second 0.3 % farther away: within EPSMUL of the first.
+beam_problem nearly_alike_stops() {
+  beam_problem p{even_beam(8.0, 8, 1e5),
+                 {{0, 0, true}, {8, 0, true}},
+                 {{2, face_below, -0.006, 1e5, false}, {6, face_below, -0.006 * 1.003, 1e5, false}},
+                 {}};
+  p.steps = {{{}, {{{-1.0}, {}}}}, {{}, {{{-60.0}, {}}}}};
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the listing's early toggle is found, with its step, its pair and its distance, and seen in the state") {
+  for (const char* kernel : {"fortran", "cpp"}) {
+    const beam_problem p = nearly_alike_stops();
+    judge j(p);
+    early_toggles early;
+    REQUIRE(p.run(kernel, {&j.c, &early}).status == path_status::solved);
+    REQUIRE(early.all().size() == 1);
+    const early_toggle& e = early.all()[0];
+    CHECK(e.step == 2);
+    CHECK(e.number == 1);
+    CHECK(e.what == event{1, change::make});
+    CHECK(e.distance == Approx(0.006 * 0.003).epsilon(1e-9));
+    CHECK(e.share == Approx(0.003).epsilon(1e-9));
+    REQUIRE(j.c.steps().size() == 2);
+    CHECK(j.c.steps()[0]->exact);
+    CHECK_FALSE(j.c.steps()[1]->exact);
+    CHECK(j.c.steps()[1]->displacement_error > 1e-5);
+    CHECK_FALSE(j.c.all_exact());
+  }
+}
+
+TEST_CASE("the corrected rule has no early toggle there, and the right state") {
+  const beam_problem p = nearly_alike_stops();
+  judge j(p);
+  early_toggles early;
+  recorder r;
+  REQUIRE(p.run("corrected", {&j.c, &early, &r}).status == path_status::solved);
+  CHECK(early.all().empty());
+  CHECK(j.c.all_exact());
+  CHECK(r.events() == std::vector<event>{{0, change::make}, {1, change::make}});
+}

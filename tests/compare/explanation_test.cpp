@@ -1,0 +1,115 @@
+// Why a pair was toggled, told from what went into a call and came out of it.
+#include "contct/compare/explanation.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "contct/lab/random_calls.hpp"
+#include "contct/numeric/bits.hpp"
+#include "contct/outside/registry.hpp"
+#include "support/one_pair.hpp"
+
+using namespace contct;
+
+namespace {
+
+explained_call explained(small_call<double> c, double largest = 0.0) {
+  const std::vector<int> before = c.isep;
+  c.ask();
+  call<double> answered = c.arguments();
+  answered.smin = c.smin;
+  return explain(answered, before, 8, largest);
+}
+
+}  // namespace
+
+TEST_CASE("a pair within EPSMUL that is not at its face yet is toggled too early, by so much") {
+  const explained_call e = explained(
+      small_call<double>({{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, 0.501, separated, face_above}}));
+  CHECK(e.winner == 0);
+  CHECK(e.next == 1);
+  CHECK(e.pairs[0].why == why_toggled::winner);
+  CHECK(e.pairs[1].why == why_toggled::too_early);
+  CHECK(e.pairs[1].distance == Approx(0.001));
+  CHECK(e.pairs[1].toggled());
+}
+
+TEST_CASE("a pair that is a rounding behind the winner comes to its face at the same moment") {
+  const explained_call e = explained(small_call<double>(
+      {{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, std::nextafter(0.5, 1.0), separated, face_above}}));
+  CHECK(e.pairs[1].why == why_toggled::same_moment);
+  CHECK(e.ulps_ahead == 1);
+}
+
+TEST_CASE("near full load the mark of a pair without any event lies within EPSMUL, and toggles it") {
+  const explained_call e = explained(small_call<double>({{0.0, 1.0, 0.999, separated, face_above},
+                                                         {0.0, 0.0, -1.0, separated, face_below},
+                                                         {0.0, -1.0, 0.0, in_contact, face_below}}));
+  CHECK(e.winner == 0);
+  CHECK(e.next == -1);  // a mark is no candidate
+  CHECK(e.pairs[1].way == way_to_s::no_response);
+  CHECK(e.pairs[1].why == why_toggled::by_mark);
+  CHECK(e.pairs[1].distance == 1.0);
+  CHECK(e.pairs[2].way == way_to_s::stationary);
+  CHECK(e.pairs[2].why == why_toggled::by_mark);
+}
+
+TEST_CASE("with SMIN at 256/257 the marks are just out of reach") {
+  const explained_call e = explained(small_call<double>(
+      {{0.0, 1.0, 256.0 / 257.0 - 1e-9, separated, face_above}, {0.0, 0.0, -1.0, separated, face_below}}));
+  CHECK(e.pairs[1].why == why_toggled::not_toggled);
+  CHECK_FALSE(e.pairs[1].toggled());
+}
+
+TEST_CASE("a stationary pair wins by its check variable, and no pair is near it") {
+  const explained_call e = explained(
+      small_call<double>({{0.0, 2.0, 0.0, in_contact, face_below}, {0.0, 1.0, 0.5, separated, face_above}}));
+  CHECK(e.winner == 0);
+  CHECK(e.pairs[0].way == way_to_s::stationary_event);
+  CHECK(e.pairs[0].s_chk == 0.5);  // (-1) (-1) / 2
+  CHECK(e.pairs[0].s == 0.5 * 1e-20);
+  CHECK(e.next == 1);
+  CHECK(e.pairs[1].why == why_toggled::not_toggled);
+}
+
+TEST_CASE("a call without events has no winner, and the narrowest decision is named") {
+  const explained_call e = explained(small_call<double>({{0.0, 1.0, 2.0, separated, face_above}}));
+  CHECK(e.smin == 1.0);
+  CHECK(e.winner == -1);
+  REQUIRE(e.narrowest);
+  CHECK(e.narrowest->what == branch::no_events);
+  CHECK(e.narrowest->ulps == 0);
+}
+
+TEST_CASE("the winner's s is SMIN, and what is explained as toggled was toggled: 20,000 random calls each") {
+  const auto agree = [](const auto& in, const call_outputs& out, const explained_call& e) {
+    for (std::size_t i = 0; i < in.pairs(); ++i) {
+      const explained_pair& p = e.pairs[i];
+      if (p.toggled() != (in.isep[i] != out.isep[i])) return false;
+      if (p.toggled() != (p.why != why_toggled::not_toggled)) return false;
+    }
+    if (e.winner < 0) return out.smin == 1.0;
+    return same_bits(e.pairs[static_cast<std::size_t>(e.winner)].s, out.smin) &&
+           e.pairs[static_cast<std::size_t>(e.winner)].why == why_toggled::winner;
+  };
+  for (const char* name : {"fortran", "cpp-r4"}) {
+    const auto k = make_kernel(name);
+    random_calls<double> calls(1989);
+    int events = 0;
+    int wrong = 0;
+    for (int n = 0; n < 20'000; ++n) {
+      const call_inputs<double>& in = calls.next();
+      call_outputs out;
+      call<double> c = out.prepare(in);
+      k->answer(c);
+      out.smin = c.smin;
+      double largest = 0.0;
+      const explained_call e = explain(c, in.isep, k->facts().real_bytes, largest);
+      events += e.winner >= 0 ? 1 : 0;
+      wrong += agree(in, out, e) ? 0 : 1;
+    }
+    INFO(name);
+    CHECK(events > 5'000);
+    CHECK(wrong == 0);
+  }
+}

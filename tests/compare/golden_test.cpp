@@ -1,0 +1,122 @@
+// The golden set of reference/traces: what is committed is what the 1989 code of this build answers, it
+// reaches every outcome of every IF, and the twin answers the same.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "catch.hpp"
+#include "contct/compare/replay.hpp"
+#include "contct/outside/registry.hpp"
+#include "golden/cases.hpp"
+
+using namespace contct;
+
+namespace {
+
+const std::filesystem::path folder = CONTCT_TRACES;
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<std::filesystem::path> committed() {
+  std::vector<std::filesystem::path> all;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) all.push_back(entry.path());
+  return all;
+}
+
+/// Without the lines that say on what it was recorded.
+std::string without_origin(const std::string& trace) {
+  std::istringstream in(trace);
+  std::string out;
+  for (std::string line; std::getline(in, line);) {
+    bool origin = false;
+    for (const char* key : {"compiler ", "flags ", "floating-point "})
+      origin = origin || line.rfind(key, 0) == 0;
+    if (!origin) out += line + "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("the committed traces are what the 1989 code answers, line by line") {
+  int calls = 0;
+  for (const golden::golden_trace& t : golden::all_traces()) {
+    INFO(t.name);
+    CHECK(without_origin(read(folder / (t.name + ".trace"))) == without_origin(golden::recorded(t)));
+    calls += static_cast<int>(t.calls.size());
+  }
+  CHECK(calls > 300);
+}
+
+TEST_CASE("every trace says what it is there for, and nothing else lies beside them") {
+  std::set<std::string> made;
+  for (const golden::golden_trace& t : golden::all_traces()) made.insert(t.name + ".trace");
+  for (const auto& path : committed()) {
+    INFO(path);
+    CHECK(path.extension() == ".trace");
+    const std::string name = path.filename().string();
+    CHECK((made.count(name) == 1 || name.rfind("path-", 0) == 0));
+    const std::string text = read(path);
+    trace_reader reader(text, name);
+    CHECK_FALSE(reader.read_header().about.empty());
+  }
+}
+
+TEST_CASE("the twin answers the golden set equal to the bit, and all outcomes of all IFs are reached") {
+  std::map<int, branch_counts> reached;
+  std::int64_t values = 0;
+  for (const auto& path : committed()) {
+    const std::string text = read(path);
+    trace_reader reader(text, path.filename().string());
+    const trace_header h = reader.read_header();
+    const auto twin = make_kernel(h.real_bytes == 4 ? "cpp-r4" : "cpp");
+    const replay_report r = replay(h, reader, *twin);
+    INFO(path);
+    CHECK(r.compared.mismatches == 0);
+    values += r.compared.values;
+    reached[h.real_bytes].add(r.branches);
+  }
+  CHECK(values > 5000);
+  CHECK(reached.at(8).rarest() >= 5);
+  CHECK(reached.at(4).rarest() >= 5);
+}
+
+TEST_CASE("the golden set has NaN, infinities, subnormals, both zeros, ties, and fields of asterisks") {
+  std::map<std::string, int> seen;
+  for (const auto& path : committed()) {
+    const std::string text = read(path);
+    trace_reader reader(text, path.filename().string());
+    const trace_header h = reader.read_header();
+    const double least_normal = h.real_bytes == 4 ? 0x1p-126 : 0x1p-1022;
+    recorded_call c;
+    while (reader.next(c)) {
+      for (std::size_t i = 0; i < c.in.pairs(); ++i) {
+        const double inputs[] = {c.in.dd[c.in.dof_of_pair(i)], c.in.dtest[c.in.dof_of_pair(i)], c.in.cc[i]};
+        for (const double x : inputs) {
+          seen["NaN"] += std::isnan(x);
+          seen["infinity"] += std::isinf(x);
+          seen["minus zero"] += x == 0.0 && std::signbit(x);
+          seen["subnormal"] += x != 0.0 && std::abs(x) < least_normal;
+        }
+        seen["infinite SS"] += std::isinf(c.out.ss[i]);
+        seen["NaN SS"] += std::isnan(c.out.ss[i]);
+      }
+      seen["***"] +=
+          c.out.text.find("***  ") != std::string::npos || c.out.text.find(": *** ") != std::string::npos;
+      seen["no E"] += c.out.text.find("-116\n") != std::string::npos;
+    }
+  }
+  for (const char* what :
+       {"NaN", "infinity", "minus zero", "subnormal", "infinite SS", "NaN SS", "***", "no E"}) {
+    INFO(what);
+    CHECK(seen[what] > 0);
+  }
+}

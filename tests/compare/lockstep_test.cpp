@@ -1,0 +1,111 @@
+#include "contct/compare/lockstep.hpp"
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "catch.hpp"
+#include "contct/outside/registry.hpp"
+#include "support/beams.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// A C++ kernel with a fault put in on purpose.
+class faulty_kernel final : public kernel {
+ public:
+  explicit faulty_kernel(std::function<void(call<double>&, std::string&)> fault) : fault_(std::move(fault)) {}
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+  void answer(call<double>& c) override {
+    inner_->answer(c);
+    text_ = inner_->take_text();
+    fault_(c, text_);
+  }
+  std::string take_text() override { return text_; }
+
+ private:
+  kernel_facts facts_{"faulty", 8, "listing", "", "", "", true};
+  std::unique_ptr<kernel> inner_ = make_kernel("cpp");
+  std::function<void(call<double>&, std::string&)> fault_;
+  std::string text_;
+};
+
+/// PB1 led by FORTRAN, with one follower.
+lockstep in_lockstep_with(std::unique_ptr<kernel> follower) {
+  const auto leader = make_kernel("fortran");
+  std::vector<std::unique_ptr<kernel>> followers;
+  followers.push_back(std::move(follower));
+  lockstep compared(leader->facts(), std::move(followers));
+  cantilever_over_a_stop().run(*leader, {&compared});
+  return compared;
+}
+
+lockstep with_fault(std::function<void(call<double>&, std::string&)> fault) {
+  return in_lockstep_with(std::make_unique<faulty_kernel>(std::move(fault)));
+}
+
+}  // namespace
+
+TEST_CASE("FORTRAN and C++ walk PB1 in lockstep, and everything is counted") {
+  const lockstep compared = in_lockstep_with(make_kernel("cpp"));
+  CHECK(compared.calls() == 6);
+  CHECK(compared.compared().values == 6 * 4);  // SMIN, SS, ISEP, text
+  CHECK(compared.compared().mismatches == 0);
+  CHECK_FALSE(compared.first());
+  CHECK(compared.last_call_equal());
+}
+
+TEST_CASE("how far each follower was off in the last call is told in ULPs, in SMIN and in the worst s") {
+  const lockstep good = in_lockstep_with(make_kernel("cpp"));
+  REQUIRE(good.last_answers().size() == 1);
+  CHECK(good.last_answers()[0].values == 4);
+  CHECK(good.last_answers()[0].mismatches == 0);
+  CHECK(good.last_answers()[0].smin_ulps == 0);
+  CHECK(good.last_answers()[0].ss_ulps == 0);
+  const lockstep off = with_fault([](call<double>& c, std::string&) {
+    c.smin = std::nextafter(c.smin, 2.0);
+    c.ss[0] = std::nextafter(std::nextafter(c.ss[0], 2.0), 2.0);
+  });
+  REQUIRE(off.last_answers().size() == 1);
+  CHECK(off.last_answers()[0].mismatches == 2);
+  CHECK(off.last_answers()[0].smin_ulps == 1);
+  CHECK(off.last_answers()[0].ss_ulps == 2);
+}
+
+TEST_CASE("a fault of one ULP in SMIN is caught at its first call") {
+  int call_number = 0;
+  const lockstep compared = with_fault([&](call<double>& c, std::string&) {
+    if (++call_number == 2) c.smin = std::nextafter(c.smin, 1.0);
+  });
+  REQUIRE(compared.first());
+  CHECK(compared.compared().mismatches == 1);
+  CHECK(compared.first()->call == 2);
+  CHECK(compared.first()->where.field == "SMIN");
+  CHECK(compared.first()->where.ulps == 1);
+  CHECK(compared.first()->follower == "faulty");
+}
+
+TEST_CASE("faults in SS, in ISEP and in the text are caught too") {
+  CHECK(with_fault([](call<double>& c, std::string&) { c.ss[0] = -c.ss[0]; }).first()->where.field == "SS");
+  CHECK(with_fault([](call<double>& c, std::string&) { c.isep[0] = -c.isep[0]; }).first()->where.field ==
+        "ISEP");
+  CHECK(with_fault([](call<double>&, std::string& text) { text[3] = '?'; }).first()->where.field == "text");
+}
+
+TEST_CASE("a follower that goes wrong does not lead the path astray") {
+  // Every call goes to the follower with the leader's inputs, so one fault is one mismatch.
+  int call_number = 0;
+  const lockstep compared = with_fault([&](call<double>& c, std::string&) {
+    if (++call_number == 1) c.isep[0] = in_contact;
+  });
+  CHECK(compared.compared().mismatches == 1);
+  CHECK(compared.last_call_equal());
+}
+
+TEST_CASE("kernels of different precision cannot walk in lockstep, and the way out is named") {
+  std::vector<std::unique_ptr<kernel>> followers;
+  followers.push_back(make_kernel("cpp-r4"));
+  const auto leader = make_kernel("fortran");
+  CHECK_THROWS_WITH(lockstep(leader->facts(), std::move(followers)), Catch::Matchers::Contains("--free-run"));
+}

@@ -1,0 +1,120 @@
+#include "contct/matrix/cholesky.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "catch.hpp"
+#include "contct/structure/beam.hpp"
+
+using namespace contct;
+
+extern "C" void dpbcon_(const char* uplo, const int* n, const int* kd, const double* ab, const int* ldab,
+                        const double* anorm, double* rcond, double* work, int* iwork, int* info,
+                        std::size_t uplo_length);
+
+namespace {
+
+/// A simply supported beam of `n` elements of length h.
+linear_structure simple_span(int n, double h) {
+  beam b;
+  for (int i = 0; i <= n; ++i) b.x.push_back(h * i);
+  b.EI.assign(static_cast<std::size_t>(n), 1.0);
+  const std::vector<support> ends = {{0, 0, true}, {n, 0, true}};
+  return build(b, ends, {});
+}
+
+double rcond_of(const linear_structure& s) {
+  band_matrix k = s.stiffness.band();
+  return reciprocal_condition(k);
+}
+
+}  // namespace
+
+TEST_CASE("factor and solve give back what the matrix was multiplied by") {
+  band_matrix a(5, 2);
+  for (int j = 0; j < 5; ++j) {
+    a.add(j, j, 10.0 + j);
+    if (j + 1 < 5) a.add(j + 1, j, -3.0);
+    if (j + 2 < 5) a.add(j + 2, j, 1.5);
+  }
+  const std::vector<double> x = {1, -2, 3, -4, 5};
+  std::vector<double> b(5);
+  a.multiply(x, b);
+  REQUIRE(factor(a));
+  solve_with(a, b);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(b[i] == Approx(x[i]).epsilon(1e-14));
+}
+
+TEST_CASE("an indefinite matrix has no factor") {
+  band_matrix a(2, 1);
+  a.add(0, 0, 1.0);
+  a.add(1, 1, 1.0);
+  a.add(1, 0, 2.0);
+  CHECK_FALSE(factor(a));
+}
+
+TEST_CASE("the condition is measured on the equilibrated matrix: units do not enter") {
+  const double metres = rcond_of(simple_span(10, 1.0));
+  const double tiny = rcond_of(simple_span(10, 1e-9));
+  CHECK(metres == Approx(tiny).epsilon(1e-6));
+  CHECK(metres > 1e-6);
+  CHECK(metres < 1e-3);
+}
+
+TEST_CASE("the condition is LAPACK's own estimate, dpbcon's") {
+  for (const int n : {1, 2, 7, 50, 400}) {
+    const linear_structure s = simple_span(n, 1.0);
+    const double ours = rcond_of(s);
+    // dpbcon on the same scaled matrix.
+    band_matrix a = s.stiffness.band();
+    std::vector<double> d;
+    for (int j = 0; j < a.order(); ++j) d.push_back(1.0 / std::sqrt(a.at(j, j)));
+    double norm = 0.0;
+    std::vector<double> sums(d.size());
+    for (int j = 0; j < a.order(); ++j) {
+      for (int i = j; i <= std::min(j + 3, a.order() - 1); ++i) {
+        const double entry = a.at(i, j) *= d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(j)];
+        sums[static_cast<std::size_t>(j)] += std::abs(entry);
+        if (i != j) sums[static_cast<std::size_t>(i)] += std::abs(entry);
+      }
+    }
+    for (const double sum : sums) norm = std::max(norm, sum);
+    REQUIRE(factor(a));
+    const int order = a.order();
+    const int kd = 3;
+    const int ldab = 4;
+    int info = -1;
+    double rcond = 0.0;
+    std::vector<double> work(3 * d.size());
+    std::vector<int> iwork(d.size());
+    dpbcon_("L", &order, &kd, a.data(), &ldab, &norm, &rcond, work.data(), iwork.data(), &info, 1);
+    REQUIRE(info == 0);
+    INFO(n << " elements");
+    CHECK(ours == Approx(rcond).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("the exact condition of a small matrix is found") {
+  band_matrix a(2, 1);  // 1 .5 / .5 1: norm 1.5, inverse 4/3 (1 -.5 / -.5 1) of norm 2
+  a.add(0, 0, 4.0);
+  a.add(1, 1, 25.0);
+  a.add(1, 0, 5.0);
+  CHECK(reciprocal_condition(a) == Approx(1.0 / 3.0).epsilon(1e-14));
+}
+
+TEST_CASE(
+    "a long span loses digits as the fourth power of its elements, and says so while LAPACK is silent") {
+  const double at_10 = rcond_of(simple_span(10, 1.0));
+  const double at_100 = rcond_of(simple_span(100, 1.0));
+  CHECK(at_10 / at_100 == Approx(1e4).epsilon(0.5));
+  CHECK(digits_left(at_10) >= 10);
+  CHECK(digits_left(rcond_of(simple_span(5000, 1.0))) <= 1);
+}
+
+TEST_CASE("digits never go below none") {
+  CHECK(digits_left(0.0) == 0);
+  CHECK(digits_left(1e-30) == 0);
+  CHECK(digits_left(1.0) == 15);
+}

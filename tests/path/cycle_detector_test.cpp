@@ -1,0 +1,48 @@
+#include "contct/path/cycle_detector.hpp"
+
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace contct;
+
+TEST_CASE("a loop of any length is found, whatever runs into it") {
+  for (int lead : {0, 1, 5, 17}) {
+    for (int loop : {1, 2, 3, 7, 20}) {
+      cycle_detector watch(1);
+      int increments = 0;
+      bool found = false;
+      while (!found && increments < 1000) {
+        const int state = increments < lead ? 1000 + increments : (increments - lead) % loop;
+        found = watch.repeats(false, std::vector<int>{state}, {});
+        ++increments;
+      }
+      INFO("lead " << lead << ", loop " << loop);
+      CHECK(found);
+      CHECK(increments <= 4 * (lead + loop) + 4);
+    }
+  }
+}
+
+TEST_CASE("the same statuses after some movement are no loop") {
+  cycle_detector watch(1);
+  for (int i = 0; i < 100; ++i) CHECK_FALSE(watch.repeats(true, std::vector<int>{1}, {}));
+  CHECK_FALSE(watch.repeats(false, std::vector<int>{1}, {}));
+  CHECK(watch.repeats(false, std::vector<int>{1}, {}));
+}
+
+TEST_CASE("pairs that toggled once are not restless, old toggles are forgotten") {
+  cycle_detector watch(3);
+  const std::vector<int> status = {1, 1, 1};
+  const std::vector<event> both = {{0, change::make}, {1, change::make}};
+  const std::vector<event> first = {{0, change::break_}};
+  watch.repeats(true, status, both);
+  watch.repeats(true, status, first);
+  CHECK(watch.restless_pairs() == std::vector<int>{0});
+  for (int i = 0; i < 200; ++i) watch.repeats(true, status, {});
+  CHECK(watch.restless_pairs().empty());
+  watch.repeats(true, status, first);
+  watch.repeats(true, status, first);
+  watch.reset();
+  CHECK(watch.restless_pairs().empty());
+}

@@ -1,0 +1,163 @@
+// What must not matter does not: the way to a load, units of load and length, which way is up and which is
+// left. On random problems, with floors on what was compared.
+#include <cmath>
+#include <functional>
+
+#include "catch.hpp"
+#include "support/followed.hpp"
+
+using namespace contct;
+
+namespace {
+
+constexpr std::uint64_t problems = 1000;
+
+load times(double factor, load l) {
+  for (point_load& p : l.points) p.value *= factor;
+  for (distributed_load& d : l.distributed) {
+    for (double& a : d.polynomial) a *= factor;
+  }
+  return l;
+}
+
+/// All loads and faces `factor` times as large.
+random_problem scaled(double factor, random_problem p) {
+  for (load& l : p.steps) l = times(factor, l);
+  for (contact_pair& c : p.pairs) c.face *= factor;
+  return p;
+}
+
+random_problem upside_down(random_problem p) {
+  for (load& l : p.steps) l = times(-1.0, l);
+  for (contact_pair& c : p.pairs) {
+    c.face = -c.face;
+    c.surface = -c.surface;
+  }
+  return p;
+}
+
+/// A beam with left and right exchanged. All distributed loads are even, and on the whole beam.
+random_problem other_way_round(random_problem p) {
+  beam& b = std::get<beam>(p.geometry.kind);
+  const int last = b.nodes() - 1;
+  const double end = b.x.back();
+  for (double& x : b.x) x = end - x;
+  std::reverse(b.x.begin(), b.x.end());
+  for (support& s : p.supports) s.node = last - s.node;
+  for (contact_pair& c : p.pairs) c.node = last - c.node;
+  for (load& l : p.steps) {
+    for (point_load& f : l.points) f = {last - f.node, f.dof, f.dof == 1 ? -f.value : f.value};
+  }
+  return p;
+}
+
+/// Is every deflection of `a`, at its end, the one that `expected` gives, to what both are certified to?
+void check_deflections(const followed& a, double tolerance,
+                       const std::function<double(std::size_t)>& expected) {
+  double off = 0.0;
+  for (std::size_t node = 0; node < a.nodes(); ++node)
+    off = std::max(off, std::abs(a.deflection(node) - expected(node)));
+  CHECK(off <= (a.tolerance() + tolerance) * a.largest());
+}
+
+/// Every problem and its like under `change` take the same path to the bit: the same events, and
+/// displacements that are `factor` times as large.
+void check_same_path(std::uint64_t seed, double factor,
+                     const std::function<random_problem(const random_problem&)>& change) {
+  long events = 0;
+  for (std::uint64_t number = 0; number < problems; ++number) {
+    const random_problem p = make_random_problem(seed, number);
+    const followed here = follow(p);
+    const followed there = follow(change(p));
+    INFO(number);
+    CHECK(there.end.status == here.end.status);
+    CHECK(there.seen.events() == here.seen.events());
+    REQUIRE(there.seen.steps.size() == here.seen.steps.size());
+    for (std::size_t step = 0; step < here.seen.steps.size(); ++step) {
+      std::vector<double> expected = here.seen.steps[step].u;
+      for (double& x : expected) x *= factor;
+      CHECK(there.seen.steps[step].u == expected);
+    }
+    events += static_cast<long>(here.seen.events().size());
+  }
+  CHECK(events > 5000);
+}
+
+}  // namespace
+
+TEST_CASE("in many steps or in one, the last state is the same") {
+  int compared = 0;
+  for (std::uint64_t number = 0; number < problems; ++number) {
+    random_problem p = make_random_problem(4, number);
+    if (p.steps.size() == 1) continue;
+    const followed many = follow(p);
+    if (!many.determined()) continue;
+    p.steps = {p.steps.back()};
+    const followed one = follow(p);
+    INFO(number);
+    REQUIRE(one.solved());
+    check_deflections(many, one.tolerance(), [&one](std::size_t node) { return one.deflection(node); });
+    ++compared;
+  }
+  CHECK(compared > 500);
+}
+
+TEST_CASE("loaded and unloaded to nothing, a held structure stands where it began") {
+  random_problem_kind kind;
+  kind.free_share = 0.0;
+  int loaded = 0;
+  for (std::uint64_t number = 0; number < problems; ++number) {
+    random_problem p = make_random_problem(5, number, kind);
+    p.steps.emplace_back();
+    const followed f = follow(p);
+    INFO(number);
+    REQUIRE(f.solved());
+    check_deflections(f, 0.0, [](std::size_t) { return 0.0; });
+    loaded += f.largest() > 0.0 ? 1 : 0;
+  }
+  CHECK(loaded > 900);  // the others have all their load on a support
+}
+
+TEST_CASE("loads and faces 2^30 times as large give 2^30 times the displacements, to the bit") {
+  const double factor = std::ldexp(1.0, 30);
+  check_same_path(6, factor, [factor](const random_problem& p) { return scaled(factor, p); });
+}
+
+TEST_CASE("upside down, everything is the same to the bit with the other sign") {
+  check_same_path(8, -1.0, upside_down);
+}
+
+TEST_CASE("loads and faces 0.37 times as large give 0.37 times the deflections") {
+  int compared = 0;
+  for (std::uint64_t number = 0; number < problems; ++number) {
+    const random_problem p = make_random_problem(7, number);
+    const followed here = follow(p);
+    const followed there = follow(scaled(0.37, p));
+    INFO(number);
+    CHECK(there.end.status == here.end.status);
+    if (!here.determined() || !there.solved()) continue;
+    check_deflections(there, here.tolerance(),
+                      [&here](std::size_t node) { return 0.37 * here.deflection(node); });
+    ++compared;
+  }
+  CHECK(compared > 800);
+}
+
+TEST_CASE("with left and right exchanged, so are the deflections") {
+  random_problem_kind kind;
+  kind.plate_share = 0.0;
+  int compared = 0;
+  for (std::uint64_t number = 0; number < problems; ++number) {
+    const random_problem p = make_random_problem(9, number, kind);
+    const followed here = follow(p);
+    const followed there = follow(other_way_round(p));
+    INFO(number);
+    CHECK(there.end.status == here.end.status);
+    if (!here.determined() || !there.solved()) continue;
+    const std::size_t last = here.nodes() - 1;
+    check_deflections(here, there.tolerance(),
+                      [&there, last](std::size_t node) { return there.deflection(last - node); });
+    ++compared;
+  }
+  CHECK(compared > 800);
+}

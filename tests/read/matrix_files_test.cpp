@@ -1,0 +1,329 @@
+// Matrix Market, CalculiX and label files: what is read, and what is refused where.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "catch.hpp"
+#include "contct/matrix/bandwidth.hpp"
+#include "contct/numeric/random.hpp"
+#include "contct/read/calculix_matrix.hpp"
+#include "contct/read/dof_labels.hpp"
+#include "contct/read/matrix_market.hpp"
+#include "contct/text/input_text.hpp"
+#include "read/refusals.hpp"
+
+using namespace contct;
+
+namespace {
+
+const std::string header = "%%MatrixMarket matrix coordinate real symmetric\n";
+const std::string good = header + "3 3 5\n1 1 4\n2 1 -1\n2 2 4.5\n3 2 -2e-1\n3 3 1\n";
+const std::string good_vector = "%%MatrixMarket matrix array real general\n3 1\n1\n0\n-2.5\n";
+const std::string sparse_vector = "%%MatrixMarket matrix coordinate real general\n3 1 2\n3 1 -2.5\n1 1 1\n";
+const std::string good_job = "1 1  4.0000000000000e+00\n1 2  0.0000000000000e+00\n2 2  1.5e+00\n";
+
+std::string replaced(std::string text, const std::string& piece, const std::string& mistake) {
+  return text.replace(text.find(piece), piece.size(), mistake);
+}
+
+std::string of_matrix(const std::string& text) {
+  return verdict([&] { (void)parse_symmetric(text, "K.mtx"); });
+}
+std::string of_vector(const std::string& text) {
+  return verdict([&] { (void)parse_vector(text, "f.mtx", 3); });
+}
+std::string of_job(const std::string& text) {
+  return verdict([&] { (void)parse_calculix_stiffness(text, "job.sti", 2); });
+}
+std::string of_labels(const std::string& text) {
+  return verdict([&] { (void)parse_labels(text, "K.dof"); });
+}
+
+std::vector<std::vector<double>> full(const sparse_matrix& a) {
+  std::vector<std::vector<double>> m(static_cast<std::size_t>(a.order),
+                                     std::vector<double>(static_cast<std::size_t>(a.order)));
+  for (const matrix_entry& e : a.entries) {
+    m[static_cast<std::size_t>(e.row)][static_cast<std::size_t>(e.column)] = e.value;
+    m[static_cast<std::size_t>(e.column)][static_cast<std::size_t>(e.row)] = e.value;
+  }
+  return m;
+}
+
+/// How many lines a text has behind its size, and how many its size says: read in the plainest way.
+std::pair<std::int64_t, std::int64_t> counted_plainly(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::int64_t said = -1;
+  std::int64_t there = 0;
+  (void)std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::string field;
+    if (!(fields >> field)) continue;
+    if (said >= 0) ++there;
+    if (said >= 0 || field[0] == '%') continue;
+    while (fields >> field) {
+    }
+    said = std::stoll(field);
+  }
+  return {there, said};
+}
+
+/// A square grid of springs with a grounded corner.
+std::string grid_text(int side) {
+  std::string text;
+  int entries = 0;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const int at = j * side + i + 1;
+      text += fmt::format("{} {} 4.5\n", at, at);
+      ++entries;
+      for (const int next : {i + 1 < side ? at + 1 : 0, j + 1 < side ? at + side : 0}) {
+        if (next == 0) continue;
+        text += fmt::format("{} {} -1.0000000000000001e+00\n", next, at);
+        ++entries;
+      }
+    }
+  }
+  return header + fmt::format("{} {} {}\n", side * side, side * side, entries) + text;
+}
+
+}  // namespace
+
+TEST_CASE("a Matrix Market file is read: comments, blank lines, any case, any order, signs and tabs") {
+  const std::vector<std::vector<double>> expected = {{4, -1, 0}, {-1, 4.5, -0.2}, {0, -0.2, 1}};
+  CHECK(full(parse_symmetric(good, "K.mtx")) == expected);
+  CHECK(full(parse_symmetric(
+            "%%matrixmarket MATRIX Coordinate REAL Symmetric\r\n% made by hand\r\n\r\n%\r\n"
+            "  3\t3   5\r\n\r\n3 3 +1.0\r\n3 2 -.2\r\n\r\n\t1 1 4e0\r\n2 2 45E-1\r\n2 1 -1\r\n",
+            "K.mtx")) == expected);
+}
+
+TEST_CASE("a load vector is read as an array and as coordinates") {
+  CHECK(parse_vector(good_vector, "f.mtx", 3) == std::vector<double>{1, 0, -2.5});
+  CHECK(parse_vector(sparse_vector, "f.mtx", 3) == std::vector<double>{1, 0, -2.5});
+  CHECK(parse_vector("%%MatrixMarket matrix coordinate real general\n3 1 0\n", "f.mtx", 3) ==
+        std::vector<double>{0, 0, 0});
+}
+
+TEST_CASE("CalculiX's own files are read: the upper triangle with its zeros, and a label for each row") {
+  CHECK(full(parse_calculix_stiffness(good_job, "job.sti", 2)) ==
+        std::vector<std::vector<double>>{{4, 0}, {0, 1.5}});
+  CHECK(parse_calculix_stiffness(good_job, "job.sti", 2).entries.size() == 2);
+  CHECK(parse_labels("5.1\n5.2 \r\n\n185.3\n", "job.dof") == std::vector<std::string>{"5.1", "5.2", "185.3"});
+}
+
+TEST_CASE("labels are found by their text, or by their number where there are none") {
+  assembled a;
+  a.stiffness.order = 12;
+  const dof_index by_number(a);
+  CHECK(by_number.find("12") == 11);
+  for (const char* no : {"0", "13", "-1", "1.0", "01", "+1", " 1", "", "99999999999999", "x"}) {
+    INFO(no);
+    CHECK_FALSE(by_number.find(no).has_value());
+  }
+  a.labels = {"5.1", "5.10"};
+  const dof_index by_label(a);
+  CHECK(by_label.find("5.10") == 1);
+  CHECK_FALSE(by_label.find("1").has_value());
+}
+
+TEST_CASE(
+    "every mistake in a Matrix Market matrix is refused with its line, what was found and what is allowed") {
+  check_refusals(
+      {
+          {"", "K.mtx", "no header", "%%MatrixMarket matrix coordinate real symmetric"},
+          {"\n" + good, "K.mtx:2", "no header", "symmetric"},
+          {"3 3 1\n1 1 1\n", "K.mtx:1", "\"3 3 1\"", "%%MatrixMarket matrix"},
+          {replaced(good, "symmetric", "general"), "K.mtx:1", "\"%%MatrixMarket matrix coordinate real gener",
+           "real symmetric"},
+          {replaced(good, "symmetric", "skew-symmetric"), "K.mtx:1", "\"", "real symmetric"},
+          {replaced(good, "real", "complex"), "K.mtx:1", "\"", "real symmetric"},
+          {replaced(good, "real", "pattern"), "K.mtx:1", "\"", "real symmetric"},
+          {replaced(good, "coordinate", "array"), "K.mtx:1", "\"", "coordinate"},
+          {replaced(good, "symmetric", "symmetric twice"), "K.mtx:1", "\"", "real symmetric"},
+          {header, "K.mtx:1", "the end of the file", "rows, columns"},
+          {header + "% only\n\n", "K.mtx:3", "the end of the file", "rows, columns"},
+          {replaced(good, "3 3 5", "3 3"), "K.mtx:2", "\"3 3\"", "rows, columns and the number"},
+          {replaced(good, "3 3 5", "3 4 5"), "K.mtx:2", "3 rows and 4 columns", "square"},
+          {replaced(good, "3 3 5", "0 0 5"), "K.mtx:2", "\"0\" for the rows", "from 1 to"},
+          {replaced(good, "3 3 5", "-3 3 5"), "K.mtx:2", "\"-3\" for the rows", "from 1 to"},
+          {replaced(good, "3 3 5", "3.0 3 5"), "K.mtx:2", "\"3.0\"", "a whole number"},
+          {replaced(good, "3 3 5", "99999999999 99999999999 5"), "K.mtx:2", "\"99999999999\"",
+           "to 2147483646"},
+          {replaced(good, "3 3 5", "2147483646 2147483646 5"), "K.mtx", "2147483646 rows and 5 entries",
+           "on the diagonal of every row"},
+          {replaced(good, "3 3 5", "3 3 2147483646"), "K.mtx:7", "the end of the file after 5 of 2147483646",
+           "line 2"},
+          {replaced(good, "3 3 5", "3 3 4"), "K.mtx:7", "more entries", "4, as line 2"},
+          {replaced(good, "3 3 5", "3 3 6"), "K.mtx:7", "the end of the file after 5 of 6", "line 2"},
+          {good.substr(0, good.size() - 6), "K.mtx:6", "the end of the file after 4 of 5", "line 2"},
+          {good.substr(0, good.size() - 1), "K.mtx:7", "\"3 3 1\" without a line's end", "a line's end"},
+          {replaced(good, "3 3 1\n", "3 3 \n"), "K.mtx:7", "\"3 3 \"", "row, column and value"},
+          {replaced(good, "2 1 -1", "1 2 -1"), "K.mtx:4", "row 1 and column 2, above", "lower triangle"},
+          {replaced(good, "2 1 -1", "0 1 -1"), "K.mtx:4", "\"0\" for the row", "from 1 to 3"},
+          {replaced(good, "2 1 -1", "4 1 -1"), "K.mtx:4", "\"4\" for the row", "from 1 to 3"},
+          {replaced(good, "2 1 -1", "2 x -1"), "K.mtx:4", "\"x\" for the column", "from 1 to 3"},
+          {replaced(good, "2 1 -1", "2 1 nan"), "K.mtx:4", "\"nan\" for an entry", "finite"},
+          {replaced(good, "2 1 -1", "2 1 -inf"), "K.mtx:4", "\"-inf\" for an entry", "finite"},
+          {replaced(good, "2 1 -1", "2 1 1e999"), "K.mtx:4", "\"1e999\"", "within the range"},
+          {replaced(good, "2 1 -1", "2 1 1.0D+00"), "K.mtx:4", "\"1.0D+00\"", "as 1.5 or -2e-3"},
+          {replaced(good, "2 1 -1", "2 1 +-1"), "K.mtx:4", "\"+-1\"", "finite"},
+          {replaced(good, "2 1 -1", "2 1 0x1p3"), "K.mtx:4", "\"0x1p3\"", "finite"},
+          {replaced(good, "2 1 -1", "2 1 1,5"), "K.mtx:4", "\"1,5\"", "finite"},
+          {replaced(good, "2 1 -1", "2 1"), "K.mtx:4", "\"2 1\"", "row, column and value"},
+          {replaced(good, "2 1 -1", "2 1 -1 0"), "K.mtx:4", "\"2 1 -1 0\"", "row, column and value"},
+          {replaced(good, "2 1 -1", "2 1 -1\x1b[31m" + std::string(5000, 'x')), "K.mtx:4", "\"-1?[31m",
+           "finite"},
+          {replaced(good, "2 1 -1", std::string(100000, '1') + " 1 1"), "K.mtx:4", "\"11111", "from 1 to 3"},
+          {replaced(good, "3 2 -2e-1", "2 1 7"), "K.mtx:6",
+           "the place of row 2 and column 1 again, which line 4 has", "each place once"},
+          {replaced(good, "2 2 4.5", "2 2 -4.5"), "K.mtx:5", "-4.5 on the diagonal of row 2",
+           "positive semidefinite"},
+          {replaced(good, "2 2 4.5", "2 2 0"), "K.mtx:4", "-1 in row 2, which has 0 on its diagonal",
+           "positive semidefinite"},
+          {header + "2 2 1\n1 1 1\n", "K.mtx", "2 rows and 1 entries", "on the diagonal"},
+      },
+      of_matrix);
+}
+
+TEST_CASE("every mistake in a load vector is refused with its line, what was found and what is allowed") {
+  check_refusals(
+      {
+          {"", "f.mtx", "no header", "array (or coordinate) real general"},
+          {replaced(good_vector, "general", "symmetric"), "f.mtx:1", "\"", "real general"},
+          {replaced(good_vector, "3 1", "4 1"), "f.mtx:2", "4 rows", "3, as the matrix has"},
+          {replaced(good_vector, "3 1", "3 2"), "f.mtx:2", "\"2\" for the columns", "from 1 to 1"},
+          {replaced(good_vector, "-2.5\n", ""), "f.mtx:4", "the end of the file after 2 of 3", "line 2"},
+          {good_vector + "7\n", "f.mtx:6", "more numbers than rows", "3, as line 2"},
+          {replaced(good_vector, "-2.5", "inf"), "f.mtx:5", "\"inf\" for a load", "finite"},
+          {replaced(good_vector, "-2.5", "1 2"), "f.mtx:5", "\"1 2\"", "one number a line"},
+          {replaced(sparse_vector, "3 1 2", "3 1 4"), "f.mtx:2", "\"4\" for the number of entries",
+           "from 0 to 3"},
+          {replaced(sparse_vector, "1 1 1", "3 1 1"), "f.mtx:4", "row 3 again, which line 3 has",
+           "each row once"},
+          {replaced(sparse_vector, "1 1 1", "1 2 1"), "f.mtx:4", "\"2\" for the column", "from 1 to 1"},
+          {replaced(sparse_vector, "1 1 1\n", ""), "f.mtx:3", "the end of the file after 1 of 2", "line 2"},
+          {sparse_vector + "2 1 1\n", "f.mtx:5", "more entries", "2, as line 2"},
+      },
+      of_vector);
+}
+
+TEST_CASE("every mistake in CalculiX's files is refused with its line, what was found and what is allowed") {
+  check_refusals(
+      {
+          {"", "job.sti", "2 rows and 0 entries", "on the diagonal"},
+          {replaced(good_job, "1 2", "2 1"), "job.sti:2", "row 2 and column 1, below", "upper triangle"},
+          {replaced(good_job, "1 2", "1 3"), "job.sti:2", "\"3\" for the column", "from 1 to 2"},
+          {replaced(good_job, "1.5e+00", "-1.5"), "job.sti:3", "-1.5 on the diagonal", "semidefinite"},
+          {replaced(good_job, "1.5e+00", "NaN"), "job.sti:3", "\"NaN\"", "finite"},
+          {good_job + "1 2 3\n", "job.sti:4", "the place of row 2 and column 1 again, which line 2 has",
+           "once"},
+          {good_job + "2\n", "job.sti:4", "\"2\"", "row, column and value"},
+      },
+      of_job);
+  check_refusals(
+      {
+          {"", "K.dof", "no label", "one label a line"},
+          {"\n \n", "K.dof", "no label", "one label a line"},
+          {"5.1\n5.2\n5.1\n", "K.dof:3", "label \"5.1\" again, which line 1 has", "each label once"},
+          {"5.1\n5 2\n", "K.dof:2", "\"5 2\"", "one label a line"},
+          {std::string(101, 'n') + "\n", "K.dof:1", "\"nnn", "at most 100 bytes"},
+      },
+      of_labels);
+}
+
+TEST_CASE("mutilated files are refused or read whole: no crash, no hang, no half") {
+  random_numbers random(20261121);
+  const std::string pieces[] = {"1", "-", "\n",  " ", "e", "nan", "3", "%", "999999999999",
+                                ".", "0", "\t2", "\0"};
+  const std::string files[] = {good, good_vector, sparse_vector, good_job};
+  int accepted = 0;
+  int refused = 0;
+  for (int trial = 0; trial < 40000; ++trial) {
+    const int kind = random.whole(0, 3);
+    std::string text = files[kind];
+    for (int change = random.whole(1, 3); change > 0; --change) {
+      const auto at = static_cast<std::size_t>(random.whole(0, static_cast<int>(text.size())));
+      const auto length = static_cast<std::size_t>(random.whole(0, 6));
+      switch (random.whole(0, 3)) {
+        case 0:
+          text.erase(std::min(at, text.size()), length);
+          break;
+        case 1:
+          text.insert(std::min(at, text.size()), pieces[random.whole(0, 12)]);
+          break;
+        case 2:
+          if (at < text.size()) text[at] = static_cast<char>(random.whole(0, 255));
+          break;
+        default:
+          text.resize(std::min(at, text.size()));
+      }
+    }
+    INFO(text);
+    std::string message;
+    if (kind == 0 || kind == 3) {
+      sparse_matrix a;
+      message = verdict([&] {
+        a = kind == 0 ? parse_symmetric(text, "K.mtx") : parse_calculix_stiffness(text, "job.sti", 2);
+      });
+      if (kind == 0 && message == "accepted") {  // then whole
+        const auto [there, said] = counted_plainly(text);
+        CHECK(there == said);
+      }
+      bool sound = true;
+      for (const matrix_entry& e : a.entries)
+        sound &= 0 <= e.column && e.column <= e.row && e.row < a.order && std::isfinite(e.value);
+      CHECK(sound);
+    } else {
+      std::vector<double> f;
+      message = verdict([&] { f = parse_vector(text, "f.mtx", 3); });
+      CHECK((message != "accepted" || f.size() == 3));
+    }
+    (message == "accepted" ? accepted : refused) += 1;
+    CHECK((message == "accepted" || message.find("; allowed: ") != std::string::npos));
+  }
+  CHECK(accepted > 1000);
+  CHECK(refused > 10000);
+}
+
+TEST_CASE("cut anywhere, a file is refused") {
+  for (const std::string& text : {good, good_vector, sparse_vector}) {
+    for (std::size_t length = 0; length < text.size(); ++length) {
+      const std::string cut = text.substr(0, length);
+      INFO(cut);
+      CHECK((text == good ? of_matrix(cut) : of_vector(cut)) != "accepted");
+    }
+  }
+}
+
+TEST_CASE("a million entries are read and ordered in seconds, and the band is as narrow as the grid") {
+  const std::string text = grid_text(600);
+  const auto start = std::chrono::steady_clock::now();
+  const sparse_matrix a = parse_symmetric(text, "K.mtx");
+  const std::vector<int> rows = rows_for_small_band(a);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  CHECK(a.entries.size() == 1078800);
+  CHECK(taken.count() < 60);  // 1 s where nothing else runs; quadratic would be hours
+  CHECK(subdiagonals_of(a, rows) <= 600);
+}
+
+TEST_CASE("a matrix in a bad order gets a narrow band again, and one in a good order keeps it") {
+  sparse_matrix a = parse_symmetric(grid_text(20), "K.mtx");
+  CHECK(subdiagonals_of(a, rows_for_small_band(a)) <= 20);
+  for (matrix_entry& e : a.entries) {
+    const int row = e.row * 173 % 400;
+    const int column = e.column * 173 % 400;
+    e.row = std::max(row, column);
+    e.column = std::min(row, column);
+  }
+  CHECK(subdiagonals_of(a, {}) > 200);
+  CHECK(subdiagonals_of(a, rows_for_small_band(a)) <= 21);
+  const sparse_matrix chain{3, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {2, 1, 1}, {2, 2, 1}}};
+  CHECK(rows_for_small_band(chain).empty());
+  sparse_matrix many{200000, {}};  // nothing hangs together
+  for (int i = 0; i < many.order; ++i) many.entries.push_back({i, i, 1.0});
+  CHECK(rows_for_small_band(many).empty());
+}

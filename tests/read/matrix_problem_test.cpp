@@ -1,0 +1,523 @@
+// Problems on a matrix from elsewhere: the same answers as from the structure itself, and what is refused.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "catch.hpp"
+#include "contct/certify/certificate.hpp"
+#include "contct/compare/lockstep.hpp"
+#include "contct/matrix/sparse_factor.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/matrix_tables.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/text/output_file.hpp"
+#include "contct/write/result_json.hpp"
+#include "support/beams.hpp"
+#include "support/matrices.hpp"
+
+using namespace contct;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path reference = CONTCT_REFERENCE;
+
+/// A folder of the test's own.
+class folder {
+ public:
+  folder() : path_(fs::temp_directory_path() / "contct-matrix-XXXXXX") {
+    std::string name = path_.string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~folder() { fs::remove_all(path_); }
+  folder(const folder&) = delete;
+  folder& operator=(const folder&) = delete;
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return (path_ / name).string();
+  }
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(path_ / name, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string text_of(const sparse_matrix& a) {
+  std::string text = fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n", a.order,
+                                 a.order, a.entries.size());
+  for (const matrix_entry& e : a.entries) text += fmt::format("{} {} {}\n", e.row + 1, e.column + 1, e.value);
+  return text;
+}
+
+std::string text_of(std::span<const double> f) {
+  std::string text = fmt::format("%%MatrixMarket matrix array real general\n{} 1\n", f.size());
+  for (const double value : f) text += fmt::format("{}\n", value);
+  return text;
+}
+
+/// "node.dof", counted from 1.
+std::string label(int dof, int dofs_per_node) {
+  return fmt::format("{}.{}", dof / dofs_per_node + 1, dof % dofs_per_node + 1);
+}
+
+/// A problem with its structure written out as a matrix, and its loads as whole vectors.
+std::string exported(const problem& p, const folder& to) {
+  const int stride = dofs_per_node(p.geometry);
+  const sparse_matrix k = entries_of(build(p.geometry, {}, {}));
+  (void)to.write("K.mtx", text_of(k));
+  std::string labels;
+  for (int dof = 0; dof < k.order; ++dof) labels += label(dof, stride) + "\n";
+  (void)to.write("K.dof", labels);
+  std::string text = "[matrix]\nstiffness = \"K.mtx\"\ndofs = \"K.dof\"\n";
+  for (const support& s : p.supports) {
+    text += fmt::format("[[support]]\ndof = \"{}\"\n{}\n", label(s.node * stride + s.dof, stride),
+                        s.fixed ? "fix = true" : fmt::format("spring = {}", s.spring));
+  }
+  for (const contact_pair& c : p.pairs) {
+    text += fmt::format(
+        "[[contact]]\ndof = \"{}\"\nsurface = \"{}\"\nface = {}\nstiffness = {}\nstate = \"{}\"\n",
+        label(c.node * stride, stride), surface_name(c.surface), c.face, c.stiffness,
+        c.closed ? "contact" : "separated");
+  }
+  for (std::size_t step = 0; step < p.steps.size(); ++step) {
+    std::vector<double> f(static_cast<std::size_t>(k.order), 0.0);
+    add_consistent_loads(p.geometry, p.steps[step], f);
+    (void)to.write(fmt::format("f{}.mtx", step), text_of(f));
+    text += fmt::format("[[step]]\nload = \"f{}.mtx\"\n", step);
+  }
+  return to.write("problem.toml", text);
+}
+
+struct run_of_problem {
+  recorder seen;
+  path_end end;
+  std::int64_t calls = 0;
+  std::int64_t mismatches = 0;
+  bool certified = false;
+  bool unique = true;
+};
+
+run_of_problem run(const problem& p) {
+  run_of_problem r;
+  const linear_structure s = structure_of(p);
+  const auto leader = make_kernel("fortran");
+  const std::vector<std::string> others = {"cpp"};
+  lockstep compared = make_lockstep(leader->facts(), others);
+  certifier judged(s, loads_of(p));
+  r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen});
+  r.calls = compared.calls();
+  r.mismatches = compared.compared().mismatches;
+  r.certified = judged.all_exact();
+  for (const auto& c : judged.steps()) r.unique = r.unique && c && c->unique;
+  return r;
+}
+
+double largest_of_all(const recorder& r) {
+  double largest = 0.0;
+  for (const auto& step : r.steps)
+    for (const double u : step.u) largest = std::max(largest, std::abs(u));
+  return largest;
+}
+
+void check_same(const run_of_problem& native, const run_of_problem& matrix) {
+  CHECK(matrix.calls > 0);
+  CHECK(matrix.mismatches == 0);
+  CHECK(matrix.end.status == native.end.status);
+  CHECK(matrix.certified == native.certified);
+  CHECK(matrix.unique == native.unique);
+  REQUIRE(matrix.seen.increments.size() == native.seen.increments.size());
+  for (std::size_t i = 0; i < native.seen.increments.size(); ++i) {
+    const auto& a = native.seen.increments[i];
+    const auto& b = matrix.seen.increments[i];
+    CHECK(b.fraction == Approx(a.fraction).epsilon(1e-12).margin(1e-12));
+    REQUIRE(b.events.size() == a.events.size());
+    for (std::size_t e = 0; e < a.events.size(); ++e) {
+      CHECK(b.events[e].pair == a.events[e].pair);
+      CHECK(b.events[e].what == a.events[e].what);
+    }
+  }
+  const double size = largest_of_all(native.seen);
+  REQUIRE(matrix.seen.steps.size() == native.seen.steps.size());
+  for (std::size_t step = 0; step < native.seen.steps.size(); ++step) {
+    const auto& a = native.seen.steps[step];
+    const auto& b = matrix.seen.steps[step];
+    CHECK(b.isep == a.isep);
+    double off = 0.0;
+    for (std::size_t dof = 0; dof < a.u.size(); ++dof) off = std::max(off, std::abs(b.u[dof] - a.u[dof]));
+    CHECK(off <= 1e-12 * size);
+  }
+}
+
+std::string message_of(const std::string& path) {
+  try {
+    (void)structure_of(read_problem(path));
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+const char* const small_matrix =
+    "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 1\n";
+const std::string small_problem =
+    "[matrix]\n"                                    // 1
+    "stiffness = \"K.mtx\"\n"                       // 2
+    "dofs = \"K.dof\"\n"                            // 3
+    "[[support]]\n"                                 // 4
+    "dof = \"a\"\n"                                 // 5
+    "spring = 2.0\n"                                // 6
+    "[[contact]]\n"                                 // 7
+    "dof = \"c\"\n"                                 // 8
+    "surface = \"below\"\n"                         // 9
+    "face = -0.5\n"                                 // 10
+    "stiffness = 10.0\n"                            // 11
+    "[[step]]\n"                                    // 12
+    "point = [ { dof = \"c\", value = -3.0 } ]\n";  // 13
+
+std::string with(const std::string& piece, const std::string& mistake) {
+  std::string text = small_problem;
+  return text.replace(text.find(piece), piece.size(), mistake);
+}
+
+}  // namespace
+
+TEST_CASE("the same structure by its matrix has the same events and the same D, and is as certified") {
+  int events = 0;
+  for (const char* name :
+       {"pb01-cantilever-tip-stop", "pb02-beam-over-cantilever", "pb06-settled-middle-support",
+        "pb07-three-gap-supports", "pb10-cantilever-gapped-spring", "pp01a-simply-supported-plate-n4",
+        "pp01e-unilateral-edges-n8-k1e5", "pp03d-corners-and-settled-stop-n4"}) {
+    INFO(name);
+    const problem native = read_problem((reference / "problems" / (std::string(name) + ".toml")).string());
+    const folder here;
+    const run_of_problem by_name = run(native);
+    check_same(by_name, run(read_problem(exported(native, here))));
+    for (const auto& i : by_name.seen.increments) events += static_cast<int>(i.events.size());
+  }
+  CHECK(events >= 12);
+}
+
+TEST_CASE("a beam or plate that only its pairs hold is held by them by its matrix too") {
+  for (const char* name : {"pb03a-point-load-on-bed-l4", "pb04c-end-loads-on-bed-long",
+                           "pb11a-strip-footing-n20", "pp03a-corner-supported-plate-n4"}) {
+    INFO(name);
+    problem native = read_problem((reference / "problems" / (std::string(name) + ".toml")).string());
+    if (native.geometry.kind.index() == 0) native.supports.clear();
+    const folder here;
+    const run_of_problem by_matrix = run(read_problem(exported(native, here)));
+    check_same(run(native), by_matrix);
+    CHECK(by_matrix.certified);
+  }
+}
+
+TEST_CASE("a beam on two faces that is lifted off them is a mechanism by its matrix too") {
+  problem p;
+  p.geometry.kind = beam{{0, 1, 2, 3}, {5, 5, 5}};
+  p.pairs = {{0, face_below, 0.0, 10.0, true}, {3, face_below, 0.0, 10.0, true}};
+  p.steps = {load{{{1, 0, -1.0}}, {}}, load{{{1, 0, 1.0}}, {}}};
+  const folder here;
+  const run_of_problem native = run(p);
+  CHECK(native.end.status == path_status::mechanism);
+  check_same(native, run(read_problem(exported(p, here))));
+}
+
+TEST_CASE(
+    "the frame among the references: its files are what its script writes, and all of it is certified") {
+  const fs::path frame = reference / "structures";
+  const folder here;
+  const std::string command =
+      fmt::format("cd '{}' && python3 '{}'", here.path().string(), (frame / "frame.py").string());
+  REQUIRE(std::system(command.c_str()) == 0);
+  for (const char* name : {"frame.mtx", "frame.dof", "frame.xyz", "wind.mtx"}) {
+    INFO(name);
+    std::ostringstream kept;
+    kept << std::ifstream(frame / name, std::ios::binary).rdbuf();
+    CHECK(here.read(name) == kept.str());
+    CHECK(kept.str().size() > 50);
+  }
+  const problem p = read_problem((frame / "frame.toml").string());
+  const run_of_problem r = run(p);
+  CHECK(r.end.status == path_status::solved);
+  CHECK(r.mismatches == 0);
+  CHECK(r.certified);
+  REQUIRE(r.seen.increments.size() == 7);
+  // Under the wind all that pushes to the right arrives at supports and wall, all that is down at supports
+  // and prop.
+  const auto& at = r.seen.steps[1];
+  const std::vector<double> held = reactions(p.geometry, p.steps[1], p.supports, at.u);
+  REQUIRE(held.size() == 6);
+  const auto pressed = [&](std::size_t i) {
+    return force_of(p.pairs[i], at.u[static_cast<std::size_t>(p.pairs[i].node)], true);
+  };
+  CHECK(held[0] + held[3] - pressed(1) == Approx(-8000).epsilon(1e-9));
+  CHECK(held[1] + held[4] + pressed(0) == Approx(20000).epsilon(1e-9));
+}
+
+TEST_CASE("a frame from CalculiX's own files is the frame from Matrix Market's") {
+  const fs::path frame = reference / "structures";
+  const folder here;
+  problem p = read_problem((frame / "frame.toml").string());
+  const sparse_matrix& k = std::get<assembled>(p.geometry.kind).stiffness;
+  std::string sti;
+  for (const matrix_entry& e : k.entries)
+    sti += fmt::format("{} {}  {:.17e}\n", e.column + 1, e.row + 1, e.value);
+  (void)here.write("frame.sti", sti);
+  fs::copy_file(frame / "frame.dof", here.path() / "frame.dof");
+  fs::copy_file(frame / "wind.mtx", here.path() / "wind.mtx");
+  std::ostringstream text;
+  text << std::ifstream(frame / "frame.toml").rdbuf();
+  std::string toml = text.str();
+  const std::size_t from = toml.find("[matrix]");
+  toml.replace(from, toml.find("[[support]]") - from, "[calculix]\njob = \"frame\"\n");
+  const run_of_problem a = run(p);
+  const run_of_problem b = run(read_problem(here.write("c.toml", toml)));
+  check_same(a, b);
+}
+
+TEST_CASE(
+    "CalculiX's mesh is read from beside its matrix where it is there, or from the file that is named") {
+  const folder here;
+  (void)here.write("job.sti", "1 1 2\n1 2 -1\n2 2 2\n");
+  (void)here.write("job.dof", "2.3\n3.3\n");
+  const std::string mesh =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,9,9,9\n*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n";
+  const auto with_mesh = [&](const std::string& key) {
+    return here.write("p.toml", "[calculix]\njob = \"job\"\n" + key +
+                                    "[[step]]\npoint = [ { dof = \"2.3\", value = 1 } ]\n");
+  };
+  const auto places = [&](const std::string& key) {
+    return std::get<assembled>(read_problem(with_mesh(key)).geometry.kind).places;
+  };
+  CHECK_FALSE(places("").known());
+  (void)here.write("other.inp", mesh);
+  CHECK(places("mesh = \"other.inp\"\n").edges.size() == 6);
+  CHECK_FALSE(places("").known());
+  (void)here.write("job.inp", mesh);
+  const placed_nodes found = places("");
+  CHECK(found.nodes.size() == 4);
+  CHECK(found.edges.size() == 6);
+  CHECK(found.dofs[1].node == 2);
+  CHECK(found.dofs[1].direction == 3);
+  // Another job's input beside it is no mistake, but naming one is.
+  (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
+  CHECK_FALSE(places("").known());
+  CHECK_THAT(places("").said.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));
+  CHECK_THAT(message_of(with_mesh("mesh = \"job.inp\"\n")),
+             Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node in") &&
+                 Catch::Matchers::Contains("allowed: nodes by what stands before the last dot"));
+  CHECK_THAT(message_of(with_mesh("mesh = \"none.inp\"\n")),
+             Catch::Matchers::Contains("none.inp: cannot be read"));
+  (void)here.write("job.inp", "*NODE\n2,0,0,x\n");
+  CHECK_THAT(message_of(with_mesh("")), Catch::Matchers::Contains("job.inp:2: found \"x\" for a coordinate"));
+}
+
+TEST_CASE("what is given on a matrix is read: springs, lists of dofs, loads from files and points together") {
+  const folder here;
+  (void)here.write("K.mtx", small_matrix);
+  (void)here.write("K.dof", "a\nb\nc\n");
+  (void)here.write("f.mtx", text_of(std::vector<double>{0, 1, -2}));
+  const problem p = read_problem(here.write(
+      "p.toml",
+      with("dof = \"a\"", "dofs = [\"a\", \"b\"]") +
+          "[[step]]\nload = \"f.mtx\"\npoint = [ { dof = \"b\", value = 4 } ]\n[[contact]]\ndof = "
+          "\"b\"\nsurface = \"above\"\nface = 0\nstiffness = 1\n[[support]]\ndof = \"b\"\nfix = true\n"));
+  REQUIRE(p.supports.size() == 3);
+  CHECK(p.supports[1].node == 1);
+  CHECK(p.supports[1].spring == 2.0);
+  CHECK(p.supports[2].fixed);
+  REQUIRE(p.pairs.size() == 2);
+  CHECK(p.pairs[1].closed);
+  REQUIRE(p.warnings.size() == 1);
+  CHECK_THAT(p.warnings[0], Catch::Matchers::Contains("contact[2]: dof b is fixed"));
+  std::vector<double> f(3, 0.0);
+  add_consistent_loads(p.geometry, p.steps[1], f);
+  CHECK(f == std::vector<double>{0, 5, -2});
+}
+
+TEST_CASE("the listing addresses the dofs of a matrix themselves: NDOFPN and INDOF are 1, ID is the dof") {
+  struct watcher final : observer {
+    void called(const answered_call& c) override {
+      id.assign(c.c.id.begin(), c.c.id.end());
+      layout = c.c.dof;
+      dofs = c.c.dd.size();
+    }
+    std::vector<int> id;
+    dof_layout layout{};
+    std::size_t dofs = 0;
+  } watches;
+  const problem p = read_problem((reference / "structures" / "frame.toml").string());
+  const linear_structure s = structure_of(p);
+  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&watches});
+  CHECK(watches.id == std::vector<int>{17, 22});  // 6.y and 8.x
+  CHECK(watches.layout.ndofpn == 1);
+  CHECK(watches.layout.indof == 1);
+  CHECK(watches.dofs == 33);
+}
+
+TEST_CASE("a result on a matrix names dofs by their labels, and its w is its displacement") {
+  const problem p = read_problem((reference / "structures" / "frame.toml").string());
+  const folder here;
+  const linear_structure s = structure_of(p);
+  certifier judged(s, loads_of(p));
+  output_file file((here.path() / "r.json").string());
+  result_json json(p, {"fortran"}, "refactor", judged, file);
+  const path_end end = follow(p, s, "refactor", *make_kernel("fortran"), {&judged, &json});
+  json.finish("solved", end, nullptr);
+  const std::string text = here.read("r.json");
+  CHECK_THAT(text, Catch::Matchers::Contains(R"({"pair":1,"dof":"6.y","surface":"below","state":)"));
+  CHECK_THAT(text, Catch::Matchers::Contains(R"({"pair":1,"dof":"6.y","surface":"below","change":"make"})"));
+  CHECK_THAT(text, Catch::Matchers::Contains(R"({"dof":"9.r","value":)"));
+  CHECK_THAT(text, Catch::Matchers::Contains(R"("point":[{"dof":"6.y","value":)"));
+  CHECK(text.find("\"node\"") == std::string::npos);
+  const auto list_after = [&text](const std::string& key) {
+    const std::size_t from = text.find(key) + key.size();
+    return text.substr(from, text.find(']', from) - from);
+  };
+  CHECK(list_after("\"w\": [") == list_after("\"displacement\": ["));
+  CHECK(list_after("\"w\": [").size() > 100);
+}
+
+TEST_CASE(
+    "every mistake in a problem on a matrix is refused with its place, what was found and what is allowed") {
+  const folder here;
+  (void)here.write("K.mtx", small_matrix);
+  (void)here.write("K.dof", "a\nb\nc\n");
+  (void)here.write("two.dof", "a\nb\n");
+  (void)here.write("K.xyz", "a 0 0\n");
+  (void)here.write("bad.xyz", "a 0 0\nb 1 nan\n");
+  (void)here.write("bad.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 x\n");
+  (void)here.write("f.mtx", "%%MatrixMarket matrix array real general\n2 1\n1\n1\n");
+  struct bad_problem {
+    std::string text;
+    const char* place;
+    const char* found;
+    const char* allowed;
+  };
+  const std::vector<bad_problem> all = {
+      {"[matrix]\nstiffness = \"K.mtx\"\n[beam]\nlength = 1\n", "p.toml:1:1: matrix", "this beside beam",
+       "exactly one of"},
+      {"[matrix]\nstiffness = \"K.mtx\"\n[calculix]\njob = \"x\"\n", "p.toml:3:1: calculix",
+       "this beside matrix", "exactly one of"},
+      {with("stiffness = \"K.mtx\"", ""), "p.toml:1:1: matrix.stiffness", "missing", "text"},
+      {with("stiffness = \"K.mtx\"", "stiffness = 3"), "p.toml:2:13: matrix.stiffness", "3", "text"},
+      {with("K.mtx", "none.mtx"), "none.mtx: cannot be read", "No such file", ""},
+      {with("K.mtx", "."), "a directory", "found a directory", "Matrix Market file"},
+      {with("K.mtx", "bad.mtx"), "bad.mtx:3", "\"x\" for an entry", "finite"},
+      {with("K.dof", "two.dof"), "p.toml:3:8: matrix.dofs", "2 labels in", "3, one for each row"},
+      {with("dofs = \"K.dof\"\n", "labels = \"K.dof\"\n"), "p.toml:3:1: matrix.labels", "unknown",
+       "stiffness, dofs, coordinates"},
+      {with("[[support]]", "coordinates = \"K.xyz\"\n[[support]]"), "p.toml:4:15: matrix.coordinates",
+       "no node in", "before the last dot"},
+      {with("[[support]]", "coordinates = \"bad.xyz\"\n[[support]]"), "bad.xyz:2", "\"nan\" for y", "finite"},
+      {with("[[support]]", "coordinates = \"none.xyz\"\n[[support]]"), "none.xyz: cannot be read",
+       "No such file", ""},
+      {with("[[support]]", "coordinates = 3\n[[support]]"), "p.toml:4:15: matrix.coordinates", "3", "text"},
+      {with("[[support]]", "mesh = \"K.xyz\"\n[[support]]"), "p.toml:4:1: matrix.mesh", "unknown",
+       "stiffness, dofs"},
+      {with("[[support]]", "free_motions = 7\n[[support]]"), "p.toml:4:16: matrix.free_motions", "7",
+       "from 0 to 6"},
+      {with("dof = \"a\"", "dof = \"1\""), "p.toml:5:7: support[1].dof", "\"1\"", "a label of"},
+      {with("dof = \"a\"", "dof = 1"), "p.toml:5:7: support[1].dof", "1", "a label of"},
+      {with("dof = \"a\"", "dofs = []"), "p.toml:5:8: support[1].dofs", "an empty array", "a list of labels"},
+      {with("dof = \"a\"", "dofs = [\"a\", \"x\"]"), "p.toml:5:14: support[1].dofs[2]", "\"x\"",
+       "a label of"},
+      {with("dof = \"a\"", "node = 1"), "p.toml:5:1: support[1].node", "unknown", "dof, dofs, fix, spring"},
+      {with("spring = 2.0", "spring = 2.0\nfix = true"), "p.toml:4:1: support[1]", "both fix and spring",
+       "one of them"},
+      {with("spring = 2.0", ""), "p.toml:4:1: support[1]", "neither fix nor spring", "one of them"},
+      {with("spring = 2.0", "fix = false"), "p.toml:6:7: support[1].fix", "false", "true"},
+      {with("spring = 2.0", "fix = [\"w\"]"), "p.toml:6:7: support[1].fix", "an array of 1", "true"},
+      {with("spring = 2.0", "spring = -2.0"), "p.toml:6:10: support[1].spring", "-2", "greater than 0"},
+      {with("dof = \"c\"\n", "dof = \"d\"\n"), "p.toml:8:7: contact[1].dof", "\"d\"", "a label of"},
+      {with("dof = \"c\"\n", "node = 3\n"), "p.toml:8:1: contact[1].node", "unknown", "dof, surface"},
+      {with("[matrix]\n", "[matrix]\nstorage = \"skyline\"\n"), "p.toml:2:11: matrix.storage", "\"skyline\"",
+       "\"band\", or \"sparse\""},
+      {with("[matrix]\n", "[matrix]\nstorage = 3\n"), "p.toml:2:11: matrix.storage", "3", "\"band\""},
+      {with("face = -0.5", "face = 0.5"), "p.toml:10:8: contact[1].face", "inside", "at most 0"},
+      {with("[[step]]", "[[bed]]\nmodulus = 1\n[[step]]"), "p.toml:12:1: bed", "this with a matrix",
+       "[[contact]]"},
+      {with("point = [ { dof = \"c\", value = -3.0 } ]", "uniform = 1"), "p.toml:13:1: step[1].uniform",
+       "unknown", "point, load"},
+      {with("point = [ { dof = \"c\", value = -3.0 } ]", ""), "p.toml:12:1: step[1]", "without loads",
+       "point, load or both"},
+      {with("point = [ { dof = \"c\", value = -3.0 } ]", "load = \"f.mtx\""), "f.mtx:2", "2 rows",
+       "3, as the matrix has"},
+      {with("value = -3.0", "value = \"x\""), "p.toml:13:32: step[1].point[1].value", "\"x\"", "finite"},
+      {with("dof = \"c\", value", "dof = \"C\", value"), "p.toml:13:19: step[1].point[1].dof", "\"C\"",
+       "a label of"},
+      {with("value = -3.0 }", "value = 1e308 }, { dof = \"a\", value = 1e308 }"), "p.toml:12:1: step[1]",
+       "sum is not finite", "double"},
+  };
+  for (const bad_problem& b : all) {
+    const std::string message = message_of(here.write("p.toml", b.text));
+    INFO(b.text << "\n" << message);
+    CHECK_THAT(message, Catch::Matchers::Contains(b.place));
+    CHECK_THAT(message, Catch::Matchers::Contains(b.found));
+    CHECK_THAT(message, Catch::Matchers::Contains(b.allowed));
+    CHECK(message.find('\n') == std::string::npos);
+  }
+  CHECK(message_of(here.write("p.toml", small_problem)) == "accepted");
+  CHECK_THAT(message_of(here.write("c.toml", "[calculix]\njob = \"none\"\n[[step]]\nload = \"f.mtx\"\n")),
+             Catch::Matchers::Contains("none.dof: cannot be read"));
+}
+
+TEST_CASE("a matrix that is no stiffness is refused where it is factored, with its file and what was found") {
+  const folder here;
+  (void)here.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
+  const std::string message = message_of(here.write(
+      "p.toml", "[matrix]\nstiffness = \"K.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n"));
+  CHECK_THAT(message, Catch::Matchers::Contains("K.mtx: the matrix is not positive semidefinite"));
+  CHECK_THAT(message, Catch::Matchers::Contains("allowed: none below -1e-10"));
+}
+
+TEST_CASE("what takes more memory than there is, or than is said, is refused before it is taken") {
+  const folder here;
+  (void)here.write("K.mtx", small_matrix);
+  // An arrow: the last row is full, whatever the order.
+  constexpr int n = 40000;
+  std::string arrow =
+      fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n", n, n, 2 * n - 1);
+  for (int i = 1; i < n; ++i) arrow += fmt::format("{} {} 2\n{} {} -1e-6\n", i, i, n, i);
+  arrow += fmt::format("{} {} 2\n", n, n);
+  (void)here.write("arrow.mtx", arrow);
+  const std::string tail = "\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
+  const std::string small = here.write("p.toml", "[matrix]\nstiffness = \"K.mtx" + tail);
+  const std::string large =
+      here.write("q.toml", "[matrix]\nstorage = \"band\"\nstiffness = \"arrow.mtx" + tail);
+  const std::string open = here.write("r.toml", "[matrix]\nstiffness = \"arrow.mtx" + tail);
+  setenv("CONTCT_MEMORY_MIB", "100", 1);
+  CHECK(message_of(small) == "accepted");
+  CHECK_THAT(message_of(large),
+             Catch::Matchers::Contains("q.toml:1:1: matrix: found 40000 dofs with a half bandwidth of"));
+  CHECK_THAT(message_of(large), Catch::Matchers::Contains("GiB; allowed: 100 MiB (CONTCT_MEMORY_MIB"));
+  CHECK_THAT(message_of(large), Catch::Matchers::Contains("condense the matrix"));
+  CHECK_THAT(message_of(large), Catch::Matchers::Contains(sparse_factor::available() ? "storage = \"sparse\""
+                                                                                     : "build with CHOLMOD"));
+  if (sparse_factor::available()) {  // which has few entries to keep, and no fill
+    CHECK(message_of(open) == "accepted");
+    setenv("CONTCT_MEMORY_MIB", "3", 1);
+    CHECK_THAT(message_of(open),
+               Catch::Matchers::Contains("GiB, or ") &&
+                   Catch::Matchers::Contains(" MiB in CHOLMOD's sparse factors; allowed: 3.0 MiB"));
+  } else {
+    CHECK_THAT(message_of(open), Catch::Matchers::Contains("/r.toml:1:1: matrix: found 40000 dofs"));
+    CHECK_THAT(message_of(open), Catch::Matchers::Contains("build with CHOLMOD"));
+  }
+  for (const char* wrong : {"", "0", "-5", "lots", "1.5", "99999999999999999999"}) {
+    setenv("CONTCT_MEMORY_MIB", wrong, 1);
+    INFO(wrong);
+    CHECK_THAT(message_of(small), Catch::Matchers::StartsWith("CONTCT_MEMORY_MIB: found \""));
+  }
+  unsetenv("CONTCT_MEMORY_MIB");
+  CHECK(message_of(small) == "accepted");
+}

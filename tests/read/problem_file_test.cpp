@@ -1,0 +1,234 @@
+#include "contct/read/problem_file.hpp"
+
+#include "catch.hpp"
+#include "contct/kernel/call.hpp"
+#include "read/bad_plates.hpp"
+
+using namespace contct;
+
+namespace {
+
+std::string message_of(const std::string& text) {
+  try {
+    (void)parse_problem(text, "pb.toml");
+  } catch (const input_error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+const beam& beam_of(const problem& p) {
+  return std::get<beam>(p.geometry.kind);
+}
+
+}  // namespace
+
+TEST_CASE("the good problem is accepted") {
+  const problem p = parse_problem(good_problem, "pb.toml");
+  CHECK(beam_of(p).x == std::vector<double>{0, 1, 2});
+  CHECK(beam_of(p).EI == std::vector<double>{1e4, 1e4});
+  REQUIRE(p.supports.size() == 2);
+  CHECK(p.supports[1].dof == 1);
+  REQUIRE(p.pairs.size() == 1);
+  CHECK(p.pairs[0].node == 2);
+  CHECK(p.pairs[0].surface == face_below);
+  CHECK_FALSE(p.pairs[0].closed);
+  REQUIRE(p.steps.size() == 1);
+  CHECK(p.steps[0].points[0].value == -60.0);
+  CHECK(p.warnings.empty());
+}
+
+TEST_CASE("every kind of bad input is refused with its place, the key, what was found and what is allowed") {
+  auto kinds = bad_inputs();
+  REQUIRE(kinds.size() >= 60);
+  const auto plates = bad_plates();
+  REQUIRE(plates.size() >= 50);
+  kinds.insert(kinds.end(), plates.begin(), plates.end());
+  for (const bad_input& kind : kinds) {
+    const std::string message = message_of(kind.text);
+    INFO(kind.what << "\n" << message);
+    CHECK_THAT(message, Catch::Matchers::StartsWith("pb.toml:" + std::string(kind.place)));
+    CHECK_THAT(message, Catch::Matchers::Contains(kind.key));
+    CHECK_THAT(message, Catch::Matchers::Contains(kind.found));
+    CHECK_THAT(message, Catch::Matchers::Contains(kind.allowed));
+    CHECK(message.find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("even beams, lists of nodes, and integers taken for reals") {
+  const problem p = parse_problem(
+      "[beam]\nlength = 3\nelements = 3\nEI = [1, 2, 3]\n"
+      "[[support]]\nnodes = \"2..3\"\nfix = [\"w\"]\n[[support]]\nnodes = \"all\"\nspring = { theta = 2 }\n"
+      "[[step]]\nuniform = -1\n",
+      "pb.toml");
+  CHECK(beam_of(p).x == std::vector<double>{0, 1, 2, 3});
+  CHECK(beam_of(p).EI == std::vector<double>{1, 2, 3});
+  REQUIRE(p.supports.size() == 6);
+  CHECK(p.supports[1].node == 2);
+  CHECK(p.supports[5].spring == 2.0);
+}
+
+TEST_CASE("a pair touches from the start where its face is at 0, unless told otherwise") {
+  const auto state = [](const std::string& lines) {
+    return parse_problem(with("face = -0.004\n", lines), "pb.toml").pairs[0].closed;
+  };
+  CHECK(state("face = 0\n"));
+  CHECK(state("face = 0.0\nstate = \"contact\"\n"));
+  CHECK_FALSE(state("face = 0.0\nstate = \"separated\"\n"));
+  CHECK_FALSE(state("face = -1e-12\n"));
+}
+
+TEST_CASE(
+    "a bed is a pair at every free node, modulus times tributary length, and limiting it moves no share") {
+  const std::string head = "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n";
+  const std::string tail = "[[step]]\nuniform = -1\n";
+  const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");
+  REQUIRE(whole.pairs.size() == 2);  // node 1 is fixed
+  CHECK(whole.pairs[0].node == 1);
+  CHECK(whole.pairs[0].stiffness == 6.0);
+  CHECK(whole.pairs[1].stiffness == 4.0);
+  CHECK(whole.pairs[0].closed);
+  const problem part = parse_problem(
+      head + "[[bed]]\nmodulus = 4\nsurface = \"above\"\nface = 0.5\nnodes = [3]\n" + tail, "pb.toml");
+  REQUIRE(part.pairs.size() == 1);
+  CHECK(part.pairs[0].stiffness == 4.0);
+  CHECK(part.pairs[0].surface == face_above);
+  CHECK_FALSE(part.pairs[0].closed);
+}
+
+TEST_CASE("contacts come before beds, both in file order") {
+  const problem p =
+      parse_problem(with("[[step]]",
+                         "[[bed]]\nmodulus = 1\nface = 0\n[[contact]]\nnode = 2\nsurface = \"above\"\n"
+                         "face = 1\nstiffness = 2\n[[step]]"),
+                    "pb.toml");
+  REQUIRE(p.pairs.size() == 4);
+  CHECK(p.pairs[1].node == 1);
+  CHECK(p.pairs[1].surface == face_above);
+  CHECK(p.pairs[2].node == 1);
+}
+
+TEST_CASE("loads: uniform parts, polynomials and points add up in one step") {
+  const problem p =
+      parse_problem(with("point = [ { node = 3, w = -60.0 } ]",
+                         "uniform = [ { value = -3, elements = [2] }, { polynomial = [1, 2, 3] } ]\n"
+                         "point = [ { node = 2, theta = 1.5, w = -1 }, { node = 2, w = -2 } ]"),
+                    "pb.toml");
+  const load& l = p.steps[0];
+  REQUIRE(l.distributed.size() == 2);
+  CHECK(l.distributed[0].elements == std::vector<int>{1});
+  CHECK(l.distributed[1].polynomial == std::vector<double>{1, 2, 3});
+  CHECK(l.points.size() == 3);
+}
+
+TEST_CASE("loads on the same elements are one load, their sum, and a list of all elements is all") {
+  const problem p = parse_problem(
+      with("point = [ { node = 3, w = -60.0 } ]",
+           "uniform = [ { value = -3, elements = [2] }, { value = -1 }, { polynomial = [1, 2], elements = "
+           "\"2..2\" }, { value = -4, elements = \"all\" }, { value = 0.5, elements = [2, 1] } ]"),
+      "pb.toml");
+  const load& l = p.steps[0];
+  REQUIRE(l.distributed.size() == 2);
+  CHECK(l.distributed[0].elements == std::vector<int>{1});
+  CHECK(l.distributed[0].polynomial == std::vector<double>{-2, 2});
+  CHECK(l.distributed[1].elements.empty());
+  CHECK(l.distributed[1].polynomial == std::vector<double>{-4.5});
+}
+
+TEST_CASE("a pair on a fixed dof is taken with a warning: the listing may toggle it") {
+  const problem p = parse_problem(with("node = 3\nsurface", "node = 1\nsurface"), "pb.toml");
+  REQUIRE(p.warnings.size() == 1);
+  CHECK_THAT(p.warnings[0], Catch::Matchers::StartsWith("pb.toml:7: contact[1]: node 1 is fixed in w"));
+}
+
+TEST_CASE("text from a file cannot break the message: control characters and length are tamed") {
+  const std::string message = message_of(with("\"below\"", "\"" + std::string(5000, 'x') + "\\u001b[31m\""));
+  CHECK(message.size() < 200);
+  CHECK(message.find('\033') == std::string::npos);
+}
+
+TEST_CASE("long text is cut between characters, not inside one") {
+  std::string wide;
+  for (int i = 0; i < 30; ++i) wide += "\u4e2d";  // three bytes each: 40 is inside the fourteenth
+  const std::string message = message_of(with("\"below\"", "\"" + wide + "\""));
+  CHECK_THAT(message, Catch::Matchers::Contains("\u4e2d...\"; allowed"));
+}
+
+TEST_CASE("hostile files end in a message: binary, deep nesting, nothing at all") {
+  for (const std::string& text : {std::string("\x7f"
+                                              "ELF\x02\x01\x01\x00\x00\x00\x00",
+                                              11),
+                                  std::string(200000, '['), "x = " + std::string(100000, '['), std::string(),
+                                  std::string("\xff\xfe"), std::string(1000, '\0'), [] {
+                                    std::string dotted = "a";
+                                    for (int i = 0; i < 300000; ++i) dotted += ".a";
+                                    return dotted + " = 1\n";
+                                  }()}) {
+    CHECK(message_of(text) != "accepted");
+  }
+}
+
+TEST_CASE("a hundred thousand nodes, written out, are read") {
+  std::string text = "[beam]\nEI = 1.0\nx = [";
+  for (int i = 0; i < 100000; ++i) text += std::to_string(i) + ".0,\n";
+  text += "]\n[[support]]\nnodes = \"all\"\nfix = [\"w\"]\n[[step]]\nuniform = -1.0\n";
+  const problem p = parse_problem(text, "pb.toml");
+  CHECK(nodes(p.geometry) == 100000);
+  CHECK(p.supports.size() == 100000);
+}
+
+TEST_CASE("the good plate is accepted: grid, stiffness from E, nu and thickness, loads on every dof") {
+  const problem p = parse_problem(good_plate, "pb.toml");
+  const plate& it = std::get<plate>(p.geometry.kind);
+  CHECK(it.x == std::vector<double>{0, 0.5, 1});
+  CHECK(it.y == std::vector<double>{0, 1});
+  CHECK(it.D == Approx(1.0).epsilon(1e-15));
+  CHECK(it.nu == 0.3);
+  REQUIRE(p.supports.size() == 6);
+  CHECK(p.supports[5].node == 3);
+  CHECK(p.supports[5].dof == 2);
+  REQUIRE(p.pairs.size() == 1);
+  CHECK(p.pairs[0].node == 5);
+  REQUIRE(p.steps.size() == 1);
+  const load& l = p.steps[0];
+  REQUIRE(l.distributed.size() == 2);
+  CHECK(l.distributed[1].elements == std::vector<int>{1});
+  REQUIRE(l.points.size() == 3);
+  CHECK(l.points[1].dof == 1);
+  CHECK(l.points[2].node == 5);
+  CHECK(l.points[2].dof == 2);
+  CHECK(l.points[2].value == -0.5);
+}
+
+TEST_CASE("an even plate by its size, D as it is, springs on every dof, nu at both ends of its range") {
+  const problem p = parse_problem(
+      "[plate]\nsize = [3, 1]\nelements = [3, 2]\nD = 2\nnu = 0.5\n[[support]]\nnode = 12\n"
+      "spring = { w = 1, wx = 2, wy = 3 }\n[[step]]\nuniform = 0\n",
+      "pb.toml");
+  const plate& it = std::get<plate>(p.geometry.kind);
+  CHECK(it.x == std::vector<double>{0, 1, 2, 3});
+  CHECK(it.y == std::vector<double>{0, 0.5, 1});
+  CHECK(it.D == 2.0);
+  REQUIRE(p.supports.size() == 3);
+  CHECK(p.supports[2].spring == 3.0);
+  CHECK(message_of(plate_with("0.3", "-0.999")) == "accepted");
+  CHECK(message_of(plate_with("0.3", "0")) == "accepted");
+}
+
+TEST_CASE(
+    "a plate's bed is a pair at every free node, modulus times tributary area, and limiting it moves no "
+    "share") {
+  const std::string head =
+      "[plate]\nx = [0, 1, 3]\ny = [0, 2]\nD = 1\nnu = 0\n[[support]]\nnode = 4\nfix = [\"w\"]\n"
+      "[[support]]\nnode = 5\nfix = [\"wx\", \"wy\"]\n";
+  const std::string tail = "[[step]]\nuniform = -1\n";
+  const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");
+  REQUIRE(whole.pairs.size() == 5);  // node 4 is fixed, node 5 only in its slopes
+  const std::vector<double> expected = {2, 6, 4, 6, 4};
+  for (std::size_t i = 0; i < 5; ++i) CHECK(whole.pairs[i].stiffness == expected[i]);
+  CHECK(whole.pairs[3].node == 4);
+  const problem part =
+      parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\nnodes = [6]\n" + tail, "pb.toml");
+  REQUIRE(part.pairs.size() == 1);
+  CHECK(part.pairs[0].stiffness == 4.0);
+}

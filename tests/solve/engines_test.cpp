@@ -1,0 +1,158 @@
+// Every engine against the 1989 way: the same responses through hundreds of toggles, the same events and
+// final states on whole paths, with springs over eight decades.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "catch.hpp"
+#include "contct/lab/problem_result.hpp"
+#include "contct/lab/random_problem.hpp"
+#include "contct/numeric/random.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/path.hpp"
+#include "contct/solve/condensed_engine.hpp"
+#include "contct/solve/engine.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// Held structures of moderate condition: engines are compared to a bound that conditioning sets.
+random_problem_kind held_problems(double plates) {
+  random_problem_kind kind;
+  kind.least_unit = 1e-3;
+  kind.most_unit = 1e3;
+  kind.free_share = 0.0;
+  kind.plate_share = plates;
+  return kind;
+}
+
+std::vector<double> load_of(const random_problem& p, const linear_structure& s) {
+  std::vector<double> f(static_cast<std::size_t>(s.dofs()));
+  add_consistent_loads(p.geometry, p.steps[0], f);
+  return f;
+}
+
+/// How far two responses differ, relative to `size`, the largest deflection anywhere: at the pairs there may
+/// be nothing but rounding.
+double difference(const std::vector<double>& a, const std::vector<double>& b, double size) {
+  double off = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
+  return size > 0.0 ? off / size : off;
+}
+
+double largest_deflection(const linear_structure& s, const std::vector<double>& u) {
+  double size = 0.0;
+  for (auto dof = static_cast<std::size_t>(s.deflection); dof < u.size();
+       dof += static_cast<std::size_t>(s.dofs_per_node))
+    size = std::max(size, std::abs(u[dof]));
+  return size;
+}
+
+/// What rounding alone may do: each of two answers may be off by the certificate's 1024 eps / rcond.
+double allowed(stiffness_engine& e) {
+  return std::max(1e-10, 2 * 1024 * std::numeric_limits<double>::epsilon() / e.reciprocal_condition());
+}
+
+struct toggled {
+  int responses = 0;
+  int toggles = 0;
+  double worst = 0.0;  // in units of what is allowed
+};
+
+/// Toggle `toggles` pairs of a problem, drawn from `choices` of them, and compare every response.
+toggled toggle_back_and_forth(const random_problem& p, const std::string& engine, int toggles, int choices,
+                              random_numbers& random) {
+  toggled t;
+  const linear_structure s = build(p.geometry, p.supports, p.pairs);
+  if (engine == "condensed" && !condensed_engine::suits(s)) return t;
+  const auto reference = make_engine("refactor", s);
+  const auto tried = make_engine(engine, s);
+  const std::vector<double> f = load_of(p, s);
+  std::vector<char> closed;
+  for (const contact_pair& pair : s.pairs) closed.push_back(pair.closed ? 1 : 0);
+  std::vector<double> a(s.pairs.size());
+  std::vector<double> b(s.pairs.size());
+  std::vector<double> u(f.size());
+  std::vector<double> v(f.size());
+  const std::vector<double> no_forces(s.pairs.size());
+  const int most = std::min(choices, static_cast<int>(s.pairs.size()));
+  for (int k = 0; k < toggles; ++k) {
+    const auto pair = static_cast<std::size_t>(random.whole(0, most - 1));
+    closed[pair] = closed[pair] != 0 ? 0 : 1;
+    for (stiffness_engine* e : {reference.get(), tried.get()})
+      e->switch_spring(static_cast<int>(pair), closed[pair] != 0);
+    ++t.toggles;
+    reference->respond({f, 1.0, 1}, a);
+    tried->respond({f, 1.0, 1}, b);
+    ++t.responses;
+    reference->recover(f, no_forces, u);
+    t.worst = std::max(t.worst, difference(a, b, largest_deflection(s, u)) / allowed(*reference));
+  }
+  tried->recover(f, no_forces, v);
+  t.worst = std::max(t.worst, difference(u, v, largest_deflection(s, u)) / allowed(*reference));
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("every engine responds as refactor does while pairs toggle back and forth, hundreds of times") {
+  for (const std::string& engine : engine_names()) {
+    if (engine == "refactor") continue;
+    random_numbers random(5);
+    toggled all;
+    for (std::uint64_t number = 1; number <= 40; ++number) {
+      const random_problem p =
+          make_random_problem(11, number, held_problems(engine == "condensed" ? 0.0 : 0.5));
+      const toggled t = toggle_back_and_forth(p, engine, 300, number % 2 == 0 ? 3 : 1000, random);
+      INFO(engine << ", problem " << number);
+      CHECK(t.worst <= 1.0);
+      all.responses += t.responses;
+      all.toggles += t.toggles;
+    }
+    CHECK(all.responses >= 10'000);
+  }
+}
+
+TEST_CASE("on every engine the corrected kernel's paths of held structures are certified") {
+  for (const std::string& engine : engine_names()) {
+    const auto kernel = make_kernel("corrected");
+    int certified = 0;
+    int makes = 0;
+    int breaks = 0;
+    random_problem_kind kind;  // every unit, springs over eight decades
+    kind.free_share = 0.0;
+    kind.plate_share = engine == "condensed" ? 0.0 : 0.25;
+    for (std::uint64_t number = 1; number <= 150; ++number) {
+      const random_problem p = make_random_problem(2026, number, kind);
+      if (engine == "condensed" && !condensed_engine::suits(build(p.geometry, p.supports, p.pairs))) continue;
+      const problem_result t = try_problem(p, *kernel, engine);
+      INFO(engine << ", problem " << number << ": " << name_of(t.came_to) << ", needs " << t.needed);
+      CHECK(t.came_to == verdict::certified);
+      ++certified;
+      makes += t.makes;
+      breaks += t.breaks;
+    }
+    CHECK(certified >= 140);
+    CHECK(makes >= 300);
+    CHECK(breaks >= 150);
+  }
+}
+
+TEST_CASE("free structures come to the same end on every engine") {
+  random_problem_kind kind;
+  kind.free_share = 1.0;
+  int same = 0;
+  for (std::uint64_t number = 1; number <= 100; ++number) {
+    const random_problem p = make_random_problem(77, number, kind);
+    const auto kernel = make_kernel("corrected");
+    const verdict reference = try_problem(p, *kernel, "refactor").came_to;
+    for (const std::string& engine : engine_names()) {
+      if (engine == "condensed" && !condensed_engine::suits(build(p.geometry, p.supports, p.pairs))) continue;
+      INFO(engine << ", problem " << number);
+      CHECK(try_problem(p, *kernel, engine).came_to == reference);
+      ++same;
+    }
+  }
+  CHECK(same >= 250);
+}

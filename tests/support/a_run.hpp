@@ -1,0 +1,48 @@
+// A whole run in memory, for the tests of what is written about it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/write/finished_run.hpp"
+
+namespace contct {
+
+/// FORTRAN leading C++ in lockstep, seen by all that pictures are made from.
+struct a_run {
+  problem what;
+  linear_structure structure;
+  std::unique_ptr<kernel> leader;
+  lockstep compared;
+  frame_keeper kept;
+  run_record record;
+  certifier judged;
+  early_toggles early;
+  path_end end;
+
+  explicit a_run(const std::string& text, const std::vector<observer*>& more = {},
+                 const frame_limits& limits = {})
+      : what(parse_problem(text, "pb.toml")),
+        structure(structure_of(what)),
+        leader(make_kernel("fortran")),
+        compared(make_lockstep(leader->facts(), std::vector<std::string>{"cpp"})),
+        kept(structure, loads_of(what), false, limits),
+        record(&compared),
+        judged(structure, loads_of(what)) {
+    std::vector<observer*> watching = {&compared, &judged, &early, &kept, &record};
+    watching.insert(watching.end(), more.begin(), more.end());
+    end = follow(what, structure, "refactor", *leader, watching);
+    leader.reset();  // unit 26 is there only once
+  }
+
+  [[nodiscard]] finished_run finished() const {
+    return {what,       kept,     record, judged, early, "pb.toml",   {"fortran", "cpp"},
+            "refactor", "solved", "",     true,   true,  "all equal", {"contct 0"}};
+  }
+};
+
+}  // namespace contct

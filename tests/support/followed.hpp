@@ -1,0 +1,60 @@
+// A random problem and its path under the corrected rule, certified at every step.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "contct/certify/certificate.hpp"
+#include "contct/certify/fallback.hpp"
+#include "contct/lab/random_problem.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/follow_steps.hpp"
+#include "support/beams.hpp"
+
+namespace contct {
+
+/// What was seen on a path, and what the certificate says of its states.
+struct followed {
+  path_end end;
+  recorder seen;
+  std::vector<std::optional<certificate>> certificates;  // one for each step that ended
+  std::size_t stride = 2;                                // dofs of a node, the deflection first
+
+  [[nodiscard]] bool solved() const { return end.status == path_status::solved; }
+  /// Solved, and there is no other state that is as good.
+  [[nodiscard]] bool determined() const { return solved() && certificates.back()->unique; }
+  /// The deflection of a node at the end of the last step.
+  [[nodiscard]] double deflection(std::size_t node) const { return seen.steps.back().u[node * stride]; }
+  [[nodiscard]] std::size_t nodes() const { return seen.steps.back().u.size() / stride; }
+  /// What a deflection may be off by at the end of the last step, relative to the largest.
+  [[nodiscard]] double tolerance() const { return certificates.back()->tolerance; }
+
+  /// The largest deflection that any step told.
+  [[nodiscard]] double largest() const {
+    double most = 0.0;
+    for (const auto& step : seen.steps) {
+      for (std::size_t dof = 0; dof < step.u.size(); dof += stride)
+        most = std::max(most, std::abs(step.u[dof]));
+    }
+    return most;
+  }
+};
+
+/// Follow `p` under the corrected rule, with the oracle's help where the path cannot go on.
+inline followed follow(const random_problem& p) {
+  const linear_structure s = build(p.geometry, p.supports, p.pairs);
+  certifier certifies(s, [&p](int step, std::span<double> f) {
+    add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
+  });
+  followed f;
+  f.stride = static_cast<std::size_t>(s.dofs_per_node);
+  observer* const observers[] = {&f.seen, &certifies};
+  path_limits limits;
+  limits.fallback = fallback_to_reference(s);
+  f.end = follow_steps(p.geometry, s, p.steps, "refactor", *make_kernel("corrected"), observers, limits);
+  f.certificates = certifies.steps();
+  return f;
+}
+
+}  // namespace contct

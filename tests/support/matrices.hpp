@@ -1,0 +1,85 @@
+// Stiffness matrices by their entries: a structure's own, and a body of springs in space.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "contct/matrix/band_matrix.hpp"
+#include "contct/matrix/sparse_matrix.hpp"
+#include "contct/numeric/random.hpp"
+#include "contct/structure/structure.hpp"
+
+namespace contct {
+
+/// The entries of a structure's matrix, in the order of its dofs.
+inline sparse_matrix entries_of(const linear_structure& s) {
+  sparse_matrix a{s.dofs(), {}};
+  for (int column = 0; column < s.dofs(); ++column) {
+    for (int row = column; row < s.dofs(); ++row) {
+      const int i = std::max(s.row_of(row), s.row_of(column));
+      const int j = std::min(s.row_of(row), s.row_of(column));
+      if (i - j > s.stiffness.band().subdiagonals()) continue;
+      if (const double value = s.stiffness.band().at(i, j); value != 0.0)
+        a.entries.push_back({row, column, value});
+    }
+  }
+  return a;
+}
+
+/// Points in space with a spring between any two of them: three dofs a point.
+inline sparse_matrix braced(const std::vector<std::array<double, 3>>& points, double stiffness) {
+  const auto n = 3 * points.size();
+  std::vector<double> k(n * n);
+  for (std::size_t a = 0; a < points.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      std::array<double, 3> along{};
+      double length = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) length += std::pow(points[a][i] - points[b][i], 2);
+      for (std::size_t i = 0; i < 3; ++i) along[i] = (points[a][i] - points[b][i]) / std::sqrt(length);
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          const double part = stiffness * along[i] * along[j];
+          k[(3 * a + i) * n + 3 * a + j] += part;
+          k[(3 * b + i) * n + 3 * b + j] += part;
+          k[(3 * a + i) * n + 3 * b + j] -= part;
+          k[(3 * b + i) * n + 3 * a + j] -= part;
+        }
+      }
+    }
+  }
+  sparse_matrix m{static_cast<int>(n), {}};
+  for (std::size_t column = 0; column < n; ++column)
+    for (std::size_t row = column; row < n; ++row)
+      if (k[row * n + column] != 0.0)
+        m.entries.push_back({static_cast<int>(row), static_cast<int>(column), k[row * n + column]});
+  return m;
+}
+
+/// Eight corners of a box.
+inline std::vector<std::array<double, 3>> box_at(double x) {
+  std::vector<std::array<double, 3>> points;
+  for (int i = 0; i < 8; ++i) points.push_back({x + i % 2, 0.9 * (i / 2 % 2), 1.3 * (i / 4)});
+  return points;
+}
+
+/// Positive definite, with many zeros inside the band.
+inline band_matrix random_band(int order, int subdiagonals, std::uint64_t seed) {
+  random_numbers random(seed);
+  band_matrix k(order, subdiagonals);
+  for (int column = 0; column < order; ++column) {
+    for (int row = column + 1; row <= std::min(order - 1, column + subdiagonals); ++row)
+      if (random.unit() < 0.4) k.at(row, column) = random.unit() - 0.5;
+    k.at(column, column) = 4.0 + random.unit();
+  }
+  return k;
+}
+
+inline std::vector<double> random_vector(int order, std::uint64_t seed) {
+  random_numbers random(seed);
+  std::vector<double> x;
+  for (int i = 0; i < order; ++i) x.push_back(random.unit() - 0.5);
+  return x;
+}
+
+}  // namespace contct

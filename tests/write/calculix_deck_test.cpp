@@ -1,0 +1,134 @@
+// A deck for CalculiX avoids what CalculiX gets wrong.
+#include "contct/write/calculix_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/write/calculix_mesh.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string beam_text =
+    "[beam]\nx = [0, 1, 2]\nEI = [1e4, 2e4]\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+    "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5e4\n"
+    "[[step]]\nuniform = -6\n[[step]]\npoint = [ { node = 3, w = -60 }, { node = 2, theta = 4 } ]\n";
+
+const std::string plate_text =
+    "[plate]\nsize = [2, 1]\nelements = [2, 1]\nD = 1\nnu = 0.3\n[[support]]\nnodes = [1, 4]\n"
+    "fix = [\"w\", \"wx\", \"wy\"]\n[[step]]\nuniform = -6\n";
+
+calculix_deck deck_of(const std::string& text, const calculix_choice& choice = {}) {
+  return calculix_deck_of(parse_problem(text, "pb.toml"), choice);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+double total_of(const calculix_mesh& m, int direction) {
+  double sum = 0.0;
+  for (const auto& [at, value] : m.forces) sum += at.second == direction ? value : 0.0;
+  return sum;
+}
+
+bool fixes(const calculix_mesh& m, int node, int direction) {
+  return std::any_of(m.fixed.begin(), m.fixed.end(),
+                     [&](const auto& f) { return f.node == node && f.direction == direction; });
+}
+
+}  // namespace
+
+TEST_CASE("a deck has NLGEOM, nonlinear SPRINGA and no field of more than 20 characters") {
+  for (const std::string& text : {beam_text, plate_text}) {
+    const calculix_deck deck = deck_of(text);
+    CHECK_THAT(deck.text, Contains("*STEP,NLGEOM\n"));
+    for (const std::string& line : lines_of(deck.text)) {
+      INFO(line);
+      CHECK((line.compare(0, 2, "**") == 0 || line.size() <= 132));
+      if (line[0] == '*') continue;
+      std::istringstream fields(line);
+      for (std::string field; std::getline(fields, field, ',');) CHECK(field.size() <= 20);
+    }
+  }
+  CHECK_THAT(deck_of(beam_text).text, Contains("*ELEMENT,TYPE=SPRINGA") && Contains(",NONLINEAR\n"));
+}
+
+TEST_CASE("loads and faces are scaled so that the largest deflection is small, and the deck says by what") {
+  const calculix_deck deck = deck_of(beam_text);
+  CHECK(deck.step == 2);
+  CHECK_THAT(deck.text, Contains("\n** displacement-scale "));
+  // Tip: -0.004 and what the spring gives way; 2e-7 is 1e-7 of the length.
+  CHECK(deck.displacement_scale < 2e-7 / 0.004);
+  CHECK(deck.displacement_scale > 2e-7 / 0.008);
+  const std::string face = fmt::format("0.,{:.12e}\n", -0.004 * deck.displacement_scale);
+  CHECK_THAT(deck.text, Contains(face));
+  CHECK(deck.force_scale == Catch::Detail::Approx(1e6 / 64));  // of 60 and 4
+  CHECK(deck.first_ground == deck.nodes + 1);
+}
+
+TEST_CASE("each of a beam's elements becomes as many as asked for, with a node at every middle") {
+  const problem p = parse_problem(beam_text, "pb.toml");
+  for (const int refine : {1, 2, 5}) {
+    const calculix_mesh m = calculix_mesh_of(p, refine, 0);
+    CHECK(m.elements.size() == static_cast<std::size_t>(2 * refine));
+    CHECK(m.nodes.size() == static_cast<std::size_t>(4 * refine + 1));
+    for (const auto& e : m.elements) CHECK(e.size() == 3);
+    CHECK(std::abs(total_of(m, 3) + 12) < 1e-12);  // uniform: all of it arrives
+    CHECK(m.nodes[2].x == 2.0);
+  }
+}
+
+TEST_CASE("a beam's slope turns against CalculiX's axis") {
+  const calculix_mesh m = calculix_mesh_of(parse_problem(beam_text, "pb.toml"), 1, 1);
+  CHECK(m.forces.at({1, 5}) == -4.0);
+  CHECK(m.forces.at({2, 3}) == -60.0);
+  CHECK(fixes(m, 0, 5));
+}
+
+TEST_CASE("a plate's edge that is fixed at its nodes is fixed between them") {
+  const calculix_mesh m = calculix_mesh_of(parse_problem(plate_text, "pb.toml"), 2, 0);
+  CHECK(m.elements.size() == 8);
+  CHECK(std::abs(total_of(m, 3) + 12) < 1e-12);
+  int on_edge = 0;
+  for (std::size_t i = 0; i < m.nodes.size(); ++i) {
+    const bool edge = m.nodes[i].x == 0.0;
+    on_edge += edge ? 1 : 0;
+    for (const int direction : {3, 4, 5}) CHECK(fixes(m, static_cast<int>(i), direction) == edge);
+  }
+  CHECK(on_edge == 5);
+}
+
+TEST_CASE("a plate's nodes that are fixed in w alone are points: between them it is free") {
+  std::string text = plate_text;
+  text.replace(text.find("[\"w\", \"wx\", \"wy\"]"), 17, "[\"w\"]\n[[support]]\nnode = 3\nfix = [\"w\"]");
+  const calculix_mesh m = calculix_mesh_of(parse_problem(text, "pb.toml"), 2, 0);
+  int held = 0;
+  for (const auto& f : m.fixed) held += f.direction == 3 ? 1 : 0;
+  CHECK(held == 3);
+}
+
+TEST_CASE("what CalculiX cannot have is refused by name") {
+  const auto with = [](std::string text, std::string_view from, std::string_view to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  CHECK_THROWS_WITH(
+      deck_of(with(beam_text, "fix = [\"w\", \"theta\"]", "fix = [\"w\"]\nspring = { theta = 3 }")),
+      Contains("node 1 has a spring in theta"));
+  CHECK_THROWS_WITH(deck_of(with(beam_text, "fix = [\"w\", \"theta\"]", "fix = [\"w\"]")),
+                    Contains("do not hold the structure"));
+  CHECK_THROWS_WITH(deck_of(with(plate_text, "nu = 0.3", "nu = 0.5")), Contains("plate.nu: found 0.5"));
+  CHECK_THROWS_WITH(deck_of(beam_text, {3, 2, 500}), Contains("--step: found 3; allowed: 1 to 2"));
+}

@@ -1,0 +1,169 @@
+#include "contct/write/result_json.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
+#include "read/bad_plates.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// Run a problem with FORTRAN leading C++, and read the JSON back.
+nlohmann::json result_of(const std::string& text) {
+  const problem p = parse_problem(text, "pb.toml");
+  const auto leader = make_kernel("fortran");
+  const std::vector<std::string> followers = {"cpp"};
+  lockstep compared = make_lockstep(leader->facts(), followers);
+  const auto file =
+      std::filesystem::temp_directory_path() / ("contct-json-test-" + std::to_string(::getpid()));
+  output_file out(file.string());
+  const linear_structure s = structure_of(p);
+  certifier judged(s, loads_of(p));
+  result_json json(p, {"fortran", "cpp"}, "refactor", judged, out);
+  const path_end end = follow(p, s, "refactor", *leader, {&compared, &judged, &json});
+  json.finish(status_name(end.status), end, &compared);
+  auto parsed = nlohmann::json::parse(std::ifstream(file));
+  std::filesystem::remove(file);
+  return parsed;
+}
+
+}  // namespace
+
+TEST_CASE("the result has the format's fields, with the numbers of PB1's second step") {
+  const auto r = result_of(good_problem);
+  CHECK(r["format"] == "contct-result-1");
+  CHECK(r["kernels"] == nlohmann::json({"fortran", "cpp"}));
+  CHECK(r["engine"] == "refactor");
+  CHECK(r["status"] == "solved");
+  CHECK(r["lockstep"]["calls"] == 2);
+  CHECK(r["lockstep"]["values_compared"] == 8);
+  CHECK(r["lockstep"]["mismatches"] == 0);
+  const auto& step = r["steps"][0];
+  CHECK(step["fraction"] == 1.0);
+  CHECK(step["w"].size() == 3);
+  CHECK(step["displacement"].size() == 6);
+  CHECK(step["w"][2].get<double>() == Approx(-0.00483720930232558).epsilon(1e-12));
+  const auto& pair = step["pairs"][0];
+  CHECK(pair["state"] == "contact");
+  CHECK(pair["gap"] == 0.0);
+  CHECK(pair["force"].get<double>() == Approx(41.8604651162791).epsilon(1e-11));
+  const auto& judged = step["certificate"];
+  CHECK(judged["exact"] == true);
+  CHECK(judged["displacement_error"].get<double>() < 1e-13);
+  CHECK(judged["tolerance"].get<double>() <= 1e-6);
+  CHECK(judged["penetration"] == 0.0);
+  CHECK(judged["tension"] == 0.0);
+}
+
+TEST_CASE("events carry pair, node, side and change, and their load in absolute terms") {
+  const auto r = result_of(good_problem);
+  const auto& i = r["steps"][0]["increments"][0];
+  CHECK(i["increment"] == 1);
+  CHECK(i["events"][0] ==
+        nlohmann::json({{"pair", 1}, {"node", 3}, {"surface", "below"}, {"change", "make"}}));
+  CHECK(i["load"]["point"][0]["node"] == 3);
+  CHECK(i["load"]["point"][0]["w"].get<double>() == Approx(-15.0).epsilon(1e-12));
+  CHECK(i["load"]["force"].get<double>() == Approx(-15.0).epsilon(1e-12));
+  CHECK(i["load"]["moment"].get<double>() == Approx(-30.0).epsilon(1e-12));
+  CHECK(i["fraction"].get<double>() == Approx(0.25).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "an event's load leaves its parts out when they are many, a long list of elements counting as many") {
+  const auto load_on = [](const std::string& elements) {
+    const auto r = result_of(
+        "[beam]\nlength = 80\nelements = 80\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", "
+        "\"theta\"]\n[[step]]\nuniform = [ { value = -1, elements = " +
+        elements + " } ]\n");
+    return r["steps"][0]["increments"][0]["load"];
+  };
+  const auto every_second = [](int count) {
+    std::string list = "[";
+    for (int i = 0; i < count; ++i) list += std::to_string(2 * i + 1) + ", ";
+    return list + "]";
+  };
+  CHECK(load_on("\"all\"")["uniform"][0]["elements"] == "all");
+  CHECK(load_on("\"2..80\"")["uniform"][0]["elements"] == "2..80");
+  CHECK(load_on(every_second(32))["uniform"][0]["elements"].size() == 32);
+  const auto many = load_on(every_second(33));
+  CHECK_FALSE(many.contains("uniform"));
+  CHECK(many["force"].get<double>() == Approx(-33.0));
+}
+
+TEST_CASE("forces balance: loads, pairs and reactions add up to nothing") {
+  const auto r = result_of(good_problem);
+  const auto& step = r["steps"][0];
+  const double pair = step["pairs"][0]["force"];
+  CHECK(step["reactions"][0]["dof"] == "w");
+  CHECK(step["reactions"][0]["value"].get<double>() + pair - 60.0 == Approx(0.0).margin(1e-10));
+  // The clamping moment: about the root, 60 down and the pair up at x = 2.
+  CHECK(step["reactions"][1]["value"].get<double>() == Approx((60.0 - pair) * 2).epsilon(1e-11));
+  CHECK(step["elements"][0]["moment"][0].get<double>() == Approx(-(60.0 - pair) * 2).epsilon(1e-11));
+  CHECK(step["elements"][1]["shear"][1].get<double>() == Approx(60.0 - pair).epsilon(1e-11));
+}
+
+TEST_CASE("an open pair has a gap and no force, and a mechanism keeps the state reached") {
+  const auto r = result_of(
+      "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
+      "0\nstiffness = 10\n"
+      "[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n[[step]]\n"
+      "point = [ { node = 3, w = -4 } ]\n[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n");
+  CHECK(r["status"] == "mechanism");
+  CHECK(r["end"]["step"] == 2);
+  CHECK(r["end"]["pairs"] == nlohmann::json({1}));
+  REQUIRE(r["steps"].size() == 2);
+  CHECK(r["steps"][1]["fraction"].get<double>() == Approx(2.0 / 3).epsilon(1e-9));
+  CHECK(r["steps"][1]["certificate"].is_null());
+  CHECK(r["steps"][1]["pairs"][0]["state"] == "separated");
+  CHECK(r["steps"][1]["pairs"][0]["force"] == 0.0);
+  CHECK(r["steps"][1]["pairs"][1]["force"].get<double>() == Approx(8.0).epsilon(1e-9));
+}
+
+TEST_CASE("a plate's result: slopes and moments by name, reactions that balance, corners counter-clockwise") {
+  const auto r = result_of(good_plate);
+  CHECK(r["status"] == "solved");
+  const auto& step = r["steps"][0];
+  CHECK(step["w"].size() == 6);
+  CHECK(step["displacement"].size() == 18);
+  CHECK(step["w"][5] == step["displacement"][15]);
+  REQUIRE(step["elements"].size() == 2);
+  for (const char* name : {"mx", "my", "mxy"}) CHECK(step["elements"][1][name].size() == 4);
+  // Clamped at the left edge and loaded down, the plate hogs there: corners 1 and 4 of element 1.
+  const auto& mx = step["elements"][0]["mx"];
+  CHECK(mx[0].get<double>() < -0.3);
+  CHECK(mx[3].get<double>() < 0.0);
+  CHECK(std::abs(mx[1].get<double>()) < std::abs(mx[0].get<double>()));
+  const auto& load = r["steps"][0]["increments"].back()["load"];
+  CHECK(load["force"].get<double>() == Approx(-1.0 - 2.0 / 2 - 1.0));
+  CHECK(load["moment_wx"].get<double>() == Approx(-1.0 * 0.5 - 2.0 / 2 * 0.75 - 1.0 * 1 + 0.25));
+  CHECK(load["moment_wy"].get<double>() == Approx(-1.0 * 0.5 - 2.0 / 2 * 0.5 - 0.5));
+  CHECK(load["uniform"][1]["elements"] == "2..2");
+  CHECK(load["point"][1] == nlohmann::json({{"node", 3}, {"wx", 0.25}}));
+  const double pair = step["pairs"][0]["force"];
+  CHECK(pair > 0.1);
+  double force = load["force"].get<double>() + pair;
+  double along_x = load["moment_wx"].get<double>() + pair * 1.0;
+  double along_y = load["moment_wy"].get<double>() + pair * 1.0;
+  for (const auto& reaction : step["reactions"]) {
+    const double y = reaction["node"] == 4 ? 1.0 : 0.0;
+    const double value = reaction["value"];
+    if (reaction["dof"] == "w") {
+      force += value;
+      along_y += value * y;
+    } else {
+      (reaction["dof"] == "wx" ? along_x : along_y) += value;
+    }
+  }
+  CHECK(force == Approx(0.0).margin(1e-10));
+  CHECK(along_x == Approx(0.0).margin(1e-10));
+  CHECK(along_y == Approx(0.0).margin(1e-10));
+}
