@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
-#include "contct/path/follow_steps.hpp"
+#include "contct/path/solve_problem.hpp"
 #include "contct/structure/beam.hpp"
 
 using namespace contct;

@@ -180,7 +180,7 @@ struct restless_first_pair {
     const auto dof = static_cast<std::size_t>(c.dof.dof_of(c.id[0]) - 1);
     if (c.dtest[dof] == 0.0) {
       ++quiet;
-      (void)contct_corrected(c, 0);
+      contct_corrected(c);
       return;
     }
     ++toggles;
@@ -233,7 +233,7 @@ namespace {
 
 /// The corrected rule with a hasty hand: events come a thousandth too early.
 void hasty(call<double>& c) {
-  (void)contct_corrected(c, 0);
+  contct_corrected(c);
   if (c.smin > 0.0 && c.smin < 1.0) c.smin *= 0.999;
 }
 
@@ -272,7 +272,7 @@ TEST_CASE("at full load the kernel is asked once more where a pair is on the wro
       c.smin = 1.0;
       return;
     }
-    (void)contct_corrected(c, 0);
+    contct_corrected(c);
   });
   const beam_problem p = cantilever_over_a_stop();
   recorder r;
@@ -344,7 +344,7 @@ TEST_CASE("after a rescue the path goes on from the equilibrium that it was give
   bool from_fallback = false;
   made_kernel k([&from_fallback, calls = 0](call<double>& c) mutable {
     if (from_fallback) {
-      (void)contct_corrected(c, 0);
+      contct_corrected(c);
       return;
     }
     c.smin = 0.0;

@@ -9,7 +9,7 @@
 #include "contct/certify/fallback.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
-#include "contct/path/follow_steps.hpp"
+#include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
 
 namespace contct {

@@ -76,6 +76,7 @@ certificate certifier::judge(const step_state& s) {
   remember_sizes(answer.displacement);
   certificate c;
   c.rcond = s.rcond;
+  c.independent = !s.from_reference;
   c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
                          certificate_never_above);
   c.unique = answer.unique;

@@ -44,7 +44,13 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
     for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);
     const double rcond = stiffness.reciprocal_condition(holding(s, found.pressed));
     ++end.work.factors;
-    for (observer* o : observers) o->step_ended({step, 1.0, found.displacement, status, rcond});
+    for (observer* o : observers) o->step_ended({.step = step,
+                                              .fraction = 1.0,
+                                              .displacement = found.displacement,
+                                              .isep = status,
+                                              .rcond = rcond,
+                                              .from_fallback = false,
+                                              .from_reference = true});
     end.step = step;
   }
   return end;

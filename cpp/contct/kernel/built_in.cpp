@@ -111,7 +111,7 @@ class kernel_r4 final : public kernel {
   std::vector<float> dd_, dtest_, cc_, ss_;
 };
 
-/// The repaired rule. It writes no text: the listing has no words for what it does.
+/// The corrected rule. It writes no text.
 class corrected_kernel final : public kernel {
  public:
   static kernel_facts what_it_is() {
@@ -119,16 +119,11 @@ class corrected_kernel final : public kernel {
   }
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
 
-  void answer(call<double>& c) override {
-    (void)contct_corrected(c, at_rest_);
-    at_rest_ = c.smin == 0.0 ? at_rest_ + 1 : 0;
-  }
-
+  void answer(call<double>& c) override { contct_corrected_quick(c); }
   std::string take_text() override { return {}; }
 
  private:
   kernel_facts facts_ = what_it_is();
-  int at_rest_ = 0;  // answers in a row with SMIN = 0
 };
 
 #if defined CONTCT_FLANG_COMPILER || defined CONTCT_F2C_COMPILER

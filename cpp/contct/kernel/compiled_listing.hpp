@@ -1,9 +1,9 @@
-// The doors to the 8-byte listing: one for each compiler that built it.
+// The 8-byte listing as each compiler built it, called from C++.
 #pragma once
 
 namespace contct::fortran {
 
-// What every door offers (fortran/contct_c.f90, fortran/f2c_door.c).
+// The procedures of fortran/contct_c.f90 and fortran/f2c_calls.c.
 using call_r8 = void(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
                      const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
 using log_open = int(const char* path, int length);
@@ -11,7 +11,7 @@ using log_act = void();
 
 /// A compiler's build of the listing, and the unit 26 of its run-time library.
 struct compiled_listing {
-  const char* kernel;    ///< the name of the kernel behind it
+  const char* kernel;    ///< name of the kernel
   const char* compiler;  ///< for people
   const char* flags;     ///< for people
   bool text_by_meaning;  ///< its run-time library may write .25 for 0.25

@@ -27,7 +27,8 @@ class kernel_failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A function of one call, in double precision at its boundary. A single-precision kernel rounds
+/// A pure function of one call, in double precision at its boundary: what it answers depends on nothing that
+/// went before, and is the same to the bit when it is called again. A single-precision kernel rounds
 /// dd, dtest and cc to float on the way in and widens ss and smin, exactly, on the way out.
 class kernel {
  public:

@@ -7,7 +7,7 @@
 #include "contct/lab/problem_result.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
-#include "contct/path/follow_steps.hpp"
+#include "contct/path/solve_problem.hpp"
 
 namespace contct {
 namespace {

@@ -32,7 +32,8 @@ struct step_state {
   std::span<const double> displacement;  ///< D at every dof [dofs]
   std::span<const int> isep;             ///< status of each pair [pairs]
   double rcond;                          ///< of the equilibrated stiffness; 0 when it has no factor
-  bool from_fallback = false;            ///< the path could not reach it: an equilibrium from elsewhere
+  bool from_fallback = false;            ///< the path could not reach it
+  bool from_reference = false;  ///< it is the reference solution's own: a fallback's, or a final state's
 };
 
 /// Watches a path. The path does not depend on what an observer does.

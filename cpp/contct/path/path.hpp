@@ -18,7 +18,7 @@ namespace contct {
 enum class path_status {
   solved,           ///< every step's load is applied
   mechanism,        ///< nothing holds the structure any more: there is no equilibrium
-  cycle,            ///< the same pairs toggle for ever at a standstill
+  cycle,            ///< the same pairs toggle for ever without progress
   iteration_limit,  ///< a step took more increments than allowed
   not_factored,     ///< held, but too ill-conditioned for double precision, or beyond its range
 };
@@ -36,14 +36,13 @@ struct path_end {
 /// which comes zeroed.
 using load_history = std::function<void(int step, std::span<double> total)>;
 
-/// An equilibrium from elsewhere.
+/// An equilibrium found without a path.
 struct equilibrium_state {
   std::vector<double> displacement;  ///< [dofs]
   std::vector<char> closed;          ///< [pairs] 1 in contact
 };
 
-/// Finds the equilibrium under a step's total load [dofs] when a path that may be mended cannot go
-/// on; nothing where there is none.
+/// Finds the equilibrium under a step's total load [dofs]; nothing where there is none.
 using fallback_solver = std::function<std::optional<equilibrium_state>(std::span<const double> load)>;
 
 struct path_limits {
@@ -57,15 +56,9 @@ inline constexpr int most_increments = 1'000'000'000;
 /// The limit as a number, at most `most_increments`.
 [[nodiscard]] int increments_allowed(const path_limits& limits, std::size_t pairs);
 
-/// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch.
-/// One decision is not the leader's: events within rounding of the step's full load (eps / rcond of
-/// it, from 1e-9 to 1e-6) are left undone, as the listing leaves one at s = 1.
-///
-/// A leader with another rule than the listing's has more help from the driver: a free motion that the
-/// load drives is followed to the next face at constant load (a rigid snap), and one that it does
-/// not drive is held where it stands; a pair toggled twice running at a standstill is kept closed
-/// until the load advances; and at a step's end D is put where the springs' law has it, with what
-/// rounding left out of balance put to the kernel once more.
+/// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch. What else has
+/// to be decided is up to a policy: policy_1989's for a leader with the listing's rule, stabilized_policy's
+/// for any other (contct/path/policy.hpp, contct/path/stabilized_policy.hpp).
 ///
 /// The engine must be fresh: the springs of the pairs that start closed in, all others out.
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,

@@ -4,15 +4,21 @@
 #include <array>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 namespace contct {
 
-path_state::path_state(const linear_structure& structure_of_path, bool as_listed)
+path_state::path_state(const linear_structure& structure_of_path, stiffness_engine& e,
+                       std::span<observer* const> o, bool as_listed)
     : structure(structure_of_path),
+      engine(e),
+      total(structure.fixed.size()),
+      increment(total.size()),
       d(structure.pairs.size()),
       d_star(structure.pairs.size()),
       s(structure.pairs.size()),
       pair_force(structure.pairs.size()),
+      observers_(o),
       as_listed_(as_listed) {
   for (const contact_pair& p : structure.pairs) {
     c.push_back(p.face);
@@ -33,8 +39,19 @@ path_state::path_state(const linear_structure& structure_of_path, bool as_listed
   sprung = status;
 }
 
-double path_state::ask(kernel& leader, std::span<const double> d_test, std::span<observer* const> observers) {
-  call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
+void path_state::begin_step(int number, const load_history& total_load) {
+  step = number;
+  for (std::size_t i = 0; i < total.size(); ++i) increment[i] = -total[i];
+  std::fill(total.begin(), total.end(), 0.0);
+  total_load(step, total);
+  for (std::size_t i = 0; i < total.size(); ++i) increment[i] += total[i];
+  residual = {increment, 1.0, residual.version + 1};
+  last_opened.clear();
+}
+
+double path_state::ask(kernel& leader, std::span<const double> d_test, int at_rest) {
+  if (!response_is_finite()) throw no_factor("the response to the residual load is not finite");
+  call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}, at_rest};
   if (as_listed_) {
     for (std::size_t i = 0; i < pairs(); ++i) {
       dd_[at_dof[i]] = d[i];
@@ -47,7 +64,8 @@ double path_state::ask(kernel& leader, std::span<const double> d_test, std::span
   leader.answer(arguments);
   find_events();
   const std::string text = leader.take_text();
-  for (observer* o : observers) o->called({arguments, sprung, text});
+  residual.last_s = s;
+  for (observer* o : observers_) o->called({arguments, sprung, text});
   return arguments.smin;
 }
 
@@ -73,8 +91,8 @@ void path_state::take_back_toggles() {
   events.clear();
 }
 
-bool path_state::advance(double s_min, bool gathers) {
-  for (std::size_t i = 0; gathers && i < pairs(); ++i) {
+bool path_state::advance(double s_min) {
+  for (std::size_t i = 0; as_listed_ && i < pairs(); ++i) {
     if (sprung[i] == in_contact) pair_force[i] -= structure.pairs[i].stiffness * (s_min * d_star[i]);
   }
   const bool consumes = 1.0 - s_min != 1.0;
@@ -82,6 +100,19 @@ bool path_state::advance(double s_min, bool gathers) {
   for (std::size_t i = 0; !consumes && i < pairs(); ++i) moved |= d[i] + s_min * d_star[i] != d[i];
   for (std::size_t i = 0; i < pairs(); ++i) d[i] += s_min * d_star[i];
   return moved;
+}
+
+void path_state::switch_springs() {
+  for (const event& e : events) engine.switch_spring(e.pair, e.what == change::make);
+  if (std::vector<int> pairs = opened(); !pairs.empty()) last_opened = std::move(pairs);
+  sprung = status;
+}
+
+void path_state::adopt_statuses() {
+  for (std::size_t i = 0; i < pairs(); ++i) {
+    if (status[i] != sprung[i]) engine.switch_spring(static_cast<int>(i), status[i] == in_contact);
+  }
+  sprung = status;
 }
 
 rigid_rank path_state::held_by() const {
@@ -117,6 +148,12 @@ std::vector<int> path_state::opened() const {
   return open;
 }
 
+std::vector<double> path_state::applied_load() const {
+  std::vector<double> applied(total.size());
+  for (std::size_t i = 0; i < applied.size(); ++i) applied[i] = total[i] - residual.share * increment[i];
+  return applied;
+}
+
 std::vector<double> path_state::forces_gathered() const {
   std::vector<double> forces = pair_force;
   for (std::size_t i = 0; i < pairs(); ++i) {
@@ -131,6 +168,14 @@ std::vector<double> path_state::forces_by_law() const {
     if (sprung[i] == in_contact) forces[i] = structure.pairs[i].stiffness * c[i];
   }
   return forces;
+}
+
+void path_state::tell_increment(int number, double s_min, bool rigid) const {
+  for (observer* o : observers_) o->incremented({step, number, s_min, fraction(), events, rigid});
+}
+
+void path_state::tell_end(const step_state& end) const {
+  for (observer* o : observers_) o->step_ended(end);
 }
 
 }  // namespace contct

@@ -1,7 +1,5 @@
 #include "contct/path/solve_problem.hpp"
 
-#include "contct/path/follow_steps.hpp"
-
 namespace contct {
 
 linear_structure structure_of(const problem& p) {

@@ -1,13 +1,29 @@
-// A problem's structure, and its path.
+// The path of a structure under load steps that are data, and of a whole problem.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "contct/path/path.hpp"
+#include "contct/structure/load.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct {
+
+/// Follow the path of `s`, which was built from `geometry`, through load steps given by their totals,
+/// on an engine of its own. add_consistent_loads must know the geometry.
+template <class Geometry>
+path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::span<const load> steps,
+                      std::string_view engine, kernel& leader, std::span<observer* const> observers,
+                      const path_limits& limits = {}) {
+  const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
+  const load_history total = [&](int step, std::span<double> f) {
+    add_consistent_loads(geometry, steps[static_cast<std::size_t>(step - 1)], f);
+  };
+  return follow_path(s, static_cast<int>(steps.size()), total, *solves, leader, observers, limits);
+}
 
 /// The structure that a problem describes.
 [[nodiscard]] linear_structure structure_of(const problem& p);

@@ -1,0 +1,83 @@
+// What has to be decided on a path besides the paper's loop.
+#pragma once
+
+#include <span>
+
+#include "contct/kernel/kernel.hpp"
+#include "contct/path/path_state.hpp"
+
+namespace contct {
+
+/// How the structure responds to the residual load.
+enum class response {
+  elastic,  ///< K w* = R*: the whole residual load would move it by d*
+  rigid,    ///< a rigid-body motion at constant load: R* stays
+  none,     ///< nothing holds it
+};
+
+/// The decisions of one path. A policy reads and changes the path's state; the loop calls these verbs in this
+/// order. The defaults are the 1989 driver's.
+class path_policy {
+ public:
+  /// Both must outlive this object.
+  path_policy(path_state& now, kernel& leader) : now_(now), leader_(leader) {}
+  virtual ~path_policy() = default;
+  path_policy(const path_policy&) = delete;
+  path_policy& operator=(const path_policy&) = delete;
+
+  /// A load step begins.
+  virtual void begin_step() {}
+
+  /// Write d* [pairs] to the state. Throws no_factor.
+  virtual response respond() = 0;
+
+  /// Put the call to the kernel, which toggles statuses; returns s_min.
+  virtual double ask() { return now_.ask(leader_, now_.d_star, 0); }
+
+  /// Replace the kernel's s_min, and its toggles, where the driver knows better. False when a rigid motion
+  /// meets no face: a mechanism.
+  virtual bool accept(double& s_min) = 0;
+
+  /// May the path go on after the events of this increment, or do they leave a mechanism?
+  [[nodiscard]] virtual bool goes_on() const = 0;
+
+  /// The step's load is applied; `number` increments were made.
+  virtual void end_step(int /*number*/) {}
+
+  /// u [dofs] under the load applied so far. Throws no_factor.
+  virtual void displace(std::span<double> u) = 0;
+
+  /// Reciprocal condition of the stiffness that holds the structure now; equilibrated.
+  [[nodiscard]] virtual double reciprocal_condition() { return now_.engine.reciprocal_condition(); }
+
+  /// Can the structure be solved for as it stands?
+  [[nodiscard]] virtual bool can_be_held() { return now_.held(); }
+
+  /// The path cannot reach the end of `step`: put the state at its equilibrium by other means, and tell the
+  /// observers. False when there is no such means, or no equilibrium.
+  virtual bool fall_back(int /*step*/) { return false; }
+
+ protected:
+  /// Is what would be left of the step's load after s_min no more than the error of an event's load: 1e-9 of
+  /// it, or eps / rcond up to 1e-6? Unloading to nothing opens the last pairs exactly at full load; computed,
+  /// that may come a rounding too early.
+  [[nodiscard]] bool reaches_full_load(double s_min) const;
+
+  /// Undo the kernel's toggles and apply all of R*: as the listing does with an event exactly at s = 1.
+  void leave_undone(double& s_min);
+
+  path_state& now_;
+  kernel& leader_;
+};
+
+/// The 1989 driver: it solves, and takes the kernel's word, except for events within rounding of full load.
+class policy_1989 final : public path_policy {
+ public:
+  using path_policy::path_policy;
+  response respond() override;
+  bool accept(double& s_min) override;
+  [[nodiscard]] bool goes_on() const override { return now_.held(); }
+  void displace(std::span<double> u) override;
+};
+
+}  // namespace contct

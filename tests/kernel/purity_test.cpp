@@ -1,0 +1,52 @@
+// Kernels are functions of one call: asked again, in any order, they give the same bits.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "contct/kernel/call_inputs.hpp"
+#include "contct/lab/random_calls.hpp"
+#include "contct/numeric/bits.hpp"
+#include "contct/outside/registry.hpp"
+
+using namespace contct;
+
+namespace {
+
+call_outputs answer(kernel& k, const call_inputs<double>& in, int at_rest) {
+  call_outputs out;
+  call<double> c = out.prepare(in);
+  c.at_rest = at_rest;
+  k.answer(c);
+  out.smin = c.smin;
+  out.text = k.take_text();
+  return out;
+}
+
+bool same(const call_outputs& a, const call_outputs& b) {
+  return same_bits(a.smin, b.smin) && a.isep == b.isep && a.text == b.text &&
+         std::equal(a.ss.begin(), a.ss.end(), b.ss.begin(), b.ss.end(),
+                    [](double x, double y) { return same_bits(x, y); });
+}
+
+}  // namespace
+
+TEST_CASE("every kernel gives the same bits when it is asked again, in another order") {
+  constexpr int calls = 2000;
+  std::vector<call_inputs<double>> inputs;
+  random_calls<double> source(7);
+  for (int i = 0; i < calls; ++i) inputs.push_back(source.next());
+  for (const std::string& name : kernel_names()) {
+    INFO(name);
+    const auto k = make_kernel(name);
+    std::vector<call_outputs> first;
+    for (int i = 0; i < calls; ++i) first.push_back(answer(*k, inputs[i], i % 50));
+    int events = 0;
+    for (int i = calls - 1; i >= 0; --i) {
+      REQUIRE(same(answer(*k, inputs[i], i % 50), first[i]));
+      REQUIRE(same(answer(*k, inputs[i], i % 50), first[i]));
+      events += first[i].isep != inputs[i].isep ? 1 : 0;
+    }
+    CHECK(events > calls / 10);
+  }
+}
