@@ -46,7 +46,7 @@ certifier::certifier(const linear_structure& s, load_history total_load)
     : structure_(s), total_load_(std::move(total_load)), oracle_(s) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
     scale_.push_back(std::sqrt(s.stiffness.diagonal(s.row_of(dof))));
-    const auto at = static_cast<std::size_t>(dof);
+    const std::size_t at = dof;
     if (deflects(at) && s.fixed[at] == 0) largest_scale_ = std::max(largest_scale_, scale_[at]);
   }
 }
@@ -111,8 +111,8 @@ double certifier::largest_length() const {
 
 /// From the state alone: equilibrium, penetration, tension.
 void certifier::measure_state(const step_state& s, std::span<const double> load, certificate& c) const {
-  const auto row = [this](std::size_t dof) {
-    return static_cast<std::size_t>(structure_.row_of(static_cast<int>(dof)));
+  const auto row = [this](std::size_t dof) -> std::size_t {
+    return structure_.row_of(static_cast<int>(dof));
   };
   std::vector<double> u(load.size());
   std::vector<long double> left(load.size());
@@ -127,7 +127,7 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   double farthest = 0.0;
   for (std::size_t i = 0; i < structure_.pairs.size(); ++i) {
     const contact_pair& p = structure_.pairs[i];
-    const auto dof = static_cast<std::size_t>(structure_.dof_of_pair(static_cast<int>(i)));
+    const std::size_t dof = structure_.dof_of_pair(static_cast<int>(i));
     const double pressing = p.surface * (s.displacement[dof] - p.face);
     if (s.isep[i] == separated) {
       deepest = std::max(deepest, pressing);

@@ -1,7 +1,8 @@
 // Is the final state of a step right? Judged by its own residuals, and against the reference solution.
 //
-// The reference solution shares no code with kernels, engines or the loop. It does share the assembled stiffness, its
-// Cholesky factor (matrix/stiffness_factor) and the count of rigid motions (structure/rigid_modes) with them.
+// The reference solution shares no code with kernels, engines or the loop. It does share the assembled
+// stiffness, its Cholesky factor (matrix/stiffness_factor) and the count of rigid motions
+// (structure/rigid_modes) with them.
 #pragma once
 
 #include <optional>
@@ -35,9 +36,9 @@ struct certificate {
   /// False: the state is the reference solution's own, so that comparing the two shows nothing. What is left
   /// then is equilibrium, penetration and tension.
   bool independent = true;
-  bool unique = true;        ///< false: other states are as good, so D is not compared
-  bool unfounded = false;    ///< there is no equilibrium at all
-  std::string problem;       ///< what is wrong, in words; empty when exact
+  bool unique = true;      ///< false: other states are as good, so D is not compared
+  bool unfounded = false;  ///< there is no equilibrium at all
+  std::string problem;     ///< what is wrong, in words; empty when exact
 };
 
 /// Observes a path and certifies the end of every step that was solved.

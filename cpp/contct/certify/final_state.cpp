@@ -29,7 +29,7 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
                            std::span<observer* const> observers) {
   oracle finds(s);
   factored_stiffness stiffness(s);
-  std::vector<double> total(static_cast<std::size_t>(s.dofs()));
+  std::vector<double> total(s.dofs());
   path_end end;
   for (int step = 1; step <= steps; ++step) {
     std::fill(total.begin(), total.end(), 0.0);
@@ -44,13 +44,14 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
     for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);
     const double rcond = stiffness.reciprocal_condition(holding(s, found.pressed));
     ++end.work.factors;
-    for (observer* o : observers) o->step_ended({.step = step,
-                                              .fraction = 1.0,
-                                              .displacement = found.displacement,
-                                              .isep = status,
-                                              .rcond = rcond,
-                                              .from_fallback = false,
-                                              .from_reference = true});
+    for (observer* o : observers)
+      o->step_ended({.step = step,
+                     .fraction = 1.0,
+                     .displacement = found.displacement,
+                     .isep = status,
+                     .rcond = rcond,
+                     .from_fallback = false,
+                     .from_reference = true});
     end.step = step;
   }
   return end;

@@ -7,12 +7,12 @@
 
 namespace contct {
 
-/// Ask the oracle for the equilibrium under the total load of every step and tell it to the observers as that
-/// step's end. An elastic structure on one-sided springs without friction has no memory: each is where the
-/// path would arrive. A handful of factorisations a step; no increments, no events.
+/// Find the equilibrium under the total load of every step and tell it to the observers as that step's end.
+/// An elastic structure on one-sided springs without friction has no memory: each is where the path would
+/// arrive. A handful of factorisations a step; no increments, no events.
 ///
-/// Ends as `mechanism` at the first step whose load nothing carries, and as `not_factored` where the
-/// oracle finds no answer in double precision; that step is not told.
+/// Ends as `mechanism` at the first step whose load nothing carries, and as `not_factored` where no
+/// answer is found in double precision; that step is not told.
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
                            std::span<observer* const> observers);
 

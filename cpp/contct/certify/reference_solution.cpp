@@ -28,11 +28,11 @@ long double dot(const std::vector<long double>& a, const std::vector<long double
 }  // namespace
 
 oracle::oracle(const linear_structure& s) : structure_(s), factor_(s.stiffness) {
-  const auto n = static_cast<std::size_t>(s.dofs());
+  const std::size_t n = s.dofs();
   load_.resize(n);
   u_.resize(n);
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
-    pair_rows_.push_back(static_cast<std::size_t>(s.row_of(s.dof_of_pair(static_cast<int>(i)))));
+    pair_rows_.push_back(s.row_of(s.dof_of_pair(static_cast<int>(i))));
   }
   set_.resize(s.pairs.size());
   start_undeformed();
@@ -88,7 +88,7 @@ bool oracle::nothing_stops(const numbers& motion) const {
   const long double rounding = std::max(1e-10, structure_.rigid_rounding);
   long double largest = 0.0L;
   for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
-    largest = std::max(largest, std::abs(motion[static_cast<std::size_t>(structure_.row_of(dof))]));
+    largest = std::max(largest, std::abs(motion[structure_.row_of(dof)]));
   }
   for (std::size_t i = 0; i < pair_rows_.size(); ++i) {
     if (set_[i] == 0 && structure_.pairs[i].surface * motion[row_of_pair(i)] > rounding * largest)
@@ -102,11 +102,11 @@ bool oracle::factor_with(const pair_set& set) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     const int dof = structure_.dof_of_pair(static_cast<int>(i));
     const int row = structure_.row_of(dof);
-    if (set[i] != 0 && structure_.fixed[static_cast<std::size_t>(dof)] == 0) {
+    if (set[i] != 0 && structure_.fixed[dof] == 0) {
       springs.push_back({row, structure_.pairs[i].stiffness});
     }
   }
-  for (const holder& h : holders_) springs.push_back({static_cast<int>(h.row), h.stiffness});
+  for (const holding_spring& h : holding_) springs.push_back({static_cast<int>(h.row), h.stiffness});
   ++factorisations_;
   return factor_.factor(springs);
 }
@@ -120,10 +120,9 @@ void oracle::residual(const numbers& u, const pair_set& set, numbers& r) const {
     const std::size_t row = row_of_pair(i);
     r[row] -= p.stiffness * (u[row] - p.face);
   }
-  for (const holder& h : holders_) r[h.row] -= h.stiffness * (u[h.row] - h.stands_at);
+  for (const holding_spring& h : holding_) r[h.row] -= h.stiffness * (u[h.row] - h.rest);
   for (std::size_t dof = 0; dof < structure_.fixed.size(); ++dof) {
-    if (structure_.fixed[dof] != 0)
-      r[static_cast<std::size_t>(structure_.row_of(static_cast<int>(dof)))] = 0.0L;
+    if (structure_.fixed[dof] != 0) r[structure_.row_of(static_cast<int>(dof))] = 0.0L;
   }
 }
 
@@ -194,7 +193,7 @@ void oracle::take(std::span<const double> load) {
   resultant_size_ = {};
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
     const bool fixed = structure_.fixed[dof] != 0;
-    load_[static_cast<std::size_t>(structure_.row_of(static_cast<int>(dof)))] = fixed ? 0.0L : load[dof];
+    load_[structure_.row_of(static_cast<int>(dof))] = fixed ? 0.0L : load[dof];
     if (fixed) continue;
     for (std::size_t m = 0; m < resultant_.size(); ++m) {
       resultant_[m] += load[dof] * structure_.rigid_rows[dof][m];
@@ -206,7 +205,7 @@ void oracle::take(std::span<const double> load) {
 void oracle::remember_size_of_load() {
   long double whole = 0.0L;
   for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
-    whole += std::abs(load_[static_cast<std::size_t>(structure_.row_of(dof))]);
+    whole += std::abs(load_[structure_.row_of(dof)]);
   }
   largest_load_ = std::max(largest_load_, whole);
 }
@@ -218,7 +217,7 @@ oracle_answer oracle::end(oracle_answer::outcome how, bool unique) const {
   answer.factorisations = factorisations_;
   answer.pressed = set_;
   for (int dof = 0; dof < structure_.dofs(); ++dof) {
-    answer.displacement.push_back(static_cast<double>(u_[static_cast<std::size_t>(structure_.row_of(dof))]));
+    answer.displacement.push_back(static_cast<double>(u_[structure_.row_of(dof)]));
   }
   return answer;
 }
@@ -229,10 +228,8 @@ bool oracle::rigid_direction(const rigid_rank& rank, numbers& p) const {
   if (!drives(motion)) return false;
   for (int dof = 0; dof < structure_.dofs(); ++dof) {
     long double along = 0.0L;
-    for (std::size_t m = 0; m < motion.size(); ++m)
-      along += motion[m] * structure_.rigid_rows[static_cast<std::size_t>(dof)][m];
-    p[static_cast<std::size_t>(structure_.row_of(dof))] =
-        structure_.fixed[static_cast<std::size_t>(dof)] != 0 ? 0.0L : along;
+    for (std::size_t m = 0; m < motion.size(); ++m) along += motion[m] * structure_.rigid_rows[dof][m];
+    p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0L : along;
   }
   for (std::size_t i = 0; i < set_.size(); ++i) {
     if (set_[i] != 0) p[row_of_pair(i)] = 0.0L;  // what is left there is rounding
@@ -240,21 +237,20 @@ bool oracle::rigid_direction(const rigid_rank& rank, numbers& p) const {
   return true;
 }
 
-/// Springs at rest where the structure stands, at as many dofs as it takes to hold it: on motions
-/// that the load does not drive they have nothing to do.
-void oracle::hold_where_it_stands(rigid_rank& rank) {
+/// Springs without force at the present displacement, at as many dofs as it takes to hold the structure.
+void oracle::add_holding_springs(rigid_rank& rank) {
   for (std::size_t dof = 0; dof < structure_.fixed.size() && rank.rank() < structure_.rigid_motions; ++dof) {
     const int before = rank.rank();
     if (structure_.fixed[dof] != 0) continue;
     rank.hold(structure_.rigid_rows[dof]);
     if (rank.rank() == before) continue;
     const int row = structure_.row_of(static_cast<int>(dof));
-    holders_.push_back({static_cast<std::size_t>(row), structure_.stiffness.diagonal(row),
-                        u_[static_cast<std::size_t>(row)]});
+    holding_.push_back({static_cast<std::size_t>(row), structure_.stiffness.diagonal(row), u_[row]});
   }
 }
 
-/// E falls for ever along p: there is no equilibrium, unless supports or numbers out of range belie it.
+/// E falls for ever along p: there is no equilibrium, unless supports hold the structure or numbers went out
+/// of range.
 oracle_answer::outcome oracle::why_endless(const numbers& p) const {
   using outcome = oracle_answer::outcome;
   rigid_rank rank = structure_.nothing_held();
@@ -275,7 +271,7 @@ oracle_answer oracle::solve(std::span<const double> load) {
   remember_size_of_load();
   oracle_answer answer = search();
   if (answer.how == oracle_answer::outcome::found) return answer;
-  // A start far from the answer, seen from the load, may have spoilt it by rounding.
+  // A start that is far from the answer may have spoilt it by rounding.
   start_undeformed();
   answer = search();
   if (answer.how != oracle_answer::outcome::found) start_undeformed();
@@ -288,9 +284,9 @@ oracle_answer oracle::search() {
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     rigid_rank rank = structure_.nothing_held();
     const bool held = holds(set_, rank);
-    holders_.clear();
+    holding_.clear();
     if (held || !rigid_direction(rank, p)) {
-      if (!held) hold_where_it_stands(rank);
+      if (!held) add_holding_springs(rank);
       if (!factor_with(set_)) return end(outcome::not_found, held);
       numbers target = u_;
       const long double error = refined_solve(set_, target);

@@ -1,4 +1,5 @@
-// The answer that no kernel had a hand in: the convex problem itself, solved without a path.
+// The reference solution: the equilibrium under a load as the minimiser of a convex energy, without kernel or
+// path.
 #pragma once
 
 #include <span>
@@ -9,7 +10,7 @@
 
 namespace contct {
 
-/// What the oracle found for one load.
+/// What was found for one load.
 struct oracle_answer {
   enum class outcome {
     found,           ///< the minimiser of the energy
@@ -41,13 +42,13 @@ struct oracle_answer {
 /// the same before and after, and that is the test.
 ///
 /// Where the pressed pairs do not hold the structure, the step is the rigid motion that the load
-/// drives; where it drives none, the structure is held where it stands, which takes no force.
+/// drives; where it drives none, springs without force hold the structure.
 ///
 /// Every solve is refined with residuals in long double, so the answer is that of the matrix as it
 /// is stored to as many digits as long double leaves: 3 to 4 more than a band solver alone.
 class oracle {
  public:
-  /// `s` must outlive the oracle.
+  /// `s` must outlive this object.
   explicit oracle(const linear_structure& s);
 
   /// The equilibrium under `load` [dofs]. Starts from the last answer, and once more from the undeformed
@@ -57,10 +58,10 @@ class oracle {
  private:
   using numbers = std::vector<long double>;
   using pair_set = std::vector<char>;
-  struct holder {
+  struct holding_spring {
     std::size_t row;
     double stiffness;
-    long double stands_at;
+    long double rest;
   };
 
   [[nodiscard]] pair_set pressed_at(const numbers& u, long double tie, const pair_set& tied) const;
@@ -69,7 +70,7 @@ class oracle {
   [[nodiscard]] bool drives(const rigid_row& motion) const;
   [[nodiscard]] bool nothing_stops(const numbers& motion) const;
   [[nodiscard]] bool rigid_direction(const rigid_rank& rank, numbers& p) const;
-  void hold_where_it_stands(rigid_rank& rank);
+  void add_holding_springs(rigid_rank& rank);
   [[nodiscard]] bool factor_with(const pair_set& set);
   /// r = load - K u - the springs of `set`.
   void residual(const numbers& u, const pair_set& set, numbers& r) const;
@@ -86,14 +87,14 @@ class oracle {
   [[nodiscard]] std::size_t row_of_pair(std::size_t i) const { return pair_rows_[i]; }
 
   const linear_structure& structure_;
-  std::vector<std::size_t> pair_rows_;  // [pairs]
-  numbers load_;                        // [rows]
-  rigid_row resultant_{};               // work of the load on each rigid motion
-  rigid_row resultant_size_{};          // the same with every part counted as positive
-  std::vector<holder> holders_;         // springs of this iteration only
-  long double largest_load_ = 0.0L;     // sum of all forces on deflections, the largest so far
-  numbers u_;                           // the last answer [rows]
-  pair_set set_;                        // and its pressed pairs
+  std::vector<std::size_t> pair_rows_;   // [pairs]
+  numbers load_;                         // [rows]
+  rigid_row resultant_{};                // work of the load on each rigid motion
+  rigid_row resultant_size_{};           // the same with every part counted as positive
+  std::vector<holding_spring> holding_;  // of this iteration only
+  long double largest_load_ = 0.0L;      // sum of all forces on deflections, the largest so far
+  numbers u_;                            // the last answer [rows]
+  pair_set set_;                         // and its pressed pairs
   stiffness_factor factor_;
   std::vector<double> scale_;  // square roots of K's diagonal [rows]
   int factorisations_ = 0;

@@ -27,7 +27,7 @@ class cpp_implementation {
   void answer(call<Real>& c) {
     if (events_.size() < c.cc.size()) events_.resize(c.cc.size());
     const int happened = contct(c, std::span<event>(events_));
-    append_log_text(c, std::span<const event>(events_.data(), static_cast<std::size_t>(happened)), text_);
+    append_log_text(c, std::span<const event>(events_.data(), happened), text_);
   }
 
   std::string take_text() { return std::exchange(text_, {}); }
@@ -100,7 +100,7 @@ class kernel_r4 final : public kernel {
     cc_.assign(c.cc.begin(), c.cc.end());
     ss_.resize(c.ss.size());
     for (const int node : c.id) {
-      const auto dof = static_cast<std::size_t>(c.dof.dof_of(node) - 1);
+      const std::size_t dof = c.dof.dof_of(node) - 1;
       dd_[dof] = static_cast<float>(c.dd[dof]);
       dtest_[dof] = static_cast<float>(c.dtest[dof]);
     }

@@ -19,9 +19,7 @@ struct call_inputs {
 
   [[nodiscard]] std::size_t pairs() const { return cc.size(); }
   /// The dof of pair `i`, from 0: its place in dd and dtest.
-  [[nodiscard]] std::size_t dof_of_pair(std::size_t i) const {
-    return static_cast<std::size_t>(dof.dof_of(id[i]) - 1);
-  }
+  [[nodiscard]] std::size_t dof_of_pair(std::size_t i) const { return dof.dof_of(id[i]) - 1; }
 };
 
 /// What comes out of one call.

@@ -49,7 +49,7 @@ int contct(call<Real>& c, std::span<event> events) noexcept {
   const std::size_t nc = c.cc.size();
   Real s_min = Real(1);
   for (std::size_t i = 0; i < nc; ++i) {  // DO 10
-    const auto dof = static_cast<std::size_t>(c.dof.dof_of(c.id[i]) - 1);
+    const std::size_t dof = c.dof.dof_of(c.id[i]) - 1;
     const Real s = scale_factor(c.dd[dof], c.dtest[dof], c.cc[i], c.isep[i], c.isurf[i]);
     c.ss[i] = s;
     if (s > Real(0) && s < s_min) s_min = s;  // eq. 9
@@ -63,8 +63,7 @@ int contct(call<Real>& c, std::span<event> events) noexcept {
     if (diff < constants<Real>::epsmul) {
       const bool makes = c.isep[i] == separated;
       c.isep[i] = makes ? in_contact : separated;
-      events[static_cast<std::size_t>(happened++)] = {static_cast<int>(i),
-                                                      makes ? change::make : change::break_};
+      events[happened++] = {static_cast<int>(i), makes ? change::make : change::break_};
     }
   }
   return happened;

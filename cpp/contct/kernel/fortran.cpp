@@ -68,7 +68,7 @@ std::string unit_26::take() const {
   char block[1 << 16];
   ssize_t got = 0;
   while ((got = pread(file_, block, sizeof block, static_cast<off_t>(text.size()))) > 0) {
-    text.append(block, static_cast<std::size_t>(got));
+    text.append(block, got);
   }
   if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
   listing_.rewind();

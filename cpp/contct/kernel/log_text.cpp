@@ -31,7 +31,7 @@ void append_e(Real value, int significant, std::size_t width, std::string& text)
   const char* const end = std::to_chars(scientific, scientific + sizeof scientific, value,
                                         std::chars_format::scientific, significant - 1)
                               .ptr;
-  const std::string_view all(scientific, static_cast<std::size_t>(end - scientific));
+  const std::string_view all(scientific, end - scientific);
   const std::size_t mark = all.find('e');
   int exponent = 0;
   std::from_chars(all.data() + mark + 2, end, exponent);  // behind the sign, which from_chars does not take
@@ -63,7 +63,7 @@ void append_log_text(const call<Real>& c, std::span<const event> events, std::st
     return;
   }
   for (const event& e : events) {
-    const auto i = static_cast<std::size_t>(e.pair);
+    const std::size_t i = e.pair;
     text += e.what == change::make ? "  ******* MAKING CONTACT ********\n"
                                    : "  ****** BREAKING CONTACT *******\n";
     text += "   CONTACT PAIR: ";

@@ -29,10 +29,10 @@ bool cycle_detector::repeats(bool moved, std::span<const int> status, std::span<
 }
 
 void cycle_detector::remember(std::span<const event> events) {
-  for (const event& e : events) ++toggles_[static_cast<std::size_t>(e.pair)];
+  for (const event& e : events) ++toggles_[e.pair];
   recent_.emplace_back(events.begin(), events.end());
   if (recent_.size() <= remembered_increments) return;
-  for (const event& e : recent_.front()) --toggles_[static_cast<std::size_t>(e.pair)];
+  for (const event& e : recent_.front()) --toggles_[e.pair];
   recent_.pop_front();
 }
 

@@ -1,4 +1,4 @@
-// Finding out that a stationary stage goes round in circles.
+// Detects cycles of toggles at which nothing moves.
 #pragma once
 
 #include <deque>
@@ -9,9 +9,9 @@
 
 namespace contct {
 
-/// Watches statuses while nothing moves. The path is deterministic: when D and R* stand still to
-/// the last bit and a set of statuses returns, the same toggles follow for ever. Brent's method
-/// finds this with one saved set, compared exactly.
+/// Watches statuses while nothing moves. The path is deterministic: when a set of statuses returns while D
+/// and R* are the same to the last bit, the same toggles follow for ever. Brent's method finds this with one
+/// saved set.
 class cycle_detector {
  public:
   explicit cycle_detector(std::size_t pairs) : toggles_(pairs) {}
@@ -20,7 +20,7 @@ class cycle_detector {
   void reset();
 
   /// Tell of one increment: whether D or R* moved, the statuses after it, and its events.
-  /// Returns true when these statuses stood here before and nothing has moved since.
+  /// Returns true when these statuses came before and nothing has moved since.
   bool repeats(bool moved, std::span<const int> status, std::span<const event> events);
 
   /// Pairs, from 0, that toggled more than once in the last increments (at most 200 of them).

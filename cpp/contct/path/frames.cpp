@@ -4,12 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "contct/kernel/contct.hpp"
 #include "contct/solve/engine.hpp"
 
 namespace contct {
 namespace {
-
-constexpr double epsgap = 1e-10;  // the listing's
 
 std::size_t affordable(const frame_limits& limits, std::size_t dofs) {
   constexpr std::size_t never_fewer = 4;
@@ -20,7 +19,7 @@ std::size_t affordable(const frame_limits& limits, std::size_t dofs) {
 }  // namespace
 
 pair_look look_of(const contact_pair& p, double w, bool closed) {
-  if (std::abs(p.face - w) < epsgap) return pair_look::at_face;
+  if (std::abs(p.face - w) < constants<double>::epsgap) return pair_look::at_face;
   return closed ? pair_look::closed : pair_look::open;
 }
 
@@ -29,8 +28,8 @@ frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, b
     : structure_(s),
       total_load_(std::move(total_load)),
       forces_by_law_(forces_by_law),
-      most_frames_(affordable(limits, static_cast<std::size_t>(s.dofs()))),
-      before_(static_cast<std::size_t>(s.dofs())),
+      most_frames_(affordable(limits, s.dofs())),
+      before_(s.dofs()),
       after_(before_),
       d_(s.pairs.size()),
       d_star_(s.pairs.size()),
@@ -44,7 +43,7 @@ frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, b
 
 void frame_keeper::called(const answered_call& c) {
   for (std::size_t i = 0; i < d_.size(); ++i) {
-    const auto dof = static_cast<std::size_t>(c.c.dof.dof_of(c.c.id[i]) - 1);
+    const std::size_t dof = c.c.dof.dof_of(c.c.id[i]) - 1;
     d_[i] = c.c.dd[dof];
     d_star_[i] = c.c.dtest[dof];
   }
@@ -66,8 +65,7 @@ void frame_keeper::incremented(const increment& i) {
     if (isep_[p] == in_contact) pair_force_[p] -= structure_.pairs[p].stiffness * (i.s * d_star_[p]);
     d_[p] += i.s * d_star_[p];
   }
-  for (const event& e : i.events)
-    isep_[static_cast<std::size_t>(e.pair)] = e.what == change::make ? in_contact : separated;
+  for (const event& e : i.events) isep_[e.pair] = e.what == change::make ? in_contact : separated;
   last_ = {increments_, i.step, i.number,
            i.fraction,  i.s,    i.snaps,
            false,       false,  {i.events.begin(), i.events.end()},

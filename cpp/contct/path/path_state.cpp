@@ -27,13 +27,13 @@ path_state::path_state(const linear_structure& structure_of_path, stiffness_engi
     status.push_back(p.closed ? in_contact : separated);
   }
   for (int i = 0; i < static_cast<int>(pairs()); ++i) {
-    at_dof.push_back(static_cast<std::size_t>(structure.dof_of_pair(i)));
+    at_dof.push_back(structure.dof_of_pair(i));
   }
   std::unordered_map<std::size_t, std::size_t> first_at;
   for (std::size_t i = 0; i < pairs(); ++i)
     first_there.push_back(first_at.emplace(at_dof[i], i).first->second);
   if (as_listed) {
-    dd_.resize(static_cast<std::size_t>(structure.dofs()));
+    dd_.resize(structure.dofs());
     dtest_.resize(dd_.size());
   }
   sprung = status;

@@ -7,9 +7,7 @@ linear_structure structure_of(const problem& p) {
 }
 
 load_history loads_of(const problem& p) {
-  return [&p](int step, std::span<double> f) {
-    add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
-  };
+  return [&p](int step, std::span<double> f) { add_consistent_loads(p.geometry, p.steps[step - 1], f); };
 }
 
 path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,

@@ -20,7 +20,7 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
                       const path_limits& limits = {}) {
   const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
   const load_history total = [&](int step, std::span<double> f) {
-    add_consistent_loads(geometry, steps[static_cast<std::size_t>(step - 1)], f);
+    add_consistent_loads(geometry, steps[step - 1], f);
   };
   return follow_path(s, static_cast<int>(steps.size()), total, *solves, leader, observers, limits);
 }
