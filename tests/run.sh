@@ -1,20 +1,24 @@
 #!/bin/sh
-# Installs what is missing, builds, and passes all tests. --full adds the legs that take longer: the
-# sanitizers, gfortran's run-time checks, the build without the program, the whole campaign of random
-# problems, the mutants of both kernels, a second LAPACK, CalculiX, other processors, the page in a browser, grids
-# read back by VTK, formatting and clang-tidy.
+# Installs what is missing, builds, and passes all tests: sh tests/run.sh [--full] [LEG]...
+# LEG: another preset that is built and tested first: core (without the program), asan and asan-core (sanitizers),
+# checked (gfortran's run-time checks), debug. --full has all of these but asan-core, which asan contains, and adds what
+# takes longer: the whole campaign of random problems, the mutants of both kernels, a second LAPACK, CalculiX, other
+# processors, the page in a browser, grids read back by VTK, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
 . cpp/install.sh
 
 full=no
+legs=""
 for argument in "$@"; do
   case $argument in
     --full) full=yes ;;
-    *) echo "usage: sh tests/run.sh [--full]" >&2; exit 2 ;;
+    core | asan | asan-core | checked | debug) legs="$legs $argument" ;;
+    *) echo "usage: sh tests/run.sh [--full] [core] [asan] [asan-core] [checked] [debug]" >&2; exit 2 ;;
   esac
 done
+[ "$full" = no ] || legs="core asan checked debug"
 
 need_core
 need_program
@@ -34,6 +38,22 @@ leg() {
   ctest --preset "$1" -j "$(nproc 2>/dev/null || echo 2)" --progress
 }
 
+# with_tool NAME SCRIPT [ARGUMENT]: run the script, which exits 77 where its tool cannot be had.
+skipped=""
+with_tool() {
+  echo "== $1"
+  status=0
+  name=$1
+  script=$2
+  shift 2
+  sh "tests/$script" "$@" || status=$?
+  case $status in
+    0) ;;
+    77) skipped="$skipped; $name" ;;
+    *) exit $status ;;
+  esac
+}
+
 if [ "$full" = yes ]; then
   need "for the sources' form" clang-format clang-tidy
   need "for more compilers, as witnesses" flang-16 f2c libf2c2-dev clang
@@ -41,11 +61,8 @@ if [ "$full" = yes ]; then
   need "for the manual and the shells that complete it" mandoc zsh fish
   echo "== clang-format"
   find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
-  leg core
-  leg asan
-  leg checked
-  leg debug
 fi
+for name in $legs; do leg "$name"; done
 leg release
 if [ "$full" = yes ]; then
   echo "== 200,000 random problems under the corrected rule"
@@ -54,15 +71,12 @@ if [ "$full" = yes ]; then
   build/release/tests/contct_mutants
   echo "== two LAPACKs"
   sh tests/two_lapacks/run.sh build/release
-  echo "== CalculiX as a peer"
-  sh tests/peer/run.sh build/release || [ $? = 77 ]  # skipped, which is said
-  echo "== other processors"
-  sh tests/emulated/run.sh || [ $? = 77 ]  # none of their compilers can be had
-  echo "== the page in a browser"
-  sh tests/browser/run.sh build/release || [ $? = 77 ]  # chromium cannot be had
-  echo "== grids read back by VTK"
-  sh tests/vtk/run.sh build/release || [ $? = 77 ]  # VTK cannot be had
+  with_tool "CalculiX as a peer" peer/run.sh build/release
+  with_tool "other processors" emulated/run.sh
+  with_tool "the page in a browser" browser/run.sh build/release
+  with_tool "grids read back by VTK" vtk/run.sh build/release
   sh tests/tree/tidy.sh build/release
+  [ -z "$skipped" ] || echo "== skipped, because a tool cannot be had: ${skipped#; }"
   # The last lines are ctest's own summary, of everything that the release build has.
   ctest --preset release -j "$(nproc 2>/dev/null || echo 2)" --progress
 fi

@@ -35,7 +35,8 @@ TEST_CASE("every kind of bad problem file: exit 2, one message with its place, n
   REQUIRE(kinds.size() >= 110);
   for (const bad_input& kind : kinds) {
     INFO(kind.what);
-    const std::string message = refusal(dir, dir.write("bad.toml", kind.text));
+    dir.write("bad.toml", kind.text);
+    const std::string message = refusal(dir, "bad.toml");
     CHECK_THAT(message, StartsWith("contct: bad.toml:" + std::string(kind.place)));
     CHECK_THAT(message, Contains(kind.found));
   }

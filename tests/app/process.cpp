@@ -6,21 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 namespace contct {
 namespace {
-
-std::string contents(const std::filesystem::path& p) {
-  std::ostringstream text;
-  text << std::ifstream(p, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// In the child: become the program. Streams that are files keep clear of pipes that fill up.
 [[noreturn]] void become(const std::filesystem::path& directory, std::vector<std::string> arguments,
@@ -56,7 +46,7 @@ std::string drain(int terminal) {
 
 finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                         const process_options& options) {
-  const scratch_directory streams;
+  const scratch_folder streams;
   streams.write("in", options.input);
   streams.write("out", "");
   streams.write("err", "");
@@ -83,35 +73,6 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
   if (!options.terminal) f.out = streams.read("out");
   if (!options.error_terminal) f.err = streams.read("err");
   return f;
-}
-
-scratch_directory::scratch_directory() {
-  static std::atomic<int> count = 0;
-  path_ = std::filesystem::temp_directory_path() /
-          ("contct-cli-test-" + std::to_string(getpid()) + "-" + std::to_string(++count));
-  std::filesystem::create_directories(path_);
-}
-
-scratch_directory::~scratch_directory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string scratch_directory::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return name;
-}
-
-std::string scratch_directory::read(const std::string& name) const {
-  return contents(path_ / name);
-}
-
-std::vector<std::string> scratch_directory::files() const {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path_))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 }  // namespace contct

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/scratch_folder.hpp"
+
 namespace contct {
 
 struct finished {
@@ -26,23 +28,6 @@ struct process_options {
 finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                         const process_options& options = {});
 
-/// A directory of the test's own, gone afterwards.
-class scratch_directory {
- public:
-  scratch_directory();
-  ~scratch_directory();
-  scratch_directory(const scratch_directory&) = delete;
-  scratch_directory& operator=(const scratch_directory&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Write a file and return its name.
-  std::string write(const std::string& name, const std::string& text) const;
-  [[nodiscard]] std::string read(const std::string& name) const;
-  /// Names of the files in it, sorted.
-  [[nodiscard]] std::vector<std::string> files() const;
-
- private:
-  std::filesystem::path path_;
-};
+using scratch_directory = scratch_folder;
 
 }  // namespace contct

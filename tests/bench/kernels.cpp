@@ -47,7 +47,7 @@ double seconds_of(Call call, int repeats) {
 
 }  // namespace
 
-seconds_of_a_call time_kernels(std::size_t pairs) {
+seconds_of_a_call time_kernels(std::size_t pairs, int rounds) {
   quiet_pairs q(pairs);
   const int repeats = static_cast<int>(std::max<std::size_t>(4'000'000 / pairs, 3));
   double smin = 0.0;
@@ -66,7 +66,7 @@ seconds_of_a_call time_kernels(std::size_t pairs) {
   };
   constexpr double never = std::numeric_limits<double>::infinity();
   seconds_of_a_call least{never, never, never};
-  for (int round = 0; round < 15; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     least.fortran = std::min(least.fortran, seconds_of(fortran, repeats));
     least.text = std::min(least.text, seconds_of(text, 1000));
     least.cpp = std::min(least.cpp, seconds_of(cpp, repeats));

@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "contct/text/input_text.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct_test;
 using Catch::Matchers::Contains;
@@ -123,8 +124,7 @@ TEST_CASE("the page changes when the map does, and the HTML is escaped and close
 }
 
 TEST_CASE("a map with a key that it does not know is refused") {
-  const std::filesystem::path file = "doctored-map.toml";
-  std::ofstream(file) << text_of(CONTCT_EDITION_MAP) << "\nfootnote = \"x\"\n";
+  const contct::scratch_folder folder;
+  const std::string file = folder.write("map.toml", text_of(CONTCT_EDITION_MAP) + "\nfootnote = \"x\"\n");
   CHECK_THROWS_AS(read_edition(file), contct::input_error);
-  std::filesystem::remove(file);
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "support/scratch_folder.hpp"
+
 namespace contct_test {
 
 /// How a child ended, and what it said.
@@ -23,19 +25,7 @@ struct child_end {
 child_end run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
                     unsigned cpu_seconds = 60);
 
-/// A folder of its own under the system's folder for temporary files, gone with the object.
-class scratch_folder {
- public:
-  scratch_folder();
-  ~scratch_folder();
-  scratch_folder(const scratch_folder&) = delete;
-  scratch_folder& operator=(const scratch_folder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using contct::scratch_folder;
 
 /// All of a file; empty when there is none.
 std::string file_text(const std::filesystem::path& file);

@@ -1,15 +1,18 @@
 #!/bin/sh
-# contct-replay as a project of its own, built with floating point that is not strict: is it the environment that
-# gets the blame, and not a kernel? usage: run.sh KIND SOURCE WORK STRICT_REPLAY, with CMAKE, GENERATOR, CXX and FC set.
-# KIND: fused     products and sums are contracted: the listing has none, so nothing differs, and it is said all the same
-#       fast      everything that the compiler likes, and subnormals are zero: the golden set notices
-#       compiled  the same compiled but not linked so: no result tells, the compiler has to
-# Exit 77: this processor has no fused instruction.
+# contct-replay with its rooms compiled with floating point that is not strict: a mismatch must then be blamed on the
+# environment, and not on a kernel. The rooms are a project of their own; the program's options and its main() are the
+# objects of the strict build. usage: run.sh KIND SOURCE WORK STRICT_REPLAY OBJECT..., with CMAKE, GENERATOR, CXX and FC
+# set; OBJECT...: what the linker is given of the strict build, and the libraries of all.
+# KIND: fused     products and sums are contracted: the listing has none, so no result differs, but it must be reported
+#       fast      -ffast-math, compiled and linked: subnormals are flushed to zero, and the golden set notices
+#       compiled  compiled with -ffast-math but linked without: no result shows it, only the compiler's macros do
+# Exit 77: this processor has no fused multiply-add.
 set -eu
 kind=$1
 source=$2
 work=$3
 strict=$4
+shift 4
 slack=-ffast-math
 link=""
 case $kind in
@@ -29,9 +32,11 @@ launcher="sh;$source/tests/probe/slack.sh;$slack"
 {
   "$CMAKE" -G "$GENERATOR" -S "$source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DCONTCT_REPLAY_ONLY=ON \
     -DCONTCT_FLANG=OFF -DCONTCT_F2C=OFF "-DCMAKE_CXX_COMPILER=$CXX" "-DCMAKE_Fortran_COMPILER=$FC" \
-    "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" "-DCMAKE_Fortran_COMPILER_LAUNCHER=$launcher" \
-    "-DCMAKE_EXE_LINKER_FLAGS=$link" &&
-    "$CMAKE" --build "$work/build" --target contct-replay
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" "-DCMAKE_Fortran_COMPILER_LAUNCHER=$launcher" &&
+    "$CMAKE" --build "$work/build" --target contct_compare &&
+    # shellcheck disable=SC2086 # no word where there is no flag
+    "$CXX" $link -o "$work/replay" -Wl,--start-group "$work"/build/cpp/lib*.a "$work"/build/fortran/lib*.a "$@" \
+      -Wl,--end-group
 } >"$work/log" 2>&1 || { tail -n 30 "$work/log"; exit 1; }
 
 # One golden trace in which a scale factor has been changed: no kernel answers it.
@@ -59,13 +64,13 @@ replay "$strict" "$doctored"
 expect "the strict build calls the doctored trace a mismatch" all_say ': mismatch; '
 expect "and exits 1" [ $status = 1 ]
 
-replay "$work/build/contct-replay" "$doctored"
+replay "$work/replay" "$doctored"
 expect "this build calls the doctored trace environment" all_say ': environment; '
 expect "and exits 1" [ $status = 1 ]
 expect "and says what is wrong with it" grep -q "^environment, not kernel: .*$says" "$work/complaints"
 expect "in its report, too" grep -q "^- floating point: .*$says" "$work/report"
 
-replay "$work/build/contct-replay" "$source"/reference/traces/*.trace
+replay "$work/replay" "$source"/reference/traces/*.trace
 expect "no verdict on the golden set leaves the environment out" \
   all_say "\(: environment; \|: equal to the bit, but the environment is not strict (.*$says.*)\)"
 differing=$(grep -c ': environment; ' "$work/compared" || true)

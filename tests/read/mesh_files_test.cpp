@@ -12,6 +12,7 @@
 #include "contct/read/node_coordinates.hpp"
 #include "contct/text/input_text.hpp"
 #include "read/refusals.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct;
 using Catch::Matchers::Contains;
@@ -102,12 +103,11 @@ TEST_CASE(
 }
 
 TEST_CASE("a mesh or coordinates that are too large are refused before they are parsed, as are folders") {
-  const auto path = std::filesystem::path("large-mesh");
-  { const std::ofstream made(path); }
+  const scratch_folder folder;
+  const std::filesystem::path path = folder.write("large-mesh", "");
   std::filesystem::resize_file(path, largest_mesh_file << 20);
   CHECK_THAT(verdict([&] { (void)read_coordinates(path.string()); }), Contains("found 256 MiB or more"));
   CHECK_THAT(verdict([&] { (void)read_inp_mesh(path.string()); }), Contains("found 256 MiB or more"));
-  std::filesystem::remove(path);
   CHECK_THAT(verdict([] { (void)read_inp_mesh("/"); }), Contains("found a directory"));
   CHECK_THAT(verdict([] { (void)read_coordinates("none.xyz"); }), Contains("none.xyz: cannot be read"));
 }

@@ -19,6 +19,7 @@
 #include "contct/write/run_svg.hpp"
 #include "contct/write/run_vtu.hpp"
 #include "support/a_run.hpp"
+#include "support/scratch_folder.hpp"
 #include "support/well_formed.hpp"
 
 using namespace contct;
@@ -224,24 +225,26 @@ TEST_CASE("grids of structures from elsewhere: points where nodes are, edges, an
 TEST_CASE("tables of structures from elsewhere name dofs by their labels, with coordinates or without") {
   for (const auto& text : {problem_in("", "frame"), problem_in("", "frame", nowhere)}) {
     const problem p = parse_problem(text, "p.toml");
-    output_file increments("mesh.csv");
-    output_file pairs("mesh.pairs.csv");
+    const scratch_folder folder;
+    output_file increments(folder.at("mesh.csv"));
+    output_file pairs(folder.at("mesh.pairs.csv"));
     auto leader = make_kernel("cpp");
     run_csv csv(p, nullptr, increments, &pairs);
     follow(p, structure_of(p), "refactor", *leader, {&csv});
     csv.finish();
-    const std::string table = read_input("mesh.pairs.csv");
+    const std::string table = folder.read("mesh.pairs.csv");
     CHECK_THAT(table, Contains("\r\n1,1,1,6.y,below,contact,") && Contains("\r\n3,3,2,8.x,above,separated,"));
   }
 }
 
 TEST_CASE("labels that are no plain words stay text in pictures and fields in tables") {
-  std::ofstream("odd.mtx") << "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n";
-  std::ofstream("odd.dof") << "<b>,\"&.x\n";
-  const a_run r(
-      "[matrix]\nstiffness = \"odd.mtx\"\ndofs = \"odd.dof\"\n[[contact]]\ndof = '<b>,\"&.x'\nsurface = "
-      "\"below\"\nface = 0\nstiffness = 1\n[[step]]\n"
-      "point = [ { dof = '<b>,\"&.x', value = -1 } ]\n");
+  const scratch_folder folder;
+  folder.write("odd.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
+  folder.write("odd.dof", "<b>,\"&.x\n");
+  const a_run r("[matrix]\nstiffness = \"" + folder.at("odd.mtx") + "\"\ndofs = \"" + folder.at("odd.dof") +
+                "\"\n[[contact]]\ndof = '<b>,\"&.x'\nsurface = "
+                "\"below\"\nface = 0\nstiffness = 1\n[[step]]\n"
+                "point = [ { dof = '<b>,\"&.x', value = -1 } ]\n");
   CHECK(why_not_well_formed(run_svg(r.finished())).empty());
   CHECK_THAT(run_svg(r.finished()), Contains("&lt;b&gt;,&quot;&amp;.x"));
   CHECK(csv_field(place_name(r.what.geometry, 0)) == "\"<b>,\"\"&.x\"");
@@ -265,10 +268,12 @@ TEST_CASE("a large mesh is drawn as far as a page stays quick: outer edges first
       }
     }
   }
-  std::ofstream("block.inp") << inp;
-  std::ofstream("block.sti") << "1 1 2\n1 2 -1\n2 2 2\n";
-  std::ofstream("block.dof") << "6000.3\n6001.3\n";
-  const a_run r("[calculix]\njob = \"block\"\n[[step]]\npoint = [ { dof = \"6000.3\", value = -1 } ]\n");
+  const scratch_folder folder;
+  folder.write("block.inp", inp);
+  folder.write("block.sti", "1 1 2\n1 2 -1\n2 2 2\n");
+  folder.write("block.dof", "6000.3\n6001.3\n");
+  const a_run r("[calculix]\njob = \"" + folder.at("block") +
+                "\"\n[[step]]\npoint = [ { dof = \"6000.3\", value = -1 } ]\n");
   const auto& places = std::get<assembled>(r.what.geometry.kind).places;
   REQUIRE(places.edges.size() == 30 * 31 * 13 * 2 + 31 * 31 * 12);
   const shown_parts shown = choose_parts(r.finished());

@@ -12,6 +12,7 @@
 #include "contct/write/run_vtu.hpp"
 #include "read/bad_plates.hpp"
 #include "support/a_run.hpp"
+#include "support/scratch_folder.hpp"
 #include "support/well_formed.hpp"
 
 using namespace contct;
@@ -53,14 +54,15 @@ struct tables {
 /// Two runs of one problem: its tables, and its frames to compare with.
 tables tables_of(const std::string& text) {
   const problem p = parse_problem(text, "pb.toml");
-  output_file increments("run.csv"), pairs("run.pairs.csv");
+  const scratch_folder folder;
+  output_file increments(folder.at("run.csv")), pairs(folder.at("run.pairs.csv"));
   auto leader = make_kernel("fortran");
   lockstep compared = make_lockstep(leader->facts(), std::vector<std::string>{"cpp"});
   run_csv csv(p, &compared, increments, &pairs);
   follow(p, structure_of(p), "refactor", *leader, {&compared, &csv});
   csv.finish();
   leader.reset();  // unit 26 is there only once
-  return {rows_of(read_input("run.csv")), rows_of(read_input("run.pairs.csv")), a_run(text).kept.frames()};
+  return {rows_of(folder.read("run.csv")), rows_of(folder.read("run.pairs.csv")), a_run(text).kept.frames()};
 }
 
 double number(const std::string& field) {
