@@ -15,14 +15,12 @@ TEST_CASE("a band keeps only its lower half, and adds from both sides") {
   CHECK(a.data()[2 * 2] == 7.0);  // first place of column 2
 }
 
-TEST_CASE("multiplying uses both halves") {
-  band_matrix a(3, 1);  // 2 1 0 / 1 3 4 / 0 4 5
-  a.add(0, 0, 2);
-  a.add(1, 0, 1);
-  a.add(1, 1, 3);
-  a.add(2, 1, 4);
-  a.add(2, 2, 5);
-  std::vector<double> y(3);
-  a.multiply(std::vector<double>{1, 2, 3}, y);
-  CHECK(y == std::vector<double>{4, 19, 23});
+TEST_CASE("an entry below the diagonal is found at column * (kd + 1) + row - column") {
+  band_matrix a(5, 2);
+  a.at(3, 1) = 31.0;
+  a.at(4, 4) = 44.0;
+  CHECK(a.data()[1 * 3 + 2] == 31.0);
+  CHECK(a.data()[4 * 3] == 44.0);
+  CHECK(a.order() == 5);
+  CHECK(a.subdiagonals() == 2);
 }

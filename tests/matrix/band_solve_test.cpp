@@ -6,6 +6,7 @@
 
 #include "catch.hpp"
 #include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/several_right_hand_sides.hpp"
 #include "contct/numeric/random.hpp"
 
 using namespace contct;
@@ -41,13 +42,13 @@ TEST_CASE("right-hand sides that begin late are solved as dpbtrs solves them, on
       const band_matrix l = random_factor(order, subdiagonals, random);
       for (int first = 0; first < order; first += 1 + order / 5) {
         const auto n = static_cast<std::size_t>(order);
-        std::vector<double> eight(n * side_by_side);
+        std::vector<double> eight(n * block_width);
         std::vector<std::vector<double>> each;
-        for (std::size_t k = 0; k < side_by_side; ++k) {
+        for (std::size_t k = 0; k < block_width; ++k) {
           std::vector<double> b(n);
           for (auto i = static_cast<std::size_t>(first); i < n; ++i) {
             b[i] = random.unit() - 0.5;
-            eight[i * side_by_side + k] = b[i];
+            eight[i * block_width + k] = b[i];
           }
           std::vector<double> one = b;
           solve_with(l, b);
@@ -55,9 +56,9 @@ TEST_CASE("right-hand sides that begin late are solved as dpbtrs solves them, on
           CHECK(largest_difference(b, one, 1, 0) <= 1e-15);
           each.push_back(b);
         }
-        solve_many_from(l, first, eight);
-        for (std::size_t k = 0; k < side_by_side; ++k) {
-          CHECK(largest_difference(each[k], eight, side_by_side, k) <= 1e-15);
+        solve_block_from(l, first, eight);
+        for (std::size_t k = 0; k < block_width; ++k) {
+          CHECK(largest_difference(each[k], eight, block_width, k) <= 1e-15);
           ++compared;
         }
       }

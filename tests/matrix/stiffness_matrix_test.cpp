@@ -52,15 +52,6 @@ TEST_CASE("a band and its entries alone are one matrix, to the bit") {
   }
 }
 
-TEST_CASE("entries in any order become columns in ascending order, each with its diagonal") {
-  const sparse_matrix a{4, {{3, 1, 5.0}, {2, 2, 7.0}, {2, 1, 4.0}, {0, 0, 1.0}, {3, 3, 9.0}, {3, 0, 2.0}}};
-  const sparse_columns k = columns_of(a);
-  CHECK(k.order() == 4);
-  CHECK(k.starts == std::vector<int>{0, 2, 5, 6, 7});
-  CHECK(k.rows == std::vector<int>{0, 3, 1, 2, 3, 2, 3});
-  CHECK(k.values == std::vector<double>{1, 2, 0, 4, 5, 7, 9});  // row 1 has nothing on its diagonal
-}
-
 TEST_CASE("the largest sum of a column is that of the whole matrix, not of its lower triangle") {
   band_matrix k(3, 1);
   k.at(0, 0) = 4;
@@ -71,4 +62,14 @@ TEST_CASE("the largest sum of a column is that of the whole matrix, not of its l
   const std::vector<double> ones(3, 1.0);
   CHECK(stiffness_matrix(k).one_norm(std::vector<double>{4, 5, 6}, ones) == 8.0);
   CHECK(stiffness_matrix(columns_of(k)).one_norm(std::vector<double>{4, 5.5, 6}, ones) == 8.5);
+}
+
+TEST_CASE("springs at one row add up on the diagonal, and K keeps its own") {
+  band_matrix k(3, 1);
+  for (int row = 0; row < 3; ++row) k.at(row, row) = row + 1.0;
+  const std::vector<spring_at> springs = {{1, 10.0}, {1, 0.5}, {2, 4.0}};
+  for (const stiffness_matrix& stored : {stiffness_matrix(k), stiffness_matrix(columns_of(k))}) {
+    CHECK(stored.diagonal_with(springs) == std::vector<double>{1, 12.5, 7});
+    CHECK(stored.diagonal_with({}) == std::vector<double>{1, 2, 3});
+  }
 }

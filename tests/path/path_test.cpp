@@ -5,6 +5,7 @@
 
 #include "catch.hpp"
 #include "support/beams.hpp"
+#include "support/matrices.hpp"
 
 using namespace contct;
 
@@ -94,8 +95,7 @@ TEST_CASE("the state told at a step's end is in equilibrium") {
   for (std::size_t step = 0; step < p.steps.size(); ++step) {
     std::vector<double> f(static_cast<std::size_t>(s.dofs()), 0.0);
     add_consistent_loads(p.geometry, p.steps[step], f);
-    std::vector<double> ku(f.size());
-    s.stiffness.band().multiply(r.steps[step].u, ku);
+    std::vector<double> ku = product(s.stiffness.band(), r.steps[step].u);
     for (std::size_t i = 0; i < p.pairs.size(); ++i) {
       if (r.steps[step].isep[i] == in_contact) ku[2 * i] += p.pairs[i].stiffness * r.steps[step].u[2 * i];
     }

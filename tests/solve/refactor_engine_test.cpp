@@ -40,13 +40,6 @@ TEST_CASE("recovery gives every dof from the load and the pairs' forces") {
   CHECK(u[1] == 0.0);
 }
 
-TEST_CASE("engines are made by name, an unknown one is refused, and the known ones are told") {
-  const beam_problem p = cantilever_over_a_stop();
-  const linear_structure s = p.structure();
-  for (const std::string& name : engine_names()) CHECK(make_engine(name, s)->name() == name);
-  CHECK_THROWS_WITH(make_engine("warp", s), Catch::Matchers::Contains("refactor"));
-}
-
 TEST_CASE("a stiffness matrix without a factor is an exception, not a number") {
   beam_problem p{even_beam(1.0, 1, 1.0), {}, {}, {}};
   linear_structure s = p.structure();

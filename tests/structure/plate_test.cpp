@@ -11,6 +11,7 @@
 
 #include "catch.hpp"
 #include "contct/matrix/cholesky.hpp"
+#include "support/matrices.hpp"
 
 using namespace contct;
 
@@ -33,13 +34,10 @@ plate uneven_plate(double scale_x = 1.0, double scale_y = 1.0) {
 /// From the dofs' order to the rows' and back.
 std::vector<double> multiply(const linear_structure& s, const std::vector<double>& u) {
   std::vector<double> in(u.size());
-  std::vector<double> out(u.size());
-  for (int d = 0; d < s.dofs(); ++d)
-    in[static_cast<std::size_t>(s.row_of(d))] = u[static_cast<std::size_t>(d)];
-  s.stiffness.band().multiply(in, out);
+  for (int d = 0; d < s.dofs(); ++d) in[s.row_of(d)] = u[d];
+  const std::vector<double> out = product(s.stiffness.band(), in);
   std::vector<double> f(u.size());
-  for (int d = 0; d < s.dofs(); ++d)
-    f[static_cast<std::size_t>(d)] = out[static_cast<std::size_t>(s.row_of(d))];
+  for (int d = 0; d < s.dofs(); ++d) f[d] = out[s.row_of(d)];
   return f;
 }
 

@@ -27,6 +27,19 @@ inline sparse_matrix entries_of(const linear_structure& s) {
   return a;
 }
 
+/// y = A x, with both halves of the band.
+inline std::vector<double> product(const band_matrix& a, const std::vector<double>& x) {
+  std::vector<double> y(x.size());
+  for (int column = 0; column < a.order(); ++column) {
+    y[column] += a.at(column, column) * x[column];
+    for (int row = column + 1; row <= std::min(column + a.subdiagonals(), a.order() - 1); ++row) {
+      y[row] += a.at(row, column) * x[column];
+      y[column] += a.at(row, column) * x[row];
+    }
+  }
+  return y;
+}
+
 /// Points in space with a spring between any two of them: three dofs a point.
 inline sparse_matrix braced(const std::vector<std::array<double, 3>>& points, double stiffness) {
   const auto n = 3 * points.size();

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace contct {
 
-/// Symmetric band matrix of order n with kd subdiagonals. Column j keeps its diagonal and what
-/// stands below it, one column after the other; for n = 5, kd = 2 (rows and columns from 0):
+/// Symmetric band matrix of order n with kd subdiagonals. Column j has its diagonal entry and
+/// those below it, one column after the other; for n = 5, kd = 2 (rows and columns from 0):
 ///
 ///     a00                              column 0: a00 a10 a20
 ///     a10 a11                          column 1: a11 a21 a31
@@ -26,22 +25,18 @@ class band_matrix {
   [[nodiscard]] int subdiagonals() const { return subdiagonals_; }
 
   /// Entry (row, column), row >= column, row - column <= kd.
-  [[nodiscard]] double& at(int row, int column) { return entries_[place(row, column)]; }
-  [[nodiscard]] double at(int row, int column) const { return entries_[place(row, column)]; }
+  [[nodiscard]] double& at(std::size_t row, std::size_t column) { return entries_[place(row, column)]; }
+  [[nodiscard]] double at(std::size_t row, std::size_t column) const { return entries_[place(row, column)]; }
 
   /// Add `value` at (row, column) and, by symmetry, at (column, row); any order of the two.
-  void add(int row, int column, double value);
-
-  /// y = A x. x and y have n entries and do not overlap.
-  void multiply(std::span<const double> x, std::span<double> y) const;
+  void add(std::size_t row, std::size_t column, double value);
 
   [[nodiscard]] double* data() { return entries_.data(); }
   [[nodiscard]] const double* data() const { return entries_.data(); }
 
  private:
-  [[nodiscard]] std::size_t place(int row, int column) const {
-    return static_cast<std::size_t>(column) * static_cast<std::size_t>(subdiagonals_ + 1) +
-           static_cast<std::size_t>(row - column);
+  [[nodiscard]] std::size_t place(std::size_t row, std::size_t column) const {
+    return column * (subdiagonals_ + 1) + (row - column);
   }
 
   int order_ = 0;

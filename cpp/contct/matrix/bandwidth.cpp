@@ -29,25 +29,25 @@ neighbours graph_of(const sparse_matrix& a) {
   return {boost::construct_inplace_from_sources_and_targets, from, to, static_cast<std::uint32_t>(a.order)};
 }
 
-/// A vertex with the fewest neighbours in each part that hangs together.
-std::deque<std::uint32_t> first_of_parts(const neighbours& g) {
+/// A vertex with the fewest neighbours in each connected component.
+std::deque<std::uint32_t> first_of_components(const neighbours& g) {
   std::vector<char> seen(num_vertices(g), 0);
   std::deque<std::uint32_t> firsts;
-  std::vector<std::uint32_t> waiting;
+  std::vector<std::uint32_t> to_visit;
   for (std::uint32_t v = 0; v < num_vertices(g); ++v) {
     if (seen[v] != 0) continue;
     seen[v] = 1;
     firsts.push_back(v);
-    waiting.assign(1, v);
-    while (!waiting.empty()) {
-      const std::uint32_t at = waiting.back();
-      waiting.pop_back();
+    to_visit.assign(1, v);
+    while (!to_visit.empty()) {
+      const std::uint32_t at = to_visit.back();
+      to_visit.pop_back();
       if (out_degree(at, g) < out_degree(firsts.back(), g)) firsts.back() = at;
       for (const auto [next, end] = adjacent_vertices(at, g);
            const std::uint32_t other : boost::make_iterator_range(next, end)) {
         if (seen[other] != 0) continue;
         seen[other] = 1;
-        waiting.push_back(other);
+        to_visit.push_back(other);
       }
     }
   }
@@ -61,8 +61,8 @@ std::vector<int> rows_for_small_band(const sparse_matrix& a) {
   std::vector<boost::default_color_type> colours(num_vertices(g));
   const auto colour = boost::make_iterator_property_map(colours.begin(), get(boost::vertex_index, g));
   const auto degree = boost::make_out_degree_map(g);
-  std::deque<std::uint32_t> firsts = first_of_parts(g);
-  // The search for a better first goes over the whole graph each time: not where there are many parts.
+  std::deque<std::uint32_t> firsts = first_of_components(g);
+  // Each search for a better first vertex visits the whole graph: too slow for many components.
   constexpr std::size_t few = 32;
   if (firsts.size() <= few)
     for (std::uint32_t& v : firsts) v = static_cast<std::uint32_t>(find_starting_node(g, v, colour, degree));
@@ -71,7 +71,7 @@ std::vector<int> rows_for_small_band(const sparse_matrix& a) {
   cuthill_mckee_ordering(g, firsts, std::back_inserter(order), colour, degree);
   std::vector<int> rows(order.size());
   const auto last = static_cast<int>(order.size()) - 1;
-  for (int i = 0; i <= last; ++i) rows[order[static_cast<std::size_t>(i)]] = last - i;
+  for (int i = 0; i <= last; ++i) rows[order[i]] = last - i;
   if (subdiagonals_of(a, rows) >= subdiagonals_of(a, {})) rows.clear();
   return rows;
 }

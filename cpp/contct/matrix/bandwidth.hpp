@@ -8,7 +8,7 @@
 namespace contct {
 
 /// Reverse Cuthill and McKee, by Boost.Graph: the row of each dof, from 0; empty where the order that `a` has
-/// is as good. Linear in the entries but for sorting neighbours by their number.
+/// is as good. Linear in the entries, but for sorting neighbours by their degree.
 [[nodiscard]] std::vector<int> rows_for_small_band(const sparse_matrix& a);
 
 }  // namespace contct

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
@@ -22,42 +23,24 @@ void CONTCT_FC_GLOBAL(dlacn2, DLACN2)(const int* n, double* v, double* x, int* i
 namespace contct {
 namespace {
 
-/// A becomes D A D, where D makes the diagonal 1. False when a diagonal entry is not positive.
-bool scale_to_unit_diagonal(band_matrix& a) {
-  const int n = a.order();
-  std::vector<double> d(static_cast<std::size_t>(n));
-  for (int j = 0; j < n; ++j) {
-    if (!(a.at(j, j) > 0.0)) return false;
-    d[static_cast<std::size_t>(j)] = 1.0 / std::sqrt(a.at(j, j));
+/// 1 / sqrt of each entry: what scales a matrix with this diagonal to a unit diagonal. Empty when an entry is
+/// not positive.
+std::vector<double> unit_scale(std::span<const double> diagonal) {
+  std::vector<double> d;
+  for (const double entry : diagonal) {
+    if (!(entry > 0.0)) return {};
+    d.push_back(1.0 / std::sqrt(entry));
   }
-  for (int j = 0; j < n; ++j) {
-    for (int i = j; i <= std::min(j + a.subdiagonals(), n - 1); ++i) {
-      a.at(i, j) *= d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(j)];
-    }
-  }
-  return true;
-}
-
-/// Largest sum of magnitudes of a column of the whole symmetric matrix.
-double one_norm(const band_matrix& a) {
-  std::vector<double> sums(static_cast<std::size_t>(a.order()), 0.0);
-  for (int j = 0; j < a.order(); ++j) {
-    sums[static_cast<std::size_t>(j)] += std::abs(a.at(j, j));
-    for (int i = j + 1; i <= std::min(j + a.subdiagonals(), a.order() - 1); ++i) {
-      sums[static_cast<std::size_t>(i)] += std::abs(a.at(i, j));
-      sums[static_cast<std::size_t>(j)] += std::abs(a.at(i, j));
-    }
-  }
-  return sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
+  return d;
 }
 
 /// Hager and Higham's estimate of the 1-norm of the inverse (dlacn2), from a handful of solves. This
 /// is dpbcon, but for the guard against overflow inside its solves (dlatbs), which scans the rest of
 /// the vector at every row once the matrix is ill-conditioned: minutes on a beam of 100,000 nodes.
 double norm_of_inverse(int n, const in_place_solver& solve) {
-  std::vector<double> v(static_cast<std::size_t>(n));
-  std::vector<double> x(static_cast<std::size_t>(n));
-  std::vector<int> isgn(static_cast<std::size_t>(n));
+  std::vector<double> v(n);
+  std::vector<double> x(n);
+  std::vector<int> isgn(n);
   int isave[3] = {};
   int kase = 0;
   double estimate = 0.0;
@@ -93,8 +76,13 @@ void solve_with(const band_matrix& factor_of_a, std::span<double> b) {
 }
 
 double reciprocal_condition(band_matrix& matrix) {
-  if (!scale_to_unit_diagonal(matrix)) return 0.0;
-  const double norm = one_norm(matrix);
+  stiffness_matrix k(std::move(matrix));
+  const std::vector<double> diagonal = k.diagonal_with({});
+  const std::vector<double> scale = unit_scale(diagonal);
+  if (scale.empty()) return 0.0;
+  const double norm = k.one_norm(diagonal, scale);
+  k.scale(scale);
+  matrix = std::move(k.band());
   if (!std::isfinite(norm) || !factor(matrix)) return 0.0;
   return reciprocal(
       norm, norm_of_inverse(matrix.order(), [&matrix](std::span<double> x) { solve_with(matrix, x); }));
@@ -102,17 +90,12 @@ double reciprocal_condition(band_matrix& matrix) {
 
 double reciprocal_condition(const stiffness_matrix& k, std::span<const double> diagonal,
                             const in_place_solver& solve) {
-  std::vector<double> root;
-  std::vector<double> scale;
-  for (const double entry : diagonal) {
-    if (!(entry > 0.0)) return 0.0;
-    root.push_back(std::sqrt(entry));
-    scale.push_back(1.0 / root.back());
-  }
-  const double inverse_norm = norm_of_inverse(k.order(), [&root, &solve](std::span<double> x) {
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= root[i];
+  const std::vector<double> scale = unit_scale(diagonal);
+  if (scale.empty()) return 0.0;
+  const double inverse_norm = norm_of_inverse(k.order(), [diagonal, &solve](std::span<double> x) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= std::sqrt(diagonal[i]);
     solve(x);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= root[i];
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= std::sqrt(diagonal[i]);
   });
   return reciprocal(k.one_norm(diagonal, scale), inverse_norm);
 }

@@ -14,21 +14,21 @@ void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)();
 namespace contct {
 namespace {
 
-/// The file that the loaded dpbtrf comes from, without its folder; empty where the system cannot say.
+/// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found.
 std::string library_of_dpbtrf() {
   Dl_info found{};
-  // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym know untyped addresses alone
+  // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses
   if (dladdr(reinterpret_cast<void*>(&CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)), &found) == 0) return "";
   std::error_code ignored;
   const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, ignored);
   return (ignored ? std::filesystem::path(found.dli_fname) : real).filename().string();
 }
 
-/// What OpenBLAS says of itself, with the processor that it takes this one for; empty where it is not loaded.
+/// The configuration of OpenBLAS with the core type that it uses; empty where it is not loaded.
 std::string openblas_identity() {
-  using says = char*();
+  using configuration = char*();
   // NOLINTNEXTLINE(*-reinterpret-cast)
-  const auto get_config = reinterpret_cast<says*>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
+  const auto get_config = reinterpret_cast<configuration*>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
   return get_config == nullptr ? "" : get_config();
 }
 

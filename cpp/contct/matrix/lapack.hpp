@@ -1,4 +1,4 @@
-// Which LAPACK solves.
+// Which LAPACK is in use.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 namespace contct {
 
 /// The LAPACK in use: its version as ILAVER has it, and the library that holds dpbtrf, as in
-/// "LAPACK 3.11.0, liblapack.so.3.11.0"; where OpenBLAS is loaded, what it says of itself, too. Results of
+/// "LAPACK 3.11.0, liblapack.so.3.11.0"; and the configuration of OpenBLAS where that is loaded. Results of
 /// solves differ between libraries, calls of CONTCT do not.
 [[nodiscard]] std::string lapack_identity();
 

@@ -1,76 +1,138 @@
 #include "contct/matrix/sparse_factor.hpp"
 
+#ifdef CONTCT_HAS_CHOLMOD
+#include <cholmod.h>
+
 #include <algorithm>
+#include <cmath>
+#include <new>
 #include <utility>
 
-#include "contct/matrix/cholmod_library.hpp"
 #include "contct/matrix/several_right_hand_sides.hpp"
 #include "contct/matrix/supernodal_solve.hpp"
 
 namespace contct {
+namespace {
 
-class sparse_factor::library {
+/// What CHOLMOD has made; std::bad_alloc where it has not.
+template <class T>
+T* made(T* by_cholmod) {
+  if (by_cholmod == nullptr) throw std::bad_alloc();
+  return by_cholmod;
+}
+
+/// CHOLMOD's view of a matrix by columns; nothing is copied.
+cholmod_sparse view_of(std::size_t rows, std::size_t columns, int* starts, int* row_numbers, double* values,
+                       std::size_t entries) {
+  cholmod_sparse view{};
+  view.nrow = rows;
+  view.ncol = columns;
+  view.nzmax = entries;
+  view.p = starts;
+  view.i = row_numbers;
+  view.x = values;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+/// CHOLMOD's settings and working space.
+struct workspace : cholmod_common {
+  workspace() : cholmod_common{} { cholmod_start(this); }
+  ~workspace() { cholmod_finish(this); }
+  workspace(const workspace&) = delete;
+  workspace& operator=(const workspace&) = delete;
+  workspace(workspace&&) = delete;
+  workspace& operator=(workspace&&) = delete;
+};
+
+class cholmod final : public sparse_factor {
  public:
-  explicit library(sparse_columns a) : a_(std::move(a)) {
-    common_->supernodal = CHOLMOD_SUPERNODAL;  // dense blocks by BLAS
-    common_->nmethods = 2;                     // the better of both
-    common_->method[0].ordering = CHOLMOD_METIS;
-    common_->method[1].ordering = CHOLMOD_AMD;
-    cholmod_sparse k = seen_by_cholmod(a_);
-    factor_ = made_by_cholmod(cholmod_analyze(&k, common_));
-    b_ = made_by_cholmod(cholmod_zeros(k.nrow, 1, CHOLMOD_REAL, common_));
-    places_.resize(k.nrow);
+  cholmod(sparse_columns a, kind k) : a_(std::move(a)) {
+    work_.print = 0;
+    work_.quick_return_if_not_posdef = 1;
+    choose(k);
+    cholmod_sparse view = view_of_a();
+    factor_ = made(cholmod_analyze(&view, &work_));
+    b_ = made(cholmod_zeros(view.nrow, 1, CHOLMOD_REAL, &work_));
+    places_.resize(view.nrow);
     const auto* const order = static_cast<const int*>(factor_->Perm);
-    for (std::size_t i = 0; i < k.nrow; ++i) places_[static_cast<std::size_t>(order[i])] = i;
+    for (std::size_t i = 0; i < view.nrow; ++i) places_[order[i]] = static_cast<int>(i);
   }
-  ~library() {
-    cholmod_free_factor(&factor_, common_);
-    cholmod_free_dense(&b_, common_);
-    cholmod_free_dense(&x_, common_);
-    cholmod_free_dense(&y_, common_);
-    cholmod_free_dense(&e_, common_);
+  ~cholmod() override {
+    cholmod_free_factor(&factor_, &work_);
+    for (cholmod_dense** vector : {&b_, &x_, &y_, &e_}) cholmod_free_dense(vector, &work_);
   }
-  library(const library&) = delete;
-  library& operator=(const library&) = delete;
-  library(library&&) = delete;
-  library& operator=(library&&) = delete;
+  cholmod(const cholmod&) = delete;
+  cholmod& operator=(const cholmod&) = delete;
+  cholmod(cholmod&&) = delete;
+  cholmod& operator=(cholmod&&) = delete;
 
-  [[nodiscard]] std::int64_t bytes() const {
+  [[nodiscard]] std::int64_t bytes() const override {
     return static_cast<std::int64_t>(sizeof(double) * factor_->xsize + sizeof(int) * factor_->ssize);
   }
 
-  [[nodiscard]] bool factor(std::span<const double> diagonal) {
-    for (std::size_t row = 0; row < diagonal.size(); ++row)
-      a_.diagonal(static_cast<int>(row)) = diagonal[row];
-    cholmod_sparse k = seen_by_cholmod(a_);
-    const bool done = cholmod_factorize(&k, factor_, common_) != 0;
-    if (common_->status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-    return done && common_->status == CHOLMOD_OK && factor_->minor == factor_->n;
+  [[nodiscard]] bool factor(std::span<const double> diagonal) override {
+    for (std::size_t row = 0; row < diagonal.size(); ++row) a_.diagonal(row) = diagonal[row];
+    cholmod_sparse view = view_of_a();
+    const bool done = cholmod_factorize(&view, factor_, &work_) != 0;
+    if (work_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    return done && work_.status == CHOLMOD_OK && factor_->minor == factor_->n;
   }
 
-  [[nodiscard]] double flops() const { return common_.flops(); }
-
-  void solve_units(std::span<const int> rows, std::vector<double>& x) {
-    in_order_.assign(factor_->n * side_by_side, 0.0);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i] >= 0) in_order_[place_of(rows[i]) * side_by_side + i] = 1.0;
-    solve_many(in_supernodes(), in_order_);
-    x.resize(in_order_.size());
-    for (std::size_t row = 0; row < factor_->n; ++row)
-      std::copy_n(&in_order_[place_of(static_cast<int>(row)) * side_by_side], side_by_side,
-                  &x[row * side_by_side]);
-  }
-
-  void solve(std::span<double> b) {
-    auto* const right_hand_side = static_cast<double*>(b_->x);
-    std::copy(b.begin(), b.end(), right_hand_side);
-    if (cholmod_solve2(CHOLMOD_A, factor_, b_, nullptr, &x_, nullptr, &y_, &e_, common_) == 0)
+  void solve(std::span<double> b) override {
+    std::copy(b.begin(), b.end(), static_cast<double*>(b_->x));
+    if (cholmod_solve2(CHOLMOD_A, factor_, b_, nullptr, &x_, nullptr, &y_, &e_, &work_) == 0)
       throw std::bad_alloc();
     std::copy_n(static_cast<const double*>(x_->x), b.size(), b.begin());
   }
 
+  void solve_units(std::span<const int> rows, std::vector<double>& x) override {
+    in_order_.assign(factor_->n * block_width, 0.0);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (rows[i] >= 0) in_order_[places_[rows[i]] * block_width + i] = 1.0;
+    solve_block(in_supernodes(), in_order_);
+    x.resize(in_order_.size());
+    for (std::size_t row = 0; row < factor_->n; ++row)
+      std::copy_n(&in_order_[places_[row] * block_width], block_width, &x[row * block_width]);
+  }
+
+  [[nodiscard]] bool update(int row, double k, bool add) override {
+    int starts[2] = {0, 1};
+    int place = places_[row];
+    double root = std::sqrt(k);
+    cholmod_sparse column = view_of(factor_->n, 1, starts, &place, &root, 1);
+    return cholmod_updown(add ? 1 : 0, &column, factor_, &work_) != 0 && work_.status == CHOLMOD_OK;
+  }
+
+  [[nodiscard]] double flops() const override { return work_.fl; }
+
  private:
-  [[nodiscard]] std::size_t place_of(int row) const { return places_[static_cast<std::size_t>(row)]; }
+  void choose(kind k) {
+    if (k == kind::supernodal) {
+      work_.supernodal = CHOLMOD_SUPERNODAL;
+      work_.nmethods = 2;  // the better of both
+      work_.method[0].ordering = CHOLMOD_METIS;
+      work_.method[1].ordering = CHOLMOD_AMD;
+    } else {
+      work_.supernodal = CHOLMOD_SIMPLICIAL;  // cholmod_updown takes no other
+      work_.final_ll = 0;
+    }
+    if (k == kind::updatable_amd) {
+      work_.nmethods = 1;
+      work_.method[0].ordering = CHOLMOD_AMD;
+    }
+  }
+
+  [[nodiscard]] cholmod_sparse view_of_a() {
+    const std::size_t n = a_.order();
+    cholmod_sparse view = view_of(n, n, a_.starts.data(), a_.rows.data(), a_.values.data(), a_.values.size());
+    view.stype = -1;  // symmetric, the lower triangle
+    return view;
+  }
 
   [[nodiscard]] supernodes in_supernodes() const {
     const auto* const f = factor_;
@@ -84,44 +146,41 @@ class sparse_factor::library {
             {static_cast<const double*>(f->x), f->xsize}};
   }
 
-  cholmod_library common_;
+  workspace work_;
   sparse_columns a_;
-  std::vector<std::size_t> places_;  // of each row in the factor's order
+  std::vector<int> places_;  // of each row in the factor's order
   std::vector<double> in_order_;
   cholmod_factor* factor_ = nullptr;
   cholmod_dense* b_ = nullptr;
-  cholmod_dense* x_ = nullptr;
+  cholmod_dense* x_ = nullptr;  // x_, y_ and e_ belong to cholmod_solve2
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
 };
+
+}  // namespace
 
 bool sparse_factor::available() {
   return true;
 }
 
-sparse_factor::sparse_factor(sparse_columns a) : library_(std::make_unique<library>(std::move(a))) {}
-sparse_factor::~sparse_factor() = default;
-sparse_factor::sparse_factor(sparse_factor&& other) noexcept = default;
-sparse_factor& sparse_factor::operator=(sparse_factor&& other) noexcept = default;
-
-std::int64_t sparse_factor::bytes() const {
-  return library_->bytes();
-}
-
-bool sparse_factor::factor(std::span<const double> diagonal) {
-  return library_->factor(diagonal);
-}
-
-void sparse_factor::solve(std::span<double> b) {
-  library_->solve(b);
-}
-
-void sparse_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
-  library_->solve_units(rows, x);
-}
-
-double sparse_factor::flops() const {
-  return library_->flops();
+std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns a, kind k) {
+  return std::make_unique<cholmod>(std::move(a), k);
 }
 
 }  // namespace contct
+#else
+#include <stdexcept>
+
+namespace contct {
+
+bool sparse_factor::available() {
+  return false;
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
+std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns /*a*/, kind /*k*/) {
+  throw std::logic_error("a sparse factor needs CHOLMOD, which is not built in");
+}
+
+}  // namespace contct
+#endif

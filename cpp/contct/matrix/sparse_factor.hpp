@@ -1,4 +1,5 @@
-// CHOLMOD's Cholesky factor of a sparse matrix; every build has this header, not every one has the library.
+// CHOLMOD's Cholesky factor of a sparse matrix. Every build has this header; builds without CHOLMOD refuse to
+// make one.
 #pragma once
 
 #include <cstdint>
@@ -6,43 +7,51 @@
 #include <span>
 #include <vector>
 
-#include "contct/matrix/sparse_columns.hpp"
+#include "contct/matrix/sparse_matrix.hpp"
 
 namespace contct {
 
-/// A = L L^T of a symmetric positive definite matrix, in an order of little fill.
+/// The factor of a symmetric positive definite matrix A, in an order of little fill. Rows are A's, from 0.
 class sparse_factor {
  public:
-  /// Is the library built in? Without it nothing below can be called: std::logic_error.
+  /// Is CHOLMOD built in?
   [[nodiscard]] static bool available();
 
-  /// Finds the order, and keeps A. Throws std::bad_alloc.
-  explicit sparse_factor(sparse_columns a);
-  ~sparse_factor();
-  sparse_factor(sparse_factor&& other) noexcept;
-  sparse_factor& operator=(sparse_factor&& other) noexcept;
+  enum class kind {
+    supernodal,    ///< L L^T in dense blocks, in the better of METIS' and AMD's orders
+    updatable,     ///< L D L^T, in the best order that CHOLMOD finds
+    updatable_amd  ///< L D L^T in AMD's order: enough for a band, and quick to find
+  };
+
+  /// Find the order, and keep A. Throws std::bad_alloc, and std::logic_error where CHOLMOD is not built in.
+  [[nodiscard]] static std::unique_ptr<sparse_factor> make(sparse_columns a, kind k = kind::supernodal);
+
+  sparse_factor() = default;
+  virtual ~sparse_factor() = default;
   sparse_factor(const sparse_factor&) = delete;
   sparse_factor& operator=(const sparse_factor&) = delete;
+  sparse_factor(sparse_factor&&) = delete;
+  sparse_factor& operator=(sparse_factor&&) = delete;
 
-  /// Bytes that the factor takes; known before it is made.
-  [[nodiscard]] std::int64_t bytes() const;
+  /// Bytes that a supernodal factor takes; known before it is made.
+  [[nodiscard]] virtual std::int64_t bytes() const = 0;
 
   /// Factor A with `diagonal` [order] for its own. False when a pivot is not positive. Throws std::bad_alloc.
-  [[nodiscard]] bool factor(std::span<const double> diagonal);
+  [[nodiscard]] virtual bool factor(std::span<const double> diagonal) = 0;
 
-  /// Solve A x = b in place.
-  void solve(std::span<double> b);
+  /// Solve A x = b in place. Throws std::bad_alloc.
+  virtual void solve(std::span<double> b) = 0;
 
-  /// Solve A x = e for the unit vectors of up to `many` rows in one pass over the factor: x[row * many + i]
-  /// for the i-th. A row of -1 leaves zeros.
-  void solve_units(std::span<const int> rows, std::vector<double>& x);
+  /// Solve A x = e for the unit vectors of up to `block_width` rows in one pass over a supernodal factor:
+  /// x[row * block_width + i] for the i-th. A row of -1 leaves zeros.
+  virtual void solve_units(std::span<const int> rows, std::vector<double>& x) = 0;
+
+  /// Make an updatable factor that of A + k e e^T, or of A - k e e^T where `add` is false; e is the unit
+  /// vector of `row`, k positive. False when the factor must be made anew.
+  [[nodiscard]] virtual bool update(int row, double k, bool add) = 0;
 
   /// Products and sums that a factorisation takes.
-  [[nodiscard]] double flops() const;
-
- private:
-  class library;
-  std::unique_ptr<library> library_;
+  [[nodiscard]] virtual double flops() const = 0;
 };
 
 }  // namespace contct

@@ -10,35 +10,30 @@
 namespace contct {
 
 stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
-  if (!k_.is_band()) sparse_.emplace(k_.columns());
+  if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
 }
 
 bool stiffness_factor::factor(std::span<const spring_at> springs) {
-  if (k_.is_band()) {
-    assemble(springs);
-    return contct::factor(band_);
-  }
-  return sparse_->factor(diagonal_with(springs));
+  if (sparse_) return sparse_->factor(k_.diagonal_with(springs));
+  assemble(springs);
+  return contct::factor(band_);
 }
 
 void stiffness_factor::solve(std::span<double> b) {
-  if (sparse_) {
-    sparse_->solve(b);
-  } else {
-    solve_with(band_, b);
-  }
+  if (sparse_) return sparse_->solve(b);
+  solve_with(band_, b);
 }
 
 void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
   if (sparse_) return sparse_->solve_units(rows, x);
-  x.assign(static_cast<std::size_t>(band_.order()) * side_by_side, 0.0);
+  x.assign(band_.order() * block_width, 0.0);
   int first = band_.order();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] < 0) continue;
-    x[static_cast<std::size_t>(rows[i]) * side_by_side + i] = 1.0;
+    x[rows[i] * block_width + i] = 1.0;
     first = std::min(first, rows[i]);
   }
-  if (first < band_.order()) solve_many_from(band_, first, x);
+  if (first < band_.order()) solve_block_from(band_, first, x);
 }
 
 double stiffness_factor::flops() const {
@@ -53,7 +48,8 @@ double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs
     return contct::reciprocal_condition(band_);
   }
   if (!factor(springs)) return 0.0;
-  return contct::reciprocal_condition(k_, diagonal_with(springs), [this](std::span<double> b) { solve(b); });
+  return contct::reciprocal_condition(k_, k_.diagonal_with(springs),
+                                      [this](std::span<double> b) { solve(b); });
 }
 
 const band_matrix& stiffness_factor::band() const {
@@ -61,17 +57,10 @@ const band_matrix& stiffness_factor::band() const {
   return band_;
 }
 
-/// In place where the last factor stood.
+/// Overwrites the last factor.
 void stiffness_factor::assemble(std::span<const spring_at> springs) {
   band_ = k_.band();
   for (const spring_at& s : springs) band_.at(s.row, s.row) += s.stiffness;
-}
-
-std::vector<double> stiffness_factor::diagonal_with(std::span<const spring_at> springs) const {
-  std::vector<double> diagonal(static_cast<std::size_t>(k_.order()));
-  for (int row = 0; row < k_.order(); ++row) diagonal[static_cast<std::size_t>(row)] = k_.diagonal(row);
-  for (const spring_at& s : springs) diagonal[static_cast<std::size_t>(s.row)] += s.stiffness;
-  return diagonal;
 }
 
 }  // namespace contct

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
-#include <vector>
 
 namespace contct {
 namespace {
@@ -11,18 +10,15 @@ namespace {
 /// Column by column, `on(column, value)` for the diagonal and `below(row, column, value)` for the rest.
 template <class Matrix, class On, class Below>
 void each_entry(Matrix& k, On on, Below below) {
-  const auto n = static_cast<std::size_t>(k.order());
-  for (std::size_t column = 0; column < n; ++column) {
+  for (int column = 0; column < k.order(); ++column) {
     if constexpr (std::is_same_v<std::remove_const_t<Matrix>, band_matrix>) {
-      const auto c = static_cast<int>(column);
-      on(column, k.at(c, c));
-      const int last = std::min(c + k.subdiagonals(), k.order() - 1);
-      for (int row = c + 1; row <= last; ++row) below(static_cast<std::size_t>(row), column, k.at(row, c));
+      on(column, k.at(column, column));
+      const int last = std::min(column + k.subdiagonals(), k.order() - 1);
+      for (int row = column + 1; row <= last; ++row) below(row, column, k.at(row, column));
     } else {
-      const auto first = static_cast<std::size_t>(k.starts[column]);
+      const int first = k.starts[column];
       on(column, k.values[first]);
-      for (std::size_t i = first + 1; i < static_cast<std::size_t>(k.starts[column + 1]); ++i)
-        below(static_cast<std::size_t>(k.rows[i]), column, k.values[i]);
+      for (int i = first + 1; i < k.starts[column + 1]; ++i) below(k.rows[i], column, k.values[i]);
     }
   }
 }
@@ -43,16 +39,19 @@ int stiffness_matrix::order() const {
   return std::visit([](const auto& k) { return k.order(); }, stored_);
 }
 
-double stiffness_matrix::diagonal(int row) const {
+double stiffness_matrix::diagonal(std::size_t row) const {
   return is_band() ? band().at(row, row) : columns().diagonal(row);
 }
 
-void stiffness_matrix::add_to_diagonal(int row, double value) {
-  if (is_band()) {
-    band().at(row, row) += value;
-  } else {
-    std::get<sparse_columns>(stored_).diagonal(row) += value;
-  }
+void stiffness_matrix::add_to_diagonal(std::size_t row, double value) {
+  (is_band() ? band().at(row, row) : columns().diagonal(row)) += value;
+}
+
+std::vector<double> stiffness_matrix::diagonal_with(std::span<const spring_at> springs) const {
+  std::vector<double> all(order());
+  for (std::size_t row = 0; row < all.size(); ++row) all[row] = diagonal(row);
+  for (const spring_at& s : springs) all[s.row] += s.stiffness;
+  return all;
 }
 
 void stiffness_matrix::fix(std::span<const char> fixed) {

@@ -1,16 +1,23 @@
-// K of a structure, however it is stored.
+// The stiffness matrix K of a structure, in either of two storages.
 #pragma once
 
 #include <span>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "contct/matrix/band_matrix.hpp"
-#include "contct/matrix/sparse_columns.hpp"
+#include "contct/matrix/sparse_matrix.hpp"
 
 namespace contct {
 
-/// Symmetric: a band, or, where a band would take more memory than there is, its entries alone.
+/// A spring at one row: its stiffness is added to the diagonal.
+struct spring_at {
+  int row;
+  double stiffness;
+};
+
+/// Symmetric: a band, or, where a band would take too much memory, sparse columns.
 class stiffness_matrix {
  public:
   stiffness_matrix() = default;
@@ -19,14 +26,16 @@ class stiffness_matrix {
 
   [[nodiscard]] int order() const;
   [[nodiscard]] bool is_band() const { return std::holds_alternative<band_matrix>(stored_); }
-  /// Throws std::bad_variant_access when it is not stored so.
+  /// Throws std::bad_variant_access when K has the other storage.
   [[nodiscard]] band_matrix& band() { return std::get<band_matrix>(stored_); }
   [[nodiscard]] const band_matrix& band() const { return std::get<band_matrix>(stored_); }
   [[nodiscard]] sparse_columns& columns() { return std::get<sparse_columns>(stored_); }
   [[nodiscard]] const sparse_columns& columns() const { return std::get<sparse_columns>(stored_); }
 
-  [[nodiscard]] double diagonal(int row) const;
-  void add_to_diagonal(int row, double value);
+  [[nodiscard]] double diagonal(std::size_t row) const;
+  void add_to_diagonal(std::size_t row, double value);
+  /// The diagonal of K with springs [rows].
+  [[nodiscard]] std::vector<double> diagonal_with(std::span<const spring_at> springs) const;
   /// Rows and columns `r` with `fixed[r]` [rows] become those of the identity.
   void fix(std::span<const char> fixed);
   /// K becomes D K D, D diagonal: `d` [rows].

@@ -1,93 +1,68 @@
 #include "contct/matrix/supernodal_solve.hpp"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "contct/matrix/several_right_hand_sides.hpp"
 
 namespace contct {
 namespace {
 
-/// One supernode.
-struct block {
+struct supernode {
   const int* rows;
   const double* entries;
   std::size_t height;  // rows
   std::size_t width;   // columns
+  double* b;           // the right-hand sides
 
   [[nodiscard]] const double* column(std::size_t j) const { return entries + j * height; }
+  /// The right-hand sides' row that belongs to row i of the supernode.
+  [[nodiscard]] double* row(std::size_t i) const { return b + rows[i] * block_width; }
 };
 
-block block_of(const supernodes& l, std::size_t s) {
-  return {&l.rows[static_cast<std::size_t>(l.row_places[s])],
-          &l.entries[static_cast<std::size_t>(l.entry_places[s])],
-          static_cast<std::size_t>(l.row_places[s + 1] - l.row_places[s]),
-          static_cast<std::size_t>(l.columns[s + 1] - l.columns[s])};
+supernode supernode_at(const supernodes& l, std::size_t s, std::span<double> b) {
+  const std::size_t height = l.row_places[s + 1] - l.row_places[s];
+  const std::size_t width = l.columns[s + 1] - l.columns[s];
+  return {&l.rows[l.row_places[s]], &l.entries[l.entry_places[s]], height, width, b.data()};
 }
 
-double* row_at(double* b, int row) {
-  return b + static_cast<std::size_t>(row) * side_by_side;
-}
-
-bool is_reached(const block& l, const double* b) {
-  const double* const first = b + static_cast<std::size_t>(l.rows[0]) * side_by_side;
-  return std::any_of(first, first + l.width * side_by_side, [](double x) { return x != 0.0; });
+bool is_zero(const supernode& s) {
+  return std::all_of(s.row(0), s.row(0) + s.width * block_width, [](double x) { return x == 0.0; });
 }
 
 /// Two columns at a time: every row below is loaded and stored once for both.
-void go_down(const block& l, double* b) {
+void forward_substitution(supernode s) {
   std::size_t j = 0;
-  for (; j + 1 < l.width; j += 2) {
-    const double* const one = l.column(j);
-    const double* const two = l.column(j + 1);
-    rows_side_by_side x_one = rows_side_by_side::load(row_at(b, l.rows[j]));
-    rows_side_by_side x_two = rows_side_by_side::load(row_at(b, l.rows[j + 1]));
-    x_one.divide(one[j]);
-    x_one.store(row_at(b, l.rows[j]));
-    x_two.subtract(one[j + 1], x_one);
-    x_two.divide(two[j + 1]);
-    x_two.store(row_at(b, l.rows[j + 1]));
-    for (std::size_t i = j + 2; i < l.height; ++i) {
-      double* const at = row_at(b, l.rows[i]);
-      rows_side_by_side row = rows_side_by_side::load(at);
-      row.subtract(one[i], x_one);
-      row.subtract(two[i], x_two);
-      row.store(at);
-    }
+  for (; j + 1 < s.width; j += 2) {
+    const double* const one = s.column(j);
+    const double* const two = s.column(j + 1);
+    const block_row x_one = divide(s.row(j), one[j]);
+    subtract_from(s.row(j + 1), one[j + 1], x_one);
+    const block_row x_two = divide(s.row(j + 1), two[j + 1]);
+    for (std::size_t i = j + 2; i < s.height; ++i) subtract_from(s.row(i), one[i], x_one, two[i], x_two);
   }
-  if (j == l.width) return;
-  const double* const last = l.column(j);
-  rows_side_by_side x = rows_side_by_side::load(row_at(b, l.rows[j]));
-  x.divide(last[j]);
-  x.store(row_at(b, l.rows[j]));
-  for (std::size_t i = j + 1; i < l.height; ++i) {
-    rows_side_by_side row = rows_side_by_side::load(row_at(b, l.rows[i]));
-    row.subtract(last[i], x);
-    row.store(row_at(b, l.rows[i]));
-  }
+  if (j == s.width) return;
+  const double* const last = s.column(j);
+  const block_row x = divide(s.row(j), last[j]);
+  for (std::size_t i = j + 1; i < s.height; ++i) subtract_from(s.row(i), last[i], x);
 }
 
-void go_up(const block& l, double* b) {
-  for (std::size_t j = l.width; j-- > 0;) {
-    const double* const column = l.column(j);
-    rows_side_by_side sum{};
-    for (std::size_t i = j + 1; i < l.height; ++i)
-      sum.add(column[i], rows_side_by_side::load(row_at(b, l.rows[i])));
-    rows_side_by_side x = rows_side_by_side::load(row_at(b, l.rows[j]));
-    x.subtract(sum);
-    x.divide(column[j]);
-    x.store(row_at(b, l.rows[j]));
+void back_substitution(supernode s) {
+  for (std::size_t j = s.width; j-- > 0;) {
+    const double* const column = s.column(j);
+    block_row sum{};
+    for (std::size_t i = j + 1; i < s.height; ++i) sum.add(column[i], block_row::load(s.row(i)));
+    divide(s.row(j), column[j], sum);
   }
 }
 
 }  // namespace
 
-void solve_many(const supernodes& l, std::span<double> b) {
+void solve_block(const supernodes& l, std::span<double> b) {
   for (std::size_t s = 0; s < l.count(); ++s) {
-    const block of_s = block_of(l, s);
-    if (is_reached(of_s, b.data())) go_down(of_s, b.data());
+    const supernode of_s = supernode_at(l, s, b);
+    if (!is_zero(of_s)) forward_substitution(of_s);
   }
-  for (std::size_t s = l.count(); s-- > 0;) go_up(block_of(l, s), b.data());
+  for (std::size_t s = l.count(); s-- > 0;) back_substitution(supernode_at(l, s, b));
 }
 
 }  // namespace contct

@@ -22,7 +22,7 @@ template <class Real>
 }
 
 /// Place of a number on the line of all floating-point numbers: neighbours differ by one, and
-/// -0.0 stands one below +0.0.
+/// -0.0 is one below +0.0.
 template <class Real>
 [[nodiscard]] inline std::int64_t place_of(Real x) {
   using bits = bits_of<Real>;

@@ -6,7 +6,7 @@
 namespace contct {
 namespace {
 
-// Operands pass through volatile, so that the machine computes and not the compiler.
+// Operands pass through volatile, so that the compiler does not compute with them.
 double opaque(double x) {
   volatile double held = x;
   return held;
@@ -33,7 +33,7 @@ bool results_are_flushed() {
   const double smallest_normal = opaque(std::numeric_limits<double>::min());
   const double half = smallest_normal * opaque(0.5);
   volatile double held = half;
-  // Compare by scaling up: a comparison with zero would itself be deceived under DAZ.
+  // Compare by scaling up: under DAZ a comparison with zero would be wrong, too.
   return opaque(held) * opaque(0x1p+60) * opaque(0x1p+60) == 0.0;
 }
 
@@ -42,7 +42,7 @@ bool operands_are_flushed() {
   return subnormal * opaque(0x1p+60) == 0.0;
 }
 
-/// What the compiler may do cannot be measured, but it says so itself.
+/// What the compiler may do cannot be measured, but its macros tell.
 constexpr bool may_rearrange() {
 #if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
   return true;

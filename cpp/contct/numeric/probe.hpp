@@ -1,4 +1,4 @@
-// Does this process compute the way that the comparison assumes?
+// Does the floating-point arithmetic of this process meet the assumptions of the comparison?
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 namespace contct {
 
 /// What the floating-point probe found. Equality between kernels is promised only where
-/// strict() holds; elsewhere a mismatch says something of the environment, not of a kernel.
+/// strict() holds; elsewhere a mismatch may be due to the environment.
 struct floating_point {
   bool contracts;          ///< a * b + c is fused into one rounding
   bool rounds_to_nearest;  ///< rounding mode, ties to even
   bool flushes_results;    ///< subnormal results become zero (FTZ)
   bool flushes_operands;   ///< subnormal operands count as zero (DAZ)
   bool extra_precision;    ///< intermediate results are wider than their type (x87)
-  bool rearranges;         ///< the compiler was allowed to reorder sums and to forget NaN: no result tells
+  bool rearranges;         ///< the compiler was allowed to reorder sums and to ignore NaN: not measurable
 
   [[nodiscard]] bool strict() const {
     return !contracts && rounds_to_nearest && !flushes_results && !flushes_operands && !extra_precision &&

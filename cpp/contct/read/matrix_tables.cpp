@@ -10,7 +10,7 @@
 #include "contct/read/dof_labels.hpp"
 #include "contct/read/matrix_market.hpp"
 #include "contct/read/matrix_places.hpp"
-#include "contct/structure/memory_limit.hpp"
+#include "contct/read/memory_limit.hpp"
 #include "contct/text/field_lines.hpp"
 
 namespace contct {
@@ -106,7 +106,7 @@ std::int64_t bytes_of_run(const assembled& a) {
   constexpr std::int64_t as_read = sizeof(matrix_entry);
   constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
   const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());
-  return (as_read + 3 * in_columns) * entries + 5 * sparse_factor(columns_of(a.stiffness)).bytes() / 2;
+  return (as_read + 3 * in_columns) * entries + 5 * sparse_factor::make(columns_of(a.stiffness))->bytes() / 2;
 }
 
 assembled read_matrix(const table_reader& t, const std::string& folder) {

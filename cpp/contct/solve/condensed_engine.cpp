@@ -6,12 +6,12 @@
 namespace contct {
 namespace {
 
-constexpr int first_check = 32;
-constexpr int longest_between_checks = 512;
-constexpr double drift_allowed = 1e-11;
+constexpr double drift_allowed = 1e-11;  // of the response, relative to the largest
+constexpr drift_monitor::limits drift_limits = {32, 512, drift_allowed, drift_allowed / 4};
 constexpr double below_rounding = 1e-18;
-constexpr double stiff =
-    100.0;  // k c_p of a spring that opens: so many times is the rounding of x_p multiplied
+// k c_p of a spring that opens, from which the response is checked at once: the rounding of x_p is multiplied
+// by it.
+constexpr double stiff = 100.0;
 
 node_matrix operator-(const node_matrix& a, const node_matrix& b) {
   return {a.ww - b.ww, a.wt - b.wt, a.tw - b.tw, a.tt - b.tt};
@@ -25,6 +25,12 @@ node_matrix operator*(const node_matrix& a, const node_matrix& b) {
 }
 node_vector operator*(const node_matrix& a, const node_vector& v) {
   return {a.ww * v.w + a.wt * v.theta, a.tw * v.w + a.tt * v.theta};
+}
+node_vector operator+(const node_vector& a, const node_vector& b) {
+  return {a.w + b.w, a.theta + b.theta};
+}
+node_vector operator-(const node_vector& a, const node_vector& b) {
+  return {a.w - b.w, a.theta - b.theta};
 }
 node_matrix transposed(const node_matrix& a) {
   return {a.ww, a.tw, a.wt, a.tt};
@@ -70,7 +76,7 @@ bool condensed_engine::suits(const linear_structure& s) {
 }
 
 condensed_engine::condensed_engine(const linear_structure& s)
-    : structure_(s), until_check_(first_check), check_every_(first_check), stiffness_(s) {
+    : spring_engine(s), drift_(drift_limits), stiffness_(s) {
   if (!suits(s))
     throw std::invalid_argument(
         "engine \"condensed\": found a structure that is no beam with pairs; allowed: those");
@@ -78,10 +84,8 @@ condensed_engine::condensed_engine(const linear_structure& s)
   std::sort(kept_.begin(), kept_.end());
   kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
   for (const contact_pair& p : s.pairs) {
-    place_.push_back(
-        static_cast<std::size_t>(std::lower_bound(kept_.begin(), kept_.end(), p.node) - kept_.begin()));
-    spring_factor_.push_back(s.fixed[static_cast<std::size_t>(2 * p.node)] != 0 ? 0.0 : 1.0);
-    wanted_.push_back(p.closed ? 1 : 0);
+    place_.push_back(std::lower_bound(kept_.begin(), kept_.end(), p.node) - kept_.begin());
+    spring_factor_.push_back(s.fixed[p.node * s.dofs_per_node] != 0 ? 0.0 : 1.0);
   }
   x_.resize(kept_.size());
   load_.resize(kept_.size());
@@ -98,7 +102,6 @@ void condensed_engine::eliminate_between(int left_node, int right_node, std::siz
     if (has_left && has_right) e_[left] = block(k, left_node, right_node);
     return;
   }
-  // From the right to the left would do as well; the error of a long chain is the same.
   node_matrix pivot = block(k, left_node + 1, left_node + 1);
   node_matrix to_left = has_left ? block(k, left_node, left_node + 1) : node_matrix{};
   for (int node = left_node + 1; node < right_node; ++node) {
@@ -130,15 +133,15 @@ void condensed_engine::condense() {
   eliminate_between(-1, kept_.front(), 0);
   for (std::size_t i = 0; i + 1 < n; ++i) eliminate_between(kept_[i], kept_[i + 1], i);
   eliminate_between(kept_.back(), structure_.stiffness.order() / 2, n - 1);
-  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+  for (std::size_t i = 0; i < place_.size(); ++i)
     if (wanted_[i] != 0) d_[place_[i]].ww += spring_factor_[i] * structure_.pairs[i].stiffness;
-  }
-  applied_ = wanted_;
+  apply_all();
   left_.assign(n, {});
   right_.assign(n, {});
   go_left_.assign(n, {});
   go_right_.assign(n, {});
-  sweep_all();
+  for (std::size_t i = 0; i < n; ++i) step_right(i);
+  for (std::size_t i = n; i-- > 0;) step_left(i);
 }
 
 /// L_i, and how a column goes on from i + 1 to i.
@@ -153,12 +156,7 @@ void condensed_engine::step_left(std::size_t i) {
   if (i > 0) go_right_[i] = negative(solved(right_[i], transposed(e_[i - 1])));
 }
 
-void condensed_engine::sweep_all() {
-  for (std::size_t i = 0; i < d_.size(); ++i) step_right(i);
-  for (std::size_t i = d_.size(); i-- > 0;) step_left(i);
-}
-
-/// D_at has changed: the sweeps from there on, as far as they come out different.
+/// After a change of D_at: the sweeps from there on, as far as they give something else than before.
 void condensed_engine::sweep_from(std::size_t at) {
   for (std::size_t i = at; i < d_.size(); ++i) {
     const node_matrix before = left_[i];
@@ -192,50 +190,35 @@ void condensed_engine::inverse_column(std::size_t at) {
   }
 }
 
-void condensed_engine::switch_spring(int pair, bool closed) {
-  wanted_[static_cast<std::size_t>(pair)] = closed ? 1 : 0;
-  switched_.push_back(pair);
-}
-
-/// The response under one more spring, or one less: x' = x - g x_p c, where c is already the column with that
-/// spring: K' c = e, so x' = x - sigma k x_p c.
-void condensed_engine::take_in(int pair) {
-  const auto p = static_cast<std::size_t>(pair);
-  const std::size_t at = place_[p];
-  const double k = spring_factor_[p] * structure_.pairs[p].stiffness;
-  const double sigma_k = wanted_[p] != 0 ? k : -k;
-  applied_[p] = wanted_[p];
+/// The response with one more spring, or one less. The column c is that of the new K', K' c = e, so that
+/// x' = x - sigma k x_p c.
+bool condensed_engine::update(int pair) {
+  const std::size_t at = place_[pair];
+  const double k = spring_factor_[pair] * stiffness_of(pair);
+  const double sigma_k = applied_[pair] != 0 ? k : -k;
   ++counts_.updates;
-  if (k == 0.0) return;
+  if (k == 0.0) return true;
   d_[at].ww += sigma_k;
   sweep_from(at);
   inverse_column(at);
-  if (-sigma_k * column_[at].w > stiff) until_check_ = 0;
-  const double much = sigma_k * x_[at].w;
-  for (std::size_t i = first_; i <= last_; ++i) {
-    x_[i].w -= much * column_[i].w;
-    x_[i].theta -= much * column_[i].theta;
-  }
+  if (-sigma_k * column_[at].w > stiff) drift_.check_next();
+  const double factor = sigma_k * x_[at].w;
+  for (std::size_t i = first_; i <= last_; ++i)
+    x_[i] = {x_[i].w - factor * column_[i].w, x_[i].theta - factor * column_[i].theta};
+  return true;
 }
 
 void condensed_engine::respond(const residual_load& residual, std::span<double> d_star) {
-  // What closes first, then what opens: the structure is held all the while.
-  for (const char closed : {char{1}, char{0}}) {
-    for (const int pair : switched_) {
-      const auto p = static_cast<std::size_t>(pair);
-      if (wanted_[p] == closed && applied_[p] != closed) take_in(pair);
-    }
-  }
-  switched_.clear();
+  (void)apply_switched([this](int pair) { return update(pair); });
   if (response_to_ != residual.version) {
     respond_anew(residual);
-  } else if (--until_check_ <= 0) {
+  } else if (drift_.is_due()) {
     refine_response();
   }
   for (std::size_t i = 0; i < place_.size(); ++i) d_star[i] = residual.share * x_[place_[i]].w;
 }
 
-/// One solve of the whole beam; the condensed load is what the condensed stiffness makes of it.
+/// One solve of the whole beam. The condensed load is then the condensed K times its solution.
 void condensed_engine::respond_anew(const residual_load& residual) {
   stiffness_.factor(applied_);
   std::vector<double> u(residual.increment.begin(), residual.increment.end());
@@ -243,52 +226,42 @@ void condensed_engine::respond_anew(const residual_load& residual) {
   ++counts_.factors;
   ++counts_.solves;
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    const auto dof = static_cast<std::size_t>(2 * kept_[i]);
+    const int dof = 2 * kept_[i];
     x_[i] = {u[dof], u[dof + 1]};
     load_[i] = {};
   }
   residual_of_response();
   for (std::size_t i = 0; i < kept_.size(); ++i) load_[i] = {-column_[i].w, -column_[i].theta};
   response_to_ = residual.version;
-  until_check_ = check_every_;
+  drift_.start_interval();
 }
 
 /// column_ = load - K x.
 void condensed_engine::residual_of_response() {
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     node_vector sum = d_[i] * x_[i];
-    const auto add = [&sum](const node_vector& v) { sum = {sum.w + v.w, sum.theta + v.theta}; };
-    if (i > 0) add(transposed(e_[i - 1]) * x_[i - 1]);
-    if (i + 1 < kept_.size()) add(e_[i] * x_[i + 1]);
-    column_[i] = {load_[i].w - sum.w, load_[i].theta - sum.theta};
+    if (i > 0) sum = sum + transposed(e_[i - 1]) * x_[i - 1];
+    if (i + 1 < kept_.size()) sum = sum + e_[i] * x_[i + 1];
+    column_[i] = load_[i] - sum;
   }
 }
 
-/// x + K^-1 (load - K x): the drift is taken out, and its size says when to look again.
+/// x + K^-1 (load - K x). The correction is the drift.
 void condensed_engine::refine_response() {
   ++counts_.checks;
   ++counts_.solves;
   residual_of_response();
-  for (std::size_t i = 1; i < kept_.size(); ++i) {  // forwards: r_i - E^T L^-1 r
-    const node_vector carried = transposed(go_left_[i - 1]) * column_[i - 1];
-    column_[i] = {column_[i].w + carried.w, column_[i].theta + carried.theta};
-  }
-  double size = 0.0;
-  double off = 0.0;
+  for (std::size_t i = 1; i < kept_.size(); ++i)  // forwards: r_i - E^T L^-1 r
+    column_[i] = column_[i] + transposed(go_left_[i - 1]) * column_[i - 1];
+  drift found;
   for (std::size_t i = kept_.size(); i-- > 0;) {
     node_vector correction = solved(left_[i], column_[i]);
-    if (i + 1 < kept_.size()) {
-      const node_vector carried = go_left_[i] * column_[i + 1];
-      correction = {correction.w + carried.w, correction.theta + carried.theta};
-    }
+    if (i + 1 < kept_.size()) correction = correction + go_left_[i] * column_[i + 1];
     column_[i] = correction;
-    x_[i] = {x_[i].w + correction.w, x_[i].theta + correction.theta};
-    size = std::max(size, std::abs(x_[i].w));
-    off = std::max(off, std::abs(correction.w));
+    x_[i] = x_[i] + correction;
+    found.include(x_[i].w, correction.w);
   }
-  if (off > drift_allowed * size) check_every_ = std::max(check_every_ / 2, 4);
-  if (off < drift_allowed / 4 * size) check_every_ = std::min(2 * check_every_, longest_between_checks);
-  until_check_ = check_every_;
+  (void)drift_.accepts(found);
 }
 
 void condensed_engine::recover(std::span<const double> load, std::span<const double> pair_forces,

@@ -1,9 +1,7 @@
 #include "contct/solve/engine.hpp"
 
-#include "contct/solve/condensed_engine.hpp"
-#ifdef CONTCT_HAS_CHOLMOD
 #include "contct/solve/cholmod_engine.hpp"
-#endif
+#include "contct/solve/condensed_engine.hpp"
 #include "contct/solve/refactor_engine.hpp"
 #include "contct/solve/updated_engine.hpp"
 #include "contct/text/did_you_mean.hpp"
@@ -12,16 +10,14 @@ namespace contct {
 
 std::vector<std::string> engine_names() {
   std::vector<std::string> names = {"refactor", "updated", "condensed"};
-#ifdef CONTCT_HAS_CHOLMOD
-  names.insert(names.end(), {"cholmod", "dissected"});
-#endif
+  if (sparse_factor::available()) names.insert(names.end(), {"cholmod", "dissected"});
   return names;
 }
 
 std::string_view quickest_engine(const linear_structure& s) {
   if (!s.stiffness.is_band()) return "cholmod";
   if (condensed_engine::suits(s)) return "condensed";
-  constexpr int wide = 128;  // subdiagonals from which another order than the band's pays
+  constexpr int wide = 128;  // subdiagonals from which CHOLMOD's order is quicker than the band
   return sparse_factor::available() && s.stiffness.band().subdiagonals() >= wide ? "dissected" : "updated";
 }
 
@@ -38,18 +34,14 @@ void refuse_unknown_engine(std::string_view name) {
 std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s) {
   refuse_unknown_engine(name);
   if (name == "condensed") return std::make_unique<condensed_engine>(s);
-#ifdef CONTCT_HAS_CHOLMOD
   if (name == "cholmod") return std::make_unique<cholmod_engine>(s);
   if (name == "dissected") return std::make_unique<updated_engine>(s, true);
-#endif
-  if (name == "updated") {
-    if (!s.stiffness.is_band())
-      throw std::invalid_argument(
-          "engine \"updated\": found a stiffness that is not stored as a band; allowed: refactor, cholmod or "
-          "dissected");
-    return std::make_unique<updated_engine>(s);
-  }
-  return std::make_unique<refactor_engine>(s);
+  if (name == "refactor") return std::make_unique<refactor_engine>(s);
+  if (!s.stiffness.is_band())
+    throw std::invalid_argument(
+        "engine \"updated\": found a stiffness that is not stored as a band; allowed: refactor, cholmod or "
+        "dissected");
+  return std::make_unique<updated_engine>(s);
 }
 
 }  // namespace contct

@@ -1,4 +1,4 @@
-// The seam between the path and the linear algebra: three verbs.
+// What the path needs from linear algebra: switch a spring, respond, recover.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct residual_load {
   std::span<const double> last_s = {};
 };
 
-/// What an engine has done.
+/// What an engine has computed so far.
 struct engine_counts {
   std::int64_t factors = 0;  ///< factorisations
   std::int64_t solves = 0;   ///< with a factor, for one right-hand side
@@ -31,8 +31,8 @@ struct engine_counts {
   std::int64_t checks = 0;   ///< of the residual
 };
 
-/// Thrown by an engine when the stiffness matrix of a structure that is held has no Cholesky
-/// factor: it is too ill-conditioned for double precision.
+/// The stiffness matrix of a structure that is held has no Cholesky factor: it is too ill-conditioned for
+/// double precision.
 class no_factor : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -72,7 +72,7 @@ class stiffness_engine {
 /// Throws std::invalid_argument, naming what there is, when no engine has that name.
 void refuse_unknown_engine(std::string_view name);
 
-/// The names that make_engine knows.
+/// The names of all engines in this build.
 [[nodiscard]] std::vector<std::string> engine_names();
 
 }  // namespace contct

@@ -23,14 +23,14 @@ class inverse_columns {
   /// Both must outlive this object.
   inverse_columns(const linear_structure& s, factored_stiffness& k0);
 
-  /// The factor is another one: forget all that depended on it.
+  /// The factor is a new one: drop all that depended on the last.
   void start_anew();
 
   /// K^-1 e for the dof of a pair, at the pairs [pairs]; good until the next call of anything. `last_s`: the
-  /// kernel's last scale factors [pairs], or nothing; the least of them tell who may be next.
+  /// kernel's last scale factors [pairs], or nothing; the pairs with the least are likely to be next.
   [[nodiscard]] std::span<const double> column(int pair, std::span<const double> last_s);
 
-  /// Take in a toggle of the pair whose column was asked for last: K + sigma_k e e^T. Returns g.
+  /// K becomes K + sigma_k e e^T, for the pair whose column was asked for last. Returns g.
   double take_in(int pair, double sigma_k);
 
   /// K0^-1 b becomes K^-1 b, at the pairs [pairs].
@@ -48,16 +48,15 @@ class inverse_columns {
   [[nodiscard]] int passes() const { return passes_; }  ///< over the factor, so far
 
  private:
-  /// Columns side by side: entries[pair * many + i] is that of pairs[i].
+  /// A block of columns: entries[pair * block_width + i] belong to that of pairs[i].
   struct block {
     std::vector<int> pairs;
     std::vector<double> entries;
-    std::size_t corrected = 0;  // by so many toggles
+    std::size_t corrected = 0;  // the toggles that it has been corrected by
     std::size_t unused = 0;
   };
 
   [[nodiscard]] std::vector<int> likely_next(int pair, std::span<const double> last_s) const;
-  [[nodiscard]] bool is_ahead(int pair) const;
   void solve_alone(int pair);
   void solve_block(const std::vector<int>& chosen);
   void bring_up_to_date(block& b) const;
@@ -70,9 +69,9 @@ class inverse_columns {
   std::vector<std::vector<double>> at_toggle_;  // [j][l] = (c_l) at the pair of toggle j, l < j
   std::list<block> blocks_;
   std::vector<double> column_;       // the last one asked for [pairs]
-  std::vector<double> dofs_, many_;  // working space
+  std::vector<double> dofs_, rows_;  // working space: one solution, a block of them
   int passes_ = 0;
-  int solved_ahead_ = 0, used_ahead_ = 0;
+  std::size_t solved_ahead_ = 0, used_ahead_ = 0;
 };
 
 }  // namespace contct

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "contct/solve/engine.hpp"
+#include "contct/solve/drift_monitor.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 #include "contct/solve/inverse_columns.hpp"
+#include "contct/solve/spring_engine.hpp"
 
 namespace contct {
 
@@ -19,15 +20,14 @@ namespace contct {
 /// `inverse_columns` has the columns. Nothing else costs more than O(pairs) an event.
 /// Memory: a factor, and a column of pairs a toggle.
 ///
-/// Updates drift: on a schedule that the drift itself sets, x is put back into the equations by one more
-/// solve; and the factor is made anew when too much is left over, when the columns cost more than it would,
-/// or when 1 + sigma k c_p has lost its digits.
-class updated_engine final : public stiffness_engine {
+/// Updates drift: the drift monitor says when x is checked by one more solve. The factor is made anew when
+/// the drift is too large, when the columns cost more than a factor would, or when 1 + sigma k c_p has lost
+/// its digits.
+class updated_engine final : public spring_engine {
  public:
-  /// `dissected`: over CHOLMOD's factor in place of a band's.
+  /// `dissected`: with CHOLMOD's factor in place of a band's.
   explicit updated_engine(const linear_structure& s, bool dissected = false);
   [[nodiscard]] std::string_view name() const override { return dissected_ ? "dissected" : "updated"; }
-  void switch_spring(int pair, bool closed) override;
   void respond(const residual_load& residual, std::span<double> d_star) override;
   void recover(std::span<const double> load, std::span<const double> pair_forces,
                std::span<double> u) override;
@@ -36,19 +36,12 @@ class updated_engine final : public stiffness_engine {
 
  private:
   void factor_anew();
-  void respond_anew(std::span<const double> increment);
-  bool take_in_switched(std::span<const double> last_s);
-  /// Take in the toggle of one pair. False when that must be done by a new factor.
-  bool take_in(int pair, std::span<const double> last_s);
+  void respond_anew(const residual_load& residual);
+  /// Update the response by the toggle of one pair. False when that takes a new factor.
+  [[nodiscard]] bool update(int pair, std::span<const double> last_s);
   [[nodiscard]] bool still_solves(std::span<const double> increment);
-  void gather(std::span<const double> at_dofs, std::span<double> at_pairs) const;
 
-  const linear_structure& structure_;
   bool dissected_;
-  std::size_t pairs_;
-  std::vector<char> wanted_;   // closed, as switched [pairs]
-  std::vector<char> applied_;  // closed, in factor and toggles [pairs]
-  std::vector<int> switched_;  // pairs that may differ
   factored_stiffness stiffness_;
   inverse_columns columns_;
   bool has_factor_ = false;
@@ -56,8 +49,7 @@ class updated_engine final : public stiffness_engine {
   std::vector<double> response_;   // to the whole increment [pairs]
   std::uint64_t response_to_ = 0;  // which increment
   std::vector<double> work_;       // [dofs]
-  int until_check_, check_every_;
-  engine_counts counts_;
+  drift_monitor drift_;
 };
 
 }  // namespace contct

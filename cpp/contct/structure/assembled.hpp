@@ -1,4 +1,4 @@
-// A structure of which only the stiffness matrix is known: another program assembled it.
+// A structure given by its stiffness matrix alone, which another program has assembled.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ struct assembled {
   std::vector<std::string> labels;  ///< [dofs] each once; empty: "1", "2", ...
   std::string labels_from;          ///< the file that has them
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
-  bool as_band = true;              ///< otherwise K is kept by its entries: CHOLMOD alone can solve with it
+  bool as_band = true;              ///< otherwise K is stored by columns, and only CHOLMOD can solve with it
   std::optional<int> free_motions;  ///< how many motions it leaves free on its supports, where that is known
-  placed_nodes places;              ///< for pictures; nothing is computed from them
+  placed_nodes places;              ///< for pictures only
 
   static constexpr int dofs_per_node = 1;
   static constexpr std::array<const char*, 1> dof_names = {"value"};
@@ -31,7 +31,7 @@ struct assembled {
   [[nodiscard]] static int elements() { return 0; }
   [[nodiscard]] int dofs() const { return stiffness.order; }
   [[nodiscard]] std::string label_of(int dof) const {
-    return labels.empty() ? std::to_string(dof + 1) : labels[static_cast<std::size_t>(dof)];
+    return labels.empty() ? std::to_string(dof + 1) : labels[dof];
   }
 };
 
@@ -47,7 +47,7 @@ void add_consistent_loads(const assembled& a, const load& l, std::span<double> f
 [[nodiscard]] std::vector<double> reactions(const assembled& a, const load& l,
                                             std::span<const support> supports, std::span<const double> u);
 
-/// Throws std::invalid_argument: a matrix knows no length or area.
+/// Throws std::invalid_argument: a matrix has no lengths or areas.
 [[nodiscard]] std::vector<double> tributary_shares(const assembled& a);
 
 }  // namespace contct

@@ -1,15 +1,9 @@
 #include "contct/structure/beam.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "contct/structure/gauss.hpp"
-#include "contct/structure/reactions.hpp"
-#include "contct/structure/tributary.hpp"
 
 namespace contct {
 namespace {
@@ -25,12 +19,6 @@ std::array<double, 10> stiffness_of_element(double EI, double h) {
           6 * k * h, 2 * k * h * h, -6 * k * h, 4 * k * h * h};
 }
 
-double value_of(std::span<const double> polynomial, double x) {
-  double sum = 0.0;
-  for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * x + polynomial[i];
-  return sum;
-}
-
 /// Work of a distributed load on the four shape functions of one element.
 element_vector consistent_load(std::span<const double> polynomial, double left, double h) {
   if (polynomial.size() == 1) {
@@ -40,7 +28,7 @@ element_vector consistent_load(std::span<const double> polynomial, double left, 
   element_vector f{};
   const int degree = static_cast<int>(polynomial.size()) - 1 + 3;
   for (const auto& [t, weight] : gauss_points(degree / 2 + 1)) {  // t from 0 to 1
-    const double q = value_of(polynomial, left + t * h) * weight * h;
+    const double q = polynomial_at(polynomial, left + t * h) * weight * h;
     f[0] += q * (1 - t) * (1 - t) * (1 + 2 * t);
     f[1] += q * h * t * (1 - t) * (1 - t);
     f[2] += q * t * t * (3 - 2 * t);
@@ -49,35 +37,20 @@ element_vector consistent_load(std::span<const double> polynomial, double left, 
   return f;
 }
 
-/// Call visit(element, load on it) for every element that the distributed loads touch.
+/// Call visit(element, load on it) for every element that the distributed loads act on.
 template <class Visit>
-void for_each_loaded_element(const beam& b, const load& l, Visit visit) {
-  for (const distributed_load& d : l.distributed) {
-    const auto one = [&](int e) {
-      visit(e, consistent_load(d.polynomial, b.x[static_cast<std::size_t>(e)], b.length_of(e)));
-    };
-    if (d.elements.empty()) {
-      for (int e = 0; e < b.elements(); ++e) one(e);
-    } else {
-      for (const int e : d.elements) one(e);
-    }
-  }
+void for_each_consistent_load(const beam& b, const load& l, Visit visit) {
+  for_each_loaded_element(l, b.elements(), [&](int e, std::span<const double> polynomial) {
+    visit(e, consistent_load(polynomial, b.x[e], b.length_of(e)));
+  });
 }
 
 void assemble_elements(const beam& b, band_matrix& k) {
   for (int e = 0; e < b.elements(); ++e) {
-    const std::array<double, 10> entries =
-        stiffness_of_element(b.EI[static_cast<std::size_t>(e)], b.length_of(e));
-    std::size_t next = 0;
-    for (int row = 0; row < 4; ++row) {
-      for (int column = 0; column <= row; ++column, ++next) {
-        if (!std::isfinite(entries[next])) {
-          throw std::invalid_argument("the stiffness of element " + std::to_string(e + 1) +
-                                      " is not a finite number");
-        }
-        k.add(2 * e + row, 2 * e + column, entries[next]);
-      }
-    }
+    const std::array<double, 10> entries = stiffness_of_element(b.EI[e], b.length_of(e));
+    const double* next = entries.data();
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column <= row; ++column) add_to_band(k, 2 * e + row, 2 * e + column, *next++, e);
   }
 }
 
@@ -86,7 +59,7 @@ void assemble_elements(const beam& b, band_matrix& k) {
 std::vector<rigid_row> rigid_rows_of(const beam& b) {
   const double half = (b.x.back() - b.x.front()) / 2;
   std::vector<rigid_row> rows;
-  rows.reserve(static_cast<std::size_t>(b.dofs()));
+  rows.reserve(b.dofs());
   for (const double x : b.x) {
     rows.push_back({1, (x - b.x.front()) / half - 1, 0});
     rows.push_back({0, 1 / half, 0});
@@ -108,17 +81,17 @@ linear_structure build(const beam& b, std::span<const support> supports, std::ve
 }
 
 void add_consistent_loads(const beam& b, const load& l, std::span<double> f) {
-  for (const point_load& p : l.points) f[static_cast<std::size_t>(2 * p.node + p.dof)] += p.value;
-  for_each_loaded_element(b, l, [&](int e, const element_vector& q) {
-    for (std::size_t i = 0; i < 4; ++i) f[2 * static_cast<std::size_t>(e) + i] += q[i];
+  add_point_loads(l, beam::dofs_per_node, f);
+  for_each_consistent_load(b, l, [&](int e, const element_vector& q) {
+    for (int i = 0; i < 4; ++i) f[2 * e + i] += q[i];
   });
 }
 
 std::vector<element_forces> forces_in_elements(const beam& b, const load& l, std::span<const double> u) {
-  std::vector<element_forces> forces(static_cast<std::size_t>(b.elements()));
+  std::vector<element_forces> forces(b.elements());
   for (std::size_t e = 0; e < forces.size(); ++e) {
-    // Rotations against the chord, so that a large rigid motion does not drown the bending.
-    const double h = b.length_of(static_cast<int>(e));
+    // Rotations relative to the chord: otherwise a large rigid motion cancels the digits of the bending.
+    const double h = b.length_of(e);
     const double chord = (u[2 * e + 2] - u[2 * e]) / h;
     const double left = u[2 * e + 1] - chord;
     const double right = u[2 * e + 3] - chord;
@@ -128,8 +101,8 @@ std::vector<element_forces> forces_in_elements(const beam& b, const load& l, std
     const double v = (m1 + m2) / h;
     forces[e] = {{v, v}, {-m1, m2}};
   }
-  for_each_loaded_element(b, l, [&](int e, const element_vector& q) {
-    element_forces& f = forces[static_cast<std::size_t>(e)];
+  for_each_consistent_load(b, l, [&](int e, const element_vector& q) {
+    element_forces& f = forces[e];
     f.shear[0] -= q[0];
     f.moment[0] += q[1];
     f.shear[1] += q[2];
@@ -142,10 +115,9 @@ std::vector<double> reactions(const beam& b, const load& l, std::span<const supp
                               std::span<const double> u) {
   const std::vector<element_forces> forces = forces_in_elements(b, l, u);
   return reactions_of(supports, l, u, beam::dofs_per_node, [&](int node, int dof) {
-    const auto n = static_cast<std::size_t>(node);
     double need = 0.0;
-    if (node < b.elements()) need += dof == 0 ? forces[n].shear[0] : -forces[n].moment[0];
-    if (node > 0) need += dof == 0 ? -forces[n - 1].shear[1] : forces[n - 1].moment[1];
+    if (node < b.elements()) need += dof == 0 ? forces[node].shear[0] : -forces[node].moment[0];
+    if (node > 0) need += dof == 0 ? -forces[node - 1].shear[1] : forces[node - 1].moment[1];
     return need;
   });
 }

@@ -20,9 +20,7 @@ struct beam {
   [[nodiscard]] int nodes() const { return static_cast<int>(x.size()); }
   [[nodiscard]] int elements() const { return nodes() - 1; }
   [[nodiscard]] int dofs() const { return nodes() * dofs_per_node; }
-  [[nodiscard]] double length_of(int element) const {
-    return x[static_cast<std::size_t>(element) + 1] - x[static_cast<std::size_t>(element)];
-  }
+  [[nodiscard]] double length_of(std::size_t element) const { return x[element + 1] - x[element]; }
 };
 
 /// What an engineer reads off an element, at its left and right ends.

@@ -17,9 +17,9 @@ extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* upl
 namespace contct {
 namespace {
 
-constexpr std::size_t most_tried = 10;   // six motions, and some more that tell them from what follows
-constexpr double held_for_sure = 1e-11;  // a reciprocal condition
-constexpr double free_if_said = 1e-10;   // an eigenvalue
+constexpr int most_tried = 10;              // six motions, and more to separate them from what follows
+constexpr double surely_held = 1e-11;       // a reciprocal condition
+constexpr double free_if_declared = 1e-10;  // an eigenvalue
 constexpr double shifts[] = {1e-13, 1e-12, 1e-11, 1e-10};
 constexpr int most_iterations = 40;
 
@@ -52,11 +52,11 @@ stiffness_matrix scaled(const stiffness_matrix& k, numbers& d) {
   return a;
 }
 
-/// Factor A with as little on top of the diagonal as it takes.
+/// Factor A with the least shift of its diagonal that gives it a factor.
 void factor_shifted(stiffness_factor& a, int order) {
   for (const double shift : shifts) {
     std::vector<spring_at> everywhere;
-    everywhere.reserve(static_cast<std::size_t>(order));
+    everywhere.reserve(order);
     for (int row = 0; row < order; ++row) everywhere.push_back({row, shift});
     if (a.factor(everywhere)) return;
   }
@@ -69,7 +69,7 @@ class subspace {
   explicit subspace(const stiffness_matrix& a) : a_(a), factor_(a) {
     factor_shifted(factor_, a.order());
     random_numbers random(1);
-    x_.assign(std::min(most_tried, static_cast<std::size_t>(a.order())), {});
+    x_.assign(std::min(most_tried, a.order()), {});
     for (numbers& x : x_)
       for (int i = 0; i < a.order(); ++i) x.push_back(random.unit() - 0.5);
   }
@@ -83,7 +83,7 @@ class subspace {
 
   [[nodiscard]] const numbers& values() const { return values_; }
   [[nodiscard]] const std::vector<numbers>& vectors() const { return x_; }
-  /// How far vector i is from being one: the length of A x - lambda x.
+  /// How far vector i is from an eigenvector: the length of A x - lambda x.
   [[nodiscard]] double left_over(std::size_t i) const { return left_[i]; }
 
  private:
@@ -155,13 +155,13 @@ int count_free(const numbers& values) {
       std::count_if(values.begin(), values.end(), [](double v) { return v <= free_below; }));
 }
 
-/// Until the smallest eigenvalues stand still and the vectors of free motions get no better.
+/// Iterate until the smallest eigenvalues no longer change and the vectors of free motions no longer improve.
 void converge(subspace& space, std::optional<int> known) {
   double before = std::numeric_limits<double>::infinity();
   double first_held_before = 0.0;
   for (int iteration = 1; iteration <= most_iterations; ++iteration) {
     space.improve();
-    const auto m = static_cast<std::size_t>(known.value_or(count_free(space.values())));
+    const std::size_t m = known.value_or(count_free(space.values()));
     double left = 0.0;
     for (std::size_t i = 0; i < std::min(m, space.values().size()); ++i)
       left = std::max(left, space.left_over(i));
@@ -173,12 +173,12 @@ void converge(subspace& space, std::optional<int> known) {
   }
 }
 
-/// Each row of the vectors as displacements; what is no more than rounding becomes 0.
+/// Each row of the vectors as displacements; rows within rounding become 0.
 std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const free_motions& f) {
   std::vector<rigid_row> rows(d.size());
   numbers sizes(d.size());
   for (std::size_t r = 0; r < d.size(); ++r) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(f.count); ++i) rows[r][i] = space.vectors()[i][r];
+    for (int i = 0; i < f.count; ++i) rows[r][i] = space.vectors()[i][r];
     sizes[r] = largest_of(rows[r]);
   }
   const double rounding = f.rounding * *std::max_element(sizes.begin(), sizes.end());
@@ -194,9 +194,9 @@ std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const fr
 
 void refuse_count(const numbers& values, std::optional<int> known) {
   if (values.front() < -negative_beyond) refuse_negative("of " + short_words(values.front()));
-  const auto said = static_cast<std::size_t>(known.value_or(0));
-  if (said > values.size() || (said > 0 && values[said - 1] > free_if_said))
-    throw std::invalid_argument("the matrix, on its supports, is said to leave " + std::to_string(said) +
+  const std::size_t declared = known.value_or(0);
+  if (declared > values.size() || (declared > 0 && values[declared - 1] > free_if_declared))
+    throw std::invalid_argument("the matrix, on its supports, is said to leave " + std::to_string(declared) +
                                 " motions free, but it leaves " + std::to_string(count_free(values)));
   if (!known && count_free(values) > most_rigid_motions)
     throw std::invalid_argument("the matrix, on its supports, leaves more than " +
@@ -208,10 +208,10 @@ void refuse_count(const numbers& values, std::optional<int> known) {
 
 free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> known) {
   free_motions found;
-  found.rows.assign(static_cast<std::size_t>(k.order()), rigid_row{});
+  found.rows.assign(k.order(), rigid_row{});
   if (known.value_or(0) == 0) {
     const double rcond = stiffness_factor(k).reciprocal_condition({});
-    if (rcond > held_for_sure || (known && rcond > 0.0)) return found;
+    if (rcond > surely_held || (known && rcond > 0.0)) return found;
   }
   numbers d;
   const stiffness_matrix a = scaled(k, d);
@@ -219,7 +219,7 @@ free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> kno
   converge(space, known);
   refuse_count(space.values(), known);
   found.count = known.value_or(count_free(space.values()));
-  const auto m = static_cast<std::size_t>(found.count);
+  const std::size_t m = found.count;
   if (m == 0) return found;
   double off = std::numeric_limits<double>::epsilon();
   for (std::size_t i = 0; i < m; ++i) {

@@ -41,4 +41,24 @@ load mix(const load& before, const load& after, double fraction) {
   return sum.total();
 }
 
+void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
+  for (const point_load& p : l.points) f[p.node * dofs_per_node + p.dof] += p.value;
+}
+
+double polynomial_at(std::span<const double> coefficients, double x) {
+  double sum = 0.0;
+  for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + coefficients[i];
+  return sum;
+}
+
+std::vector<double> tributary_lengths(std::span<const double> x) {
+  std::vector<double> lengths(x.size(), 0.0);
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const double half = (x[i + 1] - x[i]) / 2;
+    lengths[i] += half;
+    lengths[i + 1] += half;
+  }
+  return lengths;
+}
+
 }  // namespace contct

@@ -109,7 +109,7 @@ element_results results_in_elements(const model& m, const load& l, std::span<con
 }
 
 resultant resultant_of(const model& m, const load& l) {
-  std::vector<double> f(static_cast<std::size_t>(dofs(m)), 0.0);
+  std::vector<double> f(dofs(m), 0.0);
   add_consistent_loads(m, l, f);
   return std::visit([&](const auto& kind) { return resultant_of_vector(kind, f); }, m.kind);
 }

@@ -1,5 +1,5 @@
-// The kinds of structure there are, behind one set of verbs: who reads, solves and writes need not know
-// which it is.
+// The kinds of structure, behind one set of functions: the rooms that read, solve and write do not depend on
+// the kind.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace contct {
 
-/// A structure without its supports. A new kind joins the variant and gives each verb below its answer.
+/// A structure without its supports. A new kind joins the variant and implements each function below.
 struct model {
   std::variant<beam, plate, assembled> kind;
 };
@@ -31,7 +31,7 @@ struct model {
 /// "node"; "dof" where each dof is a node of its own.
 [[nodiscard]] std::string_view node_name(const model& m);
 
-/// A node as people know it: "node 3", or, where each dof is a node of its own, "dof 185.3". From 0.
+/// A node in words: "node 3", or, where each dof is a node of its own, "dof 185.3". From 0.
 [[nodiscard]] std::string place_words(const model& m, int node);
 
 /// Assemble it on its supports. Throws std::invalid_argument when an entry of the stiffness matrix is
@@ -57,12 +57,11 @@ struct element_results {
   std::vector<double> values;  ///< [elements][names][places]
 
   [[nodiscard]] std::size_t elements() const {
-    return names.empty() ? 0 : values.size() / (names.size() * static_cast<std::size_t>(places));
+    return names.empty() ? 0 : values.size() / (names.size() * places);
   }
   /// Quantity `name` of an element, at all its places. Elements and names from 0.
   [[nodiscard]] std::span<const double> at(std::size_t element, std::size_t name) const {
-    const auto count = static_cast<std::size_t>(places);
-    return std::span(values).subspan((element * names.size() + name) * count, count);
+    return std::span(values).subspan((element * names.size() + name) * places, places);
   }
 };
 

@@ -1,4 +1,4 @@
-// Where the dofs of a structure from elsewhere are, as far as that is known: for pictures only.
+// Where the dofs of an assembled structure are, as far as that is known: for pictures only.
 #pragma once
 
 #include <array>

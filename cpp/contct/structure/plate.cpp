@@ -1,14 +1,10 @@
 #include "contct/structure/plate.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "contct/structure/plate_element.hpp"
-#include "contct/structure/reactions.hpp"
-#include "contct/structure/tributary.hpp"
 
 namespace contct {
 namespace {
@@ -30,22 +26,17 @@ std::array<int, 12> dofs_of(const plate& p, int element) {
 element_vector12 displacement_of(const plate& p, int element, std::span<const double> u) {
   const std::array<int, 12> dofs = dofs_of(p, element);
   element_vector12 own{};
-  for (std::size_t i = 0; i < 12; ++i) own[i] = u[static_cast<std::size_t>(dofs[i])];
+  for (std::size_t i = 0; i < 12; ++i) own[i] = u[dofs[i]];
   return own;
 }
 
 /// The pressure on every element: all the distributed loads together.
 std::vector<double> pressures(const plate& p, const load& l) {
-  std::vector<double> q(static_cast<std::size_t>(p.elements()), 0.0);
-  for (const distributed_load& d : l.distributed) {
-    if (d.polynomial.size() != 1)
-      throw std::invalid_argument("the pressure on a plate's element is constant");
-    if (d.elements.empty()) {
-      for (double& of_element : q) of_element += d.polynomial[0];
-    } else {
-      for (const int e : d.elements) q[static_cast<std::size_t>(e)] += d.polynomial[0];
-    }
-  }
+  std::vector<double> q(p.elements(), 0.0);
+  for_each_loaded_element(l, p.elements(), [&q](int e, std::span<const double> polynomial) {
+    if (polynomial.size() != 1) throw std::invalid_argument("the pressure on a plate's element is constant");
+    q[e] += polynomial[0];
+  });
   return q;
 }
 
@@ -54,7 +45,7 @@ std::vector<double> pressures(const plate& p, const load& l) {
 std::vector<int> rows_along_shorter_side(const plate& p) {
   if (p.columns() <= p.rows()) return {};
   std::vector<int> rows;
-  rows.reserve(static_cast<std::size_t>(p.dofs()));
+  rows.reserve(p.dofs());
   for (int j = 0; j < p.rows(); ++j) {
     for (int i = 0; i < p.columns(); ++i) {
       for (int d = 0; d < 3; ++d) rows.push_back(3 * (i * p.rows() + j) + d);
@@ -67,15 +58,9 @@ void assemble_elements(const plate& p, linear_structure& s) {
   for (int e = 0; e < p.elements(); ++e) {
     const element_matrix12 k = stiffness_of(element_of(p, e));
     const std::array<int, 12> dofs = dofs_of(p, e);
-    for (std::size_t i = 0; i < 12; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) {
-        if (!std::isfinite(k[i][j])) {
-          throw std::invalid_argument("the stiffness of element " + std::to_string(e + 1) +
-                                      " is not a finite number");
-        }
-        s.stiffness.band().add(s.row_of(dofs[i]), s.row_of(dofs[j]), k[i][j]);
-      }
-    }
+    for (std::size_t i = 0; i < 12; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        add_to_band(s.stiffness.band(), s.row_of(dofs[i]), s.row_of(dofs[j]), k[i][j], e);
   }
 }
 
@@ -85,7 +70,7 @@ std::vector<rigid_row> rigid_rows_of(const plate& p) {
   const double half_x = (p.x.back() - p.x.front()) / 2;
   const double half_y = (p.y.back() - p.y.front()) / 2;
   std::vector<rigid_row> rows;
-  rows.reserve(static_cast<std::size_t>(p.dofs()));
+  rows.reserve(p.dofs());
   for (const double y : p.y) {
     for (const double x : p.x) {
       rows.push_back({1, (x - p.x.front()) / half_x - 1, (y - p.y.front()) / half_y - 1});
@@ -115,12 +100,11 @@ double need_at(const plate& p, std::span<const double> pressure, std::span<const
   double need = 0.0;
   for (const int e : elements_around(p, node)) {
     const std::array<int, 4> corners = p.corners_of(e);
-    const auto corner =
-        static_cast<std::size_t>(std::find(corners.begin(), corners.end(), node) - corners.begin());
-    const std::size_t own = 3 * corner + static_cast<std::size_t>(dof);
+    const auto corner = std::find(corners.begin(), corners.end(), node) - corners.begin();
+    const std::size_t own = 3 * corner + dof;
     const plate_element element = element_of(p, e);
     need += forces_at(element, displacement_of(p, e, u))[own];
-    need -= pressure[static_cast<std::size_t>(e)] * unit_pressure_on(element)[own];
+    need -= pressure[e] * unit_pressure_on(element)[own];
   }
   return need;
 }
@@ -134,23 +118,19 @@ std::array<int, 4> plate::corners_of(int element) const {
 }
 
 double plate::width_of(int element) const {
-  const auto i = static_cast<std::size_t>(element % (columns() - 1));
+  const int i = element % (columns() - 1);
   return x[i + 1] - x[i];
 }
 
 double plate::height_of(int element) const {
-  const auto j = static_cast<std::size_t>(element / (columns() - 1));
+  const int j = element / (columns() - 1);
   return y[j + 1] - y[j];
-}
-
-int subdiagonals_of(const plate& p) {
-  return 3 * (std::min(p.columns(), p.rows()) + 1) + 2;
 }
 
 linear_structure build(const plate& p, std::span<const support> supports, std::vector<contact_pair> pairs) {
   linear_structure s;
   s.dofs_per_node = plate::dofs_per_node;
-  s.stiffness = band_matrix(p.dofs(), subdiagonals_of(p));
+  s.stiffness = band_matrix(p.dofs(), 3 * (std::min(p.columns(), p.rows()) + 1) + 2);
   s.rows = rows_along_shorter_side(p);
   assemble_elements(p, s);
   s.rigid_motions = 3;
@@ -160,20 +140,18 @@ linear_structure build(const plate& p, std::span<const support> supports, std::v
 }
 
 void add_consistent_loads(const plate& p, const load& l, std::span<double> f) {
-  for (const point_load& at : l.points) f[static_cast<std::size_t>(3 * at.node + at.dof)] += at.value;
+  add_point_loads(l, plate::dofs_per_node, f);
   const std::vector<double> pressure = pressures(p, l);
   for (int e = 0; e < p.elements(); ++e) {
     const element_vector12 unit = unit_pressure_on(element_of(p, e));
     const std::array<int, 12> dofs = dofs_of(p, e);
-    for (std::size_t i = 0; i < 12; ++i) {
-      f[static_cast<std::size_t>(dofs[i])] += pressure[static_cast<std::size_t>(e)] * unit[i];
-    }
+    for (std::size_t i = 0; i < 12; ++i) f[dofs[i]] += pressure[e] * unit[i];
   }
 }
 
 std::vector<corner_moments> moments_in_elements(const plate& p, std::span<const double> u) {
   std::vector<corner_moments> moments;
-  moments.reserve(static_cast<std::size_t>(p.elements()));
+  moments.reserve(p.elements());
   for (int e = 0; e < p.elements(); ++e) {
     const auto curvatures = curvatures_at_corners(element_of(p, e), displacement_of(p, e, u));
     corner_moments m{};
@@ -198,7 +176,7 @@ std::vector<double> tributary_shares(const plate& p) {
   const std::vector<double> along_x = tributary_lengths(p.x);
   const std::vector<double> along_y = tributary_lengths(p.y);
   std::vector<double> areas;
-  areas.reserve(static_cast<std::size_t>(p.nodes()));
+  areas.reserve(p.nodes());
   for (const double height : along_y) {
     for (const double width : along_x) areas.push_back(width * height);
   }

@@ -53,9 +53,6 @@ struct corner_moments {
 [[nodiscard]] linear_structure build(const plate& p, std::span<const support> supports,
                                      std::vector<contact_pair> pairs);
 
-/// Subdiagonals of the plate's stiffness matrix: what its memory is proportional to.
-[[nodiscard]] int subdiagonals_of(const plate& p);
-
 /// Add the consistent load vector of `l` to `f` [dofs]. Throws std::invalid_argument for a distributed
 /// load that is not constant.
 void add_consistent_loads(const plate& p, const load& l, std::span<double> f);

@@ -8,7 +8,7 @@ namespace contct {
 namespace {
 
 // Everything here is in xi = x / a, eta = y / b, from -1 to 1, and in the dofs w, a wx, b wy, which are
-// all lengths: no unit and no aspect enters before the very end.
+// all lengths: units and aspect ratio enter last.
 
 struct corner {
   double xi;
@@ -96,8 +96,8 @@ element_vector12 scales_of(const plate_element& e) {
   return {1, e.a, e.b, 1, e.a, e.b, 1, e.a, e.b, 1, e.a, e.b};
 }
 
-/// `u` in the scaled dofs, less the plane through corners 0, 1 and 3: a large rigid motion must not
-/// drown the bending.
+/// `u` in the scaled dofs, less the plane through corners 0, 1 and 3: a large rigid motion would
+/// cancel the digits of the bending.
 element_vector12 deformation(const plate_element& e, const element_vector12& u) {
   const double along_x = u[3] - u[0];
   const double along_y = u[9] - u[0];

@@ -21,7 +21,7 @@ rigid_row rigid_rank::free_part(const rigid_row& motion) const {
   rigid_row rest = motion;
   for (int pass = 0; pass < 2; ++pass) {  // twice is enough for Gram-Schmidt
     for (int k = 0; k < rank_; ++k) {
-      const rigid_row& b = basis_[static_cast<std::size_t>(k)];
+      const rigid_row& b = basis_[k];
       const double share = along(rest, b);
       for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= share * b[i];
     }
@@ -40,7 +40,7 @@ void rigid_rank::hold(const rigid_row& row) {
   const double left = std::sqrt(along(rest, rest));
   if (!(left > independent_ * std::sqrt(along(direction, direction)))) return;
   for (double& entry : rest) entry /= left;
-  basis_[static_cast<std::size_t>(rank_++)] = rest;
+  basis_[rank_++] = rest;
 }
 
 }  // namespace contct

@@ -33,7 +33,7 @@ class rigid_rank {
   void hold(const rigid_row& row);
   [[nodiscard]] int rank() const { return rank_; }
 
-  /// The part of a combination of motions that nothing held so far stops.
+  /// The part of a combination of motions that is still free.
   [[nodiscard]] rigid_row free_part(const rigid_row& motion) const;
 
  private:

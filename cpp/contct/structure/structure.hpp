@@ -1,11 +1,13 @@
-// A linear elastic structure with its candidate contact pairs, as the path sees it.
+// A linear elastic structure with its supports and candidate contact pairs, as the path sees it.
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "contct/matrix/stiffness_matrix.hpp"
+#include "contct/structure/load.hpp"
 #include "contct/structure/rigid_modes.hpp"
 
 namespace contct {
@@ -22,17 +24,17 @@ struct support {
 struct contact_pair {
   int node;          ///< from 0
   int surface;       ///< n: face_above (+1) or face_below (-1)
-  double face;       ///< c: where the face stands
+  double face;       ///< c: the position of the face
   double stiffness;  ///< k of its spring, positive
   bool closed;       ///< in contact at the start
 };
 
-/// n (c - w): how far the face of an open pair is away at deflection w; 0 for a closed one.
+/// n (c - w): the distance of an open pair from its face at deflection w; 0 for a closed one.
 [[nodiscard]] inline double gap_of(const contact_pair& p, double w, bool closed) {
   return closed ? 0.0 : p.surface * (p.face - w);
 }
 
-/// -n k (c - w): what a closed pair presses with; 0 for an open one. Not clamped: tension is negative.
+/// -n k (c - w): the contact force of a closed pair; 0 for an open one. Not clamped: tension is negative.
 [[nodiscard]] inline double force_of(const contact_pair& p, double w, bool closed) {
   return closed ? -p.surface * p.stiffness * (p.face - w) : 0.0;
 }
@@ -55,26 +57,38 @@ struct linear_structure {
   /// where they are found from the matrix.
   double rigid_rounding = 0.0;
 
-  std::vector<char>
-      lengths;  ///< [dofs] 1 where a displacement is a deflection; empty: `deflection` of a node
+  /// [dofs] 1 where a displacement is a deflection; empty: `deflection` of a node.
+  std::vector<char> lengths;
 
   [[nodiscard]] int dofs() const { return stiffness.order(); }
   /// The row of the stiffness matrix that belongs to a dof: plates are numbered along their shorter
   /// side there, for the smaller bandwidth.
-  [[nodiscard]] int row_of(int dof) const { return rows.empty() ? dof : rows[static_cast<std::size_t>(dof)]; }
+  [[nodiscard]] int row_of(std::size_t dof) const { return rows.empty() ? static_cast<int>(dof) : rows[dof]; }
   [[nodiscard]] bool deflects(int dof) const {
-    return lengths.empty() ? dof % dofs_per_node == deflection : lengths[static_cast<std::size_t>(dof)] != 0;
+    return lengths.empty() ? dof % dofs_per_node == deflection : lengths[dof] != 0;
   }
   /// What stops rigid motions while no dof is held.
   [[nodiscard]] rigid_rank nothing_held() const { return rigid_rank(std::max(1e-12, rigid_rounding)); }
   /// The dof, from 0, at which pair `i` (from 0) acts.
-  [[nodiscard]] int dof_of_pair(int i) const {
-    return pairs[static_cast<std::size_t>(i)].node * dofs_per_node + deflection;
-  }
+  [[nodiscard]] int dof_of_pair(std::size_t i) const { return pairs[i].node * dofs_per_node + deflection; }
 };
 
 /// Put an assembled structure on its supports and give it its pairs: springs and fixed dofs go into
 /// the stiffness, and what is held is taken from `rigid_rows`.
 void put_on_supports(linear_structure& s, std::span<const support> supports, std::vector<contact_pair> pairs);
+
+/// Add an entry of an element's stiffness (elements from 0) to `k`. Throws std::invalid_argument, naming the
+/// element (from 1), when it is not a finite number.
+void add_to_band(band_matrix& k, int row, int column, double entry, int element);
+
+/// The force or moment that the elements beside a dof need there, beyond their own loads.
+using need_of_elements = std::function<double(int node, int dof)>;
+
+/// The force (or moment) on the structure by each support, in the order of `supports`: minus spring times
+/// displacement for an elastic one; for a fixed one, what the elements beside it need beyond the point loads
+/// at its dof. A dof fixed twice gives its reaction to the first.
+[[nodiscard]] std::vector<double> reactions_of(std::span<const support> supports, const load& l,
+                                               std::span<const double> u, int dofs_per_node,
+                                               const need_of_elements& need);
 
 }  // namespace contct

@@ -18,12 +18,6 @@ struct turned_dof {
 };
 constexpr std::array<turned_dof, 3> turned = {{{3, 1.0}, {5, -1.0}, {4, 1.0}}};  // w, wx (theta), wy
 
-double value_of(const std::vector<double>& polynomial, double x) {
-  double sum = 0.0;
-  for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * x + polynomial[i];
-  return sum;
-}
-
 /// Which (node, dof) the problem's supports fix.
 std::set<std::pair<int, int>> fixed_of(const problem& p) {
   std::set<std::pair<int, int>> fixed;
@@ -37,18 +31,6 @@ void add_point_loads(const load& l, calculix_mesh& m) {
   for (const point_load& at : l.points) {
     const turned_dof t = turned[static_cast<std::size_t>(at.dof)];
     m.forces[{at.node, t.direction}] += t.sign * at.value;
-  }
-}
-
-/// Call visit(element, polynomial) for every element that a distributed load touches.
-template <class Visit>
-void for_each_loaded(const load& l, int elements, Visit visit) {
-  for (const distributed_load& d : l.distributed) {
-    if (d.elements.empty()) {
-      for (int e = 0; e < elements; ++e) visit(e, d.polynomial);
-    } else {
-      for (const int e : d.elements) visit(e, d.polynomial);
-    }
   }
 }
 
@@ -69,7 +51,7 @@ std::array<double, 3> load_on_line(const std::vector<double>& polynomial, double
   std::array<double, 3> f{};
   const int degree = static_cast<int>(polynomial.size()) - 1 + 2;
   for (const auto& [t, weight] : gauss_points(degree / 2 + 1)) {  // t from 0 to 1
-    const double q = value_of(polynomial, left + t * h) * weight * h;
+    const double q = polynomial_at(polynomial, left + t * h) * weight * h;
     f[0] += q * (1 - t) * (1 - 2 * t);
     f[1] += q * 4 * t * (1 - t);
     f[2] += q * t * (2 * t - 1);
@@ -92,7 +74,7 @@ calculix_mesh mesh_of(const beam& b, const problem& p, int refine, const load& l
   // Nothing pulls it sideways or turns it about its axis; these only keep it from floating there.
   m.fixed.insert(m.fixed.end(), {{0, 1}, {0, 2}, {0, 4}, {b.nodes() - 1, 2}});
   add_point_loads(l, m);
-  for_each_loaded(l, b.elements(), [&](int e, const std::vector<double>& polynomial) {
+  for_each_loaded_element(l, b.elements(), [&](int e, const std::vector<double>& polynomial) {
     const double h = b.length_of(e) / refine;
     for (int i = 0; i < refine; ++i) {
       const std::vector<int>& nodes = m.elements[static_cast<std::size_t>(e * refine + i)];
@@ -193,7 +175,7 @@ calculix_mesh mesh_of(const plate& own, const problem& p, int refine, const load
   calculix_mesh m;
   const fine_grid grid(own, refine, m);
   std::vector<double> pressure(static_cast<std::size_t>(own.elements()), 0.0);
-  for_each_loaded(l, own.elements(), [&](int e, const std::vector<double>& polynomial) {
+  for_each_loaded_element(l, own.elements(), [&](int e, const std::vector<double>& polynomial) {
     pressure[static_cast<std::size_t>(e)] += polynomial[0];
   });
   for (int b = 0; b + 2 < grid.rows(); b += 2) {

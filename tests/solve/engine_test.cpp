@@ -1,5 +1,7 @@
 // Every engine against the 1989 way: the same responses through hundreds of toggles, the same events and
 // final states on whole paths, with springs over eight decades.
+#include "contct/solve/engine.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +13,7 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/path.hpp"
 #include "contct/solve/condensed_engine.hpp"
-#include "contct/solve/engine.hpp"
+#include "support/beams.hpp"
 
 using namespace contct;
 
@@ -155,4 +157,11 @@ TEST_CASE("free structures come to the same end on every engine") {
     }
   }
   CHECK(same >= 250);
+}
+
+TEST_CASE("engines are made by name, an unknown one is refused, and the known ones are told") {
+  const beam_problem p = cantilever_over_a_stop();
+  const linear_structure s = p.structure();
+  for (const std::string& name : engine_names()) CHECK(make_engine(name, s)->name() == name);
+  CHECK_THROWS_WITH(make_engine("warp", s), Catch::Matchers::Contains("refactor"));
 }

@@ -1,4 +1,4 @@
-#include "contct/structure/memory_limit.hpp"
+#include "contct/read/memory_limit.hpp"
 
 #include <unistd.h>
 

@@ -1,0 +1,88 @@
+// Only where CHOLMOD is built in.
+#include "contct/matrix/sparse_factor.hpp"
+
+#include "catch.hpp"
+#include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/several_right_hand_sides.hpp"
+#include "support/matrices.hpp"
+
+using namespace contct;
+
+namespace {
+
+constexpr int order = 40;
+
+std::vector<double> diagonal_of(const band_matrix& k) {
+  return stiffness_matrix(k).diagonal_with({});
+}
+
+/// The solution by LAPACK.
+std::vector<double> solution(band_matrix k, std::vector<double> b) {
+  REQUIRE(factor(k));
+  solve_with(k, b);
+  return b;
+}
+
+void check_solves(sparse_factor& f, const band_matrix& k) {
+  const std::vector<double> b = random_vector(order, 3);
+  std::vector<double> x = b;
+  f.solve(x);
+  const std::vector<double> expected = solution(k, b);
+  for (std::size_t i = 0; i < x.size(); ++i) CHECK(x[i] == Approx(expected[i]).epsilon(1e-11).margin(1e-14));
+}
+
+}  // namespace
+
+TEST_CASE("every kind of sparse factor solves as LAPACK does, again with another diagonal") {
+  band_matrix k = random_band(order, 7, 1);
+  using kind = sparse_factor::kind;
+  for (const kind how : {kind::supernodal, kind::updatable, kind::updatable_amd}) {
+    const auto f = sparse_factor::make(columns_of(k), how);
+    REQUIRE(f->factor(diagonal_of(k)));
+    check_solves(*f, k);
+    band_matrix stiffer = k;
+    stiffer.at(4, 4) += 3.0;
+    REQUIRE(f->factor(diagonal_of(stiffer)));
+    check_solves(*f, stiffer);
+  }
+}
+
+TEST_CASE("a spring that is put into a factor, and taken out again, is that of the changed matrix") {
+  const band_matrix k = random_band(order, 7, 2);
+  const auto f = sparse_factor::make(columns_of(k), sparse_factor::kind::updatable);
+  REQUIRE(f->factor(diagonal_of(k)));
+  band_matrix with_spring = k;
+  with_spring.at(17, 17) += 2.5;
+  REQUIRE(f->update(17, 2.5, true));
+  check_solves(*f, with_spring);
+  REQUIRE(f->update(17, 2.5, false));
+  check_solves(*f, k);
+}
+
+TEST_CASE("a matrix that is not positive definite has no factor, and a better diagonal has one") {
+  const band_matrix k = random_band(order, 7, 4);
+  const auto f = sparse_factor::make(columns_of(k));
+  std::vector<double> diagonal = diagonal_of(k);
+  diagonal[20] = -1.0;
+  CHECK_FALSE(f->factor(diagonal));
+  CHECK(f->factor(diagonal_of(k)));
+  CHECK(f->bytes() >= static_cast<std::int64_t>(sizeof(double)) * order);
+  CHECK(f->flops() > 0.0);
+}
+
+TEST_CASE("unit vectors give columns of the inverse, and a row of -1 zeros") {
+  const band_matrix k = random_band(order, 7, 5);
+  const auto f = sparse_factor::make(columns_of(k));
+  REQUIRE(f->factor(diagonal_of(k)));
+  const std::vector<int> rows = {11, -1, 39};
+  std::vector<double> x;
+  f->solve_units(rows, x);
+  REQUIRE(x.size() == order * block_width);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<double> e(order);
+    if (rows[i] >= 0) e[rows[i]] = 1.0;
+    const std::vector<double> column = solution(k, e);
+    for (std::size_t row = 0; row < column.size(); ++row)
+      CHECK(x[row * block_width + i] == Approx(column[row]).epsilon(1e-11).margin(1e-14));
+  }
+}

@@ -1,0 +1,71 @@
+#include "contct/structure/structure.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include "catch.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// Two nodes of two dofs without any coupling; `rows` reverses the order of the dofs.
+linear_structure four_dofs() {
+  linear_structure s;
+  s.dofs_per_node = 2;
+  band_matrix k(4, 1);
+  for (int row = 0; row < 4; ++row) k.at(row, row) = 10.0 * (row + 1);
+  for (int row = 1; row < 4; ++row) k.at(row, row - 1) = 1.0;
+  s.stiffness = k;
+  s.rows = {3, 2, 1, 0};
+  s.rigid_rows = {{1, 0}, {0, 1}, {1, 2}, {0, 3}};
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("gaps and forces have the same signs on either side, and tension is a negative force") {
+  const contact_pair below = {0, -1, -0.5, 100.0, false};  // a face below, at -0.5
+  CHECK(gap_of(below, 0.0, false) == 0.5);
+  CHECK(gap_of(below, -0.5, false) == 0.0);
+  CHECK(gap_of(below, 0.0, true) == 0.0);
+  CHECK(force_of(below, -0.75, true) == 25.0);  // pressed
+  CHECK(force_of(below, -0.25, true) == -25.0);
+  CHECK(force_of(below, -0.75, false) == 0.0);
+  const contact_pair above = {0, 1, 0.5, 100.0, false};
+  CHECK(gap_of(above, 0.25, false) == 0.25);
+  CHECK(force_of(above, 0.75, true) == 25.0);
+}
+
+TEST_CASE("supports go to the rows of their dofs, and what is held is taken from the rigid motions") {
+  linear_structure s = four_dofs();
+  put_on_supports(s, std::vector<support>{{0, 1, true}, {1, 0, false, 7.0}}, {{1, 1, 0.5, 3.0, false}});
+  CHECK(s.fixed == std::vector<char>{0, 1, 0, 0});
+  CHECK(s.stiffness.diagonal_with({}) == std::vector<double>{10, 27, 1, 40});  // row 2 is that of dof 1
+  CHECK(s.stiffness.band().at(2, 1) == 0.0);
+  CHECK(s.stiffness.band().at(3, 2) == 0.0);
+  CHECK(s.stiffness.band().at(1, 0) == 1.0);
+  CHECK(s.held_by_supports == std::vector<rigid_row>{{0, 1}, {1, 2}});
+  CHECK(s.held_by_pairs == std::vector<rigid_row>{{1, 2}});
+  CHECK(s.dof_of_pair(0) == 2);
+  CHECK(s.row_of(2) == 1);
+  CHECK(s.deflects(2));
+  CHECK_FALSE(s.deflects(3));
+}
+
+TEST_CASE(
+    "an elastic support reacts against its displacement, a fixed one with what is needed beyond loads") {
+  const std::vector<support> supports = {{0, 0, true}, {1, 0, false, 4.0}, {0, 0, true}};
+  const load l{{{0, 0, -2.0}}, {}};
+  const auto need = [](int node, int dof) { return node == 0 && dof == 0 ? 5.0 : 1e9; };
+  const std::vector<double> r = reactions_of(supports, l, std::vector<double>{0, 0, 0.5, 0}, 2, need);
+  CHECK(r == std::vector<double>{7.0, -2.0, 0.0});  // 5 - (-2); -4 * 0.5; the first has it all
+}
+
+TEST_CASE("an entry of an element that is no finite number is refused with the element's number") {
+  band_matrix k(2, 1);
+  add_to_band(k, 0, 1, 3.0, 0);
+  CHECK(k.at(1, 0) == 3.0);
+  CHECK_THROWS_WITH(add_to_band(k, 0, 0, std::numeric_limits<double>::infinity(), 6),
+                    "the stiffness of element 7 is not a finite number");
+}
