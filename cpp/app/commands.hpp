@@ -1,7 +1,9 @@
 // The commands of the contct program, a file each.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "app/options.hpp"
 
 namespace contct {
 
@@ -15,32 +17,30 @@ enum class exit_status {
   iteration_limit = 5,  ///< cycle or iteration limit
 };
 
-/// Add `contct run` to the program; `status` receives what it comes to.
-void add_run(CLI::App& program, exit_status& status);
+// Each runs one command and returns its exit status. All throw a std::exception whose what() is a message for
+// the user.
+exit_status run_command(const run_options& options);
+exit_status run_command(const explain_options& options);
+exit_status run_command(const new_options& options);
+exit_status run_command(const verify_options& options);
+exit_status run_command(const fuzz_options& options);
+exit_status run_command(const replay_options& options);
+exit_status run_command(const atlas_options& options);
+exit_status run_command(const export_options& options);
+exit_status run_command(const kernels_options& options);
+exit_status run_command(const completion_options& options);
+exit_status run_command(const manual_options& options);
+inline exit_status run_command(const printed_text& t) {
+  (void)std::fputs(t.text.c_str(), stdout);
+  return exit_status::solved;
+}
 
-/// Add `contct explain`.
-void add_explain(CLI::App& program, exit_status& status);
+/// contct(1), in the man macros of roff.
+[[nodiscard]] std::string manual_page(const program_description& program);
 
-/// Add `contct verify`.
-void add_verify(CLI::App& program, exit_status& status);
-
-/// Add `contct new`.
-void add_new(CLI::App& program, exit_status& status);
-
-/// Add `contct kernels`.
-void add_kernels(CLI::App& program, exit_status& status);
-
-/// Add `contct atlas`.
-void add_atlas(CLI::App& program, exit_status& status);
-
-/// Add `contct fuzz`.
-void add_fuzz(CLI::App& program, exit_status& status);
-
-/// Add `contct export`.
-void add_export(CLI::App& program, exit_status& status);
-
-/// Add `contct replay`; describe_replay gives the same to a program of its own.
-void add_replay(CLI::App& program, exit_status& status);
-void describe_replay(CLI::App& command, exit_status& status);
+// Scripts that make a shell complete the words of contct.
+[[nodiscard]] std::string bash_completion(const program_description& program);
+[[nodiscard]] std::string zsh_completion(const program_description& program);
+[[nodiscard]] std::string fish_completion(const program_description& program);
 
 }  // namespace contct

@@ -1,12 +1,10 @@
-#include "app/completion.hpp"
-
+// contct completion: what makes a shell complete the words of contct.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "app/commands.hpp"
-#include "app/option_metadata.hpp"
+#include "contct/solve/engine.hpp"
 
 namespace contct {
 namespace {
@@ -22,15 +20,15 @@ std::string shell_quoted(std::string_view text) {
   return out + "'";
 }
 
-std::vector<std::string> names_of(const std::vector<described_option>& options) {
+std::vector<std::string> names_of(const std::vector<option_description>& options) {
   std::vector<std::string> names;
   names.reserve(options.size());
-  for (const described_option& o : options) names.push_back(o.name);
+  for (const option_description& o : options) names.push_back(o.name);
   return names;
 }
 
 /// The bash that completes what an option takes.
-std::string bash_value(const described_option& o) {
+std::string bash_value(const option_description& o) {
   switch (o.kind) {
     case takes::kernels:
       return "_contct_list \"$cur\" " + shell_quoted(joined(o.words));
@@ -44,26 +42,26 @@ std::string bash_value(const described_option& o) {
   }
 }
 
-std::string bash_command(const described_command& c) {
+std::string bash_command(const command_description& c) {
   std::string text;
-  for (const described_option& o : c.options) {
+  for (const option_description& o : c.options) {
     if (o.kind != takes::nothing)
       text += fmt::format("    {}:{}) {}; return ;;\n", c.name, o.name, bash_value(o));
   }
-  for (const described_option& p : c.positionals) {
+  for (const option_description& p : c.positionals) {
     if (p.kind == takes::word)
       text += fmt::format("    {}:{}) {}; return ;;\n", c.name, c.name, bash_value(p));
   }
   return text;
 }
 
-bool takes_files(const described_command& c) {
+bool takes_files(const command_description& c) {
   return std::any_of(c.positionals.begin(), c.positionals.end(),
-                     [](const described_option& p) { return p.kind == takes::file; });
+                     [](const option_description& p) { return p.kind == takes::file; });
 }
 
 /// What zsh does behind an option: an action of _arguments.
-std::string zsh_action(const described_option& o) {
+std::string zsh_action(const option_description& o) {
   switch (o.kind) {
     case takes::kernels:
       return ":kernels:_values -s , kernel " + joined(o.words);
@@ -89,34 +87,34 @@ std::string zsh_text(std::string_view text) {
   return out;
 }
 
-std::string zsh_arguments(const described_command& c) {
+std::string zsh_arguments(const command_description& c) {
   std::string text = "_arguments";
-  for (const described_option& o : c.options)
-    text += " \\\n        " + shell_quoted(fmt::format("{}[{}]{}", o.name, zsh_text(o.says), zsh_action(o)));
-  for (const described_option& p : c.positionals) {
+  for (const option_description& o : c.options)
+    text += " \\\n        " + shell_quoted(fmt::format("{}[{}]{}", o.name, zsh_text(o.text), zsh_action(o)));
+  for (const option_description& p : c.positionals) {
     const char* const any_number = p.kind == takes::file ? "*" : "1";
     text += " \\\n        " + shell_quoted(any_number + zsh_action(p));
   }
   return text;
 }
 
-std::string fish_option(const std::string& command, const described_option& o) {
+std::string fish_option(const std::string& command, const option_description& o) {
   std::string text =
       fmt::format("complete -c contct -n '__fish_seen_subcommand_from {}' -l {}", command, o.name.substr(2));
   if (o.kind == takes::file) text += " -r -F";
   if (o.kind == takes::number) text += " -x";
   if (!o.words.empty()) text += " -x -a " + shell_quoted(joined(o.words));
-  return text + " -d " + shell_quoted(o.says) + "\n";
+  return text + " -d " + shell_quoted(o.text) + "\n";
 }
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& program) {
+std::string bash_completion(const program_description& program) {
   std::vector<std::string> names;
   std::string values;
   std::string options;
   std::string with_files;
-  for (const described_command& c : describe_commands(program)) {
+  for (const command_description& c : program.commands) {
     names.push_back(c.name);
     values += bash_command(c);
     options += fmt::format("    {}) words={} ;;\n", c.name, shell_quoted(joined(names_of(c.options))));
@@ -143,7 +141,7 @@ std::string bash_completion(const CLI::App& program) {
          "  done\n"
          "  if [[ -z $command ]]; then\n"
          "    _contct_words \"$cur\" " +
-         shell_quoted(joined(names) + " " + joined(names_of(describe_options(program)))) +
+         shell_quoted(joined(names) + " " + joined(names_of(program.options))) +
          "\n    return\n  fi\n"
          "  case $command:$prev in\n" +
          values +
@@ -161,11 +159,11 @@ std::string bash_completion(const CLI::App& program) {
          "complete -F _contct contct\n";
 }
 
-std::string zsh_completion(const CLI::App& program) {
+std::string zsh_completion(const program_description& program) {
   std::string commands;
   std::string arguments;
-  for (const described_command& c : describe_commands(program)) {
-    commands += "    " + shell_quoted(c.name + ":" + zsh_text(c.says)) + "\n";
+  for (const command_description& c : program.commands) {
+    commands += "    " + shell_quoted(c.name + ":" + zsh_text(c.text)) + "\n";
     arguments += fmt::format("    {})\n      {} ;;\n", c.name, zsh_arguments(c));
   }
   return "#compdef contct\n"
@@ -190,18 +188,18 @@ std::string zsh_completion(const CLI::App& program) {
          "fi\n";
 }
 
-std::string fish_completion(const CLI::App& program) {
+std::string fish_completion(const program_description& program) {
   std::string text =
       "# Completion of contct for fish; made by: contct completion fish\n"
       "complete -c contct -f\n";
-  for (const described_option& o : describe_options(program))
+  for (const option_description& o : program.options)
     text += fmt::format("complete -c contct -n __fish_use_subcommand -l {} -d {}\n", o.name.substr(2),
-                        shell_quoted(o.says));
-  for (const described_command& c : describe_commands(program)) {
+                        shell_quoted(o.text));
+  for (const command_description& c : program.commands) {
     text += fmt::format("complete -c contct -n __fish_use_subcommand -a {} -d {}\n", c.name,
-                        shell_quoted(c.says));
-    for (const described_option& o : c.options) text += fish_option(c.name, o);
-    for (const described_option& p : c.positionals) {
+                        shell_quoted(c.text));
+    for (const option_description& o : c.options) text += fish_option(c.name, o);
+    for (const option_description& p : c.positionals) {
       const std::string what = p.kind == takes::file ? "-F" : "-a " + shell_quoted(joined(p.words));
       text += fmt::format("complete -c contct -n '__fish_seen_subcommand_from {}' {}\n", c.name, what);
     }
@@ -209,18 +207,12 @@ std::string fish_completion(const CLI::App& program) {
   return text;
 }
 
-void add_completion(CLI::App& program) {
-  auto shell = std::make_shared<std::string>();
-  CLI::App* const command =
-      program.add_subcommand("completion", "Print what makes a shell complete the words of contct");
-  command->add_option("SHELL", *shell, "bash, zsh or fish")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  command->callback([&program, shell] {
-    fmt::print("{}", *shell == "bash"  ? bash_completion(program)
-                     : *shell == "zsh" ? zsh_completion(program)
-                                       : fish_completion(program));
-  });
+exit_status run_command(const completion_options& options) {
+  const program_description program = describe_contct(engine_names());
+  fmt::print("{}", options.shell == "bash"  ? bash_completion(program)
+                   : options.shell == "zsh" ? zsh_completion(program)
+                                            : fish_completion(program));
+  return exit_status::solved;
 }
 
 }  // namespace contct

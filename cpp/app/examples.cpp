@@ -44,19 +44,4 @@ std::string line_of(const example& e) {
   return fmt::format("contct {}{}{}", e.command, e.arguments.empty() ? "" : " ", e.arguments);
 }
 
-void add_examples(CLI::App& program) {
-  std::string first_ones = "Examples:\n";
-  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    std::string own = "Examples:\n";
-    for (const example& e : examples_of(command->get_name())) {
-      const std::string shown = fmt::format("  {}\n      {}\n", line_of(e), e.says);
-      if (own == "Examples:\n") first_ones += shown;
-      own += shown;
-    }
-    own.pop_back();
-    command->footer(own);
-  }
-  program.footer(first_ones + "contct COMMAND --help says more of each.");
-}
-
 }  // namespace contct

@@ -1,7 +1,7 @@
 // Command lines to start from: under --help, in the manual, and run by the tests as they stand.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace contct {
 struct example {
   std::string_view command;    ///< "run"
   std::string_view arguments;  ///< what follows it, separated by blanks
-  std::string_view says;       ///< what it is good for
+  std::string_view text;       ///< what it is good for
 };
 
 /// Of one command, or all of them.
@@ -18,8 +18,5 @@ struct example {
 
 /// "contct run beam.toml"
 [[nodiscard]] std::string line_of(const example& e);
-
-/// Put each command's examples under its --help, and the first of each under the program's.
-void add_examples(CLI::App& program);
 
 }  // namespace contct

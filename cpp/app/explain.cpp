@@ -8,15 +8,13 @@
 
 #include "app/commands.hpp"
 #include "app/exit_messages.hpp"
-#include "app/output_options.hpp"
-#include "app/path_progress.hpp"
-#include "app/read_problem.hpp"
+#include "app/outputs.hpp"
+#include "app/problem_progress.hpp"
 #include "app/streams.hpp"
 #include "contct/compare/explained_path.hpp"
 #include "contct/compare/follower.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/read/problem_file.hpp"
 #include "contct/solve/engine.hpp"
 #include "contct/text/terminal.hpp"
 #include "contct/write/explain_json.hpp"
@@ -25,16 +23,6 @@
 
 namespace contct {
 namespace {
-
-struct explain_options {
-  std::string file;
-  std::vector<std::string> kernels = {"fortran", "cpp"};
-  std::string engine = "refactor";
-  std::string increment;
-  std::optional<int> step, pair;
-  std::string json;
-  bool quiet = false;
-};
 
 /// All of `text` as a number from 1; 0 where it is none.
 int number_in(std::string_view text) {
@@ -93,8 +81,7 @@ class explanation_run {
   exit_status go() {
     refuse_unknown_engine(options_.engine);
     refuse_kernels(options_.kernels);
-    problem_ = read_as_one_waits(options_.file, options_.quiet);
-    for (const std::string& w : problem_.warnings) complain("warning: {}", w);
+    problem_ = read_with_progress(options_.file, options_.quiet);
     refuse_what_is_not_there();
     refuse_shared_outputs({{"--json", options_.json}}, {{"the problem", options_.file}});
     const std::unique_ptr<output_file> file = open_output({"--json", options_.json});
@@ -104,7 +91,7 @@ class explanation_run {
       text_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), look_at_terminal());
     if (file) json_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), *file);
     explained_path told(leader->facts(), second(), wanted_, [this](const auto& i) { tell(i); });
-    const linear_structure structure = build_as_one_waits(problem_, options_.quiet);
+    const linear_structure structure = build_with_progress(problem_, options_.quiet);
     path_progress shown(problem_.steps.size(), options_.quiet);
     const path_end end =
         follow(problem_, structure, options_.engine, *leader, {shown.before(), &told, shown.behind()});
@@ -189,25 +176,8 @@ class explanation_run {
 
 }  // namespace
 
-void add_explain(CLI::App& program, exit_status& status) {
-  auto options = std::make_shared<explain_options>();
-  CLI::App* const command =
-      program.add_subcommand("explain", "What the listing did in each increment, line by line, and why");
-  command->add_option("FILE", options->file, "The problem (TOML); - reads standard input")->required();
-  command
-      ->add_option("--increment", options->increment,
-                   "Only this increment, from 1; STEP.INCREMENT as in 2.1 names its step too")
-      ->type_name("INCREMENT");
-  command->add_option("--step", options->step, "Only this step, from 1");
-  command->add_option("--pair", options->pair, "Only this pair, from 1");
-  command->add_option("--kernels", options->kernels, "The kernels to put side by side, the first one leads")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--engine", options->engine, "How the stiffness equations are solved")
-      ->capture_default_str();
-  command->add_option("--json", options->json, "Write the explanation to this file (- is standard output)");
-  command->add_flag("--quiet", options->quiet, "Print nothing but what is wrong");
-  command->callback([options, &status] { status = explanation_run(*options).go(); });
+exit_status run_command(const explain_options& options) {
+  return explanation_run(options).go();
 }
 
 }  // namespace contct

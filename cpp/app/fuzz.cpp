@@ -3,30 +3,23 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdio>
-#include <memory>
+#include <filesystem>
 #include <optional>
+#include <stdexcept>
 
 #include "app/commands.hpp"
-#include "app/fuzz_cases.hpp"
+#include "app/outputs.hpp"
 #include "app/progress.hpp"
-#include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/lab/fuzz_json.hpp"
 #include "contct/numeric/probe.hpp"
+#include "contct/outside/registry.hpp"
 #include "contct/text/terminal.hpp"
 
 namespace contct {
 namespace {
-
-struct fuzz_options {
-  fuzz_request request;
-  std::optional<std::int64_t> problems;  // by default one for 500 calls
-  std::string shard;
-  std::vector<std::string> merge;
-  std::string json, out;
-  report_options report;
-};
 
 /// "I/N" as two numbers; throws std::invalid_argument.
 void read_shard(const std::string& text, fuzz_request& r) {
@@ -93,8 +86,49 @@ void print_result(const fuzz_result& r) {
     say(f.compared.mismatches == 0 ? paint::good : paint::bad, {follower_words(f, r.request.kernels[0])});
 }
 
-exit_status run_fuzz_command(fuzz_options options) {
-  fuzz_request& request = options.request;
+/// A kernel's name as part of a file's: "plugin:./mine.so" becomes "plugin-mine-so".
+std::string file_name_of(const std::string& kernel) {
+  std::string name;
+  const std::string library = std::filesystem::path(kernel).filename().string();
+  for (const char ch : kernel.rfind("plugin:", 0) == 0 && library != kernel ? "plugin-" + library : kernel) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(ch)) != 0;
+    if (plain) name += ch;
+    if (!plain && !name.empty() && name.back() != '-') name += '-';
+  }
+  constexpr std::size_t longest = 60;
+  return name.substr(0, longest);
+}
+
+trace_header header_of(const found_case& c) {
+  trace_header h = header_for(facts_of_kernel(c.what.leader), CONTCT_LISTING_SHA256);
+  h.about = {"found by contct fuzz, and shrunk"};
+  return h;
+}
+
+/// Write each case to `folder`, which is made where it is missing: a trace, a Catch2 test and a FORTRAN main
+/// program. Returns the names of the files.
+std::vector<std::string> write_cases(const std::vector<found_case>& cases, const std::string& folder,
+                                     std::uint64_t seed) {
+  std::filesystem::create_directories(folder);
+  std::vector<std::string> names;
+  for (const found_case& c : cases) {
+    const std::string stem =
+        (std::filesystem::path(folder) / fmt::format("{}-seed{}", file_name_of(c.what.follower), seed))
+            .string();
+    const std::pair<const char*, std::string> files[] = {
+        {".trace", trace_of(c, header_of(c))}, {"_test.cpp", catch_test_of(c)}, {".f", fortran_main_of(c)}};
+    for (const auto& [end, text] : files) {
+      names.push_back(stem + end);
+      write_whole(std::make_unique<output_file>(names.back()), text);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+exit_status run_command(const fuzz_options& options) {
+  fuzz_request request = options.request;
   read_shard(options.shard, request);
   constexpr std::int64_t calls_for_a_problem = 500;
   request.problems = options.problems.value_or(request.calls / calls_for_a_problem);
@@ -120,38 +154,10 @@ exit_status run_fuzz_command(fuzz_options options) {
   if (!options.out.empty())
     for (const std::string& name : write_cases(run.cases, options.out, request.seed))
       complain("written: {}", name);
-  if (json) {
-    json->write(fuzz_json(r));
-    json->finish();
-  }
+  if (json) write_whole(json, fuzz_json(r));
   reports.write(report_of(r, missed));
   if (r.compared().mismatches > 0) return exit_status::kernels_differ;
   return missed.empty() ? exit_status::solved : exit_status::bad_input;
-}
-
-}  // namespace
-
-void add_fuzz(CLI::App& program, exit_status& status) {
-  auto options = std::make_shared<fuzz_options>();
-  CLI::App* const command = program.add_subcommand(
-      "fuzz", "Random and adversarial calls and problems, kernels against each other, to the bit");
-  constexpr std::int64_t most = 1'000'000'000'000;
-  command->add_option("--kernels", options->request.kernels, "Kernels to compare, the first one leads")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--calls", options->request.calls, "Calls, of all shards together")
-      ->check(CLI::Range(std::int64_t{1}, most))
-      ->capture_default_str();
-  command->add_option("--problems", options->problems, "Whole problems; by default one for 500 calls")
-      ->check(CLI::Range(std::int64_t{0}, most));
-  command->add_option("--seed", options->request.seed, "Another seed, other calls")->capture_default_str();
-  command->add_option("--shard", options->shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
-  command->add_option("--merge", options->merge, "Add up the --json files of all shards instead of running");
-  command->add_option("--json", options->json, "Write the result to this file (- is standard output)");
-  command->add_option("--out", options->out,
-                      "Write what is found to this folder: trace, Catch2 test, FORTRAN main");
-  add_report_options(*command, options->report);
-  command->callback([options, &status] { status = run_fuzz_command(*options); });
 }
 
 }  // namespace contct

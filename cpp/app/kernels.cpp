@@ -7,20 +7,16 @@
 
 namespace contct {
 
-void add_kernels(CLI::App& program, exit_status& status) {
-  CLI::App* const command =
-      program.add_subcommand("kernels", "What is built in, and how this machine computes");
-  command->callback([&status] {
-    fmt::print("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler");
-    for (const std::string& name : kernel_names()) {
-      const kernel_facts f = facts_of_kernel(name);
-      fmt::print("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language, f.compiler);
-    }
-    fmt::print("\nfrom outside: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n");
-    fmt::print("listing sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
-               describe(probe_floating_point()));
-    status = exit_status::solved;
-  });
+exit_status run_command(const kernels_options& /*options*/) {
+  fmt::print("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler");
+  for (const std::string& name : kernel_names()) {
+    const kernel_facts f = facts_of_kernel(name);
+    fmt::print("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language, f.compiler);
+  }
+  fmt::print("\nfrom outside: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n");
+  fmt::print("listing sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
+             describe(probe_floating_point()));
+  return exit_status::solved;
 }
 
 }  // namespace contct

@@ -1,9 +1,9 @@
-#include "app/manual.hpp"
-
+// contct man: the manual page, from the declarations of the options.
 #include <fmt/format.h>
 
+#include "app/commands.hpp"
 #include "app/examples.hpp"
-#include "app/option_metadata.hpp"
+#include "contct/solve/engine.hpp"
 #include "contct/text/terminal.hpp"
 
 namespace contct {
@@ -35,22 +35,21 @@ std::string filled(const std::string& text) {
   return out;
 }
 
-std::string option_entry(const described_option& o) {
+std::string option_entry(const option_description& o) {
   std::string text = ".TP\n\\fB" + roff(o.name) + "\\fR";
-  if (!o.value.empty()) text += " \\fI" + roff(o.value) + "\\fR";
-  std::string says = o.says + ".";
-  if (!o.usual.empty()) says += " Usually " + o.usual + ".";
+  if (!o.value.empty() && o.name[0] == '-') text += " \\fI" + roff(o.value) + "\\fR";
+  std::string says = o.text + ".";
+  if (!o.default_value.empty()) says += " Usually " + o.default_value + ".";
   if (!o.words.empty()) says += fmt::format(" There are: {}.", fmt::join(o.words, ", "));
   return text + "\n" + filled(says);
 }
 
-std::string command_section(const described_command& c) {
+std::string command_section(const command_description& c) {
   std::string text = ".SS \"contct " + roff(c.name);
-  for (const described_option& p : c.positionals) text += " " + (p.required ? p.name : "[" + p.name + "]");
-  text += "\"\n" + filled(c.says + ".");
-  for (const described_option& p : c.positionals)
-    text += option_entry({p.name, "", p.says, p.usual, p.kind, p.words, p.required});
-  for (const described_option& o : c.options) text += option_entry(o);
+  for (const option_description& p : c.positionals) text += " " + (p.required ? p.name : "[" + p.name + "]");
+  text += "\"\n" + filled(c.text + ".");
+  for (const option_description& p : c.positionals) text += option_entry(p);
+  for (const option_description& o : c.options) text += option_entry(o);
   return text;
 }
 
@@ -87,13 +86,13 @@ std::string environment_section() {
 std::string examples_section() {
   std::string text = ".SH EXAMPLES\n";
   for (const example& e : examples_of())
-    text += ".TP\n\\fB" + roff(line_of(e)) + "\\fR\n" + filled(std::string(e.says) + ".");
+    text += ".TP\n\\fB" + roff(line_of(e)) + "\\fR\n" + filled(std::string(e.text) + ".");
   return text;
 }
 
 }  // namespace
 
-std::string manual_page(const CLI::App& program) {
+std::string manual_page(const program_description& program) {
   std::string text =
       fmt::format(".TH CONTCT 1 {} \"contct {}\" \"User Commands\"\n", page_date, CONTCT_VERSION);
   text += ".SH NAME\ncontct \\- the 1989 contact subroutine, in FORTRAN and in C++, side by side\n";
@@ -105,9 +104,9 @@ std::string manual_page(const CLI::App& program) {
           "structures and one-sided supports. This program follows the load path of a beam or a plate with "
           "it and with a C++ reimplementation, and compares the two at every call, bit for bit.");
   text += ".SH OPTIONS\n";
-  for (const described_option& o : describe_options(program)) text += option_entry(o);
+  for (const option_description& o : program.options) text += option_entry(o);
   text += ".SH COMMANDS\n";
-  for (const described_command& c : describe_commands(program)) text += command_section(c);
+  for (const command_description& c : program.commands) text += command_section(c);
   text += exit_section();
   text += environment_section();
   text += examples_section();
@@ -117,10 +116,9 @@ std::string manual_page(const CLI::App& program) {
   return text;
 }
 
-void add_man(CLI::App& program) {
-  program.add_subcommand("man", "Print the manual page")->callback([&program] {
-    fmt::print("{}", manual_page(program));
-  });
+exit_status run_command(const manual_options& /*options*/) {
+  fmt::print("{}", manual_page(describe_contct(engine_names())));
+  return exit_status::solved;
 }
 
 }  // namespace contct

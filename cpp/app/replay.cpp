@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "app/commands.hpp"
+#include "app/outputs.hpp"
 #include "app/progress.hpp"
-#include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
@@ -18,12 +18,6 @@
 
 namespace contct {
 namespace {
-
-struct replay_options {
-  std::vector<std::string> traces;
-  std::vector<std::string> kernels;
-  report_options report;
-};
 
 /// Who is meant where no --kernel says it: the 1989 code in the trace's precision.
 std::string usual_kernel(const trace_header& h) {
@@ -76,7 +70,9 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   return result;
 }
 
-exit_status run_replay(const replay_options& options) {
+}  // namespace
+
+exit_status run_command(const replay_options& options) {
   const auto started = std::chrono::steady_clock::now();
   const std::vector<output_option> outputs = with_reports({}, options.report);
   std::vector<output_option> inputs;
@@ -111,25 +107,6 @@ exit_status run_replay(const replay_options& options) {
   flush_standard_output();
   files.write(report);
   return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;
-}
-
-}  // namespace
-
-void describe_replay(CLI::App& command, exit_status& status) {
-  auto options = std::make_shared<replay_options>();
-  command.add_option("TRACE", options->traces, "Recorded calls; - reads standard input")->required();
-  command
-      .add_option("--kernel", options->kernels,
-                  "The kernels to check; by default the 1989 code in the trace's precision")
-      ->delimiter(',')
-      ->allow_extra_args(false);  // what follows is a trace
-  add_report_options(command, options->report);
-  command.callback([options, &status] { status = run_replay(*options); });
-}
-
-void add_replay(CLI::App& program, exit_status& status) {
-  describe_replay(*program.add_subcommand("replay", "Put recorded calls to a kernel; needs no LAPACK"),
-                  status);
 }
 
 }  // namespace contct

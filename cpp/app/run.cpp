@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,25 +12,18 @@
 
 #include "app/commands.hpp"
 #include "app/exit_messages.hpp"
-#include "app/path_progress.hpp"
-#include "app/read_problem.hpp"
-#include "app/report_options.hpp"
+#include "app/outputs.hpp"
+#include "app/problem_progress.hpp"
 #include "app/run_pictures.hpp"
 #include "app/streams.hpp"
-#include "contct/certify/certificate.hpp"
 #include "contct/certify/fallback.hpp"
 #include "contct/certify/final_state.hpp"
-#include "contct/compare/early_toggles.hpp"
 #include "contct/compare/free_run.hpp"
-#include "contct/compare/lockstep.hpp"
 #include "contct/compare/trace_recorder.hpp"
 #include "contct/matrix/lapack.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/read/problem_file.hpp"
-#include "contct/solve/engine.hpp"
-#include "contct/text/output_file.hpp"
 #include "contct/write/certificate_text.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/table.hpp"
@@ -39,22 +31,59 @@
 namespace contct {
 namespace {
 
-struct run_options {
-  std::string file;
-  std::vector<std::string> kernels = {"fortran", "cpp"};
-  std::string engine;  // empty: what suits the leader
-  std::string json;
-  std::string log;
-  std::string trace;
-  report_options report;
-  picture_options pictures;
-  bool free_run = false;
-  bool final_only = false;
-  bool strict = false;
-  int max_increments = 0;
+/// What is run; complete before any file is opened.
+struct run_setup {
+  const run_options& options;
+  std::chrono::steady_clock::time_point started;
+  std::vector<std::string> kernels;  // the leader first; none under --final-only
+  problem what;
+  linear_structure structure;
+  std::string engine;  // of the leader's path
+  terminal screen;
+  bool prints;  // heading, table and verdicts
 };
 
-/// Keeps what the leader writes to unit 26.
+std::vector<output_option> outputs_of(const run_options& o) {
+  return with_reports(with_pictures({{"--json", o.json}, {"--log", o.log}, {"--trace", o.trace}}, o.pictures),
+                      o.report);
+}
+
+void refuse_bad_options(const run_options& o) {
+  if (!o.engine.empty() && o.engine != "auto") refuse_unknown_engine(o.engine);
+  for (const std::string& name : o.kernels) {
+    if (std::count(o.kernels.begin(), o.kernels.end(), name) > 1)
+      throw std::invalid_argument("--kernels: \"" + name + "\" is named twice");
+    (void)facts_of_kernel(name);
+  }
+}
+
+/// The engine of a path that `kernel` leads: unless asked otherwise, one factorisation an increment, as in
+/// 1989, for the 1989 rule; the quickest for others.
+std::string engine_for(const std::string& kernel, const run_options& o, const linear_structure& s) {
+  if (o.engine.empty() && facts_of_kernel(kernel).rule == "listing") return "refactor";
+  if (!o.engine.empty() && o.engine != "auto") return o.engine;
+  return std::string(quickest_engine(s));
+}
+
+run_setup set_up(const run_options& o, const std::vector<output_option>& outputs) {
+  const auto started = std::chrono::steady_clock::now();
+  refuse_bad_options(o);
+  problem p = read_with_progress(o.file, o.report.quiet);
+  if (!o.pictures.vtu.empty()) check_grid_coordinates(p);
+  linear_structure s = build_with_progress(p, o.report.quiet);
+  std::string engine = o.final_only ? "oracle" : engine_for(o.kernels.front(), o, s);
+  refuse_shared_outputs(outputs, {{"the problem", o.file}});
+  return {.options = o,
+          .started = started,
+          .kernels = o.final_only ? std::vector<std::string>() : o.kernels,
+          .what = std::move(p),
+          .structure = std::move(s),
+          .engine = std::move(engine),
+          .screen = look_at_terminal(),
+          .prints = !o.report.quiet && !takes_standard_output(outputs)};
+}
+
+/// Writes what the leader writes to unit 26.
 class log_writer final : public observer {
  public:
   explicit log_writer(output_file& out) : out_(out) {}
@@ -64,390 +93,293 @@ class log_writer final : public observer {
   output_file& out_;
 };
 
+trace_header header_of_trace(const run_setup& run, const kernel_facts& leader) {
+  trace_header h = header_for(leader, CONTCT_LISTING_SHA256, lapack_identity());
+  const std::string& file = run.options.file;
+  h.about = {"every call of " + (file == "-" ? "a problem from standard input"
+                                             : std::filesystem::path(file).filename().string())};
+  if (!run.what.title.empty()) h.about.push_back(on_one_line(run.what.title));
+  return h;
+}
+
+/// A run's files and the observers of the leader's path. Files are opened before anything is solved: a
+/// place that cannot be written is reported at once.
+struct observed_run {
+  /// `r` must outlive this object, and so must `lockstep_of_run`, which is null where nothing is compared.
+  observed_run(const run_setup& r, lockstep* lockstep_of_run);
+
+  /// In the order in which they must observe.
+  std::vector<observer*> observers();
+
+  const run_setup& run;
+  lockstep* compared;
+  std::unique_ptr<output_file> json_file, log_file, trace_file;
+  run_pictures pictures;
+  report_files reports;
+  certifier judged;
+  early_toggles early;
+  digit_watch digits;
+  path_progress shown;
+  std::optional<table> rows;
+  std::optional<result_json> json;
+  std::optional<log_writer> log;
+  std::optional<trace_recorder> trace;
+  bool has_verdict = false;
+};
+
+observed_run::observed_run(const run_setup& r, lockstep* lockstep_of_run)
+    : run(r),
+      compared(lockstep_of_run),
+      json_file(open_output({"--json", r.options.json})),
+      log_file(open_output({"--log", r.options.log})),
+      trace_file(open_output({"--trace", r.options.trace})),
+      pictures(r.options.pictures),
+      reports(r.options.report),
+      judged(r.structure, loads_of(r.what)),
+      shown(r.what.steps.size(), r.options.report.quiet) {
+  if (r.prints) rows.emplace(r.what, compared, judged, r.screen);
+  if (json_file) json.emplace(r.what, r.kernels, r.engine, judged, *json_file);
+  if (log_file) log.emplace(*log_file);
+}
+
+std::vector<observer*> observed_run::observers() {
+  std::vector<observer*> all = {compared, &judged, &early, shown.before()};
+  if (rows) all.push_back(&*rows);
+  if (json) all.push_back(&*json);
+  if (log) all.push_back(&*log);
+  all.insert(all.end(), {&digits, shown.behind()});
+  std::erase(all, nullptr);
+  return all;
+}
+
 /// "1 node", "3 nodes".
 template <class Count>
 std::string counted(Count n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-/// One run of `contct run`: what is wrong is refused first, then files are opened, then it is solved.
-class run {
- public:
-  explicit run(const run_options& options)
-      : options_(options),
-        terminal_(look_at_terminal()),
-        shows_table_(!options.report.quiet && !takes_standard_output(outputs())) {}
+void print_heading(const run_setup& run) {
+  if (!run.prints) return;
+  for (const std::string& line : wrap({run.what.title}, run.screen.width))
+    if (!line.empty()) fmt::print("{}\n", painted(run.screen, paint::strong, line));
+  const std::vector<std::string> facts = {
+      fmt::format("{}, {}, {}", counted(nodes(run.what.geometry), node_name(run.what.geometry)),
+                  counted(run.what.pairs.size(), "pair"), counted(run.what.steps.size(), "step")),
+      run.kernels.empty() ? "only the end" : fmt::format("kernels {}", fmt::join(run.kernels, ", ")),
+      "engine " + run.engine + (run.structure.stiffness.is_band() ? "" : ", sparse")};
+  for (const std::string& line : wrap(facts, run.screen.width)) fmt::print("{}\n", line);
+  fmt::print("\n");
+}
 
-  exit_status go() {
-    refuse_bad_options();
-    read();
-    refuse_shared_outputs(outputs(), {{"the problem", options_.file}});
-    if (options_.final_only) return final_only();
-    return options_.free_run ? free_run() : lockstep_run();
-  }
+void print_verdict(observed_run& o, paint p, const std::vector<std::string>& items) {
+  if (!o.run.prints) return;
+  if (!std::exchange(o.has_verdict, true)) fmt::print("\n");
+  for (const std::string& line : wrap(items, o.run.screen.width))
+    fmt::print("{}\n", painted(o.run.screen, p, line));
+}
 
- private:
-  void refuse_bad_options() const {
-    if (!options_.engine.empty() && options_.engine != "auto") refuse_unknown_engine(options_.engine);
-    for (const std::string& name : options_.kernels) {
-      if (std::count(options_.kernels.begin(), options_.kernels.end(), name) > 1)
-        throw std::invalid_argument("--kernels: \"" + name + "\" is named twice");
-      (void)facts_of_kernel(name);
-    }
-  }
+path_limits limits_of(const run_setup& run) {
+  return {run.options.max_increments, fallback_to_reference(run.structure)};
+}
 
-  void read() {
-    problem_ = read_as_one_waits(options_.file, options_.report.quiet);
-    for (const std::string& w : problem_.warnings) complain("warning: {}", w);
-    refuse_grid_without_coordinates();
-    warn_of_pairs_without_cell();
-    structure_ = build_as_one_waits(problem_, options_.report.quiet);
-    judged_.emplace(structure_, loads_of(problem_));
-    engine_ = engine_for(options_.kernels.front());
-  }
+/// The leader's path, observed by all that was asked for, and by `record` where that is not null.
+path_end follow_leader(observed_run& o, kernel& leader, path_record* record) {
+  const run_setup& run = o.run;
+  std::vector<observer*> observers = o.observers();
+  if (o.trace_file)
+    observers.push_back(&o.trace.emplace(header_of_trace(run, leader.facts()),
+                                         [&o](std::string_view text) { o.trace_file->write(text); }));
+  const bool forces_by_law = leader.facts().rule != "listing";
+  for (observer* drawing :
+       o.pictures.observe(run.what, run.structure, loads_of(run.what), o.compared, forces_by_law))
+    observers.push_back(drawing);
+  if (record != nullptr) observers.push_back(record);
+  path_end end = follow(run.what, run.structure, run.engine, leader, observers, limits_of(run));
+  o.shown.erase();
+  return end;
+}
 
-  /// A grid has points. Everything else that is asked for does without, as a table.
-  void refuse_grid_without_coordinates() const {
-    const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
-    if (a == nullptr || options_.pictures.vtu.empty() || a->places.known()) return;
-    throw std::invalid_argument(
-        fmt::format("--vtu: found a structure given by its matrix, {}, without coordinates; allowed: one "
-                    "with coordinates, by "
-                    "coordinates = \"FILE\" in [matrix] or CalculiX's mesh, JOB.inp beside its matrix or "
-                    "mesh = \"FILE\" in "
-                    "[calculix]. --csv and --json have all its numbers, by label",
-                    a->name));
-  }
-
-  void warn_of_pairs_without_cell() const {
-    const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
-    if (a == nullptr || options_.pictures.vtu.empty()) return;
-    const auto lost = std::count_if(problem_.pairs.begin(), problem_.pairs.end(), [a](const contact_pair& p) {
-      return a->places.dofs[static_cast<std::size_t>(p.node)].node < 0;
-    });
-    if (lost > 0)
-      complain("warning: --vtu: {} of {} pairs {} no cell: the places of their dofs are not known", lost,
-               problem_.pairs.size(), lost == 1 ? "has" : "have");
-  }
-
-  [[nodiscard]] std::vector<output_option> outputs() const {
-    return with_reports(
-        with_pictures({{"--json", options_.json}, {"--log", options_.log}, {"--trace", options_.trace}},
-                      options_.pictures),
-        options_.report);
-  }
-
-  /// The engine of a path that `name` leads. The 1989 way for the 1989 rule, unless asked otherwise: it is
-  /// there to be faithful. The quickest for others.
-  [[nodiscard]] std::string engine_for(const std::string& name) const {
-    const bool as_listed = options_.engine.empty() && facts_of_kernel(name).rule == "listing";
-    if (as_listed) return "refactor";
-    if (!options_.engine.empty() && options_.engine != "auto") return options_.engine;
-    return std::string(quickest_engine(structure_));
-  }
-
-  /// No path: the equilibrium under each step's load, by the oracle.
-  exit_status final_only() {
-    options_.kernels.clear();
-    engine_ = "oracle";
-    open_outputs();
-    print_heading();
-    const path_end end = find_final_states(structure_, static_cast<int>(problem_.steps.size()),
-                                           loads_of(problem_), observers(nullptr));
-    shown_.reset();
-    print_verdict(paint::quiet, {"only the end: the oracle's, judged by equilibrium, penetration and tension",
-                                 fmt::format("{} factorisations", end.work.factors)});
-    return finish(end, true, nullptr);
-  }
-
-  exit_status lockstep_run() {
-    const std::unique_ptr<kernel> leader = make_kernel(options_.kernels[0]);
-    const bool alone = options_.kernels.size() == 1;
-    lockstep compared = make_lockstep(leader->facts(), std::span(options_.kernels).subspan(1));
-    open_outputs();
-    print_heading();
-    const path_end end = follow_observed(*leader, alone ? nullptr : &compared, nullptr);
-    if (alone) return finish(end, true, nullptr);
-    report_lockstep(compared);
-    return finish(end, compared.compared().mismatches == 0, &compared);
-  }
-
-  /// Drive every kernel on a path of its own, one after the other: unit 26 is there only once.
-  exit_status free_run() {
-    open_outputs();
-    print_heading();
-    path_record leader;
-    leader.end = follow_observed(*make_kernel(options_.kernels[0]), nullptr, &leader);
-    bool all_within = true;
-    for (std::size_t i = 1; i < options_.kernels.size(); ++i) {
-      const std::string& name = options_.kernels[i];
-      path_record own;
-      certifier judged(structure_, loads_of(problem_));
-      own.end = follow(problem_, structure_, engine_for(name), *make_kernel(name), {&judged, &own}, limits());
-      const double bound = free_run_bound(facts_of_kernel(options_.kernels[0]), facts_of_kernel(name));
-      const free_run_difference d = compare_paths(leader, own, bound, structure_.dofs_per_node);
-      all_within = all_within && d.within_bound();
-      if (json_) json_->add_free_run(name, d, judged.all_exact());
-      report_free_run(name, d, judged);
-    }
-    return finish(leader.end, all_within, nullptr);
-  }
-
-  /// The leader's path, under the eyes of all that was asked for.
-  path_end follow_observed(kernel& leader, lockstep* compared, path_record* record) {
-    std::vector<observer*> watching = observers(compared);
-    if (!options_.trace.empty())
-      watching.push_back(&recorder_.emplace(header_of_trace(leader), trace_sink()));
-    const bool forces_by_law = leader.facts().rule != "listing";
-    for (observer* drawing :
-         pictures_->observe(problem_, structure_, loads_of(problem_), compared, forces_by_law))
-      watching.push_back(drawing);
-    if (record != nullptr) watching.push_back(record);
-    path_end end = follow(problem_, structure_, engine_, leader, watching, limits());
-    shown_.reset();
-    return end;
-  }
-
-  /// Those that watch every run.
-  std::vector<observer*> observers(lockstep* compared) {
-    std::vector<observer*> watching;
-    if (compared != nullptr) watching.push_back(compared);
-    watching.push_back(&*judged_);
-    watching.push_back(&early_);
-    shown_.emplace(problem_.steps.size(), options_.report.quiet);
-    watching.push_back(shown_->before());
-    if (shows_table_) watching.push_back(&table_.emplace(problem_, compared, *judged_, terminal_));
-    if (json_) watching.push_back(&*json_);
-    if (log_) watching.push_back(&*log_);
-    watching.push_back(&digits_);
-    watching.push_back(shown_->behind());
-    return watching;
-  }
-
-  [[nodiscard]] path_limits limits() const {
-    return {options_.max_increments, fallback_to_reference(structure_)};
-  }
-
-  /// Before anything is solved: a place that cannot be written is found out at once.
-  void open_outputs() {
-    if (!options_.json.empty()) {
-      json_file_.emplace(options_.json);
-      json_.emplace(problem_, options_.kernels, engine_, *judged_, *json_file_);
-    }
-    if (!options_.log.empty()) {
-      log_file_.emplace(options_.log);
-      log_.emplace(*log_file_);
-    }
-    if (!options_.trace.empty()) trace_file_.emplace(options_.trace);
-    pictures_.emplace(options_.pictures);
-    reports_.emplace(options_.report);
-  }
-
-  [[nodiscard]] trace_header header_of_trace(const kernel& leader) const {
-    trace_header h = header_for(leader.facts(), CONTCT_LISTING_SHA256, lapack_identity());
-    h.about = {fmt::format("every call of {}",
-                           options_.file == "-" ? "a problem from standard input"
-                                                : std::filesystem::path(options_.file).filename().string())};
-    if (!problem_.title.empty()) h.about.push_back(on_one_line(problem_.title));
-    return h;
-  }
-
-  trace_recorder::sink trace_sink() {
-    return [this](std::string_view text) { trace_file_->write(text); };
-  }
-
-  void print_heading() const {
-    if (!shows_table_) return;
-    for (const std::string& line : wrap({problem_.title}, terminal_.width))
-      if (!line.empty()) fmt::print("{}\n", painted(terminal_, paint::strong, line));
-    const std::vector<std::string> facts = {
-        fmt::format("{}, {}, {}", counted(nodes(problem_.geometry), node_name(problem_.geometry)),
-                    counted(problem_.pairs.size(), "pair"), counted(problem_.steps.size(), "step")),
-        options_.final_only ? "only the end" : fmt::format("kernels {}", fmt::join(options_.kernels, ", ")),
-        "engine " + engine_ + (structure_.stiffness.is_band() ? "" : ", sparse")};
-    for (const std::string& line : wrap(facts, terminal_.width)) fmt::print("{}\n", line);
-    fmt::print("\n");
-  }
-
-  void print_verdict(paint p, const std::vector<std::string>& items) {
-    if (!shows_table_) return;
-    if (!std::exchange(has_verdict_, true)) fmt::print("\n");
-    for (const std::string& line : wrap(items, terminal_.width))
-      fmt::print("{}\n", painted(terminal_, p, line));
-  }
-
-  /// Say how the comparison came out. A mismatch under a bad probe is the environment's.
-  void report_lockstep(const lockstep& compared) {
-    const tally& t = compared.compared();
-    const std::string names = fmt::format("{}", fmt::join(options_.kernels, " and "));
-    compared_words_ =
-        fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(), t.values, t.mismatches);
-    if (compared.calls() == 0)
-      return print_verdict(paint::quiet, {names + " were never called: nothing is compared"});
-    const bool equal = t.mismatches == 0;
-    print_verdict(
-        equal ? paint::good : paint::bad,
-        {fmt::format("{} {} to the bit", names, equal ? "are equal" : "are NOT equal"), compared_words_});
-    if (!compared.first()) return;
-    for (const std::string& line : words_of(*compared.first())) {
-      complain("{}", line);
-      differences_ += line + "\n";
-    }
-    const floating_point fp = probe_floating_point();
-    if (!fp.strict()) complain("environment, not kernel: {}", describe(fp));
-  }
-
-  void report_free_run(const std::string& name, const free_run_difference& d, const certifier& judged) {
-    print_verdict(
-        d.within_bound() ? paint::good : paint::bad,
-        {fmt::format("{} on a path of its own: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
-         fmt::format("load fractions within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
-                     d.displacement, d.bound),
-         judged.all_exact() ? "certified" : "NOT certified"});
-    compared_words_ +=
-        fmt::format("{}{}: load fractions within {:.2g}, D within {:.2g} (bound {:.0e})",
-                    compared_words_.empty() ? "" : "; ", name, d.fraction, d.displacement, d.bound);
-    if (!d.first_difference.empty()) differences_ += name + ": " + d.first_difference + "\n";
-    if (!d.first_difference.empty()) complain("{}: first difference: {}", name, d.first_difference);
-    for (const auto& [what, difference] : {std::pair("a load fraction", d.fraction), {"D", d.displacement}}) {
-      if (difference <= d.bound) continue;
-      complain("{}: {} differs by {:.2g}; allowed: {:.0e}", name, what, difference, d.bound);
-    }
-  }
-
-  /// The certificate of the leader's path, for people.
-  void report_certificate() {
-    if (auto items = certificate_summary(*judged_); !items.empty()) {
-      if (options_.final_only) items.resize(1);  // the oracle would agree with itself
-      const bool good = std::none_of(judged_->steps().begin(), judged_->steps().end(),
-                                     [](const auto& c) { return c && !c->exact; });
-      print_verdict(good ? paint::good : paint::bad, items);
-    }
-    flush_standard_output();
-    for (const std::string& line : certificate_complaints(problem_, *judged_, early_)) complain("{}", line);
-  }
-
-  exit_status finish(const path_end& end, bool equal, const lockstep* compared) {
-    report_certificate();
-    flush_standard_output();  // the table before what is said about it; and no files when it is lost
-    if (end.status == path_status::solved) {
-      if (const std::string w = digits_.warning(); !w.empty()) complain("warning: {}", w);
-    } else {
-      complain("{}: {}", options_.file, end_words(problem_, end));
-    }
-    const exit_status status = equal ? certified_status_of(end.status) : exit_status::kernels_differ;
-    if (status == exit_status::bad_input) return status;  // no numbers, and no files
-    if (json_) json_->finish(equal ? status_name(end.status) : "kernels-disagree", end, compared);
-    if (log_) log_file_->finish();
-    if (trace_file_) trace_file_->finish();
-    pictures_->finish([&] { return finished(end, equal, compared != nullptr); });
-    reports_->write(check_report_of(end, equal));
-    return status;
-  }
-
-  /// What pictures are made from.
-  [[nodiscard]] finished_run finished(const path_end& end, bool equal, bool in_lockstep) const {
-    return {problem_,
-            pictures_->kept(),
-            pictures_->record(),
-            *judged_,
-            early_,
-            options_.file,
-            options_.kernels,
-            engine_,
-            std::string(equal ? status_name(end.status) : "kernels-disagree"),
-            end_words(problem_, end),
-            in_lockstep,
-            equal,
-            compared_words_,
-            common_facts()};
-  }
-
-  /// What a CI system is told.
-  [[nodiscard]] check_report check_report_of(const path_end& end, bool equal) const {
-    check_report r{"contct run", common_facts(), {}, 0.0};
-    r.facts.push_back(options_.file + ": kernels " + fmt::format("{}", fmt::join(options_.kernels, ", ")));
-    if (options_.kernels.size() > 1)
-      r.results.push_back(
-          {"kernels", equal ? outcome::passed : outcome::failed, compared_words_, differences_});
-    const std::string ended = end_words(problem_, end);
-    const bool solved = end.status == path_status::solved;
-    r.results.push_back({"path", solved ? outcome::passed : outcome::failed,
-                         solved ? "every step's load is applied" : ended, ended});
-    const bool exact = judged_->all_exact();
-    r.results.push_back(
-        {"certificate",
-         exact             ? outcome::passed
-         : options_.strict ? outcome::failed
-                           : outcome::skipped,
-         exact ? "every final state is certified" : "NOT certified",
-         exact ? ""
-               : fmt::format("{}", fmt::join(certificate_complaints(problem_, *judged_, early_), "\n"))});
-    r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-    return r;
-  }
-
-  [[nodiscard]] exit_status certified_status_of(path_status status) const {
-    if (status == path_status::solved && options_.strict && !judged_->all_exact())
-      return exit_status::uncertified;
-    return status_of(status);
-  }
-
-  run_options options_;
-  std::string engine_;  // of the leader's path
-  terminal terminal_;
-  bool shows_table_;
-  problem problem_;
-  linear_structure structure_;
-  std::optional<output_file> json_file_, log_file_, trace_file_;
-  std::optional<trace_recorder> recorder_;
-  std::optional<run_pictures> pictures_;
-  std::optional<report_files> reports_;
-  std::string compared_words_, differences_;  // how the kernels compared, for the reports
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  std::optional<result_json> json_;
-  std::optional<log_writer> log_;
-  std::optional<table> table_;
-  std::optional<certifier> judged_;
-  early_toggles early_;
-  std::optional<path_progress> shown_;
-  digit_watch digits_;
-  bool has_verdict_ = false;
+/// How the kernels compared.
+struct comparison {
+  bool equal = true;        // in lockstep: to the bit; on paths of their own: within the bound
+  std::string words;        // for reports; empty where nothing was compared
+  std::string differences;  // lines
 };
+
+/// Print how the comparison came out. A mismatch under a bad probe is the environment's.
+comparison report_lockstep(observed_run& o, const lockstep& compared) {
+  const tally& t = compared.compared();
+  const std::string names = fmt::format("{}", fmt::join(o.run.kernels, " and "));
+  comparison c{
+      t.mismatches == 0,
+      fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(), t.values, t.mismatches),
+      ""};
+  if (compared.calls() == 0) {
+    print_verdict(o, paint::quiet, {names + " were never called: nothing is compared"});
+    return c;
+  }
+  print_verdict(o, c.equal ? paint::good : paint::bad,
+                {fmt::format("{} {} to the bit", names, c.equal ? "are equal" : "are NOT equal"), c.words});
+  if (!compared.first()) return c;
+  for (const std::string& line : words_of(*compared.first())) {
+    complain("{}", line);
+    c.differences += line + "\n";
+  }
+  const floating_point fp = probe_floating_point();
+  if (!fp.strict()) complain("environment, not kernel: {}", describe(fp));
+  return c;
+}
+
+/// Print how the path of `name` compares with the leader's, and add that to `c`.
+void report_free_run(observed_run& o, const std::string& name, const free_run_difference& d, bool certified,
+                     comparison& c) {
+  const std::string distances = fmt::format("load fractions within {:.2g}, D within {:.2g} (bound {:.0e})",
+                                            d.fraction, d.displacement, d.bound);
+  print_verdict(
+      o, d.within_bound() ? paint::good : paint::bad,
+      {fmt::format("{} on a path of its own: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
+       distances, certified ? "certified" : "NOT certified"});
+  c.equal = c.equal && d.within_bound();
+  c.words += (c.words.empty() ? "" : "; ") + name + ": " + distances;
+  if (!d.first_difference.empty()) {
+    c.differences += name + ": " + d.first_difference + "\n";
+    complain("{}: first difference: {}", name, d.first_difference);
+  }
+  for (const auto& [what, difference] : {std::pair("a load fraction", d.fraction), {"D", d.displacement}}) {
+    if (difference > d.bound)
+      complain("{}: {} differs by {:.2g}; allowed: {:.0e}", name, what, difference, d.bound);
+  }
+}
+
+/// The certificate of the leader's path, for people.
+void report_certificate(observed_run& o) {
+  if (auto items = certificate_summary(o.judged); !items.empty()) {
+    if (o.run.options.final_only) items.resize(1);  // the rest compares the oracle with itself
+    const bool good = std::none_of(o.judged.steps().begin(), o.judged.steps().end(),
+                                   [](const auto& c) { return c && !c->exact; });
+    print_verdict(o, good ? paint::good : paint::bad, items);
+  }
+  flush_standard_output();  // the table before what is said about it; and no files when it is lost
+  for (const std::string& line : certificate_complaints(o.run.what, o.judged, o.early)) complain("{}", line);
+}
+
+/// The result of the certificate as a check. Without --strict nothing fails for it.
+check_result certificate_result(const observed_run& o) {
+  if (o.judged.all_exact()) return {"certificate", outcome::passed, "every final state is certified", ""};
+  return {"certificate", o.run.options.strict ? outcome::failed : outcome::skipped, "NOT certified",
+          fmt::format("{}", fmt::join(certificate_complaints(o.run.what, o.judged, o.early), "\n"))};
+}
+
+/// The report for --junit and --markdown.
+check_report check_report_of(const observed_run& o, const path_end& end, const comparison& c) {
+  const run_setup& run = o.run;
+  check_report r{"contct run", common_facts(), {}, 0.0};
+  r.facts.push_back(fmt::format("{}: kernels {}", run.options.file, fmt::join(run.kernels, ", ")));
+  if (run.kernels.size() > 1)
+    r.results.push_back({"kernels", c.equal ? outcome::passed : outcome::failed, c.words, c.differences});
+  const std::string ended = end_words(run.what, end);
+  const bool solved = end.status == path_status::solved;
+  r.results.push_back({"path", solved ? outcome::passed : outcome::failed,
+                       solved ? "every step's load is applied" : ended, ended});
+  r.results.push_back(certificate_result(o));
+  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - run.started).count();
+  return r;
+}
+
+exit_status exit_status_of(const observed_run& o, path_status ended, bool equal) {
+  if (!equal) return exit_status::kernels_differ;
+  const bool uncertified = o.run.options.strict && !o.judged.all_exact();
+  return ended == path_status::solved && uncertified ? exit_status::uncertified : status_of(ended);
+}
+
+/// Complete and name all files.
+void write_files(observed_run& o, const path_end& end, const comparison& c) {
+  const std::string status(c.equal ? status_name(end.status) : "kernels-disagree");
+  if (o.json) o.json->finish(status, end, o.compared);
+  if (o.log_file) o.log_file->finish();
+  if (o.trace_file) o.trace_file->finish();
+  o.pictures.finish([&]() -> finished_run {
+    return {o.run.what,
+            o.pictures.kept(),
+            o.pictures.record(),
+            o.judged,
+            o.early,
+            o.run.options.file,
+            o.run.kernels,
+            o.run.engine,
+            status,
+            end_words(o.run.what, end),
+            o.compared != nullptr,
+            c.equal,
+            c.words,
+            common_facts()};
+  });
+  o.reports.write(check_report_of(o, end, c));
+}
+
+/// What every run ends with: certificate, messages, files, exit status.
+exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
+  report_certificate(o);
+  if (end.status != path_status::solved) {
+    complain("{}: {}", o.run.options.file, end_words(o.run.what, end));
+  } else if (const std::string w = o.digits.warning(); !w.empty()) {
+    complain("warning: {}", w);
+  }
+  const exit_status status = exit_status_of(o, end.status, c.equal);
+  if (status != exit_status::bad_input) write_files(o, end, c);  // without numbers no files
+  return status;
+}
+
+/// No path: the equilibrium under each step's load, by the oracle.
+exit_status final_states(const run_setup& run) {
+  observed_run o(run, nullptr);
+  print_heading(run);
+  const path_end end = find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
+                                         loads_of(run.what), o.observers());
+  o.shown.erase();
+  print_verdict(o, paint::quiet,
+                {"only the end: the oracle's, judged by equilibrium, penetration and tension",
+                 fmt::format("{} factorisations", end.work.factors)});
+  return finish(o, end, {});
+}
+
+/// The leader's path, every call put to the other kernels.
+exit_status lockstep_run(const run_setup& run) {
+  const std::unique_ptr<kernel> leader = make_kernel(run.kernels.front());
+  lockstep compared = make_lockstep(leader->facts(), std::span(run.kernels).subspan(1));
+  const bool alone = run.kernels.size() == 1;
+  observed_run o(run, alone ? nullptr : &compared);
+  print_heading(run);
+  const path_end end = follow_leader(o, *leader, nullptr);
+  return finish(o, end, alone ? comparison{} : report_lockstep(o, compared));
+}
+
+/// Every kernel on a path of its own, one after the other: unit 26 exists only once.
+exit_status free_run(const run_setup& run) {
+  observed_run o(run, nullptr);
+  print_heading(run);
+  path_record leader;
+  leader.end = follow_leader(o, *make_kernel(run.kernels.front()), &leader);
+  comparison c;
+  for (const std::string& name : std::span(run.kernels).subspan(1)) {
+    path_record own;
+    certifier judged(run.structure, loads_of(run.what));
+    own.end = follow(run.what, run.structure, engine_for(name, run.options, run.structure),
+                     *make_kernel(name), {&judged, &own}, limits_of(run));
+    const double bound = free_run_bound(facts_of_kernel(run.kernels.front()), facts_of_kernel(name));
+    const free_run_difference d = compare_paths(leader, own, bound, run.structure.dofs_per_node);
+    if (o.json) o.json->add_free_run(name, d, judged.all_exact());
+    report_free_run(o, name, d, judged.all_exact(), c);
+  }
+  return finish(o, leader.end, c);
+}
 
 }  // namespace
 
-void add_run(CLI::App& program, exit_status& status) {
-  auto options = std::make_shared<run_options>();
-  CLI::App* const command =
-      program.add_subcommand("run", "Follow the path of a problem, all kernels in lockstep");
-  command->add_option("FILE", options->file, "The problem (TOML); - reads standard input")->required();
-  command->add_option("--kernels", options->kernels, "Kernels to run, the first one leads")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--engine", options->engine,
-                      fmt::format("How the stiffness equations are solved: auto, {} [refactor for the 1989 "
-                                  "rule, auto for others]",
-                                  fmt::join(engine_names(), ", ")));
-  CLI::Option* const free_run =
-      command->add_flag("--free-run", options->free_run,
-                        "Drive each kernel on a path of its own; compare events, load fractions and D");
-  CLI::Option* const final_only =
-      command->add_flag("--final-only", options->final_only,
-                        "No path: the equilibrium under each step's load by the oracle, certified");
-  final_only->excludes(free_run)->excludes("--kernels")->excludes("--engine");
-  command->add_flag("--strict", options->strict, "Exit 3 when a final state is not certified");
-  command->add_option("--max-increments", options->max_increments, "Limit of increments in a step")
-      ->check(CLI::Range(1, most_increments));
-  command->add_option("--json", options->json, "Write the result to this file (- is standard output)");
-  command->add_option("--trace", options->trace,
-                      "Write every call of the leader, inputs and answers, to this file");
-  add_picture_options(*command, options->pictures);
-  add_report_options(*command, options->report);
-  command->add_option("--log", options->log, "Write what the leader writes to unit 26 to this file");
-  for (const char* of_a_path : {"--trace", "--log", "--max-increments", "--html", "--svg", "--csv", "--vtu"})
-    final_only->excludes(command->get_option(of_a_path));
-  command->callback([options, &status] { status = run(*options).go(); });
+exit_status run_command(const run_options& options) {
+  const run_setup run = set_up(options, outputs_of(options));
+  if (options.final_only) return final_states(run);
+  return options.free_run ? free_run(run) : lockstep_run(run);
 }
 
 }  // namespace contct

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
+#include "app/streams.hpp"
 #include "contct/write/run_page.hpp"
 #include "contct/write/run_svg.hpp"
 #include "contct/write/run_vtu.hpp"
@@ -32,34 +34,7 @@ std::string collection(const std::string& vtu) {
   return vtu.empty() ? "" : beside(vtu, stem_of(vtu) + ".pvd");
 }
 
-void write_whole(output_file& file, std::string_view text) {
-  file.write(text);
-  file.finish();
-}
-
 }  // namespace
-
-void add_picture_options(CLI::App& command, picture_options& options) {
-  command.add_option(
-      "--html", options.html,
-      "Write the run as one page to this file: the structure increment by increment, its events, "
-      "kernel against kernel, the certificate (- is standard output). A structure given by its matrix is "
-      "drawn "
-      "where coordinates are known, and is a table otherwise");
-  command.add_option("--svg", options.svg,
-                     "Draw the final state and the load-deflection path to this file (- is standard output)");
-  command.add_option(
-      "--csv", options.csv,
-      "Write a table, an increment a row, to this file (- is standard output); F.csv has "
-      "F.pairs.csv beside it, a row for each pair and increment. Columns: step, increment, kind, s, "
-      "share, force, events, closed, open, at_face, smin, kernels; and step, increment, pair, node, "
-      "surface, state, look, w, gap, force");
-  command.add_option(
-      "--vtu", options.vtu,
-      "For ParaView: write the final state to this file; F.vtu has beside it F.000.vtu, F.001.vtu, "
-      ".. for the start and each kept increment, every step's final state among them, and F.pvd, "
-      "which collects these. A structure given by its matrix must have coordinates");
-}
 
 std::vector<output_option> with_pictures(std::vector<output_option> others, const picture_options& options) {
   others.push_back({"--html", options.html});
@@ -75,6 +50,23 @@ std::vector<output_option> with_pictures(std::vector<output_option> others, cons
   for (std::size_t i = 0; i < frame_limits{}.most_frames; ++i)
     others.push_back({"--vtu (its increments)", beside(options.vtu, name_of_frame(stem_of(options.vtu), i))});
   return others;
+}
+
+void check_grid_coordinates(const problem& p) {
+  const auto* a = std::get_if<assembled>(&p.geometry.kind);
+  if (a == nullptr) return;
+  if (!a->places.known())
+    throw std::invalid_argument(fmt::format(
+        "--vtu: found a structure given by its matrix, {}, without coordinates; allowed: one with "
+        "coordinates, "
+        "by coordinates = \"FILE\" in [matrix] or CalculiX's mesh, JOB.inp beside its matrix or mesh = "
+        "\"FILE\" in [calculix]. --csv and --json have all its numbers, by label",
+        a->name));
+  const auto lost = std::count_if(p.pairs.begin(), p.pairs.end(),
+                                  [a](const contact_pair& c) { return a->places.dofs[c.node].node < 0; });
+  if (lost > 0)
+    complain("warning: --vtu: {} of {} pairs {} no cell: the places of their dofs are not known", lost,
+             p.pairs.size(), lost == 1 ? "has" : "have");
 }
 
 run_pictures::run_pictures(const picture_options& options)
@@ -102,8 +94,8 @@ void run_pictures::finish(const std::function<finished_run()>& r) {
   if (tables_) tables_->finish();
   if (!wants_frames()) return;
   const finished_run run = r();
-  if (html_) write_whole(*html_, run_page(run));
-  if (svg_) write_whole(*svg_, run_svg(run));
+  if (html_) write_whole(html_, run_page(run));
+  if (svg_) write_whole(svg_, run_svg(run));
   if (vtu_) finish_vtu(run);
 }
 
@@ -112,11 +104,11 @@ void run_pictures::finish_vtu(const finished_run& r) {
   const std::string stem = stem_of(options_.vtu);
   const auto& frames = r.kept.frames();
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    output_file file(beside(options_.vtu, name_of_frame(stem, i)));
+    const auto file = std::make_unique<output_file>(beside(options_.vtu, name_of_frame(stem, i)));
     write_whole(file, vtu_of_frame(r.what, frames[i]));
   }
-  write_whole(*vtu_, vtu_of_frame(r.what, frames.back()));
-  write_whole(*pvd_, pvd_of_frames(stem, frames.size()));
+  write_whole(vtu_, vtu_of_frame(r.what, frames.back()));
+  write_whole(pvd_, pvd_of_frames(stem, frames.size()));
 }
 
 }  // namespace contct

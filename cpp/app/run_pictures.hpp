@@ -1,14 +1,13 @@
 // What `contct run` draws and tabulates: --html, --svg, --csv and --vtu.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/output_options.hpp"
+#include "app/outputs.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/write/finished_run.hpp"
 #include "contct/write/run_csv.hpp"
@@ -16,18 +15,14 @@
 
 namespace contct {
 
-struct picture_options {
-  std::string html, svg, csv, vtu;
-
-  [[nodiscard]] bool wants_frames() const { return !html.empty() || !svg.empty() || !vtu.empty(); }
-};
-
-void add_picture_options(CLI::App& command, picture_options& options);
-
 /// Every file that these options may write, behind `others`. Throws std::invalid_argument for names that
 /// cannot be theirs.
 [[nodiscard]] std::vector<output_option> with_pictures(std::vector<output_option> others,
                                                        const picture_options& options);
+
+/// For --vtu: throws std::invalid_argument where a structure given by its matrix has no coordinates, and
+/// warns of pairs that get no cell.
+void check_grid_coordinates(const problem& p);
 
 /// The files, open before any work is done, and the observers that fill them.
 class run_pictures {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "contct/text/did_you_mean.hpp"
 
 namespace contct {
@@ -16,45 +18,43 @@ bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument[0] == '-';
 }
 
-/// What may have been meant by an option that `command` does not have.
-std::string meant_option(const CLI::App& command) {
-  for (const std::string& argument : command.remaining(true)) {
+template <class Described>
+std::vector<std::string> names_of(const std::vector<Described>& all) {
+  std::vector<std::string> names;
+  names.reserve(all.size());
+  for (const Described& d : all) names.push_back(d.name);
+  return names;
+}
+
+/// What may have been meant by the first of `unknown` that looks like one of `options`.
+std::string meant_option(const std::vector<std::string>& unknown,
+                         const std::vector<option_description>& options) {
+  for (const std::string& argument : unknown) {
     if (!is_option(argument)) continue;
-    if (std::string meant = did_you_mean(name_in(argument), option_names(command)); !meant.empty())
-      return meant;
+    if (std::string meant = did_you_mean(name_in(argument), names_of(options)); !meant.empty()) return meant;
   }
   return "";
 }
 
+std::string missing_command(const program_description& program, const std::vector<std::string>& unknown) {
+  if (unknown.empty()) return "a command is missing";
+  const bool option = is_option(unknown.front());
+  const std::vector<std::string> known = option ? names_of(program.options) : names_of(program.commands);
+  return fmt::format("\"{}\" is no {} of contct", unknown.front(), option ? "option" : "command") +
+         did_you_mean(name_in(unknown.front()), known);
+}
+
 }  // namespace
 
-std::vector<std::string> command_names(const CLI::App& program) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-    if (!command->get_group().empty()) names.push_back(command->get_name());
-  return names;
-}
-
-std::vector<std::string> option_names(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return names;
-}
-
-std::string usage_words(const CLI::App& program, const CLI::ParseError& error) {
-  const auto commands = program.get_subcommands();
-  if (!commands.empty()) return error.what() + meant_option(*commands.front());
-  const bool has_commands = !command_names(program).empty();
-  if (!has_commands) return error.what() + meant_option(program);
-  const std::vector<std::string> unknown = program.remaining();
-  std::string words = "a command is missing";
-  if (!unknown.empty()) {
-    const bool option = is_option(unknown.front());
-    words = fmt::format("\"{}\" is no {} of contct", unknown.front(), option ? "option" : "command") +
-            did_you_mean(name_in(unknown.front()), option ? option_names(program) : command_names(program));
-  }
-  return fmt::format("{}; the commands are: {}", words, fmt::join(command_names(program), ", "));
+std::string usage_words(const program_description& program, const std::string& command,
+                        const std::vector<std::string>& unknown, const std::string& error) {
+  constexpr const char* advice = "\nRun with --help for more information.";
+  if (program.commands.empty()) return error + meant_option(unknown, program.options) + advice;
+  const auto named = std::find_if(program.commands.begin(), program.commands.end(),
+                                  [&](const command_description& c) { return c.name == command; });
+  if (named != program.commands.end()) return error + meant_option(unknown, named->options) + advice;
+  return fmt::format("{}; the commands are: {}{}", missing_command(program, unknown),
+                     fmt::join(names_of(program.commands), ", "), advice);
 }
 
 }  // namespace contct

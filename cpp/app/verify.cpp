@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/outputs.hpp"
 #include "app/progress.hpp"
-#include "app/report_options.hpp"
 #include "app/streams.hpp"
 #include "contct/lab/verified.hpp"
 #include "contct/read/problem_file.hpp"
@@ -25,12 +25,6 @@ namespace {
 
 using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-struct verify_options {
-  std::string reference;
-  std::string json;
-  report_options report;
-};
 
 /// reference/ as asked for; or what was installed with the program, wherever both have been moved; or that of
 /// the tree in which the program was built.
@@ -208,7 +202,9 @@ class report {
   json all_ = json::array();
 };
 
-exit_status verify(const verify_options& options) {
+}  // namespace
+
+exit_status run_command(const verify_options& options) {
   const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
   refuse_shared_outputs(outputs);
   const fs::path reference = find_reference(options.reference);
@@ -234,18 +230,6 @@ exit_status verify(const verify_options& options) {
   }
   reports.write(r.for_machines());
   return r.passed() ? exit_status::solved : exit_status::kernels_differ;
-}
-
-}  // namespace
-
-void add_verify(CLI::App& program, exit_status& status) {
-  auto options = std::make_shared<verify_options>();
-  CLI::App* const command = program.add_subcommand(
-      "verify", "Every problem in reference/ against published, closed-form and recomputed numbers");
-  command->add_option("--reference", options->reference, "The folder with verification.toml and problems/");
-  command->add_option("--json", options->json, "Write all numbers to this file (- is standard output)");
-  add_report_options(*command, options->report);
-  command->callback([options, &status] { status = verify(*options); });
 }
 
 }  // namespace contct

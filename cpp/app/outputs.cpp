@@ -1,11 +1,19 @@
-#include "app/output_options.hpp"
+#include "app/outputs.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "contct/numeric/probe.hpp"
+
 namespace contct {
+
+std::vector<output_option> with_reports(std::vector<output_option> others, const report_options& options) {
+  others.push_back({"--junit", options.junit});
+  others.push_back({"--markdown", options.markdown});
+  return others;
+}
 
 void refuse_shared_outputs(const std::vector<output_option>& outputs,
                            const std::vector<output_option>& inputs) {
@@ -36,6 +44,26 @@ bool takes_standard_output(const std::vector<output_option>& outputs) {
 
 std::unique_ptr<output_file> open_output(const output_option& o) {
   return o.path.empty() ? nullptr : std::make_unique<output_file>(o.path);
+}
+
+void write_whole(const std::unique_ptr<output_file>& file, std::string_view text) {
+  if (!file) return;
+  file->write(text);
+  file->finish();
+}
+
+report_files::report_files(const report_options& options)
+    : junit_(open_output({"--junit", options.junit})),
+      markdown_(open_output({"--markdown", options.markdown})) {}
+
+void report_files::write(const check_report& report) {
+  if (junit_) write_whole(junit_, junit_xml(report));
+  if (markdown_) write_whole(markdown_, markdown(report));
+}
+
+std::vector<std::string> common_facts() {
+  return {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
+          "floating point: " + describe(probe_floating_point())};
 }
 
 }  // namespace contct
