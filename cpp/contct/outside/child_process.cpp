@@ -16,6 +16,7 @@
 #include <cstring>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace contct {
 namespace {
@@ -24,8 +25,9 @@ namespace {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// The parent's files, its unprinted text and its core dumps are none of the child's business.
-void leave_parents_things(int channel) {
+/// Close the parent's files but for the channel, drop its unprinted text, and reset its signal handlers: a
+/// crash of the child must end it. No core dumps.
+void detach_from_parent(int channel) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   __fpurge(stdout);
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -33,7 +35,6 @@ void leave_parents_things(int channel) {
   dup2(STDERR_FILENO, STDOUT_FILENO);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  // The parent's handlers neither: a crash must be one, and be told as one.
   for (const int signal :
        {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS})
     (void)std::signal(signal, SIG_DFL);
@@ -71,7 +72,7 @@ child_process::child_process(const std::function<void(int channel)>& body) {
     fail("no process for a kernel from outside");
   }
   if (pid_ == 0) {
-    leave_parents_things(ends[1]);
+    detach_from_parent(ends[1]);
     body(ends[1]);
     _exit(0);
   }
@@ -89,7 +90,7 @@ child_process::sent child_process::send(std::string_view message, clock::time_po
     const ssize_t n = ::send(channel_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n < 0 && (errno == EAGAIN || errno == EINTR)) continue;
     if (n <= 0) return sent::gone;
-    message.remove_prefix(static_cast<std::size_t>(n));
+    message.remove_prefix(n);
   }
   return sent::whole;
 }
@@ -101,7 +102,7 @@ child_process::sent child_process::receive(std::string& message, clock::time_poi
     const ssize_t n = recv(channel_, block, sizeof block, 0);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return sent::gone;
-    message.append(block, static_cast<std::size_t>(n));
+    message.append(block, n);
     return sent::whole;
   }
 }
@@ -110,7 +111,7 @@ std::string child_process::end() {
   if (pid_ < 0) return was_stopped;
   if (channel_ >= 0) close(channel_);
   channel_ = -1;
-  // One that is on its way out has a moment to say how.
+  // A child that is ending has a moment to do so: its status says how.
   int status = 0;
   pid_t waited = 0;
   for (int i = 0; i < 50 && (waited = waitpid(pid_, &status, WNOHANG)) == 0; ++i)
@@ -127,6 +128,38 @@ std::string child_process::end() {
     return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
   }
   return "ended with status " + std::to_string(WEXITSTATUS(status));
+}
+
+kernel_in_child::kernel_in_child(kernel_facts facts, const outside_limits& limits)
+    : facts_(std::move(facts)), limits_(limits) {}
+
+void kernel_in_child::refuse_when_enough() const {
+  if (failures_ < limits_.most_failures && waits_ < limits_.most_waits) return;
+  throw kernel_failure("is asked no more after " + std::to_string(failures_ + waits_) +
+                       " failures; the last: it " + last_);
+}
+
+void kernel_in_child::fail(const std::string& words) {
+  fail_with(failures_, words);
+}
+
+void kernel_in_child::fail_late(const std::string& words) {
+  fail_with(waits_, words);
+}
+
+void kernel_in_child::fail_with(int& count, const std::string& words) {
+  child_.reset();
+  ++count;
+  last_ = words;
+  throw kernel_failure("it " + words);
+}
+
+void kernel_in_child::fail_without_answer(child_process::sent how) {
+  const std::string words = child_->end();
+  if (how == child_process::sent::late)
+    fail_late("did not answer within " + std::to_string(limits_.patience.count()) + " ms");
+  if (words == child_process::was_stopped) fail_late("closed its end of the pipe");  // and went on running
+  fail(words);
 }
 
 }  // namespace contct

@@ -1,12 +1,16 @@
-// A process of one's own for a kernel from outside: it may crash, hang or lie, and the run goes on.
+// A process of its own for a kernel from outside: it may crash, hang or answer nonsense, and the run goes on.
 #pragma once
 
 #include <sys/types.h>
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "contct/kernel/kernel.hpp"
+#include "contct/outside/outside.hpp"
 
 namespace contct {
 
@@ -14,7 +18,7 @@ namespace contct {
 class child_process {
  public:
   using clock = std::chrono::steady_clock;
-  /// What came of a message.
+  /// What came of a message: sent or received; not before the deadline; the channel is closed.
   enum class sent { whole, late, gone };
 
   /// Fork; the child runs `body`, which gets its end of the channel and must not return to the caller's code:
@@ -29,7 +33,7 @@ class child_process {
   /// Append what comes next, at least a byte, to `message`.
   [[nodiscard]] sent receive(std::string& message, clock::time_point deadline) const;
 
-  /// Make an end of it. "was ended by signal 11 (Segmentation fault)", "ended with status 2", or, when
+  /// End the child. "was ended by signal 11 (Segmentation fault)", "ended with status 2", or, when
   /// it had to be stopped, `was_stopped`.
   std::string end();
   static constexpr const char* was_stopped = "was stopped";
@@ -37,6 +41,38 @@ class child_process {
  private:
   pid_t pid_ = -1;
   int channel_ = -1;
+};
+
+/// What kernels from outside share: the child that answers, its deadline, and how often it may fail.
+class kernel_in_child : public kernel {
+ public:
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+
+ protected:
+  kernel_in_child(kernel_facts facts, const outside_limits& limits);
+
+  [[nodiscard]] child_process::clock::time_point deadline() const {
+    return child_process::clock::now() + limits_.patience;
+  }
+  /// Throws kernel_failure when the kernel has failed too often to be asked again.
+  void refuse_when_enough() const;
+  /// End the child, and throw a failure that cost no time.
+  [[noreturn]] void fail(const std::string& words);
+  /// End the child, and throw a failure that had to be waited for.
+  [[noreturn]] void fail_late(const std::string& words);
+  /// End the child, and throw what kept a message from being sent or received whole.
+  [[noreturn]] void fail_without_answer(child_process::sent how);
+
+  std::optional<child_process> child_;
+
+ private:
+  [[noreturn]] void fail_with(int& count, const std::string& words);
+
+  kernel_facts facts_;
+  outside_limits limits_;
+  int failures_ = 0;
+  int waits_ = 0;
+  std::string last_;
 };
 
 }  // namespace contct

@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
 
 #include "contct/kernel/fortran.hpp"
 #include "contct/outside/child_process.hpp"
@@ -28,8 +28,8 @@ constexpr const char* too_slow = "did not load within its time";
 /// Memory that parent and child both see, as long as this object lives.
 class shared_memory {
  public:
-  explicit shared_memory(std::size_t bytes) : size_(bytes) {
-    at_ = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  explicit shared_memory(std::size_t bytes)
+      : at_(mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)), size_(bytes) {
     if (at_ == MAP_FAILED)
       throw std::system_error(errno, std::generic_category(), "no memory to share with a plug-in");
   }
@@ -45,73 +45,69 @@ class shared_memory {
   std::size_t size_;
 };
 
-/// One array of a call in shared memory, between two fences that nobody may touch.
-struct fenced_array {
-  static constexpr std::size_t fence = 256;
-  static constexpr unsigned char fence_byte = 0xA5;
-  const char* name;
-  std::size_t at;     // of its first element
-  std::size_t bytes;  // of all
+enum array_index { dd, dtest, cc, ss, smin, id, isep, isurf, arrays };
+constexpr const char* names[arrays] = {"DD", "DTEST", "CC", "SS", "SMIN", "ID", "ISEP", "ISURF"};
 
-  [[nodiscard]] std::size_t end() const { return (at + bytes + fence + 15) / 16 * 16; }
-};
+/// What no kernel may touch, in front of each array and behind it.
+constexpr std::size_t fence = 256;
+constexpr std::byte fence_byte{0xA5};
 
-/// Where everything of a call of `nc` pairs and `dofs` dofs stands. The child works it out again.
+/// Where the arrays of a call are in the shared memory, whose beginning holds a copy of this for the child.
 struct layout {
-  int nc, dofs, indof, ndofpn;
+  int nc, ndof, indof, ndofpn;
+  std::size_t at[arrays] = {};       // the first byte of each array, from the beginning of the memory
+  std::size_t bytes[arrays];         // of each array
+  std::size_t end = sizeof(layout);  // of the last fence
 
-  [[nodiscard]] std::vector<fenced_array> arrays() const {
-    const auto pairs = static_cast<std::size_t>(nc);
-    const auto reals = static_cast<std::size_t>(dofs) * sizeof(double);
-    std::vector<fenced_array> all = {{"DD", 0, reals},
-                                     {"DTEST", 0, reals},
-                                     {"CC", 0, pairs * sizeof(double)},
-                                     {"SS", 0, pairs * sizeof(double)},
-                                     {"SMIN", 0, sizeof(double)},
-                                     {"ID", 0, pairs * sizeof(int)},
-                                     {"ISEP", 0, pairs * sizeof(int)},
-                                     {"ISURF", 0, pairs * sizeof(int)}};
-    std::size_t at = 64;  // behind this layout itself
-    for (fenced_array& a : all) {
-      a.at = at + fenced_array::fence;
-      at = a.end();
+  explicit layout(const call<double>& c)
+      : nc(c.nc()),
+        ndof(static_cast<int>(c.dd.size())),
+        indof(c.dof.indof),
+        ndofpn(c.dof.ndofpn),
+        bytes{c.dd.size_bytes(), c.dtest.size_bytes(), c.cc.size_bytes(),   c.ss.size_bytes(),
+              sizeof(double),    c.id.size_bytes(),    c.isep.size_bytes(), c.isurf.size_bytes()} {
+    constexpr std::size_t alignment = 16;
+    for (int a = 0; a < arrays; ++a) {
+      at[a] = (end + fence + alignment - 1) / alignment * alignment;
+      end = at[a] + bytes[a] + fence;
     }
-    return all;
   }
-  [[nodiscard]] std::size_t bytes() const { return arrays().back().end() + fenced_array::fence; }
 };
-enum array_index { dd, dtest, cc, ss, smin, id, isep, isurf };
 
+/// The numbers at a place in the shared memory.
 template <class T>
-T* at(std::byte* memory, const fenced_array& a) {
-  return reinterpret_cast<T*>(memory + a.at);
+T* at(std::byte* memory, std::size_t place) {
+  return reinterpret_cast<T*>(memory + place);  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
 }
 
-/// What the child does for ever: wait for a call, make it, say so.
+/// What the child does until its channel is closed: wait for a call, make it, say so.
 void serve(const shared_memory& memory, kernel_function ask, int channel) {
+  std::byte* const m = memory.data();
+  const layout& l = *at<layout>(m, 0);
+  const auto reals = [m, &l](array_index a) { return at<double>(m, l.at[a]); };
+  const auto wholes = [m, &l](array_index a) { return at<int>(m, l.at[a]); };
   char word = 0;
   while (read(channel, &word, 1) == 1) {
-    layout l{};
-    std::memcpy(&l, memory.data(), sizeof l);
-    const std::vector<fenced_array> a = l.arrays();
-    std::byte* const m = memory.data();
-    ask(at<double>(m, a[dd]), at<double>(m, a[dtest]), at<double>(m, a[cc]), at<double>(m, a[ss]),
-        at<double>(m, a[smin]), at<int>(m, a[id]), at<int>(m, a[isep]), at<int>(m, a[isurf]), l.nc, l.indof,
-        l.ndofpn, l.dofs);
+    ask(reals(dd), reals(dtest), reals(cc), reals(ss), reals(smin), wholes(id), wholes(isep), wholes(isurf),
+        l.nc, l.indof, l.ndofpn, l.ndof);
     if (write(channel, &word, 1) != 1) return;
   }
 }
 
 /// What the child does: load the library, say "ready" or what is wrong, serve.
 void host(const shared_memory& memory, const std::string& path, int channel) {
-  const auto say = [channel](const std::string& words) { (void)!write(channel, words.data(), words.size()); };
-  fortran::forget_unit_26();  // the plug-in may be FORTRAN, with a unit 26 of its own
+  const auto say = [channel](const std::string& words) {
+    [[maybe_unused]] const ssize_t n = write(channel, words.data(), words.size());
+  };
+  fortran::forget_unit_26();  // the plug-in may be FORTRAN and write to its own unit 26
   // dlopen looks for a name without a slash among the system's libraries only.
   void* const library =
       dlopen((path.find('/') == std::string::npos ? "./" + path : path).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return say(std::string("cannot be loaded: ") + dlerror());
+  // NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast): dlsym gives no other type
   const auto version = reinterpret_cast<abi_function>(dlsym(library, "contct_kernel_abi"));
   const auto ask = reinterpret_cast<kernel_function>(dlsym(library, "contct_kernel"));
+  // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
   if (version == nullptr || ask == nullptr)
     return say(std::string("found no symbol ") +
                (version == nullptr ? "contct_kernel_abi" : "contct_kernel") +
@@ -122,41 +118,36 @@ void host(const shared_memory& memory, const std::string& path, int channel) {
   serve(memory, ask, channel);
 }
 
-class plugin_kernel final : public kernel {
+class plugin_kernel final : public kernel_in_child {
  public:
   plugin_kernel(const std::string& path, const outside_limits& limits)
-      : facts_(facts_of_plugin(path)), path_(path), limits_(limits), failures_(limits) {
+      : kernel_in_child(facts_of_plugin(path), limits), path_(path) {
     constexpr std::size_t enough_for_most = std::size_t{1} << 18;
     memory_.emplace(enough_for_most);
     if (const std::string wrong = start(); !wrong.empty())
       throw std::invalid_argument("plugin:" + path + ": " + wrong);
   }
 
-  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
-
   void answer(call<double>& c) override {
-    failures_.refuse_when_enough();
-    const layout l{c.nc(), static_cast<int>(c.dd.size()), c.dof.indof, c.dof.ndofpn};
-    make_room(l.bytes());
+    refuse_when_enough();
+    const layout l(c);
+    make_room(l.end);
     if (!child_) {
       const std::string wrong = start();
-      if (wrong == too_slow) failures_.fail_late(wrong);
-      if (!wrong.empty()) failures_.fail(wrong);
+      if (wrong == too_slow) fail_late(wrong);
+      if (!wrong.empty()) fail(wrong);
     }
-    put(l, c);
-    const auto deadline = child_process::clock::now() + limits_.patience;
+    write_call(l, c);
+    const auto until = deadline();
     std::string word;
-    child_process::sent how = child_->send("?", deadline);
-    if (how == child_process::sent::whole) how = child_->receive(word, deadline);
-    if (how != child_process::sent::whole) {
-      const std::string words = child_->end();
-      child_.reset();
-      if (how == child_process::sent::late)
-        failures_.fail_late("did not answer within " + std::to_string(limits_.patience.count()) + " ms");
-      failures_.fail(words);
-    }
-    refuse_trespass(l, c);
-    take(l, c);
+    auto how = child_->send("?", until);
+    if (how == child_process::sent::whole) how = child_->receive(word, until);
+    if (how != child_process::sent::whole) fail_without_answer(how);
+    refuse_changes(l, c);
+    std::byte* const m = memory_->data();
+    c.smin = *at<double>(m, l.at[smin]);
+    std::copy_n(at<double>(m, l.at[ss]), c.ss.size(), c.ss.begin());
+    std::copy_n(at<int>(m, l.at[isep]), c.isep.size(), c.isep.begin());
   }
 
   std::string take_text() override { return {}; }
@@ -166,7 +157,7 @@ class plugin_kernel final : public kernel {
   std::string start() {
     child_.emplace([this](int channel) { host(*memory_, path_, channel); });
     std::string word;
-    const auto how = child_->receive(word, child_process::clock::now() + limits_.patience);
+    const auto how = child_->receive(word, deadline());
     if (how == child_process::sent::whole && word == ready_word) return "";
     const std::string words = child_->end();
     child_.reset();
@@ -181,65 +172,43 @@ class plugin_kernel final : public kernel {
     memory_.emplace(2 * bytes);
   }
 
-  void put(const layout& l, const call<double>& c) {
-    const std::vector<fenced_array> a = l.arrays();
+  /// The caller's arrays, in the listing's order.
+  static std::array<const void*, arrays> arrays_of(const call<double>& c) {
+    return {c.dd.data(), c.dtest.data(), c.cc.data(),   c.ss.data(),
+            &c.smin,     c.id.data(),    c.isep.data(), c.isurf.data()};
+  }
+
+  void write_call(const layout& l, const call<double>& c) {
     std::byte* const m = memory_->data();
-    std::memset(m, fenced_array::fence_byte, l.bytes());
+    std::memset(m, std::to_integer<int>(fence_byte), l.end);
     std::memcpy(m, &l, sizeof l);
-    std::copy(c.dd.begin(), c.dd.end(), at<double>(m, a[dd]));
-    std::copy(c.dtest.begin(), c.dtest.end(), at<double>(m, a[dtest]));
-    std::copy(c.cc.begin(), c.cc.end(), at<double>(m, a[cc]));
-    std::copy(c.ss.begin(), c.ss.end(), at<double>(m, a[ss]));
-    *at<double>(m, a[smin]) = c.smin;
-    std::copy(c.id.begin(), c.id.end(), at<int>(m, a[id]));
-    std::copy(c.isep.begin(), c.isep.end(), at<int>(m, a[isep]));
-    std::copy(c.isurf.begin(), c.isurf.end(), at<int>(m, a[isurf]));
+    const auto from = arrays_of(c);
+    for (int a = 0; a < arrays; ++a)
+      if (l.bytes[a] > 0) std::memcpy(m + l.at[a], from[a], l.bytes[a]);
   }
 
   /// Fences and inputs must be as they were.
-  void refuse_trespass(const layout& l, const call<double>& c) {
-    const std::vector<fenced_array> a = l.arrays();
-    std::byte* const m = memory_->data();
+  void refuse_changes(const layout& l, const call<double>& c) {
+    const std::byte* const m = memory_->data();
+    const auto from = arrays_of(c);
     std::string words;
-    for (const fenced_array& array : a) {
-      if (!fence_stands(m + array.at - fenced_array::fence))
-        words = std::string("wrote in front of ") + array.name;
-      if (!fence_stands(m + array.at + array.bytes))
-        words = std::string("wrote behind the end of ") + array.name;
+    for (int a = 0; a < arrays; ++a) {
+      if (!intact(m + l.at[a] - fence)) words = std::string("wrote in front of ") + names[a];
+      if (!intact(m + l.at[a] + l.bytes[a])) words = std::string("wrote behind the end of ") + names[a];
     }
-    const auto kept = [&](array_index i, const void* before) {
-      if (a[i].bytes > 0 && std::memcmp(m + a[i].at, before, a[i].bytes) != 0)
-        words = std::string("changed its input ") + a[i].name;
-    };
-    kept(dd, c.dd.data());
-    kept(dtest, c.dtest.data());
-    kept(cc, c.cc.data());
-    kept(id, c.id.data());
-    kept(isurf, c.isurf.data());
-    if (words.empty()) return;
-    child_.reset();  // who knows what else it wrote
-    failures_.fail(words);
+    for (const array_index a : {dd, dtest, cc, id, isurf}) {
+      if (l.bytes[a] > 0 && std::memcmp(m + l.at[a], from[a], l.bytes[a]) != 0)
+        words = std::string("changed its input ") + names[a];
+    }
+    if (!words.empty()) fail(words);  // with a fresh child next: what else it wrote is not known
   }
 
-  static bool fence_stands(const std::byte* fence) {
-    return std::all_of(fence, fence + fenced_array::fence,
-                       [](std::byte b) { return b == std::byte{fenced_array::fence_byte}; });
+  static bool intact(const std::byte* fence_at) {
+    return std::all_of(fence_at, fence_at + fence, [](std::byte b) { return b == fence_byte; });
   }
 
-  void take(const layout& l, call<double>& c) {
-    const std::vector<fenced_array> a = l.arrays();
-    std::byte* const m = memory_->data();
-    c.smin = *at<double>(m, a[smin]);
-    std::copy_n(at<double>(m, a[ss]), c.ss.size(), c.ss.begin());
-    std::copy_n(at<int>(m, a[isep]), c.isep.size(), c.isep.begin());
-  }
-
-  kernel_facts facts_;
   std::string path_;
-  outside_limits limits_;
-  failure_count failures_;
   std::optional<shared_memory> memory_;
-  std::optional<child_process> child_;
 };
 
 }  // namespace

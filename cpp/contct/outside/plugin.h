@@ -38,7 +38,7 @@ CONTCT_KERNEL_EXPORT int contct_kernel_abi(void);
  *   indof   in           INDOF: which dof of a node deflects, from 1 to ndofpn
  *   ndofpn  in           NDOFPN: dofs of a node
  *   ndof    in           length of dd and dtest; the element of pair i,
- *                        (id[i] - 1) * ndofpn + indof - 1, is below it; others may be nobody's
+ *                        (id[i] - 1) * ndofpn + indof - 1, is below it; others may belong to no pair
  *
  * Values may be infinite, NaN, subnormal or -0.0, and are compared with the listing's to the bit (NaN equals
  * NaN), so compile without contraction and without fast-math: -ffp-contract=off.

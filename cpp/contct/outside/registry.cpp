@@ -10,9 +10,9 @@
 namespace contct {
 namespace {
 
-/// What stands behind "plugin:" or "pipe:"; nothing when the name begins with something else.
-std::optional<std::string> behind(std::string_view prefix, std::string_view name) {
-  if (name.substr(0, prefix.size()) != prefix || name.size() == prefix.size()) return {};
+/// What follows "plugin:" or "pipe:" in a name; nothing when it begins with something else.
+std::optional<std::string> after(std::string_view prefix, std::string_view name) {
+  if (!name.starts_with(prefix) || name.size() == prefix.size()) return {};
   return std::string(name.substr(prefix.size()));
 }
 
@@ -27,16 +27,16 @@ std::optional<std::string> behind(std::string_view prefix, std::string_view name
 }  // namespace
 
 std::unique_ptr<kernel> make_kernel(std::string_view name) {
-  if (const auto path = behind("plugin:", name)) return make_plugin(*path);
-  if (const auto command = behind("pipe:", name)) return make_pipe(*command);
+  if (const auto path = after("plugin:", name)) return make_plugin(*path);
+  if (const auto command = after("pipe:", name)) return make_pipe(*command);
   std::unique_ptr<kernel> made = make_built_in(name);
   if (!made) refuse_unknown(name);
   return made;
 }
 
 kernel_facts facts_of_kernel(std::string_view name) {
-  if (const auto path = behind("plugin:", name)) return facts_of_plugin(*path);
-  if (const auto command = behind("pipe:", name)) return facts_of_pipe(*command);
+  if (const auto path = after("plugin:", name)) return facts_of_plugin(*path);
+  if (const auto command = after("pipe:", name)) return facts_of_pipe(*command);
   const std::optional<kernel_facts> facts = facts_of_built_in(name);
   if (!facts) refuse_unknown(name);
   return *facts;
