@@ -3,31 +3,19 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "contct/text/markup.hpp"
+
 namespace contct {
 namespace {
 
-/// Text inside XML: what XML 1.0 does not allow at all becomes "?".
+/// Text in an attribute, where XML takes a line's end for a blank unless it is a character reference.
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char ch : text) {
-    switch (ch) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        out += static_cast<unsigned char>(ch) < 0x20 && ch != '\t' ? '?' : ch;
+  for (const char ch : markup_text(text)) {
+    if (ch == '\n') {
+      out += "&#10;";
+    } else {
+      out += ch;
     }
   }
   return out;
