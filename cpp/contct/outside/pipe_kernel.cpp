@@ -79,7 +79,7 @@ class pipe_kernel final : public kernel {
     try {
       trace_reader reader(answered_, "its answer");
       reader.read_answer(out_);
-      if (reader.line() != std::count(answered_.begin(), answered_.end(), '\n'))
+      if (reader.line() != static_cast<int>(std::count(answered_.begin(), answered_.end(), '\n')))
         throw input_error("its answer goes on behind \"end\"");
     } catch (const input_error& e) {
       child_.reset();
