@@ -128,7 +128,7 @@ void trace_reader::read_header_line(std::string_view line, trace_header& h) cons
     return;
   }
   if (takes(value, "real")) {
-    if (value != "4" && value != "8") refuse(line, "\"real 8\" or \"real 4\"");
+    if (value != "4" && value != "8") refuse(line, R"("real 8" or "real 4")");
     h.real_bytes = value == "4" ? 4 : 8;
     return;
   }
@@ -139,7 +139,7 @@ void trace_reader::read_header_line(std::string_view line, trace_header& h) cons
            "about, kernel, real, rule, listing, compiler, flags, lapack, floating-point, or an empty line");
   h.*fact->value = value;
   if (fact->key == "rule" && value != "listing" && value != "corrected")
-    refuse(line, "\"rule listing\" or \"rule corrected\"");
+    refuse(line, R"("rule listing" or "rule corrected")");
 }
 
 bool trace_reader::next(recorded_call& c) {
@@ -268,7 +268,7 @@ void trace_reader::read_answer(call_outputs& out) {
   out.text.clear();
   std::string_view line = need_line("\"end\"");
   for (; line.starts_with('|'); line = need_line("\"end\"")) out.text.append(line.substr(1)).append("\n");
-  if (line != "end") refuse(line, "\"|\" and a line of unit 26, or \"end\"");
+  if (line != "end") refuse(line, R"("|" and a line of unit 26, or "end")");
 }
 
 }  // namespace contct
