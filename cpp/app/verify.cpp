@@ -74,7 +74,7 @@ class report {
 
   void add(const verified_case& c) {
     ++cases_;
-    for (const std::string& line : wrap_words(c.title.empty() ? c.file : c.title, terminal_.width)) {
+    for (const std::string& line : wrap({c.title.empty() ? c.file : c.title}, terminal_.width)) {
       say("{}\n", painted(terminal_, paint::strong, line));
     }
     say("{}: {} of {} calls equal to the bit\n", c.file, c.calls - c.mismatches, c.calls);
@@ -149,7 +149,7 @@ class report {
     std::string source =
         fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
     if (source != said) {
-      for (const std::string& line : wrap_words(source, terminal_.width - 4)) {
+      for (const std::string& line : wrap({source}, terminal_.width - 4)) {
         say("    {}\n", painted(terminal_, paint::quiet, line));
       }
       said = std::move(source);
@@ -159,7 +159,7 @@ class report {
         painted(terminal_, paint_of(n), mark_of(n)));
     say("\n");
     if (known_to_miss(n)) {
-      for (const std::string& line : wrap_words(e.reason, terminal_.width - 6)) say("      {}\n", line);
+      for (const std::string& line : wrap({e.reason}, terminal_.width - 6)) say("      {}\n", line);
     }
   }
 
@@ -170,20 +170,6 @@ class report {
   static std::string words_of(const expected_number& e, double x) {
     if (e.quantity == "state") return x < 0 ? "contact" : "separated";
     return fmt::format("{:.8g}", x);
-  }
-
-  static std::vector<std::string> wrap_words(const std::string& text, int width) {
-    std::vector<std::string> lines(1);
-    std::size_t from = 0;
-    while (from < text.size()) {
-      const std::size_t end = std::min(text.find(' ', from), text.size());
-      const std::string word = text.substr(from, end - from);
-      if (!lines.back().empty() && static_cast<int>(lines.back().size() + 1 + word.size()) > width)
-        lines.emplace_back();
-      lines.back() += (lines.back().empty() ? "" : " ") + word;
-      from = end + 1;
-    }
-    return lines;
   }
 
   template <class... Arguments>

@@ -72,7 +72,7 @@ TEST_CASE("what CalculiX does not write is refused with its line") {
   CHECK_THAT(refusal(with("time  0.1", "time  x.1")), Contains("job.dat:2: "));
   CHECK_THAT(refusal("         3  3.037358E-19  0.000000E+00 -4.837226E-10\n"), Contains("job.dat:1: "));
   CHECK_THAT(refusal(captured.substr(0, captured.size() - 1)),
-             Contains("job.dat:10: ") && Contains("cut off"));
+             Contains("job.dat:10: ") && Contains("cut short"));
   CHECK_THAT(refusal(captured.substr(0, captured.find("        18"))), Contains("found no node"));
 }
 

@@ -1,7 +1,10 @@
 // Kinds of bad input that only a plate can have.
 #pragma once
 
-#include "read/bad_inputs.hpp"
+#include <string>
+#include <vector>
+
+#include "read/refusals.hpp"
 
 namespace contct {
 

@@ -9,15 +9,14 @@
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
-#include "contct/matrix/sparse_factor.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/read/matrix_tables.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/result_json.hpp"
 #include "support/beams.hpp"
 #include "support/matrices.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct;
 namespace fs = std::filesystem;
@@ -25,32 +24,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const fs::path reference = CONTCT_REFERENCE;
-
-/// A folder of the test's own.
-class folder {
- public:
-  folder() : path_(fs::temp_directory_path() / "contct-matrix-XXXXXX") {
-    std::string name = path_.string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~folder() { fs::remove_all(path_); }
-  folder(const folder&) = delete;
-  folder& operator=(const folder&) = delete;
-  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(path_ / name, std::ios::binary).rdbuf();
-    return text.str();
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::string text_of(const sparse_matrix& a) {
   std::string text = fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n", a.order,
@@ -71,7 +44,7 @@ std::string label(int dof, int dofs_per_node) {
 }
 
 /// A problem with its structure written out as a matrix, and its loads as whole vectors.
-std::string exported(const problem& p, const folder& to) {
+std::string exported(const problem& p, const scratch_folder& to) {
   const int stride = dofs_per_node(p.geometry);
   const sparse_matrix k = entries_of(build(p.geometry, {}, {}));
   (void)to.write("K.mtx", text_of(k));
@@ -199,7 +172,7 @@ TEST_CASE("the same structure by its matrix has the same events and the same D, 
         "pp01e-unilateral-edges-n8-k1e5", "pp03d-corners-and-settled-stop-n4"}) {
     INFO(name);
     const problem native = read_problem((reference / "problems" / (std::string(name) + ".toml")).string());
-    const folder here;
+    const scratch_folder here;
     const run_of_problem by_name = run(native);
     check_same(by_name, run(read_problem(exported(native, here))));
     for (const auto& i : by_name.seen.increments) events += static_cast<int>(i.events.size());
@@ -213,7 +186,7 @@ TEST_CASE("a beam or plate that only its pairs hold is held by them by its matri
     INFO(name);
     problem native = read_problem((reference / "problems" / (std::string(name) + ".toml")).string());
     if (native.geometry.kind.index() == 0) native.supports.clear();
-    const folder here;
+    const scratch_folder here;
     const run_of_problem by_matrix = run(read_problem(exported(native, here)));
     check_same(run(native), by_matrix);
     CHECK(by_matrix.certified);
@@ -225,7 +198,7 @@ TEST_CASE("a beam on two faces that is lifted off them is a mechanism by its mat
   p.geometry.kind = beam{{0, 1, 2, 3}, {5, 5, 5}};
   p.pairs = {{0, face_below, 0.0, 10.0, true}, {3, face_below, 0.0, 10.0, true}};
   p.steps = {load{{{1, 0, -1.0}}, {}}, load{{{1, 0, 1.0}}, {}}};
-  const folder here;
+  const scratch_folder here;
   const run_of_problem native = run(p);
   CHECK(native.end.status == path_status::mechanism);
   check_same(native, run(read_problem(exported(p, here))));
@@ -234,7 +207,7 @@ TEST_CASE("a beam on two faces that is lifted off them is a mechanism by its mat
 TEST_CASE(
     "the frame among the references: its files are what its script writes, and all of it is certified") {
   const fs::path frame = reference / "structures";
-  const folder here;
+  const scratch_folder here;
   const std::string command =
       fmt::format("cd '{}' && python3 '{}'", here.path().string(), (frame / "frame.py").string());
   REQUIRE(std::system(command.c_str()) == 0);
@@ -265,7 +238,7 @@ TEST_CASE(
 
 TEST_CASE("a frame from CalculiX's own files is the frame from Matrix Market's") {
   const fs::path frame = reference / "structures";
-  const folder here;
+  const scratch_folder here;
   problem p = read_problem((frame / "frame.toml").string());
   const sparse_matrix& k = std::get<assembled>(p.geometry.kind).stiffness;
   std::string sti;
@@ -284,45 +257,8 @@ TEST_CASE("a frame from CalculiX's own files is the frame from Matrix Market's")
   check_same(a, b);
 }
 
-TEST_CASE(
-    "CalculiX's mesh is read from beside its matrix where it is there, or from the file that is named") {
-  const folder here;
-  (void)here.write("job.sti", "1 1 2\n1 2 -1\n2 2 2\n");
-  (void)here.write("job.dof", "2.3\n3.3\n");
-  const std::string mesh =
-      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,9,9,9\n*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n";
-  const auto with_mesh = [&](const std::string& key) {
-    return here.write("p.toml", "[calculix]\njob = \"job\"\n" + key +
-                                    "[[step]]\npoint = [ { dof = \"2.3\", value = 1 } ]\n");
-  };
-  const auto places = [&](const std::string& key) {
-    return std::get<assembled>(read_problem(with_mesh(key)).geometry.kind).places;
-  };
-  CHECK_FALSE(places("").known());
-  (void)here.write("other.inp", mesh);
-  CHECK(places("mesh = \"other.inp\"\n").edges.size() == 6);
-  CHECK_FALSE(places("").known());
-  (void)here.write("job.inp", mesh);
-  const placed_nodes found = places("");
-  CHECK(found.nodes.size() == 4);
-  CHECK(found.edges.size() == 6);
-  CHECK(found.dofs[1].node == 2);
-  CHECK(found.dofs[1].direction == 3);
-  // Another job's input beside it is no mistake, but naming one is.
-  (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
-  CHECK_FALSE(places("").known());
-  CHECK_THAT(places("").said.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));
-  CHECK_THAT(message_of(with_mesh("mesh = \"job.inp\"\n")),
-             Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node in") &&
-                 Catch::Matchers::Contains("allowed: nodes by what stands before the last dot"));
-  CHECK_THAT(message_of(with_mesh("mesh = \"none.inp\"\n")),
-             Catch::Matchers::Contains("none.inp: cannot be read"));
-  (void)here.write("job.inp", "*NODE\n2,0,0,x\n");
-  CHECK_THAT(message_of(with_mesh("")), Catch::Matchers::Contains("job.inp:2: found \"x\" for a coordinate"));
-}
-
 TEST_CASE("what is given on a matrix is read: springs, lists of dofs, loads from files and points together") {
-  const folder here;
+  const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   (void)here.write("K.dof", "a\nb\nc\n");
   (void)here.write("f.mtx", text_of(std::vector<double>{0, 1, -2}));
@@ -366,7 +302,7 @@ TEST_CASE("the listing addresses the dofs of a matrix themselves: NDOFPN and IND
 
 TEST_CASE("a result on a matrix names dofs by their labels, and its w is its displacement") {
   const problem p = read_problem((reference / "structures" / "frame.toml").string());
-  const folder here;
+  const scratch_folder here;
   const linear_structure s = structure_of(p);
   certifier judged(s, loads_of(p));
   output_file file((here.path() / "r.json").string());
@@ -389,7 +325,7 @@ TEST_CASE("a result on a matrix names dofs by their labels, and its w is its dis
 
 TEST_CASE(
     "every mistake in a problem on a matrix is refused with its place, what was found and what is allowed") {
-  const folder here;
+  const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   (void)here.write("K.dof", "a\nb\nc\n");
   (void)here.write("two.dof", "a\nb\n");
@@ -472,52 +408,10 @@ TEST_CASE(
 }
 
 TEST_CASE("a matrix that is no stiffness is refused where it is factored, with its file and what was found") {
-  const folder here;
+  const scratch_folder here;
   (void)here.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
   const std::string message = message_of(here.write(
       "p.toml", "[matrix]\nstiffness = \"K.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n"));
   CHECK_THAT(message, Catch::Matchers::Contains("K.mtx: the matrix is not positive semidefinite"));
   CHECK_THAT(message, Catch::Matchers::Contains("allowed: none below -1e-10"));
-}
-
-TEST_CASE("what takes more memory than there is, or than is said, is refused before it is taken") {
-  const folder here;
-  (void)here.write("K.mtx", small_matrix);
-  // An arrow: the last row is full, whatever the order.
-  constexpr int n = 40000;
-  std::string arrow =
-      fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n", n, n, 2 * n - 1);
-  for (int i = 1; i < n; ++i) arrow += fmt::format("{} {} 2\n{} {} -1e-6\n", i, i, n, i);
-  arrow += fmt::format("{} {} 2\n", n, n);
-  (void)here.write("arrow.mtx", arrow);
-  const std::string tail = "\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
-  const std::string small = here.write("p.toml", "[matrix]\nstiffness = \"K.mtx" + tail);
-  const std::string large =
-      here.write("q.toml", "[matrix]\nstorage = \"band\"\nstiffness = \"arrow.mtx" + tail);
-  const std::string open = here.write("r.toml", "[matrix]\nstiffness = \"arrow.mtx" + tail);
-  setenv("CONTCT_MEMORY_MIB", "100", 1);
-  CHECK(message_of(small) == "accepted");
-  CHECK_THAT(message_of(large),
-             Catch::Matchers::Contains("q.toml:1:1: matrix: found 40000 dofs with a half bandwidth of"));
-  CHECK_THAT(message_of(large), Catch::Matchers::Contains("GiB; allowed: 100 MiB (CONTCT_MEMORY_MIB"));
-  CHECK_THAT(message_of(large), Catch::Matchers::Contains("condense the matrix"));
-  CHECK_THAT(message_of(large), Catch::Matchers::Contains(sparse_factor::available() ? "storage = \"sparse\""
-                                                                                     : "build with CHOLMOD"));
-  if (sparse_factor::available()) {  // which has few entries to keep, and no fill
-    CHECK(message_of(open) == "accepted");
-    setenv("CONTCT_MEMORY_MIB", "3", 1);
-    CHECK_THAT(message_of(open),
-               Catch::Matchers::Contains("GiB, or ") &&
-                   Catch::Matchers::Contains(" MiB in CHOLMOD's sparse factors; allowed: 3.0 MiB"));
-  } else {
-    CHECK_THAT(message_of(open), Catch::Matchers::Contains("/r.toml:1:1: matrix: found 40000 dofs"));
-    CHECK_THAT(message_of(open), Catch::Matchers::Contains("build with CHOLMOD"));
-  }
-  for (const char* wrong : {"", "0", "-5", "lots", "1.5", "99999999999999999999"}) {
-    setenv("CONTCT_MEMORY_MIB", wrong, 1);
-    INFO(wrong);
-    CHECK_THAT(message_of(small), Catch::Matchers::StartsWith("CONTCT_MEMORY_MIB: found \""));
-  }
-  unsetenv("CONTCT_MEMORY_MIB");
-  CHECK(message_of(small) == "accepted");
 }

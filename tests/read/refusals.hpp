@@ -20,6 +20,17 @@ inline std::string verdict(const std::function<void()>& reads) {
   return "accepted";
 }
 
+/// A problem file with a mistake.
+struct bad_input {
+  const char* what;     ///< the mistake
+  std::string text;     ///< the problem file
+  const char* place;    ///< "line:column" in it
+  const char* key;      ///< the key that the message must name
+  const char* found;    ///< what it must say was found
+  const char* allowed;  ///< what it must say is allowed
+};
+
+/// Any other file with a mistake.
 struct bad_file {
   std::string text;
   const char* place;  ///< with the file's name

@@ -22,9 +22,12 @@ TEST_CASE("a JUnit report counts what failed and was skipped, and escapes what X
   const std::string xml = junit_xml(two_of_three);
   CHECK_THAT(xml, Contains("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\" time=\"0.500\""));
   CHECK_THAT(xml, Contains("name=\"b &lt;&amp;&gt; &quot;c&quot;.trace: mine\""));
-  CHECK_THAT(xml, Contains("<failure message=\"1 mismatch | here\">call 1: SS(1)&#10;? odd</failure>"));
+  CHECK_THAT(xml,
+             Contains("<failure message=\"1 mismatch | here\">call 1: SS(1)\n\xEF\xBF\xBD odd</failure>"));
   CHECK_THAT(xml, Contains("<skipped message=\"another precision\"/>"));
   CHECK(xml.find('\x01') == std::string::npos);
+  CHECK_THAT(junit_xml({"two\nlines", {}, {}, 0.0}),
+             Contains("<testsuite name=\"two&#10;lines\" tests=\"0\""));
 }
 
 TEST_CASE("a Markdown summary begins with the verdict and keeps to its table") {

@@ -81,16 +81,6 @@ int differences(const std::vector<double>& a, const std::vector<double>& b) {
   return count;
 }
 
-/// What the reader makes of one number.
-double read_number(const std::string& word) {
-  const std::string text = "call 1\nindof 1 ndofpn 1 dofs 1 nc 1\ndof 1 dd " + word +
-                           " dtest 1\npair 1 id 1 isep 1 isurf 1 cc 1\nask\n";
-  trace_reader reader(text, "a call");
-  recorded_call c;
-  REQUIRE(reader.next_inputs(c));
-  return c.in.dd[0];
-}
-
 }  // namespace
 
 TEST_CASE("numbers of every kind come back from a trace to the bit") {
@@ -121,25 +111,6 @@ TEST_CASE("a dof that no pair looks at is nobody's: it is not written, and read 
   const recorded_call back = read_back(text);
   CHECK(std::isnan(back.in.dd[0]));
   CHECK(back.in.dd[1] == 1.0);
-}
-
-TEST_CASE("what one call says of a dof is forgotten in the next") {
-  const std::string calls =
-      "call 1\nindof 1 ndofpn 1 dofs 3 nc 1\ndof 1 dd 1 dtest 1\ndof 3 dd 3 dtest 3\n"
-      "pair 1 id 1 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
-      "\ncall 2\nindof 1 ndofpn 1 dofs 2 nc 1\ndof 2 dd 2 dtest 2\n"
-      "pair 1 id 2 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
-      "\ncall 3\nindof 1 ndofpn 1 dofs 3 nc 0\nask\nsmin 1\nend\n";
-  trace_reader reader(calls, "a trace");
-  recorded_call c;
-  REQUIRE(reader.next(c));
-  CHECK(c.in.dd[2] == 3.0);
-  REQUIRE(reader.next(c));
-  CHECK(std::isnan(c.in.dd[0]));
-  CHECK(c.in.dd[1] == 2.0);
-  REQUIRE(reader.next(c));
-  for (const double d : c.in.dd) CHECK(std::isnan(d));
-  CHECK_FALSE(reader.next(c));
 }
 
 TEST_CASE("notes and unit-26 text come back, whatever characters they have") {
@@ -187,20 +158,4 @@ TEST_CASE("a kernel's name of several lines stays one line of the header") {
   append_header(h, text);
   trace_reader reader(text, "a trace");
   CHECK(reader.read_header().kernel == "pipe:while read x do echo $x done");
-}
-
-TEST_CASE("numbers may be written as a person writes them") {
-  CHECK(read_number("1") == 1.0);
-  CHECK(read_number("-0.1") == -0.1);
-  CHECK(read_number(".5") == 0.5);
-  CHECK(read_number("1e-10") == 1e-10);
-  CHECK(read_number("1E+3") == 1000.0);
-  CHECK(same_bits(read_number("-0"), -0.0));
-  CHECK(read_number("4.9406564584124654e-324") == limits::denorm_min());
-  CHECK(read_number("0x1.8p+1") == 3.0);
-  CHECK(read_number("0x1.8000p1") == 3.0);
-  CHECK(read_number("0xc.0p-2") == 3.0);
-  CHECK(read_number("-inf") == -limits::infinity());
-  CHECK(std::isnan(read_number("nan")));
-  CHECK(std::isnan(read_number("-nan")));
 }

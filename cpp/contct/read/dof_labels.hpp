@@ -1,4 +1,4 @@
-// What the dofs of a matrix are called.
+// The labels of a matrix's dofs.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,6 @@ namespace contct {
 /// One label a line, in the matrix's order: any text without blanks, each once. Throws input_error.
 [[nodiscard]] std::vector<std::string> parse_labels(std::string_view text, std::string_view file);
 
-/// The same from a file.
-[[nodiscard]] std::vector<std::string> read_labels(const std::string& path);
-
 /// Finds dofs by their labels.
 class dof_index {
  public:
@@ -31,7 +28,7 @@ class dof_index {
 
  private:
   const assembled& structure_;
-  std::unordered_map<std::string_view, int> dofs_;  // empty where labels are the numbers
+  std::unordered_map<std::string_view, int> dofs_;  // empty where the labels are the dofs' numbers
 };
 
 }  // namespace contct

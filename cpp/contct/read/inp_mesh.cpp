@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -12,14 +10,12 @@
 #include <unordered_map>
 #include <utility>
 
-#include "contct/read/node_coordinates.hpp"
 #include "contct/text/field_lines.hpp"
-#include "contct/text/input_text.hpp"
 
 namespace contct {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+constexpr int any_number = std::numeric_limits<int>::max();
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t from = text.find_first_not_of(blanks);
@@ -27,7 +23,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(from, text.find_last_not_of(blanks) - from + 1);
 }
 
-/// CalculiX takes no notice of case and blanks in a keyword's line.
+/// CalculiX ignores case and blanks in a keyword's line.
 std::string without_case_and_blanks(std::string_view text) {
   std::string plain;
   for (const char c : text) {
@@ -37,17 +33,69 @@ std::string without_case_and_blanks(std::string_view text) {
   return plain;
 }
 
-/// The edges of a solid between its corners, from 0. Where it has nodes at its middles they come behind the
-/// corners, in the order of the edges.
+/// The lines of an input file without blank lines and comments: keywords, and the lines of data behind each.
+class inp_lines : public text_lines {
+ public:
+  using text_lines::text_lines;
+
+  /// Go to the next keyword, past any data; false where there is none.
+  bool next_keyword() {
+    while (!std::exchange(at_new_keyword_, false)) {
+      if (!next()) return false;
+      at_new_keyword_ = data_.front() == '*';
+    }
+    return true;
+  }
+
+  /// Go to the next line of data of this keyword; false where there is none.
+  bool next_data() {
+    if (at_new_keyword_ || !next()) return false;
+    at_new_keyword_ = data_.front() == '*';
+    return !at_new_keyword_;
+  }
+
+  /// The line without the blanks around it.
+  [[nodiscard]] std::string_view data() const { return data_; }
+
+  /// The fields between the line's commas; one that is empty at the end does not count.
+  [[nodiscard]] const std::vector<std::string_view>& fields() {
+    fields_.clear();
+    std::string_view left = data_;
+    for (;;) {
+      const std::size_t comma = left.find(',');
+      fields_.push_back(trimmed(left.substr(0, comma)));
+      if (comma == std::string_view::npos) break;
+      left.remove_prefix(comma + 1);
+    }
+    if (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
+    return fields_;
+  }
+
+ private:
+  bool next() {
+    do {
+      if (!text_lines::next()) return false;
+      data_ = trimmed(here());
+      if (data_.find('\0') != std::string_view::npos) refuse("a byte of 0", "text: is it a binary file?");
+    } while (data_.empty() || data_.starts_with("**"));
+    if (data_.front() != '*') refuse_unended();
+    return true;
+  }
+
+  std::string_view data_;
+  bool at_new_keyword_ = false;
+  std::vector<std::string_view> fields_;
+};
+
+/// The edges of a solid between its corners, from 0. Midside nodes, if any, follow the corners in the order
+/// of the edges.
 struct solid {
   std::string_view type;
-  int corners;
-  bool middles;
+  std::size_t corners;
+  bool midside_nodes;
   std::span<const std::pair<int, int>> edges;
 
-  [[nodiscard]] std::size_t nodes() const {
-    return static_cast<std::size_t>(corners) + (middles ? edges.size() : 0);
-  }
+  [[nodiscard]] std::size_t nodes() const { return corners + (midside_nodes ? edges.size() : 0); }
 };
 
 constexpr std::pair<int, int> tetrahedron[] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
@@ -69,241 +117,176 @@ const solid* solid_of(std::string_view type) {
   return nullptr;
 }
 
-class inp_reader {
- public:
-  inp_reader(std::string_view text, std::string_view file) : rest_(text), file_(file) {}
-
-  placed_nodes read() {
-    while (next()) {
-      if (here_.front() == '*') {
-        if (here_.substr(0, 2) != "**") begin_block();
-      } else if (block_ == block::nodes) {
-        read_node();
-      } else if (block_ == block::solids) {
-        read_solid();
-      } else if (block_ == block::other_elements) {
-        count_other();
-      }
-    }
-    refuse_half_element();
-    find_edges();
-    say_what_is_left_out();
-    return std::move(mesh_);
-  }
-
- private:
-  enum class block { other, nodes, solids, other_elements };
-
-  /// To the next line that is not blank.
-  bool next() {
-    while (!rest_.empty()) {
-      const std::size_t end = rest_.find('\n');
-      here_ = trimmed(rest_.substr(0, end));
-      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-      ++line_;
-      if (here_.empty()) continue;
-      if (here_.find('\0') != std::string_view::npos) refuse("a byte of 0", "text: is it a binary file?");
-      // A keyword cut short is none; a number cut short is a number.
-      if (end == std::string_view::npos && here_.front() != '*')
-        refuse(quoted(here_) + " without a line's end: the file may be cut short", "a line's end behind it");
-      return true;
-    }
-    return false;
-  }
-
-  /// The fields of the line; one that is empty at the end does not count.
-  void split() {
-    fields_.clear();
-    std::string_view left = here_;
-    for (;;) {
-      const std::size_t comma = left.find(',');
-      fields_.push_back(trimmed(left.substr(0, comma)));
-      if (comma == std::string_view::npos) break;
-      left.remove_prefix(comma + 1);
-    }
-    if (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
-  }
-
-  void begin_block() {
-    refuse_half_element();
-    const std::string plain = without_case_and_blanks(here_);
-    const std::string keyword = plain.substr(0, plain.find(','));
-    block_ = block::other;
-    includes_ += keyword == "*INCLUDE" ? 1 : 0;
-    if (keyword == "*NODE") block_ = block::nodes;
-    if (keyword == "*ELEMENT") begin_elements(plain);
-  }
-
-  void begin_elements(const std::string& plain) {
-    const std::string parameter = ",TYPE=";
-    const std::size_t at = plain.find(parameter);
-    const std::size_t from = at + parameter.size();
-    const std::string type = at == std::string::npos ? "" : plain.substr(from, plain.find(',', from) - from);
-    if (type.empty()) refuse(quoted(here_), "*ELEMENT, TYPE=..., as C3D8");
-    solid_ = solid_of(type);
-    block_ = solid_ != nullptr ? block::solids : block::other_elements;
-    other_type_ = type;
-    continues_ = false;
-  }
-
-  void read_node() {
-    split();
-    const int number = whole(0, "the node's number");
-    if (fields_.size() < 2) refuse(quoted(here_), "number, x, y, z");
-    placed_node node{std::to_string(number), {}};
-    // As CalculiX has it: what is not there is 0.
-    for (std::size_t i = 0; i < 3 && i + 1 < fields_.size(); ++i)
-      node.at[i] = fields_[i + 1].empty() ? 0.0 : real(i + 1);
-    const auto [before, is_new] = index_.try_emplace(number, static_cast<int>(mesh_.nodes.size()));
-    if (is_new) {
-      mesh_.nodes.push_back(std::move(node));
-    } else if (mesh_.nodes[static_cast<std::size_t>(before->second)].at != node.at) {
-      refuse(fmt::format("node {} again, at another place", number), "each node at one place");
-    }
-  }
-
-  /// An element's nodes may stand on several lines; how many there are says its type.
-  void read_solid() {
-    split();
-    std::size_t i = 0;
-    if (corner_numbers_.size() == first_of_element_) {
-      (void)whole(0, "the element's number");
-      element_line_ = line_;
-      i = 1;
-    }
-    for (; i < fields_.size(); ++i) {
-      if (corner_numbers_.size() - first_of_element_ == solid_->nodes())
-        refuse(quoted(here_),
-               fmt::format("{} nodes for an element of type {}", solid_->nodes(), solid_->type));
-      corner_numbers_.push_back(whole(i, "a node's number"));
-    }
-    if (corner_numbers_.size() - first_of_element_ < solid_->nodes()) return;
-    elements_.push_back({solid_, first_of_element_, element_line_});
-    first_of_element_ = corner_numbers_.size();
-  }
-
-  void refuse_half_element() const {
-    if (corner_numbers_.size() == first_of_element_) return;
-    refuse_line(file_, element_line_,
-                fmt::format("an element with {} nodes", corner_numbers_.size() - first_of_element_),
-                fmt::format("{} nodes for type {}", solid_->nodes(), solid_->type));
-  }
-
-  /// Of other types no more is known than that a comma at a line's end continues it.
-  void count_other() {
-    if (!continues_) ++others_[other_type_];
-    continues_ = here_.back() == ',';
-  }
-
-  [[nodiscard]] int whole(std::size_t i, std::string_view what) const {
-    const std::string_view text = fields_[i];
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || value < 1)
-      refuse(fmt::format("{} for {}", quoted(text), what),
-             fmt::format("a whole number from 1 to {}", std::numeric_limits<int>::max()));
-    return value;
-  }
-
-  /// FORTRAN reads these numbers: a D may stand for the E, and a plus sign before a number.
-  [[nodiscard]] double real(std::size_t i) const {
-    std::string text(fields_[i]);
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
-    const std::size_t plus = text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0;
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data() + plus, text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-      refuse(fmt::format("{} for a coordinate", quoted(fields_[i])),
-             "a finite number within the range of double precision, as 1.5 or -2e-3");
-    return value;
-  }
-
-  [[nodiscard]] int index_of(int number, std::int64_t line) const {
-    const auto at = index_.find(number);
-    if (at != index_.end()) return at->second;
-    refuse_line(file_, line, fmt::format("node {} in an element", number),
-                includes_ > 0 ? "nodes that *NODE has in this file: *INCLUDE is not followed"
-                              : "nodes that *NODE has");
-  }
-
-  void add_edge(int from, int to) {
-    if (from != to) edges_.emplace_back(std::min(from, to), std::max(from, to));
-  }
-
-  /// Each edge once, with how many elements have it.
-  void find_edges() {
-    for (const element& e : elements_) {
-      const auto node = [&](std::size_t i) { return index_of(corner_numbers_[e.first + i], e.line); };
-      for (std::size_t k = 0; k < e.of->edges.size(); ++k) {
-        const int from = node(static_cast<std::size_t>(e.of->edges[k].first));
-        const int to = node(static_cast<std::size_t>(e.of->edges[k].second));
-        if (e.of->middles) {
-          const int middle = node(static_cast<std::size_t>(e.of->corners) + k);
-          add_edge(from, middle);
-          add_edge(middle, to);
-        } else {
-          add_edge(from, to);
-        }
-      }
-    }
-    std::sort(edges_.begin(), edges_.end());
-    for (const auto& [from, to] : edges_) {
-      const bool same =
-          !mesh_.edges.empty() && mesh_.edges.back().from == from && mesh_.edges.back().to == to;
-      if (!same) mesh_.edges.push_back({from, to, 0});
-      ++mesh_.edges.back().elements;
-    }
-  }
-
-  void say_what_is_left_out() {
-    if (includes_ > 0)
-      mesh_.said.push_back(
-          fmt::format("*INCLUDE in {} is not followed: what such files hold is not drawn.", file_));
-    if (others_.empty()) return;
-    std::string types;
-    for (const auto& [type, number] : others_)
-      types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", number, quoted(type));
-    mesh_.said.push_back(
-        fmt::format("Of {}, elements whose edges are not known are not drawn: {}.", file_, types));
-  }
-
-  [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const {
-    refuse_line(file_, line_, found, allowed);
-  }
-
-  struct element {
-    const solid* of;
-    std::size_t first;  // of its nodes' numbers
-    std::int64_t line;
-  };
-
-  std::string_view rest_, file_, here_;
-  std::int64_t line_ = 0;
-  std::vector<std::string_view> fields_;
-  block block_ = block::other;
-  const solid* solid_ = nullptr;
-  std::string other_type_;
-  bool continues_ = false;
-  std::size_t includes_ = 0;
-  std::map<std::string, std::size_t> others_;  // how many of each type that has no edges
-  std::unordered_map<int, int> index_;         // of a node, by its number
-  std::vector<int> corner_numbers_;            // of all solids, one after the other
-  std::size_t first_of_element_ = 0;
-  std::int64_t element_line_ = 0;
-  std::vector<element> elements_;
-  std::vector<std::pair<int, int>> edges_;
-  placed_nodes mesh_;
+/// The elements of one *ELEMENT.
+struct solid_block {
+  const solid* type;
+  std::vector<int> nodes;           // the numbers, of one element after the other
+  std::vector<std::int64_t> lines;  // where each element begins
 };
+
+/// Nodes in the order of the file, and their indices by number.
+struct node_list {
+  std::vector<placed_node> nodes;
+  std::unordered_map<int, int> index;
+};
+
+void read_nodes(inp_lines& lines, node_list& list) {
+  while (lines.next_data()) {
+    const std::vector<std::string_view>& fields = lines.fields();
+    const int number = lines.whole(fields[0], 1, any_number, "the node's number");
+    if (fields.size() < 2) lines.refuse(quoted(lines.data()), "number, x, y, z");
+    placed_node node{std::to_string(number), {}};
+    // As CalculiX has it: a coordinate that is left out is 0.
+    for (std::size_t i = 0; i < 3 && i + 1 < fields.size(); ++i)
+      node.at[i] = fields[i + 1].empty() ? 0.0 : lines.real(fields[i + 1], "a coordinate", true);
+    const auto [before, is_new] = list.index.try_emplace(number, static_cast<int>(list.nodes.size()));
+    if (is_new) {
+      list.nodes.push_back(std::move(node));
+    } else if (list.nodes[before->second].at != node.at) {
+      lines.refuse(fmt::format("node {} again, at another place", number), "each node at one place");
+    }
+  }
+}
+
+/// An element's nodes may stand on several lines; its type says how many there are.
+solid_block read_solids(inp_lines& lines, const solid& type) {
+  solid_block block{&type, {}, {}};
+  const auto whole_elements = [&] { return block.nodes.size() % type.nodes() == 0; };
+  while (lines.next_data()) {
+    const std::vector<std::string_view>& fields = lines.fields();
+    const std::size_t first = whole_elements() ? 1 : 0;
+    if (first == 1) {
+      (void)lines.whole(fields[0], 1, any_number, "the element's number");
+      block.lines.resize(block.nodes.size() / type.nodes());
+      block.lines.push_back(lines.line());
+    }
+    for (std::size_t i = first; i < fields.size(); ++i) {
+      if (i > first && whole_elements())
+        lines.refuse(quoted(lines.data()),
+                     fmt::format("{} nodes for an element of type {}", type.nodes(), type.type));
+      block.nodes.push_back(lines.whole(fields[i], 1, any_number, "a node's number"));
+    }
+  }
+  if (!whole_elements())
+    refuse_line(lines.file(), block.lines.back(),
+                fmt::format("an element with {} nodes", block.nodes.size() % type.nodes()),
+                fmt::format("{} nodes for type {}", type.nodes(), type.type));
+  return block;
+}
+
+/// Of other types only this is known: a comma at a line's end continues it.
+int count_elements(inp_lines& lines) {
+  int count = 0;
+  bool continues = false;
+  while (lines.next_data()) {
+    if (!continues) ++count;
+    continues = lines.data().back() == ',';
+  }
+  return count;
+}
+
+/// The TYPE of an *ELEMENT line without case and blanks.
+std::string type_in(const inp_lines& lines, const std::string& keyword_line) {
+  const std::string parameter = ",TYPE=";
+  const std::size_t at = keyword_line.find(parameter);
+  const std::size_t from = at + parameter.size();
+  std::string type =
+      at == std::string::npos ? "" : keyword_line.substr(from, keyword_line.find(',', from) - from);
+  if (type.empty()) lines.refuse(quoted(lines.data()), "*ELEMENT, TYPE=..., as C3D8");
+  return type;
+}
+
+/// What an input file holds. Nodes may stand behind the elements that name them.
+struct inp_contents {
+  node_list nodes;
+  std::vector<solid_block> solids;
+  std::map<std::string, int> other_elements;  // how many of each type whose edges are not known
+  bool includes = false;
+};
+
+inp_contents read_contents(inp_lines& lines) {
+  inp_contents all;
+  while (lines.next_keyword()) {
+    const std::string line = without_case_and_blanks(lines.data());
+    const std::string keyword = line.substr(0, line.find(','));
+    if (keyword == "*INCLUDE") all.includes = true;
+    if (keyword == "*NODE") read_nodes(lines, all.nodes);
+    if (keyword != "*ELEMENT") continue;
+    const std::string type = type_in(lines, line);
+    if (const solid* const known = solid_of(type)) {
+      all.solids.push_back(read_solids(lines, *known));
+    } else if (const int count = count_elements(lines); count > 0) {
+      all.other_elements[type] += count;
+    }
+  }
+  return all;
+}
+
+/// Append the edges of element `e` of a block, from the lower node's index to the higher one's.
+template <class IndexOf>
+void append_edges(const solid_block& block, std::size_t e, const IndexOf& index_of,
+                  std::vector<std::pair<int, int>>& edges) {
+  const solid& type = *block.type;
+  const auto node = [&](std::size_t i) {
+    return index_of(block.nodes[e * type.nodes() + i], block.lines[e]);
+  };
+  const auto append = [&](int from, int to) {
+    if (from != to) edges.emplace_back(std::min(from, to), std::max(from, to));
+  };
+  for (std::size_t k = 0; k < type.edges.size(); ++k) {
+    const int from = node(type.edges[k].first);
+    const int to = node(type.edges[k].second);
+    const int middle = type.midside_nodes ? node(type.corners + k) : to;
+    append(from, middle);
+    append(middle, to);
+  }
+}
+
+/// Each edge once, with the number of elements that have it. Linear but for a sort.
+std::vector<mesh_edge> edges_of(const inp_contents& all, const std::string& file) {
+  const auto index_of = [&](int number, std::int64_t line) {
+    const auto at = all.nodes.index.find(number);
+    if (at == all.nodes.index.end())
+      refuse_line(file, line, fmt::format("node {} in an element", number),
+                  all.includes ? "nodes that *NODE has in this file: *INCLUDE is not followed"
+                               : "nodes that *NODE has");
+    return at->second;
+  };
+  std::vector<std::pair<int, int>> pairs;
+  for (const solid_block& block : all.solids)
+    for (std::size_t e = 0; e * block.type->nodes() < block.nodes.size(); ++e)
+      append_edges(block, e, index_of, pairs);
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<mesh_edge> edges;
+  for (const auto& [from, to] : pairs) {
+    if (edges.empty() || edges.back().from != from || edges.back().to != to) edges.push_back({from, to, 0});
+    ++edges.back().elements;
+  }
+  return edges;
+}
+
+std::vector<std::string> what_is_left_out(const inp_contents& all, const std::string& file) {
+  std::vector<std::string> said;
+  if (all.includes)
+    said.push_back(fmt::format("*INCLUDE in {} is not followed: what such files hold is not drawn.", file));
+  std::string types;
+  for (const auto& [type, number] : all.other_elements)
+    types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", number, quoted(type));
+  if (!types.empty())
+    said.push_back(fmt::format("Of {}, elements whose edges are not known are not drawn: {}.", file, types));
+  return said;
+}
 
 }  // namespace
 
 placed_nodes parse_inp_mesh(std::string_view text, std::string_view file) {
-  return inp_reader(text, file).read();
-}
-
-placed_nodes read_inp_mesh(const std::string& path) {
-  return parse_inp_mesh(read_input(path, "input file of CalculiX", largest_mesh_file), path);
+  inp_lines lines(text, file);
+  inp_contents all = read_contents(lines);
+  placed_nodes mesh;
+  mesh.edges = edges_of(all, lines.file());
+  mesh.said = what_is_left_out(all, lines.file());
+  mesh.nodes = std::move(all.nodes.nodes);
+  return mesh;
 }
 
 }  // namespace contct

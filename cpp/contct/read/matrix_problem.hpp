@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "contct/read/toml_reader.hpp"
 #include "contct/structure/problem.hpp"
@@ -10,7 +9,7 @@
 namespace contct {
 
 /// Read [[support]], [[contact]] and [[step]] of `top` into `p`, whose geometry is a matrix. `folder` is
-/// where load vectors are, `file` the problem file's name for warnings. Throws input_error.
-void read_on_matrix(const table_reader& top, const std::string& folder, std::string_view file, problem& p);
+/// where load vectors are. Throws input_error.
+void read_on_matrix(const table_reader& top, const std::string& folder, problem& p);
 
 }  // namespace contct

@@ -6,9 +6,8 @@
 
 #include "contct/matrix/bandwidth.hpp"
 #include "contct/matrix/sparse_factor.hpp"
-#include "contct/read/calculix_matrix.hpp"
 #include "contct/read/dof_labels.hpp"
-#include "contct/read/matrix_market.hpp"
+#include "contct/read/matrix_files.hpp"
 #include "contct/read/matrix_places.hpp"
 #include "contct/read/memory_limit.hpp"
 #include "contct/text/field_lines.hpp"
@@ -34,27 +33,37 @@ std::string bytes_words(std::int64_t bytes) {
                        bytes_words(memory_limit()), remedy));
 }
 
-/// "band", "sparse" or nothing: what is to be found out.
+/// Bytes that a run holds at its largest, K as it is stored: the structure's, an engine's and the reference
+/// solution's. Where K is sparse, CHOLMOD finds an ordering for it.
+std::int64_t bytes_of_run(const assembled& a) {
+  if (a.as_band) return 3 * bytes_of_band(a.stiffness, a.rows);
+  // An engine's factor that is updated takes half as much again as the reference solution's.
+  constexpr std::int64_t as_read = sizeof(matrix_entry);
+  constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
+  const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());
+  return (as_read + 3 * in_columns) * entries + 5 * sparse_factor(columns_of(a.stiffness)).bytes() / 2;
+}
+
+/// "band", "sparse", or nothing where the table does not say.
 std::string read_storage(const table_reader& t) {
   if (!t.has("storage")) return "";
   constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
-  const toml::node& node = t.required("storage", allowed);
-  std::string said(t.text_of(node, "storage", allowed));
+  std::string said(t.text_of(t.required("storage", allowed), "storage", allowed));
   if (said != "band" && (said != "sparse" || !sparse_factor::available()))
-    t.refuse(node, "storage", contct::quoted(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
+    t.refuse_key("storage", contct::quoted(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
   return said;
 }
 
-/// A band, unless CHOLMOD is there and the band is too large, or so wide that sparse factors take far less:
-/// before any of it is made.
+/// A band, unless CHOLMOD is built in and the band is too large, or so wide that sparse factors take far
+/// less. Decided before any of it is allocated.
 void choose_storage(const table_reader& t, assembled& a) {
-  constexpr std::int64_t worth_asking = std::int64_t{256} << 20;
+  constexpr std::int64_t small_band = std::int64_t{256} << 20;
   constexpr std::int64_t far_less = 4;
   const std::string said = read_storage(t);
   const std::int64_t limit = memory_limit();
   const std::int64_t band = bytes_of_run(a);
   const bool may_be_sparse = said != "band" && sparse_factor::available();
-  if (said != "sparse" && band <= limit && (!may_be_sparse || band <= worth_asking)) return;
+  if (said != "sparse" && band <= limit && (!may_be_sparse || band <= small_band)) return;
   const std::string band_takes = fmt::format("a half bandwidth of {}, which take {}",
                                              subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
   if (!may_be_sparse && band > limit)
@@ -68,20 +77,23 @@ void choose_storage(const table_reader& t, assembled& a) {
         t, a, fmt::format("{}, or {} in CHOLMOD's sparse factors", band_takes, bytes_words(sparse)), "");
 }
 
-/// What both tables end with.
+std::vector<std::string> read_labels(const std::string& path) {
+  return parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
+}
+
+/// The keys that both tables have, and the ordering.
 void finish(const table_reader& t, assembled& a) {
   if (t.has("free_motions")) a.free_motions = t.integer("free_motions", 0, most_rigid_motions);
   a.rows = rows_for_small_band(a.stiffness);
   choose_storage(t, a);
 }
 
-/// A file that does not know any of the nodes is another structure's.
+/// Refuse a file that has none of the nodes: it belongs to another structure.
 void refuse_unknown_nodes(const table_reader& t, std::string_view key, const std::string& path,
                           const assembled& a) {
   if (a.places.known()) return;
-  t.refuse(
-      t.required(key, ""), key,
-      fmt::format("no node in {} of any label, as {}", path, contct::quoted(a.label_of(0))),
+  t.refuse_key(
+      key, fmt::format("no node in {} of any label, as {}", path, contct::quoted(a.label_of(0))),
       "nodes by what stands before the last dot of labels, and behind it x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
@@ -100,26 +112,17 @@ std::string beside(const std::string& folder, const std::string& name) {
   return path == "-" ? "./-" : path;  // a file of that name: standard input holds the problem, if anything
 }
 
-std::int64_t bytes_of_run(const assembled& a) {
-  if (a.as_band) return 3 * bytes_of_band(a.stiffness, a.rows);
-  // An engine's factor that is updated takes half as much again as the oracle's.
-  constexpr std::int64_t as_read = sizeof(matrix_entry);
-  constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
-  const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());
-  return (as_read + 3 * in_columns) * entries + 5 * sparse_factor::make(columns_of(a.stiffness))->bytes() / 2;
-}
-
 assembled read_matrix(const table_reader& t, const std::string& folder) {
   t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
   assembled a;
   a.name = beside(folder, t.text("stiffness"));
-  a.stiffness = read_symmetric(a.name);
+  a.stiffness = parse_symmetric(read_input(a.name, "Matrix Market file", largest_matrix_file), a.name);
   if (t.has("dofs")) {
     a.labels_from = beside(folder, t.text("dofs"));
     a.labels = read_labels(a.labels_from);
     if (a.labels.size() != static_cast<std::size_t>(a.dofs()))
-      t.refuse(t.required("dofs", ""), "dofs", fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
-               fmt::format("{}, one for each row of {}", a.dofs(), a.name));
+      t.refuse_key("dofs", fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
+                   fmt::format("{}, one for each row of {}", a.dofs(), a.name));
   }
   finish(t, a);
   if (t.has("coordinates")) {
@@ -137,7 +140,9 @@ assembled read_calculix(const table_reader& t, const std::string& folder) {
   a.name = job + ".sti";
   a.labels_from = job + ".dof";
   a.labels = read_labels(a.labels_from);
-  a.stiffness = read_calculix_stiffness(a.name, static_cast<int>(a.labels.size()));
+  a.stiffness =
+      parse_calculix_stiffness(read_input(a.name, "stiffness matrix of CalculiX", largest_matrix_file),
+                               a.name, static_cast<int>(a.labels.size()));
   finish(t, a);
   find_mesh(t, folder, job, a);
   return a;

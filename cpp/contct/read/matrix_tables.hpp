@@ -1,7 +1,6 @@
 // [matrix] and [calculix]: a structure that another program assembled.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "contct/read/toml_reader.hpp"
@@ -15,9 +14,5 @@ namespace contct {
 /// Read the table [matrix] with the files it names, or [calculix]. Throws input_error.
 [[nodiscard]] assembled read_matrix(const table_reader& t, const std::string& folder);
 [[nodiscard]] assembled read_calculix(const table_reader& t, const std::string& folder);
-
-/// Bytes that a run holds at its largest, K as it is stored: the structure's, an engine's and the oracle's.
-/// Where it is sparse, CHOLMOD is asked for an order.
-[[nodiscard]] std::int64_t bytes_of_run(const assembled& a);
 
 }  // namespace contct

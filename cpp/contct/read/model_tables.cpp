@@ -16,52 +16,41 @@ constexpr int most_elements = 2'000'000;
 constexpr std::int64_t most_band_entries = 500'000'000;
 constexpr real_range poisson{-1.0, false, "a number greater than -1 and at most 0.5", 0.5};
 
-/// Coordinates of `what`, written out, which increase.
+/// The increasing coordinates of `what`.
 std::vector<double> read_coordinates(const table_reader& t, const char* key, const char* what) {
   std::vector<double> x = t.reals(key, any_real, 2);
   for (std::size_t i = 1; i < x.size(); ++i) {
-    if (!(x[i] > x[i - 1])) {
-      const toml::node& entry = *t.required(key, "").as_array()->get(i);
-      t.refuse(entry, indexed(key, i), found_words(entry),
-               fmt::format("more than the {} before it, {}", what, x[i - 1]));
-    }
+    if (x[i] > x[i - 1]) continue;
+    const toml::node& entry = *t.array(key, "", 2).get(i);
+    t.refuse(entry, indexed(key, i), found_words(entry),
+             fmt::format("more than the {} before it, {}", what, x[i - 1]));
   }
   return x;
 }
 
 std::vector<double> even_coordinates(double length, int elements) {
   std::vector<double> x;
-  x.reserve(static_cast<std::size_t>(elements) + 1);
+  x.reserve(elements + 1);
   for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);
   return x;
 }
 
-/// Refuse `other` where coordinates are written out.
-void refuse_beside(const table_reader& t, std::initializer_list<const char*> others, const char* found,
-                   const char* allowed) {
-  for (const char* other : others) {
-    if (t.has(other)) t.refuse(t.required(other, ""), other, found, allowed);
-  }
-}
-
 void read_stiffness(const table_reader& t, beam& b) {
-  const auto elements = static_cast<std::size_t>(b.elements());
-  const toml::node& node = t.required("EI", "a number greater than 0, or one for each element");
-  if (!node.is_array()) {
+  const std::size_t elements = b.elements();
+  if (!t.required("EI", "a number greater than 0, or one for each element").is_array()) {
     b.EI.assign(elements, t.real("EI", positive_real));
     return;
   }
   b.EI = t.reals("EI", positive_real, 1);
-  if (b.EI.size() != elements) {
-    t.refuse(node, "EI", found_words(node), fmt::format("one number, or {}: one for each element", elements));
-  }
+  if (b.EI.size() != elements)
+    t.refuse_key("EI", fmt::format("one number, or {}: one for each element", elements));
 }
 
 /// Finite numbers can still make a stiffness that is not.
 void check_elements(const table_reader& t, const beam& b) {
   for (int e = 0; e < b.elements(); ++e) {
     const double h = b.length_of(e);
-    const double EI = b.EI[static_cast<std::size_t>(e)];
+    const double EI = b.EI[e];
     const double largest = 12 * EI / h / h / h;
     const double smallest = EI / h;
     if (!std::isnormal(h) || !std::isnormal(largest) || !std::isnormal(smallest) ||
@@ -76,7 +65,7 @@ beam read_beam(const table_reader& t) {
   t.allow_only({"x", "length", "elements", "EI"});
   beam b;
   if (t.has("x")) {
-    refuse_beside(t, {"length", "elements"}, "this beside x", "either x, or length and elements");
+    t.refuse_beside({"length", "elements"}, "x", "either x, or length and elements");
     b.x = read_coordinates(t, "x", "node");
   } else {
     const double length = t.real("length", positive_real);
@@ -87,11 +76,11 @@ beam read_beam(const table_reader& t) {
   return b;
 }
 
-/// Refuse a grid that no machine could solve, before anything of its size is made.
-void check_size(const table_reader& t, std::size_t along_x, std::size_t along_y) {
+/// Refuse a grid that no machine could solve, before anything of its size is allocated.
+void check_size(const table_reader& t, std::int64_t along_x, std::int64_t along_y) {
   constexpr double gigabyte = 1e9 / sizeof(double);
-  const auto shorter = static_cast<std::int64_t>(std::min(along_x, along_y));
-  const auto longer = static_cast<std::int64_t>(std::max(along_x, along_y));
+  const std::int64_t shorter = std::min(along_x, along_y);
+  const std::int64_t longer = std::max(along_x, along_y);
   if (longer > most_elements || shorter * longer > most_elements) {
     t.refuse(fmt::format("{} x {} elements", along_x, along_y),
              fmt::format("at most {} elements", most_elements));
@@ -107,27 +96,23 @@ void check_size(const table_reader& t, std::size_t along_x, std::size_t along_y)
 
 std::vector<double> read_size(const table_reader& t) {
   std::vector<double> size = t.reals("size", positive_real, 2);
-  if (size.size() != 2) {
-    const toml::node& node = t.required("size", "");
-    t.refuse(node, "size", found_words(node), "two numbers: along x, along y");
-  }
+  if (size.size() != 2) t.refuse_key("size", "two numbers: along x, along y");
   return size;
 }
 
 std::vector<int> read_counts(const table_reader& t) {
   const char* const allowed = "two whole numbers: elements along x, along y";
-  const toml::node& node = t.required("elements", allowed);
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() != 2) t.refuse(node, "elements", found_words(node), allowed);
+  const toml::array& array = t.array("elements", allowed, 2);
+  if (array.size() != 2) t.refuse_key("elements", allowed);
   std::vector<int> counts;
   for (std::size_t i = 0; i < 2; ++i)
-    counts.push_back(t.integer_of(*array->get(i), indexed("elements", i), 1, most_elements));
+    counts.push_back(t.integer_of(*array.get(i), indexed("elements", i), 1, most_elements));
   return counts;
 }
 
 void read_grid(const table_reader& t, plate& p) {
   if (t.has("x") || t.has("y")) {
-    refuse_beside(t, {"size", "elements"}, "this beside x or y", "either x and y, or size and elements");
+    t.refuse_beside({"size", "elements"}, "x or y", "either x and y, or size and elements");
     p.x = read_coordinates(t, "x", "line");
     p.y = read_coordinates(t, "y", "line");
     check_size(t, p.x.size() - 1, p.y.size() - 1);
@@ -135,7 +120,7 @@ void read_grid(const table_reader& t, plate& p) {
   }
   const std::vector<double> size = read_size(t);
   const std::vector<int> counts = read_counts(t);
-  check_size(t, static_cast<std::size_t>(counts[0]), static_cast<std::size_t>(counts[1]));
+  check_size(t, counts[0], counts[1]);
   p.x = even_coordinates(size[0], counts[0]);
   p.y = even_coordinates(size[1], counts[1]);
 }
@@ -143,7 +128,7 @@ void read_grid(const table_reader& t, plate& p) {
 void read_material(const table_reader& t, plate& p) {
   p.nu = t.real("nu", poisson);
   if (t.has("D")) {
-    refuse_beside(t, {"E", "thickness"}, "this beside D", "either D, or E and thickness");
+    t.refuse_beside({"E", "thickness"}, "D", "either D, or E and thickness");
     p.D = t.real("D", positive_real);
     return;
   }
@@ -189,8 +174,7 @@ model read_model(const table_reader& top, const std::string& folder) {
   const char* kind = nullptr;
   for (const char* other : {"beam", "plate", "matrix", "calculix"}) {
     if (!top.has(other)) continue;
-    if (kind != nullptr)
-      top.refuse(top.required(other, ""), other, fmt::format("this beside {}", kind), allowed);
+    if (kind != nullptr) top.refuse_key(other, fmt::format("this beside {}", kind), allowed);
     kind = other;
   }
   if (top.has("beam")) return {read_beam(top.table("beam"))};

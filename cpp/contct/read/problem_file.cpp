@@ -6,13 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "contct/kernel/call.hpp"
 #include "contct/read/contact_face.hpp"
 #include "contct/read/matrix_problem.hpp"
 #include "contct/read/model_tables.hpp"
-#include "contct/read/number_list.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct {
@@ -24,28 +24,21 @@ constexpr std::size_t highest_degree = 20;
 class problem_reader {
  public:
   problem_reader(const toml::table& document, std::string_view file)
-      : file_(file), top_(document, "", file) {}
+      : folder_(std::filesystem::path(file).parent_path().string()), top_(document, "", file) {}
 
   problem read() {
     top_.allow_only({"title", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
     if (top_.has("title")) problem_.title = top_.text("title");
-    const std::string folder = std::filesystem::path(file_).parent_path().string();
-    problem_.geometry = read_model(top_, folder);
+    problem_.geometry = read_model(top_, folder_);
     if (std::holds_alternative<assembled>(problem_.geometry.kind)) {
-      read_on_matrix(top_, folder, file_, problem_);
+      read_on_matrix(top_, folder_, problem_);
       return std::move(problem_);
     }
     for (const char* name : dof_names(problem_.geometry)) dof_names_.emplace_back(name);
-    fixed_.assign(static_cast<std::size_t>(dofs(problem_.geometry)), 0);
-    if (top_.has("support")) {
-      for (const table_reader& t : top_.tables("support")) read_support(t);
-    }
-    if (top_.has("contact")) {
-      for (const table_reader& t : top_.tables("contact")) read_contact(t);
-    }
-    if (top_.has("bed")) {
-      for (const table_reader& t : top_.tables("bed")) read_bed(t);
-    }
+    fixed_.assign(dofs(problem_.geometry), 0);
+    for (const table_reader& t : top_.optional_tables("support")) read_support(t);
+    for (const table_reader& t : top_.optional_tables("contact")) read_contact(t);
+    for (const table_reader& t : top_.optional_tables("bed")) read_bed(t);
     for (const table_reader& t : top_.tables("step")) read_step(t);
     return std::move(problem_);
   }
@@ -53,9 +46,7 @@ class problem_reader {
  private:
   [[nodiscard]] int nodes() const { return contct::nodes(problem_.geometry); }
 
-  [[nodiscard]] std::size_t dof_of(int node, int dof) const {
-    return static_cast<std::size_t>(node) * dof_names_.size() + static_cast<std::size_t>(dof);
-  }
+  [[nodiscard]] std::size_t dof_of(int node, int dof) const { return node * dof_names_.size() + dof; }
 
   /// Does a support fix the node's deflection?
   [[nodiscard]] bool fixed_in_w(int node) const { return fixed_[dof_of(node, 0)] != 0; }
@@ -73,8 +64,8 @@ class problem_reader {
   /// The nodes that "node" or "nodes" names; from 0.
   [[nodiscard]] std::vector<int> read_nodes(const table_reader& t) const {
     if (!t.has("nodes")) return {t.integer("node", 1, nodes()) - 1};
-    if (t.has("node")) t.refuse(t.required("node", ""), "node", "this beside nodes", "either node or nodes");
-    return read_numbers(t, "nodes", nodes());
+    t.refuse_beside({"node"}, "nodes", "either node or nodes");
+    return t.numbers("nodes", nodes());
   }
 
   void read_support(const table_reader& t) {
@@ -95,26 +86,22 @@ class problem_reader {
   [[nodiscard]] std::vector<int> read_fix(const table_reader& t) const {
     const std::string allowed =
         fmt::format("an array of \"{}\", each at most once", fmt::join(dof_names_, "\", \""));
-    const toml::node& node = t.required("fix", allowed);
-    const toml::array* array = node.as_array();
-    if (array == nullptr || array->empty()) t.refuse(node, "fix", found_words(node), allowed);
-    std::vector<int> dofs;
-    for (std::size_t i = 0; i < array->size(); ++i) {
-      const std::string_view name = t.text_of(*array->get(i), indexed("fix", i), allowed);
-      const auto dof =
-          static_cast<int>(std::find(dof_names_.begin(), dof_names_.end(), name) - dof_names_.begin());
-      if (dof == dofs_per_node(problem_.geometry) || std::count(dofs.begin(), dofs.end(), dof) != 0) {
-        t.refuse(*array->get(i), indexed("fix", i), found_words(*array->get(i)), allowed);
-      }
-      dofs.push_back(dof);
+    std::vector<int> fixed;
+    for (const toml::node& entry : t.array("fix", allowed, 1)) {
+      const std::string key = indexed("fix", fixed.size());
+      const auto name = std::find(dof_names_.begin(), dof_names_.end(), t.text_of(entry, key, allowed));
+      const auto dof = static_cast<int>(name - dof_names_.begin());
+      if (name == dof_names_.end() || std::count(fixed.begin(), fixed.end(), dof) != 0)
+        t.refuse(entry, key, found_words(entry), allowed);
+      fixed.push_back(dof);
     }
-    return dofs;
+    return fixed;
   }
 
   void read_springs(const table_reader& t, const std::vector<int>& at) {
     t.allow_only(dof_names_);
     for (const int dof : dofs_in(t, "an empty table")) {
-      const double stiffness = t.real(dof_names_[static_cast<std::size_t>(dof)], positive_real);
+      const double stiffness = t.real(dof_names_[dof], positive_real);
       for (const int node : at) problem_.supports.push_back({node, dof, false, stiffness});
     }
   }
@@ -122,16 +109,7 @@ class problem_reader {
   void read_contact(const table_reader& t) {
     t.allow_only({"node", "surface", "face", "stiffness", "state"});
     const int node = t.integer("node", 1, nodes()) - 1;
-    contact_pair p = read_face(t, 0);
-    p.node = node;
-    p.stiffness = t.real("stiffness", positive_real);
-    if (fixed_in_w(node)) {
-      problem_.warnings.push_back(
-          fmt::format("{}:{}: {}: node {} is fixed in w; the pair cannot change the answer, but the listing "
-                      "may toggle it",
-                      file_, t.line(), t.where(), node + 1));
-    }
-    problem_.pairs.push_back(p);
+    read_pair(t, node, fixed_in_w(node) ? fmt::format("node {} is fixed in w", node + 1) : "", problem_);
   }
 
   /// A pair at every node that is free to deflect, each with its tributary length or area.
@@ -140,16 +118,14 @@ class problem_reader {
     const double modulus = t.real("modulus", positive_real);
     contact_pair p = read_face(t, face_below);
     if (shares_.empty()) shares_ = tributary_shares(problem_.geometry);
-    const std::vector<int> at = t.has("nodes") ? read_numbers(t, "nodes", nodes()) : all_nodes();
     const std::size_t before = problem_.pairs.size();
-    for (const int node : at) {
+    for (const int node : t.has("nodes") ? t.numbers("nodes", nodes()) : all_nodes()) {
       if (fixed_in_w(node)) continue;
       p.node = node;
-      p.stiffness = modulus * shares_[static_cast<std::size_t>(node)];
-      if (!std::isnormal(p.stiffness)) {
+      p.stiffness = modulus * shares_[node];
+      if (!std::isnormal(p.stiffness))
         t.refuse(fmt::format("a stiffness of {:g} at node {}", p.stiffness, node + 1),
                  "modulus times tributary length, or area, within the range of double precision");
-      }
       problem_.pairs.push_back(p);
     }
     if (problem_.pairs.size() == before)
@@ -157,8 +133,8 @@ class problem_reader {
   }
 
   [[nodiscard]] std::vector<int> all_nodes() const {
-    std::vector<int> numbers(static_cast<std::size_t>(nodes()));
-    for (int i = 0; i < nodes(); ++i) numbers[static_cast<std::size_t>(i)] = i;
+    std::vector<int> numbers(nodes());
+    std::iota(numbers.begin(), numbers.end(), 0);
     return numbers;
   }
 
@@ -184,7 +160,7 @@ class problem_reader {
       l.distributed.push_back({{t.real("uniform", any_real)}, {}});
       return;
     }
-    if (!node.is_array()) t.refuse(node, "uniform", found_words(node), "a number, or an array of tables");
+    if (!node.is_array()) t.refuse_key("uniform", "a number, or an array of tables");
     // Parts on the same elements become one: thousands on "all" would each be a pass over the beam.
     std::map<std::vector<int>, std::size_t> place;
     for (const table_reader& table : t.tables("uniform")) {
@@ -210,21 +186,17 @@ class problem_reader {
     distributed_load d;
     d.polynomial = t.has("value") ? std::vector<double>{t.real("value", any_real)} : read_polynomial(t);
     const int all = elements(problem_.geometry);
-    if (t.has("elements")) d.elements = read_numbers(t, "elements", all);
+    if (t.has("elements")) d.elements = t.numbers("elements", all);
     if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // each once: all of them
     return d;
   }
 
   [[nodiscard]] std::vector<double> read_polynomial(const table_reader& t) const {
-    const toml::node& node = t.required("polynomial", "");
-    if (!std::holds_alternative<beam>(problem_.geometry.kind)) {
-      t.refuse(node, "polynomial", found_words(node), "value: only a beam's load may be a polynomial");
-    }
+    if (!std::holds_alternative<beam>(problem_.geometry.kind))
+      t.refuse_key("polynomial", "value: only a beam's load may be a polynomial");
     std::vector<double> coefficients = t.reals("polynomial", any_real, 1);
-    if (coefficients.size() > highest_degree + 1) {
-      t.refuse(node, "polynomial", found_words(node),
-               fmt::format("at most {} coefficients", highest_degree + 1));
-    }
+    if (coefficients.size() > highest_degree + 1)
+      t.refuse_key("polynomial", fmt::format("at most {} coefficients", highest_degree + 1));
     return coefficients;
   }
 
@@ -236,11 +208,11 @@ class problem_reader {
       p.allow_only(keys);
       const int node = p.integer("node", 1, nodes()) - 1;
       for (const int dof : dofs_in(p, without))
-        l.points.push_back({node, dof, p.real(dof_names_[static_cast<std::size_t>(dof)], any_real)});
+        l.points.push_back({node, dof, p.real(dof_names_[dof], any_real)});
     }
   }
 
-  std::string_view file_;
+  std::string folder_;  // of the file
   table_reader top_;
   problem problem_;
   std::vector<std::string_view> dof_names_;  // of a node

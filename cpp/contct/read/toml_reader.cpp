@@ -4,55 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <unordered_set>
+#include <utility>
 
 #include "contct/text/did_you_mean.hpp"
+#include "contct/text/field_lines.hpp"
 
 namespace contct {
 namespace {
 
 /// "file:12:3", or the file alone when the place is not known.
-std::string place(std::string_view file, const toml::source_position& at) {
+std::string position(std::string_view file, const toml::source_position& at) {
   return at.line == 0 ? std::string(file) : fmt::format("{}:{}:{}", file, at.line, at.column);
 }
 
 [[noreturn]] void refuse_at(std::string_view file, const toml::source_position& at, std::string_view name,
                             std::string_view found, std::string_view allowed) {
-  throw input_error(fmt::format("{}: {}: found {}; allowed: {}", place(file, at), name, found, allowed));
+  throw input_error(fmt::format("{}: {}: found {}; allowed: {}", position(file, at), name, found, allowed));
 }
 
-/// Text from a file made fit for a message: no control characters, and cut, between characters, to a
-/// length that people read.
-std::string tame(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  std::size_t end = std::min(text.size(), longest);
-  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  std::string safe;
-  for (const char ch : text.substr(0, end))
-    safe += static_cast<unsigned char>(ch) < 32 || ch == 127 ? '?' : ch;
-  return end < text.size() ? safe + "..." : safe;
+std::string whole_words(int least, int most) {
+  return fmt::format("a whole number from {} to {}", least, most);
 }
 
-}  // namespace
-
-std::string found_words(const toml::node& node) {
-  if (const auto* v = node.as_integer()) return fmt::format("{}", v->get());
-  if (const auto* v = node.as_floating_point()) return fmt::format("{}", v->get());
-  if (const auto* v = node.as_boolean()) return v->get() ? "true" : "false";
-  if (const auto* v = node.as_string()) return fmt::format("\"{}\"", tame(v->get()));
-  if (const auto* v = node.as_array())
-    return v->empty() ? "an empty array" : fmt::format("an array of {}", v->size());
-  if (node.is_table()) return "a table";
-  return "a date or time";
-}
-
-std::string indexed(std::string_view key, std::size_t from_zero) {
-  return fmt::format("{}[{}]", key, from_zero + 1);
-}
-
-namespace {
-
-/// toml++ follows a dotted key by recursion: one of many thousand parts would end the stack. Refuse
-/// any run of more than a thousand dots without a separator; no number or name of ours has one.
+/// toml++ follows a dotted key by recursion, which thousands of parts would overflow. Refuse a run of more
+/// than a thousand dots without a separator; no number or name of ours has one.
 void refuse_endless_keys(std::string_view text, std::string_view file) {
   constexpr int most_dots = 1000;
   int dots = 0;
@@ -66,14 +43,39 @@ void refuse_endless_keys(std::string_view text, std::string_view file) {
   }
 }
 
+/// "a..b", or nothing where the text is something else.
+std::optional<std::pair<int, int>> range_in(std::string_view text) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string_view::npos) return {};
+  const auto first = number_in<int>(text.substr(0, dots));
+  const auto last = number_in<int>(text.substr(dots + 2));
+  if (!first || !last) return {};
+  return std::pair(*first, *last);
+}
+
 }  // namespace
+
+std::string found_words(const toml::node& node) {
+  if (const auto* v = node.as_integer()) return fmt::format("{}", v->get());
+  if (const auto* v = node.as_floating_point()) return fmt::format("{}", v->get());
+  if (const auto* v = node.as_boolean()) return v->get() ? "true" : "false";
+  if (const auto* v = node.as_string()) return quoted(v->get());
+  if (const auto* v = node.as_array())
+    return v->empty() ? "an empty array" : fmt::format("an array of {}", v->size());
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+std::string indexed(std::string_view key, std::size_t from_zero) {
+  return fmt::format("{}[{}]", key, from_zero + 1);
+}
 
 toml::table parse_toml(std::string_view text, std::string_view file) {
   refuse_endless_keys(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& e) {
-    throw input_error(fmt::format("{}: not TOML: {}", place(file, e.source().begin), e.description()));
+    throw input_error(fmt::format("{}: not TOML: {}", position(file, e.source().begin), e.description()));
   }
 }
 
@@ -83,6 +85,10 @@ table_reader::table_reader(const toml::table& table, std::string where, std::str
 std::string table_reader::full_name(std::string_view name) const {
   if (where_.empty()) return std::string(name);
   return name.empty() ? where_ : fmt::format("{}.{}", where_, name);
+}
+
+std::string table_reader::place() const {
+  return fmt::format("{}:{}: {}", file_, table_->source().begin.line, where_);
 }
 
 void table_reader::refuse(const toml::node& node, std::string_view name, std::string_view found,
@@ -96,34 +102,42 @@ void table_reader::refuse(std::string_view found, std::string_view allowed) cons
 
 const toml::node& table_reader::required(std::string_view key, std::string_view allowed) const {
   const toml::node* node = table_->get(key);
-  if (node == nullptr) {
+  if (node == nullptr)
     refuse_at(file_, table_->source().begin, full_name(key), "nothing: this key is missing", allowed);
-  }
   return *node;
 }
 
-double table_reader::real_of(const toml::node& node, const std::string& name, const real_range& range) const {
-  double value = 0.0;
-  if (const auto* integer = node.as_integer()) {
-    value = static_cast<double>(integer->get());
-  } else if (const auto* real = node.as_floating_point()) {
-    value = real->get();
-  } else {
-    refuse(node, name, found_words(node), range.words);
-  }
+void table_reader::refuse_key(std::string_view key, std::string_view found, std::string_view allowed) const {
+  refuse(required(key, allowed), key, found, allowed);
+}
+
+void table_reader::refuse_key(std::string_view key, std::string_view allowed) const {
+  refuse_key(key, found_words(required(key, allowed)), allowed);
+}
+
+void table_reader::refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
+                                 std::string_view allowed) const {
+  for (const std::string_view other : others)
+    if (has(other)) refuse_key(other, fmt::format("this beside {}", beside), allowed);
+}
+
+double table_reader::real_of(const toml::node& node, std::string_view name, const real_range& range) const {
+  const auto* const whole = node.as_integer();
+  const auto* const real = node.as_floating_point();
+  if (whole == nullptr && real == nullptr) refuse(node, name, found_words(node), range.words);
+  const double value = whole != nullptr ? static_cast<double>(whole->get()) : real->get();
   if (!std::isfinite(value) || !range.holds(value)) refuse(node, name, found_words(node), range.words);
   return value;
 }
 
-int table_reader::integer_of(const toml::node& node, const std::string& name, int least, int most) const {
+int table_reader::integer_of(const toml::node& node, std::string_view name, int least, int most) const {
   const auto* value = node.as_integer();
-  if (value == nullptr || value->get() < least || value->get() > most) {
-    refuse(node, name, found_words(node), fmt::format("a whole number from {} to {}", least, most));
-  }
+  if (value == nullptr || value->get() < least || value->get() > most)
+    refuse(node, name, found_words(node), whole_words(least, most));
   return static_cast<int>(value->get());
 }
 
-std::string_view table_reader::text_of(const toml::node& node, const std::string& name,
+std::string_view table_reader::text_of(const toml::node& node, std::string_view name,
                                        std::string_view allowed) const {
   const auto* value = node.as_string();
   if (value == nullptr) refuse(node, name, found_words(node), allowed);
@@ -131,16 +145,15 @@ std::string_view table_reader::text_of(const toml::node& node, const std::string
 }
 
 double table_reader::real(std::string_view key, const real_range& range) const {
-  return real_of(required(key, range.words), std::string(key), range);
+  return real_of(required(key, range.words), key, range);
 }
 
 int table_reader::integer(std::string_view key, int least, int most) const {
-  const std::string allowed = fmt::format("a whole number from {} to {}", least, most);
-  return integer_of(required(key, allowed), std::string(key), least, most);
+  return integer_of(required(key, whole_words(least, most)), key, least, most);
 }
 
 std::string table_reader::text(std::string_view key) const {
-  return std::string(text_of(required(key, "text"), std::string(key), "text"));
+  return std::string(text_of(required(key, "text"), key, "text"));
 }
 
 std::size_t table_reader::choice(std::string_view key,
@@ -149,34 +162,54 @@ std::size_t table_reader::choice(std::string_view key,
   for (const std::string_view c : choices)
     allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : " or ", c);
   const toml::node& node = required(key, allowed);
-  const std::string_view value = text_of(node, std::string(key), allowed);
+  const std::string_view value = text_of(node, key, allowed);
   const auto* const at = std::find(choices.begin(), choices.end(), value);
   if (at == choices.end()) {
     const std::vector<std::string> known(choices.begin(), choices.end());
     refuse(node, key, found_words(node) + did_you_mean(value, known), allowed);
   }
-  return static_cast<std::size_t>(at - choices.begin());
+  return at - choices.begin();
+}
+
+const toml::array& table_reader::array(std::string_view key, std::string_view allowed,
+                                       std::size_t least) const {
+  const toml::array* const array = required(key, allowed).as_array();
+  if (array == nullptr || array->size() < least) refuse_key(key, allowed);
+  return *array;
 }
 
 std::vector<double> table_reader::reals(std::string_view key, const real_range& range,
                                         std::size_t least) const {
   const std::string allowed = fmt::format("an array of at least {} numbers, each {}", least, range.words);
-  const toml::node& node = required(key, allowed);
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() < least) refuse(node, key, found_words(node), allowed);
   std::vector<double> values;
-  values.reserve(array->size());
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const toml::node& entry = *array->get(i);
-    // The name is only made for a message: these arrays can be long.
-    if (const auto* real = entry.as_floating_point();
-        real != nullptr && std::isfinite(real->get()) && range.holds(real->get())) {
-      values.push_back(real->get());
-    } else {
-      values.push_back(real_of(entry, indexed(key, i), range));
-    }
+  for (const toml::node& entry : array(key, allowed, least)) {
+    // The name is made for a message alone: these arrays can be long.
+    const auto* const real = entry.as_floating_point();
+    const bool good = real != nullptr && std::isfinite(real->get()) && range.holds(real->get());
+    values.push_back(good ? real->get() : real_of(entry, indexed(key, values.size()), range));
   }
   return values;
+}
+
+std::vector<int> table_reader::numbers(std::string_view key, int count) const {
+  const std::string allowed =
+      fmt::format(R"(a list of whole numbers from 1 to {}, each once, "a..b" or "all")", count);
+  std::vector<int> list;
+  if (const auto* text = required(key, allowed).as_string()) {
+    const auto range = text->get() == "all" ? std::optional(std::pair(1, count)) : range_in(text->get());
+    if (!range || range->first < 1 || range->first > range->second || range->second > count)
+      refuse_key(key, allowed);
+    for (int number = range->first; number <= range->second; ++number) list.push_back(number - 1);
+    return list;
+  }
+  std::unordered_set<int> seen;  // not one mark for each of `count`: a file may hold thousands of short lists
+  for (const toml::node& entry : array(key, allowed, 1)) {
+    const std::string name = indexed(key, list.size());
+    list.push_back(integer_of(entry, name, 1, count) - 1);
+    if (!seen.insert(list.back()).second)
+      refuse(entry, name, found_words(entry) + ", a second time", allowed);
+  }
+  return list;
 }
 
 table_reader table_reader::table(std::string_view key) const {
@@ -192,28 +225,29 @@ table_reader table_reader::table(std::string_view key) const {
 
 std::vector<table_reader> table_reader::tables(std::string_view key) const {
   const toml::node& node = required(key, "at least one table");
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->empty()) {
-    const bool single = where_.empty() && node.is_table();
-    refuse(node, key, found_words(node),
-           single ? fmt::format("at least one table, each under [[{}]] in double brackets", key)
-                  : "an array of at least one table");
-  }
+  const bool single = where_.empty() && node.is_table();
+  const std::string allowed =
+      single ? fmt::format("at least one table, each under [[{}]] in double brackets", key)
+             : "an array of at least one table";
   std::vector<table_reader> readers;
-  readers.reserve(array->size());
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const toml::table* table = array->get(i)->as_table();
-    if (table == nullptr) refuse(*array->get(i), indexed(key, i), found_words(*array->get(i)), "a table");
-    readers.emplace_back(*table, full_name(indexed(key, i)), file_);
+  for (const toml::node& entry : array(key, allowed, 1)) {
+    const std::string name = indexed(key, readers.size());
+    const toml::table* const table = entry.as_table();
+    if (table == nullptr) refuse(entry, name, found_words(entry), "a table");
+    readers.emplace_back(*table, full_name(name), file_);
   }
   return readers;
+}
+
+std::vector<table_reader> table_reader::optional_tables(std::string_view key) const {
+  return has(key) ? tables(key) : std::vector<table_reader>{};
 }
 
 void table_reader::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
     const std::vector<std::string> known(keys.begin(), keys.end());
-    refuse_at(file_, key.source().begin, full_name(tame(key.str())),
+    refuse_at(file_, key.source().begin, full_name(printable(key.str())),
               "an unknown key" + did_you_mean(key.str(), known), fmt::format("{}", fmt::join(keys, ", ")));
   }
 }

@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <initializer_list>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +27,8 @@ inline constexpr real_range any_real{-1.7976931348623157e308, true, "a finite nu
 inline constexpr real_range positive_real{0.0, false, "a finite number greater than 0"};
 
 /// One table of a TOML file. `where` names the table for people: "contact[2]", "beam", or "" for the file
-/// itself.
+/// itself. Every refusal is an input_error with file, line and column. The table and
+/// the file's name must outlive this object.
 class table_reader {
  public:
   table_reader(const toml::table& table, std::string where, std::string_view file);
@@ -44,35 +44,47 @@ class table_reader {
   /// One of `choices`; returns its index.
   [[nodiscard]] std::size_t choice(std::string_view key,
                                    std::initializer_list<std::string_view> choices) const;
+  /// An array of at least `least` entries, of any type.
+  [[nodiscard]] const toml::array& array(std::string_view key, std::string_view allowed,
+                                         std::size_t least) const;
   /// An array of numbers in `range`, at least `least` of them.
   [[nodiscard]] std::vector<double> reals(std::string_view key, const real_range& range,
                                           std::size_t least) const;
+  /// Which nodes or elements: [1, 3, 5], "2..20" or "all". Numbers from 1 to `count` in the file, each once;
+  /// from 0 in the answer, in the order given.
+  [[nodiscard]] std::vector<int> numbers(std::string_view key, int count) const;
   /// A table under `key`.
   [[nodiscard]] table_reader table(std::string_view key) const;
   /// An array of tables under `key`, at least one; refuses anything else.
   [[nodiscard]] std::vector<table_reader> tables(std::string_view key) const;
+  /// The same, or none where the key is missing.
+  [[nodiscard]] std::vector<table_reader> optional_tables(std::string_view key) const;
 
-  /// Turn a node under `key` into a number in `range`. `name` is the key, with an index if any.
-  [[nodiscard]] double real_of(const toml::node& node, const std::string& name,
-                               const real_range& range) const;
-  [[nodiscard]] int integer_of(const toml::node& node, const std::string& name, int least, int most) const;
-  [[nodiscard]] std::string_view text_of(const toml::node& node, const std::string& name,
+  /// A node under `key` as a whole number or text. `name` is the key, with an index if any.
+  [[nodiscard]] int integer_of(const toml::node& node, std::string_view name, int least, int most) const;
+  [[nodiscard]] std::string_view text_of(const toml::node& node, std::string_view name,
                                          std::string_view allowed) const;
 
   /// Refuse every key but these.
   void allow_only(const std::vector<std::string_view>& keys) const;
 
-  /// Refuse the file: `name` is the key (with an index if any) at `node`.
+  /// Refuse the file at `node`, whose `name` is the key, with an index if any.
   [[noreturn]] void refuse(const toml::node& node, std::string_view name, std::string_view found,
                            std::string_view allowed) const;
+  /// Refuse the file at a key that is there; without `found`, for its value.
+  [[noreturn]] void refuse_key(std::string_view key, std::string_view found, std::string_view allowed) const;
+  [[noreturn]] void refuse_key(std::string_view key, std::string_view allowed) const;
   /// Refuse the table itself.
   [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
+  /// Refuse `others` beside the key or keys in `beside`.
+  void refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
+                     std::string_view allowed) const;
 
-  [[nodiscard]] const std::string& where() const { return where_; }
-  /// The line of this table in the file, from 1.
-  [[nodiscard]] unsigned line() const { return table_->source().begin.line; }
+  /// Where this table is, for messages: "pb.toml:12: contact[2]".
+  [[nodiscard]] std::string place() const;
 
  private:
+  [[nodiscard]] double real_of(const toml::node& node, std::string_view name, const real_range& range) const;
   [[nodiscard]] std::string full_name(std::string_view name) const;
 
   const toml::table* table_;

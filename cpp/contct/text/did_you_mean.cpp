@@ -7,9 +7,9 @@
 namespace contct {
 namespace {
 
-constexpr std::size_t longest_word = 64;  // nobody means a longer one, and the table grows with the square
+constexpr std::size_t longest_word = 64;  // the table grows with its square
 
-char small(char ch) {
+char lower(char ch) {
   return ch >= 'A' && ch <= 'Z' ? static_cast<char>(ch - 'A' + 'a') : ch;
 }
 
@@ -22,11 +22,11 @@ int edits_between(std::string_view a, std::string_view b) {
   for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = small(a[i - 1]) == small(b[j - 1]);
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
       const int replaced = edits[i - 1][j - 1] + (same ? 0 : 1);
       edits[i][j] = std::min({replaced, edits[i - 1][j] + 1, edits[i][j - 1] + 1});
       const bool swapped =
-          i > 1 && j > 1 && small(a[i - 1]) == small(b[j - 2]) && small(a[i - 2]) == small(b[j - 1]);
+          i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
       if (swapped) edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
     }
   }

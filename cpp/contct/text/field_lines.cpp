@@ -1,16 +1,10 @@
 #include "contct/text/field_lines.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-
-#include "contct/text/input_text.hpp"
 
 namespace contct {
 namespace {
-
-constexpr std::string_view blanks = " \t\r\v\f";
 
 /// from_chars takes no plus sign.
 std::string_view without_plus(std::string_view number) {
@@ -18,79 +12,82 @@ std::string_view without_plus(std::string_view number) {
   return plus ? number.substr(1) : number;
 }
 
-}  // namespace
-
-void refuse_line(std::string_view file, std::int64_t line, std::string_view found, std::string_view allowed) {
-  throw input_error(fmt::format("{}{}: found {}; allowed: {}", file, line > 0 ? fmt::format(":{}", line) : "",
-                                found, allowed));
+std::string with_e_for_d(std::string_view number) {
+  std::string text(number);
+  for (char& c : text)
+    if (c == 'd' || c == 'D') c = 'e';
+  return text;
 }
 
-std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::size_t end = std::min(text.size(), longest);
-  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  std::string safe = "\"";
-  for (const char ch : text.substr(0, end))
-    safe += static_cast<unsigned char>(ch) < 32 || ch == 127 ? '?' : ch;
-  return safe + (end < text.size() ? "...\"" : "\"");
+}  // namespace
+
+bool text_lines::next() {
+  here_ = {};
+  if (rest_.empty()) return false;
+  const std::size_t end = rest_.find('\n');
+  ended_ = end != std::string_view::npos;
+  here_ = rest_.substr(0, end);
+  rest_.remove_prefix(ended_ ? end + 1 : rest_.size());
+  ++line_;
+  return true;
+}
+
+int text_lines::whole(std::string_view field, std::int64_t least, std::int64_t most,
+                      std::string_view what) const {
+  const auto value = number_in<std::int64_t>(without_plus(field));
+  if (!value || *value < least || *value > most)
+    refuse(quoted(field).append(" for ").append(what),
+           "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(*value);
+}
+
+double text_lines::real(std::string_view field, std::string_view what, bool fortran) const {
+  auto value = number_in<double>(without_plus(field));
+  if (!value && fortran) value = number_in<double>(with_e_for_d(without_plus(field)));
+  if (!value || !std::isfinite(*value))
+    refuse(quoted(field).append(" for ").append(what),
+           "a finite number within the range of double precision, as 1.5 or -2e-3");
+  return *value;
+}
+
+void text_lines::refuse(std::string_view found, std::string_view allowed) const {
+  refuse_line(file_, line_, found, allowed);
+}
+
+void text_lines::refuse_unended() const {
+  if (!ended_)
+    refuse(quoted(here_) + " without a line's end: the file may be cut short", "a line's end behind it");
 }
 
 bool field_lines::next() {
-  while (!rest_.empty()) {
-    const std::size_t end = rest_.find('\n');
-    here_ = rest_.substr(0, end);
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-    ++line_;
+  do {
+    if (!text_lines::next()) {
+      count_ = 0;
+      return false;
+    }
     split();
-    if (count_ > 0 && end == std::string_view::npos)
-      refuse(quoted(here_) + " without a line's end: the file may be cut short", "a line's end behind it");
-    if (count_ > 0) return true;
-  }
-  here_ = {};
-  count_ = 0;
-  return false;
+  } while (count_ == 0);
+  refuse_unended();
+  return true;
 }
 
 void field_lines::split() {
   count_ = 0;
-  std::size_t at = here_.find_first_not_of(blanks);
+  const std::string_view line = here();
+  std::size_t at = line.find_first_not_of(blanks);
   while (at != std::string_view::npos) {
-    const std::size_t end = std::min(here_.find_first_of(blanks, at), here_.size());
+    const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
     if (count_ == most_fields) {
       ++count_;
       return;
     }
-    fields_[count_++] = here_.substr(at, end - at);
-    at = here_.find_first_not_of(blanks, end);
+    fields_[count_++] = line.substr(at, end - at);
+    at = line.find_first_not_of(blanks, end);
   }
 }
 
-int field_lines::whole(std::size_t i, std::int64_t least, std::int64_t most, std::string_view what) const {
-  const std::string_view text = without_plus(fields_[i]);
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value < least || value > most)
-    refuse(fmt::format("{} for {}", quoted(fields_[i]), what),
-           fmt::format("a whole number from {} to {}", least, most));
-  return static_cast<int>(value);
-}
-
-double field_lines::real(std::size_t i, std::string_view what) const {
-  const std::string_view text = without_plus(fields_[i]);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-    refuse(fmt::format("{} for {}", quoted(fields_[i]), what),
-           "a finite number within the range of double precision, as 1.5 or -2e-3");
-  return value;
-}
-
 void field_lines::expect(std::size_t fields, std::string_view allowed) const {
-  if (count_ != fields) refuse(quoted(here_), allowed);
-}
-
-void field_lines::refuse(std::string_view found, std::string_view allowed) const {
-  refuse_line(file_, line_, found, allowed);
+  if (count_ != fields) refuse(quoted(here()), allowed);
 }
 
 }  // namespace contct

@@ -1,58 +1,94 @@
-// Text files of lines that hold a few numbers each: where every mistake is told with file and line.
+// Text files of lines: lines are counted, and every mistake is refused with file and line.
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "contct/text/input_text.hpp"
+#include "contct/text/markup.hpp"
+
 namespace contct {
 
-/// Goes through a text line by line; blanks and tabs part the fields of a line, and blank lines are passed
-/// by. A last line without an end is refused: a number cut in its middle is a number too. Linear in the text.
-/// Refusals are input_errors: "K.mtx:12: found ...; allowed: ...".
-class field_lines {
- public:
-  /// `text` and `file`, its name for messages, must outlive this object.
-  field_lines(std::string_view text, std::string_view file) : rest_(text), file_(file) {}
+/// What separates the fields of a line and is trimmed from its ends.
+inline constexpr std::string_view blanks = " \t\r\v\f";
 
-  /// Go to the next line that is not blank; false when there is none.
+/// The number that the whole of `text` is, as std::from_chars reads it: no blanks, no plus sign. Nothing
+/// where it is anything else or out of range. `format`: a std::chars_format, for reals.
+template <class Number, class... Format>
+[[nodiscard]] std::optional<Number> number_in(std::string_view text, Format... format) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, format...);
+  return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+/// Goes through a text line by line. Refusals are input_errors: "K.mtx:12: found ...; allowed: ...".
+class text_lines {
+ public:
+  /// `text` must outlive this object; `file` is its name in messages.
+  text_lines(std::string_view text, std::string_view file) : rest_(text), file_(file) {}
+
+  /// Go to the next line; false where there is none.
   bool next();
 
-  [[nodiscard]] std::int64_t line() const { return line_; }  ///< of the file, from 1
-  [[nodiscard]] std::string_view whole_line() const { return here_; }
+  [[nodiscard]] std::string_view here() const { return here_; }  ///< the line without its end
+  [[nodiscard]] std::string_view rest() const { return rest_; }  ///< the text behind the line
+  [[nodiscard]] std::int64_t line() const { return line_; }      ///< counted from 1; 0 before the first
+  [[nodiscard]] const std::string& file() const { return file_; }
+
+  /// `field` as a whole number, or as a finite real; a plus sign is allowed. `what` it is, for messages. With
+  /// `fortran`, D may stand for E in a real.
+  [[nodiscard]] int whole(std::string_view field, std::int64_t least, std::int64_t most,
+                          std::string_view what) const;
+  [[nodiscard]] double real(std::string_view field, std::string_view what, bool fortran = false) const;
+
+  [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
+  /// Refuse a last line that has no end: a truncated number would still parse.
+  void refuse_unended() const;
+
+ private:
+  std::string_view rest_, here_;
+  std::string file_;
+  std::int64_t line_ = 0;
+  bool ended_ = true;
+};
+
+/// Lines of a few fields, which blanks and tabs separate. Blank lines are skipped; a last line without an end
+/// is refused. Linear in the text.
+class field_lines : public text_lines {
+ public:
+  using text_lines::text_lines;
+
+  /// Go to the next line that is not blank; false where there is none.
+  bool next();
+
   /// How many fields the line has; more than `most_fields` count as one more than these.
   [[nodiscard]] std::size_t fields() const { return count_; }
   [[nodiscard]] std::string_view field(std::size_t i) const { return fields_[i]; }
-  /// Bytes that are still to be read: no file has more entries than that.
-  [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
 
-  /// Field `i` (from 0) as a whole number, or as a finite real; `what` it is, for messages.
-  [[nodiscard]] int whole(std::size_t i, std::int64_t least, std::int64_t most, std::string_view what) const;
-  [[nodiscard]] double real(std::size_t i, std::string_view what) const;
+  /// Field `i`, from 0, as a number.
+  [[nodiscard]] int whole(std::size_t i, std::int64_t least, std::int64_t most, std::string_view what) const {
+    return text_lines::whole(field(i), least, most, what);
+  }
+  [[nodiscard]] double real(std::size_t i, std::string_view what) const {
+    return text_lines::real(field(i), what);
+  }
 
   /// Refuse the line when it has another number of fields.
   void expect(std::size_t fields, std::string_view allowed) const;
-
-  [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
 
   static constexpr std::size_t most_fields = 8;
 
  private:
   void split();
 
-  std::string_view rest_, file_, here_;
-  std::int64_t line_ = 0;
   std::array<std::string_view, most_fields> fields_;
   std::size_t count_ = 0;
 };
-
-/// Refuse a file at a line (from 1; 0 when it is none in particular).
-[[noreturn]] void refuse_line(std::string_view file, std::int64_t line, std::string_view found,
-                              std::string_view allowed);
-
-/// Text from a file, fit for a message: in quotes, without control characters, and cut.
-[[nodiscard]] std::string quoted(std::string_view text);
 
 }  // namespace contct

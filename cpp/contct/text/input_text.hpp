@@ -1,9 +1,11 @@
-// A whole input file as text.
+// A whole input file as text, and the refusal of what is wrong in it.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace contct {
 
@@ -13,6 +15,10 @@ class input_error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throw the input_error "file:line: found ...; allowed: ...". Lines count from 1; 0 names the file alone.
+[[noreturn]] void refuse_line(std::string_view file, std::int64_t line, std::string_view found,
+                              std::string_view allowed);
 
 /// Read the file at `path`, or standard input for "-". `kind` says for messages what it should be: "problem
 /// file". Throws input_error when there is no such file, when it is a directory, cannot be read, or is as

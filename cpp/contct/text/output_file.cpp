@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where writing to `path` ends up: symbolic links followed, also one whose target is not there yet.
+/// The file that writing to `path` makes: symbolic links are followed, also to a target that does not exist.
 fs::path followed(fs::path path) {
   std::error_code ignored;
   if (fs::exists(path, ignored)) return fs::canonical(path);
@@ -29,15 +29,15 @@ fs::path followed(fs::path path) {
   return fs::weakly_canonical(folder, ignored) / path.filename();
 }
 
-/// The rights of a new file: all but what the umask takes away.
+/// The permissions of a new file: all but those that the umask removes.
 mode_t new_file_rights() {
   const mode_t mask = umask(0);
   umask(mask);
   return 0666 & ~mask;
 }
 
-/// How passing names begin: in the folder of `target`, which has the file system to link in.
-std::string beside(const std::string& target) {
+/// How temporary names begin: in the folder of `target`, since a link cannot leave its file system.
+std::string temporary_prefix(const std::string& target) {
   return (fs::path(target).parent_path() / ".contct-partial").string();
 }
 
@@ -48,7 +48,7 @@ int copy_all(int from, int to) {
   ssize_t got = 0;
   while ((got = pread(from, block, sizeof block, at)) > 0) {
     for (ssize_t written = 0; written < got;) {
-      const ssize_t some = ::write(to, block + written, static_cast<std::size_t>(got - written));
+      const ssize_t some = ::write(to, block + written, got - written);
       if (some < 0) return errno;
       written += some;
     }
@@ -81,7 +81,7 @@ output_file::~output_file() {
   if (file_ != nullptr && file_ != stdout) (void)std::fclose(file_);
 }
 
-/// In the target's own folder, so that a place that cannot be written is found out at once.
+/// In the target's own folder, so that a place that cannot be written is refused at once.
 void output_file::open_without_name() {
   int descriptor = -1;
 #ifdef O_TMPFILE
@@ -91,7 +91,7 @@ void output_file::open_without_name() {
   if (descriptor < 0) {
     how_ = naming::copy;
     const signals_wait until_unlinked;
-    std::string name = beside(target_) + "-XXXXXX";
+    std::string name = temporary_prefix(target_) + "-XXXXXX";
     descriptor = mkstemp(name.data());
     if (descriptor < 0) fail(errno);
     unlink(name.c_str());
@@ -112,15 +112,16 @@ void output_file::finish() {
   if (std::fclose(file) != 0) fail(errno);
 }
 
-/// A file without a name can take one that is free. To replace a file it needs a passing one first.
+/// A file without a name can be linked to a free name only. To replace a file it takes a temporary name
+/// first.
 void output_file::give_name() {
   if (link_to(target_)) return;
   const signals_wait until_named;
-  std::string passing;
-  int error = link_beside(passing) ? 0 : copy_beside(passing);
-  if (error == 0 && std::rename(passing.c_str(), target_.c_str()) != 0) error = errno;
+  std::string temporary;
+  int error = link_beside(temporary) ? 0 : copy_beside(temporary);
+  if (error == 0 && std::rename(temporary.c_str(), target_.c_str()) != 0) error = errno;
   if (error == 0) return;
-  unlink(passing.c_str());
+  unlink(temporary.c_str());
   fail(error);
 }
 
@@ -133,7 +134,7 @@ bool output_file::link_to(const std::string& name) const {
 bool output_file::link_beside(std::string& name) const {
   constexpr int most_tries = 100;
   for (int i = 0; i < most_tries; ++i) {
-    name = beside(target_) + "-" + std::to_string(getpid()) + "-" + std::to_string(i);
+    name = temporary_prefix(target_) + "-" + std::to_string(getpid()) + "-" + std::to_string(i);
     if (link_to(name)) return true;
     if (errno != EEXIST) break;
   }
@@ -142,7 +143,7 @@ bool output_file::link_beside(std::string& name) const {
 
 /// Returns 0, or what went wrong.
 int output_file::copy_beside(std::string& name) const {
-  name = beside(target_) + "-XXXXXX";
+  name = temporary_prefix(target_) + "-XXXXXX";
   const int copy = mkstemp(name.data());
   if (copy < 0) return errno;
   fchmod(copy, new_file_rights());

@@ -14,14 +14,13 @@ class output_error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How a finished file gets its name. A copy is what remains where the file system has no files
-/// without names (O_TMPFILE), or where /proc is missing.
+/// How a finished file gets its name. It is copied where the file system has no files without names
+/// (O_TMPFILE) or /proc is missing.
 enum class naming { link_or_copy, copy };
 
-/// A file without a name until `finish`, which gives it one: however the process ends before, by
-/// any signal, nothing remains. A symbolic link is followed, and its target replaced. "-" is
-/// standard output; a path that exists and is not a regular file, such as a device, is written
-/// directly.
+/// A file that has no name until `finish` gives it one: if the process ends before, nothing remains. A
+/// symbolic link is followed, and its target replaced. "-" is standard output; a path that exists and is not
+/// a regular file, such as a device, is written directly.
 class output_file {
  public:
   explicit output_file(std::string path, naming how = naming::link_or_copy);
@@ -42,17 +41,16 @@ class output_file {
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
-  std::string target_;  // what path_ names once links are followed; empty when written directly
+  std::string target_;  // path_ with links followed; empty when written directly
   naming how_;
   std::FILE* file_ = nullptr;
 };
 
-/// Send on what was printed to standard output. Throws output_error when any of it, now or before,
-/// could not be written.
+/// Flush standard output. Throws output_error when anything printed, now or before, could not be written.
 void flush_standard_output();
 
-/// Would writing to one of these paths change what the other names? True for one file under two
-/// names, there already or not yet; false for devices, pipes and terminals.
+/// Would writing to one of these paths change what the other names? True for two names of one file, whether
+/// it exists or not; false for devices, pipes and terminals.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
 }  // namespace contct

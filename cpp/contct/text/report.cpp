@@ -3,34 +3,23 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "contct/text/markup.hpp"
+
 namespace contct {
 namespace {
 
-/// Text inside XML: what XML 1.0 does not allow at all becomes "?".
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char ch : text) {
-    switch (ch) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        out += static_cast<unsigned char>(ch) < 0x20 && ch != '\t' ? '?' : ch;
+/// An attribute with a blank before it. XML takes a line's end in it for a blank unless it is a reference.
+std::string attribute(std::string_view name, std::string_view value) {
+  std::string text(" ");
+  text.append(name).append("=\"");
+  for (const char ch : markup_text(value)) {
+    if (ch == '\n') {
+      text += "&#10;";
+    } else {
+      text += ch;
     }
   }
-  return out;
+  return text + "\"";
 }
 
 /// Text in a cell of a Markdown table.
@@ -61,21 +50,23 @@ std::int64_t check_report::count(outcome o) const {
 }
 
 std::string junit_xml(const check_report& r) {
-  const std::string counts = "tests=\"" + std::to_string(r.results.size()) + "\" failures=\"" +
-                             std::to_string(r.count(outcome::failed)) + "\" errors=\"0\" skipped=\"" +
-                             std::to_string(r.count(outcome::skipped)) + "\" time=\"" +
-                             seconds_of(r.seconds) + "\"";
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts +
-                    ">\n  <testsuite name=\"" + escaped(r.command) + "\" " + counts + ">\n    <properties>\n";
+  const std::string counts = attribute("tests", std::to_string(r.results.size())) +
+                             attribute("failures", std::to_string(r.count(outcome::failed))) +
+                             attribute("errors", "0") +
+                             attribute("skipped", std::to_string(r.count(outcome::skipped))) +
+                             attribute("time", seconds_of(r.seconds));
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + counts + ">\n  <testsuite" +
+                    attribute("name", r.command) + counts + ">\n    <properties>\n";
   for (const std::string& fact : r.facts)
-    xml += "      <property name=\"fact\" value=\"" + escaped(fact) + "\"/>\n";
+    xml += "      <property" + attribute("name", "fact") + attribute("value", fact) + "/>\n";
   xml += "    </properties>\n";
   for (const check_result& c : r.results) {
-    xml += "    <testcase classname=\"" + escaped(r.command) + "\" name=\"" + escaped(c.name) + "\">\n";
+    const std::string message = attribute("message", c.summary);
+    xml += "    <testcase" + attribute("classname", r.command) + attribute("name", c.name) + ">\n";
     if (c.what == outcome::failed)
-      xml += "      <failure message=\"" + escaped(c.summary) + "\">" + escaped(c.details) + "</failure>\n";
-    if (c.what == outcome::skipped) xml += "      <skipped message=\"" + escaped(c.summary) + "\"/>\n";
-    xml += "      <system-out>" + escaped(c.summary) + "</system-out>\n    </testcase>\n";
+      xml += "      <failure" + message + ">" + markup_text(c.details) + "</failure>\n";
+    if (c.what == outcome::skipped) xml += "      <skipped" + message + "/>\n";
+    xml += "      <system-out>" + markup_text(c.summary) + "</system-out>\n    </testcase>\n";
   }
   return xml + "  </testsuite>\n</testsuites>\n";
 }

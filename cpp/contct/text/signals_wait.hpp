@@ -1,12 +1,12 @@
-// A moment in which no signal ends the process.
+// A scope in which no signal ends the process.
 #pragma once
 
 #include <csignal>
 
 namespace contct {
 
-/// Signals sent to this thread wait while this object lives: for the moment in which a file has a
-/// passing name, which nobody would take away again. (SIGKILL does not wait.)
+/// Blocks every signal to this thread but SIGKILL while this object lives, so that a file with a temporary
+/// name is not left behind.
 class signals_wait {
  public:
   signals_wait() {

@@ -38,26 +38,12 @@ terminal look_at_terminal() {
 
 std::string painted(const terminal& t, paint p, std::string_view text) {
   if (!t.color) return std::string(text);
-  const char* code = "";
-  switch (p) {
-    case paint::good:
-      code = "\033[32m";
-      break;
-    case paint::bad:
-      code = "\033[1;31m";
-      break;
-    case paint::quiet:
-      code = "\033[2m";
-      break;
-    case paint::strong:
-      code = "\033[1m";
-      break;
-  }
-  return std::string(code) + std::string(text) + "\033[0m";
+  constexpr const char* codes[] = {"\033[32m", "\033[1;31m", "\033[2m", "\033[1m"};  // as in `paint`
+  return codes[static_cast<int>(p)] + std::string(text) + "\033[0m";
 }
 
 std::vector<std::string> wrap(const std::vector<std::string>& items, int width) {
-  const auto columns = static_cast<std::size_t>(width);
+  const std::size_t columns = width;
   std::vector<std::string> lines;
   for (std::string item : items) {
     if (!lines.empty() && lines.back().size() + 2 + item.size() <= columns) {

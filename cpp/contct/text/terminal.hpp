@@ -1,4 +1,4 @@
-// What the terminal can show.
+// What the terminal can show, and text wrapped to its width.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ enum class paint { good, bad, quiet, strong };
 /// `text` in colour where `t` has it.
 [[nodiscard]] std::string painted(const terminal& t, paint p, std::string_view text);
 
-/// Items joined by "; ", in lines of at most `width` columns as far as the words allow: an item longer
-/// than a line goes on in the next.
+/// Items joined by "; ", in lines of at most `width` bytes. An item longer than a line is broken at blanks; a
+/// word longer than a line has one of its own.
 [[nodiscard]] std::vector<std::string> wrap(const std::vector<std::string>& items, int width);
 
 }  // namespace contct

@@ -19,7 +19,7 @@ void append_line(std::string& text, std::string_view key, std::string_view value
 std::vector<std::size_t> addressed_dofs(const call<double>& c) {
   std::vector<std::size_t> dofs;
   dofs.reserve(c.id.size());
-  for (const int node : c.id) dofs.push_back(static_cast<std::size_t>(c.dof.dof_of(node) - 1));
+  for (const int node : c.id) dofs.push_back(c.dof.dof_of(node) - 1);
   std::sort(dofs.begin(), dofs.end());
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
   return dofs;
@@ -43,14 +43,10 @@ trace_header header_for(const kernel_facts& k, const std::string& listing, const
 void append_header(const trace_header& h, std::string& text) {
   text.append(trace_format).append("\n");
   for (const std::string& line : h.about) append_line(text, "about", line);
-  append_line(text, "kernel", h.kernel);
-  append_line(text, "real", std::to_string(h.real_bytes));
-  append_line(text, "rule", h.rule);
-  append_line(text, "listing", h.listing);
-  append_line(text, "compiler", h.compiler);
-  append_line(text, "flags", h.flags);
-  append_line(text, "lapack", h.lapack);
-  append_line(text, "floating-point", h.floating_point);
+  for (const auto& [key, value] : trace_facts) {
+    append_line(text, key, h.*value);
+    if (key == "kernel") append_line(text, "real", std::to_string(h.real_bytes));
+  }
 }
 
 void append_inputs(std::int64_t number, std::string_view note, const call<double>& c,

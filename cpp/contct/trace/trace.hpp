@@ -2,6 +2,7 @@
 // reference/trace-format.md describes it for people.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "contct/kernel/call.hpp"
 #include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
+#include "contct/text/field_lines.hpp"
 
 namespace contct {
 
@@ -29,6 +31,22 @@ struct trace_header {
   std::string lapack;              ///< whose solves the inputs come from, or "none"
   std::string floating_point;      ///< what the probe said
 };
+
+/// A line "key value" of the header; one whose value is empty is left out.
+struct trace_fact {
+  std::string_view key;
+  std::string trace_header::*value;
+};
+
+/// The lines of the header behind "about", in order; behind "kernel" stands "real".
+inline constexpr std::array<trace_fact, 7> trace_facts = {
+    {{"kernel", &trace_header::kernel},
+     {"rule", &trace_header::rule},
+     {"listing", &trace_header::listing},
+     {"compiler", &trace_header::compiler},
+     {"flags", &trace_header::flags},
+     {"lapack", &trace_header::lapack},
+     {"floating-point", &trace_header::floating_point}}};
 
 /// One call, and the answer to it.
 struct recorded_call {
@@ -65,13 +83,13 @@ class trace_reader {
   static constexpr int most_dofs = 10'000'000;
 
   /// `text` must outlive this object. `name` is the file's, for messages.
-  trace_reader(std::string_view text, std::string name);
+  trace_reader(std::string_view text, std::string_view name);
 
   /// The header. Call it once, first.
   [[nodiscard]] trace_header read_header();
 
   /// The next call with its answer; false at the end of the text. Calls are numbered in rising order.
-  /// dd and dtest are NaN wherever the trace says nothing: who reads there is found out.
+  /// dd and dtest are NaN wherever the trace says nothing, so that a kernel that reads there is noticed.
   bool next(recorded_call& c);
 
   /// The inputs alone, up to "ask"; false at the end of the text.
@@ -81,23 +99,22 @@ class trace_reader {
   void read_answer(call_outputs& out);
 
   /// The number of the line read last, from 1.
-  [[nodiscard]] int line() const { return line_number_; }
+  [[nodiscard]] std::int64_t line() const { return lines_.line(); }
 
  private:
-  bool next_line(std::string_view& line);
   std::string_view need_line(std::string_view allowed);
   [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
   void read_header_line(std::string_view line, trace_header& h) const;
+  void read_layout(call_inputs<double>& in);
+  void forget_dofs(call_inputs<double>& in);
   void read_dofs(call_inputs<double>& in);
   void read_pairs(call_inputs<double>& in);
   void refuse_missing_dofs(const call_inputs<double>& in) const;
 
-  std::string_view rest_;
-  std::string name_;
-  int line_number_ = 0;
+  text_lines lines_;
   std::int64_t last_call_ = 0;
-  std::vector<std::size_t> given_;  // dofs of the call before, to be forgotten
-  std::vector<char> is_given_;      // by dof, and never shorter than a call has been
+  std::vector<std::size_t> given_;  // the dofs that the last call gave, from 0
+  std::vector<char> is_given_;      // by dof; never shrinks
 };
 
 }  // namespace contct

@@ -1,8 +1,12 @@
-// Traces that are none: every one is refused with file and line, what was found and what is allowed.
+// What a trace may say, and that anything else is refused with file and line, what was found and what is
+// allowed.
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "catch.hpp"
+#include "contct/numeric/bits.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/trace/trace.hpp"
@@ -68,7 +72,7 @@ std::string with(const std::string& from, const std::string& to) {
 struct attack {
   std::string what;
   std::string text;
-  int line;           // where it is refused
+  int line;           // where it is refused; 0 where the text has none
   std::string found;  // what the message must have
 };
 
@@ -218,15 +222,26 @@ std::string edited(std::string text, random_numbers& random) {
   return text;
 }
 
-/// Is `message` one line of the form FILE:LINE: found ...; allowed: ...?
+/// Is `message` one line of the form FILE:LINE: found ...; allowed: ...? An empty text has no line.
 bool well_formed(const std::string& message) {
-  const std::string file = "bad.trace:";
+  const std::string file = "bad.trace";
   const std::size_t found = message.find(": found ");
   const std::size_t allowed = message.find("; allowed: ", found);
   if (message.size() >= 700 || message.find('\n') != std::string::npos) return false;
   if (!message.starts_with(file) || allowed == std::string::npos) return false;
   const std::string line = message.substr(file.size(), found - file.size());
-  return !line.empty() && line.find_first_not_of("0123456789") == std::string::npos;
+  return line.empty() ||
+         (line[0] == ':' && line.size() > 1 && line.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
+/// What the reader makes of one number.
+double read_number(const std::string& word) {
+  const std::string text = "call 1\nindof 1 ndofpn 1 dofs 1 nc 1\ndof 1 dd " + word +
+                           " dtest 1\npair 1 id 1 isep 1 isurf 1 cc 1\nask\n";
+  trace_reader reader(text, "a call");
+  recorded_call c;
+  REQUIRE(reader.next_inputs(c));
+  return c.in.dd[0];
 }
 
 }  // namespace
@@ -244,7 +259,8 @@ TEST_CASE("a malformed trace is refused with file and line, what was found and w
     const read_result r = read_all(a.text);
     INFO(a.what << ": " << r.refused);
     CHECK(well_formed(r.refused));
-    CHECK_THAT(r.refused, Catch::Matchers::StartsWith("bad.trace:" + std::to_string(a.line) + ": "));
+    CHECK_THAT(r.refused, Catch::Matchers::StartsWith(
+                              a.line == 0 ? "bad.trace: " : "bad.trace:" + std::to_string(a.line) + ": "));
     CHECK_THAT(r.refused, Catch::Matchers::Contains(a.found));
   }
 }
@@ -304,4 +320,54 @@ TEST_CASE("a trace of the golden set with bytes changed is read or refused, and 
   }
   CHECK(read > 100);
   CHECK(refused > 3000);
+}
+
+TEST_CASE("what one call says of a dof is forgotten in the next") {
+  const std::string calls =
+      "call 1\nindof 1 ndofpn 1 dofs 3 nc 1\ndof 1 dd 1 dtest 1\ndof 3 dd 3 dtest 3\n"
+      "pair 1 id 1 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
+      "\ncall 2\nindof 1 ndofpn 1 dofs 2 nc 1\ndof 2 dd 2 dtest 2\n"
+      "pair 1 id 2 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
+      "\ncall 3\nindof 1 ndofpn 1 dofs 3 nc 0\nask\nsmin 1\nend\n";
+  trace_reader reader(calls, "a trace");
+  recorded_call c;
+  REQUIRE(reader.next(c));
+  CHECK(c.in.dd[2] == 3.0);
+  REQUIRE(reader.next(c));
+  CHECK(std::isnan(c.in.dd[0]));
+  CHECK(c.in.dd[1] == 2.0);
+  REQUIRE(reader.next(c));
+  for (const double d : c.in.dd) CHECK(std::isnan(d));
+  CHECK_FALSE(reader.next(c));
+}
+
+TEST_CASE("numbers may be written as a person writes them") {
+  CHECK(read_number("1") == 1.0);
+  CHECK(read_number("-0.1") == -0.1);
+  CHECK(read_number(".5") == 0.5);
+  CHECK(read_number("1e-10") == 1e-10);
+  CHECK(read_number("1E+3") == 1000.0);
+  CHECK(same_bits(read_number("-0"), -0.0));
+  CHECK(read_number("4.9406564584124654e-324") == std::numeric_limits<double>::denorm_min());
+  CHECK(read_number("0x1.8p+1") == 3.0);
+  CHECK(read_number("0x1.8000p1") == 3.0);
+  CHECK(read_number("0xc.0p-2") == 3.0);
+  CHECK(read_number("-inf") == -std::numeric_limits<double>::infinity());
+  CHECK(std::isnan(read_number("nan")));
+  CHECK(std::isnan(read_number("-nan")));
+}
+
+TEST_CASE("the reader counts the lines that it has read") {
+  trace_reader reader(good, "a trace");
+  CHECK(reader.line() == 0);
+  (void)reader.read_header();
+  CHECK(reader.line() == 6);
+  recorded_call c;
+  REQUIRE(reader.next_inputs(c));
+  CHECK(reader.line() == 14);
+  c.out.ss.resize(2);
+  c.out.isep.resize(2);
+  reader.read_answer(c.out);
+  CHECK(c.out.smin == 0.25);
+  CHECK(reader.line() == 19);
 }

@@ -1,18 +1,11 @@
-// Where nodes are: files of coordinates and CalculiX's input, what is read of them, what is refused where.
-#include <fmt/format.h>
+// CalculiX's input: the nodes and edges that are read of it, and what is refused where.
+#include "contct/read/inp_mesh.hpp"
 
-#include <chrono>
-#include <filesystem>
-#include <fstream>
+#include <fmt/format.h>
 
 #include "catch.hpp"
 #include "contct/numeric/random.hpp"
-#include "contct/read/inp_mesh.hpp"
-#include "contct/read/matrix_places.hpp"
-#include "contct/read/node_coordinates.hpp"
-#include "contct/text/input_text.hpp"
 #include "read/refusals.hpp"
-#include "support/scratch_folder.hpp"
 
 using namespace contct;
 using Catch::Matchers::Contains;
@@ -22,9 +15,6 @@ namespace {
 using place = std::array<double, 3>;
 using edge = std::array<int, 3>;  ///< from, to, and how many elements have it
 
-std::string of_coordinates(const std::string& text) {
-  return verdict([&] { (void)parse_coordinates(text, "K.xyz"); });
-}
 std::string of_mesh(const std::string& text) {
   return verdict([&] { (void)parse_inp_mesh(text, "job.inp"); });
 }
@@ -49,68 +39,7 @@ std::string element_text(const std::string& type, int nodes) {
   return text + "\n";
 }
 
-/// A structure with these labels and nothing else to it but what couples.
-assembled with_labels(std::vector<std::string> labels, std::vector<matrix_entry> entries = {}) {
-  assembled a;
-  a.stiffness = {static_cast<int>(labels.size()), std::move(entries)};
-  a.labels = std::move(labels);
-  return a;
-}
-
-const std::string good = "# the frame\n\na 0 0 # foot\nb\t1.5 -2e-3\n";
-
 }  // namespace
-
-TEST_CASE("coordinates are read: comments, blank lines, names of any kind, two of them or three") {
-  const auto flat = parse_coordinates(good, "K.xyz");
-  REQUIRE(flat.size() == 2);
-  CHECK(flat[0].name == "a");
-  CHECK(flat[1].at == place{1.5, -2e-3, 0});
-  const auto solid =
-      parse_coordinates("node.7 +1 .5 5.\r\n12 0 0 -1E+2 # a long comment of many many words\n", "K.xyz");
-  REQUIRE(solid.size() == 2);
-  CHECK(solid[0].name == "node.7");
-  CHECK(solid[0].at == place{1, 0.5, 5});
-  CHECK(solid[1].at == place{0, 0, -100});
-}
-
-TEST_CASE(
-    "every mistake in a file of coordinates is refused with its line, what was found and what is allowed") {
-  check_refusals(
-      {
-          {"", "K.xyz: ", "no node", "name x y"},
-          {"# only\n\n", "K.xyz: ", "no node", "name x y"},
-          {good + "c 1\n", "K.xyz:5", "\"c 1\"", "name x y"},
-          {good + "c 1 # 2\n", "K.xyz:5", "\"c 1 # 2\"", "name x y"},
-          {good + "c 1 2 3 4\n", "K.xyz:5", "\"c 1 2 3 4\"", "name x y"},
-          {good + "c 1 2 3\n", "K.xyz:5", "3 coordinates for node \"c\"", "2, as the lines before"},
-          {"c 1 2 3\n" + good, "K.xyz:4", "2 coordinates for node \"a\"", "3, as the lines before"},
-          {good + "b 1 2\n", "K.xyz:5", "node \"b\" again, which line 4 has", "each node once"},
-          {good + "c nan 2\n", "K.xyz:5", "\"nan\" for x", "finite"},
-          {good + "c 1 inf\n", "K.xyz:5", "\"inf\" for y", "finite"},
-          {"c 1 2 1e999\n", "K.xyz:1", "\"1e999\" for z", "finite"},
-          {good + "c 1 2,0\n", "K.xyz:5", "\"2,0\" for y", "as 1.5"},
-          {good + "c 1 2#\n", "K.xyz:5", "\"2#\" for y", "as 1.5"},
-          {good + "c 1 2", "K.xyz:5", "\"c 1 2\" without a line's end", "a line's end"},
-          {std::string("\x7f"
-                       "ELF\x02\0\0\0\n",
-                       9),
-           "K.xyz:1", "\"?ELF", "name x y"},
-          {std::string(200000, 'x') + " 1 2 3 4 5\n", "K.xyz:1", "\"xxx", "name x y"},
-      },
-      of_coordinates);
-  CHECK(of_coordinates(good) == "accepted");
-}
-
-TEST_CASE("a mesh or coordinates that are too large are refused before they are parsed, as are folders") {
-  const scratch_folder folder;
-  const std::filesystem::path path = folder.write("large-mesh", "");
-  std::filesystem::resize_file(path, largest_mesh_file << 20);
-  CHECK_THAT(verdict([&] { (void)read_coordinates(path.string()); }), Contains("found 256 MiB or more"));
-  CHECK_THAT(verdict([&] { (void)read_inp_mesh(path.string()); }), Contains("found 256 MiB or more"));
-  CHECK_THAT(verdict([] { (void)read_inp_mesh("/"); }), Contains("found a directory"));
-  CHECK_THAT(verdict([] { (void)read_coordinates("none.xyz"); }), Contains("none.xyz: cannot be read"));
-}
 
 TEST_CASE(
     "CalculiX's nodes are read: any case, blanks, comments, FORTRAN's numbers, what is not there is 0") {
@@ -222,6 +151,12 @@ TEST_CASE("an edge that elements share is there once, with how many have it") {
                                          {3, 5, 1}});
 }
 
+TEST_CASE("an element's nodes may follow on other lines, and a comment between them is ignored") {
+  const placed_nodes m =
+      parse_inp_mesh(nodes_text(4) + "*ELEMENT,TYPE=C3D4\n1,1,2,\n** a comment\n3,\n4\n", "job.inp");
+  CHECK(m.edges.size() == 6);
+}
+
 TEST_CASE("what of an input file is not drawn is counted in words") {
   const placed_nodes m =
       parse_inp_mesh(nodes_text(3) +
@@ -269,16 +204,15 @@ TEST_CASE("every mistake in an input file is refused with its line, what was fou
   CHECK(of_mesh(nodes) == "accepted");
 }
 
-TEST_CASE("mutilated meshes and coordinates are refused or read whole: no crash, no hang") {
+TEST_CASE("mutilated meshes are refused or read whole: no crash, no hang") {
   random_numbers random(20261122);
-  const std::string files[] = {
-      good, nodes_text(8) + element_text("C3D8", 8) + "*INCLUDE,INPUT=x\n*ELEMENT,TYPE=S3\n1,2,3\n"};
+  const std::string good =
+      nodes_text(8) + element_text("C3D8", 8) + "*INCLUDE,INPUT=x\n*ELEMENT,TYPE=S3\n1,2,3\n";
   const std::string pieces[] = {"1", "-", "\n", " ", "e", "nan", "3,", "*", "999999999999",
                                 ".", "#", ",",  "**"};
   int refused = 0;
-  for (int trial = 0; trial < 20000; ++trial) {
-    const int kind = random.whole(0, 1);
-    std::string text = files[kind];
+  for (int trial = 0; trial < 10000; ++trial) {
+    std::string text = good;
     for (int change = random.whole(1, 3); change > 0; --change) {
       const auto at = static_cast<std::size_t>(random.whole(0, static_cast<int>(text.size())));
       if (random.whole(0, 2) == 0) {
@@ -289,10 +223,7 @@ TEST_CASE("mutilated meshes and coordinates are refused or read whole: no crash,
     }
     INFO(text);
     placed_nodes m;
-    const std::string message = verdict([&] {
-      if (kind == 0) m.nodes = parse_coordinates(text, "K.xyz");
-      if (kind == 1) m = parse_inp_mesh(text, "job.inp");
-    });
+    const std::string message = verdict([&] { m = parse_inp_mesh(text, "job.inp"); });
     if (message != "accepted") {
       ++refused;
       CHECK(message.find("; allowed: ") != std::string::npos);
@@ -302,105 +233,11 @@ TEST_CASE("mutilated meshes and coordinates are refused or read whole: no crash,
       sound = sound && 0 <= e.from && e.from < e.to && e.to < static_cast<int>(m.nodes.size());
     CHECK(sound);
   }
-  CHECK(refused > 3000);
-  CHECK(refused < 19000);
+  CHECK(refused > 1500);
+  CHECK(refused < 9500);
 }
 
-TEST_CASE("a label's last part says its direction") {
-  for (const auto& [name, direction] : std::vector<std::pair<std::string, int>>{{"x", 1},
-                                                                                {"y", 2},
-                                                                                {"z", 3},
-                                                                                {"1", 1},
-                                                                                {"3", 3},
-                                                                                {"r", 6},
-                                                                                {"rx", 4},
-                                                                                {"ry", 5},
-                                                                                {"rz", 6},
-                                                                                {"4", 4},
-                                                                                {"6", 6},
-                                                                                {"7", 0},
-                                                                                {"", 0},
-                                                                                {"X", 0},
-                                                                                {"xy", 0},
-                                                                                {"01", 0}}) {
-    INFO(name);
-    CHECK(direction_of(name) == direction);
-  }
-}
-
-TEST_CASE("labels find their nodes by what stands before the last dot, and those that do not are counted") {
-  placed_nodes places;
-  places.nodes = parse_coordinates("a 0 0\nb.c 1 0\n", "K.xyz");
-  const assembled a = with_labels({"a.x", "b.c.y", "b.c.rz", "d.x", "a", "a.w", "a.1", "b.x"});
-  REQUIRE(place_dofs(a, places));
-  const auto at = [&](std::size_t dof) {
-    return std::pair(places.dofs[dof].node, places.dofs[dof].direction);
-  };
-  CHECK(at(0) == std::pair(0, 1));
-  CHECK(at(1) == std::pair(1, 2));
-  CHECK(at(2) == std::pair(1, 6));
-  for (std::size_t dof = 3; dof < 8; ++dof) CHECK(at(dof).first == -1);  // a.1 is where a.x is
-  REQUIRE(places.said.size() == 2);
-  CHECK_THAT(places.said[0], Contains("5 of 8 dofs") && Contains("as \"d.x\""));
-  CHECK_THAT(places.said[1], Contains("Rotations, 1 of 8 dofs"));
-}
-
-TEST_CASE("where no label has its node nothing is known") {
-  placed_nodes places;
-  places.nodes = parse_coordinates("a 0 0\n", "K.xyz");
-  CHECK_FALSE(place_dofs(with_labels({"1", "2", "a.q", ".x"}), places));
-  CHECK_FALSE(places.known());
-  CHECK(places.dofs.empty());
-}
-
-TEST_CASE(
-    "nodes that the matrix couples have an edge, as long as these are few, and an entry of 0 couples "
-    "nothing") {
-  placed_nodes places;
-  places.nodes = parse_coordinates("a 0 0\nb 1 0\nc 2 0\n", "K.xyz");
-  const assembled chain =
-      with_labels({"a.x", "a.y", "b.x", "b.r", "c.x", "odd"},
-                  {{0, 0, 1}, {1, 0, 1}, {2, 0, 1}, {2, 1, 1}, {4, 0, 0.0}, {4, 3, -2}, {5, 0, 1}});
-  REQUIRE(place_dofs(chain, places));
-  add_coupling_edges(chain, places);
-  CHECK(edges_of(places) == std::vector<edge>{{0, 1, 1}, {1, 2, 1}});
-
-  // Everything with everything: 8 nodes have 28 couplings, more than 24; 7 have 21.
-  for (const int n : {7, 8}) {
-    std::string text;
-    std::vector<std::string> labels;
-    std::vector<matrix_entry> full;
-    for (int i = 0; i < n; ++i) {
-      text += fmt::format("{} {} 0\n", i, i);
-      labels.push_back(fmt::format("{}.x", i));
-      for (int j = 0; j <= i; ++j) full.push_back({i, j, 1.0});
-    }
-    placed_nodes solid;
-    solid.nodes = parse_coordinates(text, "K.xyz");
-    const assembled a = with_labels(labels, full);
-    REQUIRE(place_dofs(a, solid));
-    add_coupling_edges(a, solid);
-    CHECK(solid.edges.size() == (n == 7 ? 21U : 0U));
-    REQUIRE(solid.said.size() == (n == 7 ? 0U : 1U));
-    if (n == 8) CHECK_THAT(solid.said[0], Contains("28 pairs of its 8 nodes"));
-  }
-}
-
-TEST_CASE("nodes without dof and edge are left out, and what names nodes by numbers follows") {
-  placed_nodes places;
-  places.nodes = parse_coordinates("1 0 0\n2 0 0\n3 7 0\n4 0 0\n5 9 0\n", "K.xyz");
-  const assembled a = with_labels({"5.1", "x"});
-  REQUIRE(place_dofs(a, places));
-  places.edges = {{2, 4, 1}};
-  drop_idle_nodes(places);
-  REQUIRE(places.nodes.size() == 2);
-  CHECK(places.nodes[0].name == "3");
-  CHECK(places.dofs[0].node == 1);
-  CHECK(places.dofs[1].node == -1);
-  CHECK(edges_of(places) == std::vector<edge>{{0, 1, 1}});
-}
-
-TEST_CASE("a mesh of 60,000 bricks is read in seconds") {
+TEST_CASE("a mesh of 60,000 bricks is read whole: its edges are those of the grid") {
   std::string text = "*NODE\n";
   constexpr int across = 41;
   constexpr int along = 38;
@@ -418,10 +255,7 @@ TEST_CASE("a mesh of 60,000 bricks is read in seconds") {
       }
     }
   }
-  const auto start = std::chrono::steady_clock::now();
-  const placed_nodes m = parse_inp_mesh(text, "job.inp");
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const placed_nodes m = parse_inp_mesh(text, "job.inp");  // quadratic work would exceed the time limit
   CHECK(bricks == 59200);
   CHECK(m.edges.size() == std::size_t{40} * 41 * 38 * 2 + std::size_t{41} * 41 * 37);
-  CHECK(taken.count() < 60);  // under a second where nothing else runs
 }

@@ -1,0 +1,202 @@
+#include "contct/read/matrix_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "contct/text/field_lines.hpp"
+
+namespace contct {
+namespace {
+
+constexpr std::int64_t most_rows = std::numeric_limits<int>::max() - 1;
+constexpr std::int64_t most_entries = std::numeric_limits<int>::max() - 1;
+constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and its line's end
+
+/// An entry of the lower triangle, row >= column, from 0, and the line that it was read from. 24 bytes.
+struct read_entry {
+  int row, column;
+  double value;
+  std::int64_t line;
+};
+
+/// By columns, and by rows in each. Columns are counted first, so that the whole is linear.
+void sort_entries(std::vector<read_entry>& entries, int order) {
+  std::vector<std::size_t> starts(order + std::size_t{1}, 0);
+  for (const read_entry& e : entries) ++starts[e.column + 1];
+  for (std::size_t column = 1; column < starts.size(); ++column) starts[column] += starts[column - 1];
+  std::vector<std::size_t> next = starts;
+  std::vector<read_entry> sorted(entries.size());
+  for (const read_entry& e : entries) sorted[next[e.column]++] = e;
+  for (int column = 0; column < order; ++column) {
+    std::sort(sorted.begin() + starts[column], sorted.begin() + starts[column + 1],
+              [](const read_entry& a, const read_entry& b) {
+                return a.row != b.row ? a.row < b.row : a.line < b.line;
+              });
+  }
+  entries = std::move(sorted);
+}
+
+void refuse_repeated(const std::vector<read_entry>& entries, std::string_view file) {
+  const auto same = std::adjacent_find(
+      entries.begin(), entries.end(),
+      [](const read_entry& a, const read_entry& b) { return a.row == b.row && a.column == b.column; });
+  if (same == entries.end()) return;
+  refuse_line(file, (same + 1)->line,
+              fmt::format("the place of row {} and column {} again, which line {} has", same->row + 1,
+                          same->column + 1, same->line),
+              "each place once: sum what belongs together");
+}
+
+/// Refuse a negative diagonal, and a row that has entries but no diagonal.
+void refuse_indefinite(const std::vector<read_entry>& entries, int order, std::string_view file) {
+  std::vector<char> stiff(order, 0);
+  for (const read_entry& e : entries) {
+    if (e.row != e.column) continue;
+    if (e.value < 0)
+      refuse_line(file, e.line, fmt::format("{:g} on the diagonal of row {}", e.value, e.row + 1),
+                  "0 or more: a stiffness matrix is positive semidefinite");
+    stiff[e.row] = e.value > 0 ? 1 : 0;
+  }
+  for (const read_entry& e : entries) {
+    const int bare = stiff[e.row] == 0 ? e.row : e.column;
+    if (e.value == 0 || stiff[bare] != 0) continue;
+    refuse_line(file, e.line, fmt::format("{:g} in row {}, which has 0 on its diagonal", e.value, bare + 1),
+                "a matrix that is positive semidefinite");
+  }
+}
+
+/// The matrix, without entries that are 0. Linear in the entries.
+sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file) {
+  // Before anything of the order's size is allocated: it is only what a line declares.
+  if (order > static_cast<std::int64_t>(entries.size()))
+    refuse_line(file, 0, fmt::format("{} rows and {} entries", order, entries.size()),
+                "an entry on the diagonal of every row");
+  sort_entries(entries, order);
+  refuse_repeated(entries, file);
+  refuse_indefinite(entries, order, file);
+  sparse_matrix matrix{order, {}};
+  for (const read_entry& e : entries)
+    if (e.value != 0) matrix.entries.push_back({e.row, e.column, e.value});
+  return matrix;
+}
+
+bool same_word(std::string_view a, std::string_view lower) {
+  return std::equal(a.begin(), a.end(), lower.begin(), lower.end(), [](char x, char y) {
+    return (x >= 'A' && x <= 'Z' ? static_cast<char>(x - 'A' + 'a') : x) == y;
+  });
+}
+
+/// The first line; true where it says "array" and not "coordinate".
+bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_array) {
+  const std::string allowed = fmt::format("%%MatrixMarket matrix {} real {}",
+                                          may_be_array ? "array (or coordinate)" : "coordinate", symmetry);
+  if (!lines.next() || lines.line() != 1) lines.refuse("no header", allowed);
+  const bool sound = lines.fields() == 5 && same_word(lines.field(0), "%%matrixmarket") &&
+                     same_word(lines.field(1), "matrix") && same_word(lines.field(3), "real") &&
+                     same_word(lines.field(4), symmetry);
+  const bool array = sound && may_be_array && same_word(lines.field(2), "array");
+  if (!sound || (!array && !same_word(lines.field(2), "coordinate")))
+    lines.refuse(quoted(lines.here()), allowed);
+  return array;
+}
+
+/// To the line behind the comments: the size.
+void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed) {
+  do {
+    if (!lines.next()) lines.refuse("the end of the file", allowed);
+  } while (lines.field(0).front() == '%');
+  lines.expect(fields, allowed);
+}
+
+/// The line "row column value", from 1 in the file and from 0 in the answer; `what` the value is.
+read_entry entry_in(const field_lines& lines, int rows, int columns, std::string_view what) {
+  lines.expect(3, "row, column and value");
+  return {lines.whole(0, 1, rows, "the row") - 1, lines.whole(1, 1, columns, "the column") - 1,
+          lines.real(2, what), lines.line()};
+}
+
+/// Call `read` at each line behind the line of the size, which says how many there are.
+template <class Read>
+void read_lines(field_lines& lines, int said, std::string_view kind, const Read& read) {
+  const std::int64_t size_line = lines.line();
+  int count = 0;
+  while (lines.next()) {
+    if (count++ == said)
+      lines.refuse(fmt::format("more {}", kind), fmt::format("{}, as line {} says", said, size_line));
+    read();
+  }
+  if (count < said)
+    lines.refuse(fmt::format("the end of the file after {} of {}", count, said),
+                 fmt::format("as many as line {} says", size_line));
+}
+
+}  // namespace
+
+sparse_matrix parse_symmetric(std::string_view text, std::string_view file) {
+  field_lines lines(text, file);
+  (void)read_header(lines, "symmetric", false);
+  go_to_size(lines, 3, "rows, columns and the number of entries");
+  const int rows = lines.whole(0, 1, most_rows, "the rows");
+  const int columns = lines.whole(1, 1, most_rows, "the columns");
+  if (rows != columns) lines.refuse(fmt::format("{} rows and {} columns", rows, columns), "a square matrix");
+  const int said = lines.whole(2, 1, most_entries, "the number of entries");
+  std::vector<read_entry> entries;
+  // The declared entry count alone is not used to allocate memory.
+  entries.reserve(std::min<std::size_t>(said, lines.rest().size() / least_bytes_of_entry + 1));
+  read_lines(lines, said, "entries than that", [&] {
+    const read_entry e = entry_in(lines, rows, rows, "an entry");
+    if (e.row < e.column)
+      lines.refuse(fmt::format("row {} and column {}, above the diagonal", e.row + 1, e.column + 1),
+                   "the lower triangle, row >= column: what symmetric means in this format");
+    entries.push_back(e);
+  });
+  return matrix_of(std::move(entries), rows, file);
+}
+
+sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view file, int rows) {
+  field_lines lines(text, file);
+  std::vector<read_entry> entries;
+  while (lines.next()) {
+    read_entry e = entry_in(lines, rows, rows, "an entry");
+    if (e.row > e.column)
+      lines.refuse(fmt::format("row {} and column {}, below the diagonal", e.row + 1, e.column + 1),
+                   "the upper triangle, row <= column, as CalculiX writes it");
+    std::swap(e.row, e.column);
+    entries.push_back(e);
+  }
+  return matrix_of(std::move(entries), rows, file);
+}
+
+std::vector<double> parse_vector(std::string_view text, std::string_view file, int rows) {
+  field_lines lines(text, file);
+  const bool array = read_header(lines, "general", true);
+  go_to_size(lines, array ? 2 : 3, array ? "rows and columns" : "rows, columns and the number of entries");
+  if (lines.whole(0, 1, most_rows, "the rows") != rows)
+    lines.refuse(fmt::format("{} rows", lines.field(0)), fmt::format("{}, as the matrix has", rows));
+  (void)lines.whole(1, 1, 1, "the columns");
+  std::vector<double> values;
+  if (array) {
+    read_lines(lines, rows, "numbers than rows", [&] {
+      lines.expect(1, "one number a line");
+      values.push_back(lines.real(0, "a load"));
+    });
+    return values;
+  }
+  values.assign(rows, 0.0);
+  std::vector<std::int64_t> line_of(rows, 0);
+  read_lines(lines, lines.whole(2, 0, rows, "the number of entries"), "entries than that", [&] {
+    const read_entry e = entry_in(lines, rows, 1, "a load");
+    if (line_of[e.row] != 0)
+      lines.refuse(fmt::format("row {} again, which line {} has", e.row + 1, line_of[e.row]),
+                   "each row once");
+    line_of[e.row] = e.line;
+    values[e.row] = e.value;
+  });
+  return values;
+}
+
+}  // namespace contct

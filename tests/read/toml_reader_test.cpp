@@ -1,0 +1,134 @@
+// Strict TOML: what each kind of value takes, and where a file is refused.
+#include "contct/read/toml_reader.hpp"
+
+#include "catch.hpp"
+#include "read/refusals.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// What `use` makes of the table that `text` is, or what it is refused with.
+template <class Use>
+std::string refusal(const std::string& text, const Use& use) {
+  return verdict([&] {
+    const toml::table document = parse_toml(text, "f.toml");
+    (void)use(table_reader(document, "", "f.toml"));
+  });
+}
+
+template <class Use>
+auto value(const std::string& text, const Use& use) {
+  const toml::table document = parse_toml(text, "f.toml");
+  return use(table_reader(document, "", "f.toml"));
+}
+
+const auto numbers_to_5 = [](const table_reader& t) { return t.numbers("n", 5); };
+const auto reals = [](const table_reader& t) { return t.reals("n", positive_real, 2); };
+
+}  // namespace
+
+TEST_CASE("a range of reals includes its bounds as it says") {
+  CHECK_FALSE(positive_real.holds(0.0));
+  CHECK(positive_real.holds(5e-324));
+  CHECK(any_real.holds(-1.7976931348623157e308));
+  const real_range half{0.0, true, "", 0.5};
+  CHECK(half.holds(0.0));
+  CHECK(half.holds(0.5));
+  CHECK_FALSE(half.holds(0.51));
+}
+
+TEST_CASE("integers are taken for reals, and reals are not taken for integers") {
+  CHECK(value("n = 3", [](const table_reader& t) { return t.real("n", any_real); }) == 3.0);
+  CHECK(value("n = [1, 2.5]", reals) == std::vector<double>{1.0, 2.5});
+  CHECK(value("n = 3", [](const table_reader& t) { return t.integer("n", 3, 3); }) == 3);
+  CHECK(refusal("\n n = 3.0", [](const table_reader& t) { return t.integer("n", 1, 5); }) ==
+        "f.toml:2:6: n: found 3; allowed: a whole number from 1 to 5");
+}
+
+TEST_CASE("an array is refused as a whole for its length, and at the entry that is out of range") {
+  CHECK_THAT(refusal("n = [1]", reals),
+             Contains("f.toml:1:5: n: found an array of 1; allowed: an array of at"));
+  CHECK_THAT(refusal("n = [1, 2, 0]", reals),
+             Contains("f.toml:1:12: n[3]: found 0; allowed: a finite number"));
+  CHECK_THAT(refusal("n = [1, \"2\"]", reals), Contains("f.toml:1:9: n[2]: found \"2\""));
+}
+
+TEST_CASE("lists of numbers: written out, as a range, or all of them") {
+  CHECK(value("n = [5, 1, 3]", numbers_to_5) == std::vector<int>{4, 0, 2});
+  CHECK(value("n = \"2..4\"", numbers_to_5) == std::vector<int>{1, 2, 3});
+  CHECK(value("n = \"5..5\"", numbers_to_5) == std::vector<int>{4});
+  CHECK(value("n = \"all\"", numbers_to_5) == std::vector<int>{0, 1, 2, 3, 4});
+}
+
+TEST_CASE("lists of numbers that are refused, and where") {
+  for (const char* text :
+       {"0..2", "4..6", "3..2", "..3", "2..", "2...3", "2.3", "1 ..2", "+1..2", "", "ALL"}) {
+    INFO(text);
+    CHECK_THAT(refusal("n = \"" + std::string(text) + "\"", numbers_to_5),
+               Contains("f.toml:1:5: n: found \"") && Contains("whole numbers from 1 to 5, each once"));
+  }
+  CHECK_THAT(refusal("n = []", numbers_to_5), Contains("n: found an empty array"));
+  CHECK_THAT(refusal("n = 3", numbers_to_5), Contains("n: found 3"));
+  CHECK_THAT(refusal("n = [1, 6]", numbers_to_5),
+             Contains("f.toml:1:9: n[2]: found 6; allowed: a whole number"));
+  CHECK_THAT(refusal("n = [2, 1, 2]", numbers_to_5), Contains("n[3]: found 2, a second time"));
+}
+
+TEST_CASE("a choice gives its index, and a mistyped one is answered with the nearest") {
+  const auto surface = [](const table_reader& t) { return t.choice("n", {"below", "above"}); };
+  CHECK(value("n = \"above\"", surface) == 1);
+  CHECK_THAT(refusal("n = \"abvoe\"", surface),
+             Contains("found \"abvoe\" (did you mean \"above\"?); allowed: \"below\" or \"above\""));
+}
+
+TEST_CASE("tables know their names: a table in an array in a table") {
+  const std::string text = "[[a]]\n[[a]]\nb = [ { c = 1 }, { c = 2, d = 3 } ]\n";
+  const auto inner = [](const table_reader& t) {
+    const std::vector<table_reader> readers = t.tables("a")[1].tables("b");
+    readers[1].allow_only({"c"});
+    return readers.size();
+  };
+  CHECK_THAT(refusal(text, inner), Contains("f.toml:3:27: a[2].b[2].d: found an unknown key; allowed: c"));
+  CHECK(value("[[a]]\n[[a]]\n", [](const table_reader& t) { return t.tables("a")[1].place(); }) ==
+        "f.toml:2: a[2]");
+  CHECK(value("", [](const table_reader& t) { return t.optional_tables("a").size(); }) == 0);
+  CHECK_THAT(refusal("", [](const table_reader& t) { return t.tables("a").size(); }),
+             Contains("a: found nothing: this key is missing; allowed: at least one table"));
+  CHECK_THAT(refusal("a = [1]", [](const table_reader& t) { return t.tables("a").size(); }),
+             Contains("f.toml:1:6: a[1]: found 1; allowed: a table"));
+}
+
+TEST_CASE("a key that must not stand beside another is refused at its place") {
+  const auto either = [](const table_reader& t) {
+    t.refuse_beside({"b", "c"}, "a", "either a, or b and c");
+    return 0;
+  };
+  CHECK(refusal("a = 1", either) == "accepted");
+  CHECK(refusal("a = 1\nc = 2", either) ==
+        "f.toml:2:5: c: found this beside a; allowed: either a, or b and c");
+}
+
+TEST_CASE("each kind of value has its words") {
+  const auto words = [](const table_reader& t) { return found_words(t.required("n", "")); };
+  CHECK(value("n = -5", words) == "-5");
+  CHECK(value("n = 0.5", words) == "0.5");
+  CHECK(value("n = true", words) == "true");
+  CHECK(value("n = \"a\\tb\"", words) == "\"a\\x09b\"");
+  CHECK(value("n = []", words) == "an empty array");
+  CHECK(value("n = [1, 2]", words) == "an array of 2");
+  CHECK(value("n = {}", words) == "a table");
+  CHECK(value("n = 1989-08-28", words) == "a date or time");
+}
+
+TEST_CASE(
+    "what is no TOML is refused with line and column, and keys of a thousand parts before they are parsed") {
+  CHECK_THAT(verdict([] { (void)parse_toml("a = 1\nb = = 2\n", "f.toml"); }),
+             Contains("f.toml:2:5: not TOML: "));
+  std::string dotted = "a";
+  for (int i = 0; i < 1001; ++i) dotted += ".a";
+  CHECK_THAT(verdict([&] { (void)parse_toml(dotted + " = 1\n", "f.toml"); }),
+             Contains("a key of over 1000 parts"));
+  CHECK(verdict([] { (void)parse_toml("a = \"" + std::string(999, '.') + "\"\n", "f.toml"); }) == "accepted");
+}
