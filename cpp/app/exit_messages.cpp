@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/write/result_json.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct {
 namespace {

@@ -11,7 +11,6 @@
 #include "contct/path/frames.hpp"
 #include "contct/write/finished_run.hpp"
 #include "contct/write/run_csv.hpp"
-#include "contct/write/run_record.hpp"
 
 namespace contct {
 

@@ -18,7 +18,7 @@
 #include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/certificate_text.hpp"
+#include "contct/write/json_document.hpp"
 
 namespace contct {
 namespace {

@@ -1,10 +1,6 @@
 #include "contct/write/result_json.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
@@ -12,6 +8,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_plates.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct;
 
@@ -23,17 +20,14 @@ nlohmann::json result_of(const std::string& text) {
   const auto leader = make_kernel("fortran");
   const std::vector<std::string> followers = {"cpp"};
   lockstep compared = make_lockstep(leader->facts(), followers);
-  const auto file =
-      std::filesystem::temp_directory_path() / ("contct-json-test-" + std::to_string(::getpid()));
-  output_file out(file.string());
+  const scratch_folder folder;
+  output_file out(folder.at("result.json"));
   const linear_structure s = structure_of(p);
   certifier judged(s, loads_of(p));
   result_json json(p, {"fortran", "cpp"}, "refactor", judged, out);
   const path_end end = follow(p, s, "refactor", *leader, {&compared, &judged, &json});
   json.finish(status_name(end.status), end, &compared);
-  auto parsed = nlohmann::json::parse(std::ifstream(file));
-  std::filesystem::remove(file);
-  return parsed;
+  return nlohmann::json::parse(folder.read("result.json"));
 }
 
 }  // namespace

@@ -9,21 +9,6 @@
 
 using namespace contct;
 
-TEST_CASE("an event's load is told in the words of the problem file") {
-  const problem p = parse_problem(good_problem, "pb.toml");
-  CHECK(load_path(p).words_at(1, 0.25, 24) == "w -15 at node 3");
-  const problem uniform =
-      parse_problem(with("point = [ { node = 3, w = -60.0 } ]", "uniform = -8"), "pb.toml");
-  CHECK(load_path(uniform).words_at(1, 0.5, 24) == "uniform -4");
-  const problem mixed = parse_problem(with("point = [", "uniform = -8\npoint = ["), "pb.toml");
-  // Digits go before anything is cut.
-  CHECK(load_path(p).words_at(1, 1.0 / 3, 24) == "w -20 at node 3");
-  CHECK(load_path(p).words_at(1, 0.123456, 17) == "w -7.41 at node 3");
-  CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.41");
-  CHECK(load_path(p).words_at(1, 0.123456, 3).empty());
-  CHECK(load_path(mixed).words_at(1, 1.0, 24) == "force -76");
-}
-
 TEST_CASE("the terminal's width comes from COLUMNS, within reason, and a pipe has no colour") {
   setenv("COLUMNS", "120", 1);
   CHECK(look_at_terminal().width == 120);
@@ -56,15 +41,4 @@ TEST_CASE("items are joined while they fit, and a long one goes on in the next l
   CHECK(wrap({"one two three four", "five"}, 9) == lines{"one two", "three", "four", "five"});
   CHECK(wrap({"unbreakable word"}, 5) == lines{"unbreakable", "word"});
   CHECK(wrap({}, 5).empty());
-}
-
-TEST_CASE("a plate's loads are told in its own words") {
-  const problem p = parse_problem(good_plate, "pb.toml");
-  CHECK(load_path(p).words_at(1, 1.0, 24) == "force -3");
-  const std::string mistake = "uniform = [ { value = -1.0 }, { value = -2.0, elements = \"2..2\" } ]\n";
-  const problem slope = parse_problem(
-      plate_with(mistake + "point = [ { node = 3, w = -1.0, wx = 0.25 }, { node = 6, wy = -0.5 } ]",
-                 "point = [ { node = 6, wy = -0.5 } ]"),
-      "pb.toml");
-  CHECK(load_path(slope).words_at(1, 0.5, 24) == "wy -0.25 at node 6");
 }

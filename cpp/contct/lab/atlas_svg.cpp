@@ -7,9 +7,18 @@
 #include <span>
 
 #include "contct/lab/epsmul_variants.hpp"
+#include "contct/write/svg_parts.hpp"
 
 namespace contct {
 namespace {
+
+using svg::element;
+using svg::text_markup;
+
+constexpr double page_width = 980, page_height = 800;
+constexpr double left = 86, right = 640;  // of the two columns of panels
+constexpr double wide = 450, narrow = 300, panel_height = 230;
+constexpr double first_panel = 184, pitch = panel_height + 74;
 
 constexpr double least_share = 1e-3;  // the scale is logarithmic down to here; below it stands "none"
 
@@ -50,29 +59,33 @@ look look_of(const atlas_cell& c) {
   return c.kernel == "corrected" ? as_corrected : as_8_bytes;
 }
 
-std::string text_at(double x, double y, std::string_view style, std::string_view words) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, words);
-}
-
 std::string line_between(double x1, double y1, double x2, double y2, std::string_view style) {
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1, y1, x2, y2,
-                     style);
+  return element("line",
+                 fmt::format(R"(x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" {})", x1, y1, x2, y2, style));
 }
 
-std::string mark(const look& l, double x, double y) {
+std::string stroke_of(const look& l) {
+  return fmt::format(R"(stroke="{}" stroke-width="2" stroke-dasharray="{}")", l.colour,
+                     *l.dashes == '\0' ? "none" : l.dashes);
+}
+
+/// `more` are further attributes.
+std::string mark(const look& l, double x, double y, std::string_view more = {},
+                 std::string_view content = {}) {
   switch (l.shape) {
     case marker::disc:
-      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"", x, y, l.colour);
+      return svg::circle(x, y, 4.5, fmt::format(R"(fill="{}"{})", l.colour, more), content);
     case marker::ring:
-      return fmt::format(
-          "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"#ffffff\" stroke=\"{}\" stroke-width=\"2\"",
-          x, y, l.colour);
+      return svg::circle(x, y, 4.5,
+                         fmt::format(R"(fill="#ffffff" stroke="{}" stroke-width="2"{})", l.colour, more),
+                         content);
     case marker::triangle:
-      return fmt::format("<path d=\"M{:.1f} {:.1f} l7 12 h-14 z\" fill=\"{}\" stroke=\"#ffffff\"", x, y - 8,
-                         l.colour);
+      return element("path",
+                     fmt::format(R"(d="M{:.1f} {:.1f} l7 12 h-14 z" fill="{}" stroke="#ffffff"{})", x, y - 8,
+                                 l.colour, more),
+                     content);
     case marker::square:
-      return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"9\" fill=\"{}\"", x - 4.5,
-                         y - 4.5, l.colour);
+      return svg::rectangle(x - 4.5, y - 4.5, 9, 9, fmt::format(R"(fill="{}"{})", l.colour, more), content);
   }
   return "";
 }
@@ -97,18 +110,11 @@ std::string curve(const panel& p, std::span<const atlas_cell> cells, const look&
     upper += fmt::format("{:.1f},{:.1f} ", x, p.y(sure.most));
     lower = fmt::format("{:.1f},{:.1f} ", x, p.y(sure.least)) + lower;
     line += fmt::format("{:.1f},{:.1f} ", x, y);
-    points += fmt::format("{} class=\"point\"><title>{}</title></{}>\n", mark(l, x, y), words_of(c),
-                          l.shape == marker::triangle ? "path"
-                          : l.shape == marker::square ? "rect"
-                                                      : "circle");
+    points += mark(l, x, y, R"( class="point")", svg::title(words_of(c)));
   }
-  return fmt::format("<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.15\"/>\n", upper, lower,
-                     l.colour) +
-         fmt::format(
-             "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" "
-             "stroke-dasharray=\"{}\"/>\n",
-             line, l.colour, *l.dashes == '\0' ? "none" : l.dashes) +
-         points;
+  return element("polygon",
+                 fmt::format(R"(points="{}{}" fill="{}" fill-opacity="0.15")", upper, lower, l.colour)) +
+         element("polyline", fmt::format(R"(points="{}" fill="none" {})", line, stroke_of(l))) + points;
 }
 
 /// 10 to the power, with a raised exponent.
@@ -119,15 +125,12 @@ std::string power_of_ten(int decade) {
 }
 
 std::string frame(const panel& p) {
-  std::string text = fmt::format(
-      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#ffffff\" "
-      "stroke=\"#888888\"/>\n",
-      p.left, p.top, p.width, p.height);
+  std::string text = svg::rectangle(p.left, p.top, p.width, p.height, R"(fill="#ffffff" stroke="#888888")");
   constexpr std::pair<double, const char*> shares[] = {
       {1.0, "100 %"}, {0.1, "10 %"}, {0.01, "1 %"}, {0.001, "\u2264 0.1 %"}, {0.0, "none"}};
   for (const auto& [share, words] : shares) {
-    text += line_between(p.left, p.y(share), p.left + p.width, p.y(share), "stroke=\"#dddddd\"");
-    text += text_at(p.left - 8, p.y(share) + 4, "text-anchor=\"end\"", words);
+    text += line_between(p.left, p.y(share), p.left + p.width, p.y(share), R"(stroke="#dddddd")");
+    text += text_markup(p.left - 8, p.y(share) + 4, R"(text-anchor="end")", words);
   }
   return text;
 }
@@ -135,8 +138,8 @@ std::string frame(const panel& p) {
 std::string x_axis(const panel& p, int every) {
   std::string text;
   for (int decade = static_cast<int>(std::ceil(p.from)); decade <= p.to; decade += every) {
-    text += line_between(p.x(decade), p.bottom(), p.x(decade), p.bottom() + 5, "stroke=\"#888888\"");
-    text += text_at(p.x(decade), p.bottom() + 20, "text-anchor=\"middle\"", power_of_ten(decade));
+    text += line_between(p.x(decade), p.bottom(), p.x(decade), p.bottom() + 5, R"(stroke="#888888")");
+    text += text_markup(p.x(decade), p.bottom() + 20, R"(text-anchor="middle")", power_of_ten(decade));
   }
   return text;
 }
@@ -158,9 +161,9 @@ std::string epsmul_panel(const panel& p, const atlas& a, bool held) {
   const double printed = std::log10(printed_epsmul);
   std::string text = frame(p) + x_axis(p, 2);
   text += line_between(p.x(printed), p.top, p.x(printed), p.bottom() + 30,
-                       "stroke=\"#888888\" stroke-dasharray=\"3 3\"");
-  text += text_at(p.x(printed) + 14, p.bottom() + 42, "text-anchor=\"end\"",
-                  "as printed: 2<tspan dy=\"-5\" font-size=\"10\">\u22128</tspan>");
+                       R"(stroke="#888888" stroke-dasharray="3 3")");
+  text += text_markup(p.x(printed) + 14, p.bottom() + 42, R"(text-anchor="end")",
+                      "as printed: 2<tspan dy=\"-5\" font-size=\"10\">\u22128</tspan>");
   const auto decade = [](const atlas_cell& c) { return std::log10(c.epsmul); };
   text += curve(p, over_epsmul(a, held, epsmul_units[1]), in_unit_100, decade);
   return text + curve(p, over_epsmul(a, held, epsmul_units[0]), in_unit_1, decade);
@@ -168,52 +171,63 @@ std::string epsmul_panel(const panel& p, const atlas& a, bool held) {
 
 std::string legend(double y, std::initializer_list<std::pair<double, look>> entries) {
   std::string text;
-  for (const auto& [x, l] : entries) {
-    text += line_between(x, y, x + 34, y,
-                         fmt::format("stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\"", l.colour,
-                                     *l.dashes == '\0' ? "none" : l.dashes));
-    text += mark(l, x + 17, y) + "/>\n" + text_at(x + 42, y + 4, "", l.name);
+  for (const auto& [x, l] : entries)
+    text += line_between(x, y, x + 34, y, stroke_of(l)) + mark(l, x + 17, y) +
+            text_markup(x + 42, y + 4, "", l.name);
+  return text;
+}
+
+std::string heading(const atlas& a) {
+  return text_markup(left, 36, R"(font-weight="bold" font-size="22")", "Where the 1989 code goes wrong") +
+         text_markup(left, 60, "",
+                     "Share of random problems answered wrong without a word: off by more than 0.1 % of the "
+                     "largest deflection.") +
+         text_markup(left, 79, "",
+                     fmt::format("{} problems a point, the same ones along each line (seed {}); bands: 95 % "
+                                 "confidence.",
+                                 a.request.problems, a.request.seed)) +
+         legend(108, {{left, as_8_bytes}, {left + 310, as_printed}, {left + 630, as_corrected}});
+}
+
+/// Two rows of panels, held structures above free ones; by unit at the left, by EPSMUL at the right.
+std::string panels(const atlas& a) {
+  constexpr std::string_view strong = R"(font-weight="bold" font-size="15")";
+  std::string text = text_markup(left, 148, strong, "By the unit of length") +
+                     text_markup(right, 148, strong, "By EPSMUL, in 8 bytes") +
+                     legend(first_panel - 14, {{right, in_unit_1}, {right + 155, in_unit_100}});
+  double top = first_panel;
+  for (const bool held : {true, false}) {
+    text += text_markup(left, top - 10, "",
+                        held ? "Structures held by supports" : "Free structures, held by contact alone");
+    text += unit_panel({left, top, wide, panel_height, -12, 12}, a, held);
+    text += epsmul_panel({right, top, narrow, panel_height, -12, std::log10(printed_epsmul)}, a, held);
+    top += pitch;
   }
   return text;
+}
+
+/// Below the left column.
+std::string captions() {
+  constexpr double below = first_panel + 2 * pitch;
+  constexpr std::string_view middle = R"(text-anchor="middle")";
+  return text_markup(left + wide / 2, below - 24, middle,
+                     "size of the structure in the unit it is put in; EPSGAP stays 10<tspan dy=\"-5\" "
+                     "font-size=\"10\">\u221210</tspan>") +
+         text_markup(left + wide / 2, below - 4, middle,
+                     "Paths that stop for a mechanism or a cycle say so, and are not counted as wrong.");
 }
 
 }  // namespace
 
 std::string atlas_svg(const atlas& a) {
-  constexpr double left = 86, right = 640, wide = 450, narrow = 300, height = 230;
-  constexpr const char* strong = "font-weight=\"bold\" font-size=\"15\"";
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 980 800\" width=\"980\" height=\"800\" "
-      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#222222\">\n"
-      "<title>Where the 1989 code goes wrong</title>\n"
-      "<rect width=\"980\" height=\"800\" fill=\"#ffffff\"/>\n";
-  text += text_at(left, 36, "font-weight=\"bold\" font-size=\"22\"", "Where the 1989 code goes wrong");
-  text += text_at(left, 60, "",
-                  "Share of random problems answered wrong without a word: off by more than 0.1 % of the "
-                  "largest deflection.");
-  text += text_at(left, 79, "",
-                  fmt::format("{} problems a point, the same ones along each line (seed {}); bands: 95 % "
-                              "confidence.",
-                              a.request.problems, a.request.seed));
-  text += legend(108, {{left, as_8_bytes}, {left + 310, as_printed}, {left + 630, as_corrected}});
-  text += text_at(left, 148, strong, "By the unit of length");
-  text += text_at(right, 148, strong, "By EPSMUL, in 8 bytes");
-  double top = 184;
-  text += legend(top - 14, {{right, in_unit_1}, {right + 155, in_unit_100}});
-  for (const bool held : {true, false}) {
-    text += text_at(left, top - 10, "",
-                    held ? "Structures held by supports" : "Free structures, held by contact alone");
-    text += unit_panel({left, top, wide, height, -12, 12}, a, held);
-    text += epsmul_panel({right, top, narrow, height, -12, std::log10(printed_epsmul)}, a, held);
-    top += height + 74;
-  }
-  text += text_at(left + wide / 2, top - 24, "text-anchor=\"middle\"",
-                  "size of the structure in the unit it is put in; EPSGAP stays 10<tspan dy=\"-5\" "
-                  "font-size=\"10\">\u221210</tspan>");
-  text += text_at(left + wide / 2, top - 4, "text-anchor=\"middle\"",
-                  "Paths that stop for a mechanism or a cycle say so, and are not counted as wrong.");
-  return text + "</svg>\n";
+  const std::string size = fmt::format(R"(width="{}" height="{}")", page_width, page_height);
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" +
+         element("svg",
+                 fmt::format(R"(xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {}" {} )"
+                             R"(font-family="Helvetica, Arial, sans-serif" font-size="13" fill="#222222")",
+                             page_width, page_height, size),
+                 "\n" + svg::title("Where the 1989 code goes wrong") + "\n" +
+                     element("rect", size + R"( fill="#ffffff")") + heading(a) + panels(a) + captions());
 }
 
 }  // namespace contct

@@ -9,7 +9,6 @@
 #include "contct/compare/lockstep.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/write/result_json.hpp"
 
 namespace contct {
 namespace {

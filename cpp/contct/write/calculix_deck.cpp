@@ -23,8 +23,8 @@ constexpr double smallness = 1e-7;
 constexpr double reach = 1e6;
 /// All forces together, in the unit of force that the deck counts in.
 constexpr double total_force = 1e6;
-/// A point of the table where the answer will be, likewise: from the far end alone, rounded to the digits of
-/// a field, a stiff spring would stand a good deal beside its face.
+/// A second point of the table near the answer, likewise: the far end alone, rounded to the digits of a
+/// field, would misplace the face of a stiff spring.
 constexpr double within = 4;
 
 /// CalculiX cuts a field after 20 characters; this has 19 at most.
@@ -97,7 +97,7 @@ class deck_writer {
       throw std::invalid_argument(fmt::format(
           "the support at node {} has a spring in {}: CalculiX has none for the turns of beams and "
           "plates; allowed: springs in w",
-          s.node + 1, names[static_cast<std::size_t>(s.dof)]));
+          s.node + 1, names[s.dof]));
     }
     linear_structure s = structure_of(problem_);
     rigid_rank held;
@@ -110,7 +110,8 @@ class deck_writer {
     }
   }
 
-  /// The sizes that everything is chosen by. No more than the size of the answer is taken from the oracle.
+  /// The sizes that everything is chosen by. Only the size of the answer is taken from the reference
+  /// solution.
   void measure() {
     const auto [left, right] = std::minmax_element(mesh_.nodes.begin(), mesh_.nodes.end(),
                                                    [](const auto& a, const auto& b) { return a.x < b.x; });
@@ -120,7 +121,7 @@ class deck_writer {
     thickness_ = length_ / choice_.slenderness;
 
     const linear_structure s = structure_of(problem_);
-    std::vector<double> total(static_cast<std::size_t>(s.dofs()), 0.0);
+    std::vector<double> total(s.dofs(), 0.0);
     loads_of(problem_)(choice_.step, total);
     oracle finds(s);
     const oracle_answer found = finds.solve(total);
@@ -128,10 +129,9 @@ class deck_writer {
       throw std::invalid_argument(
           fmt::format("nothing carries the load of step {}: there is no final state", choice_.step));
     deflection_ = 0.0;
-    for (std::size_t dof = 0; dof < found.displacement.size();
-         dof += static_cast<std::size_t>(s.dofs_per_node))
+    for (std::size_t dof = 0; dof < found.displacement.size(); dof += s.dofs_per_node)
       deflection_ = std::max(deflection_, std::abs(found.displacement[dof]));
-    if (deflection_ == 0.0) deflection_ = length_;  // whatever it is
+    if (deflection_ == 0.0) deflection_ = length_;  // any length will do
     scale_ = smallness * length_ / deflection_;
     double forces = 0.0;
     for (const auto& [at, value] : mesh_.forces) forces += std::abs(value);
@@ -178,7 +178,7 @@ class deck_writer {
     line("*NODE,NSET=GROUND");
     int next = first_ground();
     for (const ground_spring& s : springs_) {
-      const auto& at = mesh_.nodes[static_cast<std::size_t>(s.node)];
+      const auto& at = mesh_.nodes[s.node];
       line("{},{},{},{}", next++, number(at.x), number(at.y), number(s.side * length_ / 100));
     }
   }
@@ -204,8 +204,7 @@ class deck_writer {
          choice_.slenderness);
     line("** gives EI; nu = 0, because EI knows none. Between nodes of the problem the intervals are even.");
     std::map<double, std::vector<std::size_t>> by_stiffness;
-    for (std::size_t e = 0; e < mesh_.elements.size(); ++e)
-      by_stiffness[b.EI[static_cast<std::size_t>(mesh_.origins[e])]].push_back(e);
+    for (std::size_t e = 0; e < mesh_.elements.size(); ++e) by_stiffness[b.EI[mesh_.origins[e]]].push_back(e);
     int part = 0;
     for (const auto& [EI, which] : by_stiffness) {
       ++part;

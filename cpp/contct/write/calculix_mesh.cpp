@@ -29,7 +29,7 @@ std::set<std::pair<int, int>> fixed_of(const problem& p) {
 
 void add_point_loads(const load& l, calculix_mesh& m) {
   for (const point_load& at : l.points) {
-    const turned_dof t = turned[static_cast<std::size_t>(at.dof)];
+    const turned_dof t = turned[at.dof];
     m.forces[{at.node, t.direction}] += t.sign * at.value;
   }
 }
@@ -37,7 +37,7 @@ void add_point_loads(const load& l, calculix_mesh& m) {
 /// Nodes of one of a beam's elements, from its left end to its right.
 std::vector<int> line_of(const beam& b, int element, int intervals, calculix_mesh& m) {
   std::vector<int> line = {element};
-  const double left = b.x[static_cast<std::size_t>(element)];
+  const double left = b.x[element];
   for (int i = 1; i < intervals; ++i) {
     line.push_back(static_cast<int>(m.nodes.size()));
     m.nodes.push_back({left + b.length_of(element) * i / intervals, 0.0});
@@ -69,16 +69,15 @@ calculix_mesh mesh_of(const beam& b, const problem& p, int refine, const load& l
       m.origins.push_back(e);
     }
   }
-  for (const auto& [node, dof] : fixed_of(p))
-    m.fixed.push_back({node, turned[static_cast<std::size_t>(dof)].direction});
+  for (const auto& [node, dof] : fixed_of(p)) m.fixed.push_back({node, turned[dof].direction});
   // Nothing pulls it sideways or turns it about its axis; these only keep it from floating there.
   m.fixed.insert(m.fixed.end(), {{0, 1}, {0, 2}, {0, 4}, {b.nodes() - 1, 2}});
   add_point_loads(l, m);
   for_each_loaded_element(l, b.elements(), [&](int e, const std::vector<double>& polynomial) {
     const double h = b.length_of(e) / refine;
     for (int i = 0; i < refine; ++i) {
-      const std::vector<int>& nodes = m.elements[static_cast<std::size_t>(e * refine + i)];
-      const auto f = load_on_line(polynomial, b.x[static_cast<std::size_t>(e)] + i * h, h);
+      const std::vector<int>& nodes = m.elements[e * refine + i];
+      const auto f = load_on_line(polynomial, b.x[e] + i * h, h);
       for (std::size_t k = 0; k < 3; ++k) m.forces[{nodes[k], 3}] += f[k];
     }
   });
@@ -97,7 +96,7 @@ class fine_grid {
     for (const double y : p.y) {
       for (const double x : p.x) m.nodes.push_back({x, y});
     }
-    numbers_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1);
+    numbers_.assign(place_of(0, rows_), -1);
     for (int b = 0; b < rows_; ++b) {
       for (int a = 0; a < columns_; ++a) number(a, b, m);
     }
@@ -106,18 +105,18 @@ class fine_grid {
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] int step() const { return step_; }
-  [[nodiscard]] int at(int a, int b) const {
-    return numbers_[static_cast<std::size_t>(b) * static_cast<std::size_t>(columns_) +
-                    static_cast<std::size_t>(a)];
-  }
+  [[nodiscard]] int at(int a, int b) const { return numbers_[place_of(a, b)]; }
   /// The problem's element that the refined one with its lower left corner at (a, b) is part of.
   [[nodiscard]] int origin_of(int a, int b) const { return b / step_ * (own_.columns() - 1) + a / step_; }
 
  private:
+  [[nodiscard]] std::size_t place_of(int a, int b) const {
+    return static_cast<std::size_t>(b) * columns_ + a;
+  }
+
   void number(int a, int b, calculix_mesh& m) {
     if (a % 2 == 1 && b % 2 == 1) return;  // the middle of an element: S8R has no node there
-    int& n = numbers_[static_cast<std::size_t>(b) * static_cast<std::size_t>(columns_) +
-                      static_cast<std::size_t>(a)];
+    int& n = numbers_[place_of(a, b)];
     if (a % step_ == 0 && b % step_ == 0) {
       n = own_.node_at(a / step_, b / step_);
       return;
@@ -127,7 +126,7 @@ class fine_grid {
   }
 
   [[nodiscard]] double along(const std::vector<double>& lines, int a) const {
-    const auto i = static_cast<std::size_t>(a / step_);
+    const int i = a / step_;
     if (a % step_ == 0) return lines[i];
     return lines[i] + (lines[i + 1] - lines[i]) * (a % step_) / step_;
   }
@@ -146,15 +145,14 @@ void fix_between(const std::set<std::pair<int, int>>& fixed, int one, int other,
   const int across = 3 - along;
   if (both(0) && both(along)) {
     m.fixed.push_back({node, turned[0].direction});
-    m.fixed.push_back({node, turned[static_cast<std::size_t>(along)].direction});
+    m.fixed.push_back({node, turned[along].direction});
   }
-  if (both(across)) m.fixed.push_back({node, turned[static_cast<std::size_t>(across)].direction});
+  if (both(across)) m.fixed.push_back({node, turned[across].direction});
 }
 
 void fix(const plate& own, const problem& p, const fine_grid& grid, calculix_mesh& m) {
   const auto fixed = fixed_of(p);
-  for (const auto& [node, dof] : fixed)
-    m.fixed.push_back({node, turned[static_cast<std::size_t>(dof)].direction});
+  for (const auto& [node, dof] : fixed) m.fixed.push_back({node, turned[dof].direction});
   const int step = grid.step();
   for (int b = 0; b < grid.rows(); ++b) {
     for (int a = 0; a < grid.columns(); ++a) {
@@ -174,10 +172,9 @@ void fix(const plate& own, const problem& p, const fine_grid& grid, calculix_mes
 calculix_mesh mesh_of(const plate& own, const problem& p, int refine, const load& l) {
   calculix_mesh m;
   const fine_grid grid(own, refine, m);
-  std::vector<double> pressure(static_cast<std::size_t>(own.elements()), 0.0);
-  for_each_loaded_element(l, own.elements(), [&](int e, const std::vector<double>& polynomial) {
-    pressure[static_cast<std::size_t>(e)] += polynomial[0];
-  });
+  std::vector<double> pressure(own.elements(), 0.0);
+  for_each_loaded_element(
+      l, own.elements(), [&](int e, const std::vector<double>& polynomial) { pressure[e] += polynomial[0]; });
   for (int b = 0; b + 2 < grid.rows(); b += 2) {
     for (int a = 0; a + 2 < grid.columns(); a += 2) {
       m.elements.push_back({grid.at(a, b), grid.at(a + 2, b), grid.at(a + 2, b + 2), grid.at(a, b + 2),
@@ -190,7 +187,7 @@ calculix_mesh mesh_of(const plate& own, const problem& p, int refine, const load
   add_point_loads(l, m);
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
     const int origin = m.origins[e];
-    const double q = pressure[static_cast<std::size_t>(origin)];
+    const double q = pressure[origin];
     if (q == 0.0) continue;
     const double force = q * own.width_of(origin) * own.height_of(origin) / refine / refine;
     // Work of a uniform pressure on S8R's shape functions: its corners take less than nothing.
@@ -202,7 +199,7 @@ calculix_mesh mesh_of(const plate& own, const problem& p, int refine, const load
 }  // namespace
 
 calculix_mesh calculix_mesh_of(const problem& p, int refine, int step) {
-  const load& l = p.steps[static_cast<std::size_t>(step)];
+  const load& l = p.steps[step];
   if (const auto* b = std::get_if<beam>(&p.geometry.kind)) return mesh_of(*b, p, refine, l);
   return mesh_of(std::get<plate>(p.geometry.kind), p, refine, l);
 }

@@ -4,17 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "contct/matrix/cholesky.hpp"
-#include "contct/write/result_json.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct {
 namespace {
 
-using json = nlohmann::ordered_json;
-
-/// Digits that an error leaves. More than ten are the business of the LAPACK at hand.
+/// Correct digits at a relative error. Above ten they depend on the LAPACK in use.
 std::string digits_words(double error) {
   constexpr int enough = 10;
   const int digits = error > 0.0 ? static_cast<int>(-std::log10(error)) : enough;
@@ -31,7 +27,7 @@ const early_toggle* worst_until(int step, const early_toggles& early) {
 }
 
 std::string words_for(const early_toggle& t, const problem& p) {
-  const contact_pair& at = p.pairs[static_cast<std::size_t>(t.what.pair)];
+  const contact_pair& at = p.pairs[t.what.pair];
   return fmt::format(
       "increment {}.{} let pair {} ({}, {}) {} contact {:.2g} away from its face ({:.2g} of "
       "the largest deflection)",
@@ -40,23 +36,6 @@ std::string words_for(const early_toggle& t, const problem& p) {
 }
 
 }  // namespace
-
-nlohmann::ordered_json certificate_json(const std::optional<certificate>& c) {
-  if (!c) return nullptr;
-  json out = {{"exact", c->exact},
-              {"displacement_error", c->displacement_error},
-              {"equilibrium", c->equilibrium},
-              {"penetration", c->penetration},
-              {"tension", c->tension},
-              {"rcond", c->rcond},
-              {"tolerance", c->tolerance},
-              {"shape_error", c->shape_error},
-              {"unique", c->unique},
-              {"digits", digits_left(c->rcond)}};
-  if (!c->unique) out["displacement_error"] = out["shape_error"] = nullptr;
-  if (!c->problem.empty()) out["problem"] = c->problem;
-  return out;
-}
 
 std::string certificate_mark(const std::optional<certificate>& c) {
   if (!c) return "no certificate";

@@ -1,7 +1,6 @@
-// What the certificate says, in words for people and in JSON.
+// What the certificate says, in words for people.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,9 +10,6 @@
 #include "contct/structure/problem.hpp"
 
 namespace contct {
-
-/// A step's certificate as result files have it; null where there is none.
-[[nodiscard]] nlohmann::ordered_json certificate_json(const std::optional<certificate>& c);
 
 /// A few words for a step: "certified", "NOT certified", or "no certificate".
 [[nodiscard]] std::string certificate_mark(const std::optional<certificate>& c);

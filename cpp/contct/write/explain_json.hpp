@@ -2,11 +2,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contct/compare/explained_path.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
+#include "contct/write/json_document.hpp"
 #include "contct/write/load_text.hpp"
 
 namespace contct {
@@ -28,8 +30,7 @@ class explain_json {
   std::vector<std::string> names_;
   int real_bytes_;
   int pair_;
-  output_file& out_;
-  bool first_ = true;
+  json_document document_;
 };
 
 }  // namespace contct

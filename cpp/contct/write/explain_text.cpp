@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "contct/write/result_json.hpp"
 #include "contct/write/table.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct {
 namespace {
@@ -16,13 +16,12 @@ constexpr int width_with_statements = 120;
 
 /// "pair 1, node 5, face below, separated: advancing".
 std::string pair_words(const model& m, const explained_pair& p) {
-  const auto* a = std::get_if<assembled>(&m.kind);
-  const std::string place = a != nullptr ? "dof " + a->label_of(p.node - 1) : fmt::format("node {}", p.node);
-  return fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1, place, surface_name(p.surface),
-                     p.isep_before == separated ? "separated" : "in contact", kind_of_contact(p));
+  return fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1, place_words(m, p.node - 1),
+                     surface_name(p.surface), p.isep_before == separated ? "separated" : "in contact",
+                     kind_of_contact(p));
 }
 
-/// The branch margin: a count of numbers says something only where it is small.
+/// The smallest margin of a call, in ULP where it is small.
 std::string margin_of_call(const decision& d) {
   constexpr std::uint64_t close = 1'000'000;
   if (d.ulps <= close) return "The narrowest decision of this call: " + words_of(d) + ".";
@@ -47,7 +46,7 @@ void explain_text::say(paint p, const std::string& words) const {
 }
 
 /// "  38  s = GAP / d* = 0.25.                 (4)".
-void explain_text::say(const told& t, bool loud) const {
+void explain_text::say(const sentence& t, bool loud) const {
   std::string head = t.line > 0 ? fmt::format("{:>4}  ", t.line) : std::string(margin, ' ');
   if (shows_statements_) {
     const std::string_view statement = t.line > 0 ? listing::statement_at(t.line) : std::string_view();
@@ -58,7 +57,7 @@ void explain_text::say(const told& t, bool loud) const {
   if (!t.equation.empty()) {
     const auto free = room - static_cast<int>(lines.back().size() + t.equation.size());
     if (free >= 1) {
-      lines.back() += std::string(static_cast<std::size_t>(free), ' ') + t.equation;
+      lines.back() += std::string(free, ' ') + t.equation;
     } else {
       lines.push_back(fmt::format("{:>{}}", t.equation, room));
     }
@@ -87,19 +86,19 @@ void explain_text::print_load(const explained_increment& i) const {
 void explain_text::print_pair(const explained_increment& i, const explained_pair& p) const {
   fmt::print("\n");
   say(paint::strong, pair_words(problem_.geometry, p));
-  for (const told& t : scale_factor_story(p)) say(t);
+  for (const sentence& t : scale_factor_story(p)) say(t);
   if (i.other == nullptr) return;
-  const double second = i.other->ss[static_cast<std::size_t>(p.pair)];
-  const told bits{0, "s: " + side_by_side_words(names_[0], p.s, names_[1], second, real_bytes_), {}};
+  const double second = i.other->ss[p.pair];
+  const sentence bits{0, "s: " + side_by_side_words(names_[0], p.s, names_[1], second, real_bytes_), {}};
   say(bits, bits.words.find("equal to the bit") == std::string::npos);
 }
 
 void explain_text::print_winner(const explained_increment& i) const {
   fmt::print("\n");
   say(paint::strong, "The smallest s");
-  for (const told& t : winner_story(i.call)) say(t);
+  for (const sentence& t : winner_story(i.call)) say(t);
   if (i.other != nullptr) {
-    const told bits{
+    const sentence bits{
         0, "SMIN: " + side_by_side_words(names_[0], i.call.smin, names_[1], i.other->smin, real_bytes_), {}};
     say(bits, bits.words.find("equal to the bit") == std::string::npos);
   }
@@ -112,12 +111,12 @@ void explain_text::print_toggles(const explained_increment& i) const {
     if (!wants(p)) continue;
     fmt::print("\n");
     say(paint::strong, fmt::format("Pair {}: {}", p.pair + 1, name_of(p.why)));
-    for (const told& t : toggle_story(i.call, p)) {
+    for (const sentence& t : toggle_story(i.call, p)) {
       const bool loud = t.line == 0 && p.why != why_toggled::same_moment;
       say(t, loud);
     }
     if (i.other == nullptr) continue;
-    const int second = i.other->isep[static_cast<std::size_t>(p.pair)];
+    const int second = i.other->isep[p.pair];
     if (second != p.isep_after)
       say({0, fmt::format("ISEP: {} {}, {} {}: DIFFERENT", names_[0], p.isep_after, names_[1], second), {}},
           true);

@@ -30,7 +30,7 @@ class explain_text {
   void print_toggles(const explained_increment& i) const;
   void print_outcome(const explained_increment& i) const;
   void say(paint p, const std::string& words) const;
-  void say(const told& t, bool loud = false) const;
+  void say(const sentence& t, bool loud = false) const;
   [[nodiscard]] bool wants(const explained_pair& p) const { return pair_ == 0 || pair_ == p.pair + 1; }
 
   const problem& problem_;

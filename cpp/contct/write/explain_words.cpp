@@ -9,7 +9,7 @@
 namespace contct {
 namespace {
 
-/// Nine digits: what people compare. The bits stand beside it.
+/// Nine digits, enough to compare by eye; the bits are given separately.
 std::string number(double x) {
   return fmt::format("{:.9g}", x);
 }
@@ -24,7 +24,7 @@ std::string signed_one(int x) {
   return x > 0 ? "+1" : "-1";
 }
 
-told at(const listing_line& l, std::string words, std::string equation = {}) {
+sentence about(const listing_line& l, std::string words, std::string equation = {}) {
   return {l.number, std::move(words), std::move(equation)};
 }
 
@@ -32,23 +32,23 @@ bool is_separated(const explained_pair& p) {
   return p.isep_before == separated;
 }
 
-void tell_stationary(const explained_pair& p, std::vector<told>& story) {
-  story.push_back(at(listing::stationary, "s = 1 to begin with: the mark for \"no event\"."));
+void tell_stationary(const explained_pair& p, std::vector<sentence>& story) {
+  story.push_back(about(listing::stationary, "s = 1 to begin with: the mark for \"no event\"."));
   story.push_back(
-      at(listing::check_variable,
-         fmt::format("SSCHK = ISEP * ISURF / d* = ({}) * ({}) / {} = {}", signed_one(p.isep_before),
-                     signed_one(p.surface), number(p.d_star), number(p.s_chk)),
-         "(11)"));
+      about(listing::check_variable,
+            fmt::format("SSCHK = ISEP * ISURF / d* = ({}) * ({}) / {} = {}", signed_one(p.isep_before),
+                        signed_one(p.surface), number(p.d_star), number(p.s_chk)),
+            "(11)"));
   if (p.way == way_to_s::stationary_event) {
     story.push_back(
-        at(listing::if_check_positive,
-           fmt::format("SSCHK > 0: the load {}. s = SSCHK * DELTA = {}, so small that it wins over every "
-                       "advancing or receding pair.",
-                       is_separated(p) ? "pushes the structure against the face" : "lifts it off the face",
-                       number(p.s)),
-           "(12)"));
+        about(listing::if_check_positive,
+              fmt::format("SSCHK > 0: the load {}. s = SSCHK * DELTA = {}, so small that it wins over every "
+                          "advancing or receding pair.",
+                          is_separated(p) ? "pushes the structure against the face" : "lifts it off the face",
+                          number(p.s)),
+              "(12)"));
   } else {
-    story.push_back(at(
+    story.push_back(about(
         listing::if_check_positive,
         fmt::format("SSCHK is not positive: the load {}. No event; the mark stays.",
                     is_separated(p) ? "moves the structure away from the face" : "keeps the pair closed")));
@@ -68,40 +68,42 @@ std::string meaning_of_s(const explained_pair& p) {
   return fmt::format("More than 1: the residual load ends before it {}.", advances);
 }
 
-void tell_competition(const explained_pair& p, std::vector<told>& story) {
+void tell_competition(const explained_pair& p, std::vector<sentence>& story) {
   if (!p.at(branch::s_positive).outcome) {
-    story.push_back(at(listing::smallest, "s is not greater than 0: not a candidate.", "(6)"));
+    story.push_back(about(listing::smallest, "s is not greater than 0: not a candidate.", "(6)"));
   } else if (p.took_the_lead()) {
-    story.push_back(
-        at(listing::smallest,
-           fmt::format("0 < s < SMIN = {}: SMIN becomes s; this pair leads.", number(p.smin_before)), "(9)"));
+    story.push_back(about(
+        listing::smallest,
+        fmt::format("0 < s < SMIN = {}: SMIN becomes s; this pair leads.", number(p.smin_before)), "(9)"));
   } else {
-    story.push_back(at(listing::smallest,
-                       fmt::format("s is not less than SMIN = {}: no change.", number(p.smin_before)),
-                       "(9)"));
+    story.push_back(about(listing::smallest,
+                          fmt::format("s is not less than SMIN = {}: no change.", number(p.smin_before)),
+                          "(9)"));
   }
 }
 
 }  // namespace
 
-std::vector<told> scale_factor_story(const explained_pair& p) {
-  std::vector<told> story;
-  story.push_back(at(listing::gap,
-                     fmt::format("GAP = c - D = {} - ({}) = {}", number(p.c), number(p.d), number(p.gap)),
-                     "(5)"));
+std::vector<sentence> scale_factor_story(const explained_pair& p) {
+  std::vector<sentence> story;
+  story.push_back(about(listing::gap,
+                        fmt::format("GAP = c - D = {} - ({}) = {}", number(p.c), number(p.d), number(p.gap)),
+                        "(5)"));
   if (p.way == way_to_s::no_response) {
-    story.push_back(at(listing::if_no_response, "d* = 0: the pair does not respond to the residual load."));
-    story.push_back(at(listing::no_response, "s = 1: the mark for \"no event\"."));
+    story.push_back(
+        about(listing::if_no_response, "d* = 0: the pair does not respond to the residual load."));
+    story.push_back(about(listing::no_response, "s = 1: the mark for \"no event\"."));
   } else {
     story.push_back(
-        at(listing::if_no_response, fmt::format("d* = {}, not 0: the pair responds.", number(p.d_star))));
+        about(listing::if_no_response, fmt::format("d* = {}, not 0: the pair responds.", number(p.d_star))));
     if (p.way == way_to_s::moving) {
-      story.push_back(at(listing::if_stationary, "|GAP| is not less than EPSGAP = 1E-10: not stationary."));
       story.push_back(
-          at(listing::moving, fmt::format("s = GAP / d* = {}. {}", number(p.s), meaning_of_s(p)), "(4)"));
+          about(listing::if_stationary, "|GAP| is not less than EPSGAP = 1E-10: not stationary."));
+      story.push_back(
+          about(listing::moving, fmt::format("s = GAP / d* = {}. {}", number(p.s), meaning_of_s(p)), "(4)"));
     } else {
       story.push_back(
-          at(listing::if_stationary, "|GAP| < EPSGAP = 1E-10: at its face; the pair is stationary."));
+          about(listing::if_stationary, "|GAP| < EPSGAP = 1E-10: at its face; the pair is stationary."));
       tell_stationary(p, story);
     }
   }
@@ -109,22 +111,22 @@ std::vector<told> scale_factor_story(const explained_pair& p) {
   return story;
 }
 
-std::vector<told> winner_story(const explained_call& c) {
-  std::vector<told> story;
+std::vector<sentence> winner_story(const explained_call& c) {
+  std::vector<sentence> story;
   if (c.winner < 0) {
-    story.push_back(at(listing::if_no_events,
-                       "SMIN is still 1: no event on the way. All of the residual "
-                       "load can be applied."));
-    story.push_back(at(listing::no_events_return, "RETURN. No pair is toggled."));
+    story.push_back(about(listing::if_no_events,
+                          "SMIN is still 1: no event on the way. All of the residual "
+                          "load can be applied."));
+    story.push_back(about(listing::no_events_return, "RETURN. No pair is toggled."));
     return story;
   }
-  story.push_back(at(listing::if_no_events,
-                     fmt::format("SMIN = {}, not 1. Pair {} wins.", number(c.smin), c.winner + 1), "(9)"));
+  story.push_back(about(listing::if_no_events,
+                        fmt::format("SMIN = {}, not 1. Pair {} wins.", number(c.smin), c.winner + 1), "(9)"));
   if (c.next < 0) {
     story.push_back({0, "No other pair has an event ahead of it.", {}});
     return story;
   }
-  const explained_pair& next = c.pairs[static_cast<std::size_t>(c.next)];
+  const explained_pair& next = c.pairs[c.next];
   if (c.ulps_ahead == 0) {
     story.push_back({0, fmt::format("Pair {} has the same s, to the bit.", c.next + 1), {}});
     return story;
@@ -139,20 +141,20 @@ std::vector<told> winner_story(const explained_call& c) {
   return story;
 }
 
-std::vector<told> toggle_story(const explained_call& c, const explained_pair& p) {
-  std::vector<told> story;
+std::vector<sentence> toggle_story(const explained_call& c, const explained_pair& p) {
+  std::vector<sentence> story;
   const bool within = p.at(branch::within_epsmul).outcome;
   const std::string diff = fmt::format("DIFF = |s - SMIN| / SMIN = {:.4g}", p.diff);
-  story.push_back(at(listing::diff, p.pair == c.winner ? "DIFF = 0: s is SMIN." : diff + "."));
+  story.push_back(about(listing::diff, p.pair == c.winner ? "DIFF = 0: s is SMIN." : diff + "."));
   if (!within) {
-    story.push_back(at(listing::if_within, "Not less than EPSMUL = 1/256: not toggled."));
+    story.push_back(about(listing::if_within, "Not less than EPSMUL = 1/256: not toggled."));
     return story;
   }
-  story.push_back(at(listing::if_within, "Less than EPSMUL = 1/256: toggled."));
-  story.push_back(at(listing::if_separated,
-                     is_separated(p) ? "ISEP = 1: it was separated." : "ISEP is not 1: it was in contact."));
-  story.push_back(is_separated(p) ? at(listing::make, "ISEP = -1: in contact. Make.")
-                                  : at(listing::break_, "ISEP = 1: separated. Break."));
+  story.push_back(about(listing::if_within, "Less than EPSMUL = 1/256: toggled."));
+  story.push_back(about(listing::if_separated, is_separated(p) ? "ISEP = 1: it was separated."
+                                                               : "ISEP is not 1: it was in contact."));
+  story.push_back(is_separated(p) ? about(listing::make, "ISEP = -1: in contact. Make.")
+                                  : about(listing::break_, "ISEP = 1: separated. Break."));
   switch (p.why) {
     case why_toggled::too_early:
       story.push_back(
@@ -208,15 +210,18 @@ std::string_view name_of(why_toggled why) {
   }
 }
 
+std::uint64_t ulps_apart(double first, double second, int real_bytes) {
+  return real_bytes == 4 ? ulps_between(static_cast<float>(first), static_cast<float>(second))
+                         : ulps_between(first, second);
+}
+
 std::string side_by_side_words(std::string_view first_name, double first, std::string_view second_name,
                                double second, int real_bytes) {
   const std::string words = fmt::format("{} {}, {} ", first_name, hexfloat(first), second_name);
   if (same_bits(first, second)) return words + "equal to the bit";
-  const std::uint64_t ulps = real_bytes == 4
-                                 ? ulps_between(static_cast<float>(first), static_cast<float>(second))
-                                 : ulps_between(first, second);
-  const std::string apart =
-      std::isnan(first) != std::isnan(second) ? "one is NaN" : fmt::format("{} ULP apart", ulps);
+  const std::string apart = std::isnan(first) != std::isnan(second)
+                                ? "one is NaN"
+                                : fmt::format("{} ULP apart", ulps_apart(first, second, real_bytes));
   return words + fmt::format("{}: {}", hexfloat(second), apart);
 }
 

@@ -1,45 +1,55 @@
 #include "contct/write/frame_numbers.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace contct {
+namespace {
 
-load load_of(const load_path& loads, const frame& f) {
-  return f.step == 0 ? load{} : loads.at(f.step, f.fraction);
+constexpr std::array<structure_view, views> all_views = {{
+    {"xy", "x to the right, y up", {1, 0, 0}, {0, 1, 0}},
+    {"xz", "x to the right, z up", {1, 0, 0}, {0, 0, 1}},
+    {"yz", "y to the right, z up", {0, 1, 0}, {0, 0, 1}},
+    // The eye is at (3, -6, 3), nearly: right and up are at right angles, and of length 1.
+    {"oblique", "oblique, z up", {0.8944, 0.4472, 0}, {-0.1826, 0.3651, 0.9129}},
+}};
+
+}  // namespace
+
+double deflection_of(const problem& p, std::span<const double> u, int node) {
+  return u[node * dofs_per_node(p.geometry)];
 }
 
-double deflection_of(const problem& p, const frame& f, std::size_t node) {
-  return f.displacement[node * static_cast<std::size_t>(dofs_per_node(p.geometry))];
+pair_reading reading_of(const contact_pair& p, double w, bool closed) {
+  return {w, gap_of(p, w, closed), force_of(p, w, closed), look_of(p, w, closed)};
 }
 
 pair_reading reading_of(const problem& p, const frame& f, std::size_t pair) {
   const contact_pair& at = p.pairs[pair];
-  const double w = deflection_of(p, f, static_cast<std::size_t>(at.node));
-  const bool closed = f.closed(pair);
-  return {w, gap_of(at, w, closed), force_of(at, w, closed), look_of(at, w, closed)};
+  return reading_of(at, deflection_of(p, f, at.node), f.closed(pair));
+}
+
+void extreme::take(int other_at, double other) {
+  if (std::abs(other) > std::abs(value)) *this = {other_at, other};
 }
 
 std::vector<int> deflecting_nodes(const problem& p) {
-  std::vector<char> is_length(static_cast<std::size_t>(nodes(p.geometry)), 1);
+  std::vector<char> is_length(nodes(p.geometry), 1);
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
   if (a != nullptr && (a->places.known() || !p.pairs.empty())) {
     for (std::size_t dof = 0; dof < is_length.size(); ++dof)
       is_length[dof] = a->places.known() && a->places.dofs[dof].is_length() ? 1 : 0;
-    for (const contact_pair& pair : p.pairs) is_length[static_cast<std::size_t>(pair.node)] = 1;
+    for (const contact_pair& pair : p.pairs) is_length[pair.node] = 1;
   }
   std::vector<int> list;
-  for (std::size_t node = 0; node < is_length.size(); ++node)
-    if (is_length[node] != 0) list.push_back(static_cast<int>(node));
+  for (int node = 0; node < nodes(p.geometry); ++node)
+    if (is_length[node] != 0) list.push_back(node);
   return list;
 }
 
 extreme largest_deflection(const problem& p, const frame& f, std::span<const int> among) {
-  extreme most{among.empty() ? 0 : static_cast<std::size_t>(among.front()), 0.0};
-  for (const int number : among) {
-    const auto node = static_cast<std::size_t>(number);
-    const double w = deflection_of(p, f, node);
-    if (std::abs(w) > std::abs(most.value)) most = {node, w};
-  }
+  extreme most{among.empty() ? 0 : among.front()};
+  for (const int node : among) most.take(node, deflection_of(p, f, node));
   return most;
 }
 
@@ -49,29 +59,65 @@ pair_counts count_pairs(const problem& p, const frame& f) {
   return n;
 }
 
-const char* words_of(pair_look look) {
-  switch (look) {
-    case pair_look::open:
-      return "open";
-    case pair_look::closed:
-      return "closed";
-    case pair_look::at_face:
-      return "at its face";
-  }
-  return "";
-}
-
 std::string place_name(const model& m, int node) {
   const auto* a = std::get_if<assembled>(&m.kind);
   return a != nullptr ? a->label_of(node) : std::to_string(node + 1);
 }
 
 place place_of_node(const model& m, int node) {
-  if (const auto* b = std::get_if<beam>(&m.kind)) return {b->x[static_cast<std::size_t>(node)], 0.0};
+  if (const auto* b = std::get_if<beam>(&m.kind)) return {b->x[node], 0.0};
   const auto* p = std::get_if<plate>(&m.kind);
   if (p == nullptr) return {static_cast<double>(node), 0.0};
-  return {p->x[static_cast<std::size_t>(node % p->columns())],
-          p->y[static_cast<std::size_t>(node / p->columns())]};
+  return {p->x[node % p->columns()], p->y[node / p->columns()]};
+}
+
+std::vector<dofs_of_node> dofs_of_nodes(const placed_nodes& places) {
+  std::vector<dofs_of_node> list(places.nodes.size());
+  for (std::size_t dof = 0; dof < places.dofs.size(); ++dof) {
+    const placed_dof& at = places.dofs[dof];
+    if (at.node < 0) continue;
+    dofs_of_node& of = list[at.node];
+    const int axis = (at.direction - 1) % 3;
+    (at.is_length() ? of.along : of.about)[axis] = static_cast<int>(dof);
+  }
+  return list;
+}
+
+std::vector<int> axes_of(const placed_nodes& places) {
+  std::array<bool, 3> has{};
+  for (const placed_dof& d : places.dofs)
+    if (d.is_length()) has[d.direction - 1] = true;
+  std::vector<int> axes;
+  for (int axis = 0; axis < 3; ++axis)
+    if (has[axis]) axes.push_back(axis);
+  return axes;
+}
+
+in_space reading_at(const std::array<int, 3>& dofs, const frame& f) {
+  in_space u{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (dofs[axis] >= 0) u[axis] = f.displacement[dofs[axis]];
+  return u;
+}
+
+double length_of(const in_space& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+const structure_view& view_at(int number) {
+  return all_views.at(number);
+}
+
+int fitting_view(const placed_nodes& places) {
+  const std::vector<int> axes = axes_of(places);
+  for (const auto& [normal, view] : {std::pair(2, 0), {1, 1}, {0, 2}}) {
+    const auto coordinate = [axis = normal](const placed_node& n) { return n.at[axis]; };
+    const double first = coordinate(places.nodes.front());
+    const bool flat = std::all_of(places.nodes.begin(), places.nodes.end(),
+                                  [&](const placed_node& n) { return coordinate(n) == first; });
+    if (flat && std::find(axes.begin(), axes.end(), normal) == axes.end()) return view;
+  }
+  return views - 1;
 }
 
 }  // namespace contct

@@ -1,6 +1,7 @@
-// What one reads off a frame: over all nodes, elements and pairs.
+// What pictures and tables read off a state: over all nodes and pairs, and in space where nodes have places.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -8,27 +9,32 @@
 
 #include "contct/path/frames.hpp"
 #include "contct/structure/problem.hpp"
-#include "contct/write/load_text.hpp"
 
 namespace contct {
 
-/// The load of a frame; nothing before the first step.
-[[nodiscard]] load load_of(const load_path& loads, const frame& f);
+/// The deflection of node `node`, from 0, under the displacement `u` [dofs].
+[[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
+[[nodiscard]] inline double deflection_of(const problem& p, const frame& f, int node) {
+  return deflection_of(p, f.displacement, node);
+}
 
-/// The deflection of node `node`, from 0.
-[[nodiscard]] double deflection_of(const problem& p, const frame& f, std::size_t node);
-
-/// How a pair stands in a frame, and its gap and force as results have them.
+/// How a pair stands, and its gap and force as results have them.
 struct pair_reading {
   double w, gap, force;
   pair_look look;
 };
+/// At deflection `w`.
+[[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
+/// Pair `pair`, from 0, in a frame.
 [[nodiscard]] pair_reading reading_of(const problem& p, const frame& f, std::size_t pair);
 
-/// A place and the value there.
+/// A place, from 0, and the value there.
 struct extreme {
-  std::size_t at = 0;
+  int at = 0;
   double value = 0.0;
+
+  /// Keep the larger one of this and another value, by magnitude.
+  void take(int other_at, double other);
 };
 
 /// The nodes whose displacement is a deflection: all of a beam and a plate. Of a matrix the dofs that are
@@ -48,9 +54,6 @@ struct pair_counts {
 };
 [[nodiscard]] pair_counts count_pairs(const problem& p, const frame& f);
 
-/// A word for a look: "open", "closed", "at its face".
-[[nodiscard]] const char* words_of(pair_look look);
-
 /// A node's name in tables: its number, from 1, or its label where each dof is a node of its own.
 [[nodiscard]] std::string place_name(const model& m, int node);
 
@@ -59,5 +62,48 @@ struct place {
   double x = 0.0, y = 0.0;
 };
 [[nodiscard]] place place_of_node(const model& m, int node);
+
+/// A point, or a displacement, of a structure from elsewhere.
+using in_space = std::array<double, 3>;
+
+/// The dof, from 0, of a node along each axis and about it; -1 where it has none.
+struct dofs_of_node {
+  std::array<int, 3> along{-1, -1, -1};
+  std::array<int, 3> about{-1, -1, -1};
+
+  [[nodiscard]] bool operator==(const dofs_of_node&) const = default;
+};
+/// Of each node.
+[[nodiscard]] std::vector<dofs_of_node> dofs_of_nodes(const placed_nodes& places);
+
+/// The axes, from 0, along which any node can move.
+[[nodiscard]] std::vector<int> axes_of(const placed_nodes& places);
+
+/// The displacements at three dofs in a frame; 0 where there is none.
+[[nodiscard]] in_space reading_at(const std::array<int, 3>& dofs, const frame& f);
+
+[[nodiscard]] inline double dot(const in_space& a, const in_space& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+/// Euclidean.
+[[nodiscard]] double length_of(const in_space& v);
+
+/// A direction of view: unit vectors in space that point right and up on the page.
+struct structure_view {
+  const char* name;
+  const char* words;
+  in_space right, up;
+
+  [[nodiscard]] double x_of(const in_space& at) const { return dot(right, at); }
+  [[nodiscard]] double y_of(const in_space& at) const { return dot(up, at); }
+};
+
+/// Straight on to each plane of the axes, then from the front, a little from the right and from above.
+inline constexpr int views = 4;
+[[nodiscard]] const structure_view& view_at(int number);
+
+/// The number of the view that shows most: straight on where one coordinate is the same for all nodes and
+/// none of them can leave that plane, else the last.
+[[nodiscard]] int fitting_view(const placed_nodes& places);
 
 }  // namespace contct

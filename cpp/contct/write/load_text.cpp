@@ -3,20 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace contct {
 namespace {
 
-using json = nlohmann::ordered_json;
 constexpr std::size_t most_parts = 32;
-const load nothing;
-
-/// Elements that follow one another, each once.
-bool is_run(const std::vector<int>& elements) {
-  return elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
-         std::is_sorted(elements.begin(), elements.end());
-}
 
 /// How much there is to write: a list of scattered elements counts by its length.
 std::size_t parts_of(const load& l) {
@@ -26,86 +17,47 @@ std::size_t parts_of(const load& l) {
   return parts;
 }
 
-json elements_json(const std::vector<int>& elements) {
-  if (elements.empty()) return "all";
-  if (is_run(elements)) return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
-  json list = json::array();
-  for (const int e : elements) list.push_back(e + 1);
-  return list;
-}
-
 }  // namespace
 
-load_path::load_path(const problem& p) : problem_(p), totals_{resultant_of(p.geometry, nothing)}, parts_(1) {
+bool is_run(const std::vector<int>& elements) {
+  return elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
+         std::is_sorted(elements.begin(), elements.end());
+}
+
+load_path::load_path(const problem& p) : problem_(p), totals_{resultant_of(p.geometry, {})}, parts_(1) {
   for (const load& l : p.steps) {
     totals_.push_back(resultant_of(p.geometry, l));
     parts_.push_back(parts_of(l));
   }
 }
 
-const load& load_path::before(int step) const {
-  return step > 1 ? after(step - 1) : nothing;
-}
-
 load load_path::at(int step, double fraction) const {
-  return mix(before(step), after(step), fraction);
+  if (step == 0) return {};
+  return mix(step > 1 ? problem_.steps[step - 2] : load{}, problem_.steps[step - 1], fraction);
 }
 
 resultant load_path::resultant_at(int step, double fraction) const {
-  const resultant& a = totals_[static_cast<std::size_t>(step - 1)];
-  const resultant& b = totals_[static_cast<std::size_t>(step)];
+  const resultant& a = totals_[step - 1];
+  const resultant& b = totals_[step];
   resultant r{a.force + fraction * (b.force - a.force), a.moments};
   for (std::size_t i = 0; i < r.moments.size(); ++i) r.moments[i] += fraction * (b.moments[i] - a.moments[i]);
   return r;
 }
 
 bool load_path::has_many_parts(int step) const {
-  const auto at = static_cast<std::size_t>(step);
-  return std::max(parts_[at - 1], parts_[at]) > most_parts;
-}
-
-nlohmann::ordered_json load_path::json_at(int step, double fraction) const {
-  const resultant r = resultant_at(step, fraction);
-  const auto names = dof_names(problem_.geometry);
-  json out = {{of_matrix() ? "sum" : "force", r.force}};
-  for (std::size_t i = 0; i < r.moments.size(); ++i)
-    out[r.moments.size() == 1 ? "moment" : fmt::format("moment_{}", names[i + 1])] = r.moments[i];
-  if (has_many_parts(step)) return out;
-  const load l = at(step, fraction);
-  for (const distributed_load& d : l.distributed) {
-    json part;
-    if (d.polynomial.size() == 1) {
-      part["value"] = d.polynomial[0];
-    } else {
-      part["polynomial"] = d.polynomial;
-    }
-    part["elements"] = elements_json(d.elements);
-    out["uniform"].push_back(std::move(part));
-  }
-  for (const point_load& p : l.points) {
-    json point;
-    if (of_matrix()) {
-      point["dof"] = std::get<assembled>(problem_.geometry.kind).label_of(p.node);
-    } else {
-      point["node"] = p.node + 1;
-    }
-    point[names[static_cast<std::size_t>(p.dof)]] = p.value;
-    out["point"].push_back(std::move(point));
-  }
-  return out;
+  return std::max(parts_[step - 1], parts_[step]) > most_parts;
 }
 
 load_path::words load_path::words_for(const load& l, const resultant& r) const {
+  const bool of_matrix = std::holds_alternative<assembled>(problem_.geometry.kind);
   if (l.points.size() == 1 && l.distributed.empty()) {
     const point_load& p = l.points[0];
-    const char* const name = dof_names(problem_.geometry)[static_cast<std::size_t>(p.dof)];
-    return {of_matrix() ? "" : fmt::format("{} ", name), p.value,
+    return {of_matrix ? "" : fmt::format("{} ", dof_names(problem_.geometry)[p.dof]), p.value,
             " at " + place_words(problem_.geometry, p.node)};
   }
-  if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1) {
+  if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
     return {"uniform ", l.distributed[0].polynomial[0], ""};
-  }
-  return {of_matrix() ? "sum " : "force ", r.force, ""};
+  return {of_matrix ? "sum " : "force ", r.force, ""};
 }
 
 std::string load_path::words_at(int step, double fraction, int width) const {

@@ -1,41 +1,22 @@
 #include "contct/write/result_json.hpp"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/write/certificate_text.hpp"
+#include "contct/write/frame_numbers.hpp"
 
 namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
 
-std::string_view end_reason(path_status status) {
-  switch (status) {
-    case path_status::solved:
-      return "all load applied";
-    case path_status::mechanism:
-      return "mechanism";
-    case path_status::cycle:
-      return "cycle";
-    case path_status::iteration_limit:
-      return "iteration limit";
-    case path_status::not_factored:
-      return "not factored";
-  }
-  return "";
-}
-
-/// "node": 3, or "dof": "185.3" where each dof is a node of its own.
-void put_place(json& entry, const model& m, int node) {
-  const auto* a = std::get_if<assembled>(&m.kind);
-  if (a != nullptr) {
-    entry["dof"] = a->label_of(node);
-  } else {
-    entry["node"] = node + 1;
-  }
+json event_json(const problem& p, const event& e) {
+  const contact_pair& at = p.pairs[e.pair];
+  json entry = {{"pair", e.pair + 1}};
+  put_place(entry, p.geometry, at.node);
+  entry["surface"] = surface_name(at.surface);
+  entry["change"] = change_name(e.what);
+  return entry;
 }
 
 json numbered(const std::vector<int>& pairs) {
@@ -44,165 +25,132 @@ json numbered(const std::vector<int>& pairs) {
   return list;
 }
 
-}  // namespace
-
-std::string_view surface_name(int surface) {
-  return surface == face_above ? "above" : "below";
-}
-
-std::string_view change_name(change c) {
-  return c == change::make ? "make" : "break";
-}
-
-std::string_view status_name(path_status status) {
-  switch (status) {
-    case path_status::solved:
-      return "solved";
-    case path_status::mechanism:
-      return "mechanism";
-    default:
-      return "iteration-limit";
+json lockstep_json(const lockstep& compared) {
+  json out = {{"calls", compared.calls()},
+              {"values_compared", compared.compared().values},
+              {"mismatches", compared.compared().mismatches}};
+  if (compared.first()) {
+    const mismatch_report& d = *compared.first();
+    out["first"] = {{"call", d.call},         {"kernel", d.follower},     {"field", d.where.field},
+                    {"index", d.where.index}, {"leader", d.where.leader}, {"follower", d.where.follower},
+                    {"ulps", d.where.ulps}};
   }
+  return out;
 }
+
+}  // namespace
 
 result_json::result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
                          const certifier& judged, output_file& out)
-    : problem_(p), judged_(judged), loads_(p), out_(out) {
-  out_.write(
-      fmt::format("{{\n  \"format\": \"contct-result-1\",\n  \"title\": {},\n  \"kernels\": {},\n"
-                  "  \"engine\": {},\n  \"steps\": [",
-                  json(p.title).dump(), json(kernels).dump(), json(engine).dump()));
-}
-
-void result_json::incremented(const increment& i) {
-  json events = json::array();
-  for (const event& e : i.events) {
-    const contact_pair& p = problem_.pairs[static_cast<std::size_t>(e.pair)];
-    json words = {{"pair", e.pair + 1}};
-    put_place(words, problem_.geometry, p.node);
-    words["surface"] = surface_name(p.surface);
-    words["change"] = change_name(e.what);
-    events.push_back(std::move(words));
-  }
-  json entry = {{"increment", i.number},
-                {"s", i.s},
-                {"fraction", i.fraction},
-                {"load", loads_.json_at(i.step, i.fraction)},
-                {"events", std::move(events)}};
-  if (i.snaps) entry["snap"] = true;
-  increments_.push_back(entry.dump());
-}
-
-template <class Entry>
-void result_json::write_list(std::string_view name, std::size_t count, Entry entry, bool last) {
-  out_.write(fmt::format("      \"{}\": [", name));
-  for (std::size_t i = 0; i < count; ++i)
-    out_.write(fmt::format("{}\n        {}", i == 0 ? "" : ",", entry(i)));
-  out_.write(fmt::format("{}]{}\n", count == 0 ? "" : "\n      ", last ? "" : ","));
+    : problem_(p), judged_(judged), loads_(p), document_(out) {
+  document_.put("format", "contct-result-1");
+  document_.put("title", p.title);
+  document_.put("kernels", kernels);
+  document_.put("engine", engine);
+  document_.open_array("steps");
 }
 
 void result_json::step_ended(const step_state& s) {
   const load total = loads_.at(s.step, s.fraction);
   std::vector<double> w;
-  const auto stride = static_cast<std::size_t>(dofs_per_node(problem_.geometry));
-  for (std::size_t i = 0; i < s.displacement.size(); i += stride) w.push_back(s.displacement[i]);
-
-  out_.write(fmt::format("{}\n    {{\n      \"step\": {},\n      \"fraction\": {},\n", first_step_ ? "" : ",",
-                         s.step, json(s.fraction).dump()));
-  first_step_ = false;
-  write_list("increments", increments_.size(), [this](std::size_t i) { return increments_[i]; });
-  increments_.clear();
-  out_.write(fmt::format("      \"w\": {},\n", json(w).dump()));
-  out_.write(fmt::format("      \"displacement\": {},\n",
-                         json(std::vector<double>(s.displacement.begin(), s.displacement.end())).dump()));
+  for (int node = 0; node < nodes(problem_.geometry); ++node)
+    w.push_back(deflection_of(problem_, s.displacement, node));
+  document_.open_object();
+  document_.put("step", s.step);
+  document_.put("fraction", s.fraction);
+  write_increments();
+  document_.put("w", w);
+  document_.put("displacement", s.displacement);
   write_pairs(s);
   write_reactions(s, total);
   write_elements(s, total);
-  if (s.from_fallback) out_.write("      \"ended_by\": \"oracle\",\n");
-  out_.write(fmt::format("      \"rcond\": {},\n      \"digits\": {},\n      \"certificate\": {}\n    }}",
-                         json(s.rcond).dump(), digits_left(s.rcond),
-                         certificate_json(judged_.steps().back()).dump()));
+  if (s.from_fallback) document_.put("ended_by", "oracle");
+  document_.put("rcond", s.rcond);
+  document_.put("digits", digits_left(s.rcond));
+  document_.put("certificate", certificate_json(judged_.steps().back()));
+  document_.close();
+}
+
+void result_json::write_increments() {
+  document_.put_list("increments", increments_.size(), [this](std::size_t at) {
+    const increment_record& i = increments_[at];
+    json events = json::array();
+    for (const event& e : i.events) events.push_back(event_json(problem_, e));
+    json entry = {{"increment", i.number},
+                  {"s", i.s},
+                  {"fraction", i.fraction},
+                  {"load", load_json(problem_.geometry, loads_, i.step, i.fraction)},
+                  {"events", std::move(events)}};
+    if (i.snaps) entry["snap"] = true;
+    return entry;
+  });
+  increments_.clear();
 }
 
 void result_json::write_pairs(const step_state& s) {
-  const auto stride = static_cast<std::size_t>(dofs_per_node(problem_.geometry));
-  write_list("pairs", problem_.pairs.size(), [&](std::size_t i) {
+  document_.put_list("pairs", problem_.pairs.size(), [&](std::size_t i) {
     const contact_pair& p = problem_.pairs[i];
-    const double w = s.displacement[static_cast<std::size_t>(p.node) * stride];
-    const bool closed = s.isep[i] == in_contact;
+    const double w = deflection_of(problem_, s.displacement, p.node);
+    const pair_reading r = reading_of(p, w, s.isep[i] == in_contact);
     json entry = {{"pair", i + 1}};
     put_place(entry, problem_.geometry, p.node);
     entry["surface"] = surface_name(p.surface);
-    entry["state"] = closed ? "contact" : "separated";
-    entry["gap"] = gap_of(p, w, closed);
-    entry["force"] = force_of(p, w, closed);
-    return entry.dump();
+    entry["state"] = state_name(s.isep[i]);
+    entry["gap"] = r.gap;
+    entry["force"] = r.force;
+    return entry;
   });
 }
 
 void result_json::write_reactions(const step_state& s, const load& total) {
   const std::vector<double> values = reactions(problem_.geometry, total, problem_.supports, s.displacement);
   const auto names = dof_names(problem_.geometry);
-  write_list("reactions", values.size(), [&](std::size_t i) {
+  document_.put_list("reactions", values.size(), [&](std::size_t i) {
     const support& at = problem_.supports[i];
     json entry;
     put_place(entry, problem_.geometry, at.node);
-    if (!entry.contains("dof")) entry["dof"] = names[static_cast<std::size_t>(at.dof)];
+    if (!entry.contains("dof")) entry["dof"] = names[at.dof];
     entry["value"] = values[i];
-    return entry.dump();
+    return entry;
   });
 }
 
 void result_json::write_elements(const step_state& s, const load& total) {
   const element_results results = results_in_elements(problem_.geometry, total, s.displacement);
-  write_list("elements", results.elements(), [&](std::size_t e) {
+  document_.put_list("elements", results.elements(), [&](std::size_t e) {
     json entry = {{"element", e + 1}};
     for (std::size_t i = 0; i < results.names.size(); ++i)
       entry[std::string(results.names[i])] = results.at(e, i);
-    return entry.dump();
+    return entry;
   });
 }
 
-void result_json::add_free_run(std::string_view kernel, const free_run_difference& d, bool certified) {
-  const json entry = {{"kernel", kernel},
-                      {"same_end", d.same_end},
-                      {"same_events", d.same_events},
-                      {"first_difference", d.first_difference},
-                      {"fraction", d.fraction},
-                      {"displacement", d.displacement},
-                      {"bound", d.bound},
-                      {"within_bound", d.within_bound()},
-                      {"certified", certified}};
-  free_runs_.push_back(entry.dump());
-}
-
 void result_json::finish(std::string_view status, const path_end& end, const lockstep* compared) {
-  json lock;
-  if (compared != nullptr) {
-    lock = {{"calls", compared->calls()},
-            {"values_compared", compared->compared().values},
-            {"mismatches", compared->compared().mismatches}};
-    if (compared->first()) {
-      const mismatch_report& d = *compared->first();
-      lock["first"] = {{"call", d.call},         {"kernel", d.follower},     {"field", d.where.field},
-                       {"index", d.where.index}, {"leader", d.where.leader}, {"follower", d.where.follower},
-                       {"ulps", d.where.ulps}};
-    }
-  }
-  const json how = {{"reason", end_reason(end.status)},
-                    {"step", end.step},
-                    {"fraction", end.fraction},
-                    {"pairs", numbered(end.pairs)}};
-  out_.write(fmt::format("\n  ],\n  \"end\": {},\n", how.dump()));
-  const engine_counts& work = end.work;
-  out_.write(fmt::format("  \"engine_work\": {},\n", json({{"factors", work.factors},
-                                                           {"solves", work.solves},
-                                                           {"updates", work.updates},
-                                                           {"checks", work.checks}})
-                                                         .dump()));
-  if (!free_runs_.empty()) out_.write(fmt::format("  \"free_run\": [{}],\n", fmt::join(free_runs_, ", ")));
-  out_.write(fmt::format("  \"lockstep\": {},\n  \"status\": {}\n}}\n", lock.dump(), json(status).dump()));
-  out_.finish();
+  document_.close();  // the steps
+  document_.put("end", {{"reason", end_reason(end.status)},
+                        {"step", end.step},
+                        {"fraction", end.fraction},
+                        {"pairs", numbered(end.pairs)}});
+  document_.put("engine_work", {{"factors", end.work.factors},
+                                {"solves", end.work.solves},
+                                {"updates", end.work.updates},
+                                {"checks", end.work.checks}});
+  if (!free_runs_.empty())
+    document_.put_list("free_run", free_runs_.size(), [this](std::size_t i) {
+      const auto& [kernel, d, certified] = free_runs_[i];
+      return json{{"kernel", kernel},
+                  {"same_end", d.same_end},
+                  {"same_events", d.same_events},
+                  {"first_difference", d.first_difference},
+                  {"fraction", d.fraction},
+                  {"displacement", d.displacement},
+                  {"bound", d.bound},
+                  {"within_bound", d.within_bound()},
+                  {"certified", certified}};
+    });
+  document_.put("lockstep", compared == nullptr ? json(nullptr) : lockstep_json(*compared));
+  document_.put("status", status);
+  document_.finish();
 }
 
 }  // namespace contct

@@ -12,7 +12,10 @@
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
+#include "contct/write/finished_run.hpp"
+#include "contct/write/json_document.hpp"
 #include "contct/write/load_text.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct {
 
@@ -24,36 +27,34 @@ class result_json final : public observer {
   result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
               const certifier& judged, output_file& out);
 
-  void incremented(const increment& i) override;
+  void incremented(const increment& i) override { increments_.emplace_back(i); }
   void step_ended(const step_state& s) override;
 
   /// Add how another kernel's own path compares.
-  void add_free_run(std::string_view kernel, const free_run_difference& d, bool certified);
+  void add_free_run(std::string_view kernel, const free_run_difference& d, bool certified) {
+    free_runs_.push_back({std::string(kernel), d, certified});
+  }
 
   /// Close the document. `compared` is null when there was one kernel only.
   void finish(std::string_view status, const path_end& end, const lockstep* compared);
 
  private:
+  void write_increments();
   void write_pairs(const step_state& s);
   void write_reactions(const step_state& s, const load& total);
   void write_elements(const step_state& s, const load& total);
-  template <class Entry>
-  void write_list(std::string_view name, std::size_t count, Entry entry, bool last = false);
 
+  struct compared_path {
+    std::string kernel;
+    free_run_difference difference;
+    bool certified;
+  };
   const problem& problem_;
   const certifier& judged_;
   load_path loads_;
-  output_file& out_;
-  std::vector<std::string> increments_;  // of the step under way, as JSON
-  std::vector<std::string> free_runs_;   // as JSON
-  bool first_step_ = true;
+  json_document document_;
+  std::vector<increment_record> increments_;  // of the current step
+  std::vector<compared_path> free_runs_;
 };
-
-/// "below" or "above".
-[[nodiscard]] std::string_view surface_name(int surface);
-/// "make" or "break".
-[[nodiscard]] std::string_view change_name(change c);
-/// "solved", "mechanism" or "iteration-limit".
-[[nodiscard]] std::string_view status_name(path_status status);
 
 }  // namespace contct

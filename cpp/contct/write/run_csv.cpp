@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "contct/write/frame_numbers.hpp"
-#include "contct/write/result_json.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct {
 namespace {
@@ -38,7 +38,7 @@ run_csv::run_csv(const problem& p, const lockstep* compared, output_file& increm
 
 void run_csv::called(const answered_call& c) {
   for (std::size_t i = 0; i < d_.size(); ++i) {
-    const auto dof = static_cast<std::size_t>(c.c.dof.dof_of(c.c.id[i]) - 1);
+    const int dof = c.c.dof.dof_of(c.c.id[i]) - 1;
     d_[i] = c.c.dd[dof];
     d_star_[i] = c.c.dtest[dof];
   }
@@ -52,8 +52,7 @@ void run_csv::incremented(const increment& i) {
   last_ = {i.step, i.number, i.snaps ? "snap" : "load", i.s, i.fraction, {i.events.begin(), i.events.end()},
            d_,     isep_};
   for (std::size_t p = 0; p < d_.size(); ++p) last_.w[p] += i.s * d_star_[p];
-  for (const event& e : i.events)
-    last_.isep[static_cast<std::size_t>(e.pair)] = e.what == change::make ? in_contact : separated;
+  for (const event& e : i.events) last_.isep[e.pair] = e.what == change::make ? in_contact : separated;
   pending_ = true;
 }
 
@@ -63,11 +62,10 @@ void run_csv::step_ended(const step_state& s) {
     last_ = {s.step, 0, s.from_fallback ? "rescue" : "end", 0.0, s.fraction, {}, {}, {}};
     agreement_ = "";
   }
-  const auto stride = static_cast<std::size_t>(dofs_per_node(problem_.geometry));
   last_.isep.assign(s.isep.begin(), s.isep.end());
   last_.w.clear();
   for (const contact_pair& p : problem_.pairs)
-    last_.w.push_back(s.displacement[static_cast<std::size_t>(p.node) * stride]);
+    last_.w.push_back(deflection_of(problem_, s.displacement, p.node));
   write_pending();
 }
 
@@ -82,17 +80,16 @@ void run_csv::write_pending() {
                                 last_.kind, called ? fmt::format("{}", last_.s) : "", last_.fraction, force,
                                 csv_field(event_words(last_.events)), n.closed, n.open, n.at_face,
                                 called ? fmt::format("{}", smin_) : "", agreement_));
-  if (pairs_ != nullptr) write_pairs(last_);
+  if (pairs_ != nullptr) write_pairs();
 }
 
-void run_csv::write_pairs(const state& of) {
-  for (std::size_t i = 0; i < of.w.size(); ++i) {
+void run_csv::write_pairs() {
+  for (std::size_t i = 0; i < last_.w.size(); ++i) {
     const contact_pair& p = problem_.pairs[i];
-    const bool closed = of.isep[i] == in_contact;
-    pairs_->write(fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", of.step, of.number, i + 1,
+    const pair_reading r = reading_of(p, last_.w[i], last_.isep[i] == in_contact);
+    pairs_->write(fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number, i + 1,
                               csv_field(place_name(problem_.geometry, p.node)), surface_name(p.surface),
-                              closed ? "contact" : "separated", words_of(look_of(p, of.w[i], closed)),
-                              of.w[i], gap_of(p, of.w[i], closed), force_of(p, of.w[i], closed)));
+                              state_name(last_.isep[i]), look_name(r.look), r.w, r.gap, r.force));
   }
 }
 

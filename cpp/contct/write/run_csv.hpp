@@ -49,7 +49,7 @@ class run_csv final : public observer {
     std::vector<int> isep;  // [pairs]
   };
   void write_pending();
-  void write_pairs(const state& of);
+  void write_pairs();
 
   const problem& problem_;
   load_path loads_;

@@ -1,33 +1,15 @@
 #include "contct/write/run_page.hpp"
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
 
 #include "contct/text/markup.hpp"
-#include "contct/write/page_data.hpp"
-#include "contct/write/report_files.hpp"
 
 namespace contct {
-namespace {
 
-/// JSON that no HTML parser takes for markup, whatever its texts hold: in a script element only "<" can
-/// begin anything.
-std::string embedded(const nlohmann::ordered_json& data) {
-  const std::string text = data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
-
-}  // namespace
+// Files of report/ and reference/parallel-edition.html, built in: embed.cmake writes them.
+extern const std::string_view report_html, report_css, report_js, parallel_edition_html;
 
 /// The template's places are filled from its beginning to its end, so what is filled in is not looked at.
 std::string run_page(const finished_run& r) {
@@ -39,7 +21,7 @@ std::string run_page(const finished_run& r) {
                                             {"{{style}}", std::string(report_css)},
                                             {"{{heading}}", markup_text(title_of(r))},
                                             {"{{edition}}", std::string(parallel_edition_html)},
-                                            {"{{data}}", embedded(page_data(r))},
+                                            {"{{data}}", page_data_for_script(r)},
                                             {"{{script}}", std::string(report_js)}}};
   std::string_view rest = report_html;
   std::string page;

@@ -1,6 +1,7 @@
 // A run as one HTML page that needs nothing else.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "contct/write/finished_run.hpp"
@@ -9,5 +10,12 @@ namespace contct {
 
 /// The page of a run. The parallel edition of the two kernels is in it, folded.
 [[nodiscard]] std::string run_page(const finished_run& r);
+
+/// Everything the page shows, of a large problem the parts that page_sampling chooses; numbers with all their
+/// digits.
+[[nodiscard]] nlohmann::ordered_json page_data(const finished_run& r);
+
+/// The same as text of an HTML script element: whatever its strings hold, none of it is markup.
+[[nodiscard]] std::string page_data_for_script(const finished_run& r);
 
 }  // namespace contct

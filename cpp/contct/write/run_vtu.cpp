@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <type_traits>
+
 #include "contct/text/markup.hpp"
 #include "contct/write/frame_numbers.hpp"
 #include "contct/write/load_text.hpp"
-#include "contct/write/mesh_numbers.hpp"
 
 namespace contct {
 namespace {
 
-constexpr int vtk_vertex = 1, vtk_line = 3, vtk_quad = 9;
+constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_quad = 9;
 
 /// The nodes of each element, from 0; of a structure from elsewhere those of its edges.
 std::vector<std::vector<int>> elements_of(const model& m) {
@@ -29,20 +31,14 @@ std::vector<std::vector<int>> elements_of(const model& m) {
 }
 
 template <class Number>
-std::string array(std::string_view name, std::string_view type, std::size_t components,
-                  const std::vector<Number>& values) {
+std::string array(std::string_view name, std::size_t components, const std::vector<Number>& values) {
+  constexpr std::string_view type = std::is_same_v<Number, double> ? "Float64"
+                                    : std::is_same_v<Number, int>  ? "Int32"
+                                                                   : "UInt8";
   return fmt::format(
       "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n        "
       "</DataArray>\n",
       type, markup_text(name), components, fmt::join(values, " "));
-}
-
-std::string reals(std::string_view name, std::size_t components, const std::vector<double>& values) {
-  return array(name, "Float64", components, values);
-}
-
-std::string whole(std::string_view name, const std::vector<int>& values) {
-  return array(name, "Int32", 1, values);
 }
 
 /// The pairs that have a cell, at a node, and the direction in which they act: all, but for those of a matrix
@@ -56,7 +52,7 @@ std::vector<placed_pair> placed_pairs(const problem& p) {
   std::vector<placed_pair> list;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const int node = p.pairs[i].node;
-    const placed_dof at = a == nullptr ? placed_dof{node, 3} : a->places.dofs[static_cast<std::size_t>(node)];
+    const placed_dof at = a == nullptr ? placed_dof{node, 3} : a->places.dofs[node];
     if (at.node >= 0) list.push_back({i, at.node, at.direction});
   }
   return list;
@@ -66,28 +62,28 @@ std::string points_of(const problem& p) {
   std::vector<double> at;
   if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) {
     for (const placed_node& n : a->places.nodes) at.insert(at.end(), n.at.begin(), n.at.end());
-    return "      <Points>\n" + reals("points", 3, at) + "      </Points>\n";
+  } else {
+    for (int node = 0; node < nodes(p.geometry); ++node) {
+      const place where = place_of_node(p.geometry, node);
+      at.insert(at.end(), {where.x, where.y, 0.0});
+    }
   }
-  for (int node = 0; node < nodes(p.geometry); ++node) {
-    const place where = place_of_node(p.geometry, node);
-    at.insert(at.end(), {where.x, where.y, 0.0});
-  }
-  return "      <Points>\n" + reals("points", 3, at) + "      </Points>\n";
+  return "      <Points>\n" + array("points", 3, at) + "      </Points>\n";
 }
 
 std::string cells_of(const std::vector<std::vector<int>>& elements, const std::vector<placed_pair>& pairs) {
   std::vector<int> connectivity;
   std::vector<int> offsets;
-  std::vector<int> types;
-  const auto add = [&](const std::vector<int>& at, int type) {
+  std::vector<std::uint8_t> types;
+  const auto add = [&](const std::vector<int>& at, std::uint8_t type) {
     connectivity.insert(connectivity.end(), at.begin(), at.end());
     offsets.push_back(static_cast<int>(connectivity.size()));
     types.push_back(type);
   };
   for (const auto& corners : elements) add(corners, corners.size() == 2 ? vtk_line : vtk_quad);
   for (const placed_pair& at : pairs) add({at.node}, vtk_vertex);
-  return "      <Cells>\n" + whole("connectivity", connectivity) + whole("offsets", offsets) +
-         array("types", "UInt8", 1, types) + "      </Cells>\n";
+  return "      <Cells>\n" + array("connectivity", 1, connectivity) + array("offsets", 1, offsets) +
+         array("types", 1, types) + "      </Cells>\n";
 }
 
 /// Displacements, and rotations where there are any.
@@ -102,14 +98,14 @@ std::string mesh_point_data(const placed_nodes& places, const frame& f) {
     rotation.insert(rotation.end(), r.begin(), r.end());
     turns = turns || of.about != dofs_of_node{}.about;
   }
-  return "      <PointData Vectors=\"displacement\">\n" + reals("displacement", 3, displacement) +
-         (turns ? reals("rotation", 3, rotation) : "") + "      </PointData>\n";
+  return "      <PointData Vectors=\"displacement\">\n" + array("displacement", 3, displacement) +
+         (turns ? array("rotation", 3, rotation) : "") + "      </PointData>\n";
 }
 
 std::string point_data(const problem& p, const frame& f) {
   if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) return mesh_point_data(a->places, f);
   const auto names = dof_names(p.geometry);
-  const auto stride = static_cast<std::size_t>(dofs_per_node(p.geometry));
+  const std::size_t stride = dofs_per_node(p.geometry);
   std::vector<double> displacement;
   std::vector<std::vector<double>> by_dof(names.size());
   for (std::size_t i = 0; i < f.displacement.size(); i += stride) {
@@ -117,8 +113,8 @@ std::string point_data(const problem& p, const frame& f) {
     for (std::size_t dof = 0; dof < stride; ++dof) by_dof[dof].push_back(f.displacement[i + dof]);
   }
   std::string text =
-      "      <PointData Vectors=\"displacement\" Scalars=\"w\">\n" + reals("displacement", 3, displacement);
-  for (std::size_t dof = 0; dof < stride; ++dof) text += reals(names[dof], 1, by_dof[dof]);
+      "      <PointData Vectors=\"displacement\" Scalars=\"w\">\n" + array("displacement", 3, displacement);
+  for (std::size_t dof = 0; dof < stride; ++dof) text += array(names[dof], 1, by_dof[dof]);
   return text + "      </PointData>\n";
 }
 
@@ -126,8 +122,9 @@ std::string point_data(const problem& p, const frame& f) {
 std::string element_data(const problem& p, const frame& f, std::size_t elements) {
   if (std::holds_alternative<assembled>(p.geometry.kind)) return "";
   const load_path loads(p);
-  const element_results results = results_in_elements(p.geometry, load_of(loads, f), f.displacement);
-  const auto places = static_cast<std::size_t>(results.places);
+  const element_results results =
+      results_in_elements(p.geometry, loads.at(f.step, f.fraction), f.displacement);
+  const std::size_t places = results.places;
   std::string text;
   for (std::size_t name = 0; name < results.names.size(); ++name) {
     std::vector<double> values;
@@ -136,33 +133,30 @@ std::string element_data(const problem& p, const frame& f, std::size_t elements)
       values.insert(values.end(), at.begin(), at.end());
     }
     values.resize((elements + p.pairs.size()) * places);
-    text += reals(results.names[name], places, values);
+    text += array(results.names[name], places, values);
   }
   return text;
 }
 
+/// A column has a number for each element, the same for all, then one for each pair.
 std::string cell_data(const problem& p, const frame& f, std::size_t elements,
                       const std::vector<placed_pair>& pairs) {
-  std::vector<int> number(elements, 0);
-  std::vector<int> state(elements, -1);
-  std::vector<int> surface(elements, 0);
+  const auto column = [&](std::string_view name, auto of_elements, auto of_pair) {
+    std::vector<decltype(of_elements)> values(elements, of_elements);
+    for (const placed_pair& at : pairs) values.push_back(of_pair(at.pair));
+    return array(name, 1, values);
+  };
+  std::string text = "      <CellData>\n";
+  text += column("pair", 0, [](std::size_t i) { return static_cast<int>(i) + 1; });
+  text += column("state", -1, [&](std::size_t i) { return static_cast<int>(reading_of(p, f, i).look); });
+  text += column("surface", 0, [&](std::size_t i) { return p.pairs[i].surface; });
   std::vector<int> direction(elements, 0);
-  std::vector<double> face(elements);
-  std::vector<double> gap(elements);
-  std::vector<double> force(elements);
-  for (const placed_pair& at : pairs) {
-    const pair_reading r = reading_of(p, f, at.pair);
-    number.push_back(static_cast<int>(at.pair) + 1);
-    state.push_back(static_cast<int>(r.look));
-    surface.push_back(p.pairs[at.pair].surface);
-    direction.push_back(at.direction);
-    face.push_back(p.pairs[at.pair].face);
-    gap.push_back(r.gap);
-    force.push_back(r.force);
-  }
-  return "      <CellData>\n" + whole("pair", number) + whole("state", state) + whole("surface", surface) +
-         whole("direction", direction) + reals("face", 1, face) + reals("gap", 1, gap) +
-         reals("force", 1, force) + element_data(p, f, elements) + "      </CellData>\n";
+  for (const placed_pair& at : pairs) direction.push_back(at.direction);
+  text += array("direction", 1, direction);
+  text += column("face", 0.0, [&](std::size_t i) { return p.pairs[i].face; });
+  text += column("gap", 0.0, [&](std::size_t i) { return reading_of(p, f, i).gap; });
+  text += column("force", 0.0, [&](std::size_t i) { return reading_of(p, f, i).force; });
+  return text + element_data(p, f, elements) + "      </CellData>\n";
 }
 
 std::string field_data(const frame& f) {
@@ -185,7 +179,7 @@ std::string vtu_of_frame(const problem& p, const frame& f) {
   const auto elements = elements_of(p.geometry);
   const auto pairs = placed_pairs(p);
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
-  const auto points = a != nullptr ? a->places.nodes.size() : static_cast<std::size_t>(nodes(p.geometry));
+  const auto points = a != nullptr ? std::ssize(a->places.nodes) : nodes(p.geometry);
   return fmt::format(fmt::runtime(head), "UnstructuredGrid") + "  <UnstructuredGrid>\n" + field_data(f) +
          fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points,
                      elements.size() + pairs.size()) +

@@ -6,20 +6,8 @@
 #include <cmath>
 
 #include "contct/text/markup.hpp"
-#include "contct/write/frame_numbers.hpp"
-#include "contct/write/result_json.hpp"
 
 namespace contct::svg {
-namespace {
-
-std::string pair_words(const problem& p, std::size_t pair, const pair_reading& r, bool closed) {
-  const contact_pair& at = p.pairs[pair];
-  return fmt::format("pair {}, {}, face {} at {:.6g}, {}: {} {:.6g}", pair + 1,
-                     place_words(p.geometry, at.node), surface_name(at.surface), at.face, words_of(r.look),
-                     closed ? "force" : "gap", closed ? r.force : r.gap);
-}
-
-}  // namespace
 
 void span_of::take(double x) {
   least = std::min(least, x);
@@ -41,13 +29,43 @@ std::vector<double> ticks(double from, double to, int about) {
   return at;
 }
 
+std::string element(std::string_view name, std::string_view attributes, std::string_view content) {
+  return fmt::format("<{}{}{}", name, attributes.empty() ? "" : " ", attributes) +
+         (content.empty() ? "/>\n" : fmt::format(">{}</{}>\n", content, name));
+}
+
+std::string circle(double x, double y, double r, std::string_view attributes, std::string_view content) {
+  return element("circle", fmt::format("cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}", x, y, r, attributes),
+                 content);
+}
+
+std::string rectangle(double x, double y, double width, double height, std::string_view attributes,
+                      std::string_view content) {
+  return element("rect",
+                 fmt::format("x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}", x, y, width,
+                             height, attributes),
+                 content);
+}
+
+std::string text_markup(double x, double y, std::string_view attributes, std::string_view markup) {
+  return element("text", fmt::format("x=\"{:.1f}\" y=\"{:.1f}\" {}", x, y, attributes), markup);
+}
+
+std::string title(std::string_view words) {
+  return fmt::format("<title>{}</title>", markup_text(words));
+}
+
 std::string text_at(double x, double y, std::string_view kind, std::string_view words) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\">{}</text>\n", x, y, kind,
-                     markup_text(words));
+  const std::string safe = markup_text(words);
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\">{}</text>\n", x, y, kind, safe);
+}
+
+std::string path(std::string_view d, std::string_view kind, std::string_view content) {
+  return d.empty() ? "" : element("path", fmt::format("d=\"{}\" class=\"{}\"", d, kind), content);
 }
 
 std::string line(double x1, double y1, double x2, double y2, std::string_view kind) {
-  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" class=\"{}\"/>\n", x1, y1, x2, y2, kind);
+  return path(fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", x1, y1, x2, y2), kind);
 }
 
 std::string axis_below(const scale& X, double from, double to, double y) {
@@ -57,26 +75,6 @@ std::string axis_below(const scale& X, double from, double to, double y) {
     text += text_at(X(x), y + 20, "quiet middle", fmt::format("{:.4g}", x));
   }
   return text;
-}
-
-std::string mark_of_pair(const problem& p, const frame& f, std::size_t pair, double x, double y, double r) {
-  const pair_reading now = reading_of(p, f, pair);
-  const std::string title =
-      fmt::format("<title>{}</title>", markup_text(pair_words(p, pair, now, f.closed(pair))));
-  switch (now.look) {
-    case pair_look::open:
-      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" class=\"open\">{}</circle>\n", x,
-                         y, r, title);
-    case pair_look::closed:
-      return fmt::format(
-          "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" class=\"closed\">{}</rect>\n",
-          x - r, y - r, 2 * r, 2 * r, title);
-    case pair_look::at_face:
-      return fmt::format(
-          "<path d=\"M{:.1f} {:.1f}l{:.1f} {:.1f}l{:.1f} {:.1f}l{:.1f} {:.1f}z\" class=\"face\">{}</path>\n",
-          x, y - 1.3 * r, 1.3 * r, 1.3 * r, -1.3 * r, 1.3 * r, -1.3 * r, -1.3 * r, title);
-  }
-  return "";
 }
 
 }  // namespace contct::svg

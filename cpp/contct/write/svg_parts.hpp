@@ -1,27 +1,20 @@
-// Pieces that a run's picture is drawn from.
+// Pieces of SVG pictures: scales, axes, text, paths, marks.
 #pragma once
 
-#include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "contct/path/frames.hpp"
-#include "contct/structure/problem.hpp"
-
 namespace contct::svg {
 
-inline constexpr double page_width = 900.0;
-inline constexpr double picture_top = 96.0;
-
-/// From the least to the largest of what it has taken.
+/// From the least to the largest of the values taken.
 struct span_of {
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
 
   void take(double x);
-  /// Never 0: what is drawn from it divides by it.
+  /// Positive, 1 for a single value: scales divide by it.
   [[nodiscard]] double range() const { return most > least ? most - least : 1.0; }
 };
 
@@ -29,6 +22,11 @@ struct span_of {
 struct scale {
   double from, per_unit, at;
   [[nodiscard]] double operator()(double x) const { return at + (x - from) * per_unit; }
+};
+
+/// A point on the page, y downwards.
+struct spot {
+  double x, y;
 };
 
 /// A part of the picture, and where its lower edge is.
@@ -43,12 +41,26 @@ struct drawn {
 /// Round numbers from one to the other, between `about` / 2 and 3 `about` of them.
 [[nodiscard]] std::vector<double> ticks(double from, double to, int about);
 
-[[nodiscard]] std::string text_at(double x, double y, std::string_view kind, std::string_view words);
-[[nodiscard]] std::string line(double x1, double y1, double x2, double y2, std::string_view kind);
-[[nodiscard]] std::string axis_below(const scale& X, double from, double to, double y);
+/// An element on a line of its own; `attributes` and `content` are markup.
+[[nodiscard]] std::string element(std::string_view name, std::string_view attributes,
+                                  std::string_view content = {});
+[[nodiscard]] std::string circle(double x, double y, double r, std::string_view attributes,
+                                 std::string_view content = {});
+[[nodiscard]] std::string rectangle(double x, double y, double width, double height,
+                                    std::string_view attributes, std::string_view content = {});
+/// Text that may hold markup, such as a raised exponent.
+[[nodiscard]] std::string text_markup(double x, double y, std::string_view attributes,
+                                      std::string_view markup);
 
-/// A pair at (x, y), told in its tooltip: open is a ring, closed a square, at its face a diamond.
-[[nodiscard]] std::string mark_of_pair(const problem& p, const frame& f, std::size_t pair, double x, double y,
-                                       double r);
+/// A tooltip, as content of an element.
+[[nodiscard]] std::string title(std::string_view words);
+
+// `kind` is a class of the picture's style sheet.
+[[nodiscard]] std::string text_at(double x, double y, std::string_view kind, std::string_view words);
+/// `d` as a path's attribute of that name; no path where it is empty.
+[[nodiscard]] std::string path(std::string_view d, std::string_view kind, std::string_view content = {});
+[[nodiscard]] std::string line(double x1, double y1, double x2, double y2, std::string_view kind);
+/// Ticks and numbers below a picture, without a line.
+[[nodiscard]] std::string axis_below(const scale& X, double from, double to, double y);
 
 }  // namespace contct::svg

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
 #include "contct/write/certificate_text.hpp"
-#include "contct/write/result_json.hpp"
+#include "contct/write/frame_numbers.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct {
 namespace {
@@ -23,7 +23,7 @@ constexpr std::size_t most_events_shown = 12;
 
 /// "make 1: node 3 below".
 std::string event_words(const problem& p, change what, int pair) {
-  const contact_pair& at = p.pairs[static_cast<std::size_t>(pair)];
+  const contact_pair& at = p.pairs[pair];
   return fmt::format("{} {}: {} {}", change_name(what), pair + 1, place_words(p.geometry, at.node),
                      surface_name(at.surface));
 }
@@ -37,12 +37,12 @@ int widest_event(const problem& p) {
 }
 
 /// With as many digits, nine at most, as fit.
-std::string deflection_words(const model& m, double w, std::size_t node, int width) {
-  const std::string at = place_words(m, static_cast<int>(node));
+std::string deflection_words(const model& m, const extreme& most, int width) {
+  const std::string at = place_words(m, most.at);
   const char* const name = std::holds_alternative<assembled>(m.kind) ? "u" : "w";
   std::string text;
   for (int digits = 9; digits >= 3; --digits) {
-    text = fmt::format("{} = {:.{}g} at {}", name, w, digits, at);
+    text = fmt::format("{} = {:.{}g} at {}", name, most.value, digits, at);
     if (static_cast<int>(text.size()) <= width) break;
   }
   return text;
@@ -117,18 +117,16 @@ void table::incremented(const increment& i) {
 }
 
 void table::step_ended(const step_state& s) {
-  const auto stride = static_cast<std::size_t>(dofs_per_node(problem_.geometry));
-  std::size_t largest = 0;
-  for (std::size_t i = 0; i < s.displacement.size(); i += stride) {
-    if (std::abs(s.displacement[i]) > std::abs(s.displacement[largest])) largest = i;
-  }
+  extreme most{0, s.displacement[0]};
+  for (int node = 0; node < nodes(problem_.geometry); ++node)
+    most.take(node, deflection_of(problem_, s.displacement, node));
   const auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
   std::string label = events_below_ ? "end " : "   end  ";
   const int width = terminal_.width - static_cast<int>(label.size());
-  std::vector<std::string> items = {
-      deflection_words(problem_.geometry, s.displacement[largest], largest / stride, width),
-      fmt::format("{} of {} in contact", closed, s.isep.size()),
-      fmt::format("{} digits", digits_left(s.rcond)), certificate_mark(judged_.steps().back())};
+  std::vector<std::string> items = {deflection_words(problem_.geometry, most, width),
+                                    fmt::format("{} of {} in contact", closed, s.isep.size()),
+                                    fmt::format("{} digits", digits_left(s.rcond)),
+                                    certificate_mark(judged_.steps().back())};
   if (s.from_fallback) items.emplace_back("ended by the oracle");
   for (const std::string& line : wrap(items, width)) {
     fmt::print("{}\n", painted(terminal_, paint::quiet, label + line));

@@ -1,18 +1,16 @@
-// The run as tables, grids and a picture.
+// The run as tables.
+#include "contct/write/run_csv.hpp"
+
 #include <cstdlib>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
-#include "contct/text/input_text.hpp"
-#include "contct/text/markup.hpp"
-#include "contct/write/run_csv.hpp"
+#include "contct/write/frame_numbers.hpp"
 #include "contct/write/run_svg.hpp"
-#include "contct/write/run_vtu.hpp"
 #include "read/bad_plates.hpp"
 #include "support/a_run.hpp"
 #include "support/scratch_folder.hpp"
+#include "support/structures.hpp"
 #include "support/well_formed.hpp"
 
 using namespace contct;
@@ -132,43 +130,31 @@ TEST_CASE("a step that never moves has a row all the same") {
   CHECK(t.increments[1][11].empty());
 }
 
-TEST_CASE("grids are well-formed, with as many points and cells as the structure and its pairs have") {
-  for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
-    const a_run r(text);
-    const std::string vtu = vtu_of_frame(r.what, r.kept.frames().back());
-    CHECK(why_not_well_formed(vtu).empty());
-    const auto cells = static_cast<std::size_t>(elements(r.what.geometry)) + r.what.pairs.size();
-    CHECK_THAT(vtu, Contains("NumberOfPoints=\"" + std::to_string(nodes(r.what.geometry)) +
-                             "\" NumberOfCells=\"" + std::to_string(cells) + "\""));
-    for (const frame& f : r.kept.frames()) CHECK(why_not_well_formed(vtu_of_frame(r.what, f)).empty());
+TEST_CASE("tables of structures from elsewhere name dofs by their labels, with coordinates or without") {
+  for (const auto& text : {portal_frame(), frame_without_coordinates()}) {
+    const problem p = parse_problem(text, "p.toml");
+    const scratch_folder folder;
+    output_file increments(folder.at("mesh.csv"));
+    output_file pairs(folder.at("mesh.pairs.csv"));
+    auto leader = make_kernel("cpp");
+    run_csv csv(p, nullptr, increments, &pairs);
+    follow(p, structure_of(p), "refactor", *leader, {&csv});
+    csv.finish();
+    const std::string table = folder.read("mesh.pairs.csv");
+    CHECK_THAT(table, Contains("\r\n1,1,1,6.y,below,contact,") && Contains("\r\n3,3,2,8.x,above,separated,"));
   }
 }
 
-TEST_CASE("a collection names its files in their order, relative to itself") {
-  const std::string pvd = pvd_of_frames("a&b", 11);
-  CHECK(why_not_well_formed(pvd).empty());
-  CHECK_THAT(pvd, Contains("timestep=\"0\" part=\"0\" file=\"a&amp;b.000.vtu\""));
-  CHECK_THAT(pvd, Contains("timestep=\"10\" part=\"0\" file=\"a&amp;b.010.vtu\""));
-}
-
-TEST_CASE("the picture is well-formed, whatever the title, and has a mark for every pair") {
-  for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
-    const a_run r("title = \"<b> & \\\"x\\\" \\u0001\"\n" + text);
-    const std::string svg = run_svg(r.finished());
-    CHECK(why_not_well_formed(svg).empty());
-    CHECK_THAT(svg, Contains("&lt;b&gt; &amp; &quot;x&quot; \xEF\xBF\xBD"));
-    for (std::size_t i = 0; i < r.what.pairs.size(); ++i)
-      CHECK_THAT(svg, Contains("<title>pair " + std::to_string(i + 1) + ", "));
-    CHECK_THAT(svg, !Contains("nan"));
-    CHECK_THAT(svg, !Contains("inf"));
-  }
-}
-
-TEST_CASE("a picture of what never moved, without pairs, has no number that is none") {
-  const std::string still =
-      "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\nuniform = 0\n";
-  const std::string svg = run_svg(a_run(still).finished());
-  CHECK(why_not_well_formed(svg).empty());
-  CHECK_THAT(svg, !Contains("nan"));
-  CHECK_THAT(svg, !Contains("inf"));
+TEST_CASE("labels that are no plain words stay text in pictures and fields in tables") {
+  const scratch_folder folder;
+  const std::string matrix =
+      folder.write("odd.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
+  const std::string dofs = folder.write("odd.dof", "<b>,\"&.x\n");
+  const a_run r("[matrix]\nstiffness = \"" + matrix + "\"\ndofs = \"" + dofs +
+                "\"\n[[contact]]\ndof = '<b>,\"&.x'\nsurface = "
+                "\"below\"\nface = 0\nstiffness = 1\n[[step]]\n"
+                "point = [ { dof = '<b>,\"&.x', value = -1 } ]\n");
+  CHECK(why_not_well_formed(run_svg(r.finished())).empty());
+  CHECK_THAT(run_svg(r.finished()), Contains("&lt;b&gt;,&quot;&amp;.x"));
+  CHECK(csv_field(place_name(r.what.geometry, 0)) == "\"<b>,\"\"&.x\"");
 }

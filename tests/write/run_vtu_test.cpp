@@ -1,0 +1,53 @@
+// Frames for ParaView.
+#include "contct/write/run_vtu.hpp"
+
+#include "catch.hpp"
+#include "read/bad_plates.hpp"
+#include "support/a_run.hpp"
+#include "support/structures.hpp"
+#include "support/well_formed.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string loaded_and_freed =
+    std::string(good_problem) +
+    "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.001\nstiffness = 1e5\n"
+    "[[step]]\npoint = [ { node = 3, w = 60.0 } ]\n";
+
+}  // namespace
+
+TEST_CASE("grids are well-formed, with as many points and cells as the structure and its pairs have") {
+  for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
+    const a_run r(text);
+    const std::string vtu = vtu_of_frame(r.what, r.kept.frames().back());
+    CHECK(why_not_well_formed(vtu).empty());
+    const auto cells = static_cast<std::size_t>(elements(r.what.geometry)) + r.what.pairs.size();
+    CHECK_THAT(vtu, Contains("NumberOfPoints=\"" + std::to_string(nodes(r.what.geometry)) +
+                             "\" NumberOfCells=\"" + std::to_string(cells) + "\""));
+    for (const frame& f : r.kept.frames()) CHECK(why_not_well_formed(vtu_of_frame(r.what, f)).empty());
+  }
+}
+
+TEST_CASE("a collection names its files in their order, relative to itself") {
+  const std::string pvd = pvd_of_frames("a&b", 11);
+  CHECK(why_not_well_formed(pvd).empty());
+  CHECK_THAT(pvd, Contains("timestep=\"0\" part=\"0\" file=\"a&amp;b.000.vtu\""));
+  CHECK_THAT(pvd, Contains("timestep=\"10\" part=\"0\" file=\"a&amp;b.010.vtu\""));
+}
+
+TEST_CASE("grids of structures from elsewhere: points where nodes are, edges, and pairs that have a node") {
+  const a_run r(structure_problem("", "frame", {{"dof       = \"8.x\"", "dof = \"8.r\""}}));
+  const std::string vtu = vtu_of_frame(r.what, r.kept.frames().back());
+  CHECK(why_not_well_formed(vtu).empty());
+  CHECK_THAT(vtu, Contains("NumberOfPoints=\"11\" NumberOfCells=\"12\""));
+  CHECK_THAT(vtu, Contains("Name=\"rotation\" NumberOfComponents=\"3\""));
+  CHECK_THAT(
+      vtu,
+      Contains("Name=\"direction\" NumberOfComponents=\"1\" format=\"ascii\">\n0 0 0 0 0 0 0 0 0 0 2 6\n"));
+  const a_run solid(structure_problem("calculix/", "console", {{"dof       = \"49.3\"", "dof = \"55.1\""}}));
+  const std::string bricks = vtu_of_frame(solid.what, solid.kept.frames().back());
+  CHECK_THAT(bricks, Contains("NumberOfPoints=\"54\" NumberOfCells=\"114\"") && !Contains("rotation"));
+}
