@@ -60,9 +60,7 @@ node_vector solved(const node_matrix& a, const node_vector& v) {
 }
 
 node_matrix block(const band_matrix& k, int row_node, int column_node) {
-  const auto entry = [&k](int row, int column) {
-    return row >= column ? k.at(row, column) : k.at(column, row);
-  };
+  const auto entry = [&k](int row, int column) { return k.at(std::max(row, column), std::min(row, column)); };
   const int r = 2 * row_node;
   const int c = 2 * column_node;
   return {entry(r, c), entry(r, c + 1), entry(r + 1, c), entry(r + 1, c + 1)};
@@ -83,9 +81,9 @@ condensed_engine::condensed_engine(const linear_structure& s)
   for (const contact_pair& p : s.pairs) kept_.push_back(p.node);
   std::sort(kept_.begin(), kept_.end());
   kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
-  for (const contact_pair& p : s.pairs) {
-    place_.push_back(std::lower_bound(kept_.begin(), kept_.end(), p.node) - kept_.begin());
-    spring_factor_.push_back(s.fixed[p.node * s.dofs_per_node] != 0 ? 0.0 : 1.0);
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+    place_.push_back(std::lower_bound(kept_.begin(), kept_.end(), s.pairs[i].node) - kept_.begin());
+    spring_factor_.push_back(s.fixed[s.dof_of_pair(i)] != 0 ? 0.0 : 1.0);
   }
   x_.resize(kept_.size());
   load_.resize(kept_.size());

@@ -91,6 +91,7 @@ void inverse_columns::solve_alone(int pair) {
 
 void inverse_columns::solve_block(const std::vector<int>& chosen) {
   std::vector<int> at_dofs;
+  at_dofs.reserve(chosen.size());
   for (const int p : chosen) at_dofs.push_back(structure_.dof_of_pair(p));
   k0_.solve_units(at_dofs, rows_);
   block& b = blocks_.emplace_back();
