@@ -229,9 +229,7 @@ TEST_CASE(
   const auto& at = r.seen.steps[1];
   const std::vector<double> held = reactions(p.geometry, p.steps[1], p.supports, at.u);
   REQUIRE(held.size() == 6);
-  const auto pressed = [&](std::size_t i) {
-    return force_of(p.pairs[i], at.u[p.pairs[i].node], true);
-  };
+  const auto pressed = [&](std::size_t i) { return force_of(p.pairs[i], at.u[p.pairs[i].node], true); };
   CHECK(held[0] + held[3] - pressed(1) == Approx(-8000).epsilon(1e-9));
   CHECK(held[1] + held[4] + pressed(0) == Approx(20000).epsilon(1e-9));
 }
