@@ -100,7 +100,8 @@ TEST_CASE("a trace that is none is refused with file and line") {
   const scratch_directory dir;
   dir.write("empty.trace", "");
   dir.write("header.trace", "contct-trace-1 2026-11-21\nkernel fortran\n");
-  CHECK_THAT(contct_program(dir.path(), {"replay", "empty.trace"}).err, Contains("empty.trace:0: found"));
+  CHECK_THAT(contct_program(dir.path(), {"replay", "empty.trace"}).err,
+             Contains("empty.trace: found the end of the text"));
   const finished f = contct_program(dir.path(), {"replay", "header.trace"});
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("found no call"));

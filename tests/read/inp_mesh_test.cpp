@@ -214,9 +214,9 @@ TEST_CASE("mutilated meshes are refused or read whole: no crash, no hang") {
   for (int trial = 0; trial < 10000; ++trial) {
     std::string text = good;
     for (int change = random.whole(1, 3); change > 0; --change) {
-      const auto at = static_cast<std::size_t>(random.whole(0, static_cast<int>(text.size())));
+      const std::size_t at = random.whole(0, static_cast<int>(text.size()));
       if (random.whole(0, 2) == 0) {
-        text.erase(at, static_cast<std::size_t>(random.whole(0, 6)));
+        text.erase(at, random.whole(0, 6));
       } else {
         text.insert(at, pieces[random.whole(0, 12)]);
       }

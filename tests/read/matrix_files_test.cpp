@@ -221,8 +221,8 @@ TEST_CASE("mutilated files are refused or read whole: no crash, no hang, no half
     const int kind = random.whole(0, 3);
     std::string text = files[kind];
     for (int change = random.whole(1, 3); change > 0; --change) {
-      const auto at = static_cast<std::size_t>(random.whole(0, static_cast<int>(text.size())));
-      const auto length = static_cast<std::size_t>(random.whole(0, 6));
+      const std::size_t at = random.whole(0, static_cast<int>(text.size()));
+      const std::size_t length = random.whole(0, 6);
       switch (random.whole(0, 3)) {
         case 0:
           text.erase(std::min(at, text.size()), length);

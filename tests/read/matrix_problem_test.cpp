@@ -63,7 +63,7 @@ std::string exported(const problem& p, const scratch_folder& to) {
         c.closed ? "contact" : "separated");
   }
   for (std::size_t step = 0; step < p.steps.size(); ++step) {
-    std::vector<double> f(static_cast<std::size_t>(k.order), 0.0);
+    std::vector<double> f(k.order, 0.0);
     add_consistent_loads(p.geometry, p.steps[step], f);
     (void)to.write(fmt::format("f{}.mtx", step), text_of(f));
     text += fmt::format("[[step]]\nload = \"f{}.mtx\"\n", step);
@@ -229,9 +229,7 @@ TEST_CASE(
   const auto& at = r.seen.steps[1];
   const std::vector<double> held = reactions(p.geometry, p.steps[1], p.supports, at.u);
   REQUIRE(held.size() == 6);
-  const auto pressed = [&](std::size_t i) {
-    return force_of(p.pairs[i], at.u[static_cast<std::size_t>(p.pairs[i].node)], true);
-  };
+  const auto pressed = [&](std::size_t i) { return force_of(p.pairs[i], at.u[p.pairs[i].node], true); };
   CHECK(held[0] + held[3] - pressed(1) == Approx(-8000).epsilon(1e-9));
   CHECK(held[1] + held[4] + pressed(0) == Approx(20000).epsilon(1e-9));
 }

@@ -203,7 +203,7 @@ std::string edited(std::string text, random_numbers& random) {
   const auto anywhere = [&] { return random.bits() % text.size(); };
   const std::size_t at = anywhere();
   const std::size_t from = anywhere();
-  const auto some = static_cast<std::size_t>(random.whole(1, 40));
+  const std::size_t some = random.whole(1, 40);
   const auto byte = static_cast<char>(random.bits() % 256);
   const char likely = "0123456789-+.xpe \nabcdfn|"[random.whole(0, 24)];
   switch (random.whole(1, 4)) {
