@@ -41,7 +41,7 @@ std::int64_t bytes_of_run(const assembled& a) {
   constexpr std::int64_t as_read = sizeof(matrix_entry);
   constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
   const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());
-  return (as_read + 3 * in_columns) * entries + 5 * sparse_factor(columns_of(a.stiffness)).bytes() / 2;
+  return (as_read + 3 * in_columns) * entries + 5 * sparse_factor::make(columns_of(a.stiffness))->bytes() / 2;
 }
 
 /// "band", "sparse", or nothing where the table does not say.
