@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The plug-in of tests/plugins/variant.c with a fault.
+/// The plug-in of tests/outside/plugins/variant.c with a fault.
 std::string variant(const char* fault) {
   return "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_" + fault + ".so";
 }

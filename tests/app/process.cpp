@@ -27,6 +27,7 @@ namespace {
   for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
   arguments.insert(arguments.begin(), "contct");
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& a : arguments) argv.push_back(a.data());
   argv.push_back(nullptr);
   execv(CONTCT_PROGRAM, argv.data());
@@ -69,7 +70,7 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
   rusage used{};
   wait4(child, &status, 0, &used);
   f.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  f.peak_kib = used.ru_maxrss;
+  f.peak_kib = used.ru_maxrss;  // NOLINT(cppcoreguidelines-pro-type-union-access): glibc's union
   if (!options.terminal) f.out = streams.read("out");
   if (!options.error_terminal) f.err = streams.read("err");
   return f;
