@@ -17,7 +17,8 @@ constexpr std::array<structure_view, views> all_views = {{
 }  // namespace
 
 double deflection_of(const problem& p, std::span<const double> u, int node) {
-  return u[node * dofs_per_node(p.geometry)];
+  const int dof = node * dofs_per_node(p.geometry);
+  return u[dof];
 }
 
 pair_reading reading_of(const contact_pair& p, double w, bool closed) {

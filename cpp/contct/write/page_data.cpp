@@ -133,7 +133,7 @@ void add_beam_shape(const beam& b, const problem& p, const load& l, const frame&
   json w = json::array();
   json slope = json::array();
   for (const int node : shown.nodes) {
-    w.push_back(f.displacement[2 * node]);
+    w.push_back(deflection_of(p, f, node));
     slope.push_back(f.displacement[2 * node + 1]);
   }
   out["w"] = std::move(w);

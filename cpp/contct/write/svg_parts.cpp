@@ -35,20 +35,20 @@ std::string element(std::string_view name, std::string_view attributes, std::str
 }
 
 std::string circle(double x, double y, double r, std::string_view attributes, std::string_view content) {
-  return element("circle", fmt::format("cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}", x, y, r, attributes),
+  return element("circle", fmt::format(R"(cx="{:.1f}" cy="{:.1f}" r="{:.1f}" {})", x, y, r, attributes),
                  content);
 }
 
 std::string rectangle(double x, double y, double width, double height, std::string_view attributes,
                       std::string_view content) {
   return element("rect",
-                 fmt::format("x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}", x, y, width,
+                 fmt::format(R"(x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" {})", x, y, width,
                              height, attributes),
                  content);
 }
 
 std::string text_markup(double x, double y, std::string_view attributes, std::string_view markup) {
-  return element("text", fmt::format("x=\"{:.1f}\" y=\"{:.1f}\" {}", x, y, attributes), markup);
+  return element("text", fmt::format(R"(x="{:.1f}" y="{:.1f}" {})", x, y, attributes), markup);
 }
 
 std::string title(std::string_view words) {
@@ -56,12 +56,11 @@ std::string title(std::string_view words) {
 }
 
 std::string text_at(double x, double y, std::string_view kind, std::string_view words) {
-  const std::string safe = markup_text(words);
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\">{}</text>\n", x, y, kind, safe);
+  return text_markup(x, y, fmt::format(R"(class="{}")", kind), markup_text(words));
 }
 
 std::string path(std::string_view d, std::string_view kind, std::string_view content) {
-  return d.empty() ? "" : element("path", fmt::format("d=\"{}\" class=\"{}\"", d, kind), content);
+  return d.empty() ? "" : element("path", fmt::format(R"(d="{}" class="{}")", d, kind), content);
 }
 
 std::string line(double x1, double y1, double x2, double y2, std::string_view kind) {
