@@ -13,7 +13,7 @@
 #include "app/progress.hpp"
 #include "app/report_options.hpp"
 #include "app/streams.hpp"
-#include "contct/lab/verified.hpp"
+#include "contct/lab/verify.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"
