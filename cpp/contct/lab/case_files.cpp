@@ -21,6 +21,7 @@ std::string cpp_number(double x) {
 
 std::string cpp_list(const std::vector<double>& list) {
   std::vector<std::string> words;
+  words.reserve(list.size());
   for (const double x : list) words.push_back(cpp_number(x));
   return fmt::format("{{{}}}", fmt::join(words, ", "));
 }

@@ -84,7 +84,8 @@ double measurement::of_support(const expected_number& e) const {
 double measurement::of_pair(const expected_number& e) const {
   if (e.pair < 1 || e.pair > static_cast<int>(problem_.pairs.size())) return not_there;
   const contact_pair& p = problem_.pairs[e.pair - 1];
-  const double w = u(e)[p.node * dofs_per_node(problem_.geometry)];
+  const int dof = p.node * dofs_per_node(problem_.geometry);
+  const double w = u(e)[dof];
   const int isep = steps_[e.step - 1].isep[e.pair - 1];
   if (e.quantity == "state") return isep;
   if (e.quantity == "force") return force_of(p, w, isep == in_contact);
