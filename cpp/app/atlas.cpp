@@ -6,9 +6,8 @@
 #include "app/commands.hpp"
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
-#include "contct/lab/atlas_data.hpp"
+#include "contct/lab/atlas_output.hpp"
 #include "contct/lab/atlas_svg.hpp"
-#include "contct/lab/atlas_table.hpp"
 
 namespace contct {
 namespace {

@@ -126,7 +126,7 @@ class explanation_run {
   }
 
   exit_status finish(const path_end& end, const explained_path& told) {
-    if (end.status == path_status::not_factored || told.told() == 0) return nothing_told(end, told);
+    if (end.status == path_status::not_factored || told.explained() == 0) return nothing_told(end, told);
     if (text_) print_comparison(told);
     flush_standard_output();
     if (told.first())

@@ -13,7 +13,7 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/streams.hpp"
-#include "contct/lab/verified.hpp"
+#include "contct/lab/verify.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"

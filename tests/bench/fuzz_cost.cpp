@@ -1,4 +1,4 @@
-// What the hunt on calls costs, against the FORTRAN calls alone with unit 26 on the null device: both in one
+// What a call campaign costs, against the FORTRAN calls alone with unit 26 on the null device: both in one
 // process, in turns, the least of several rounds. Prints times and the ratio; it is no test.
 #include <algorithm>
 #include <chrono>
@@ -45,8 +45,8 @@ int main() {
                        }));
     lockstep = std::min(lockstep, seconds_of([&] {
                           contct::call_campaign h("fortran", {"cpp"}, seed);
-                          h.put(1, calls, 1);
-                          read += static_cast<double>(h.calls());
+                          h.run(1, calls, 1);
+                          read += static_cast<double>(h.counts().calls);
                         }));
   }
   std::printf("%llu calls: making them %.0f ms; FORTRAN alone %.0f ms; in lockstep, all in all, %.0f ms\n",

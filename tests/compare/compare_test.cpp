@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/outside/registry.hpp"
 
 using namespace contct;
 
@@ -81,4 +82,17 @@ TEST_CASE("text compared by meaning may lack a number's zero and have other blan
   CHECK_FALSE(same(line, ""));
   CHECK_FALSE(same("10.5\n", "1.5\n"));
   CHECK_FALSE(same("a\n", "a\nb\n"));
+}
+
+TEST_CASE("the text of gfortran is compared with that of C++ by bytes, and only f2c's by meaning") {
+  CHECK_FALSE(facts_of_kernel("fortran").text_by_meaning);
+  CHECK_FALSE(facts_of_kernel("cpp").text_by_meaning);
+  CHECK(text_equality_of(facts_of_kernel("fortran"), facts_of_kernel("cpp")) == text_equality::bytes);
+  CHECK(text_equality_of(facts_of_kernel("fortran-r4"), facts_of_kernel("cpp-r4")) == text_equality::bytes);
+  kernel_facts without_zeros = facts_of_kernel("cpp");
+  without_zeros.text_by_meaning = true;
+  CHECK(text_equality_of(facts_of_kernel("fortran"), without_zeros) == text_equality::meaning);
+  CHECK(text_equality_of(without_zeros, facts_of_kernel("fortran")) == text_equality::meaning);
+  for (const std::string& name : kernel_names())
+    CHECK(facts_of_kernel(name).text_by_meaning == (name == "f2c"));
 }

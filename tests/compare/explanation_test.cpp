@@ -1,7 +1,11 @@
-// Why a pair was toggled, told from what went into a call and came out of it.
+// Why a pair was toggled, worked out from what went into a call and came out of it; and the lines of the
+// listing that are cited.
 #include "contct/compare/explanation.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include "catch.hpp"
 #include "contct/lab/random_calls.hpp"
@@ -19,6 +23,20 @@ explained_call explained(small_call<double> c, double largest = 0.0) {
   call<double> answered = c.arguments();
   answered.smin = c.smin;
   return explain(answered, before, 8, largest);
+}
+
+/// The statement field of fixed form: behind column 6, without blanks at its ends.
+std::string statement_of(const std::string& line) {
+  constexpr std::size_t label_and_mark = 6;
+  const std::size_t from = line.find_first_not_of(' ', label_and_mark);
+  return from == std::string::npos ? "" : line.substr(from, line.find_last_not_of(" \r") - from + 1);
+}
+
+std::vector<std::string> listing_text() {
+  std::vector<std::string> lines;
+  std::ifstream file(CONTCT_LISTING);
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
 }
 
 }  // namespace
@@ -112,4 +130,20 @@ TEST_CASE("the winner's s is SMIN, and what is explained as toggled was toggled:
     CHECK(events > 5'000);
     CHECK(wrong == 0);
   }
+}
+
+TEST_CASE("every line that explanations cite holds its statement, and none is cited twice") {
+  const std::vector<std::string> text = listing_text();
+  REQUIRE(text.size() == 69);
+  for (const listing_line& cited : listing::all) {
+    INFO("line " << cited.number);
+    REQUIRE(cited.number >= 1);
+    REQUIRE(cited.number <= static_cast<int>(text.size()));
+    CHECK(statement_of(text[cited.number - 1]) == cited.statement);
+    CHECK(listing::statement_at(cited.number) == cited.statement);
+    int times = 0;
+    for (const listing_line& other : listing::all) times += other.number == cited.number ? 1 : 0;
+    CHECK(times == 1);
+  }
+  CHECK(listing::statement_at(44).empty());  // a FORMAT, which nobody cites
 }

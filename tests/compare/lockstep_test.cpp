@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 
 #include "catch.hpp"
@@ -47,7 +48,7 @@ lockstep with_fault(std::function<void(call<double>&, std::string&)> fault) {
 
 }  // namespace
 
-TEST_CASE("FORTRAN and C++ walk PB1 in lockstep, and everything is counted") {
+TEST_CASE("FORTRAN and C++ follow PB1 in lockstep, and everything is counted") {
   const lockstep compared = in_lockstep_with(make_kernel("cpp"));
   CHECK(compared.calls() == 6);
   CHECK(compared.compared().values == 6 * 4);  // SMIN, SS, ISEP, text
@@ -56,7 +57,7 @@ TEST_CASE("FORTRAN and C++ walk PB1 in lockstep, and everything is counted") {
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE("how far each follower was off in the last call is told in ULPs, in SMIN and in the worst s") {
+TEST_CASE("how far each follower was off in the last call is counted in ULPs, for SMIN and for the worst s") {
   const lockstep good = in_lockstep_with(make_kernel("cpp"));
   REQUIRE(good.last_answers().size() == 1);
   CHECK(good.last_answers()[0].values == 4);
@@ -86,6 +87,40 @@ TEST_CASE("a fault of one ULP in SMIN is caught at its first call") {
   CHECK(compared.first()->follower == "faulty");
 }
 
+TEST_CASE("the last call is equal only when no follower's answer to it differs") {
+  const auto fault = [](call<double>& c, std::string&) { c.smin = std::nextafter(c.smin, 2.0); };
+  CHECK_FALSE(with_fault(fault).last_call_equal());
+  CHECK_FALSE(with_fault([](call<double>&, std::string& text) { text += "?"; }).last_call_equal());
+  // Among several followers one is enough, in whatever place.
+  for (const int place : {0, 1}) {
+    const auto leader = make_kernel("fortran");
+    std::vector<std::unique_ptr<kernel>> followers;
+    for (const int at : {0, 1}) {
+      if (at == place)
+        followers.push_back(std::make_unique<faulty_kernel>(fault));
+      else
+        followers.push_back(make_kernel("cpp"));
+    }
+    lockstep compared(leader->facts(), std::move(followers));
+    cantilever_over_a_stop().run(*leader, {&compared});
+    CHECK_FALSE(compared.last_call_equal());
+    CHECK(compared.last_answers()[place].mismatches == 1);
+    CHECK(compared.last_answers()[1 - place].mismatches == 0);
+    CHECK(compared.followers()[1 - place].compared.mismatches == 0);
+    CHECK(compared.compared().values == 2 * 6 * 4);
+  }
+}
+
+TEST_CASE("a follower that gives no answer has one mismatch in its call, and its distance is not measured") {
+  const lockstep compared =
+      with_fault([](call<double>&, std::string&) { throw kernel_failure("it ended with status 3"); });
+  CHECK(compared.compared().values == 6);
+  CHECK(compared.compared().mismatches == 6);
+  CHECK(compared.first()->where.field == "answer");
+  CHECK(compared.last_answers()[0].failed);
+  CHECK(compared.last_answers()[0].smin_ulps == 0);
+}
+
 TEST_CASE("faults in SS, in ISEP and in the text are caught too") {
   CHECK(with_fault([](call<double>& c, std::string&) { c.ss[0] = -c.ss[0]; }).first()->where.field == "SS");
   CHECK(with_fault([](call<double>& c, std::string&) { c.isep[0] = -c.isep[0]; }).first()->where.field ==
@@ -103,7 +138,7 @@ TEST_CASE("a follower that goes wrong does not lead the path astray") {
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE("kernels of different precision cannot walk in lockstep, and the way out is named") {
+TEST_CASE("kernels of different precision cannot be compared in lockstep, and the refusal names --free-run") {
   std::vector<std::unique_ptr<kernel>> followers;
   followers.push_back(make_kernel("cpp-r4"));
   const auto leader = make_kernel("fortran");

@@ -11,14 +11,15 @@
 
 /// One kernel's answers: what is compared of one call.
 struct kernel_answer {
-  double smin = -7.0;  // a value that no kernel may leave behind
+  double smin = contct::not_an_answer;
   std::vector<double> ss;
   std::vector<int> isep;
   std::string text;
 };
 
 inline kernel_answer ask_kernel(contct::kernel& k, const contct::call_inputs<double>& in) {
-  kernel_answer a{-7.0, std::vector<double>(in.cc.size(), -7.0), in.isep, {}};
+  kernel_answer a{
+      contct::not_an_answer, std::vector<double>(in.cc.size(), contct::not_an_answer), in.isep, {}};
   contct::call<double> c{in.dd, in.dtest, in.cc, a.ss, a.smin, in.id, a.isep, in.isurf, in.dof};
   k.answer(c);
   a.smin = c.smin;

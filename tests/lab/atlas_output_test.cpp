@@ -1,4 +1,6 @@
 // The atlas as table, CSV, JSON and picture: the same numbers everywhere.
+#include "contct/lab/atlas_output.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
@@ -6,9 +8,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "contct/lab/atlas_data.hpp"
 #include "contct/lab/atlas_svg.hpp"
-#include "contct/lab/atlas_table.hpp"
 #include "support/well_formed.hpp"
 
 using namespace contct;

@@ -37,7 +37,7 @@ struct tally {
 std::ostream& operator<<(std::ostream& out, const tally& t) {
   for (const auto& [v, times] : t.came_to) out << times << " " << name_of(v) << ", ";
   return out << t.steps << " steps, " << t.makes << " makes, " << t.breaks << " breaks, " << t.at_rest
-             << " at rest, " << t.snaps << " snaps, " << t.fallbacks << " rescues, at most "
+             << " at rest, " << t.snaps << " snaps, " << t.fallbacks << " fallbacks, at most "
              << t.most_increments << " increments, factor " << t.factor;
 }
 
@@ -124,4 +124,33 @@ TEST_CASE("the oracle ends what a path cannot, and the state is as right as any"
   INFO(t);
   CHECK(t.fallbacks > 0);
   CHECK(t.fallbacks < 15);
+}
+
+TEST_CASE(
+    "what a certificate measures is taken into account: the largest errors, and the factor of eps / rcond") {
+  certificate c;
+  c.exact = true;
+  c.rcond = 0.5;
+  c.displacement_error = 1e-12;
+  c.equilibrium = 3e-12;
+  problem_result r;
+  r.add(c);
+  CHECK(r.steps == 1);
+  CHECK(r.uncertified == 0);
+  CHECK(r.displacement_error == 1e-12);
+  CHECK(r.length_error == 1e-12);
+  CHECK(r.needed == 3e-12);
+  CHECK(r.factor == Approx(3e-12 / (0x1p-52 / 0.5)).epsilon(1e-12));
+  c.exact = false;
+  c.unfounded = true;
+  c.rcond = 1e-6;
+  c.equilibrium = 0.0;
+  c.penetration = 2e-12;
+  r.add(c);
+  CHECK(r.steps == 2);
+  CHECK(r.uncertified == 1);
+  CHECK(r.unfounded == 1);
+  CHECK(r.length_error == 2e-12);
+  CHECK(r.needed == 3e-12);                                           // of the step before
+  CHECK(r.factor == Approx(3e-12 / (0x1p-52 / 0.5)).epsilon(1e-12));  // 2e-12 of 2.2e-10 is less
 }

@@ -1,12 +1,10 @@
-// Divergences made small: fewer calls, fewer pairs, rounder numbers, and still diverging.
+// Mismatches are made small: fewer calls, fewer pairs, rounder numbers, and the answers still differ.
 #include "contct/lab/shrink.hpp"
 
 #include <cmath>
 
 #include "catch.hpp"
-#include "contct/lab/call_campaign.hpp"
-#include "contct/lab/case_files.hpp"
-#include "contct/lab/reproduce.hpp"
+#include "contct/lab/random_calls.hpp"
 #include "contct/outside/registry.hpp"
 
 using namespace contct;
@@ -36,8 +34,8 @@ call_sequence some_calls(std::size_t last) {
 }  // namespace
 
 TEST_CASE("what one pair of one call shows is shrunk to one pair with round numbers") {
-  const still_diverges diverges = [](const call_sequence& c) { return approaches(c.back()); };
-  const call_sequence small = shrink(some_calls(20), diverges);
+  const still_differs differs = [](const call_sequence& c) { return approaches(c.back()); };
+  const call_sequence small = shrink(some_calls(20), differs);
   REQUIRE(small.size() == 1);
   REQUIRE(small[0].pairs() == 1);
   CHECK(approaches(small[0]));
@@ -51,24 +49,24 @@ TEST_CASE("what one pair of one call shows is shrunk to one pair with round numb
 }
 
 TEST_CASE("what needs a call before it keeps just that one") {
-  const still_diverges diverges = [](const call_sequence& c) {
+  const still_differs differs = [](const call_sequence& c) {
     int many = 0;
     for (std::size_t i = 0; i + 1 < c.size(); ++i) many += c[i].pairs() >= 3;
     return many >= 1 && approaches(c.back());
   };
-  const call_sequence small = shrink(some_calls(30), diverges);
+  const call_sequence small = shrink(some_calls(30), differs);
   REQUIRE(small.size() == 2);
   CHECK(small[0].pairs() == 3);
   CHECK(small[1].pairs() == 1);
 }
 
-TEST_CASE("shrinking stops when its tries are used up, with something that still diverges") {
+TEST_CASE("shrinking stops when its tries are used up, with calls whose answers still differ") {
   int tries = 0;
-  const still_diverges diverges = [&tries](const call_sequence& c) {
+  const still_differs differs = [&tries](const call_sequence& c) {
     ++tries;
     return approaches(c.back());
   };
-  const call_sequence small = shrink(some_calls(20), diverges, 5);
+  const call_sequence small = shrink(some_calls(20), differs, 5);
   CHECK(tries == 5);
   CHECK(approaches(small.back()));
 }
@@ -78,20 +76,19 @@ TEST_CASE("kernels that agree give nothing to shrink") {
   CHECK_FALSE(shrunk_case(*leader, "cpp", some_calls(3), ""));
 }
 
-TEST_CASE("a case as a FORTRAN main program fits its columns, and its literals are read back exactly") {
-  found_case c;
-  c.what = {1, "fortran", "mine", {"SS", 1, "0x1p+0", "0x1p-1", 1}, {}};
-  c.calls = {some_calls(1).back()};
-  c.leader.resize(1);
-  c.leader[0].ss.resize(c.calls[0].pairs());
-  c.leader[0].isep = c.calls[0].isep;
-  const std::string main = fortran_main_of(c);
-  std::size_t from = 0;
-  int lines = 0;
-  for (std::size_t to = 0; (to = main.find('\n', from)) != std::string::npos; from = to + 1, ++lines) {
-    INFO(main.substr(from, to - from));
-    CHECK(to - from <= 72);
-  }
-  CHECK(lines > 10);
-  CHECK_THAT(main, Catch::Matchers::Contains("CALL CONTCT (DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, "));
+TEST_CASE("a mismatch is reproduced by fresh kernels, with the leader's answers") {
+  const auto leader = make_kernel("fortran");
+  const call_sequence calls = some_calls(3);
+  // Single precision answers otherwise: its numbers are another kernel's to these calls.
+  const auto found = reproduce(*leader, "cpp-r4", calls, "");
+  REQUIRE(found);
+  CHECK(found->what.call == 3);
+  CHECK(found->what.follower == "cpp-r4");
+  CHECK(found->leader.size() == 3);
+  CHECK(found->leader[2].ss.size() == calls[2].pairs());
+  CHECK_FALSE(reproduce(*leader, "cpp-r4", calls, "no such field"));
+  const auto small = shrunk_case(*leader, "cpp-r4", calls, found->what.where.field);
+  REQUIRE(small);
+  CHECK(small->calls.size() == 1);
+  CHECK(small->what.where.field == found->what.where.field);
 }

@@ -73,7 +73,7 @@ void put_random_calls(const std::string& language, int real_bytes, std::uint64_t
     contct::call<double> c = led.prepare(in);
     leader->answer(c);
     const std::string text = leader->take_text();
-    const auto found = contct::put_to(*mutant, c, in.isep, text, contct::text_equality::bytes, followed, t);
+    const auto found = contct::ask_and_compare(*mutant, c, in.isep, text, contct::text_equality::bytes, followed, t);
     if (found) return say_difference(static_cast<std::int64_t>(n), *found);
   }
 }

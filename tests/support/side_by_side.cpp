@@ -10,9 +10,10 @@ constexpr std::size_t text_block = std::size_t{1} << 20;
 
 template <class Real>
 call<Real> side_by_side<Real>::prepare(const call_inputs<Real>& in, outputs& out) const {
-  out.ss.assign(in.cc.size(), Real(-7));  // a value that no kernel may leave behind
+  constexpr Real before = not_an_answer;
+  out.ss.assign(in.cc.size(), before);
   out.isep = in.isep;
-  return {in.dd, in.dtest, in.cc, out.ss, Real(-7), in.id, out.isep, in.isurf, in.dof};
+  return {in.dd, in.dtest, in.cc, out.ss, before, in.id, out.isep, in.isurf, in.dof};
 }
 
 template <class Real>
@@ -25,8 +26,7 @@ void side_by_side<Real>::put(const call_inputs<Real>& in) {
   call<Real> right = prepare(in, cpp_);
   events_.resize(in.cc.size());
   const int happened = contct(right, std::span<event>(events_));
-  append_log_text(right, std::span<const event>(events_.data(), static_cast<std::size_t>(happened)),
-                  cpp_text_);
+  append_log_text(right, std::span<const event>(events_).first(happened), cpp_text_);
 
   note(compare<Real>({left.smin, left.ss, left.isep}, {right.smin, right.ss, right.isep}, tally_));
   branches_.count(left, in.isep);

@@ -1,4 +1,4 @@
-// Which way the listing's IFs went: the floor under every comparison.
+// Which way the listing's IFs went, so that a comparison can require that every outcome was reached.
 #pragma once
 
 #include <array>
@@ -23,6 +23,11 @@ enum class branch {
   was_separated,   ///< IF (ISEP(I).EQ.1)
 };
 
+/// The place of a branch in the two lists below.
+[[nodiscard]] constexpr std::size_t index_of(branch b) {
+  return static_cast<std::size_t>(b);
+}
+
 inline constexpr std::array<std::string_view, 8> branch_names = {
     "no_response",   "stationary", "check_positive", "s_positive",
     "s_is_smallest", "no_events",  "within_epsmul",  "was_separated"};
@@ -46,16 +51,14 @@ class branch_counts {
   void count(const call<Real>& c, std::span<const int> isep_before);
 
   [[nodiscard]] std::int64_t of(branch b, bool outcome) const {
-    return counts_[static_cast<std::size_t>(b)][outcome ? 1 : 0];
+    return counts_[index_of(b)][outcome ? 1 : 0];
   }
   /// The rarest outcome's count: 0 means that some outcome of some IF was never reached.
   [[nodiscard]] std::int64_t rarest() const;
 
   /// Add the counts of another run.
   void add(const branch_counts& other);
-  void add(branch b, bool outcome, std::int64_t count) {
-    counts_[static_cast<std::size_t>(b)][outcome ? 1 : 0] += count;
-  }
+  void add(branch b, bool outcome, std::int64_t count) { counts_[index_of(b)][outcome ? 1 : 0] += count; }
 
  private:
   std::array<std::array<std::int64_t, 2>, 8> counts_{};
@@ -66,7 +69,8 @@ extern template void branch_counts::count(const call<double>&, std::span<const i
 
 template <class Real, class Visit>
 void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit) {
-  // The listing's DATA, converted from its decimal text in the precision of the call.
+  // The listing's DATA, read from its decimal text in the precision of the call. Not taken from
+  // kernel/contct.hpp on purpose: a wrong constant there must not be counted as right here.
   const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
   const Real epsmul = Real(1) / Real(256);
   const Real zero = 0;
@@ -76,7 +80,7 @@ void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Vi
     return outcome;
   };
   for (std::size_t i = 0; i < c.cc.size(); ++i) {
-    const auto ndof = static_cast<std::size_t>((c.id[i] - 1) * c.dof.ndofpn + c.dof.indof - 1);
+    const int ndof = (c.id[i] - 1) * c.dof.ndofpn + c.dof.indof - 1;
     const Real dtest = c.dtest[ndof];
     const Real gap = std::abs(c.cc[i] - c.dd[ndof]);
     if (!decide(branch::no_response, i, dtest == zero, dtest, zero) &&

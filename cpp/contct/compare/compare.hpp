@@ -33,6 +33,12 @@ struct mismatch {
 struct tally {
   std::int64_t values = 0;
   std::int64_t mismatches = 0;
+
+  tally& operator+=(const tally& other) {
+    values += other.values;
+    mismatches += other.mismatches;
+    return *this;
+  }
 };
 
 /// Compare two answers of equal length, value by value. NaN equals NaN; -0.0 is not +0.0.

@@ -1,4 +1,4 @@
-// Which toggles came before their pair was at its face, and how far from it they were.
+// Which pairs were toggled before they were at their face, and how far from it.
 #pragma once
 
 #include <vector>

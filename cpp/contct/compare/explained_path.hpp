@@ -1,5 +1,4 @@
-// A path explained: every call of the listing with what it did and why, and another kernel's answer beside
-// it.
+// Explains a path: what the listing did in each call and why, with another kernel's answer beside it.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +7,7 @@
 #include <optional>
 
 #include "contct/compare/explanation.hpp"
-#include "contct/compare/mismatch_report.hpp"
-#include "contct/kernel/call_inputs.hpp"
-#include "contct/kernel/kernel.hpp"
+#include "contct/compare/follower.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct {
@@ -27,11 +24,11 @@ struct increments_wanted {
 /// One increment, as it is handed on.
 struct explained_increment {
   const increment& what;
-  double fraction_before;  ///< share of the step's load consumed before it
+  double fraction_before = 0.0;  ///< share of the step's load consumed before it
   const explained_call& call;
-  const call_outputs* other;             ///< the second kernel's; null where there is none, or no answer
-  const std::optional<mismatch>& apart;  ///< where the second kernel differs first
-  bool left_undone;  ///< the driver took the toggles back: the load that is left is rounding
+  const call_outputs* other = nullptr;  ///< the second kernel's; null where there is none, or no answer
+  std::optional<mismatch> apart;        ///< where the second kernel differs first
+  bool left_undone = false;  ///< the driver took the toggles back: the load that is left is rounding
 };
 
 /// Observes a path of a kernel that has the listing's rule, and hands on the increments that are wanted, one
@@ -47,30 +44,25 @@ class explained_path final : public observer {
   void step_ended(const step_state& s) override;
 
   [[nodiscard]] std::int64_t calls() const { return calls_; }
-  [[nodiscard]] const tally& compared() const { return tally_; }
-  [[nodiscard]] const std::optional<mismatch_report>& first() const { return first_; }
+  [[nodiscard]] tally compared() const { return follower_ ? follower_->compared : tally{}; }
+  [[nodiscard]] const std::optional<mismatch_report>& first() const;
   /// How many increments were handed on.
-  [[nodiscard]] std::int64_t told() const { return told_; }
+  [[nodiscard]] std::int64_t explained() const { return explained_; }
   /// Steps that were begun, and the increments of the longest among those that are wanted.
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] int most_increments() const { return most_increments_; }
 
  private:
-  void ask_second(const answered_call& c);
-
   kernel_facts leader_;
   std::unique_ptr<kernel> second_;
+  std::optional<follower> follower_;  // asks the second kernel
   increments_wanted wanted_;
   sink to_;
-  std::int64_t calls_ = 0, told_ = 0;
+  std::int64_t calls_ = 0, explained_ = 0;
   int steps_ = 0, number_ = 0, most_increments_ = 0;
   double fraction_ = 0.0;  // share of the step's load consumed so far
   double largest_ = 0.0;   // deflection so far
-  tally tally_;
-  std::optional<mismatch_report> first_;
-  explained_call call_;            // the last one, where it is wanted
-  call_outputs answered_;          // the second kernel's
-  std::optional<mismatch> apart_;  // in the last call
+  explained_call call_;    // the last one
 };
 
 }  // namespace contct

@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contct/compare/float_call.hpp"
-
 namespace contct {
 namespace {
-
-constexpr std::size_t at(branch b) {
-  return static_cast<std::size_t>(b);
-}
 
 /// What went into the DO 10 loop for pair `i`, and GAP.
 template <class Real>
 explained_pair start_of(const call<Real>& c, std::span<const int> isep_before, std::size_t i) {
-  const auto dof = static_cast<std::size_t>(c.dof.dof_of(c.id[i]) - 1);
+  const int dof = c.dof.dof_of(c.id[i]) - 1;
   explained_pair p;
   p.pair = static_cast<int>(i);
   p.node = c.id[i];
@@ -47,7 +41,7 @@ void take_decisions(const call<Real>& c, std::span<const int> isep_before, expla
       out.narrowest = decision{b, b == branch::no_events ? -1 : static_cast<int>(i), outcome, ulps};
     if (b == branch::no_events) return;
     explained_pair& p = out.pairs[i];
-    p.taken[at(b)] = {true, outcome, ulps};
+    p.taken[index_of(b)] = {true, outcome, ulps};
     if (b == branch::check_positive) p.s_chk = left;
     if (b == branch::s_is_smallest) p.smin_before = right;
     if (b == branch::within_epsmul) p.diff = left;
@@ -60,7 +54,7 @@ void find_winner(explained_call& out) {
   }
   for (const explained_pair& p : out.pairs) {
     if (p.pair == out.winner || !p.is_candidate()) continue;
-    if (out.next < 0 || p.s < out.pairs[static_cast<std::size_t>(out.next)].s) out.next = p.pair;
+    if (out.next < 0 || p.s < out.pairs[out.next].s) out.next = p.pair;
   }
 }
 
@@ -86,10 +80,7 @@ explained_call explain_in(const call<Real>& c, std::span<const int> isep_before,
     if (std::isfinite(reached)) largest = std::max(largest, reached);
   }
   find_winner(out);
-  if (out.winner >= 0 && out.next >= 0) {
-    out.ulps_ahead =
-        margin_between(c.ss[static_cast<std::size_t>(out.winner)], c.ss[static_cast<std::size_t>(out.next)]);
-  }
+  if (out.winner >= 0 && out.next >= 0) out.ulps_ahead = margin_between(c.ss[out.winner], c.ss[out.next]);
   const double rounding = rounding_share(sizeof(Real)) * largest;
   for (explained_pair& p : out.pairs) p.why = reason(p, out.winner, rounding);
   return out;
@@ -100,8 +91,7 @@ explained_call explain_in(const call<Real>& c, std::span<const int> isep_before,
 explained_call explain(const call<double>& c, std::span<const int> isep_before, int real_bytes,
                        double& largest) {
   if (real_bytes == 8) return explain_in<double>(c, isep_before, largest);
-  float_call rounded(c);
-  return explain_in<float>(rounded.as_call(), isep_before, largest);
+  return as_float_call(c, [&](const call<float>& f) { return explain_in<float>(f, isep_before, largest); });
 }
 
 }  // namespace contct

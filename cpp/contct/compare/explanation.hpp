@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "contct/compare/branches.hpp"
@@ -13,6 +14,44 @@
 
 namespace contct {
 
+/// A statement of fortran/contct.f that an explanation cites.
+struct listing_line {
+  int number;                  ///< from 1
+  std::string_view statement;  ///< without label and indentation
+};
+
+namespace listing {
+
+inline constexpr listing_line gap{30, "GAP = CC(I) - DD(NDOF)"};
+inline constexpr listing_line if_no_response{31, "IF (DTEST(NDOF).EQ.0.) THEN"};
+inline constexpr listing_line no_response{32, "SS(I) = 1.0"};
+inline constexpr listing_line if_stationary{33, "ELSE IF (ABS(GAP).LT.EPSGAP) THEN"};
+inline constexpr listing_line stationary{34, "SS(I) = 1.0"};
+inline constexpr listing_line check_variable{35, "SSCHK = ISEP(I) * ISURF(I) / DTEST(NDOF)"};
+inline constexpr listing_line if_check_positive{36, "IF (SSCHK.GT.0.) SS(I) = SSCHK * DELTA"};
+inline constexpr listing_line moving{38, "SS(I) = GAP / DTEST(NDOF)"};
+inline constexpr listing_line smallest{40, "IF (SS(I).GT.0. .AND. SS(I).LT.SMIN) SMIN=SS(I)"};
+inline constexpr listing_line if_no_events{42, "IF (SMIN.EQ.1.) THEN"};
+inline constexpr listing_line no_events_return{45, "RETURN"};
+inline constexpr listing_line diff{51, "DIFF = ABS(SS(I) - SMIN) / SMIN"};
+inline constexpr listing_line if_within{52, "IF (DIFF.LT.EPSMUL) THEN"};
+inline constexpr listing_line if_separated{54, "IF (ISEP(I).EQ.1) THEN"};
+inline constexpr listing_line make{55, "ISEP(I) = -1"};
+inline constexpr listing_line break_{58, "ISEP(I) = 1"};
+
+inline constexpr std::array all = {gap,       if_no_response, no_response,  if_stationary,     stationary,
+                                   moving,    check_variable, smallest,     if_check_positive, diff,
+                                   if_within, if_separated,   if_no_events, no_events_return,  make,
+                                   break_};
+
+/// The statement at a line that is cited; nothing at any other.
+[[nodiscard]] constexpr std::string_view statement_at(int number) {
+  for (const listing_line& l : all)
+    if (l.number == number) return l.statement;
+  return {};
+}
+
+}  // namespace listing
 /// Which branch of the DO 10 loop gave a pair its s.
 enum class way_to_s {
   no_response,       ///< d* = 0: s is 1, the mark for "no event"
@@ -55,10 +94,10 @@ struct explained_pair {
   double distance = 0.0;  ///< |c - (D + SMIN d*)|: from its face at SMIN
   std::array<taken_branch, branch_names.size()> taken;
 
-  [[nodiscard]] const taken_branch& at(branch b) const { return taken[static_cast<std::size_t>(b)]; }
+  [[nodiscard]] const taken_branch& at(branch b) const { return taken[index_of(b)]; }
   [[nodiscard]] bool toggled() const { return isep_before != isep_after; }
   [[nodiscard]] bool took_the_lead() const { return at(branch::s_is_smallest).outcome; }
-  /// Could it be toggled by right? A mark is not a candidate, however it compares.
+  /// Has it an event under the listing's rule? The mark for "no event" is none, however it compares.
   [[nodiscard]] bool is_candidate() const {
     return (way == way_to_s::moving || way == way_to_s::stationary_event) && s > 0.0;
   }
@@ -70,7 +109,7 @@ struct explained_call {
   double smin = 1.0;
   std::vector<explained_pair> pairs;
   int winner = -1;                    ///< pair from 0; -1: no event
-  int next = -1;                      ///< the candidate that comes closest behind it; -1: none
+  int next = -1;                      ///< the candidate with the next smallest s; -1: none
   std::uint64_t ulps_ahead = 0;       ///< numbers between the winner's s and the next one's
   std::optional<decision> narrowest;  ///< of the whole call
 };

@@ -33,8 +33,7 @@ void compare_events(const path_record& leader, const path_record& other, free_ru
 
 /// Largest difference of one kind of dof in any step, relative to the largest that this kind has on
 /// the whole path: a step that takes all load off leaves nothing but rounding to measure by.
-double relative_difference(const path_record& leader, const path_record& other, std::size_t kind,
-                           std::size_t stride) {
+double relative_difference(const path_record& leader, const path_record& other, int kind, int stride) {
   double difference = 0.0;
   double largest = 0.0;
   const std::size_t steps = std::min(leader.displacement.size(), other.displacement.size());
@@ -72,10 +71,8 @@ free_run_difference compare_paths(const path_record& leader, const path_record& 
     d.first_difference = "the paths end differently";
   }
   compare_events(leader, other, d);
-  const auto stride = static_cast<std::size_t>(dofs_per_node);
-  for (std::size_t kind = 0; kind < stride; ++kind) {
-    d.displacement = std::max(d.displacement, relative_difference(leader, other, kind, stride));
-  }
+  for (int kind = 0; kind < dofs_per_node; ++kind)
+    d.displacement = std::max(d.displacement, relative_difference(leader, other, kind, dofs_per_node));
   return d;
 }
 

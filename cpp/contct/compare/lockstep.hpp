@@ -1,4 +1,4 @@
-// Tier 1: every call of the leader put to other kernels, and the answers compared to the bit.
+// Tier 1: each call that a leader answers on its path goes to other kernels, and is compared to the bit.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/compare/mismatch_report.hpp"
-#include "contct/kernel/call_inputs.hpp"
-#include "contct/kernel/kernel.hpp"
+#include "contct/compare/follower.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct {
@@ -28,30 +26,27 @@ struct follower_answer {
 class lockstep final : public observer {
  public:
   /// Throws std::invalid_argument when a follower has another precision or rule than the leader.
-  lockstep(kernel_facts leader, std::vector<std::unique_ptr<kernel>> followers);
+  lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kernel>> followers);
 
   void called(const answered_call& c) override;
 
   [[nodiscard]] std::int64_t calls() const { return calls_; }
-  [[nodiscard]] const tally& compared() const { return tally_; }
+  /// What was compared, of all followers together.
+  [[nodiscard]] tally compared() const;
   /// The first call in which a follower did not answer as the leader.
-  [[nodiscard]] const std::optional<mismatch_report>& first() const { return first_; }
+  [[nodiscard]] const std::optional<mismatch_report>& first() const;
   /// Did every follower answer the last call as the leader did?
-  [[nodiscard]] bool last_call_equal() const { return last_call_equal_; }
+  [[nodiscard]] bool last_call_equal() const;
   /// How each follower answered the last call.
   [[nodiscard]] const std::vector<follower_answer>& last_answers() const { return last_answers_; }
+  [[nodiscard]] const std::vector<follower>& followers() const { return followers_; }
 
  private:
-  void ask(kernel& follower, const answered_call& c);
-
-  kernel_facts leader_;
-  std::vector<std::unique_ptr<kernel>> followers_;
+  bool leader_has_text_;
+  std::vector<std::unique_ptr<kernel>> kernels_;
+  std::vector<follower> followers_;
   std::int64_t calls_ = 0;
-  tally tally_;
-  std::optional<mismatch_report> first_;
-  bool last_call_equal_ = true;
   std::vector<follower_answer> last_answers_;
-  call_outputs answered_;
 };
 
 /// A leader's lockstep with kernels by name. All are known and refused by their facts before the

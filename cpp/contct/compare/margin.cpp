@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "contct/compare/float_call.hpp"
-
 namespace contct {
 namespace {
 
@@ -25,8 +23,7 @@ std::vector<decision> decisions_of(const call<Real>& c, std::span<const int> ise
 
 std::vector<decision> decisions_of(const call<double>& c, std::span<const int> isep_before, int real_bytes) {
   if (real_bytes == 8) return decisions_of<double>(c, isep_before);
-  float_call rounded(c);
-  return decisions_of<float>(rounded.as_call(), isep_before);
+  return as_float_call(c, [&](const call<float>& f) { return decisions_of<float>(f, isep_before); });
 }
 
 std::optional<decision> narrowest(const std::vector<decision>& all) {
@@ -37,8 +34,8 @@ std::optional<decision> narrowest(const std::vector<decision>& all) {
 
 std::string words_of(const decision& d) {
   std::string words = d.pair >= 0 ? "pair " + std::to_string(d.pair + 1) + ": " : "";
-  words += "IF (" + std::string(branch_conditions[static_cast<std::size_t>(d.what)]) + ") was " +
-           (d.outcome ? "true" : "false");
+  words +=
+      "IF (" + std::string(branch_conditions[index_of(d.what)]) + ") was " + (d.outcome ? "true" : "false");
   if (d.ulps == beyond_count) return words + ", with NaN";
   if (d.ulps == 0) return words + ", exactly on the threshold";
   return words + " by " + std::to_string(d.ulps) + " ULP";

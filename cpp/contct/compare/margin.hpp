@@ -1,8 +1,9 @@
-// How narrowly the listing decided: a divergence at a narrow decision is a tie, elsewhere a bug.
+// How narrowly the listing decided: a mismatch at a narrow decision is a tie, elsewhere a bug.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,18 @@ namespace contct {
 template <class Real>
 [[nodiscard]] std::uint64_t margin_between(Real a, Real b) {
   return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
+}
+
+/// `then(call<float>)` with the call of a 4-byte kernel, which comes in double precision, rounded as the
+/// kernel rounds it.
+template <class Then>
+auto as_float_call(const call<double>& c, Then then) {
+  const auto rounded = [](std::span<const double> x) { return std::vector<float>(x.begin(), x.end()); };
+  const std::vector<float> dd = rounded(c.dd);
+  const std::vector<float> dtest = rounded(c.dtest);
+  const std::vector<float> cc = rounded(c.cc);
+  std::vector<float> ss = rounded(c.ss);
+  return then(call<float>{dd, dtest, cc, ss, static_cast<float>(c.smin), c.id, c.isep, c.isurf, c.dof});
 }
 
 /// One decision of one call, and by how much it was taken.
@@ -32,7 +45,7 @@ struct decision {
 template <class Real>
 [[nodiscard]] std::vector<decision> decisions_of(const call<Real>& c, std::span<const int> isep_before);
 
-/// The same for a kernel of `real_bytes`, whose call is told in double precision.
+/// The same for a kernel of `real_bytes`, whose call comes in double precision.
 [[nodiscard]] std::vector<decision> decisions_of(const call<double>& c, std::span<const int> isep_before,
                                                  int real_bytes);
 

@@ -1,9 +1,10 @@
-// A path recorded: every call of the leader, as a trace.
+// Records a path as a trace: every call of the leader.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "contct/path/observer.hpp"
 #include "contct/trace/trace.hpp"
@@ -14,8 +15,17 @@ namespace contct {
 class trace_recorder final : public observer {
  public:
   using sink = std::function<void(std::string_view text)>;
-  trace_recorder(const trace_header& h, sink to);
-  void called(const answered_call& c) override;
+  trace_recorder(const trace_header& h, sink to) : to_(std::move(to)) {
+    append_header(h, text_);
+    to_(text_);
+  }
+
+  void called(const answered_call& c) override {
+    text_.clear();
+    append_inputs(++calls_, "", c.c, c.isep_before, text_);
+    append_answer(c.c.smin, c.c.ss, c.c.isep, c.text, text_);
+    to_(text_);
+  }
 
  private:
   sink to_;

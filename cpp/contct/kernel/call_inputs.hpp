@@ -22,6 +22,9 @@ struct call_inputs {
   [[nodiscard]] std::size_t dof_of_pair(std::size_t i) const { return dof.dof_of(id[i]) - 1; }
 };
 
+/// What SMIN and SS hold before a call: no kernel may leave it behind.
+inline constexpr double not_an_answer = -7.0;
+
 /// What comes out of one call.
 struct call_outputs {
   double smin = 0.0;
@@ -31,7 +34,6 @@ struct call_outputs {
 
   /// Ready for a call with `in`: outputs hold what no kernel may leave behind, ISEP what goes in.
   call<double> prepare(const call_inputs<double>& in) {
-    constexpr double not_an_answer = -7.0;
     ss.assign(in.pairs(), not_an_answer);
     isep = in.isep;
     return {in.dd, in.dtest, in.cc, ss, not_an_answer, in.id, isep, in.isurf, in.dof};

@@ -16,19 +16,27 @@ std::unique_ptr<kernel> kernel_of(const atlas_cell& c) {
   const std::vector<double> known = epsmul_of_variants();
   const auto at = std::find(known.begin(), known.end(), c.epsmul);
   if (at == known.end()) throw std::invalid_argument("no copy of the listing has that EPSMUL");
-  return make_epsmul_variant(static_cast<std::size_t>(at - known.begin()));
+  return make_epsmul_variant(at - known.begin());
+}
+
+template <class Wanted>
+std::vector<atlas_cell> cells_that(const atlas& a, Wanted wanted) {
+  std::vector<atlas_cell> cells;
+  std::copy_if(a.cells.begin(), a.cells.end(), std::back_inserter(cells), wanted);
+  return cells;
 }
 
 }  // namespace
 
 void atlas_cell::add(const problem_result& t) {
-  const bool stopped = t.came_to == verdict::no_end || t.came_to == verdict::false_mechanism;
+  const bool mechanism = t.came_to == verdict::false_mechanism;
+  const bool endless = t.came_to == verdict::no_end;
   ++problems;
   false_equilibrium += t.unfounded > 0 ? 1 : 0;
-  false_mechanism += t.came_to == verdict::false_mechanism ? 1 : 0;
-  never_held += t.came_to == verdict::false_mechanism && t.increments == 0 ? 1 : 0;
-  no_end += t.came_to == verdict::no_end ? 1 : 0;
-  uncertified += stopped || t.uncertified > 0 ? 1 : 0;
+  false_mechanism += mechanism ? 1 : 0;
+  never_held += mechanism && t.increments == 0 ? 1 : 0;
+  no_end += endless ? 1 : 0;
+  uncertified += mechanism || endless || t.uncertified > 0 ? 1 : 0;
   if (t.length_error <= wrong_beyond && t.unfounded == 0) return;
   ++wrong;
   errors.insert(std::upper_bound(errors.begin(), errors.end(), t.displacement_error), t.displacement_error);
@@ -71,18 +79,13 @@ std::vector<atlas_cell> atlas_cells() {
 }
 
 std::vector<atlas_cell> over_unit(const atlas& a, bool held) {
-  std::vector<atlas_cell> cells;
-  std::copy_if(a.cells.begin(), a.cells.end(), std::back_inserter(cells),
-               [held](const atlas_cell& c) { return c.held == held && !has_other_epsmul(c); });
-  return cells;
+  return cells_that(a, [held](const atlas_cell& c) { return c.held == held && !has_other_epsmul(c); });
 }
 
 std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit) {
-  std::vector<atlas_cell> cells;
-  std::copy_if(a.cells.begin(), a.cells.end(), std::back_inserter(cells), [&](const atlas_cell& c) {
+  return cells_that(a, [held, unit](const atlas_cell& c) {
     return c.held == held && c.kernel == "fortran" && c.unit == unit;
   });
-  return cells;
 }
 
 void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried) {
@@ -90,8 +93,8 @@ void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tr
   kind.least_unit = kind.most_unit = c.unit;
   kind.free_share = c.held ? 0.0 : 1.0;
   for (int number = 0; number < r.problems; ++number) {
-    const std::unique_ptr<kernel> fresh = kernel_of(c);  // it may remember its last calls
-    c.add(try_problem(make_random_problem(r.seed, static_cast<std::uint64_t>(number), kind), *fresh));
+    const std::unique_ptr<kernel> fresh = kernel_of(c);  // a kernel may keep state between calls
+    c.add(try_problem(make_random_problem(r.seed, number, kind), *fresh));
     if (tried) tried();
   }
 }

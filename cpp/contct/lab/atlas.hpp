@@ -12,10 +12,10 @@ namespace contct {
 
 /// An answer is wrong when it is off by more than this share of the largest deflection. One measure
 /// for all kernels: a 4-byte kernel rounds at 6e-8 and cannot meet the certificate's tolerance, which
-/// is a matter of 8-byte rounding; 1e-3 is far from both, and more than anybody would accept.
+/// is a matter of 8-byte rounding; 1e-3 is far from both, and more than an engineer would accept.
 inline constexpr double wrong_beyond = 1e-3;
 
-/// One kernel on random problems of one kind in one unit of length, and what they came to.
+/// One kernel on random problems of one kind in one unit of length, and what came of them.
 struct atlas_cell {
   std::string kernel;   ///< as contct knows it
   double epsmul = 0.0;  ///< of the listing, printed or replaced; 0 where the rule has none
@@ -31,7 +31,7 @@ struct atlas_cell {
   int uncertified = 0;        ///< all that is not right to rounding in 8 bytes: the above, and more
   std::vector<double> errors = {};  ///< in deflections, of the wrong answers, sorted
 
-  /// Take in what one problem came to.
+  /// Count the result of one problem.
   void add(const problem_result& t);
 };
 
@@ -42,7 +42,7 @@ struct atlas_cell {
 /// Is the cell one of the listing with another EPSMUL than printed?
 [[nodiscard]] bool has_other_epsmul(const atlas_cell& c);
 
-/// Shares of a whole, with 95 % confidence (E. B. Wilson, 1927): honest for no hits at all, too.
+/// The interval of a share with 95 % confidence (E. B. Wilson, 1927); it has a width for no hits at all, too.
 struct confidence {
   double least, most;
 };

@@ -3,164 +3,142 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contct/compare/follower.hpp"
+#include "contct/kernel/contct.hpp"
 #include "contct/outside/registry.hpp"
 
 namespace contct {
 namespace {
 
 constexpr std::size_t calls_in_a_block = 2048;
-constexpr std::uint64_t other_stream = 0x9e3779b97f4a7c15;  // so that the two generators do not run in step
+constexpr std::uint64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
 
 }  // namespace
 
-void nearness::take_in(const call<double>& leader, const call_outputs& follower, const mismatch& d) {
-  if (d.field == "answer") {
+void campaign_counts::count(const call<double>& answered, std::span<const int> isep_before) {
+  ++calls;
+  branches.count(answered, isep_before);
+  for (std::size_t i = 0; i < isep_before.size(); ++i) {
+    if (answered.isep[i] == isep_before[i]) continue;
+    ++(answered.isep[i] == in_contact ? events.make : events.break_);
+    const int dof = answered.dof.dof_of(answered.id[i]) - 1;
+    const double gap = std::abs(answered.cc[i] - answered.dd[dof]);
+    events.stationary += gap < constants<double>::epsgap ? 1 : 0;
+  }
+}
+
+void campaign_counts::add(const campaign_counts& other) {
+  calls += other.calls;
+  branches.add(other.branches);
+  events.make += other.events.make;
+  events.break_ += other.events.break_;
+  events.stationary += other.events.stationary;
+}
+
+void follower_result::note_difference(const call<double>& leader, const follower& f) {
+  if (!f.answered()) {
     always_answered = false;
     return;
   }
-  most_ulps = std::max(most_ulps, ulps_between(leader.smin, follower.smin));
+  const call_outputs& answer = f.answer();
+  most_ulps = std::max(most_ulps, ulps_between(leader.smin, answer.smin));
   for (std::size_t i = 0; i < leader.ss.size(); ++i) {
-    most_ulps = std::max(most_ulps, ulps_between(leader.ss[i], follower.ss[i]));
-    same_events = same_events && leader.isep[i] == follower.isep[i];
+    most_ulps = std::max(most_ulps, ulps_between(leader.ss[i], answer.ss[i]));
+    same_events = same_events && leader.isep[i] == answer.isep[i];
   }
 }
 
-void count_toggles(const call<double>& answered, std::span<const int> isep_before, event_counts& counts) {
-  constexpr double epsgap = 1e-10;
-  for (std::size_t i = 0; i < isep_before.size(); ++i) {
-    if (answered.isep[i] == isep_before[i]) continue;
-    ++(answered.isep[i] == in_contact ? counts.make : counts.break_);
-    const auto dof = static_cast<std::size_t>(answered.dof.dof_of(answered.id[i]) - 1);
-    counts.stationary += std::abs(answered.cc[i] - answered.dd[dof]) < epsgap ? 1 : 0;
-  }
-}
-
-call_source::call_source(std::uint64_t seed, int real_bytes)
-    : real_bytes_(real_bytes),
-      random_r8_(seed),
-      adversarial_r8_(seed ^ other_stream),
-      random_r4_(seed),
-      adversarial_r4_(seed ^ other_stream) {}
-
-const call_inputs<double>& call_source::at(std::uint64_t number) {
-  const bool random = number % 2 == 1;
-  if (real_bytes_ == 8) return random ? random_r8_.at(number) : adversarial_r8_.at(number);
-  const call_inputs<float>& narrow = random ? random_r4_.at(number) : adversarial_r4_.at(number);
-  wide_.dd.resize(narrow.dd.size());
-  wide_.dtest.resize(narrow.dtest.size());
-  for (std::size_t i = 0; i < narrow.pairs(); ++i) {
-    const std::size_t dof = narrow.dof_of_pair(i);
-    wide_.dd[dof] = narrow.dd[dof];
-    wide_.dtest[dof] = narrow.dtest[dof];
-  }
-  wide_.cc.assign(narrow.cc.begin(), narrow.cc.end());
-  wide_.id = narrow.id;
-  wide_.isep = narrow.isep;
-  wide_.isurf = narrow.isurf;
-  wide_.dof = narrow.dof;
-  return wide_;
+void follower_result::add(const follower_result& other) {
+  compared += other.compared;
+  most_ulps = std::max(most_ulps, other.most_ulps);
+  same_events = same_events && other.same_events;
+  always_answered = always_answered && other.always_answered;
+  if (first) return;
+  first = other.first;
+  calls = other.calls;
 }
 
 call_campaign::call_campaign(const std::string& leader, const std::vector<std::string>& followers,
                              std::uint64_t seed)
-    : source_(seed, facts_of_kernel(leader).real_bytes) {
+    : results_(followers.size()), source_(seed, facts_of_kernel(leader).real_bytes) {
   for (const std::string& name : followers) refuse_unequal(facts_of_kernel(leader), facts_of_kernel(name));
   leader_ = make_kernel(leader);
   for (const std::string& name : followers) {
     kernels_.push_back(make_kernel(name));
-    followers_.push_back({name, {}, {}, {}, {}});
+    followers_.emplace_back(leader_->facts(), *kernels_.back());
   }
-  texts_.resize(followers.size());
 }
 
-call_campaign::~call_campaign() = default;
-
-int call_campaign::real_bytes() const {
-  return leader_->facts().real_bytes;
-}
-
-void call_campaign::put(std::uint64_t first, std::uint64_t last, std::uint64_t stride,
-                        const std::function<void(std::uint64_t)>& progress) {
+void call_campaign::run(std::uint64_t first, std::uint64_t last, std::uint64_t stride,
+                        const std::function<void(std::int64_t)>& progress) {
+  stride_ = stride;
   for (std::uint64_t number = first; number <= last; number += stride) {
-    put_one(number);
+    put(number);
     if (block_.size() < calls_in_a_block) continue;
     compare_texts();
-    if (progress) progress(static_cast<std::uint64_t>(calls_));
+    if (progress) progress(counts_.calls);
   }
   compare_texts();
 }
 
-void call_campaign::put_one(std::uint64_t number) {
+void call_campaign::put(std::uint64_t number) {
   const call_inputs<double>& in = source_.at(number);
-  call<double> answered = leads_.prepare(in);
+  call<double> answered = leader_outputs_.prepare(in);
   leader_->answer(answered);
-  ++calls_;
-  branches_.count(answered, in.isep);
-  count_toggles(answered, in.isep, events_);
-  for (std::size_t f = 0; f < kernels_.size(); ++f) {
-    const auto found = put_to(*kernels_[f], answered, in.isep, std::nullopt, text_equality::bytes, follows_,
-                              followers_[f].compared);
-    if (!found) continue;
-    followers_[f].near.take_in(answered, follows_, *found);
-    note(f, number, *found, answered, in);
+  counts_.count(answered, in.isep);
+  for (std::size_t f = 0; f < followers_.size(); ++f) {
+    if (followers_[f].ask(static_cast<std::int64_t>(number), answered, in.isep, std::nullopt))
+      results_[f].note_difference(answered, followers_[f]);
   }
   block_.push_back(number);
 }
 
-/// Unit 26 of all the calls since the last time.
+/// Compare unit 26 of all the calls since the last time.
 void call_campaign::compare_texts() {
   const std::string text = leader_->take_text();
-  for (std::size_t f = 0; f < kernels_.size(); ++f) {
-    texts_[f] = kernels_[f]->take_text();
-    const bool both = leader_->facts().has_text && kernels_[f]->facts().has_text;
+  for (follower& f : followers_) {
+    const std::string its_text = f.asked().take_text();
+    const bool both = leader_->facts().has_text && f.asked().facts().has_text;
     if (!both || block_.empty()) continue;
-    tally& t = followers_[f].compared;
     tally whole;
-    const text_equality equality = text_equality_of(leader_->facts(), kernels_[f]->facts());
-    if (!compare_text(text, texts_[f], whole, equality)) {
-      t.values += static_cast<std::int64_t>(block_.size());
-    } else {
+    if (compare_text(text, its_text, whole, f.equality()))
       find_text_difference(f);
-    }
+    else
+      f.compared.values += static_cast<std::int64_t>(block_.size());
   }
   block_.clear();
 }
 
-/// The block once more, call by call.
-void call_campaign::find_text_difference(std::size_t follower) {
-  tally again;
+/// Put the block once more, and compare the text call by call.
+void call_campaign::find_text_difference(follower& f) {
+  call_outputs its_outputs;
   for (const std::uint64_t number : block_) {
     const call_inputs<double>& in = source_.at(number);
-    call<double> answered = leads_.prepare(in);
+    call<double> answered = leader_outputs_.prepare(in);
     leader_->answer(answered);
     const std::string text = leader_->take_text();
-    call_outputs mine;
-    call<double> asked = mine.prepare(in);
-    std::string its_text;
+    call<double> asked = its_outputs.prepare(in);
     try {
-      kernels_[follower]->answer(asked);
-      its_text = kernels_[follower]->take_text();
+      f.asked().answer(asked);
     } catch (const kernel_failure&) {
       continue;  // counted already
     }
-    const text_equality equality = text_equality_of(leader_->facts(), kernels_[follower]->facts());
-    if (const auto found = compare_text(text, its_text, again, equality))
-      note(follower, number, *found, answered, in);
+    if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
+      f.note(static_cast<std::int64_t>(number), *found, answered, in.isep);
   }
-  followers_[follower].compared.values += again.values;
-  followers_[follower].compared.mismatches += again.mismatches;
 }
 
-void call_campaign::note(std::size_t follower, std::uint64_t number, const mismatch& d,
-                         const call<double>& answered, const call_inputs<double>& in) {
-  campaign_follower& h = followers_[follower];
-  for (const mismatch_report& known : h.mismatch_reports) {
-    if (known.where.field == d.field) return;
+std::vector<follower_result> call_campaign::results() {
+  for (std::size_t f = 0; f < followers_.size(); ++f) {
+    follower_result& r = results_[f];
+    r.compared = followers_[f].compared;
+    r.first = followers_[f].first();
+    r.calls.clear();
+    if (!r.first) continue;
+    const auto number = static_cast<std::uint64_t>(r.first->call);
+    const std::uint64_t before = std::min(most_calls_before, (number - 1) / stride_);
+    for (std::uint64_t k = before + 1; k-- > 0;) r.calls.push_back(source_.at(number - k * stride_));
   }
-  h.mismatch_reports.push_back({static_cast<std::int64_t>(number), leader_->facts().name, h.name, d,
-                                decisions_of(answered, in.isep, leader_->facts().real_bytes)});
-  h.calls.push_back(number);
+  return results_;
 }
 
 }  // namespace contct

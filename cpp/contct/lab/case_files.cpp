@@ -1,107 +1,88 @@
 #include "contct/lab/case_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
-#include <utility>
 
 #include "contct/numeric/bits.hpp"
-#include "contct/outside/registry.hpp"
 
 namespace contct {
 namespace {
 
 /// A number as C++ has it.
 std::string cpp_number(double x) {
-  const std::string sign = std::signbit(x) ? "-" : "";
+  const char* const sign = std::signbit(x) ? "-" : "";
   if (std::isnan(x)) return "std::numeric_limits<double>::quiet_NaN()";
-  if (std::isinf(x)) return sign + "std::numeric_limits<double>::infinity()";
+  if (std::isinf(x)) return fmt::format("{}std::numeric_limits<double>::infinity()", sign);
   return hexfloat(x);
 }
 
-template <class List, class Words>
-std::string joined(const List& list, Words words) {
-  std::string all;
-  for (const auto& x : list) all += (all.empty() ? "" : ", ") + words(x);
-  return "{" + all + "}";
+std::string cpp_list(const std::vector<double>& list) {
+  std::vector<std::string> words;
+  words.reserve(list.size());
+  for (const double x : list) words.push_back(cpp_number(x));
+  return fmt::format("{{{}}}", fmt::join(words, ", "));
 }
 
-std::string cpp_reals(const std::vector<double>& list) {
-  return joined(list, cpp_number);
-}
-
-std::string cpp_wholes(const std::vector<int>& list) {
-  return joined(list, [](int x) { return std::to_string(x); });
+std::string cpp_list(const std::vector<int>& list) {
+  return fmt::format("{{{}}}", fmt::join(list, ", "));
 }
 
 /// A name for a test: its characters must not mean anything to Catch2.
-std::string test_name(const std::string& kernel) {
-  std::string name;
-  for (const char ch : kernel) name += std::isalnum(static_cast<unsigned char>(ch)) != 0 ? ch : ' ';
-  return name;
+std::string test_name(std::string kernel) {
+  for (char& ch : kernel)
+    if (std::isalnum(static_cast<unsigned char>(ch)) == 0) ch = ' ';
+  return kernel;
 }
 
 std::string cpp_string(const std::string& text) {
-  std::string out = "\"";
+  std::string out;
   for (const char ch : text) {
     if (ch == '"' || ch == '\\') out += '\\';
     out += ch;
   }
-  return out + "\"";
+  return "\"" + out + "\"";
 }
 
-/// A FORTRAN assignment; what no literal can say is computed from Z, which is zero. Literals have so many
-/// digits that they are read back exactly.
-std::string fortran_assignment(const std::string& name, double x, int real_bytes) {
-  std::string value;
-  const std::string sign = std::signbit(x) ? "-" : "";
-  if (std::isnan(x)) {
-    value = "Z / Z";
-  } else if (std::isinf(x)) {
-    value = sign + "1. / Z";
-  } else {
-    char text[64];
-    (void)std::snprintf(text, sizeof text, real_bytes == 4 ? "%.8E" : "%.16E", x);
-    value = x == 0.0 ? (std::signbit(x) ? "-Z" : "0.") : text;
-  }
-  return "      " + name + " = " + value + "\n";
+/// A FORTRAN assignment to an array's element, from 0; what no literal can say is computed from Z, which is
+/// zero. Literals have so many digits that they are read back exactly.
+std::string fortran_assignment(const char* array, std::size_t element, double x, int real_bytes) {
+  const char* const sign = std::signbit(x) ? "-" : "";
+  std::string value = real_bytes == 4 ? fmt::format("{:.8E}", x) : fmt::format("{:.16E}", x);
+  if (std::isnan(x)) value = "Z / Z";
+  if (std::isinf(x)) value = fmt::format("{}1. / Z", sign);
+  if (x == 0.0) value = std::signbit(x) ? "-Z" : "0.";
+  return fmt::format("      {}({}) = {}\n", array, element + 1, value);
 }
 
-std::string element(const char* array, std::size_t index) {
-  std::string name = array;
-  name += "(";
-  name += std::to_string(index + 1);
-  return name + ")";
-}
-
-/// One call of the main program.
-void append_fortran_call(const found_case& c, std::size_t number, std::string& text) {
+/// Call `number`, from 0, of the main program.
+std::string fortran_call(const found_case& c, std::size_t number) {
   const call_inputs<double>& in = c.calls[number];
-  text += "      INDOF = " + std::to_string(in.dof.indof) +
-          "\n      NDOFPN = " + std::to_string(in.dof.ndofpn) + "\n";
+  const call_outputs& expected = c.leader[number];
+  std::string text = fmt::format("      INDOF = {}\n      NDOFPN = {}\n", in.dof.indof, in.dof.ndofpn);
   for (std::size_t dof = 0; dof < in.dd.size(); ++dof) {
     if (std::isnan(in.dd[dof]) && std::isnan(in.dtest[dof])) continue;
-    text += fortran_assignment(element("DD", dof), in.dd[dof], c.real_bytes);
-    text += fortran_assignment(element("DTEST", dof), in.dtest[dof], c.real_bytes);
+    text += fortran_assignment("DD", dof, in.dd[dof], c.real_bytes);
+    text += fortran_assignment("DTEST", dof, in.dtest[dof], c.real_bytes);
   }
   for (std::size_t i = 0; i < in.pairs(); ++i) {
-    text += fortran_assignment(element("CC", i), in.cc[i], c.real_bytes);
-    text += "      " + element("ID", i) + " = " + std::to_string(in.id[i]) + "\n";
-    text += "      " + element("ISEP", i) + " = " + std::to_string(in.isep[i]) + "\n";
-    text += "      " + element("ISURF", i) + " = " + std::to_string(in.isurf[i]) + "\n";
+    text += fortran_assignment("CC", i, in.cc[i], c.real_bytes);
+    text += fmt::format("      ID({0}) = {1}\n      ISEP({0}) = {2}\n      ISURF({0}) = {3}\n", i + 1,
+                        in.id[i], in.isep[i], in.isurf[i]);
   }
-  text +=
-      "      CALL CONTCT (DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, " + std::to_string(in.pairs()) + ")\n";
-  text += "      WRITE (*,*) 'SMIN', SMIN\n";
-  text += "C     " + c.what.leader + ": " + hexfloat(c.leader[number].smin) + "\n";
-  if (in.pairs() == 0) return;
-  text += "      DO 10" + std::to_string(number % 90 + 10) + " I = 1, " + std::to_string(in.pairs()) + "\n";
-  text += " 10" + std::to_string(number % 90 + 10) + " WRITE (*,*) I, SS(I), ISEP(I)\n";
-  for (std::size_t i = 0; i < in.pairs(); ++i) {
-    text += "C     " + c.what.leader + ": " + std::to_string(i + 1) + " " + hexfloat(c.leader[number].ss[i]) +
-            " " + std::to_string(c.leader[number].isep[i]) + "\n";
-  }
+  text += fmt::format(
+      "      CALL CONTCT (DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, {})\n"
+      "      WRITE (*,*) 'SMIN', SMIN\nC     {}: {}\n",
+      in.pairs(), c.what.leader, hexfloat(expected.smin));
+  if (in.pairs() == 0) return text;
+  text += fmt::format("      DO {0} I = 1, {1}\n {0} WRITE (*,*) I, SS(I), ISEP(I)\n", 1010 + number % 90,
+                      in.pairs());
+  for (std::size_t i = 0; i < in.pairs(); ++i)
+    text +=
+        fmt::format("C     {}: {} {} {}\n", c.what.leader, i + 1, hexfloat(expected.ss[i]), expected.isep[i]);
+  return text;
 }
 
 /// Comment lines of a fixed-form program end at column 72, between words where they can.
@@ -134,31 +115,42 @@ std::string trace_of(const found_case& c, trace_header h) {
 std::string catch_test_of(const found_case& c) {
   std::string text = "// Found by contct fuzz, and shrunk.\n";
   for (const std::string& line : words_of(c.what)) text += "// " + line + "\n";
-  text +=
-      "#include <catch2/catch.hpp>\n#include <limits>\n#include <vector>\n\n"
-      "#include \"contct/kernel/call_inputs.hpp\"\n#include \"contct/kernel/kernel.hpp\"\n"
-      "#include \"contct/numeric/bits.hpp\"\n\n"
-      "TEST_CASE(\"" +
-      test_name(c.what.follower) + " answers as " + test_name(c.what.leader) +
-      " does\") {\n"
-      "  const auto kernel = contct::make_kernel(" +
-      cpp_string(c.what.follower) +
-      ");\n"
-      "  contct::call_inputs<double> in;\n  contct::call_outputs out;\n";
+  text += fmt::format(R"(#include <catch2/catch.hpp>
+#include <limits>
+#include <vector>
+
+#include "contct/kernel/call_inputs.hpp"
+#include "contct/numeric/bits.hpp"
+#include "contct/outside/registry.hpp"
+
+TEST_CASE("{} answers as {} does") {{
+  const auto kernel = contct::make_kernel({});
+  contct::call_inputs<double> in;
+  contct::call_outputs out;
+)",
+                      test_name(c.what.follower), test_name(c.what.leader), cpp_string(c.what.follower));
   for (std::size_t i = 0; i < c.calls.size(); ++i) {
     const call_inputs<double>& in = c.calls[i];
-    text += "\n  in.dd = " + cpp_reals(in.dd) + ";\n  in.dtest = " + cpp_reals(in.dtest) +
-            ";\n  in.cc = " + cpp_reals(in.cc) + ";\n  in.id = " + cpp_wholes(in.id) +
-            ";\n  in.isep = " + cpp_wholes(in.isep) + ";\n  in.isurf = " + cpp_wholes(in.isurf) +
-            ";\n  in.dof = {" + std::to_string(in.dof.indof) + ", " + std::to_string(in.dof.ndofpn) +
-            "};\n  {\n    contct::call<double> asked = out.prepare(in);\n"
-            "    kernel->answer(asked);\n    CHECK(contct::same_bits(asked.smin, " +
-            cpp_number(c.leader[i].smin) + "));\n";
-    for (std::size_t pair = 0; pair < in.pairs(); ++pair) {
-      text += "    CHECK(contct::same_bits(out.ss[" + std::to_string(pair) + "], " +
-              cpp_number(c.leader[i].ss[pair]) + "));\n";
-    }
-    text += "    CHECK(out.isep == std::vector<int>" + cpp_wholes(c.leader[i].isep) + ");\n  }\n";
+    text +=
+        fmt::format(R"(
+  in.dd = {};
+  in.dtest = {};
+  in.cc = {};
+  in.id = {};
+  in.isep = {};
+  in.isurf = {};
+  in.dof = {{{}, {}}};
+  {{
+    contct::call<double> asked = out.prepare(in);
+    kernel->answer(asked);
+    CHECK(contct::same_bits(asked.smin, {}));
+)",
+                    cpp_list(in.dd), cpp_list(in.dtest), cpp_list(in.cc), cpp_list(in.id), cpp_list(in.isep),
+                    cpp_list(in.isurf), in.dof.indof, in.dof.ndofpn, cpp_number(c.leader[i].smin));
+    for (std::size_t pair = 0; pair < in.pairs(); ++pair)
+      text += fmt::format("    CHECK(contct::same_bits(out.ss[{}], {}));\n", pair,
+                          cpp_number(c.leader[i].ss[pair]));
+    text += fmt::format("    CHECK(out.isep == std::vector<int>{});\n  }}\n", cpp_list(c.leader[i].isep));
   }
   return text + "}\n";
 }
@@ -170,16 +162,16 @@ std::string fortran_main_of(const found_case& c) {
     dofs = std::max(dofs, in.dd.size());
     pairs = std::max(pairs, in.pairs());
   }
-  const std::string n = std::to_string(dofs);
-  const std::string m = std::to_string(pairs);
   std::string text;
   for (const std::string& line : words_of(c.what)) text += fortran_comment(line);
-  text += fortran_comment(std::string("gfortran -std=legacy -ffp-contract=off -fno-range-check ") +
-                          (c.real_bytes == 8 ? "-fdefault-real-8 " : "") + "this.f contct.f");
-  text += "      PROGRAM FOUND\n      COMMON /DOF/ INDOF,NDOFPN\n      DIMENSION DD(" + n + "), DTEST(" + n +
-          "), CC(" + m + "),\n     &  SS(" + m + "), ID(" + m + "), ISEP(" + m + "), ISURF(" + m +
-          ")\n      Z = 0.\n";
-  for (std::size_t i = 0; i < c.calls.size(); ++i) append_fortran_call(c, i, text);
+  text +=
+      fortran_comment(fmt::format("gfortran -std=legacy -ffp-contract=off -fno-range-check {}this.f contct.f",
+                                  c.real_bytes == 8 ? "-fdefault-real-8 " : ""));
+  text += fmt::format(
+      "      PROGRAM FOUND\n      COMMON /DOF/ INDOF,NDOFPN\n      DIMENSION DD({0}), DTEST({0}), CC({1}),\n"
+      "     &  SS({1}), ID({1}), ISEP({1}), ISURF({1})\n      Z = 0.\n",
+      dofs, pairs);
+  for (std::size_t i = 0; i < c.calls.size(); ++i) text += fortran_call(c, i);
   return text + "      END\n";
 }
 

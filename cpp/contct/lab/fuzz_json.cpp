@@ -32,12 +32,10 @@ json follower_json(const fuzz_follower& f) {
           {"findings", f.mismatch_reports}};
 }
 
-equality_level rung_of(const std::string& name) {
-  for (const equality_level r :
-       {equality_level::bits, equality_level::ulps, equality_level::events, equality_level::certificate}) {
-    if (name == name_of(r)) return r;
-  }
-  return equality_level::none;
+equality_level level_of(const std::string& name) {
+  int level = 0;
+  while (level + 1 < equality_levels && name != name_of(static_cast<equality_level>(level))) ++level;
+  return static_cast<equality_level>(level);
 }
 
 fuzz_result read_shard(const std::string& file) {
@@ -64,7 +62,7 @@ fuzz_result read_shard(const std::string& file) {
   for (const json& f : j.at("followers")) {
     r.followers.push_back({f.at("kernel"),
                            {f.at("values_compared"), f.at("mismatches")},
-                           rung_of(f.at("rung")),
+                           level_of(f.at("rung")),
                            f.at("most_ulps"),
                            f.at("findings").get<std::vector<std::string>>()});
   }
@@ -87,18 +85,13 @@ bool same_run(const fuzz_request& a, const fuzz_request& b) {
 }
 
 void add(fuzz_result& all, const fuzz_result& shard) {
-  all.calls += shard.calls;
+  all.add(shard);
   all.problems += shard.problems;
   all.seconds += shard.seconds;
-  all.branches.add(shard.branches);
-  all.events.make += shard.events.make;
-  all.events.break_ += shard.events.break_;
-  all.events.stationary += shard.events.stationary;
   for (std::size_t f = 0; f < all.followers.size(); ++f) {
     fuzz_follower& mine = all.followers[f];
     const fuzz_follower& its = shard.followers[f];
-    mine.compared.values += its.compared.values;
-    mine.compared.mismatches += its.compared.mismatches;
+    mine.compared += its.compared;
     mine.highest = std::max(mine.highest, its.highest);
     mine.most_ulps = std::max(mine.most_ulps, its.most_ulps);
     if (mine.mismatch_reports.empty()) mine.mismatch_reports = its.mismatch_reports;

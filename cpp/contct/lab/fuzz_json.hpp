@@ -1,10 +1,10 @@
-// A fuzz run as JSON, format "contct-fuzz-1", and shards put together again.
+// A fuzz run as JSON, format "contct-fuzz-1", and the results of shards added up.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "contct/lab/fuzz_result.hpp"
+#include "contct/lab/fuzz.hpp"
 
 namespace contct {
 

@@ -1,9 +1,8 @@
 #include "contct/lab/problem_campaign.hpp"
 
 #include <memory>
-#include <utility>
 
-#include "contct/compare/follower.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "contct/lab/problem_result.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
@@ -32,43 +31,32 @@ call_inputs<double> inputs_of(const answered_call& c) {
   return in;
 }
 
-/// Puts every call to the followers, counts what the leader decided, and keeps a follower's calls up to its
-/// first divergence.
+/// Counts what the leader did and what the lockstep before it found, and keeps the calls up to each
+/// follower's first mismatch.
 class problem_watcher final : public observer {
  public:
-  problem_watcher(problem_in_lockstep& p, kernel_facts leader, const std::vector<std::string>& followers)
-      : p_(p), leader_(std::move(leader)), p_each_(p.each) {
-    for (const std::string& name : followers) kernels_.push_back(make_kernel(name));
-    p.each.resize(followers.size());
+  problem_watcher(problem_in_lockstep& p, const lockstep& compared) : p_(p), compared_(compared) {
+    p.each.resize(compared.followers().size());
   }
 
   void called(const answered_call& c) override {
-    ++p_.calls;
-    p_.branches.count(c.c, c.isep_before);
-    count_toggles(c.c, c.isep_before, p_.events);
-    all_calls_.push_back(inputs_of(c));
-    for (std::size_t f = 0; f < kernels_.size(); ++f) ask(*kernels_[f], c, p_each_[f]);
+    p_.count(c.c, c.isep_before);
+    calls_.push_back(inputs_of(c));
+    for (std::size_t f = 0; f < p_.each.size(); ++f) {
+      const follower& asked = compared_.followers()[f];
+      p_.each[f].compared = asked.compared;
+      if (!asked.difference()) continue;
+      p_.each[f].note_difference(c.c, asked);
+      if (p_.each[f].first) continue;
+      p_.each[f].first = asked.first();
+      p_.each[f].calls = calls_;
+    }
   }
 
  private:
-  void ask(kernel& follower, const answered_call& c, followed_problem& its) {
-    const auto text = leader_.has_text ? std::optional(c.text) : std::nullopt;
-    const auto found = put_to(follower, c.c, c.isep_before, text, text_equality_of(leader_, follower.facts()),
-                              answered_, its.compared);
-    if (!found) return;
-    its.near.take_in(c.c, answered_, *found);
-    if (its.first) return;
-    its.first = mismatch_report{p_.calls, leader_.name, follower.facts().name, *found,
-                                decisions_of(c.c, c.isep_before, leader_.real_bytes)};
-    its.calls_up_to_it = all_calls_;
-  }
-
   problem_in_lockstep& p_;
-  kernel_facts leader_;
-  std::vector<followed_problem>& p_each_;
-  std::vector<std::unique_ptr<kernel>> kernels_;
-  call_sequence all_calls_;
-  call_outputs answered_;
+  const lockstep& compared_;
+  call_sequence calls_;
 };
 
 }  // namespace
@@ -79,8 +67,9 @@ problem_in_lockstep follow_in_lockstep(std::uint64_t seed, std::uint64_t number,
   const linear_structure s = build(p.geometry, p.supports, p.pairs);
   const std::unique_ptr<kernel> leads = make_kernel(leader);
   problem_in_lockstep out;
-  problem_watcher watches(out, leads->facts(), followers);
-  (void)follow_steps(p.geometry, s, p.steps, "refactor", *leads, std::vector<observer*>{&watches});
+  lockstep compared = make_lockstep(leads->facts(), followers);
+  problem_watcher watches(out, compared);
+  (void)follow_steps(p.geometry, s, p.steps, "refactor", *leads, std::vector<observer*>{&compared, &watches});
   return out;
 }
 

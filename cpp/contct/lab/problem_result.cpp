@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "contct/certify/certificate.hpp"
 #include "contct/certify/fallback.hpp"
-#include "contct/path/path.hpp"
+#include "contct/path/follow_steps.hpp"
 
 namespace contct {
 namespace {
@@ -27,23 +26,11 @@ class counter final : public observer {
   problem_result& t_;
 };
 
-void take_in(const certificate& c, problem_result& t) {
-  const double needed =
-      std::max({c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension});
-  t.displacement_error = std::max(t.displacement_error, c.displacement_error);
-  t.length_error = std::max({t.length_error, c.displacement_error, c.penetration, c.tension});
-  t.needed = std::max(t.needed, needed);
-  t.factor = std::max(t.factor, needed / (std::numeric_limits<double>::epsilon() / c.rcond));
-  ++t.steps;
-  t.uncertified += c.exact ? 0 : 1;
-  t.unfounded += c.unfounded ? 1 : 0;
-}
-
 verdict judge(const path_end& end, const certifier& judged, const load_history& total,
               const linear_structure& s) {
   if (end.status == path_status::solved) return judged.all_exact() ? verdict::certified : verdict::wrong;
   if (end.status != path_status::mechanism) return verdict::no_end;
-  std::vector<double> load(static_cast<std::size_t>(s.dofs()), 0.0);
+  std::vector<double> load(s.dofs(), 0.0);
   total(end.step, load);
   const bool agreed = oracle(s).solve(load).how == oracle_answer::outcome::no_equilibrium;
   return agreed ? verdict::no_equilibrium : verdict::false_mechanism;
@@ -56,6 +43,18 @@ std::string_view name_of(verdict v) {
   return names[static_cast<int>(v)];
 }
 
+void problem_result::add(const certificate& c) {
+  const double worst =
+      std::max({c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension});
+  displacement_error = std::max(displacement_error, c.displacement_error);
+  length_error = std::max({length_error, c.displacement_error, c.penetration, c.tension});
+  needed = std::max(needed, worst);
+  factor = std::max(factor, worst / (std::numeric_limits<double>::epsilon() / c.rcond));
+  ++steps;
+  uncertified += c.exact ? 0 : 1;
+  unfounded += c.unfounded ? 1 : 0;
+}
+
 problem_result try_problem(const random_problem& p, kernel& leader, std::string_view engine) {
   return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, engine);
 }
@@ -63,19 +62,17 @@ problem_result try_problem(const random_problem& p, kernel& leader, std::string_
 problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
                              std::string_view engine) {
   const load_history total = [&p](int step, std::span<double> f) {
-    add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
+    add_consistent_loads(p.geometry, p.steps[step - 1], f);
   };
   problem_result t;
   counter counts(t);
   certifier judged(s, total);
   observer* const observers[] = {&counts, &judged};
-  const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
   path_limits limits;
   limits.fallback = fallback_to_reference(s);
-  const path_end end =
-      follow_path(s, static_cast<int>(p.steps.size()), total, *solves, leader, observers, limits);
+  const path_end end = follow_steps(p.geometry, s, p.steps, engine, leader, observers, limits);
   for (const auto& c : judged.steps()) {
-    if (c) take_in(*c, t);
+    if (c) t.add(*c);
   }
   t.came_to = judge(end, judged, total, s);
   return t;

@@ -1,8 +1,9 @@
-// One random problem, followed by one kernel, and what came of it.
+// Follows one random problem with one kernel, and judges the result.
 #pragma once
 
 #include <string_view>
 
+#include "contct/certify/certificate.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/lab/random_problem.hpp"
 
@@ -10,7 +11,7 @@ namespace contct {
 
 enum class verdict {
   certified,        ///< every step's final state is certified
-  no_equilibrium,   ///< the path ended in a mechanism, and the oracle agrees that nothing holds
+  no_equilibrium,   ///< the path ended in a mechanism, and the reference solution has no equilibrium either
   wrong,            ///< the path went to its end, and some final state is not right
   false_mechanism,  ///< the path ended in a mechanism where there is an equilibrium
   no_end,           ///< cycle, increments without end, or no factor
@@ -30,11 +31,15 @@ struct problem_result {
   int makes = 0, breaks = 0;
   int at_rest = 0;    ///< increments without progress
   int snaps = 0;      ///< rigid, at constant load
-  int fallbacks = 0;  ///< steps that the oracle ended
+  int fallbacks = 0;  ///< steps that the reference solution ended
   int increments = 0;
+
+  /// Take the certificate of one more step into account.
+  void add(const certificate& c);
 };
 
-/// Follow `p` with `leader` on the engine named, with the oracle's help where its rule takes help.
+/// Follow `p` with `leader` on the engine named, with the reference solution as a fallback where its rule
+/// allows one.
 [[nodiscard]] problem_result try_problem(const random_problem& p, kernel& leader,
                                          std::string_view engine = "refactor");
 

@@ -22,7 +22,8 @@ class drawing {
     problem_.held = !random_.chance(kind_.free_share);
     problem_.layout = static_cast<face_layout>(random_.whole(0, face_layouts - 1));
     draw_geometry();
-    if (problem_.held) draw_supports();
+    if (problem_.held && !is_plate()) draw_beam_supports();
+    if (problem_.held && is_plate()) draw_plate_supports(std::get<plate>(problem_.geometry.kind));
     draw_steps();
     draw_pairs();
     return std::move(problem_);
@@ -70,14 +71,6 @@ class drawing {
     const double last = x.back();
     for (double& at : x) at *= length / last;
     return x;
-  }
-
-  void draw_supports() {
-    if (is_plate()) {
-      draw_plate_supports(std::get<plate>(problem_.geometry.kind));
-    } else {
-      draw_beam_supports();
-    }
   }
 
   void draw_beam_supports() {
@@ -188,18 +181,15 @@ class drawing {
   /// Deflections [nodes] of the structure without pairs under the first load: the size of useful gaps.
   [[nodiscard]] std::vector<double> free_deflection() const {
     linear_structure s = build(problem_.geometry, problem_.supports, {});
-    std::vector<double> f(static_cast<std::size_t>(s.dofs()), 0.0);
+    std::vector<double> f(s.dofs(), 0.0);
     add_consistent_loads(problem_.geometry, problem_.steps.front(), f);
-    const auto stride = static_cast<std::size_t>(s.dofs_per_node);
+    const int stride = s.dofs_per_node;
     std::vector<double> w(f.size() / stride, 0.01 * problem_.unit);
     if (!problem_.held || !factor(s.stiffness.band())) return w;
-    const auto row = [&s](std::size_t dof) {
-      return static_cast<std::size_t>(s.row_of(static_cast<int>(dof)));
-    };
     std::vector<double> u(f.size());
-    for (std::size_t dof = 0; dof < f.size(); ++dof) u[row(dof)] = s.fixed[dof] != 0 ? 0.0 : f[dof];
+    for (int dof = 0; dof < s.dofs(); ++dof) u[s.row_of(dof)] = s.fixed[dof] != 0 ? 0.0 : f[dof];
     solve_with(s.stiffness.band(), u);
-    for (std::size_t node = 0; node < w.size(); ++node) w[node] = u[row(node * stride)];
+    for (int node = 0; node < node_count(); ++node) w[node] = u[s.row_of(node * stride)];
     return w;
   }
 
@@ -213,7 +203,7 @@ class drawing {
     for (int node = 0; node < node_count(); ++node) {
       if (fixed_in_w(node) || (mirrored() && mirror_of(node) < node)) continue;
       const bool end = node == 0 || node == node_count() - 1;
-      if (random_.chance(density) || (!problem_.held && end)) place(node, w[static_cast<std::size_t>(node)]);
+      if (random_.chance(density) || (!problem_.held && end)) place(node, w[node]);
     }
     if (problem_.pairs.empty()) place(node_count() / 2, w[w.size() / 2]);
   }
@@ -255,19 +245,15 @@ class drawing {
     switch (problem_.layout) {
       case face_layout::zero:
         return 0.0;
-      case face_layout::mixed:
-      case face_layout::two_sided:
-      case face_layout::symmetric:
-      case face_layout::antisymmetric:
-        return random_.chance(0.4) ? 0.0 : largest_ * power_between(-2, 0.2);
       case face_layout::equal_gaps:
         return common_gap_;
       case face_layout::near_ties:
         return common_gap_ * (1.0 + between(-1.0, 1.0) * power_between(-15, -3));
       case face_layout::gaps:
-        break;
+        return largest_ * power_between(-2, 0.2);
+      default:
+        return random_.chance(0.4) ? 0.0 : largest_ * power_between(-2, 0.2);
     }
-    return largest_ * power_between(-2, 0.2);
   }
 
   random_numbers random_;

@@ -9,7 +9,7 @@
 
 namespace contct {
 
-/// How the faces stand.
+/// How the faces are placed.
 enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, antisymmetric, two_sided };
 inline constexpr int face_layouts = 8;
 [[nodiscard]] std::string_view name_of(face_layout f);

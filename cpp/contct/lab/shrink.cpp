@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contct/numeric/bits.hpp"
+#include "contct/outside/registry.hpp"
 
 namespace contct {
 namespace {
@@ -19,8 +20,8 @@ double rounded(double x, int digits) {
   return std::strtod(text, nullptr);
 }
 
-/// What is rounder than `x`, the roundest first; every one of them is simpler than those behind it and than
-/// `x`, so that shrinking ends.
+/// The numbers rounder than `x`, the roundest first. Each is rounder than those after it and than `x`, so
+/// that shrinking ends.
 std::vector<double> rounder_than(double x) {
   std::vector<double> all;
   const auto offer = [&all, x](double y) {
@@ -43,16 +44,11 @@ std::vector<double> rounder_than(double x) {
 }
 
 /// The call without pairs `from` to `to`.
-call_inputs<double> without(const call_inputs<double>& in, std::size_t from, std::size_t to) {
+call_inputs<double> without(const call_inputs<double>& in, int from, int to) {
   call_inputs<double> out = in;
-  const auto cut = [from, to](auto& list) {
-    list.erase(list.begin() + static_cast<std::ptrdiff_t>(from),
-               list.begin() + static_cast<std::ptrdiff_t>(to));
-  };
+  const auto cut = [from, to](auto& list) { list.erase(list.begin() + from, list.begin() + to); };
   cut(out.cc);
-  cut(out.id);
-  cut(out.isep);
-  cut(out.isurf);
+  for (auto* list : {&out.id, &out.isep, &out.isurf}) cut(*list);
   return out;
 }
 
@@ -77,8 +73,8 @@ call_inputs<double> compact(const call_inputs<double>& in) {
 
 class shrinker {
  public:
-  shrinker(call_sequence calls, const still_diverges& diverges, int most_tries)
-      : calls_(std::move(calls)), diverges_(diverges), tries_left_(most_tries) {}
+  shrinker(call_sequence calls, const still_differs& differs, int most_tries)
+      : calls_(std::move(calls)), differs_(differs), tries_left_(most_tries) {}
 
   call_sequence go() {
     fewer_calls();
@@ -94,7 +90,7 @@ class shrinker {
   bool accept(call_sequence candidate) {
     if (tries_left_ <= 0) return false;
     --tries_left_;
-    if (!diverges_(candidate)) return false;
+    if (!differs_(candidate)) return false;
     calls_ = std::move(candidate);
     return true;
   }
@@ -107,22 +103,23 @@ class shrinker {
 
   /// The last call alone, the last two, four, ...; then each of the others left out.
   void fewer_calls() {
-    for (std::size_t kept = 1; kept < calls_.size(); kept *= 2) {
-      if (accept({calls_.end() - static_cast<std::ptrdiff_t>(kept), calls_.end()})) break;
+    const int all = static_cast<int>(calls_.size());
+    for (int kept = 1; kept < all; kept *= 2) {
+      if (accept({calls_.end() - kept, calls_.end()})) break;
     }
-    for (std::size_t c = calls_.size(); c-- > 1;) {
+    for (int c = static_cast<int>(calls_.size()); c-- > 1;) {
       call_sequence candidate = calls_;
-      candidate.erase(candidate.begin() + static_cast<std::ptrdiff_t>(c - 1));
+      candidate.erase(candidate.begin() + c - 1);
       (void)accept(std::move(candidate));
     }
   }
 
   /// Halves, then quarters, ... then single pairs left out.
   void fewer_pairs(std::size_t c) {
-    for (std::size_t chunk = (calls_[c].pairs() + 1) / 2; chunk > 0;
-         chunk = chunk == 1 ? 0 : (chunk + 1) / 2) {
-      for (std::size_t from = 0; from < calls_[c].pairs();) {
-        const std::size_t to = std::min(from + chunk, calls_[c].pairs());
+    const auto pairs = [this, c] { return static_cast<int>(calls_[c].pairs()); };
+    for (int chunk = (pairs() + 1) / 2; chunk > 0; chunk = chunk == 1 ? 0 : (chunk + 1) / 2) {
+      for (int from = 0; from < pairs();) {
+        const int to = std::min(from + chunk, pairs());
         if (!replace(c, without(calls_[c], from, to))) from = to;
       }
     }
@@ -142,7 +139,7 @@ class shrinker {
     }
   }
 
-  /// The same scale factor from D = 0 and d* = 1: numbers that hang together become rounder only together.
+  /// The same scale factor from D = 0 and d* = 1: values that depend on each other are simplified together.
   void plainer_pair(std::size_t c, std::size_t i) {
     const call_inputs<double>& in = calls_[c];
     const std::size_t dof = in.dof_of_pair(i);
@@ -155,7 +152,8 @@ class shrinker {
     (void)replace(c, std::move(plainer));
   }
 
-  /// All numbers of a call, again and again until none becomes rounder: one may have stood in another's way.
+  /// All numbers of a call, again until none becomes rounder: one number may become so only after another
+  /// did.
   void rounder_numbers(std::size_t c) {
     constexpr int most_rounds = 4;
     for (int round = 0; round < most_rounds; ++round) {
@@ -183,14 +181,52 @@ class shrinker {
   }
 
   call_sequence calls_;
-  const still_diverges& diverges_;
+  const still_differs& differs_;
   int tries_left_;
 };
 
 }  // namespace
 
-call_sequence shrink(call_sequence calls, const still_diverges& diverges, int most_tries) {
-  return shrinker(std::move(calls), diverges, most_tries).go();
+call_sequence shrink(call_sequence calls, const still_differs& differs, int most_tries) {
+  return shrinker(std::move(calls), differs, most_tries).go();
+}
+
+std::optional<found_case> reproduce(kernel& leader, const std::string& follower, const call_sequence& calls,
+                                    const std::string& field) {
+  const std::unique_ptr<kernel> fresh = make_kernel(follower);
+  found_case c;
+  c.real_bytes = leader.facts().real_bytes;
+  c.calls = calls;
+  std::optional<mismatch> last;
+  call_outputs its;
+  tally ignored;
+  (void)leader.take_text();
+  for (const call_inputs<double>& in : calls) {
+    call_outputs& out = c.leader.emplace_back();
+    call<double> asked = out.prepare(in);
+    leader.answer(asked);
+    out.smin = asked.smin;
+    out.text = leader.take_text();
+    const auto text = leader.facts().has_text ? std::optional<std::string_view>(out.text) : std::nullopt;
+    last = ask_and_compare(*fresh, asked, in.isep, text, text_equality_of(leader.facts(), fresh->facts()),
+                           its, ignored);
+    c.what.decisions = decisions_of(asked, in.isep, c.real_bytes);
+  }
+  if (!last || (!field.empty() && last->field != field)) return {};
+  c.what.call = static_cast<std::int64_t>(calls.size());
+  c.what.leader = leader.facts().name;
+  c.what.follower = follower;
+  c.what.where = *last;
+  return c;
+}
+
+std::optional<found_case> shrunk_case(kernel& leader, const std::string& follower, const call_sequence& calls,
+                                      const std::string& field, int most_tries) {
+  const still_differs differs = [&](const call_sequence& candidate) {
+    return reproduce(leader, follower, candidate, field).has_value();
+  };
+  if (!differs(calls)) return {};
+  return reproduce(leader, follower, shrink(calls, differs, most_tries), field);
 }
 
 }  // namespace contct

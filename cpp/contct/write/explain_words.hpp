@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "contct/compare/explanation.hpp"
-#include "contct/compare/listing_lines.hpp"
 
 namespace contct {
 

@@ -1,9 +1,10 @@
-// The atlas for programs: CSV and JSON.
+// The atlas as CSV, as JSON and as a table for the terminal.
 #pragma once
 
 #include <string>
 
 #include "contct/lab/atlas.hpp"
+#include "contct/text/terminal.hpp"
 
 namespace contct {
 
@@ -12,5 +13,8 @@ namespace contct {
 
 /// Format "contct-atlas-1": what was asked for, and the same numbers.
 [[nodiscard]] std::string atlas_json(const atlas& a);
+
+/// All cells as a table of 80 columns, and what its columns mean.
+[[nodiscard]] std::string atlas_table(const atlas& a, const terminal& t);
 
 }  // namespace contct

@@ -1,5 +1,5 @@
 // The corrected kernel on random problems, by the hundred thousand: contct_campaign [PROBLEMS] [SEED].
-// Prints what they came to, and fails when a structure that its supports hold is not certified, when
+// Prints the verdicts, and fails when a structure that its supports hold is not certified, when
 // an answer needed more tolerance than promised, or when too little was tried.
 #include <algorithm>
 #include <array>
@@ -15,15 +15,15 @@ using namespace contct;
 
 namespace {
 
-/// What the problems of one kind came to.
-struct tally_of_trials {
+/// The verdicts on the problems of one kind.
+struct verdict_counts {
   std::array<long, verdicts> came_to{};
   long problems = 0, from_fallback = 0, snapped = 0, at_rest = 0, events = 0, needed_more = 0;
   double worst = 0.0, factor = 0.0;
 
   void add(const problem_result& t) {
     ++problems;
-    ++came_to[static_cast<std::size_t>(t.came_to)];
+    ++came_to[static_cast<int>(t.came_to)];
     from_fallback += t.fallbacks > 0 ? 1 : 0;
     snapped += t.snaps > 0 ? 1 : 0;
     at_rest += t.at_rest > 0 ? 1 : 0;
@@ -34,7 +34,7 @@ struct tally_of_trials {
   }
 };
 
-void print(const std::string& name, const tally_of_trials& t) {
+void print(const std::string& name, const verdict_counts& t) {
   std::printf("%-24s %8ld", name.c_str(), t.problems);
   for (const long count : t.came_to) std::printf(" %8ld", count);
   std::printf(" %7ld %6ld %8ld %9.1e %6.0f\n", t.from_fallback, t.snapped, t.needed_more, t.worst, t.factor);
@@ -61,16 +61,15 @@ int main(int argc, char** argv) {
   const long problems = argc > 1 ? as_number(argv[1]) : 200000;
   const long seed = argc > 2 ? as_number(argv[2]) : 2026;
   const auto corrected = make_kernel("corrected");
-  std::array<tally_of_trials, 2> by_hold;
-  std::array<std::array<tally_of_trials, face_layouts>, 2> by_layout;
-  tally_of_trials plates;
+  std::array<verdict_counts, 2> by_hold;
+  std::array<std::array<verdict_counts, face_layouts>, 2> by_layout;
+  verdict_counts plates;
   for (long number = 0; number < problems; ++number) {
-    const random_problem p =
-        make_random_problem(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(number));
+    const random_problem p = make_random_problem(seed, number);
     const problem_result t = try_problem(p, *corrected);
     const std::size_t held = p.held ? 0 : 1;
     by_hold[held].add(t);
-    by_layout[held][static_cast<std::size_t>(p.layout)].add(t);
+    by_layout[held][static_cast<int>(p.layout)].add(t);
     if (std::holds_alternative<plate>(p.geometry.kind)) plates.add(t);
     if (t.came_to != verdict::certified && t.came_to != verdict::no_equilibrium) {
       std::printf("problem %ld: %s, needed %.2e\n", number, std::string(name_of(t.came_to)).c_str(),
@@ -91,9 +90,9 @@ int main(int argc, char** argv) {
   }
   print("plates, of these", plates);
 
-  const tally_of_trials& held = by_hold[0];
-  const tally_of_trials& free = by_hold[1];
-  const auto at = [](const tally_of_trials& t, verdict v) { return t.came_to[static_cast<std::size_t>(v)]; };
+  const verdict_counts& held = by_hold[0];
+  const verdict_counts& free = by_hold[1];
+  const auto at = [](const verdict_counts& t, verdict v) { return t.came_to[static_cast<int>(v)]; };
   bool good = expect(at(held, verdict::certified) == held.problems, "every held problem is certified");
   good &= expect(held.from_fallback * 10000 <= held.problems,
                  "the oracle ends at most one held problem in 10,000");

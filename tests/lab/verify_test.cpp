@@ -1,5 +1,5 @@
 // Every problem of reference/problems against its published, closed-form and recomputed numbers.
-#include "contct/lab/verification.hpp"
+#include "contct/lab/verify.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -129,4 +129,70 @@ TEST_CASE(
   e.element = 16;
   e.quantity = "moment";
   CHECK(std::isnan(m.of(e)));
+}
+
+TEST_CASE("a difference is relative to the size of the expected value, and absolute where that is 0") {
+  verified_number n;
+  n.expected.value = 2.0;
+  n.computed = 3.0;
+  CHECK(n.difference() == 0.5);
+  n.expected.value = -4.0;
+  n.computed = -5.0;
+  CHECK(n.difference() == -0.25);
+  n.expected.value = 0.0;
+  n.computed = 1e-3;
+  CHECK(n.difference() == 1e-3);
+}
+
+TEST_CASE("a case passes when all its numbers do and nothing failed; one without numbers does not") {
+  verified_case c;
+  CHECK_FALSE(c.passed());
+  c.numbers.resize(2);
+  c.numbers[0].passed = true;
+  CHECK_FALSE(c.passed());
+  c.numbers[1].passed = true;
+  CHECK(c.passed());
+  c.failure = "FORTRAN and C++ differ";
+  CHECK_FALSE(c.passed());
+}
+
+TEST_CASE("verifying a problem judges each number on FORTRAN's path and on the corrected one") {
+  const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
+  expected_number tip;
+  tip.step = 2;
+  tip.quantity = "w";
+  tip.node = 3;
+  tip.value = -0.00483720930;
+  tip.tolerance = 2e-9;
+  expected_number wrong = tip;
+  wrong.value *= 1 + 1e-8;
+  expected_number differs = wrong;  // what FORTRAN gives is right, what the corrected kernel gives is not
+  differs.faithful = tip.value;
+  const verified_case c = verify_case({"a file", {tip, wrong, differs}}, p);
+  CHECK(c.failure.empty());
+  CHECK(c.calls > 0);
+  CHECK(c.mismatches == 0);
+  REQUIRE(c.numbers.size() == 3);
+  CHECK(c.numbers[0].passed);
+  CHECK(c.numbers[0].certified);
+  CHECK_FALSE(c.numbers[1].passed);
+  CHECK_FALSE(c.numbers[2].passed);
+  CHECK_FALSE(c.passed());
+}
+
+TEST_CASE("a number is described by its quantity and its place") {
+  expected_number e;
+  e.quantity = "w";
+  e.node = 3;
+  CHECK(quantity_words(e) == "w, node 3");
+  e.element = 4;
+  e.place = 1;
+  e.quantity = "moment";
+  CHECK(quantity_words(e) == "moment, element 4.1");
+  e.pair = 2;
+  e.quantity = "force";
+  CHECK(quantity_words(e) == "force, pair 2");
+  e.quantity = "event";
+  e.change = "make";
+  CHECK(quantity_words(e) == "pair 2 makes");
 }

@@ -1,11 +1,37 @@
-#include "contct/lab/atlas_table.hpp"
+#include "contct/lab/atlas_output.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace contct {
 namespace {
+
+using json = nlohmann::ordered_json;
+
+/// A cell without EPSMUL, or without errors, has null there.
+json cell_json(const atlas_cell& c) {
+  const confidence wrong = wilson(c.wrong, c.problems);
+  const confidence uncertified = wilson(c.uncertified, c.problems);
+  return {{"structures", c.held ? "held" : "free"},
+          {"kernel", c.kernel},
+          {"epsmul", c.epsmul == 0.0 ? json() : json(c.epsmul)},
+          {"unit", c.unit},
+          {"problems", c.problems},
+          {"wrong", c.wrong},
+          {"wrong_least", wrong.least},
+          {"wrong_most", wrong.most},
+          {"median_error", c.errors.empty() ? json() : json(median_error(c))},
+          {"worst_error", c.errors.empty() ? json() : json(worst_error(c))},
+          {"false_equilibrium", c.false_equilibrium},
+          {"false_mechanism", c.false_mechanism},
+          {"never_held", c.never_held},
+          {"no_end", c.no_end},
+          {"uncertified", c.uncertified},
+          {"uncertified_least", uncertified.least},
+          {"uncertified_most", uncertified.most}};
+}
 
 constexpr const char* meaning =
     R"(wrong     without a word: at the end of some step a deflection is off, an open
@@ -28,27 +54,27 @@ Nothing holds {} of the {} free structures of unit 1 at the start: fortran can
 only stop there.
 )";
 
-double percent(int part, int whole) {
-  return whole == 0 ? 0.0 : 100.0 * part / whole;
-}
+/// unit or EPSMUL, kernel or unit, tried, wrong with its interval, median and worst error; mechanism, no end,
+/// not certified
+constexpr const char* row_format = "{:<6} {:<10} {:>5} {:>5} {:>10} {:>7} {:>7}  {:>5} {:>6} {:>6}\n";
 
 std::string heading(std::string_view what, std::string_view first, std::string_view second) {
-  return fmt::format(
-      "\n{}\n"
-      "{:<6} {:<10} {:>5} {:>5} {:>10} {:>15}  {:>5} {:>6} {:>6}\n"
-      "{:<6} {:<10} {:>5} {:>5} {:>10} {:>7} {:>7}  {:>5} {:>6} {:>6}\n",
-      what, "", "", "", "wrong", "95 %", "error of wrong", "mech.", "no end", "not", first, second, "tried",
-      "%", "interval", "median", "worst", "%", "%", "cert.%");
+  return fmt::format("\n{}\n{:<6} {:<10} {:>5} {:>5} {:>10} {:>15}  {:>5} {:>6} {:>6}\n", what, "", "", "",
+                     "wrong", "95 %", "error of wrong", "mech.", "no end", "not") +
+         fmt::format(row_format, first, second, "tried", "%", "interval", "median", "worst", "%", "%",
+                     "cert.%");
 }
 
 std::string row(const std::string& first, const std::string& second, const atlas_cell& c) {
   const confidence sure = wilson(c.wrong, c.problems);
   const auto error = [&c](double e) { return c.errors.empty() ? "-" : fmt::format("{:.1e}", e); };
-  return fmt::format("{:<6} {:<10} {:>5} {:>5.1f} {:>10} {:>7} {:>7}  {:>5.1f} {:>6.1f} {:>6.1f}\n", first,
-                     second, c.problems, percent(c.wrong, c.problems),
+  const auto percent = [&c](int part) {
+    return fmt::format("{:.1f}", c.problems == 0 ? 0.0 : 100.0 * part / c.problems);
+  };
+  return fmt::format(row_format, first, second, c.problems, percent(c.wrong),
                      fmt::format("{:.1f}-{:.1f}", 100 * sure.least, 100 * sure.most), error(median_error(c)),
-                     error(worst_error(c)), percent(c.false_mechanism, c.problems),
-                     percent(c.no_end, c.problems), percent(c.uncertified, c.problems));
+                     error(worst_error(c)), percent(c.false_mechanism), percent(c.no_end),
+                     percent(c.uncertified));
 }
 
 /// "1e-12", "1".
@@ -77,6 +103,34 @@ std::string table_over_epsmul(const atlas& a, bool held) {
 }
 
 }  // namespace
+
+std::string atlas_csv(const atlas& a) {
+  std::string text;
+  for (const atlas_cell& c : a.cells) {
+    const json cell = cell_json(c);
+    std::string names;
+    std::string values;
+    for (const auto& [name, value] : cell.items()) {
+      names += (names.empty() ? "" : ",") + name;
+      values += values.empty() ? "" : ",";
+      values += value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
+    }
+    if (text.empty()) text = names + "\n";
+    text += values + "\n";
+  }
+  return text;
+}
+
+std::string atlas_json(const atlas& a) {
+  json cells = json::array();
+  for (const atlas_cell& c : a.cells) cells.push_back(cell_json(c));
+  const json document = {{"format", "contct-atlas-1"},
+                         {"problems", a.request.problems},
+                         {"seed", a.request.seed},
+                         {"wrong_beyond", wrong_beyond},
+                         {"cells", std::move(cells)}};
+  return document.dump(1) + "\n";
+}
 
 std::string atlas_table(const atlas& a, const terminal& t) {
   std::string text = painted(t, paint::strong, "Where the 1989 code goes wrong") +

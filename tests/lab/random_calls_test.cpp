@@ -1,0 +1,113 @@
+// Random and adversarial calls are near the listing's thresholds, and the same everywhere.
+#include "contct/lab/random_calls.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+
+#include "catch.hpp"
+#include "contct/compare/margin.hpp"
+#include "contct/kernel/contct.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// A number that says whether two calls are the same.
+std::uint64_t digest(const call_inputs<double>& in) {
+  std::uint64_t sum = in.pairs();
+  const auto mix = [&sum](double x) {
+    sum = (sum ^ (std::isnan(x) ? 1 : std::bit_cast<std::uint64_t>(x))) * 0x9e3779b97f4a7c15;
+  };
+  for (std::size_t i = 0; i < in.pairs(); ++i) {
+    mix(in.dd[in.dof_of_pair(i)]);
+    mix(in.dtest[in.dof_of_pair(i)]);
+    mix(in.cc[i]);
+    mix(in.isep[i] * 8 + in.isurf[i] + 64 * in.id[i]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("adversarial calls stand on every threshold, and one ULP to either side of it", "", float,
+                   double) {
+  using Real = TestType;
+  adversarial_calls<Real> source(1989);
+  std::map<branch, std::array<int, 3>> near;  // exactly on it; true and false by one ULP
+  std::vector<Real> ss;
+  std::vector<int> isep;
+  std::vector<event> events;
+  for (std::uint64_t n = 1; n <= 40'000; ++n) {
+    const call_inputs<Real>& in = source.at(n);
+    ss.resize(in.pairs());
+    isep = in.isep;
+    events.resize(in.pairs());
+    call<Real> c{in.dd, in.dtest, in.cc, ss, Real(0), in.id, isep, in.isurf, in.dof};
+    (void)contct::contct(c, std::span<event>(events));
+    for (const decision& d : decisions_of<Real>(c, in.isep)) {
+      near[d.what][0] += d.ulps == 0;
+      near[d.what][1] += d.ulps == 1 && d.outcome;
+      near[d.what][2] += d.ulps == 1 && !d.outcome;
+    }
+  }
+  for (const branch b : {branch::no_response, branch::stationary, branch::s_positive, branch::s_is_smallest,
+                         branch::no_events}) {
+    INFO(branch_names[index_of(b)]);
+    CHECK(near[b][0] >= 20);
+    CHECK(near[b][1] + near[b][2] >= 20);
+  }
+  CHECK(near[branch::within_epsmul][0] >= 20);  // one ULP of SS is many of DIFF, whose numbers are closer
+  CHECK(near[branch::check_positive][0] >= 20);
+}
+
+TEST_CASE("a call is a function of the seed and its number alone") {
+  for (const int real_bytes : {4, 8}) {
+    call_source forwards(7, real_bytes);
+    call_source backwards(7, real_bytes);
+    std::map<std::uint64_t, std::uint64_t> seen;
+    for (std::uint64_t n = 1; n <= 200; ++n) seen[n] = digest(forwards.at(n));
+    for (std::uint64_t n = 200; n >= 1; --n) CHECK(digest(backwards.at(n)) == seen[n]);
+    call_source other(8, real_bytes);
+    int same = 0;
+    for (std::uint64_t n = 1; n <= 200; ++n) same += digest(other.at(n)) == seen[n];
+    CHECK(same < 10);  // but for calls without pairs
+  }
+}
+
+TEST_CASE("dofs that no pair addresses are NaN, so that a kernel which reads them is found") {
+  call_source source(1989, 8);
+  for (std::uint64_t n = 1; n <= 50; ++n) {
+    const call_inputs<double>& in = source.at(n);
+    std::vector<char> watched(in.dd.size(), 0);
+    for (std::size_t i = 0; i < in.pairs(); ++i) watched[in.dof_of_pair(i)] = 1;
+    int wrong = 0;
+    for (std::size_t dof = 0; dof < in.dd.size(); ++dof)
+      wrong += watched[dof] == 0 && !(std::isnan(in.dd[dof]) && std::isnan(in.dtest[dof]));
+    CHECK(wrong == 0);
+  }
+}
+
+TEMPLATE_TEST_CASE(
+    "a random call has 1 to 64 pairs in every dof layout, some at their faces and beyond node 999", "", float,
+    double) {
+  random_calls<TestType> source(3);
+  std::map<std::pair<int, int>, int> layouts;
+  int closed = 0, beyond = 0;
+  for (std::uint64_t n = 1; n <= 2000; ++n) {
+    const call_inputs<TestType>& in = source.at(n);
+    REQUIRE(in.pairs() >= 1);
+    REQUIRE(in.pairs() <= 64);
+    ++layouts[{in.dof.indof, in.dof.ndofpn}];
+    for (std::size_t i = 0; i < in.pairs(); ++i) {
+      closed += in.cc[i] == in.dd[in.dof_of_pair(i)] ? 1 : 0;
+      beyond += in.id[i] > 999 ? 1 : 0;
+      REQUIRE(std::abs(in.isep[i]) == 1);
+      REQUIRE(std::abs(in.isurf[i]) == 1);
+    }
+  }
+  CHECK(layouts.size() == 9);
+  CHECK(closed > 2000);
+  CHECK(beyond > 500);
+}
