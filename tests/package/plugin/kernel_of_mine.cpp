@@ -2,7 +2,9 @@
 // plugin.h.
 #include <contct/outside/plugin.h>
 
-#include <contct/kernel/kernel.hpp>
+#include <contct/outside/registry.hpp>
+
+using namespace contct::outside;
 
 int contct_kernel_abi() {
   return CONTCT_KERNEL_ABI;
@@ -12,8 +14,8 @@ void contct_kernel(const double dd[], const double dtest[], const double cc[], d
                    const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof) {
   const auto dofs = static_cast<std::size_t>(ndof);
   const auto pairs = static_cast<std::size_t>(nc);
-  contct::call<double> c{{dd, dofs},  {dtest, dofs}, {cc, pairs},    {ss, pairs},    0,
-                         {id, pairs}, {isep, pairs}, {isurf, pairs}, {indof, ndofpn}};
-  contct::make_kernel("cpp")->answer(c);
+  call<double> c{{dd, dofs},  {dtest, dofs}, {cc, pairs},    {ss, pairs},    0,
+                 {id, pairs}, {isep, pairs}, {isurf, pairs}, {indof, ndofpn}};
+  make_kernel("cpp")->answer(c);
   *smin = c.smin;
 }

@@ -3,6 +3,9 @@
 #include <contct/read/problem_file.hpp>
 #include <cstdio>
 
+using namespace contct::path;
+using namespace contct::read;
+
 namespace {
 
 constexpr const char* text = R"(
@@ -22,21 +25,21 @@ point = [ { node = 3, w = -60.0 } ]
 )";
 
 /// Counts what happens.
-struct event_counter final : contct::observer {
+struct event_counter final : observer {
   int makes = 0;
-  void incremented(const contct::increment& i) override {
-    for (const contct::event& e : i.events) makes += e.what == contct::change::make ? 1 : 0;
+  void incremented(const increment& i) override {
+    for (const event& e : i.events) makes += e.what == change::make ? 1 : 0;
   }
 };
 
 }  // namespace
 
 int main() {
-  const contct::problem p = contct::parse_problem(text, "here");
+  const problem p = parse_problem(text, "here");
   event_counter counter;
-  const auto kernel = contct::make_kernel("cpp");
-  const auto end = contct::follow(p, contct::structure_of(p), "refactor", *kernel, {&counter});
-  const bool solved = end.status == contct::path_status::solved;
+  const auto kernel = make_kernel("cpp");
+  const auto end = follow(p, structure_of(p), "refactor", *kernel, {&counter});
+  const bool solved = end.status == path_status::solved;
   const bool touched = counter.makes == 1;
   std::printf("%d facts, %d wrong\n", 2, 2 - solved - touched);
   return solved && touched ? 0 : 1;
