@@ -102,13 +102,16 @@ std::string words_of(const atlas_cell& c) {
 /// A band, a line and a point for each cell; `decade` is where a cell stands.
 template <class Decade>
 std::string curve(const panel& p, std::span<const atlas_cell> cells, const look& l, Decade decade) {
-  std::string upper, lower, line, points;
+  std::string upper;
+  std::string lower;
+  std::string line;
+  std::string points;
   for (const atlas_cell& c : cells) {
     const confidence sure = wilson(c.wrong, c.problems);
     const double x = p.x(decade(c));
     const double y = p.y(static_cast<double>(c.wrong) / c.problems);
     upper += fmt::format("{:.1f},{:.1f} ", x, p.y(sure.most));
-    lower = fmt::format("{:.1f},{:.1f} ", x, p.y(sure.least)) + lower;
+    lower.insert(0, fmt::format("{:.1f},{:.1f} ", x, p.y(sure.least)));
     line += fmt::format("{:.1f},{:.1f} ", x, y);
     points += mark(l, x, y, R"( class="point")", svg::title(words_of(c)));
   }
@@ -120,7 +123,7 @@ std::string curve(const panel& p, std::span<const atlas_cell> cells, const look&
 /// 10 to the power, with a raised exponent.
 std::string power_of_ten(int decade) {
   if (decade == 0) return "1";
-  return fmt::format("10<tspan dy=\"-5\" font-size=\"10\">{}{}</tspan>", decade < 0 ? "\u2212" : "",
+  return fmt::format(R"(10<tspan dy="-5" font-size="10">{}{}</tspan>)", decade < 0 ? "\u2212" : "",
                      std::abs(decade));
 }
 

@@ -53,6 +53,7 @@ result_json::result_json(const problem& p, const std::vector<std::string>& kerne
 void result_json::step_ended(const step_state& s) {
   const load total = loads_.at(s.step, s.fraction);
   std::vector<double> w;
+  w.reserve(nodes(problem_.geometry));
   for (int node = 0; node < nodes(problem_.geometry); ++node)
     w.push_back(deflection_of(problem_, s.displacement, node));
   document_.open_object();
