@@ -1,4 +1,5 @@
 // contct fuzz: random and adversarial calls and problems, kernels against each other.
+#include "contct/lab/case_files.hpp"
 #include "contct/lab/fuzz.hpp"
 
 #include <fmt/format.h>

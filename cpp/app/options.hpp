@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contct/lab/atlas.hpp"
-#include "contct/lab/fuzz_result.hpp"
+#include "contct/lab/fuzz.hpp"
 #include "contct/write/calculix_deck.hpp"
 
 namespace contct {

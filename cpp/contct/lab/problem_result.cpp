@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "contct/certify/fallback.hpp"
-#include "contct/path/follow_steps.hpp"
+#include "contct/path/solve_problem.hpp"
 
 namespace contct {
 namespace {
