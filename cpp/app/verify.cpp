@@ -16,6 +16,7 @@
 #include "contct/lab/verified.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/text/joined.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
 #include "contct/write/certificate_text.hpp"
@@ -74,7 +75,7 @@ class report {
 
   void add(const verified_case& c) {
     ++cases_;
-    for (const std::string& line : wrap_words(c.title.empty() ? c.file : c.title, terminal_.width)) {
+    for (const std::string& line : wrap({c.title.empty() ? c.file : c.title}, terminal_.width)) {
       say("{}\n", painted(terminal_, paint::strong, line));
     }
     say("{}: {} of {} calls equal to the bit\n", c.file, c.calls - c.mismatches, c.calls);
@@ -103,7 +104,7 @@ class report {
     std::vector<std::string> kinds;
     for (const auto& [kind, count] : by_kind_) kinds.push_back(fmt::format("{} {}", count, kind));
     const std::vector<std::string> counts = {
-        fmt::format("{} numbers in {} problems", numbers_, cases_), fmt::format("{}", fmt::join(kinds, ", ")),
+        fmt::format("{} numbers in {} problems", numbers_, cases_), joined(kinds, ", "),
         fmt::format("{} where the 1989 rule differs, as known", known_), fmt::format("{} failed", failed_)};
     for (const std::string& line : wrap(counts, terminal_.width)) {
       say("{}\n", painted(terminal_, failed_ == 0 ? paint::good : paint::bad, line));
@@ -149,7 +150,7 @@ class report {
     std::string source =
         fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
     if (source != said) {
-      for (const std::string& line : wrap_words(source, terminal_.width - 4)) {
+      for (const std::string& line : wrap({source}, terminal_.width - 4)) {
         say("    {}\n", painted(terminal_, paint::quiet, line));
       }
       said = std::move(source);
@@ -159,7 +160,7 @@ class report {
         painted(terminal_, paint_of(n), mark_of(n)));
     say("\n");
     if (known_to_miss(n)) {
-      for (const std::string& line : wrap_words(e.reason, terminal_.width - 6)) say("      {}\n", line);
+      for (const std::string& line : wrap({e.reason}, terminal_.width - 6)) say("      {}\n", line);
     }
   }
 
@@ -170,20 +171,6 @@ class report {
   static std::string words_of(const expected_number& e, double x) {
     if (e.quantity == "state") return x < 0 ? "contact" : "separated";
     return fmt::format("{:.8g}", x);
-  }
-
-  static std::vector<std::string> wrap_words(const std::string& text, int width) {
-    std::vector<std::string> lines(1);
-    std::size_t from = 0;
-    while (from < text.size()) {
-      const std::size_t end = std::min(text.find(' ', from), text.size());
-      const std::string word = text.substr(from, end - from);
-      if (!lines.back().empty() && static_cast<int>(lines.back().size() + 1 + word.size()) > width)
-        lines.emplace_back();
-      lines.back() += (lines.back().empty() ? "" : " ") + word;
-      from = end + 1;
-    }
-    return lines;
   }
 
   template <class... Arguments>
