@@ -5,13 +5,10 @@
 
 #include "app/commands.hpp"
 #include "contct/solve/engine.hpp"
+#include "contct/text/joined.hpp"
 
 namespace contct {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, " "));
-}
 
 /// For single quotes: a quote ends them, stands for itself, and begins them again.
 std::string shell_quoted(std::string_view text) {
@@ -31,10 +28,10 @@ std::vector<std::string> names_of(const std::vector<option_description>& options
 std::string bash_value(const option_description& o) {
   switch (o.kind) {
     case takes::kernels:
-      return "_contct_list \"$cur\" " + shell_quoted(joined(o.words));
+      return "_contct_list \"$cur\" " + shell_quoted(joined(o.words, " "));
     case takes::engine:
     case takes::word:
-      return "_contct_words \"$cur\" " + shell_quoted(joined(o.words));
+      return "_contct_words \"$cur\" " + shell_quoted(joined(o.words, " "));
     case takes::file:
       return "_contct_files \"$cur\"";
     default:
@@ -64,10 +61,10 @@ bool takes_files(const command_description& c) {
 std::string zsh_action(const option_description& o) {
   switch (o.kind) {
     case takes::kernels:
-      return ":kernels:_values -s , kernel " + joined(o.words);
+      return ":kernels:_values -s , kernel " + joined(o.words, " ");
     case takes::engine:
     case takes::word:
-      return fmt::format(":{}:({})", o.name[0] == '-' ? o.name.substr(2) : o.name, joined(o.words));
+      return fmt::format(":{}:({})", o.name[0] == '-' ? o.name.substr(2) : o.name, joined(o.words, " "));
     case takes::file:
       return ":file:_files";
     case takes::number:
@@ -103,9 +100,65 @@ std::string fish_option(const std::string& command, const option_description& o)
       fmt::format("complete -c contct -n '__fish_seen_subcommand_from {}' -l {}", command, o.name.substr(2));
   if (o.kind == takes::file) text += " -r -F";
   if (o.kind == takes::number) text += " -x";
-  if (!o.words.empty()) text += " -x -a " + shell_quoted(joined(o.words));
+  if (!o.words.empty()) text += " -x -a " + shell_quoted(joined(o.words, " "));
   return text + " -d " + shell_quoted(o.text) + "\n";
 }
+
+/// {0}: what may stand first; {1} and {2}: cases for the values and the names of options; {3}: commands that
+/// take files.
+constexpr const char* bash_script = R"(# Completion of contct for bash; made by: contct completion bash
+_contct_words() {{ mapfile -t COMPREPLY < <(compgen -W "$2" -- "$1"); }}
+_contct_files() {{ compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- "$1"); }}
+# A list with commas: its last word.
+_contct_list() {{
+  local before=''
+  [[ $1 != *,* ]] || before=${{1%,*}},
+  mapfile -t COMPREPLY < <(compgen -P "$before" -W "$2" -- "${{1##*,}}")
+}}
+_contct() {{
+  local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD-1]}} command='' words='' i
+  COMPREPLY=()
+  # bash takes --json=f for three words.
+  if [[ $cur == '=' ]]; then cur=''; elif [[ $prev == '=' ]]; then prev=${{COMP_WORDS[COMP_CWORD-2]}}; fi
+  for ((i = 1; i < COMP_CWORD; i++)); do
+    [[ ${{COMP_WORDS[i]}} == -* ]] || {{ command=${{COMP_WORDS[i]}}; break; }}
+  done
+  if [[ -z $command ]]; then
+    _contct_words "$cur" {0}
+    return
+  fi
+  case $command:$prev in
+{1}  esac
+  case $command in
+{2}  esac
+  if [[ $cur == -* ]]; then _contct_words "$cur" "$words"; return; fi
+  case $command in
+    {3}) _contct_files "$cur" ;;
+    *) _contct_words "$cur" "$words" ;;
+  esac
+}}
+complete -F _contct contct
+)";
+
+/// {0}: the commands; {1}: a case for each.
+constexpr const char* zsh_script = R"(#compdef contct
+# Completion of contct for zsh; made by: contct completion zsh
+_contct() {{
+  local -a commands
+  commands=(
+{0}  )
+  if (( CURRENT == 2 )); then
+    _describe command commands
+    return
+  fi
+  local command=$words[2]
+  shift words
+  (( CURRENT-- ))
+  case $command in
+{1}  esac
+}}
+if [[ $zsh_eval_context[-1] == loadautofunc ]]; then _contct "$@"; else compdef _contct contct; fi
+)";
 
 }  // namespace
 
@@ -117,46 +170,11 @@ std::string bash_completion(const program_description& program) {
   for (const command_description& c : program.commands) {
     names.push_back(c.name);
     values += bash_command(c);
-    options += fmt::format("    {}) words={} ;;\n", c.name, shell_quoted(joined(names_of(c.options))));
+    options += fmt::format("    {}) words={} ;;\n", c.name, shell_quoted(joined(names_of(c.options), " ")));
     if (takes_files(c)) with_files += (with_files.empty() ? "" : "|") + c.name;
   }
-  return "# Completion of contct for bash; made by: contct completion bash\n"
-         "_contct_words() { mapfile -t COMPREPLY < <(compgen -W \"$2\" -- \"$1\"); }\n"
-         "_contct_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- "
-         "\"$1\"); }\n"
-         "# A list with commas: its last word.\n"
-         "_contct_list() {\n"
-         "  local before=''\n"
-         "  [[ $1 != *,* ]] || before=${1%,*},\n"
-         "  mapfile -t COMPREPLY < <(compgen -P \"$before\" -W \"$2\" -- \"${1##*,}\")\n"
-         "}\n"
-         "_contct() {\n"
-         "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command='' words='' i\n"
-         "  COMPREPLY=()\n"
-         "  # bash takes --json=f for three words.\n"
-         "  if [[ $cur == '=' ]]; then cur=''; elif [[ $prev == '=' ]]; then "
-         "prev=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
-         "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
-         "    [[ ${COMP_WORDS[i]} == -* ]] || { command=${COMP_WORDS[i]}; break; }\n"
-         "  done\n"
-         "  if [[ -z $command ]]; then\n"
-         "    _contct_words \"$cur\" " +
-         shell_quoted(joined(names) + " " + joined(names_of(program.options))) +
-         "\n    return\n  fi\n"
-         "  case $command:$prev in\n" +
-         values +
-         "  esac\n"
-         "  case $command in\n" +
-         options +
-         "  esac\n"
-         "  if [[ $cur == -* ]]; then _contct_words \"$cur\" \"$words\"; return; fi\n"
-         "  case $command in\n    " +
-         with_files +
-         ") _contct_files \"$cur\" ;;\n"
-         "    *) _contct_words \"$cur\" \"$words\" ;;\n"
-         "  esac\n"
-         "}\n"
-         "complete -F _contct contct\n";
+  const std::string first_words = joined(names, " ") + " " + joined(names_of(program.options), " ");
+  return fmt::format(bash_script, shell_quoted(first_words), values, options, with_files);
 }
 
 std::string zsh_completion(const program_description& program) {
@@ -166,26 +184,7 @@ std::string zsh_completion(const program_description& program) {
     commands += "    " + shell_quoted(c.name + ":" + zsh_text(c.text)) + "\n";
     arguments += fmt::format("    {})\n      {} ;;\n", c.name, zsh_arguments(c));
   }
-  return "#compdef contct\n"
-         "# Completion of contct for zsh; made by: contct completion zsh\n"
-         "_contct() {\n"
-         "  local -a commands\n"
-         "  commands=(\n" +
-         commands +
-         "  )\n"
-         "  if (( CURRENT == 2 )); then\n"
-         "    _describe command commands\n"
-         "    return\n"
-         "  fi\n"
-         "  local command=$words[2]\n"
-         "  shift words\n"
-         "  (( CURRENT-- ))\n"
-         "  case $command in\n" +
-         arguments +
-         "  esac\n"
-         "}\n"
-         "if [[ $zsh_eval_context[-1] == loadautofunc ]]; then _contct \"$@\"; else compdef _contct contct; "
-         "fi\n";
+  return fmt::format(zsh_script, commands, arguments);
 }
 
 std::string fish_completion(const program_description& program) {
@@ -200,7 +199,7 @@ std::string fish_completion(const program_description& program) {
                         shell_quoted(c.text));
     for (const option_description& o : c.options) text += fish_option(c.name, o);
     for (const option_description& p : c.positionals) {
-      const std::string what = p.kind == takes::file ? "-F" : "-a " + shell_quoted(joined(p.words));
+      const std::string what = p.kind == takes::file ? "-F" : "-a " + shell_quoted(joined(p.words, " "));
       text += fmt::format("complete -c contct -n '__fish_seen_subcommand_from {}' {}\n", c.name, what);
     }
   }

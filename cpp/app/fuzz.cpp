@@ -17,6 +17,7 @@
 #include "contct/lab/fuzz_json.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/text/joined.hpp"
 #include "contct/text/terminal.hpp"
 
 namespace contct {
@@ -35,7 +36,7 @@ void read_shard(const std::string& text, fuzz_request& r) {
 /// The line that runs the same again.
 std::string command_of(const fuzz_request& r) {
   return fmt::format("contct fuzz --kernels {} --calls {} --problems {} --seed {} --shard {}/{}",
-                     fmt::join(r.kernels, ","), r.calls, r.problems, r.seed, r.shard, r.shards);
+                     joined(r.kernels, ","), r.calls, r.problems, r.seed, r.shard, r.shards);
 }
 
 fuzz_run fuzzed(const fuzz_request& request, bool quiet) {
@@ -63,9 +64,9 @@ check_report report_of(const fuzz_result& r, const std::string& missed) {
   report.facts.push_back(command_of(r.request));
   for (const fuzz_follower& f : r.followers) {
     const bool equal = f.compared.mismatches == 0;
-    report.results.push_back(
-        {f.name + " against " + r.request.kernels[0], equal ? outcome::passed : outcome::failed,
-         follower_words(f, r.request.kernels[0]), fmt::format("{}", fmt::join(f.mismatch_reports, "\n"))});
+    report.results.push_back({f.name + " against " + r.request.kernels[0],
+                              equal ? outcome::passed : outcome::failed,
+                              follower_words(f, r.request.kernels[0]), joined(f.mismatch_reports, "\n")});
   }
   report.results.push_back(
       {"floors", missed.empty() ? outcome::passed : outcome::failed,

@@ -4,6 +4,7 @@
 #include "app/commands.hpp"
 #include "app/examples.hpp"
 #include "contct/solve/engine.hpp"
+#include "contct/text/joined.hpp"
 #include "contct/text/terminal.hpp"
 
 namespace contct {
@@ -40,7 +41,7 @@ std::string option_entry(const option_description& o) {
   if (!o.value.empty() && o.name[0] == '-') text += " \\fI" + roff(o.value) + "\\fR";
   std::string says = o.text + ".";
   if (!o.default_value.empty()) says += " Usually " + o.default_value + ".";
-  if (!o.words.empty()) says += fmt::format(" There are: {}.", fmt::join(o.words, ", "));
+  if (!o.words.empty()) says += fmt::format(" There are: {}.", joined(o.words, ", "));
   return text + "\n" + filled(says);
 }
 

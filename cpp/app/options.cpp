@@ -10,6 +10,7 @@
 #include "app/usage.hpp"
 #include "contct/kernel/built_in.hpp"
 #include "contct/path/path.hpp"
+#include "contct/text/joined.hpp"
 
 namespace contct {
 namespace {
@@ -202,7 +203,7 @@ void contct_parser::declare_run() {
   add_kernels(c, "--kernels", run_.kernels, "Kernels to run, the first one leads")->capture_default_str();
   add(c, takes::engine, "--engine", run_.engine,
       fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto for others]",
-                  fmt::join(engines_, ", ")),
+                  joined(engines_, ", ")),
       engines_);
   CLI::Option* const free_run =
       c->add_flag("--free-run", run_.free_run,

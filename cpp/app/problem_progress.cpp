@@ -10,6 +10,7 @@
 
 #include "app/streams.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
 
 namespace contct {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/progress.hpp"
 #include "contct/path/observer.hpp"
-#include "contct/read/problem_file.hpp"
+#include "contct/structure/problem.hpp"
 #include "contct/structure/structure.hpp"
 
 namespace contct {

@@ -24,6 +24,7 @@
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/text/joined.hpp"
 #include "contct/write/certificate_text.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/table.hpp"
@@ -165,7 +166,7 @@ void print_heading(const run_setup& run) {
   const std::vector<std::string> facts = {
       fmt::format("{}, {}, {}", counted(nodes(run.what.geometry), node_name(run.what.geometry)),
                   counted(run.what.pairs.size(), "pair"), counted(run.what.steps.size(), "step")),
-      run.kernels.empty() ? "only the end" : fmt::format("kernels {}", fmt::join(run.kernels, ", ")),
+      run.kernels.empty() ? "only the end" : fmt::format("kernels {}", joined(run.kernels, ", ")),
       "engine " + run.engine + (run.structure.stiffness.is_band() ? "" : ", sparse")};
   for (const std::string& line : wrap(facts, run.screen.width)) fmt::print("{}\n", line);
   fmt::print("\n");
@@ -209,7 +210,7 @@ struct comparison {
 /// Print how the comparison came out. A mismatch under a bad probe is the environment's.
 comparison report_lockstep(observed_run& o, const lockstep& compared) {
   const tally& t = compared.compared();
-  const std::string names = fmt::format("{}", fmt::join(o.run.kernels, " and "));
+  const std::string names = joined(o.run.kernels, " and ");
   comparison c{
       t.mismatches == 0,
       fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(), t.values, t.mismatches),
@@ -267,14 +268,14 @@ void report_certificate(observed_run& o) {
 check_result certificate_result(const observed_run& o) {
   if (o.judged.all_exact()) return {"certificate", outcome::passed, "every final state is certified", ""};
   return {"certificate", o.run.options.strict ? outcome::failed : outcome::skipped, "NOT certified",
-          fmt::format("{}", fmt::join(certificate_complaints(o.run.what, o.judged, o.early), "\n"))};
+          joined(certificate_complaints(o.run.what, o.judged, o.early), "\n")};
 }
 
 /// The report for --junit and --markdown.
 check_report check_report_of(const observed_run& o, const path_end& end, const comparison& c) {
   const run_setup& run = o.run;
   check_report r{"contct run", common_facts(), {}, 0.0};
-  r.facts.push_back(fmt::format("{}: kernels {}", run.options.file, fmt::join(run.kernels, ", ")));
+  r.facts.push_back(fmt::format("{}: kernels {}", run.options.file, joined(run.kernels, ", ")));
   if (run.kernels.size() > 1)
     r.results.push_back({"kernels", c.equal ? outcome::passed : outcome::failed, c.words, c.differences});
   const std::string ended = end_words(run.what, end);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "contct/text/did_you_mean.hpp"
+#include "contct/text/joined.hpp"
 
 namespace contct {
 namespace {
@@ -54,7 +55,7 @@ std::string usage_words(const program_description& program, const std::string& c
                                   [&](const command_description& c) { return c.name == command; });
   if (named != program.commands.end()) return error + meant_option(unknown, named->options) + advice;
   return fmt::format("{}; the commands are: {}{}", missing_command(program, unknown),
-                     fmt::join(names_of(program.commands), ", "), advice);
+                     joined(names_of(program.commands), ", "), advice);
 }
 
 }  // namespace contct

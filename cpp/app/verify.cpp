@@ -16,6 +16,7 @@
 #include "contct/lab/verify.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/text/joined.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
 #include "contct/write/json_document.hpp"
@@ -103,7 +104,7 @@ class report {
     std::vector<std::string> kinds;
     for (const auto& [kind, count] : by_kind_) kinds.push_back(fmt::format("{} {}", count, kind));
     const std::vector<std::string> counts = {
-        fmt::format("{} numbers in {} problems", numbers_, cases_), fmt::format("{}", fmt::join(kinds, ", ")),
+        fmt::format("{} numbers in {} problems", numbers_, cases_), joined(kinds, ", "),
         fmt::format("{} where the 1989 rule differs, as known", known_), fmt::format("{} failed", failed_)};
     for (const std::string& line : wrap(counts, terminal_.width)) {
       say("{}\n", painted(terminal_, failed_ == 0 ? paint::good : paint::bad, line));

@@ -151,8 +151,7 @@ class deck_writer {
 
   template <class... Arguments>
   void line(fmt::format_string<Arguments...> words, Arguments&&... arguments) {
-    fmt::format_to(std::back_inserter(text_), words, std::forward<Arguments>(arguments)...);
-    text_ += '\n';
+    text_ += fmt::format(words, std::forward<Arguments>(arguments)...) + '\n';
   }
 
   void write_heading() {

@@ -1,0 +1,92 @@
+// How a path ended, in words and as an exit status, without running the program.
+#include "app/exit_messages.hpp"
+
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+/// A beam with ten pairs, at nodes 2 to 11, below and above in turn.
+problem ten_pairs() {
+  std::string text =
+      "[beam]\nlength = 10.0\nelements = 10\nEI = 1.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
+  for (int node = 2; node <= 11; ++node)
+    text += "[[contact]]\nnode = " + std::to_string(node) +
+            "\nsurface = " + (node % 2 == 0 ? "\"below\"\nface = -1.0" : "\"above\"\nface = 1.0") +
+            "\nstiffness = 1.0\n";
+  return parse_problem(text + "[[step]]\nuniform = 1.0\n", "ten.toml");
+}
+
+path_end ended(path_status status, std::vector<int> pairs = {}, double fraction = 0.25) {
+  path_end end;
+  end.status = status;
+  end.step = 3;
+  end.fraction = fraction;
+  end.pairs = std::move(pairs);
+  return end;
+}
+
+step_state state_with(double rcond, int step) {
+  return {step, 1.0, {}, {}, rcond, false};
+}
+
+}  // namespace
+
+TEST_CASE("a path that reached its end has nothing to say") {
+  CHECK(end_words(ten_pairs(), ended(path_status::solved)).empty());
+}
+
+TEST_CASE("every other end is told with its step, its share, and its pairs by number, node and surface") {
+  const problem p = ten_pairs();
+  for (const path_status status :
+       {path_status::mechanism, path_status::cycle, path_status::iteration_limit, path_status::not_factored})
+    CHECK_THAT(end_words(p, ended(status, {0, 1})), StartsWith("step 3, at share 0.25 of its load: "));
+  CHECK_THAT(end_words(p, ended(path_status::mechanism, {0, 1})),
+             Contains("no equilibrium") && Contains("pair 1 (node 2, below), pair 2 (node 3, above)"));
+  CHECK_THAT(end_words(p, ended(path_status::cycle, {9})), Contains("pair 10 (node 11, above)"));
+  CHECK_THAT(end_words(p, ended(path_status::iteration_limit)),
+             Contains("--max-increments") && Contains("none"));
+  CHECK_THAT(end_words(p, ended(path_status::not_factored)), Contains("ill-conditioned"));
+}
+
+TEST_CASE("of many pairs eight are named and the others counted") {
+  const std::string words = end_words(ten_pairs(), ended(path_status::cycle, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  CHECK_THAT(words, Contains("pair 8 (") && Contains(" and 2 more") && !Contains("pair 9 ("));
+  CHECK_THAT(end_words(ten_pairs(), ended(path_status::cycle, {0, 1, 2, 3, 4, 5, 6, 7})), !Contains("more"));
+}
+
+TEST_CASE("a structure that nothing held from the start is sent to the corrected rule") {
+  CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism)),
+             Contains("rigid body") && Contains("--kernels corrected"));
+}
+
+TEST_CASE("only at a standstill may the 1989 rule have passed by an equilibrium") {
+  CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism, {0}, 0.0)), Contains("standstill"));
+  CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism, {0}, 0.5)), !Contains("standstill"));
+}
+
+TEST_CASE("the exit status tells a mechanism from a limit and from bad numbers") {
+  CHECK(status_of(path_status::solved) == exit_status::solved);
+  CHECK(status_of(path_status::mechanism) == exit_status::mechanism);
+  CHECK(status_of(path_status::cycle) == exit_status::iteration_limit);
+  CHECK(status_of(path_status::iteration_limit) == exit_status::iteration_limit);
+  CHECK(status_of(path_status::not_factored) == exit_status::bad_input);
+}
+
+TEST_CASE("the step with the fewest digits is warned of, once they are fewer than five") {
+  digit_watch watch;
+  watch.step_ended(state_with(1e-3, 1));
+  CHECK(watch.warning().empty());
+  watch.step_ended(state_with(1e-13, 2));
+  watch.step_ended(state_with(1e-9, 3));
+  CHECK_THAT(watch.warning(), StartsWith("step 2: ") && Contains("rcond 1.0e-13"));
+  watch.step_ended(state_with(1e-17, 4));
+  CHECK_THAT(watch.warning(), StartsWith("step 4: no digit "));
+}

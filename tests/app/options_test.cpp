@@ -1,0 +1,196 @@
+// The options of both programs, as data: what a command line comes to, and what the manual is made of.
+#include "app/options.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "contct/kernel/built_in.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+using words = std::vector<std::string>;
+const words engines = {"refactor", "updated"};
+
+std::vector<const char*> arguments_of(const words& line) {
+  std::vector<const char*> arguments;
+  for (const std::string& word : line) arguments.push_back(word.c_str());
+  return arguments;
+}
+
+command_options parse(words line) {
+  line.insert(line.begin(), "contct");
+  return parse_contct(static_cast<int>(line.size()), arguments_of(line).data(), engines);
+}
+
+/// The options of one command; the test fails where the line asks for something else.
+template <class Options>
+Options parsed(const words& line) {
+  const command_options asked = parse(line);
+  REQUIRE(std::holds_alternative<Options>(asked));
+  return std::get<Options>(asked);
+}
+
+/// What is said of a line that has no meaning.
+std::string refusal(const words& line) {
+  try {
+    (void)parse(line);
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+const command_description& command_in(const program_description& program, const std::string& name) {
+  const auto found = std::find_if(program.commands.begin(), program.commands.end(),
+                                  [&](const command_description& c) { return c.name == name; });
+  REQUIRE(found != program.commands.end());
+  return *found;
+}
+
+const option_description& option_in(const std::vector<option_description>& all, const std::string& name) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const option_description& o) { return o.name == name; });
+  INFO(name);
+  REQUIRE(found != all.end());
+  return *found;
+}
+
+}  // namespace
+
+TEST_CASE("a bare contct run compares FORTRAN with C++ and writes no file") {
+  const auto o = parsed<run_options>({"run", "beam.toml"});
+  CHECK(o.file == "beam.toml");
+  CHECK(o.kernels == words{"fortran", "cpp"});
+  CHECK(o.engine.empty());
+  CHECK(o.json.empty());
+  CHECK(o.log.empty());
+  CHECK(o.trace.empty());
+  CHECK_FALSE(o.pictures.wants_frames());
+  CHECK_FALSE((o.free_run || o.final_only || o.strict || o.report.quiet));
+  CHECK(o.max_increments == 0);
+}
+
+TEST_CASE("the options of contct run arrive where they belong, in any order") {
+  const auto o = parsed<run_options>(
+      {"run",     "--kernels", "cpp,corrected", "--strict",  "beam.toml",  "--max-increments=7",
+       "--svg",   "s",         "--csv",         "c",         "--vtu",      "v.vtu",
+       "--html",  "h",         "--json",        "j",         "--log",      "l",
+       "--trace", "t",         "--junit",       "u",         "--markdown", "m",
+       "--quiet", "--engine",  "auto",          "--free-run"});
+  CHECK(o.kernels == words{"cpp", "corrected"});
+  CHECK(o.file == "beam.toml");
+  CHECK(words{o.pictures.svg, o.pictures.csv, o.pictures.vtu, o.pictures.html} ==
+        words{"s", "c", "v.vtu", "h"});
+  CHECK(words{o.json, o.log, o.trace, o.report.junit, o.report.markdown} == words{"j", "l", "t", "u", "m"});
+  CHECK((o.strict && o.free_run && o.report.quiet));
+  CHECK(o.engine == "auto");
+  CHECK(o.max_increments == 7);
+}
+
+TEST_CASE("a final state has no path, so --final-only excludes what belongs to one") {
+  CHECK(parsed<run_options>({"run", "f", "--final-only", "--json", "j", "--strict"}).final_only);
+  const std::vector<words> of_a_path = {{"--free-run"},           {"--kernels", "cpp"}, {"--engine", "auto"},
+                                        {"--trace", "t"},         {"--log", "l"},       {"--html", "h"},
+                                        {"--svg", "s"},           {"--csv", "c"},       {"--vtu", "v.vtu"},
+                                        {"--max-increments", "3"}};
+  for (const words& option : of_a_path) {
+    words line = {"run", "f", "--final-only"};
+    line.insert(line.end(), option.begin(), option.end());
+    CHECK_THAT(refusal(line), Contains("excludes") && Contains(option[0]) && Contains("--final-only"));
+  }
+}
+
+TEST_CASE("numbers that are not given are told from numbers that are") {
+  CHECK_FALSE(parsed<explain_options>({"explain", "f"}).step.has_value());
+  CHECK(parsed<explain_options>({"explain", "f", "--step", "0"}).step == 0);
+  CHECK(parsed<explain_options>({"explain", "f", "--increment", "2.1"}).increment == "2.1");
+  CHECK_FALSE(parsed<fuzz_options>({"fuzz"}).problems.has_value());
+  CHECK(parsed<fuzz_options>({"fuzz", "--problems", "0"}).problems == 0);
+  CHECK(parsed<export_options>({"export", "f", "--calculix", "c"}).choice.step == 0);
+}
+
+TEST_CASE("numbers outside their range are refused, with the range") {
+  CHECK_THAT(refusal({"run", "f", "--max-increments", "0"}), Contains("--max-increments"));
+  CHECK_THAT(refusal({"atlas", "--problems", "1000001"}), Contains("1000000"));
+  CHECK_THAT(refusal({"atlas", "--seed", "-1"}), Contains("found -1; allowed: a whole number, at least 0"));
+  CHECK_THAT(refusal({"fuzz", "--calls", "0"}), Contains("--calls"));
+  CHECK_THAT(refusal({"export", "f", "--calculix", "c", "--refine", "65"}), Contains("64"));
+  CHECK_THAT(refusal({"completion", "tcsh"}), Contains("tcsh") && Contains("bash"));
+}
+
+TEST_CASE("--help and --version are texts, not commands") {
+  const auto help = parsed<printed_text>({"--help"}).text;
+  for (const char* command : {"run", "explain", "new", "verify", "fuzz", "replay", "atlas", "export",
+                              "kernels", "completion", "man"})
+    CHECK_THAT(help, Contains("\n  " + std::string(command) + " "));
+  CHECK_THAT(help, Contains("Examples:\n  contct run beam.toml\n"));
+  CHECK_THAT(parsed<printed_text>({"run", "--help"}).text, Contains("--max-increments"));
+  CHECK_THAT(parsed<printed_text>({"--version"}).text, StartsWith("contct ") && Contains("listing sha256 "));
+}
+
+TEST_CASE("a line that has no meaning is refused with what may have been meant") {
+  CHECK_THAT(refusal({"rnu"}),
+             StartsWith("\"rnu\" is no command of contct (did you mean \"run\"?); the commands "
+                        "are: run, explain, "));
+  CHECK_THAT(refusal({"--versoin"}),
+             StartsWith("\"--versoin\" is no option of contct (did you mean \"--version\"?)"));
+  CHECK_THAT(refusal({"walk"}), !Contains("did you mean"));
+  CHECK_THAT(refusal({}), StartsWith("a command is missing; the commands are: "));
+  CHECK_THAT(refusal({"run", "f", "--josn=x"}),
+             Contains("--josn=x") && Contains("(did you mean \"--json\"?)"));
+  CHECK_THAT(refusal({"run"}), Contains("FILE is required") && Contains("Run with --help"));
+}
+
+TEST_CASE("contct-replay takes what contct replay takes") {
+  const words after = {"--kernel", "fortran,cpp", "a.trace", "b.trace", "--junit", "j"};
+  const auto of_contct = [&] {
+    words line = {"replay"};
+    line.insert(line.end(), after.begin(), after.end());
+    return parsed<replay_options>(line);
+  }();
+  words line = {"contct-replay"};
+  line.insert(line.end(), after.begin(), after.end());
+  const auto alone =
+      std::get<replay_options>(parse_contct_replay(static_cast<int>(line.size()), arguments_of(line).data()));
+  for (const replay_options& o : {of_contct, alone}) {
+    CHECK(o.kernels == words{"fortran", "cpp"});
+    CHECK(o.traces == words{"a.trace", "b.trace"});
+    CHECK(o.report.junit == "j");
+  }
+  const std::vector<const char*> wrong = {"contct-replay", "a.trace", "--junti", "j"};
+  CHECK_THROWS_WITH(parse_contct_replay(static_cast<int>(wrong.size()), wrong.data()),
+                    Contains("(did you mean \"--junit\"?)") && !Contains("the commands are"));
+}
+
+TEST_CASE("every option is described with the kind of argument that it takes") {
+  const program_description program = describe_contct(engines);
+  CHECK(program.commands.size() == 11);
+  for (const command_description& c : program.commands) {
+    for (const option_description& o : c.options) {
+      INFO(c.name << " " << o.name);
+      CHECK_FALSE(o.text.empty());
+      CHECK((o.kind == takes::nothing) == o.value.empty());
+      const bool has_list = o.kind == takes::kernels || o.kind == takes::engine || o.kind == takes::word;
+      CHECK(has_list != o.words.empty());
+    }
+    CHECK(option_in(c.options, "--help").kind == takes::nothing);
+  }
+  const command_description& run = command_in(program, "run");
+  CHECK(option_in(run.options, "--kernels").words == kernel_names());
+  CHECK(option_in(run.options, "--kernels").default_value == "[fortran,cpp]");
+  CHECK(option_in(run.options, "--engine").words == words{"auto", "refactor", "updated"});
+  CHECK(option_in(run.options, "--max-increments").kind == takes::number);
+  CHECK(option_in(run.options, "--max-increments").value == "INT");
+  CHECK(option_in(run.options, "--vtu").kind == takes::file);
+  CHECK(option_in(run.options, "--strict").kind == takes::nothing);
+  CHECK(option_in(run.positionals, "FILE").required);
+  CHECK_FALSE(option_in(command_in(program, "new").positionals, "FILE").required);
+  CHECK(option_in(command_in(program, "completion").positionals, "SHELL").words ==
+        words{"bash", "zsh", "fish"});
+}
