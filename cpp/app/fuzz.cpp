@@ -1,5 +1,4 @@
 // contct fuzz: random and adversarial calls and problems, kernels against each other.
-#include "contct/lab/case_files.hpp"
 #include "contct/lab/fuzz.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/streams.hpp"
+#include "contct/lab/case_files.hpp"
 #include "contct/lab/fuzz_json.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"

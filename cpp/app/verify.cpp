@@ -1,4 +1,6 @@
 // contct verify: every problem in reference/ against its published, closed-form and recomputed numbers.
+#include "contct/lab/verify.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/streams.hpp"
-#include "contct/lab/verify.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/joined.hpp"

@@ -30,8 +30,8 @@ told_state right_state(const beam_problem& p, const load& l) {
   const linear_structure s = p.structure();
   std::vector<double> f(static_cast<std::size_t>(s.dofs()), 0.0);
   add_consistent_loads(p.geometry, l, f);
-  const oracle_answer a = oracle(s).solve(f);
-  REQUIRE(a.how == oracle_answer::outcome::found);
+  const reference_answer a = reference_solver(s).solve(f);
+  REQUIRE(a.how == reference_answer::outcome::found);
   told_state t{a.displacement, {}};
   for (const char pressed : a.pressed) t.isep.push_back(pressed != 0 ? in_contact : separated);
   return t;

@@ -12,7 +12,7 @@
 #include "support/every_set.hpp"
 
 using namespace contct;
-using outcome = oracle_answer::outcome;
+using outcome = reference_answer::outcome;
 
 namespace {
 
@@ -98,13 +98,13 @@ double work_on_free_motions(const random_problem& p, std::span<const double> f) 
 TEST_CASE("the oracle has PB1's hand calculation at every step, loading, unloading and reversed") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
-  oracle o(s);
+  reference_solver o(s);
   const double f = 8.0 / 3 / 1e4;
   const auto pressed = [&](double load) { return (load * f - 0.004) / (f + 1 / 5e4); };
   const double tips[] = {-10 * f, -0.004 - pressed(60) / 5e4, -0.004 - pressed(30) / 5e4, 20 * f};
   const char presses[] = {0, 1, 1, 0};
   for (std::size_t step = 0; step < 4; ++step) {
-    const oracle_answer a = o.solve(forces_of(p.geometry, p.steps[step]));
+    const reference_answer a = o.solve(forces_of(p.geometry, p.steps[step]));
     CHECK(a.how == outcome::found);
     CHECK(a.unique);
     CHECK(a.displacement[4] == Approx(tips[step]).epsilon(1e-14));
@@ -115,11 +115,11 @@ TEST_CASE("the oracle has PB1's hand calculation at every step, loading, unloadi
 TEST_CASE("the oracle has PB6's closed form: a span over a settled middle support") {
   beam_problem p{even_beam(10.0, 10, 5e6), {{0, 0, true}, {10, 0, true}}, {{5, -1, -0.02, 2e6, false}}, {}};
   const linear_structure s = p.structure();
-  oracle o(s);
+  reference_solver o(s);
   for (const double q : {400.0, 767.0, 769.0, 1600.0, 3200.0, 800.0, 0.0}) {
     const double without = 5 * q * 1e4 / 384 / 5e6;
     const double force = std::max(0.0, (without - 0.02) / (1000.0 / 48 / 5e6 + 1 / 2e6));
-    const oracle_answer a = o.solve(forces_of(p.geometry, even_load(-q)));
+    const reference_answer a = o.solve(forces_of(p.geometry, even_load(-q)));
     INFO(q);
     CHECK(a.how == outcome::found);
     CHECK(a.displacement[10] == Approx(-without + force * 1000 / 48 / 5e6).epsilon(1e-13).margin(1e-30));
@@ -137,12 +137,12 @@ TEST_CASE("of all sets of closed pairs the oracle finds the one that is right: t
     const random_problem p = make_random_problem(11, number, small_beams(0.0));
     if (p.pairs.size() > 8) continue;
     const linear_structure s = build(p.geometry, p.supports, p.pairs);
-    oracle o(s);
+    reference_solver o(s);
     comparison c;  // over all steps: unloaded, a structure has no size
     for (const load& l : p.steps) {
       const std::vector<double> f = forces_of(p.geometry, l);
       const equilibrium truth = least_wrong(s, f, true);
-      const oracle_answer a = o.solve(f);
+      const reference_answer a = o.solve(f);
       INFO(number);
       REQUIRE(truth.wrong < 1e-10L);
       REQUIRE(a.how == outcome::found);
@@ -180,12 +180,12 @@ TEST_CASE("of all sets of closed pairs the oracle finds the one that is right: s
     // its deflection is rounding.
     if (p.pairs.size() > 6 || p.supports.size() == 8) continue;
     const linear_structure s = build(p.geometry, p.supports, p.pairs);
-    oracle o(s);
+    reference_solver o(s);
     comparison c{3};
     for (const load& l : p.steps) {
       const std::vector<double> f = forces_of(p.geometry, l);
       const equilibrium truth = least_wrong(s, f, true);
-      const oracle_answer a = o.solve(f);
+      const reference_answer a = o.solve(f);
       INFO(number);
       REQUIRE(truth.wrong < 1e-10L);
       REQUIRE(a.how == outcome::found);
@@ -211,12 +211,12 @@ TEST_CASE("held by pairs alone, a beam has the right equilibrium where there is 
     const random_problem p = make_random_problem(12, number, small_beams(1.0));
     if (p.pairs.size() > 8) continue;
     const linear_structure s = build(p.geometry, p.supports, p.pairs);
-    oracle o(s);
+    reference_solver o(s);
     comparison c;
     for (const load& l : p.steps) {
       const std::vector<double> f = forces_of(p.geometry, l);
       const double driven = work_on_free_motions(p, f);
-      const oracle_answer a = o.solve(f);
+      const reference_answer a = o.solve(f);
       INFO(number << ", work " << driven);
       if (driven > 1e-9) {
         ++none;
@@ -263,7 +263,7 @@ TEST_CASE("where the plain active set goes round in circles the oracle ends, at 
   REQUIRE_FALSE(plain.ends);
   CHECK(plain.nearest_face > 0.005);
   const equilibrium truth = least_wrong(s, f, true);
-  const oracle_answer a = oracle(s).solve(f);
+  const reference_answer a = reference_solver(s).solve(f);
   CHECK(a.how == outcome::found);
   CHECK(a.pressed == std::vector<char>{0, 0, 1, 0});
   CHECK(truth.set == 4U);
@@ -291,7 +291,7 @@ TEST_CASE("plain active sets that cycle are not so rare, and where they do the o
     ++tried;
     if (plain.ends || plain.nearest_face < 1e-6L) continue;
     ++cycles;
-    const oracle_answer a = oracle(s).solve(f);
+    const reference_answer a = reference_solver(s).solve(f);
     INFO(number);
     REQUIRE(a.how == outcome::found);
     pair_bits pressed = 0;
@@ -310,7 +310,7 @@ TEST_CASE("a free beam lifted off its faces, or tipped off them, has no equilibr
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
   for (const load& l : {even_load(1.0), load{{{0, 0, -1.0}, {2, 0, 2.0}}, {}}, load{{{2, 1, 1.0}}, {}}}) {
-    const oracle_answer a = oracle(s).solve(forces_of(p.geometry, l));
+    const reference_answer a = reference_solver(s).solve(forces_of(p.geometry, l));
     CHECK(a.how == outcome::no_equilibrium);
     CHECK_FALSE(a.unique);
   }
@@ -319,10 +319,10 @@ TEST_CASE("a free beam lifted off its faces, or tipped off them, has no equilibr
 TEST_CASE("after a load without equilibrium the oracle has the next one's") {
   const beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
-  oracle o(s);
+  reference_solver o(s);
   CHECK(o.solve(forces_of(p.geometry, even_load(1.0))).how == outcome::no_equilibrium);
-  const oracle_answer after = o.solve(forces_of(p.geometry, even_load(-1.0)));
-  const oracle_answer alone = oracle(s).solve(forces_of(p.geometry, even_load(-1.0)));
+  const reference_answer after = o.solve(forces_of(p.geometry, even_load(-1.0)));
+  const reference_answer alone = reference_solver(s).solve(forces_of(p.geometry, even_load(-1.0)));
   CHECK(after.how == outcome::found);
   CHECK(after.unique);
   for (std::size_t dof = 0; dof < after.displacement.size(); ++dof)
@@ -336,7 +336,7 @@ TEST_CASE("a beam dropped onto stops below it comes to rest on them") {
                  {{0, face_below, -0.1, 50.0, false}, {4, face_below, -0.3, 50.0, false}},
                  {}};
   const linear_structure s = p.structure();
-  const oracle_answer a = oracle(s).solve(forces_of(p.geometry, tip_load(3, -8.0)));
+  const reference_answer a = reference_solver(s).solve(forces_of(p.geometry, tip_load(3, -8.0)));
   CHECK(a.how == outcome::found);
   CHECK(a.unique);
   CHECK(a.displacement[0] == Approx(-0.1 - 2.0 / 50).epsilon(1e-13));
@@ -346,34 +346,34 @@ TEST_CASE("a beam dropped onto stops below it comes to rest on them") {
 TEST_CASE("balanced on one pair an equilibrium is found, and known to be one of many") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   const linear_structure s = p.structure();
-  const oracle_answer a = oracle(s).solve(forces_of(p.geometry, even_load(-2.0)));
+  const reference_answer a = reference_solver(s).solve(forces_of(p.geometry, even_load(-2.0)));
   CHECK(a.how == outcome::found);
   CHECK_FALSE(a.unique);
   CHECK(a.displacement[4] == Approx(-0.1 - 8.0 / 50).epsilon(1e-13));
   // Off its balance by little it turns for ever.
   std::vector<double> f = forces_of(p.geometry, even_load(-2.0));
   f[6] -= 1e-6;
-  CHECK(oracle(s).solve(f).how == outcome::no_equilibrium);
+  CHECK(reference_solver(s).solve(f).how == outcome::no_equilibrium);
 }
 
 TEST_CASE("unloaded, a free structure may lie anywhere between its faces, a held one may not") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const std::vector<double> nothing(10, 0.0);
   const linear_structure free = p.structure();
-  oracle o(free);
-  const oracle_answer at_once = o.solve(nothing);
+  reference_solver o(free);
+  const reference_answer at_once = o.solve(nothing);
   CHECK(at_once.how == outcome::found);
   CHECK_FALSE(at_once.unique);
   CHECK(at_once.displacement == nothing);
   REQUIRE(o.solve(forces_of(p.geometry, even_load(-1.0))).unique);
-  const oracle_answer unloaded = o.solve(nothing);
+  const reference_answer unloaded = o.solve(nothing);
   CHECK(unloaded.how == outcome::found);
   CHECK_FALSE(unloaded.unique);
   for (const double w : unloaded.displacement) CHECK(std::abs(w) < 1e-15);
 
   p.supports = {{0, 0, true}, {4, 0, true}};
   const linear_structure held = p.structure();
-  const oracle_answer a = oracle(held).solve(nothing);
+  const reference_answer a = reference_solver(held).solve(nothing);
   CHECK(a.unique);
   CHECK(a.displacement == nothing);
 }
@@ -385,7 +385,7 @@ TEST_CASE("a long simply supported span keeps its digits where a band solver alo
     const beam_problem p{even_beam(elements, elements, 1.0), {{0, 0, true}, {elements, 0, true}}, {}, {}};
     const linear_structure s = p.structure();
     const std::vector<double> f = forces_of(p.geometry, even_load(-12.0));
-    const oracle_answer a = oracle(s).solve(f);
+    const reference_answer a = reference_solver(s).solve(f);
     REQUIRE(a.how == outcome::found);
     CHECK(a.unique);
 
@@ -416,7 +416,7 @@ TEST_CASE("a long span over a settled support has its closed form to 11 digits")
   const beam_problem p{
       even_beam(1000, 1000, 1.0), {{0, 0, true}, {1000, 0, true}}, {{500, -1, -1e11, 1e-6, false}}, {}};
   const linear_structure s = p.structure();
-  const oracle_answer a = oracle(s).solve(forces_of(p.geometry, even_load(-12.0)));
+  const reference_answer a = reference_solver(s).solve(forces_of(p.geometry, even_load(-12.0)));
   const double without = 12.0 * 5 / 384 * 1e12;
   const double force = (without - 1e11) / (1e9 / 48 + 1e6);
   REQUIRE(a.how == outcome::found);
@@ -433,10 +433,10 @@ TEST_CASE("what was solved before leaves no trace in the answer, however much la
     for (const double ratio : {-1.0, 1e-6, 1e-15}) {
       std::vector<double> f = before;
       for (double& force : f) force *= ratio;
-      oracle warm(s);
+      reference_solver warm(s);
       if (warm.solve(before).how != outcome::found) continue;
-      const oracle_answer a = warm.solve(f);
-      const oracle_answer alone = oracle(s).solve(f);
+      const reference_answer a = warm.solve(f);
+      const reference_answer alone = reference_solver(s).solve(f);
       INFO(number << ", " << ratio);
       REQUIRE(a.how == alone.how);
       if (a.how != outcome::found || !alone.unique) continue;
@@ -454,12 +454,12 @@ TEST_CASE("what was solved before leaves no trace in the answer, however much la
 TEST_CASE("a load beyond the range of double precision is no answer, and no word about equilibrium") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
-  oracle o(s);
+  reference_solver o(s);
   std::vector<double> f(6, 0.0);
   f[4] = std::numeric_limits<double>::infinity();
   CHECK(o.solve(f).how == outcome::not_found);
   f[4] = -10.0;  // and it has not spoilt the oracle
-  const oracle_answer after = o.solve(f);
+  const reference_answer after = o.solve(f);
   CHECK(after.how == outcome::found);
   CHECK(after.displacement[4] == Approx(-10 * 8.0 / 3 / 1e4).epsilon(1e-14));
 }

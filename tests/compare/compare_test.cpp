@@ -13,7 +13,7 @@ namespace {
 std::optional<mismatch> differ(double smin, std::vector<double> ss, std::vector<int> isep, tally& t) {
   const std::vector<double> leader_ss = {0.5, 0.0};
   const std::vector<int> leader_isep = {1, -1};
-  return compare<double>({0.5, leader_ss, leader_isep}, {smin, ss, isep}, t);
+  return compare_answers<double>({0.5, leader_ss, leader_isep}, {smin, ss, isep}, t);
 }
 
 }  // namespace

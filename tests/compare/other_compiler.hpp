@@ -46,7 +46,7 @@ inline three_compared compare_three(const std::string& name, int calls) {
     const kernel_answer a = ask_kernel(*asked, in);
     for (kernel* other : {gfortran.get(), cpp.get()}) {
       const kernel_answer b = ask_kernel(*other, in);
-      (void)compare<double>({b.smin, b.ss, b.isep}, {a.smin, a.ss, a.isep}, result.answers);
+      (void)compare_answers<double>({b.smin, b.ss, b.isep}, {a.smin, a.ss, a.isep}, result.answers);
       (void)compare_text(b.text, a.text, result.text, text_equality_of(other->facts(), asked->facts()));
       result.different_bytes += a.text != b.text;
     }

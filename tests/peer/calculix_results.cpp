@@ -30,7 +30,7 @@ calculix_table heading_in(const field_lines& line) {
                      are(2, "for", "set") && are(5, "and", "time");
   const std::optional<double> time = sound ? real_in(line.field(7)) : std::nullopt;
   if (!time)
-    line.refuse(quoted(line.here()),
+    line.refuse(in_quotes(line.here()),
                 "\"displacements (vx,vy,vz)\" or \"forces (fx,fy,fz)\", then \"for set NAME and time T\"");
   return {std::string(line.field(0)), std::string(line.field(4)), *time, {}};
 }
@@ -45,9 +45,9 @@ void take_values(const field_lines& line, std::vector<calculix_table>& tables) {
   }
   const auto node = number_in<int>(line.field(0));
   if (!sound || !node)
-    line.refuse(quoted(line.here()), "a node's number and three finite numbers, under a heading");
+    line.refuse(in_quotes(line.here()), "a node's number and three finite numbers, under a heading");
   if (!tables.back().at.try_emplace(*node, values).second)
-    line.refuse(quoted(line.here()), "each node once in a table");
+    line.refuse(in_quotes(line.here()), "each node once in a table");
 }
 
 }  // namespace

@@ -126,8 +126,8 @@ std::vector<std::pair<int, int>> labels_in(const std::string& path) {
   return labels;
 }
 
-difference compare(const places& p, const block& b, const json& step,
-                   const std::vector<calculix_table>& tables) {
+difference compare_answers(const places& p, const block& b, const json& step,
+                           const std::vector<calculix_table>& tables) {
   difference d;
   const auto ours = step["displacement"].get<std::vector<double>>();
   const auto labels = labels_in(p.work + "/" + b.name + ".dof");
@@ -209,7 +209,7 @@ void check_block(const places& p, verdicts& v, const block& b, int events) {
   for (std::size_t i = 0; i < b.loads.size(); ++i) {
     const json& step = result["steps"][i];
     const auto tables = run_calculix(p, b.name + "-peer", peer_deck_of(b, b.loads[i]));
-    const difference d = compare(p, b, step, tables);
+    const difference d = compare_answers(p, b, step, tables);
     int here = 0;
     for (const json& pair : step["pairs"]) here += pair["state"] == "contact" ? 1 : 0;
     closed += here;

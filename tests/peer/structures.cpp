@@ -30,8 +30,8 @@ solved_problem solve_reference(const places& p, const std::string& name) {
 }
 
 /// What comes out of CalculiX for a deck, against a step of contct's.
-difference compare(const json& step, const problem& given, const calculix_deck& deck,
-                   const std::vector<calculix_table>& tables) {
+difference compare_answers(const json& step, const problem& given, const calculix_deck& deck,
+                           const std::vector<calculix_table>& tables) {
   difference d;
   double largest = 0.0;
   const auto w = step["w"].get<std::vector<double>>();
@@ -57,10 +57,10 @@ difference compare(const json& step, const problem& given, const calculix_deck& 
   return d;
 }
 
-difference compare(const places& p, const solved_problem& s, const calculix_choice& choice) {
+difference compare_answers(const places& p, const solved_problem& s, const calculix_choice& choice) {
   const calculix_deck deck = calculix_deck_of(s.given, choice);
   const json& step = s.steps[static_cast<std::size_t>(deck.step - 1)];
-  return compare(step, s.given, deck, run_calculix(p, "structure", deck.text));
+  return compare_answers(step, s.given, deck, run_calculix(p, "structure", deck.text));
 }
 
 std::string words_of(const difference& d) {
@@ -84,7 +84,7 @@ void check_every_step(const places& p, verdicts& v, const solved_problem& s, int
     const json& of_step = s.steps[static_cast<std::size_t>(step - 1)];
     const auto w = of_step["w"].get<std::vector<double>>();
     if (std::all_of(w.begin(), w.end(), [](double x) { return std::abs(x) < 1e-12; })) continue;
-    const difference d = compare(p, s, {step, 2, 500});
+    const difference d = compare_answers(p, s, {step, 2, 500});
     for (const json& pair : of_step["pairs"]) closed += pair["state"] == "contact" ? 1 : 0;
     v.check(within(d, 1e-5, 3e-4), fmt::format("{} step {}: {}", s.name, step, words_of(d)));
   }
@@ -94,7 +94,8 @@ void check_every_step(const places& p, verdicts& v, const solved_problem& s, int
 /// A beam's difference is shear, which Euler and Bernoulli leave out: (thickness over length)^2.
 void check_shear(const places& p, verdicts& v, const solved_problem& s, int step) {
   std::vector<difference> d;
-  for (const double slenderness : {25.0, 50.0, 100.0}) d.push_back(compare(p, s, {step, 2, slenderness}));
+  for (const double slenderness : {25.0, 50.0, 100.0})
+    d.push_back(compare_answers(p, s, {step, 2, slenderness}));
   for (std::size_t i = 1; i < d.size(); ++i) {
     const double w = order_of(d[i - 1].displacement, d[i].displacement);
     const double n = order_of(d[i - 1].force, d[i].force);
@@ -141,7 +142,7 @@ void check_mesh(const places& p, verdicts& v) {
   write_text(p.work + "/motley.toml", motley_beam);
   const solved_problem s = solve(p, "motley beam", p.work + "/motley.toml");
   std::vector<difference> d;
-  for (const int refine : {1, 2, 4}) d.push_back(compare(p, s, {1, refine, 500}));
+  for (const int refine : {1, 2, 4}) d.push_back(compare_answers(p, s, {1, refine, 500}));
   const double order = order_of(d[0].displacement, d[1].displacement);
   v.check(within(d[1], 1e-4, 5e-4) && order > 3,
           fmt::format("{}, 2 elements for each: {}; order {:.2f}", s.name, words_of(d[1]), order));
@@ -156,7 +157,7 @@ void check_plates(const places& p, verdicts& v) {
     meshes.push_back(solve_reference(p, name));
   for (const int step : {1, 2, 3, 4}) {
     std::vector<difference> d;
-    for (const solved_problem& s : meshes) d.push_back(compare(p, s, {step, 1, 500}));
+    for (const solved_problem& s : meshes) d.push_back(compare_answers(p, s, {step, 1, 500}));
     for (std::size_t i = 1; i < d.size(); ++i) {
       const double order = order_of(d[i - 1].displacement, d[i].displacement);
       v.check(d[i].same_pairs && order > 1.7,
@@ -172,13 +173,13 @@ void check_faults(const places& p, verdicts& v, const solved_problem& s) {
   const calculix_deck deck = calculix_deck_of(s.given, {3, 2, 500});
   std::string linear = deck.text;
   linear.replace(linear.find("*STEP,NLGEOM"), 12, "*STEP");
-  const difference without = compare(s.steps[2], s.given, deck, run_calculix(p, "fault", linear));
+  const difference without = compare_answers(s.steps[2], s.given, deck, run_calculix(p, "fault", linear));
   v.check(!within(without, 1e-5, 3e-4), "a deck without NLGEOM is noticed: " + words_of(without));
 
   problem moved = s.given;
   moved.pairs[1].face *= 1.001;
   const calculix_deck wrong = calculix_deck_of(moved, {3, 2, 500});
-  const difference gap = compare(s.steps[2], s.given, wrong, run_calculix(p, "fault", wrong.text));
+  const difference gap = compare_answers(s.steps[2], s.given, wrong, run_calculix(p, "fault", wrong.text));
   v.check(!within(gap, 1e-5, 3e-4), "a gap wrong by a thousandth is noticed: " + words_of(gap));
 }
 

@@ -28,7 +28,7 @@ void side_by_side<Real>::put(const call_inputs<Real>& in) {
   const int happened = contct(right, std::span<event>(events_));
   append_log_text(right, std::span<const event>(events_).first(happened), cpp_text_);
 
-  note(compare<Real>({left.smin, left.ss, left.isep}, {right.smin, right.ss, right.isep}, tally_));
+  note(compare_answers<Real>({left.smin, left.ss, left.isep}, {right.smin, right.ss, right.isep}, tally_));
   branches_.count(left, in.isep);
   if (cpp_text_.size() > text_block) compare_gathered_text();
 }

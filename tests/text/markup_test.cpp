@@ -23,6 +23,6 @@ TEST_CASE("long text is cut between characters") {
   CHECK(printable("abcdef", 5) == "abcde...");
   CHECK(printable("ab\u4e2d\u4e2d", 4) == "ab...");
   CHECK(printable("ab\u4e2d\u4e2d", 5) == "ab\u4e2d...");
-  CHECK(quoted(std::string(61, 'x')) == "\"" + std::string(60, 'x') + "...\"");
-  CHECK(quoted(std::string(60, 'x')) == "\"" + std::string(60, 'x') + "\"");
+  CHECK(in_quotes(std::string(61, 'x')) == "\"" + std::string(60, 'x') + "...\"");
+  CHECK(in_quotes(std::string(60, 'x')) == "\"" + std::string(60, 'x') + "\"");
 }

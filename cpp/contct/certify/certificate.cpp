@@ -43,7 +43,7 @@ std::string worst_of(const certificate& c) {
 }  // namespace
 
 certifier::certifier(const linear_structure& s, load_history total_load)
-    : structure_(s), total_load_(std::move(total_load)), oracle_(s) {
+    : structure_(s), total_load_(std::move(total_load)), reference_(s) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
     scale_.push_back(std::sqrt(s.stiffness.diagonal(s.row_of(dof))));
     const std::size_t at = dof;
@@ -71,7 +71,7 @@ certificate certifier::judge(const step_state& s) {
   }
   std::vector<double> load(s.displacement.size(), 0.0);
   total_load_(s.step, load);
-  const oracle_answer answer = oracle_.solve(load);
+  const reference_answer answer = reference_.solve(load);
   remember_sizes(s.displacement);
   remember_sizes(answer.displacement);
   certificate c;
@@ -81,12 +81,12 @@ certificate certifier::judge(const step_state& s) {
                          certificate_never_above);
   c.unique = answer.unique;
   measure_state(s, load, c);
-  if (answer.how == oracle_answer::outcome::no_equilibrium) {
+  if (answer.how == reference_answer::outcome::no_equilibrium) {
     c.unfounded = true;
     c.problem = "there is no equilibrium: nothing stops a rigid motion that the load drives";
     return c;
   }
-  if (answer.how == oracle_answer::outcome::not_found) {
+  if (answer.how == reference_answer::outcome::not_found) {
     c.problem = "the oracle came to no answer: the stiffness is too ill-conditioned";
     return c;
   }
@@ -149,7 +149,7 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   c.equilibrium = share(unbalanced, largest_displacement_);
 }
 
-void certifier::compare_with(const oracle_answer& a, const step_state& s, certificate& c) const {
+void certifier::compare_with(const reference_answer& a, const step_state& s, certificate& c) const {
   double deflection = 0.0;
   double any = 0.0;
   for (std::size_t dof = 0; dof < s.displacement.size(); ++dof) {

@@ -56,14 +56,14 @@ class certifier final : public observer {
  private:
   [[nodiscard]] certificate judge(const step_state& s);
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
-  void compare_with(const oracle_answer& a, const step_state& s, certificate& c) const;
+  void compare_with(const reference_answer& a, const step_state& s, certificate& c) const;
   void remember_sizes(std::span<const double> displacement);
   [[nodiscard]] double largest_length() const;
   [[nodiscard]] bool deflects(std::size_t dof) const { return structure_.deflects(static_cast<int>(dof)); }
 
   const linear_structure& structure_;
   load_history total_load_;
-  oracle oracle_;
+  reference_solver reference_;
   std::vector<double> scale_;          // roots of the stiffness at each dof [dofs]
   double largest_scale_ = 0.0;         // of a deflection that is not fixed
   double largest_deflection_ = 0.0;    // of path and oracle, so far

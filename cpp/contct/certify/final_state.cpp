@@ -27,18 +27,18 @@ std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) 
 
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
                            std::span<observer* const> observers) {
-  oracle finds(s);
+  reference_solver finds(s);
   factored_stiffness stiffness(s);
   std::vector<double> total(s.dofs());
   path_end end;
   for (int step = 1; step <= steps; ++step) {
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
-    const oracle_answer found = finds.solve(total);
+    const reference_answer found = finds.solve(total);
     end.work.factors += found.factorisations;
-    if (found.how == oracle_answer::outcome::no_equilibrium)
+    if (found.how == reference_answer::outcome::no_equilibrium)
       return {path_status::mechanism, step, 0.0, {}, end.work};
-    if (found.how != oracle_answer::outcome::found)
+    if (found.how != reference_answer::outcome::found)
       return {path_status::not_factored, step, 0.0, {}, end.work};
     std::vector<int> status;
     for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);

@@ -27,7 +27,7 @@ long double dot(const std::vector<long double>& a, const std::vector<long double
 
 }  // namespace
 
-oracle::oracle(const linear_structure& s) : structure_(s), factor_(s.stiffness) {
+reference_solver::reference_solver(const linear_structure& s) : structure_(s), factor_(s.stiffness) {
   const std::size_t n = s.dofs();
   load_.resize(n);
   u_.resize(n);
@@ -40,7 +40,8 @@ oracle::oracle(const linear_structure& s) : structure_(s), factor_(s.stiffness) 
 }
 
 /// n (w - c) > 0; a pair within `tie` of its face keeps the state that `tied` has for it.
-oracle::pair_set oracle::pressed_at(const numbers& u, long double tie, const pair_set& tied) const {
+reference_solver::pair_set reference_solver::pressed_at(const numbers& u, long double tie,
+                                                        const pair_set& tied) const {
   pair_set set(pair_rows_.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
     const contact_pair& p = structure_.pairs[i];
@@ -50,7 +51,7 @@ oracle::pair_set oracle::pressed_at(const numbers& u, long double tie, const pai
   return set;
 }
 
-bool oracle::holds(const pair_set& set, rigid_rank& rank) const {
+bool reference_solver::holds(const pair_set& set, rigid_rank& rank) const {
   for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
   for (std::size_t i = 0; i < set.size() && rank.rank() < structure_.rigid_motions; ++i) {
     if (set[i] != 0) rank.hold(structure_.held_by_pairs[i]);
@@ -60,7 +61,7 @@ bool oracle::holds(const pair_set& set, rigid_rank& rank) const {
 
 /// Do the supports and the pairs that press with more than the rounding of the load hold the structure?
 /// Otherwise other places are as good: a structure lying on its faces without load, or balanced.
-bool oracle::holds_firmly() const {
+bool reference_solver::holds_firmly() const {
   constexpr long double rounding = 1e-12L;
   pair_set firm(set_.size());
   for (std::size_t i = 0; i < firm.size(); ++i) {
@@ -72,7 +73,7 @@ bool oracle::holds_firmly() const {
 }
 
 /// Is the load's work on this motion more than the rounding of its sums?
-bool oracle::drives(const rigid_row& motion) const {
+bool reference_solver::drives(const rigid_row& motion) const {
   const double rounding = std::max(1e-12, structure_.rigid_rounding);
   double work = 0.0;
   double size = 0.0;
@@ -84,7 +85,7 @@ bool oracle::drives(const rigid_row& motion) const {
 }
 
 /// Does no open pair stand in the way of this rigid motion?
-bool oracle::nothing_stops(const numbers& motion) const {
+bool reference_solver::nothing_stops(const numbers& motion) const {
   const long double rounding = std::max(1e-10, structure_.rigid_rounding);
   long double largest = 0.0L;
   for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
@@ -97,7 +98,7 @@ bool oracle::nothing_stops(const numbers& motion) const {
   return true;
 }
 
-bool oracle::factor_with(const pair_set& set) {
+bool reference_solver::factor_with(const pair_set& set) {
   std::vector<spring_at> springs;
   for (std::size_t i = 0; i < set.size(); ++i) {
     const int dof = structure_.dof_of_pair(static_cast<int>(i));
@@ -111,7 +112,7 @@ bool oracle::factor_with(const pair_set& set) {
   return factor_.factor(springs);
 }
 
-void oracle::residual(const numbers& u, const pair_set& set, numbers& r) const {
+void reference_solver::residual(const numbers& u, const pair_set& set, numbers& r) const {
   multiply_minus(structure_.stiffness, u, r);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += load_[i];
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -126,7 +127,7 @@ void oracle::residual(const numbers& u, const pair_set& set, numbers& r) const {
   }
 }
 
-long double oracle::refined_solve(const pair_set& set, numbers& u) {
+long double reference_solver::refined_solve(const pair_set& set, numbers& u) {
   numbers r(u.size());
   std::vector<double> step(u.size());
   long double before = std::numeric_limits<long double>::infinity();
@@ -156,7 +157,7 @@ long double oracle::refined_solve(const pair_set& set, numbers& u) {
 
 /// Where E is least along u + alpha p, alpha > 0: its slope grows with alpha and bends where a pair
 /// meets its face. Infinite when E falls for ever.
-long double oracle::best_step(const numbers& u, const numbers& p) const {
+long double reference_solver::best_step(const numbers& u, const numbers& p) const {
   numbers minus_kp(p.size());
   multiply_minus(structure_.stiffness, p, minus_kp);
   long double slope = -dot(minus_kp, u) - dot(load_, p);
@@ -188,7 +189,7 @@ long double oracle::best_step(const numbers& u, const numbers& p) const {
   return growth > 0 ? -slope / growth : std::numeric_limits<long double>::infinity();
 }
 
-void oracle::take(std::span<const double> load) {
+void reference_solver::take(std::span<const double> load) {
   resultant_ = {};
   resultant_size_ = {};
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
@@ -202,7 +203,7 @@ void oracle::take(std::span<const double> load) {
   }
 }
 
-void oracle::remember_size_of_load() {
+void reference_solver::remember_size_of_load() {
   long double whole = 0.0L;
   for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
     whole += std::abs(load_[structure_.row_of(dof)]);
@@ -210,8 +211,8 @@ void oracle::remember_size_of_load() {
   largest_load_ = std::max(largest_load_, whole);
 }
 
-oracle_answer oracle::end(oracle_answer::outcome how, bool unique) const {
-  oracle_answer answer;
+reference_answer reference_solver::end(reference_answer::outcome how, bool unique) const {
+  reference_answer answer;
   answer.how = how;
   answer.unique = unique;
   answer.factorisations = factorisations_;
@@ -223,7 +224,7 @@ oracle_answer oracle::end(oracle_answer::outcome how, bool unique) const {
 }
 
 /// p = the rigid motion that the load drives and no held dof stops; false when it drives none.
-bool oracle::rigid_direction(const rigid_rank& rank, numbers& p) const {
+bool reference_solver::rigid_direction(const rigid_rank& rank, numbers& p) const {
   const rigid_row motion = rank.free_part(resultant_);
   if (!drives(motion)) return false;
   for (int dof = 0; dof < structure_.dofs(); ++dof) {
@@ -238,7 +239,7 @@ bool oracle::rigid_direction(const rigid_rank& rank, numbers& p) const {
 }
 
 /// Springs without force at the present displacement, at as many dofs as it takes to hold the structure.
-void oracle::add_holding_springs(rigid_rank& rank) {
+void reference_solver::add_holding_springs(rigid_rank& rank) {
   for (std::size_t dof = 0; dof < structure_.fixed.size() && rank.rank() < structure_.rigid_motions; ++dof) {
     const int before = rank.rank();
     if (structure_.fixed[dof] != 0) continue;
@@ -251,8 +252,8 @@ void oracle::add_holding_springs(rigid_rank& rank) {
 
 /// E falls for ever along p: there is no equilibrium, unless supports hold the structure or numbers went out
 /// of range.
-oracle_answer::outcome oracle::why_endless(const numbers& p) const {
-  using outcome = oracle_answer::outcome;
+reference_answer::outcome reference_solver::why_endless(const numbers& p) const {
+  using outcome = reference_answer::outcome;
   rigid_rank rank = structure_.nothing_held();
   if (holds(pair_set(set_.size()), rank)) return outcome::not_found;
   const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
@@ -260,26 +261,26 @@ oracle_answer::outcome oracle::why_endless(const numbers& p) const {
 }
 
 /// Where the structure is before any load.
-void oracle::start_undeformed() {
+void reference_solver::start_undeformed() {
   std::fill(u_.begin(), u_.end(), 0.0L);
   for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
 }
 
-oracle_answer oracle::solve(std::span<const double> load) {
+reference_answer reference_solver::solve(std::span<const double> load) {
   factorisations_ = 0;
   take(load);
   remember_size_of_load();
-  oracle_answer answer = search();
-  if (answer.how == oracle_answer::outcome::found) return answer;
+  reference_answer answer = search();
+  if (answer.how == reference_answer::outcome::found) return answer;
   // A start that is far from the answer may have spoilt it by rounding.
   start_undeformed();
   answer = search();
-  if (answer.how != oracle_answer::outcome::found) start_undeformed();
+  if (answer.how != reference_answer::outcome::found) start_undeformed();
   return answer;
 }
 
-oracle_answer oracle::search() {
-  using outcome = oracle_answer::outcome;
+reference_answer reference_solver::search() {
+  using outcome = reference_answer::outcome;
   numbers p(u_.size());
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     rigid_rank rank = structure_.nothing_held();

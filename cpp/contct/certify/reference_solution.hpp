@@ -11,7 +11,7 @@
 namespace contct {
 
 /// What was found for one load.
-struct oracle_answer {
+struct reference_answer {
   enum class outcome {
     found,           ///< the minimiser of the energy
     no_equilibrium,  ///< a rigid motion that nothing stops does work under the load
@@ -46,14 +46,14 @@ struct oracle_answer {
 ///
 /// Every solve is refined with residuals in long double, so the answer is that of the matrix as it
 /// is stored to as many digits as long double leaves: 3 to 4 more than a band solver alone.
-class oracle {
+class reference_solver {
  public:
   /// `s` must outlive this object.
-  explicit oracle(const linear_structure& s);
+  explicit reference_solver(const linear_structure& s);
 
   /// The equilibrium under `load` [dofs]. Starts from the last answer, and once more from the undeformed
   /// structure where that leads nowhere.
-  [[nodiscard]] oracle_answer solve(std::span<const double> load);
+  [[nodiscard]] reference_answer solve(std::span<const double> load);
 
  private:
   using numbers = std::vector<long double>;
@@ -80,10 +80,10 @@ class oracle {
   [[nodiscard]] long double best_step(const numbers& u, const numbers& p) const;
   void take(std::span<const double> load);
   void start_undeformed();
-  [[nodiscard]] oracle_answer search();
-  [[nodiscard]] oracle_answer::outcome why_endless(const numbers& p) const;
+  [[nodiscard]] reference_answer search();
+  [[nodiscard]] reference_answer::outcome why_endless(const numbers& p) const;
   void remember_size_of_load();
-  [[nodiscard]] oracle_answer end(oracle_answer::outcome how, bool unique) const;
+  [[nodiscard]] reference_answer end(reference_answer::outcome how, bool unique) const;
   [[nodiscard]] std::size_t row_of_pair(std::size_t i) const { return pair_rows_[i]; }
 
   const linear_structure& structure_;

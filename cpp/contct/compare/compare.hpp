@@ -43,7 +43,7 @@ struct tally {
 
 /// Compare two answers of equal length, value by value. NaN equals NaN; -0.0 is not +0.0.
 template <class Real>
-std::optional<mismatch> compare(const answer<Real>& leader, const answer<Real>& follower, tally& t) {
+std::optional<mismatch> compare_answers(const answer<Real>& leader, const answer<Real>& follower, tally& t) {
   std::optional<mismatch> first;
   const auto differ = [&](std::string field, std::size_t index, std::string a, std::string b,
                           std::uint64_t ulps) {

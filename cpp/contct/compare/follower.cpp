@@ -80,7 +80,7 @@ std::optional<mismatch> ask_and_compare(kernel& k, const call<double>& answered,
   }
   out.smin = copy.smin;
   std::optional<mismatch> found =
-      compare<double>({answered.smin, answered.ss, answered.isep}, {out.smin, out.ss, out.isep}, t);
+      compare_answers<double>({answered.smin, answered.ss, answered.isep}, {out.smin, out.ss, out.isep}, t);
   if (!text || !k.facts().has_text) return found;
   out.text = k.take_text();
   std::optional<mismatch> in_text = compare_text(*text, out.text, t, equality);

@@ -32,7 +32,7 @@ verdict judge(const path_end& end, const certifier& judged, const load_history& 
   if (end.status != path_status::mechanism) return verdict::no_end;
   std::vector<double> load(s.dofs(), 0.0);
   total(end.step, load);
-  const bool agreed = oracle(s).solve(load).how == oracle_answer::outcome::no_equilibrium;
+  const bool agreed = reference_solver(s).solve(load).how == reference_answer::outcome::no_equilibrium;
   return agreed ? verdict::no_equilibrium : verdict::false_mechanism;
 }
 

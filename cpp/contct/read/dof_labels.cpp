@@ -15,10 +15,10 @@ std::vector<std::string> parse_labels(std::string_view text, std::string_view fi
     lines.expect(1, "one label a line, without blanks");
     const std::string_view label = lines.field(0);
     if (label.size() > longest)
-      lines.refuse(quoted(label), fmt::format("a label of at most {} bytes", longest));
+      lines.refuse(in_quotes(label), fmt::format("a label of at most {} bytes", longest));
     const auto [before, is_new] = line_of.try_emplace(label, lines.line());
     if (!is_new)
-      lines.refuse(fmt::format("label {} again, which line {} has", quoted(label), before->second),
+      lines.refuse(fmt::format("label {} again, which line {} has", in_quotes(label), before->second),
                    "each label once");
     labels.emplace_back(label);
   }
@@ -43,7 +43,8 @@ std::optional<int> dof_index::find(std::string_view label) const {
 
 std::string dof_index::allowed() const {
   if (structure_.labels.empty()) return fmt::format(R"(a label, "1" to "{}")", structure_.dofs());
-  return fmt::format("a label of {}, such as {}", structure_.labels_from, quoted(structure_.labels.front()));
+  return fmt::format("a label of {}, such as {}", structure_.labels_from,
+                     in_quotes(structure_.labels.front()));
 }
 
 }  // namespace contct

@@ -134,7 +134,7 @@ void read_nodes(inp_lines& lines, node_list& list) {
   while (lines.next_data()) {
     const std::vector<std::string_view>& fields = lines.fields();
     const int number = lines.whole(fields[0], 1, any_number, "the node's number");
-    if (fields.size() < 2) lines.refuse(quoted(lines.data()), "number, x, y, z");
+    if (fields.size() < 2) lines.refuse(in_quotes(lines.data()), "number, x, y, z");
     placed_node node{std::to_string(number), {}};
     // As CalculiX has it: a coordinate that is left out is 0.
     for (std::size_t i = 0; i < 3 && i + 1 < fields.size(); ++i)
@@ -162,7 +162,7 @@ solid_block read_solids(inp_lines& lines, const solid& type) {
     }
     for (std::size_t i = first; i < fields.size(); ++i) {
       if (i > first && whole_elements())
-        lines.refuse(quoted(lines.data()),
+        lines.refuse(in_quotes(lines.data()),
                      fmt::format("{} nodes for an element of type {}", type.nodes(), type.type));
       block.nodes.push_back(lines.whole(fields[i], 1, any_number, "a node's number"));
     }
@@ -192,7 +192,7 @@ std::string type_in(const inp_lines& lines, const std::string& keyword_line) {
   const std::size_t from = at + parameter.size();
   std::string type =
       at == std::string::npos ? "" : keyword_line.substr(from, keyword_line.find(',', from) - from);
-  if (type.empty()) lines.refuse(quoted(lines.data()), "*ELEMENT, TYPE=..., as C3D8");
+  if (type.empty()) lines.refuse(in_quotes(lines.data()), "*ELEMENT, TYPE=..., as C3D8");
   return type;
 }
 
@@ -271,7 +271,7 @@ std::vector<std::string> what_is_left_out(const inp_contents& all, const std::st
     said.push_back(fmt::format("*INCLUDE in {} is not followed: what such files hold is not drawn.", file));
   std::string types;
   for (const auto& [type, number] : all.other_elements)
-    types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", number, quoted(type));
+    types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", number, in_quotes(type));
   if (!types.empty())
     said.push_back(fmt::format("Of {}, elements whose edges are not known are not drawn: {}.", file, types));
   return said;

@@ -100,7 +100,7 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
                      same_word(lines.field(4), symmetry);
   const bool array = sound && may_be_array && same_word(lines.field(2), "array");
   if (!sound || (!array && !same_word(lines.field(2), "coordinate")))
-    lines.refuse(quoted(lines.here()), allowed);
+    lines.refuse(in_quotes(lines.here()), allowed);
   return array;
 }
 

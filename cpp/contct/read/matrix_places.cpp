@@ -45,7 +45,7 @@ void say_what_is_not_drawn(const assembled& a, placed_nodes& places) {
   if (lost > 0)
     places.said.push_back(fmt::format(
         "{} of {} dofs have no known node and direction by their labels, as {}, and are not drawn.", lost,
-        a.dofs(), quoted(example)));
+        a.dofs(), in_quotes(example)));
   if (turns > 0)
     places.said.push_back(fmt::format("Rotations, {} of {} dofs, are not drawn.", turns, a.dofs()));
 }
@@ -69,14 +69,14 @@ std::vector<placed_node> parse_coordinates(std::string_view text, std::string_vi
   while (lines.next()) {
     const std::size_t fields = fields_before_comment(lines);
     if (fields == 0) continue;
-    if (fields != 3 && fields != 4) lines.refuse(quoted(lines.here()), allowed);
+    if (fields != 3 && fields != 4) lines.refuse(in_quotes(lines.here()), allowed);
     if (alike == 0) alike = fields;
     if (fields != alike)
-      lines.refuse(fmt::format("{} coordinates for node {}", fields - 1, quoted(lines.field(0))),
+      lines.refuse(fmt::format("{} coordinates for node {}", fields - 1, in_quotes(lines.field(0))),
                    fmt::format("{}, as the lines before have", alike - 1));
     const auto [before, is_new] = line_of.try_emplace(lines.field(0), lines.line());
     if (!is_new)
-      lines.refuse(fmt::format("node {} again, which line {} has", quoted(lines.field(0)), before->second),
+      lines.refuse(fmt::format("node {} again, which line {} has", in_quotes(lines.field(0)), before->second),
                    "each node once");
     nodes.push_back({std::string(lines.field(0)),
                      {lines.real(1, "x"), lines.real(2, "y"), fields == 4 ? lines.real(3, "z") : 0.0}});
@@ -165,7 +165,7 @@ placed_nodes places_from_inp(const std::string& path, const assembled& a) {
   if (place_dofs(a, places)) {
     drop_idle_nodes(places);
   } else {
-    places.said.push_back(fmt::format("{} has no node of any label, as {}.", path, quoted(a.label_of(0))));
+    places.said.push_back(fmt::format("{} has no node of any label, as {}.", path, in_quotes(a.label_of(0))));
   }
   return places;
 }

@@ -21,7 +21,7 @@ std::int64_t limit_from(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || value < 1 ||
       value > std::numeric_limits<std::int64_t>::max() / mib)
-    throw input_error("CONTCT_MEMORY_MIB: found " + quoted(text) +
+    throw input_error("CONTCT_MEMORY_MIB: found " + in_quotes(text) +
                       "; allowed: a whole number of MiB, 1 or more");
   return value * mib;
 }

@@ -59,7 +59,7 @@ std::string found_words(const toml::node& node) {
   if (const auto* v = node.as_integer()) return fmt::format("{}", v->get());
   if (const auto* v = node.as_floating_point()) return fmt::format("{}", v->get());
   if (const auto* v = node.as_boolean()) return v->get() ? "true" : "false";
-  if (const auto* v = node.as_string()) return quoted(v->get());
+  if (const auto* v = node.as_string()) return in_quotes(v->get());
   if (const auto* v = node.as_array())
     return v->empty() ? "an empty array" : fmt::format("an array of {}", v->size());
   if (node.is_table()) return "a table";

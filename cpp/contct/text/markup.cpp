@@ -52,7 +52,7 @@ std::string printable(std::string_view text, std::size_t longest) {
   return end < text.size() ? shown + "..." : shown;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   return "\"" + printable(text) + "\"";
 }
 

@@ -16,6 +16,6 @@ namespace contct {
 [[nodiscard]] std::string printable(std::string_view text, std::size_t longest = 60);
 
 /// The same in quotation marks.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace contct

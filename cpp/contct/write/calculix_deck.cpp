@@ -123,9 +123,9 @@ class deck_writer {
     const linear_structure s = structure_of(problem_);
     std::vector<double> total(s.dofs(), 0.0);
     loads_of(problem_)(choice_.step, total);
-    oracle finds(s);
-    const oracle_answer found = finds.solve(total);
-    if (found.how != oracle_answer::outcome::found)
+    reference_solver finds(s);
+    const reference_answer found = finds.solve(total);
+    if (found.how != reference_answer::outcome::found)
       throw std::invalid_argument(
           fmt::format("nothing carries the load of step {}: there is no final state", choice_.step));
     deflection_ = 0.0;
