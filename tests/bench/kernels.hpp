@@ -13,6 +13,6 @@ struct seconds_of_a_call {
   double cpp;
   double text;  ///< the listing's call without pairs
 };
-[[nodiscard]] seconds_of_a_call time_kernels(std::size_t pairs);
+[[nodiscard]] seconds_of_a_call time_kernels(std::size_t pairs, int rounds);
 
 }  // namespace bench
