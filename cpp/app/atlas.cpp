@@ -9,7 +9,7 @@
 #include "contct/lab/atlas_output.hpp"
 #include "contct/lab/atlas_svg.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 atlas measured(const atlas_request& r, bool quiet) {
@@ -39,4 +39,4 @@ exit_status run_command(const atlas_options& options) {
   return exit_status::solved;
 }
 
-}  // namespace contct
+}  // namespace contct::app

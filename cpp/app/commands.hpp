@@ -5,7 +5,7 @@
 
 #include "app/options.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// Exit statuses of the program (what a CI job reads).
 enum class exit_status {
@@ -43,4 +43,4 @@ inline exit_status run_command(const printed_text& t) {
 [[nodiscard]] std::string zsh_completion(const program_description& program);
 [[nodiscard]] std::string fish_completion(const program_description& program);
 
-}  // namespace contct
+}  // namespace contct::app

@@ -7,7 +7,7 @@
 #include "contct/solve/engine.hpp"
 #include "contct/text/joined.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// For single quotes: a quote ends them, stands for itself, and begins them again.
@@ -214,4 +214,4 @@ exit_status run_command(const completion_options& options) {
   return exit_status::solved;
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 constexpr example all_examples[] = {
@@ -44,4 +44,4 @@ std::string line_of(const example& e) {
   return fmt::format("contct {}{}{}", e.command, e.arguments.empty() ? "" : " ", e.arguments);
 }
 
-}  // namespace contct
+}  // namespace contct::app

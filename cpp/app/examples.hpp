@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::app {
 
 struct example {
   std::string_view command;    ///< "run"
@@ -19,4 +21,4 @@ struct example {
 /// "contct run beam.toml"
 [[nodiscard]] std::string line_of(const example& e);
 
-}  // namespace contct
+}  // namespace contct::app

@@ -5,7 +5,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 std::string pair_words(const problem& p, const std::vector<int>& pairs) {
@@ -87,4 +87,4 @@ std::string digit_watch::warning() const {
       rcond_);
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -8,7 +8,7 @@
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// Why a path did not reach its end: step, share of its load, and the pairs that had to do with
 /// it. Empty for a path that did.
@@ -31,4 +31,4 @@ class digit_watch final : public observer {
   double rcond_ = 1.0;
 };
 
-}  // namespace contct
+}  // namespace contct::app

@@ -21,7 +21,7 @@
 #include "contct/write/explain_text.hpp"
 #include "contct/write/result_json.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// All of `text` as a number from 1; 0 where it is none.
@@ -180,4 +180,4 @@ exit_status run_command(const explain_options& options) {
   return explanation_run(options).go();
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -6,7 +6,7 @@
 #include "app/problem_progress.hpp"
 #include "contct/write/calculix_deck.hpp"
 
-namespace contct {
+namespace contct::app {
 exit_status run_command(const export_options& options) {
   const output_option output = {"--calculix", options.calculix};
   refuse_shared_outputs({output}, {{"the problem", options.file}});
@@ -25,4 +25,4 @@ exit_status run_command(const export_options& options) {
   return exit_status::solved;
 }
 
-}  // namespace contct
+}  // namespace contct::app

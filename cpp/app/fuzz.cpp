@@ -20,7 +20,7 @@
 #include "contct/text/joined.hpp"
 #include "contct/text/terminal.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// "I/N" as two numbers; throws std::invalid_argument.
@@ -162,4 +162,4 @@ exit_status run_command(const fuzz_options& options) {
   return missed.empty() ? exit_status::solved : exit_status::bad_input;
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -5,7 +5,7 @@
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 
-namespace contct {
+namespace contct::app {
 
 exit_status run_command(const kernels_options& /*options*/) {
   fmt::print("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler");
@@ -19,4 +19,4 @@ exit_status run_command(const kernels_options& /*options*/) {
   return exit_status::solved;
 }
 
-}  // namespace contct
+}  // namespace contct::app

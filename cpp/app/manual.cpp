@@ -7,7 +7,7 @@
 #include "contct/text/joined.hpp"
 #include "contct/text/terminal.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 constexpr const char* page_date = "2026-11-21";
@@ -122,4 +122,4 @@ exit_status run_command(const manual_options& /*options*/) {
   return exit_status::solved;
 }
 
-}  // namespace contct
+}  // namespace contct::app

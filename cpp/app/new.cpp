@@ -8,7 +8,7 @@
 #include "contct/text/did_you_mean.hpp"
 #include "contct/text/output_file.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 // Problems to start from, with every key explained.
@@ -119,4 +119,4 @@ exit_status run_command(const new_options& options) {
   return exit_status::solved;
 }
 
-}  // namespace contct
+}  // namespace contct::app

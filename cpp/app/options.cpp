@@ -12,7 +12,7 @@
 #include "contct/path/path.hpp"
 #include "contct/text/joined.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 constexpr std::int64_t most_random_cases = 1'000'000'000'000;
@@ -382,4 +382,4 @@ program_description describe_contct(const std::vector<std::string>& engines) {
   return contct_parser(engines).description();
 }
 
-}  // namespace contct
+}  // namespace contct::app

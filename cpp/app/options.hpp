@@ -12,7 +12,7 @@
 #include "contct/lab/fuzz.hpp"
 #include "contct/write/calculix_deck.hpp"
 
-namespace contct {
+namespace contct::app {
 
 // One structure a command. A string is a file's name where nothing else is said; empty: not asked for.
 
@@ -149,4 +149,4 @@ struct program_description {
 /// `engines` as in parse_contct.
 [[nodiscard]] program_description describe_contct(const std::vector<std::string>& engines);
 
-}  // namespace contct
+}  // namespace contct::app

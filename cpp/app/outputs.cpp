@@ -7,7 +7,7 @@
 
 #include "contct/numeric/probe.hpp"
 
-namespace contct {
+namespace contct::app {
 
 std::vector<output_option> with_reports(std::vector<output_option> others, const report_options& options) {
   others.push_back({"--junit", options.junit});
@@ -66,4 +66,4 @@ std::vector<std::string> common_facts() {
           "floating point: " + describe(probe_floating_point())};
 }
 
-}  // namespace contct
+}  // namespace contct::app

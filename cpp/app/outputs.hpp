@@ -9,7 +9,7 @@
 #include "contct/text/output_file.hpp"
 #include "contct/text/report.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// An output as it was asked for; an empty path is one that was not.
 struct output_option {
@@ -49,4 +49,4 @@ class report_files {
 /// What every report says of the program: its version, the listing's checksum, the floating-point probe.
 [[nodiscard]] std::vector<std::string> common_facts();
 
-}  // namespace contct
+}  // namespace contct::app

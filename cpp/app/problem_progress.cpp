@@ -12,7 +12,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// While it lives, a terminal shows what the program is doing and for how long: "reading model.toml, 3 s".
@@ -120,4 +120,4 @@ path_progress::path_progress(std::size_t steps, bool quiet)
       before_(std::make_unique<eraser>(shown_)),
       behind_(std::make_unique<increment_counter>(shown_, steps)) {}
 
-}  // namespace contct
+}  // namespace contct::app

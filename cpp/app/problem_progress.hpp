@@ -9,7 +9,7 @@
 #include "contct/structure/problem.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// Read a problem and print its warnings. Throws as read_problem does.
 [[nodiscard]] problem read_with_progress(const std::string& file, bool quiet);
@@ -33,4 +33,4 @@ class path_progress {
   std::unique_ptr<observer> before_, behind_;
 };
 
-}  // namespace contct
+}  // namespace contct::app

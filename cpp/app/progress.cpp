@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// Seconds before anything is shown.
@@ -71,4 +71,4 @@ void progress::erase() {
   if (std::exchange(shown_, false)) (void)std::fputs("\r\033[K", stderr);
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::app {
 
 /// Seconds before anything is shown: what CONTCT_PROGRESS_AFTER in the environment says, or 1. Throws
 /// std::invalid_argument when that is no time.
@@ -47,4 +49,4 @@ class progress {
   clock::time_point begun_ = clock::now(), last_ = begun_;
 };
 
-}  // namespace contct
+}  // namespace contct::app

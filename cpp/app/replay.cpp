@@ -16,7 +16,7 @@
 #include "contct/text/input_text.hpp"
 #include "contct/text/terminal.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// Who is meant where no --kernel says it: the 1989 code in the trace's precision.
@@ -109,4 +109,4 @@ exit_status run_command(const replay_options& options) {
   return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;
 }
 
-}  // namespace contct
+}  // namespace contct::app

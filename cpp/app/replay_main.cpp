@@ -6,16 +6,16 @@
 
 namespace {
 
-using contct::exit_status;
+using contct::app::exit_status;
 
 exit_status status_of_replay(int argc, char** argv) {
   try {
-    const contct::command_options asked = contct::parse_contct_replay(argc, argv);
-    const auto* options = std::get_if<contct::replay_options>(&asked);
-    if (options != nullptr) return contct::run_command(*options);
-    return contct::run_command(std::get<contct::printed_text>(asked));
+    const contct::app::command_options asked = contct::app::parse_contct_replay(argc, argv);
+    const auto* options = std::get_if<contct::app::replay_options>(&asked);
+    if (options != nullptr) return contct::app::run_command(*options);
+    return contct::app::run_command(std::get<contct::app::printed_text>(asked));
   } catch (const std::exception& e) {
-    contct::complain("{}", e.what());
+    contct::app::complain("{}", e.what());
   }
   return exit_status::bad_input;
 }
@@ -23,6 +23,6 @@ exit_status status_of_replay(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  contct::hold_standard_streams();
+  contct::app::hold_standard_streams();
   return static_cast<int>(status_of_replay(argc, argv));
 }

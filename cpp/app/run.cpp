@@ -29,7 +29,7 @@
 #include "contct/write/result_json.hpp"
 #include "contct/write/table.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// What is run; complete before any file is opened.
@@ -383,4 +383,4 @@ exit_status run_command(const run_options& options) {
   return options.free_run ? free_run(run) : lockstep_run(run);
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -11,7 +11,7 @@
 #include "contct/write/run_svg.hpp"
 #include "contct/write/run_vtu.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ void run_pictures::finish_vtu(const finished_run& r) {
   write_whole(pvd_, pvd_of_frames(stem, frames.size()));
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -12,7 +12,7 @@
 #include "contct/write/finished_run.hpp"
 #include "contct/write/run_csv.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// Every file that these options may write, behind `others`. Throws std::invalid_argument for names that
 /// cannot be theirs.
@@ -51,4 +51,4 @@ class run_pictures {
   std::optional<run_csv> tables_;
 };
 
-}  // namespace contct
+}  // namespace contct::app

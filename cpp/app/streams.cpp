@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace contct {
+namespace contct::app {
 
 void hold_standard_streams() {
   // Opened the wrong way round, input and output that were closed still fail, and are noticed.
@@ -14,4 +14,4 @@ void hold_standard_streams() {
   }
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -7,7 +7,9 @@
 #include <string>
 #include <utility>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::app {
 
 /// Take the place of standard streams that are closed, so that no file of ours gets their number
 /// and, with it, what is printed.
@@ -20,4 +22,4 @@ void complain(fmt::format_string<Arguments...> words, Arguments&&... arguments) 
   (void)std::fputs(line.c_str(), stderr);
 }
 
-}  // namespace contct
+}  // namespace contct::app

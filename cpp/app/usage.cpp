@@ -7,7 +7,7 @@
 #include "contct/text/did_you_mean.hpp"
 #include "contct/text/joined.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// The option in "--json=file".
@@ -58,4 +58,4 @@ std::string usage_words(const program_description& program, const std::string& c
                      joined(names_of(program.commands), ", "), advice);
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -6,7 +6,7 @@
 
 #include "app/options.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// `error` as the parser words it, and what may have been meant by an option or a command that `program` does
 /// not have. `command` is empty when the command line names none. `unknown`: the arguments that were not
@@ -14,4 +14,4 @@ namespace contct {
 [[nodiscard]] std::string usage_words(const program_description& program, const std::string& command,
                                       const std::vector<std::string>& unknown, const std::string& error);
 
-}  // namespace contct
+}  // namespace contct::app

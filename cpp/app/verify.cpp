@@ -22,7 +22,7 @@
 #include "contct/text/terminal.hpp"
 #include "contct/write/json_document.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -220,4 +220,4 @@ exit_status run_command(const verify_options& options) {
   return r.passed() ? exit_status::solved : exit_status::kernels_differ;
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -9,7 +9,7 @@
 #include "catch.hpp"
 #include "support/well_formed.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -4,9 +4,11 @@
 
 #include "app/process.hpp"
 #include "catch.hpp"
+#include "read/bad_inputs.hpp"
 #include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 

@@ -4,7 +4,7 @@
 #include "app/commands.hpp"
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

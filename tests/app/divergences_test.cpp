@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "support/well_formed.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 using json = nlohmann::json;
 

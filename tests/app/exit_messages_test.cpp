@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "read/bad_inputs.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -6,7 +6,7 @@
 #include "app/process.hpp"
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "contct/kernel/built_in.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 

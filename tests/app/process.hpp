@@ -8,7 +8,7 @@
 
 #include "support/scratch_folder.hpp"
 
-namespace contct {
+namespace contct::app {
 
 struct finished {
   int exit = -1;         ///< exit status; -1 when a signal ended it
@@ -30,4 +30,4 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
 
 using scratch_directory = scratch_folder;
 
-}  // namespace contct
+}  // namespace contct::app

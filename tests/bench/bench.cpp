@@ -26,7 +26,7 @@ using json = nlohmann::ordered_json;
 
 struct options {
   std::vector<std::string> problems = bench::usual_problems();
-  std::vector<std::string> engines = contct::engine_names();
+  std::vector<std::string> engines = contct::app::engine_names();
   int events = 0;
   int rounds = 3;
   std::string json_file;
@@ -58,8 +58,8 @@ void show(const std::string& words) {
 }
 
 /// The median run of several; the first one's certificate.
-bench::run_of_engine measured(const options& o, const contct::problem& p, const contct::linear_structure& s,
-                              const std::string& engine, int events) {
+bench::run_of_engine measured(const options& o, const contct::app::problem& p,
+                              const contct::app::linear_structure& s, const std::string& engine, int events) {
   std::vector<bench::run_of_engine> runs;
   for (int round = 0; round < o.rounds; ++round) {
     runs.push_back(bench::run_engine(p, s, engine, events, round == 0));
@@ -115,14 +115,14 @@ std::vector<bench::growth_point> growth_of(const json& rows) {
 
 void bench_problem(const options& o, const std::string& name, json& rows) {
   show(name + ": building");
-  const contct::problem p = bench::make_problem(name);
-  const contct::linear_structure s = contct::structure_of(p);
+  const contct::app::problem p = bench::make_problem(name);
+  const contct::app::linear_structure s = contct::app::structure_of(p);
   const double solve_ms = 1e3 * bench::seconds_of_a_solve(s);
   std::optional<bench::run_of_engine> reference;
   fmt::print("{}: {} dofs, half bandwidth {}, {} pairs; one dpbtrs {:.3f} ms\n", name, s.dofs(),
              s.stiffness.band().subdiagonals(), s.pairs.size(), solve_ms);
   for (const std::string& engine : o.engines) {
-    if (engine == "condensed" && !contct::condensed_engine::suits(s)) continue;
+    if (engine == "condensed" && !contct::app::condensed_engine::suits(s)) continue;
     show(name + ": " + engine);
     const bench::run_of_engine r =
         measured(o, p, s, engine, engine == "refactor" ? events_of_refactor(o, name) : o.events);
@@ -165,17 +165,18 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
 
 int run(options o) {
   if (o.growth) o.problems = bench::growing_problems();
-  std::optional<contct::output_file> out;
+  std::optional<contct::app::output_file> out;
   if (!o.json_file.empty()) out.emplace(o.json_file);
-  std::optional<contct::output_file> picture;
+  std::optional<contct::app::output_file> picture;
   if (!o.svg_file.empty()) picture.emplace(o.svg_file);
   pin();
-  fmt::print("{}; core type: {}; one thread, its processor time\n", contct::lapack_identity(), core_type());
+  fmt::print("{}; core type: {}; one thread, its processor time\n", contct::app::lapack_identity(),
+             core_type());
   json kernels = o.without_kernels ? json::array() : bench_kernels(o.rounds);
   json rows = json::array();
   for (const std::string& name : o.problems) bench_problem(o, name, rows);
   if (out) {
-    const json document = {{"blas", contct::lapack_identity()},
+    const json document = {{"blas", contct::app::lapack_identity()},
                            {"core", core_type()},
                            {"kernels", std::move(kernels)},
                            {"rows", rows}};
@@ -183,7 +184,7 @@ int run(options o) {
     out->finish();
   }
   if (picture) {
-    picture->write(bench::growth_svg(growth_of(rows), contct::lapack_identity() + ", one thread"));
+    picture->write(bench::growth_svg(growth_of(rows), contct::app::lapack_identity() + ", one thread"));
     picture->finish();
   }
   return 0;

@@ -30,21 +30,21 @@ int main() {
   double lockstep = never;
   double read = 0.0;  // so that nothing is optimised away
   for (int round = 0; round < rounds; ++round) {
-    contct::call_outputs out;
+    contct::app::call_outputs out;
     making = std::min(making, seconds_of([&] {
-                        contct::call_source source(seed, 8);
+                        contct::app::call_source source(seed, 8);
                         for (std::uint64_t n = 1; n <= calls; ++n) read += out.prepare(source.at(n)).smin;
                       }));
     fortran = std::min(fortran, seconds_of([&] {
-                         contct::call_source source(seed, 8);
+                         contct::app::call_source source(seed, 8);
                          for (std::uint64_t n = 1; n <= calls; ++n) {
-                           contct::call<double> c = out.prepare(source.at(n));
-                           contct::fortran::contct(c);
+                           contct::app::call<double> c = out.prepare(source.at(n));
+                           contct::kernels::fortran::contct(c);
                            read += c.smin;
                          }
                        }));
     lockstep = std::min(lockstep, seconds_of([&] {
-                          contct::call_campaign h("fortran", {"cpp"}, seed);
+                          contct::app::call_campaign h("fortran", {"cpp"}, seed);
                           h.run(1, calls, 1);
                           read += static_cast<double>(h.counts().calls);
                         }));

@@ -19,14 +19,14 @@ namespace {
 struct quiet_pairs {
   explicit quiet_pairs(std::size_t n)
       : dd(2 * n), dtest(2 * n), cc(n), ss(n), id(n), isep(n), isurf(n), events(n) {
-    contct::random_numbers random(1989);
+    contct::app::random_numbers random(1989);
     for (std::size_t i = 0; i < n; ++i) {
       id[i] = static_cast<int>(i) + 1;
-      isurf[i] = random.chance(0.5) ? contct::face_above : contct::face_below;
+      isurf[i] = random.chance(0.5) ? contct::app::face_above : contct::app::face_below;
       const double gap = 0.5 + 0.5 * random.unit();
       const int kind = random.whole(0, 9);
       const bool closed = kind == 0;
-      isep[i] = closed ? contct::in_contact : contct::separated;
+      isep[i] = closed ? contct::app::in_contact : contct::app::separated;
       cc[i] = isurf[i] * gap;
       dd[2 * i] = closed ? cc[i] : 0.0;
       dtest[2 * i] = kind == 1 ? 0.0 : isurf[i] * (closed || random.chance(0.5) ? 0.25 : -0.25) * gap;
@@ -35,7 +35,7 @@ struct quiet_pairs {
 
   std::vector<double> dd, dtest, cc, ss;
   std::vector<int> id, isep, isurf;
-  std::vector<contct::event> events;
+  std::vector<contct::app::event> events;
 };
 
 template <class Call>
@@ -61,8 +61,9 @@ seconds_of_a_call time_kernels(std::size_t pairs, int rounds) {
                    q.isurf.data(), 0, 1, 2);
   };
   const auto cpp = [&] {
-    contct::call<double> c{q.dd, q.dtest, q.cc, q.ss, 0.0, q.id, q.isep, q.isurf, {1, 2}};
-    if (contct::contct(c, q.events) != 0) throw std::logic_error("a pair that was to be quiet has an event");
+    contct::app::call<double> c{q.dd, q.dtest, q.cc, q.ss, 0.0, q.id, q.isep, q.isurf, {1, 2}};
+    if (contct::app::contct(c, q.events) != 0)
+      throw std::logic_error("a pair that was to be quiet has an event");
   };
   constexpr double never = std::numeric_limits<double>::infinity();
   seconds_of_a_call least{never, never, never};

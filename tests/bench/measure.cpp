@@ -31,23 +31,24 @@ void forget_peak() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-class watch final : public contct::observer {
+class watch final : public contct::app::observer {
  public:
   explicit watch(run_of_engine& r) : r_(r) {}
 
-  void incremented(const contct::increment& i) override {
-    for (const contct::event& e : i.events) r_.events.push_back({e.pair, i.step - 1 + i.fraction});
+  void incremented(const contct::app::increment& i) override {
+    for (const contct::app::event& e : i.events) r_.events.push_back({e.pair, i.step - 1 + i.fraction});
     if (!i.events.empty() || r_.events.empty()) last_ = clock::now();
   }
-  void step_ended(const contct::step_state& s) override {
+  void step_ended(const contct::app::step_state& s) override {
     r_.displacement.assign(s.displacement.begin(), s.displacement.end());
     isep_.assign(s.isep.begin(), s.isep.end());
-    last_state_ = contct::step_state{s.step, s.fraction, r_.displacement, isep_, s.rcond, s.from_fallback};
+    last_state_ =
+        contct::app::step_state{s.step, s.fraction, r_.displacement, isep_, s.rcond, s.from_fallback};
   }
 
   void start() { last_ = start_ = clock::now(); }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(last_ - start_).count(); }
-  [[nodiscard]] contct::step_state last_state() const {
+  [[nodiscard]] contct::app::step_state last_state() const {
     return {last_state_.step,  last_state_.fraction,     r_.displacement, isep_,
             last_state_.rcond, last_state_.from_fallback};
   }
@@ -56,38 +57,38 @@ class watch final : public contct::observer {
   run_of_engine& r_;
   clock::time_point start_, last_;
   std::vector<int> isep_;
-  contct::step_state last_state_{};
+  contct::app::step_state last_state_{};
 };
 
 }  // namespace
 
-run_of_engine run_engine(const contct::problem& p, const contct::linear_structure& s,
+run_of_engine run_engine(const contct::app::problem& p, const contct::app::linear_structure& s,
                          const std::string& engine, int most_events, bool certify) {
   run_of_engine r;
-  const std::unique_ptr<contct::kernel> leader = contct::make_kernel("corrected");
-  const contct::load_history loads = contct::loads_of(p);
+  const std::unique_ptr<contct::app::kernel> leader = contct::app::make_kernel("corrected");
+  const contct::app::load_history loads = contct::app::loads_of(p);
   watch w(r);
-  contct::observer* const observers[] = {&w};
-  contct::path_limits limits;
+  contct::app::observer* const observers[] = {&w};
+  contct::app::path_limits limits;
   limits.increments_per_step = most_events;
   forget_peak();
   w.start();
-  const std::unique_ptr<contct::stiffness_engine> solves = contct::make_engine(engine, s);
-  const contct::path_end end =
-      contct::follow_path(s, static_cast<int>(p.steps.size()), loads, *solves, *leader, observers, limits);
+  const std::unique_ptr<contct::app::stiffness_engine> solves = contct::app::make_engine(engine, s);
+  const contct::app::path_end end = contct::app::follow_path(s, static_cast<int>(p.steps.size()), loads,
+                                                             *solves, *leader, observers, limits);
   r.seconds = w.seconds();
   r.peak_kib = peak_kib();
   r.counts = solves->counts();
-  r.whole = end.status == contct::path_status::solved;
+  r.whole = end.status == contct::app::path_status::solved;
   if (!certify || !r.whole) return r;
-  contct::certifier judge(s, loads);
+  contct::app::certifier judge(s, loads);
   judge.step_ended(w.last_state());
   r.certified = judge.all_exact();
   return r;
 }
 
-double seconds_of_a_solve(const contct::linear_structure& s) {
-  contct::factored_stiffness f(s);
+double seconds_of_a_solve(const contct::app::linear_structure& s) {
+  contct::app::factored_stiffness f(s);
   std::vector<char> closed(s.pairs.size());
   for (std::size_t i = 0; i < closed.size(); ++i) closed[i] = s.pairs[i].closed ? 1 : 0;
   f.factor(closed);
@@ -96,7 +97,7 @@ double seconds_of_a_solve(const contct::linear_structure& s) {
   for (int round = 0; round < 15; ++round) {
     std::fill(x.begin(), x.end(), 1.0);
     const auto start = clock::now();
-    contct::solve_with(f.factor_band(), x);
+    contct::app::solve_with(f.factor_band(), x);
     least = std::min(least, std::chrono::duration<double>(clock::now() - start).count());
   }
   return least;

@@ -23,7 +23,7 @@ struct run_of_engine {
   double seconds = 0.0;  ///< from the start to the last event
   std::vector<timed_event> events;
   std::vector<double> displacement;  ///< at the end [dofs]
-  contct::engine_counts counts;
+  contct::app::engine_counts counts;
   long peak_kib = 0;  ///< of the process while this engine ran
   bool whole = true;  ///< the path came to its end
   bool certified = false;
@@ -31,11 +31,11 @@ struct run_of_engine {
 
 /// Follow the path under the corrected rule. `most_events` in a step, 0: all. The certificate is asked for
 /// where `certify` says so and the path is whole; its time does not count.
-[[nodiscard]] run_of_engine run_engine(const contct::problem& p, const contct::linear_structure& s,
+[[nodiscard]] run_of_engine run_engine(const contct::app::problem& p, const contct::app::linear_structure& s,
                                        const std::string& engine, int most_events, bool certify);
 
 /// Seconds of one dpbtrs with the factor of the structure as it starts: what a plain solve costs.
-[[nodiscard]] double seconds_of_a_solve(const contct::linear_structure& s);
+[[nodiscard]] double seconds_of_a_solve(const contct::app::linear_structure& s);
 
 /// How two runs differ over the events that both have.
 struct difference {

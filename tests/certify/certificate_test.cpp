@@ -9,7 +9,7 @@
 #include "contct/compare/early_toggles.hpp"
 #include "support/beams.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

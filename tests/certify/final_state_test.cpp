@@ -5,7 +5,7 @@
 #include "catch.hpp"
 #include "support/followed.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("the final states without the path are those of the path, and certified") {
   random_problem_kind kind;

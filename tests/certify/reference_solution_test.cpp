@@ -11,7 +11,7 @@
 #include "support/beams.hpp"
 #include "support/every_set.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using outcome = reference_answer::outcome;
 
 namespace {

@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("each IF of the listing is counted by its outcome") {
   small_call<double> c({{0.0, 0.0, 1.0, separated, face_above},     // does not respond

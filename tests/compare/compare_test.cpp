@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

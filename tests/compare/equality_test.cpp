@@ -12,7 +12,7 @@
 #include "contct/lab/random_calls.hpp"
 #include "support/side_by_side.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

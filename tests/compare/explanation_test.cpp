@@ -13,7 +13,7 @@
 #include "contct/outside/registry.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "contct/compare/replay.hpp"
 #include "contct/outside/registry.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("f2c's translation answers 20,000 random calls as gfortran's and C++ do, its text by meaning") {
   const three_compared found = compare_three("f2c", 20'000);

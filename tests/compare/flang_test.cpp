@@ -4,7 +4,7 @@
 #include "compare/other_compiler.hpp"
 #include "contct/outside/registry.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("flang's build answers 20,000 random calls as gfortran's and C++ do, to the bit and to the byte") {
   const three_compared found = compare_three("flang", 20'000);

@@ -6,7 +6,7 @@
 #include "contct/outside/registry.hpp"
 #include "support/beams.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

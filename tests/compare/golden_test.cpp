@@ -12,7 +12,7 @@
 #include "contct/outside/registry.hpp"
 #include "golden/cases.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

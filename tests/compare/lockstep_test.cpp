@@ -9,7 +9,7 @@
 #include "contct/outside/registry.hpp"
 #include "support/beams.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -11,16 +11,16 @@
 
 /// One kernel's answers: what is compared of one call.
 struct kernel_answer {
-  double smin = contct::not_an_answer;
+  double smin = contct::app::not_an_answer;
   std::vector<double> ss;
   std::vector<int> isep;
   std::string text;
 };
 
-inline kernel_answer ask_kernel(contct::kernel& k, const contct::call_inputs<double>& in) {
+inline kernel_answer ask_kernel(contct::app::kernel& k, const contct::app::call_inputs<double>& in) {
   kernel_answer a{
-      contct::not_an_answer, std::vector<double>(in.cc.size(), contct::not_an_answer), in.isep, {}};
-  contct::call<double> c{in.dd, in.dtest, in.cc, a.ss, a.smin, in.id, a.isep, in.isurf, in.dof};
+      contct::app::not_an_answer, std::vector<double>(in.cc.size(), contct::app::not_an_answer), in.isep, {}};
+  contct::app::call<double> c{in.dd, in.dtest, in.cc, a.ss, a.smin, in.id, a.isep, in.isurf, in.dof};
   k.answer(c);
   a.smin = c.smin;
   a.text = k.take_text();
@@ -29,13 +29,13 @@ inline kernel_answer ask_kernel(contct::kernel& k, const contct::call_inputs<dou
 
 /// What came of putting calls to the kernel `name`, to "fortran" and to "cpp".
 struct three_compared {
-  contct::tally answers, text;
+  contct::app::tally answers, text;
   std::int64_t lines = 0;            ///< of the kernel's text
   std::int64_t different_bytes = 0;  ///< calls whose text is not gfortran's byte for byte
 };
 
 inline three_compared compare_three(const std::string& name, int calls) {
-  using namespace contct;
+  using namespace contct::app;
   const auto asked = make_kernel(name);
   const auto gfortran = make_kernel("fortran");
   const auto cpp = make_kernel("cpp");
@@ -56,6 +56,6 @@ inline three_compared compare_three(const std::string& name, int calls) {
 }
 
 /// One pair with a gap of 1 whose scale factor is `s`.
-inline contct::call_inputs<double> one_pair_at(double s) {
-  return {{0.0}, {1.0 / s}, {1.0}, {1}, {contct::separated}, {contct::face_above}, {}};
+inline contct::app::call_inputs<double> one_pair_at(double s) {
+  return {{0.0}, {1.0 / s}, {1.0}, {1}, {contct::app::separated}, {contct::app::face_above}, {}};
 }

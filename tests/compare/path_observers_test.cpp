@@ -8,7 +8,7 @@
 #include "contct/compare/trace_recorder.hpp"
 #include "support/beams.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

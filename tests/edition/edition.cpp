@@ -23,7 +23,7 @@ std::vector<std::string> split(const std::string& text) {
   return lines;
 }
 
-cited_block read_block(const contct::table_reader& t) {
+cited_block read_block(const contct::app::table_reader& t) {
   t.allow_only({"file", "text"});
   cited_block b{t.text("file"), {}};
   for (const std::string& line : split(t.text("text"))) {
@@ -33,7 +33,7 @@ cited_block read_block(const contct::table_reader& t) {
   return b;
 }
 
-edition_part read_part(const contct::table_reader& t) {
+edition_part read_part(const contct::app::table_reader& t) {
   t.allow_only({"step", "title", "paper", "equation", "note", "listing", "cpp"});
   edition_part p{
       t.text("step"), t.text("title"), t.text("paper"), t.text("equation"), t.text("note"), {}, {}};
@@ -41,8 +41,8 @@ edition_part read_part(const contct::table_reader& t) {
   if (lines == nullptr) t.refuse("listing is no array", "an array of lines");
   constexpr int most_lines = 1000;
   for (std::size_t i = 0; i < lines->size(); ++i)
-    p.listing.push_back(t.integer_of(*lines->get(i), contct::indexed("listing", i), 1, most_lines));
-  for (const contct::table_reader& block : t.tables("cpp")) p.cpp.push_back(read_block(block));
+    p.listing.push_back(t.integer_of(*lines->get(i), contct::app::indexed("listing", i), 1, most_lines));
+  for (const contct::app::table_reader& block : t.tables("cpp")) p.cpp.push_back(read_block(block));
   return p;
 }
 
@@ -76,13 +76,13 @@ void check_listing(const edition& e, const std::vector<std::string>& listing,
 }  // namespace
 
 edition read_edition(const std::filesystem::path& map) {
-  const std::string text = contct::read_input(map.string(), "map");
+  const std::string text = contct::app::read_input(map.string(), "map");
   const std::string file = map.string();
-  const toml::table document = contct::parse_toml(text, file);
-  const contct::table_reader top(document, "", file);
+  const toml::table document = contct::app::parse_toml(text, file);
+  const contct::app::table_reader top(document, "", file);
   top.allow_only({"introduction", "part"});
   edition e{top.text("introduction"), {}};
-  for (const contct::table_reader& t : top.tables("part")) e.parts.push_back(read_part(t));
+  for (const contct::app::table_reader& t : top.tables("part")) e.parts.push_back(read_part(t));
   return e;
 }
 

@@ -25,7 +25,7 @@ struct edition {
   std::vector<edition_part> parts;
 };
 
-/// Read the map. Throws contct::input_error.
+/// Read the map. Throws contct::app::input_error.
 [[nodiscard]] edition read_edition(const std::filesystem::path& map);
 
 /// The sources that an edition quotes.

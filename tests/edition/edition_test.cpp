@@ -124,7 +124,7 @@ TEST_CASE("the page changes when the map does, and the HTML is escaped and close
 }
 
 TEST_CASE("a map with a key that it does not know is refused") {
-  const contct::scratch_folder folder;
+  const contct::app::scratch_folder folder;
   const std::string file = folder.write("map.toml", text_of(CONTCT_EDITION_MAP) + "\nfootnote = \"x\"\n");
-  CHECK_THROWS_AS(read_edition(file), contct::input_error);
+  CHECK_THROWS_AS(read_edition(file), contct::app::input_error);
 }

@@ -35,7 +35,7 @@ bool read_arguments(int argc, char** argv, request& r) {
 
 void write(const std::string& path, const std::string& text) {
   if (path.empty()) return;
-  contct::output_file out(path);
+  contct::app::output_file out(path);
   out.write(text);
   out.finish();
 }

@@ -7,12 +7,12 @@
 namespace golden {
 namespace {
 
-using contct::call_inputs;
-using contct::dof_layout;
-using contct::face_above;
-using contct::face_below;
-using contct::in_contact;
-using contct::separated;
+using contct::app::call_inputs;
+using contct::app::dof_layout;
+using contct::app::face_above;
+using contct::app::face_below;
+using contct::app::in_contact;
+using contct::app::separated;
 
 /// Where one pair stands: D, d*, c, ISEP, ISURF.
 template <class Real>

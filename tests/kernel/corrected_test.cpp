@@ -10,7 +10,7 @@
 #include "contct/outside/registry.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 
@@ -116,8 +116,7 @@ TEST_CASE("corrected: no event at full load or beyond it, nor where nothing resp
   CHECK(c.ss == std::vector<double>(6, 1.0));
 }
 
-TEST_CASE(
-    "corrected: where the pairs stand among the dofs does not matter") {
+TEST_CASE("corrected: where the pairs stand among the dofs does not matter") {
   random_numbers random(31);
   int happened = 0;
   for (int round = 0; round < 2000; ++round) {

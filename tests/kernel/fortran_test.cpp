@@ -14,7 +14,7 @@
 #include "catch.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include "contct/outside/registry.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("every kernel built in can be made, and says what it is") {
   const auto names = kernel_names();

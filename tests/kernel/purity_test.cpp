@@ -9,7 +9,7 @@
 #include "contct/numeric/bits.hpp"
 #include "contct/outside/registry.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

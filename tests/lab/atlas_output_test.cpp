@@ -11,7 +11,7 @@
 #include "contct/lab/atlas_svg.hpp"
 #include "support/well_formed.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

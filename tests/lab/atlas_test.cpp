@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "contct/lab/epsmul_variants.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "contct/lab/problem_result.hpp"
 #include "contct/outside/registry.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "contct/lab/random_calls.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -73,6 +73,6 @@ TEST_CASE("a case as a Catch2 test asks the follower and expects the leader's nu
   const std::string test = catch_test_of(c);
   CHECK_THAT(test, Contains("TEST_CASE(\"plugin    mine  so answers as fortran does\")"));
   CHECK_THAT(test, Contains("make_kernel(\"plugin:\\\"./mine\\\".so\")"));
-  CHECK_THAT(test, Contains("CHECK(contct::same_bits(asked.smin, 0x1p-1));"));
-  CHECK_THAT(test, Contains("CHECK(contct::same_bits(out.ss[2], 0x1p-1));"));
+  CHECK_THAT(test, Contains("CHECK(contct::outside::same_bits(asked.smin, 0x1p-1));"));
+  CHECK_THAT(test, Contains("CHECK(contct::outside::same_bits(out.ss[2], 0x1p-1));"));
 }

@@ -7,7 +7,7 @@
 #include "contct/text/input_text.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

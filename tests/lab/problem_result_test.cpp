@@ -8,7 +8,7 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/outside/registry.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

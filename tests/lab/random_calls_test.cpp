@@ -10,7 +10,7 @@
 #include "contct/compare/margin.hpp"
 #include "contct/kernel/contct.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 
@@ -45,7 +45,7 @@ TEMPLATE_TEST_CASE("adversarial calls stand on every threshold, and one ULP to e
     isep = in.isep;
     events.resize(in.pairs());
     call<Real> c{in.dd, in.dtest, in.cc, ss, Real(0), in.id, isep, in.isurf, in.dof};
-    (void)contct::contct(c, std::span<event>(events));
+    (void)contct::app::contct(c, std::span<event>(events));
     for (const decision& d : decisions_of<Real>(c, in.isep)) {
       near[d.what][0] += d.ulps == 0;
       near[d.what][1] += d.ulps == 1 && d.outcome;

@@ -9,7 +9,7 @@
 #include "catch.hpp"
 #include "contct/kernel/call.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

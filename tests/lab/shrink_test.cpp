@@ -7,7 +7,7 @@
 #include "contct/lab/random_calls.hpp"
 #include "contct/outside/registry.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 
@@ -144,7 +144,7 @@ TEST_CASE("a difference is relative to the size of the expected value, and absol
   CHECK(n.difference() == 1e-3);
 }
 
-TEST_CASE("a case passes when all its numbers do and nothing failed; one without numbers does not") {
+TEST_CASE("a case passes when all its numbers do and nothing failed, and one without numbers does not") {
   verified_case c;
   CHECK_FALSE(c.passed());
   c.numbers.resize(2);

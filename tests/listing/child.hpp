@@ -25,7 +25,7 @@ struct child_end {
 child_end run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
                     unsigned cpu_seconds = 60);
 
-using contct::scratch_folder;
+using contct::app::scratch_folder;
 
 /// All of a file; empty when there is none.
 std::string file_text(const std::filesystem::path& file);

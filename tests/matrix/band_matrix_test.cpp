@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("a band keeps only its lower half, and adds from both sides") {
   band_matrix a(4, 1);

@@ -9,7 +9,7 @@
 #include "contct/matrix/several_right_hand_sides.hpp"
 #include "contct/numeric/random.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "catch.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("a chain whose rows are shuffled becomes a band of one subdiagonal again") {
   constexpr int n = 23;

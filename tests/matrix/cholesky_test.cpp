@@ -9,7 +9,7 @@
 #include "contct/structure/beam.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 extern "C" void dpbcon_(const char* uplo, const int* n, const int* kd, const double* ab, const int* ldab,
                         const double* anorm, double* rcond, double* work, int* iwork, int* info,

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("LAPACK is identified by its version and the library that holds dpbtrf") {
   const std::string identity = lapack_identity();

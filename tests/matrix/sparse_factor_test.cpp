@@ -6,7 +6,7 @@
 #include "contct/matrix/several_right_hand_sides.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "contct/matrix/several_right_hand_sides.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("K with springs is solved alike by LAPACK as a band and by CHOLMOD as it is") {
   const stiffness_matrix wide(random_band(40, 7, 3));

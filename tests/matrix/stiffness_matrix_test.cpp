@@ -4,7 +4,7 @@
 #include "catch.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 
@@ -33,19 +33,19 @@ TEST_CASE("a band and its entries alone are one matrix, to the bit") {
       for (int row = 0; row < order; ++row) CHECK(narrow.diagonal(row) == wide.diagonal(row));
       CHECK(minus_product(narrow, x) == minus_product(wide, x));
     };
-    compare_answers();
+    compare();
     std::vector<char> fixed(order);
     fixed[0] = fixed[11] = fixed[order - 1] = 1;
     for (stiffness_matrix* k : {&wide, &narrow}) {
       k->add_to_diagonal(5, 2.5);
       k->fix(fixed);
     }
-    compare_answers();
+    compare();
     CHECK(minus_product(narrow, x)[11] == -static_cast<long double>(x[11]));
     std::vector<double> d = random_vector(order, seed + 200);
     for (double& entry : d) entry += 1.0;
     for (stiffness_matrix* k : {&wide, &narrow}) k->scale(d);
-    compare_answers();
+    compare();
     std::vector<double> diagonal;
     for (int row = 0; row < order; ++row) diagonal.push_back(wide.diagonal(row) + 1.0);
     CHECK(narrow.one_norm(diagonal, d) == wide.one_norm(diagonal, d));

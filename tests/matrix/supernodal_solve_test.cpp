@@ -6,7 +6,7 @@
 #include "contct/matrix/several_right_hand_sides.hpp"
 #include "contct/numeric/random.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("supernodes of any width, with rows far below, are solved as the matrix that they make") {
   // Columns 0 and 1 with rows 0, 1, 3; column 2 with rows 2, 4; columns 3, 4.

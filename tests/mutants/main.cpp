@@ -114,7 +114,7 @@ int run(const options& o) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   const int status = summary(trials, seconds);
   if (status == 0 && !o.page.empty()) {
-    contct::output_file out(o.page);
+    contct::app::output_file out(o.page);
     out.write(page(trials, o.fuzz));
     out.finish();
   }

@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEMPLATE_TEST_CASE("equal to the bit: NaN equals NaN, but -0 is not +0", "", float, double) {
   using Real = TestType;

@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("this build computes strictly") {
   const floating_point found = probe_floating_point();

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("splitmix64 gives its published first numbers for seed 1234567") {
   random_numbers r(1234567);

@@ -7,7 +7,7 @@
 
 #include "outside/outside_calls.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

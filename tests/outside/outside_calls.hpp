@@ -15,7 +15,7 @@
 #include "support/one_pair.hpp"
 #include "support/scratch_folder.hpp"
 
-namespace contct {
+namespace contct::app {
 
 inline constexpr double behaves = 0, crashes = 1, aborts = 2, exits_0 = 3, exits_3 = 4, hangs = 5, talks = 6;
 
@@ -65,4 +65,4 @@ class leftovers {
   long descriptors_ = open_descriptors();
 };
 
-}  // namespace contct
+}  // namespace contct::app

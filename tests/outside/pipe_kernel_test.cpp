@@ -5,7 +5,7 @@
 
 #include "outside/outside_calls.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -10,7 +10,7 @@
 #include "contct/outside/registry.hpp"
 #include "outside/outside_calls.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

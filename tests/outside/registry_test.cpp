@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 TEST_CASE("the prefix of a name says which kind of kernel it is, before any is made") {

@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("a loop of any length is found, whatever runs into it") {
   for (int lead : {0, 1, 5, 17}) {

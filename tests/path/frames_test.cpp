@@ -9,7 +9,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/structure/beam.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "contct/solve/refactor_engine.hpp"
 #include "support/beams.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "contct/text/field_lines.hpp"
 
-namespace contct {
+namespace contct::app {
 namespace {
 
 /// A number as Fortran writes it: an exponent of three digits has no E before it.
@@ -96,4 +96,4 @@ std::vector<std::array<double, 3>> values_at_end(const std::vector<calculix_tabl
   return values;
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -9,7 +9,7 @@
 
 #include "contct/text/input_text.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// One table of a .dat file.
 struct calculix_table {
@@ -34,4 +34,4 @@ struct calculix_table {
                                                                std::string_view set, int first, int count,
                                                                std::string_view file);
 
-}  // namespace contct
+}  // namespace contct::app

@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -7,7 +7,7 @@
 #include "peer/programs.hpp"
 
 int main(int argc, char** argv) {
-  using namespace contct::peer;
+  using namespace contct::app::peer;
   if (argc != 5) {
     fmt::print(stderr, "usage: contct_peer CONTCT CCX REFERENCE FOLDER\n");
     return 2;

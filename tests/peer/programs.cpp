@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace contct::peer {
+namespace contct::app::peer {
 namespace {
 
 int shell(const std::string& command) {
@@ -70,4 +70,4 @@ void verdicts::check(bool good, const std::string& words) {
   std::fflush(stdout);
 }
 
-}  // namespace contct::peer
+}  // namespace contct::app::peer

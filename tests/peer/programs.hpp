@@ -8,7 +8,7 @@
 
 #include "peer/calculix_results.hpp"
 
-namespace contct::peer {
+namespace contct::app::peer {
 
 /// Where everything is.
 struct places {
@@ -52,4 +52,4 @@ struct difference {
 void check_structures(const places& p, verdicts& v);
 void check_solids(const places& p, verdicts& v);
 
-}  // namespace contct::peer
+}  // namespace contct::app::peer

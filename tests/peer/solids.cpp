@@ -12,7 +12,7 @@
 
 #include "peer/programs.hpp"
 
-namespace contct::peer {
+namespace contct::app::peer {
 namespace {
 
 using nlohmann::json;
@@ -238,4 +238,4 @@ void check_solids(const places& p, verdicts& v) {
   check_block(p, v, plate, 4);
 }
 
-}  // namespace contct::peer
+}  // namespace contct::app::peer

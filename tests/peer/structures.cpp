@@ -9,7 +9,7 @@
 #include "contct/write/calculix_deck.hpp"
 #include "peer/programs.hpp"
 
-namespace contct::peer {
+namespace contct::app::peer {
 namespace {
 
 using nlohmann::json;
@@ -200,4 +200,4 @@ void check_structures(const places& p, verdicts& v) {
   check_faults(p, v, gaps);
 }
 
-}  // namespace contct::peer
+}  // namespace contct::app::peer

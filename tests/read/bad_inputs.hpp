@@ -6,7 +6,7 @@
 #include "read/good_problem.hpp"
 #include "read/refusals.hpp"
 
-namespace contct {
+namespace contct::app {
 
 inline std::vector<bad_input> bad_inputs() {
   return {
@@ -130,4 +130,4 @@ inline std::vector<bad_input> bad_inputs() {
   };
 }
 
-}  // namespace contct
+}  // namespace contct::app

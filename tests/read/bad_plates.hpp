@@ -6,7 +6,7 @@
 
 #include "read/refusals.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// A good plate, in which each mistake is made by replacing one piece. Lines are counted from 1.
 inline const char* const good_plate =
@@ -159,4 +159,4 @@ inline std::vector<bad_input> bad_plates() {
   };
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -4,7 +4,7 @@
 #include "catch.hpp"
 #include "read/refusals.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "contct/numeric/random.hpp"
 #include "read/refusals.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -11,7 +11,7 @@
 #include "contct/numeric/random.hpp"
 #include "read/refusals.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

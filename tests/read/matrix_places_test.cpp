@@ -10,7 +10,7 @@
 #include "read/refusals.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -18,7 +18,7 @@
 #include "support/matrices.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct;
+using namespace contct::app;
 namespace fs = std::filesystem;
 
 namespace {

@@ -12,7 +12,7 @@
 #include "read/refusals.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

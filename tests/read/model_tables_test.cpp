@@ -8,7 +8,7 @@
 #include "contct/read/contact_face.hpp"
 #include "read/refusals.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -6,7 +6,7 @@
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

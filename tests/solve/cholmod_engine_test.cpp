@@ -8,7 +8,7 @@
 #include "contct/outside/registry.hpp"
 #include "support/beam_over_stops.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

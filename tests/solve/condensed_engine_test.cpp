@@ -6,7 +6,7 @@
 #include "contct/structure/plate.hpp"
 #include "support/beam_over_stops.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("beams with pairs can be condensed, beams without and plates not") {
   CHECK(condensed_engine::suits(cantilever_over_stops(3)));

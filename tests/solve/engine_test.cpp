@@ -15,7 +15,7 @@
 #include "contct/solve/condensed_engine.hpp"
 #include "support/beams.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "contct/structure/plate.hpp"
 #include "support/beam_over_stops.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "contct/structure/plate.hpp"
 #include "support/beams.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("the response is proportional to the residual load, and the springs in it can be switched") {
   const beam_problem p = cantilever_over_a_stop();

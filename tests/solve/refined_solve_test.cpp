@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "support/beam_over_stops.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "support/beam_over_stops.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("toggles are taken in without a factor, and the response is that of a new one") {
   const linear_structure s = cantilever_over_stops(12);

@@ -7,7 +7,7 @@
 #include "contct/structure/plate.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("n points integrate every polynomial up to degree 2 n - 1, and not beyond") {
   for (int n = 1; n <= 13; ++n) {

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("between two loads lies their proportional mixture, with equal places merged") {
   const load before{{{2, 0, -10.0}}, {{{-4.0}, {}}}};

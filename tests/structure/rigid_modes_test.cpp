@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("two deflections at different places hold a beam, twice at one place does not") {
   rigid_rank same;

@@ -10,7 +10,7 @@
 #include "contct/read/problem_file.hpp"
 #include "contct/write/finished_run.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// FORTRAN leading C++ in lockstep, seen by all that pictures are made from.
 struct a_run {
@@ -45,4 +45,4 @@ struct a_run {
   }
 };
 
-}  // namespace contct
+}  // namespace contct::app

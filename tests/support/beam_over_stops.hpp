@@ -8,7 +8,7 @@
 #include "contct/solve/factored_stiffness.hpp"
 #include "contct/structure/beam.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// Clamped at its left end, all pairs open; springs of every order from softer to stiffer than the beam.
 inline linear_structure cantilever_over_stops(int elements) {
@@ -42,4 +42,4 @@ inline double relative_difference(std::span<const double> a, std::span<const dou
   return off / size;
 }
 
-}  // namespace contct
+}  // namespace contct::app

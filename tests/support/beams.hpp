@@ -9,7 +9,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/structure/beam.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// A beam problem in memory, and its run.
 struct beam_problem {
@@ -98,4 +98,4 @@ inline beam_problem free_beam_on_springs(double length, int elements, double EI,
   return p;
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -11,7 +11,7 @@
 #include "contct/kernel/call.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::app {
 
 using long_numbers = std::vector<long double>;
 
@@ -156,4 +156,4 @@ struct plain_active_set {
   return way;
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -12,7 +12,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// What was seen on a path, and what the certificate says of its states.
 struct followed {
@@ -57,4 +57,4 @@ inline followed follow(const random_problem& p) {
   return f;
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -10,7 +10,7 @@
 #include "contct/numeric/random.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// The entries of a structure's matrix, in the order of its dofs.
 inline sparse_matrix entries_of(const linear_structure& s) {
@@ -95,4 +95,4 @@ inline std::vector<double> random_vector(int order, std::uint64_t seed) {
   return x;
 }
 
-}  // namespace contct
+}  // namespace contct::app

@@ -6,7 +6,7 @@
 #include "contct/kernel/contct.hpp"
 #include "contct/kernel/log_text.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// Where a pair stands before a call.
 template <class Real>
@@ -50,4 +50,4 @@ struct small_call {
   }
 };
 
-}  // namespace contct
+}  // namespace contct::app

@@ -12,7 +12,7 @@
 #include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/fortran.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// Puts calls to FORTRAN and C++ in one precision. SMIN, SS and ISEP are compared at once, the
 /// unit-26 text in blocks: reading it back after every call would cost ten times the call.
@@ -58,4 +58,4 @@ class side_by_side {
 extern template class side_by_side<float>;
 extern template class side_by_side<double>;
 
-}  // namespace contct
+}  // namespace contct::app

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace contct {
+namespace contct::app {
 
 /// Why not, in words; empty when it is. Elements, attributes and the five entities; no comments,
 /// CDATA or document types.
@@ -76,4 +76,4 @@ inline std::string why_not_well_formed(const std::string& text) {
   return had_root ? "" : "no element at all";
 }
 
-}  // namespace contct
+}  // namespace contct::app

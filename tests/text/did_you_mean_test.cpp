@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("edits are counted: put in, left out, replaced, swapped") {
   CHECK(edits_between("stiffness", "stiffness") == 0);

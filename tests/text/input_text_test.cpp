@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 TEST_CASE("a file is read to its last byte, whatever its bytes are") {

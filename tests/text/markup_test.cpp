@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("what has a meaning in XML is escaped, and what XML forbids becomes U+FFFD") {
   CHECK(markup_text("a < b && \"c\" > d'") == "a &lt; b &amp;&amp; &quot;c&quot; &gt; d'");

@@ -12,7 +12,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 namespace fs = std::filesystem;
 
 namespace {

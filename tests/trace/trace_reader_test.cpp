@@ -11,7 +11,7 @@
 #include "contct/text/input_text.hpp"
 #include "contct/trace/trace.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

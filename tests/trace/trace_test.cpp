@@ -10,7 +10,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/numeric/bits.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

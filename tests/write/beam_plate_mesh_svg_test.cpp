@@ -8,11 +8,12 @@
 #include "catch.hpp"
 #include "contct/write/run_svg.hpp"
 #include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 #include "support/structures.hpp"
 #include "support/well_formed.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 TEST_CASE("a beam's axis, supports, faces and pairs stand where they are, deflections downwards") {

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

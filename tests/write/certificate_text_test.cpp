@@ -6,7 +6,7 @@
 #include "read/bad_inputs.hpp"
 #include "support/a_run.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 TEST_CASE("a step is certified, not certified, or without a certificate") {

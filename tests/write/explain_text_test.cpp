@@ -10,7 +10,7 @@
 #include "support/scratch_folder.hpp"
 #include "write/explained_run.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

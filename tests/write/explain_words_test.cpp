@@ -8,7 +8,7 @@
 #include "contct/read/problem_file.hpp"
 #include "write/explained_run.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -8,7 +8,7 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 
-namespace contct {
+namespace contct::app {
 
 /// FORTRAN with C++ beside it; `sink` is given each increment. Returns the path, which has the totals.
 inline explained_path explain_run(const problem& p, explained_path::sink sink) {
@@ -25,4 +25,4 @@ inline const char* const two_pairs =
     "[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
     "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
 
-}  // namespace contct
+}  // namespace contct::app

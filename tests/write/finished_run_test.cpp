@@ -6,7 +6,7 @@
 #include "support/a_run.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

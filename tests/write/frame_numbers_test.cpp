@@ -6,9 +6,10 @@
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 #include "support/structures.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

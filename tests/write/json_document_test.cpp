@@ -9,7 +9,7 @@
 #include "read/bad_inputs.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -4,8 +4,9 @@
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("an event's load is told in the words of the problem file") {
   const problem p = parse_problem(good_problem, "pb.toml");

@@ -9,7 +9,7 @@
 #include "support/a_run.hpp"
 #include "support/structures.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -4,9 +4,10 @@
 #include "catch.hpp"
 #include "contct/write/run_page.hpp"
 #include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 TEST_CASE("the numbers of the page are the run's, with every digit") {

@@ -13,7 +13,7 @@
 #include "support/a_run.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 TEST_CASE(

@@ -8,9 +8,10 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 namespace {
 

@@ -7,13 +7,13 @@
 #include "contct/outside/registry.hpp"
 #include "contct/write/frame_numbers.hpp"
 #include "contct/write/run_svg.hpp"
-#include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 #include "support/scratch_folder.hpp"
 #include "support/structures.hpp"
 #include "support/well_formed.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

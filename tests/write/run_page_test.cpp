@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
-#include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

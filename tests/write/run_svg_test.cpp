@@ -7,11 +7,12 @@
 
 #include "catch.hpp"
 #include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 #include "support/structures.hpp"
 #include "support/well_formed.hpp"
 
-using namespace contct;
+using namespace contct::app;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 
-using namespace contct::svg;
+using namespace contct::write::svg;
 
 TEST_CASE("a scale goes through its origin, and a span is never empty") {
   const scale X{2.0, 10.0, 60.0};

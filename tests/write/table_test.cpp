@@ -7,7 +7,7 @@
 #include "contct/read/problem_file.hpp"
 #include "read/bad_plates.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("the terminal's width comes from COLUMNS, within reason, and a pipe has no colour") {
   setenv("COLUMNS", "120", 1);

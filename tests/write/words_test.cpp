@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 
-using namespace contct;
+using namespace contct::app;
 
 TEST_CASE("sides, events and states have the words of a problem file") {
   CHECK(surface_name(face_below) == "below");

@@ -8,7 +8,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::certify {
 namespace {
 
 double share(double part, double whole) {
@@ -161,4 +161,4 @@ void certifier::compare_with(const reference_answer& a, const step_state& s, cer
   c.shape_error = share(any, largest_displacement_);
 }
 
-}  // namespace contct
+}  // namespace contct::certify

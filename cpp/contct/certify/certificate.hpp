@@ -14,7 +14,7 @@
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 
-namespace contct {
+namespace contct::certify {
 
 /// The tolerance of a certificate is this many eps / rcond, and never more than the next.
 inline constexpr double certificate_factor = 1024.0;
@@ -71,4 +71,4 @@ class certifier final : public observer {
   std::vector<std::optional<certificate>> steps_;
 };
 
-}  // namespace contct
+}  // namespace contct::certify

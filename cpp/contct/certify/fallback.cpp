@@ -2,7 +2,7 @@
 
 #include "contct/certify/reference_solution.hpp"
 
-namespace contct {
+namespace contct::certify {
 
 fallback_solver fallback_to_reference(const linear_structure& s) {
   return [&s](std::span<const double> load) -> std::optional<equilibrium_state> {
@@ -12,4 +12,4 @@ fallback_solver fallback_to_reference(const linear_structure& s) {
   };
 }
 
-}  // namespace contct
+}  // namespace contct::certify

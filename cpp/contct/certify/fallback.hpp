@@ -3,9 +3,9 @@
 
 #include "contct/path/path.hpp"
 
-namespace contct {
+namespace contct::certify {
 
 /// A fallback for `s`, which must outlive it.
 [[nodiscard]] fallback_solver fallback_to_reference(const linear_structure& s);
 
-}  // namespace contct
+}  // namespace contct::certify

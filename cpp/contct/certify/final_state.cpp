@@ -5,7 +5,7 @@
 #include "contct/certify/reference_solution.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 
-namespace contct {
+namespace contct::certify {
 namespace {
 
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
@@ -57,4 +57,4 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
   return end;
 }
 
-}  // namespace contct
+}  // namespace contct::certify

@@ -5,7 +5,7 @@
 
 #include "contct/path/path.hpp"
 
-namespace contct {
+namespace contct::certify {
 
 /// Find the equilibrium under the total load of every step and tell it to the observers as that step's end.
 /// An elastic structure on one-sided springs without friction has no memory: each is where the path would
@@ -16,4 +16,4 @@ namespace contct {
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
                            std::span<observer* const> observers);
 
-}  // namespace contct
+}  // namespace contct::certify

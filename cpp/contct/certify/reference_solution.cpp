@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace contct {
+namespace contct::certify {
 namespace {
 
 constexpr int most_iterations = 500;
@@ -307,4 +307,4 @@ reference_answer reference_solver::search() {
   return end(outcome::not_found, false);
 }
 
-}  // namespace contct
+}  // namespace contct::certify

@@ -8,7 +8,7 @@
 #include "contct/matrix/stiffness_factor.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::certify {
 
 /// What was found for one load.
 struct reference_answer {
@@ -100,4 +100,4 @@ class reference_solver {
   int factorisations_ = 0;
 };
 
-}  // namespace contct
+}  // namespace contct::certify

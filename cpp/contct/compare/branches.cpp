@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace contct {
+namespace contct::compare {
 
 template <class Real>
 void branch_counts::count(const call<Real>& c, std::span<const int> isep_before) {
@@ -25,4 +25,4 @@ std::int64_t branch_counts::rarest() const {
   return least;
 }
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -9,7 +9,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// The IFs of the listing, in its order; the compound IF of the DO 10 loop counts twice.
 enum class branch {
@@ -103,4 +103,4 @@ void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Vi
   }
 }
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace contct {
+namespace contct::compare {
 namespace {
 
 /// Cut the first line off `text`, without its end.
@@ -57,4 +57,4 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
   return std::nullopt;
 }
 
-}  // namespace contct
+}  // namespace contct::compare

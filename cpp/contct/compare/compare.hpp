@@ -10,7 +10,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/numeric/bits.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// What a kernel gives back, as far as it is compared.
 template <class Real>
@@ -77,4 +77,4 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
 /// How the text of two kernels is compared.
 [[nodiscard]] text_equality text_equality_of(const kernel_facts& leader, const kernel_facts& follower);
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -5,7 +5,7 @@
 
 #include "contct/compare/explanation.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 void early_toggles::called(const answered_call& c) {
   last_call_.clear();
@@ -27,4 +27,4 @@ void early_toggles::incremented(const increment& i) {
   }
 }
 
-}  // namespace contct
+}  // namespace contct::compare

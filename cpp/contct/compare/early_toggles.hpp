@@ -5,7 +5,7 @@
 
 #include "contct/path/observer.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// A pair that was toggled away from its face.
 struct early_toggle {
@@ -35,4 +35,4 @@ class early_toggles final : public observer {
   std::vector<early_toggle> all_;
 };
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace contct {
+namespace contct::compare {
 
 explained_path::explained_path(kernel_facts leader, std::unique_ptr<kernel> second, increments_wanted wanted,
                                sink to)
@@ -43,4 +43,4 @@ void explained_path::step_ended(const step_state& /*s*/) {
   fraction_ = 0.0;
 }
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -10,7 +10,7 @@
 #include "contct/compare/follower.hpp"
 #include "contct/path/observer.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// Which increments are wanted; 0 is all. All count from 1.
 struct increments_wanted {
@@ -65,4 +65,4 @@ class explained_path final : public observer {
   explained_call call_;    // the last one
 };
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct {
+namespace contct::compare {
 namespace {
 
 /// What went into the DO 10 loop for pair `i`, and GAP.
@@ -94,4 +94,4 @@ explained_call explain(const call<double>& c, std::span<const int> isep_before, 
   return as_float_call(c, [&](const call<float>& f) { return explain_in<float>(f, isep_before, largest); });
 }
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -12,7 +12,7 @@
 #include "contct/compare/margin.hpp"
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// A statement of fortran/contct.f that an explanation cites.
 struct listing_line {
@@ -125,4 +125,4 @@ struct explained_call {
 [[nodiscard]] explained_call explain(const call<double>& c, std::span<const int> isep_before, int real_bytes,
                                      double& largest);
 
-}  // namespace contct
+}  // namespace contct::compare

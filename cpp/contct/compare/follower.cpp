@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace contct {
+namespace contct::compare {
 namespace {
 
 std::string described(const kernel_facts& k) {
@@ -104,4 +104,4 @@ void follower::note(std::int64_t number, const mismatch& found, const call<doubl
                            decisions_of(answered, isep_before, leader_.real_bytes)};
 }
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -13,7 +13,7 @@
 #include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// The first call in which a follower did not answer as the leader.
 struct mismatch_report {
@@ -75,4 +75,4 @@ class follower {
   std::optional<mismatch_report> first_;
 };
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct {
+namespace contct::compare {
 namespace {
 
 std::string words(const timed_event& e) {
@@ -76,4 +76,4 @@ free_run_difference compare_paths(const path_record& leader, const path_record& 
   return d;
 }
 
-}  // namespace contct
+}  // namespace contct::compare

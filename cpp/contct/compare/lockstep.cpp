@@ -5,7 +5,7 @@
 
 #include "contct/outside/registry.hpp"
 
-namespace contct {
+namespace contct::compare {
 namespace {
 
 /// How far the answer is from the leader's.
@@ -67,4 +67,4 @@ bool lockstep::last_call_equal() const {
                       [](const follower_answer& a) { return a.mismatches > 0; });
 }
 
-}  // namespace contct
+}  // namespace contct::compare

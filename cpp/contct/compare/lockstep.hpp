@@ -11,7 +11,7 @@
 #include "contct/compare/follower.hpp"
 #include "contct/path/observer.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// How one follower answered one call of the leader.
 struct follower_answer {
@@ -53,4 +53,4 @@ class lockstep final : public observer {
 /// first is made. Throws std::invalid_argument.
 [[nodiscard]] lockstep make_lockstep(const kernel_facts& leader, std::span<const std::string> followers);
 
-}  // namespace contct
+}  // namespace contct::compare

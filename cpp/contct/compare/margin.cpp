@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace contct {
+namespace contct::compare {
 namespace {
 
 constexpr std::uint64_t beyond_count = std::numeric_limits<std::uint64_t>::max();
@@ -44,4 +44,4 @@ std::string words_of(const decision& d) {
 template std::vector<decision> decisions_of(const call<float>&, std::span<const int>);
 template std::vector<decision> decisions_of(const call<double>&, std::span<const int>);
 
-}  // namespace contct
+}  // namespace contct::compare

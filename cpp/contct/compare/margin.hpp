@@ -10,7 +10,7 @@
 #include "contct/compare/branches.hpp"
 #include "contct/numeric/bits.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// How many numbers lie between the two that an IF compares. The two zeros compare equal: none lies between
 /// them. The largest count there is where one of them is NaN.
@@ -58,4 +58,4 @@ template <class Real>
 /// A decision taken by at most this many ULP is within the rounding of one or two operations.
 inline constexpr std::uint64_t tie_ulps = 4;
 
-}  // namespace contct
+}  // namespace contct::compare

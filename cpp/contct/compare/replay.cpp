@@ -1,6 +1,6 @@
 #include "contct/compare/replay.hpp"
 
-namespace contct {
+namespace contct::compare {
 namespace {
 
 /// The kernel that answered the trace. A trace of f2c's may be replayed where there is no f2c, so its name
@@ -38,4 +38,4 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
   return report;
 }
 
-}  // namespace contct
+}  // namespace contct::compare

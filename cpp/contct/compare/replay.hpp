@@ -10,7 +10,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/trace/trace.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// The result of a replay.
 struct replay_report {
@@ -29,4 +29,4 @@ struct replay_report {
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                                    const std::function<void(std::int64_t)>& progress = nullptr);
 
-}  // namespace contct
+}  // namespace contct::compare

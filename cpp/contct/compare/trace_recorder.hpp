@@ -9,7 +9,7 @@
 #include "contct/path/observer.hpp"
 #include "contct/trace/trace.hpp"
 
-namespace contct {
+namespace contct::compare {
 
 /// Observes a path and hands its trace on as it grows, header first: memory does not grow with the calls.
 class trace_recorder final : public observer {
@@ -33,4 +33,4 @@ class trace_recorder final : public observer {
   std::string text_;
 };
 
-}  // namespace contct
+}  // namespace contct::compare

@@ -8,7 +8,7 @@
 #include "contct/kernel/fortran.hpp"
 #include "contct/kernel/log_text.hpp"
 
-namespace contct {
+namespace contct::kernels {
 namespace {
 
 const char* const cxx_compiler = CONTCT_CXX_COMPILER;    // NOLINT: set by CMake
@@ -196,4 +196,4 @@ std::vector<std::string> kernel_names() {
   return names;
 }
 
-}  // namespace contct
+}  // namespace contct::kernels

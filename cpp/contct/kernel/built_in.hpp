@@ -9,7 +9,7 @@
 
 #include "contct/kernel/kernel.hpp"
 
-namespace contct {
+namespace contct::kernels {
 
 /// "fortran", "fortran-r4", "cpp", "cpp-r4" or "corrected"; "flang" and "f2c" where built. Null when none has
 /// that name.
@@ -21,4 +21,4 @@ namespace contct {
 /// The names of all built-in kernels.
 [[nodiscard]] std::vector<std::string> kernel_names();
 
-}  // namespace contct
+}  // namespace contct::kernels

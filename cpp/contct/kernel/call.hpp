@@ -3,7 +3,9 @@
 
 #include <span>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::kernels {
 
 /// COMMON /DOF/ of the listing.
 struct dof_layout {
@@ -52,4 +54,4 @@ struct call {
   [[nodiscard]] int nc() const { return static_cast<int>(cc.size()); }
 };
 
-}  // namespace contct
+}  // namespace contct::kernels

@@ -7,7 +7,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::kernels {
 
 /// What goes into one call. dd and dtest may be longer than the dofs in use.
 template <class Real>
@@ -40,4 +40,4 @@ struct call_outputs {
   }
 };
 
-}  // namespace contct
+}  // namespace contct::kernels

@@ -1,8 +1,8 @@
 #include "contct/kernel/compiled_listing.hpp"
 
-using contct::fortran::call_r8;
-using contct::fortran::log_act;
-using contct::fortran::log_open;
+using contct::kernels::fortran::call_r8;
+using contct::kernels::fortran::log_act;
+using contct::kernels::fortran::log_open;
 
 extern "C" {
 call_r8 contct_call_r8, contct_flang_call_r8, contct_f2c_call_r8;
@@ -12,7 +12,7 @@ log_act contct_log_rewind, contct_flang_log_rewind, contct_f2c_log_rewind;
 log_act contct_log_close, contct_flang_log_close, contct_f2c_log_close;
 }
 
-namespace contct::fortran {
+namespace contct::kernels::fortran {
 
 // The compilers' names are set by CMake.
 compiled_listing gfortran{.kernel = "fortran",
@@ -50,4 +50,4 @@ compiled_listing f2c{.kernel = "f2c",
                      .unit_26_is_open = false};
 #endif
 
-}  // namespace contct::fortran
+}  // namespace contct::kernels::fortran

@@ -1,7 +1,9 @@
 // The 8-byte listing as each compiler built it, called from C++.
 #pragma once
 
-namespace contct::fortran {
+#include "contct/rooms.hpp"
+
+namespace contct::kernels::fortran {
 
 // The procedures of fortran/contct_c.f90 and fortran/f2c_calls.c.
 using call_r8 = void(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
@@ -26,4 +28,4 @@ struct compiled_listing {
 extern compiled_listing gfortran;
 extern compiled_listing flang, f2c;  // where CMake found them
 
-}  // namespace contct::fortran
+}  // namespace contct::kernels::fortran

@@ -7,7 +7,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::kernels {
 
 /// The constants of the listing's DATA statement, each literal read in the precision of the
 /// build: the single-precision 1.E-20 is not the double nearest to 1e-20.
@@ -69,4 +69,4 @@ int contct(call<Real>& c, std::span<event> events) noexcept {
   return happened;
 }
 
-}  // namespace contct
+}  // namespace contct::kernels

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace contct {
+namespace contct::kernels {
 namespace {
 
 /// d* of pair `i`.
@@ -45,4 +45,4 @@ void contct_corrected(call<double>& c) noexcept {
   c.isep[chosen] = c.isep[chosen] == separated ? in_contact : separated;
 }
 
-}  // namespace contct
+}  // namespace contct::kernels

@@ -3,7 +3,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::kernels {
 
 /// theta of the rule, as a share of the largest response |d*|: a separated pair that approaches its face by
 /// less than that has a d* of rounding. A missed make costs this share in position. A missed break locks in a
@@ -23,4 +23,4 @@ void contct_corrected(call<double>& c) noexcept;
 /// The same to the bit, for thousands of pairs: nothing branches, and two pairs are divided at once.
 void contct_corrected_quick(call<double>& c) noexcept;
 
-}  // namespace contct
+}  // namespace contct::kernels

@@ -5,7 +5,7 @@
 
 #include "contct/kernel/corrected.hpp"
 
-namespace contct {
+namespace contct::kernels {
 namespace {
 
 // A minimum or maximum over thousands of numbers is limited by latency: four chains take a quarter of the
@@ -112,4 +112,4 @@ void contct_corrected_quick(call<double>& c) noexcept {
   }
 }
 
-}  // namespace contct
+}  // namespace contct::kernels

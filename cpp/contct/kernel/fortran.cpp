@@ -12,7 +12,7 @@
 #include "contct/kernel/contct.h"
 #include "contct/text/signals_wait.hpp"
 
-namespace contct::fortran {
+namespace contct::kernels::fortran {
 
 std::mutex& process_wide() {
   static std::mutex mutex;
@@ -77,4 +77,4 @@ std::string unit_26::take() const {
   return text;
 }
 
-}  // namespace contct::fortran
+}  // namespace contct::kernels::fortran

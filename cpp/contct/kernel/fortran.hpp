@@ -7,7 +7,7 @@
 #include "contct/kernel/call.hpp"
 #include "contct/kernel/compiled_listing.hpp"
 
-namespace contct::fortran {
+namespace contct::kernels::fortran {
 
 /// Serialises everything that touches COMMON /DOF/ or unit 26; whatever else is compiled from the
 /// listing must hold it too.
@@ -41,4 +41,4 @@ class unit_26 {
   int file_ = -1;
 };
 
-}  // namespace contct::fortran
+}  // namespace contct::kernels::fortran

@@ -6,7 +6,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::kernels {
 
 /// What a kernel is. Lockstep compares kernels of one precision and one rule.
 struct kernel_facts {
@@ -42,4 +42,4 @@ class kernel {
   virtual std::string take_text() = 0;
 };
 
-}  // namespace contct
+}  // namespace contct::kernels

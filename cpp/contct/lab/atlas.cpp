@@ -8,7 +8,7 @@
 #include "contct/lab/epsmul_variants.hpp"
 #include "contct/outside/registry.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 std::unique_ptr<kernel> kernel_of(const atlas_cell& c) {
@@ -99,4 +99,4 @@ void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tr
   }
 }
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -8,7 +8,7 @@
 
 #include "contct/lab/problem_result.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// An answer is wrong when it is off by more than this share of the largest deflection. One measure
 /// for all kernels: a 4-byte kernel rounds at 6e-8 and cannot meet the certificate's tolerance, which
@@ -77,4 +77,4 @@ struct atlas {
 /// problems in another unit. `tried` is called after each.
 void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried = nullptr);
 
-}  // namespace contct
+}  // namespace contct::lab

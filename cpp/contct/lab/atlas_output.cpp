@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -144,4 +144,4 @@ std::string atlas_table(const atlas& a, const terminal& t) {
   return text + "\n" + fmt::format(meaning, never_held, a.request.problems);
 }
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -6,7 +6,7 @@
 #include "contct/lab/atlas.hpp"
 #include "contct/text/terminal.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// A line a cell, and one of names before them.
 [[nodiscard]] std::string atlas_csv(const atlas& a);
@@ -17,4 +17,4 @@ namespace contct {
 /// All cells as a table of 80 columns, and what its columns mean.
 [[nodiscard]] std::string atlas_table(const atlas& a, const terminal& t);
 
-}  // namespace contct
+}  // namespace contct::lab

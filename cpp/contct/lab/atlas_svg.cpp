@@ -9,7 +9,7 @@
 #include "contct/lab/epsmul_variants.hpp"
 #include "contct/write/svg_parts.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 using svg::element;
@@ -233,4 +233,4 @@ std::string atlas_svg(const atlas& a) {
                      element("rect", size + R"( fill="#ffffff")") + heading(a) + panels(a) + captions());
 }
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -6,7 +6,7 @@
 #include "contct/kernel/contct.hpp"
 #include "contct/outside/registry.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 constexpr std::size_t calls_in_a_block = 2048;
@@ -141,4 +141,4 @@ std::vector<follower_result> call_campaign::results() {
   return results_;
 }
 
-}  // namespace contct
+}  // namespace contct::lab

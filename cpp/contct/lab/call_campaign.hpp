@@ -15,7 +15,7 @@
 #include "contct/lab/random_calls.hpp"
 #include "contct/lab/shrink.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// Events by kind. A pair at its face when its event came is counted as stationary, too.
 struct event_counts {
@@ -80,4 +80,4 @@ class call_campaign {
   campaign_counts counts_;
 };
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -8,7 +8,7 @@
 
 #include "contct/numeric/bits.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 /// A number as C++ has it.
@@ -124,9 +124,9 @@ std::string catch_test_of(const found_case& c) {
 #include "contct/outside/registry.hpp"
 
 TEST_CASE("{} answers as {} does") {{
-  const auto kernel = contct::make_kernel({});
-  contct::call_inputs<double> in;
-  contct::call_outputs out;
+  const auto kernel = contct::outside::make_kernel({});
+  contct::outside::call_inputs<double> in;
+  contct::outside::call_outputs out;
 )",
                       test_name(c.what.follower), test_name(c.what.leader), cpp_string(c.what.follower));
   for (std::size_t i = 0; i < c.calls.size(); ++i) {
@@ -141,14 +141,14 @@ TEST_CASE("{} answers as {} does") {{
   in.isurf = {};
   in.dof = {{{}, {}}};
   {{
-    contct::call<double> asked = out.prepare(in);
+    contct::outside::call<double> asked = out.prepare(in);
     kernel->answer(asked);
-    CHECK(contct::same_bits(asked.smin, {}));
+    CHECK(contct::outside::same_bits(asked.smin, {}));
 )",
                     cpp_list(in.dd), cpp_list(in.dtest), cpp_list(in.cc), cpp_list(in.id), cpp_list(in.isep),
                     cpp_list(in.isurf), in.dof.indof, in.dof.ndofpn, cpp_number(c.leader[i].smin));
     for (std::size_t pair = 0; pair < in.pairs(); ++pair)
-      text += fmt::format("    CHECK(contct::same_bits(out.ss[{}], {}));\n", pair,
+      text += fmt::format("    CHECK(contct::outside::same_bits(out.ss[{}], {}));\n", pair,
                           cpp_number(c.leader[i].ss[pair]));
     text += fmt::format("    CHECK(out.isep == std::vector<int>{});\n  }}\n", cpp_list(c.leader[i].isep));
   }
@@ -175,4 +175,4 @@ std::string fortran_main_of(const found_case& c) {
   return text + "      END\n";
 }
 
-}  // namespace contct
+}  // namespace contct::lab

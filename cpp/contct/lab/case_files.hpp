@@ -6,7 +6,7 @@
 #include "contct/lab/shrink.hpp"
 #include "contct/trace/trace.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// The calls with the leader's answers. `h` says whose they are.
 [[nodiscard]] std::string trace_of(const found_case& c, trace_header h);
@@ -18,4 +18,4 @@ namespace contct {
 /// values stand in its comments. Whoever has a FORTRAN compiler can run it.
 [[nodiscard]] std::string fortran_main_of(const found_case& c);
 
-}  // namespace contct
+}  // namespace contct::lab

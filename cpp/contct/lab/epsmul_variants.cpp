@@ -15,7 +15,7 @@ void contct_call_epsmul(int variant, const double* dd, const double* dtest, cons
                         int ndofpn);
 }
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 class epsmul_variant final : public kernel {
@@ -54,4 +54,4 @@ std::unique_ptr<kernel> make_epsmul_variant(std::size_t variant) {
   return std::make_unique<epsmul_variant>(static_cast<int>(variant) + 1);
 }
 
-}  // namespace contct
+}  // namespace contct::lab

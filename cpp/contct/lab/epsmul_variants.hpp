@@ -7,7 +7,7 @@
 
 #include "contct/kernel/kernel.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// EPSMUL as the listing prints it.
 inline constexpr double printed_epsmul = .390625E-02;
@@ -18,4 +18,4 @@ inline constexpr double printed_epsmul = .390625E-02;
 /// The variant of that index. It keeps no text.
 [[nodiscard]] std::unique_ptr<kernel> make_epsmul_variant(std::size_t variant);
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -6,7 +6,7 @@
 #include "contct/lab/problem_campaign.hpp"
 #include "contct/outside/registry.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 constexpr std::uint64_t few_ulps = 64;
@@ -147,4 +147,4 @@ fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress) {
   return fuzzing(r, progress).run();
 }
 
-}  // namespace contct
+}  // namespace contct::lab

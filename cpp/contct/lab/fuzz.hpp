@@ -10,7 +10,7 @@
 #include "contct/lab/call_campaign.hpp"
 #include "contct/lab/shrink.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// The levels of equality, highest first.
 enum class equality_level {
@@ -69,4 +69,4 @@ using fuzz_progress = std::function<void(std::int64_t done, std::int64_t all, co
 /// compared.
 [[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr);
 
-}  // namespace contct
+}  // namespace contct::lab

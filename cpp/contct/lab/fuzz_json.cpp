@@ -7,7 +7,7 @@
 
 #include "contct/text/input_text.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -147,4 +147,4 @@ fuzz_result merged_fuzz(const std::vector<std::string>& files) {
   return all;
 }
 
-}  // namespace contct
+}  // namespace contct::lab

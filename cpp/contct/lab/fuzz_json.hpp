@@ -6,7 +6,7 @@
 
 #include "contct/lab/fuzz.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 [[nodiscard]] std::string fuzz_json(const fuzz_result& r);
 
@@ -14,4 +14,4 @@ namespace contct {
 /// when they are not of one run, or when a shard is missing or given twice.
 [[nodiscard]] fuzz_result merged_fuzz(const std::vector<std::string>& files);
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -8,7 +8,7 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 /// Problems small enough that thousands of them are quick.
@@ -85,4 +85,4 @@ bool certified_as_leader(std::uint64_t seed, std::uint64_t number, const std::st
   }
 }
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -7,7 +7,7 @@
 
 #include "contct/lab/call_campaign.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// What came of one problem.
 struct problem_in_lockstep : campaign_counts {
@@ -24,4 +24,4 @@ struct problem_in_lockstep : campaign_counts {
 [[nodiscard]] bool certified_as_leader(std::uint64_t seed, std::uint64_t number, const std::string& leader,
                                        const std::string& follower);
 
-}  // namespace contct
+}  // namespace contct::lab

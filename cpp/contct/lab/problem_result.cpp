@@ -6,7 +6,7 @@
 #include "contct/certify/fallback.hpp"
 #include "contct/path/solve_problem.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 /// Counts what happens on a path.
@@ -78,4 +78,4 @@ problem_result try_structure(const random_problem& p, const linear_structure& s,
   return t;
 }
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -7,7 +7,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/lab/random_problem.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 enum class verdict {
   certified,        ///< every step's final state is certified
@@ -47,4 +47,4 @@ struct problem_result {
 [[nodiscard]] problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
                                            std::string_view engine);
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -7,7 +7,7 @@
 
 #include "contct/kernel/contct.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 constexpr int most_pairs = 64;
@@ -238,4 +238,4 @@ template class random_calls<double>;
 template class adversarial_calls<float>;
 template class adversarial_calls<double>;
 
-}  // namespace contct
+}  // namespace contct::lab

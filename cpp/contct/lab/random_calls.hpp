@@ -6,7 +6,7 @@
 #include "contct/kernel/call_inputs.hpp"
 #include "contct/numeric/random.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// What both generators share: the arrays of a call, and the random numbers that it is drawn from.
 template <class Real>
@@ -101,4 +101,4 @@ extern template class random_calls<double>;
 extern template class adversarial_calls<float>;
 extern template class adversarial_calls<double>;
 
-}  // namespace contct
+}  // namespace contct::lab

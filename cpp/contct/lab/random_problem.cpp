@@ -7,7 +7,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/random.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 /// Draws one problem, in units of its own: length and force are scaled at the places they enter.
@@ -278,4 +278,4 @@ random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
   return drawing(seed, number, kind).draw();
 }
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -7,7 +7,7 @@
 
 #include "contct/structure/model.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// How the faces are placed.
 enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, antisymmetric, two_sided };
@@ -39,4 +39,4 @@ struct random_problem {
 [[nodiscard]] random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
                                                  const random_problem_kind& kind = {});
 
-}  // namespace contct
+}  // namespace contct::lab

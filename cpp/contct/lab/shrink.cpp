@@ -10,7 +10,7 @@
 #include "contct/numeric/bits.hpp"
 #include "contct/outside/registry.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 /// `x` with `digits` significant decimal digits.
@@ -229,4 +229,4 @@ std::optional<found_case> shrunk_case(kernel& leader, const std::string& followe
   return reproduce(leader, follower, shrink(calls, differs, most_tries), field);
 }
 
-}  // namespace contct
+}  // namespace contct::lab

@@ -10,7 +10,7 @@
 #include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// Calls in order; the answers to the last one differ. More than one where a kernel keeps something from call
 /// to call.
@@ -42,4 +42,4 @@ struct found_case {
                                                     const call_sequence& calls, const std::string& field,
                                                     int most_tries = 4000);
 
-}  // namespace contct
+}  // namespace contct::lab

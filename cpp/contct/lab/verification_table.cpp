@@ -6,7 +6,7 @@
 #include "contct/read/toml_reader.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
@@ -71,4 +71,4 @@ std::string quantity_words(const expected_number& e) {
   return fmt::format("{}, node {}", e.quantity, e.node);
 }
 
-}  // namespace contct
+}  // namespace contct::lab

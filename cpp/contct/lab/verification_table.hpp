@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::lab {
 
 /// One number of reference/verification.toml, whose head explains the fields. Nodes, elements and
 /// pairs count from 1, as in the file; 0 where a quantity does not need them.
@@ -36,4 +38,4 @@ struct verification_case {
 /// does), "moment, element 4.1" (at its first end or corner).
 [[nodiscard]] std::string quantity_words(const expected_number& e);
 
-}  // namespace contct
+}  // namespace contct::lab

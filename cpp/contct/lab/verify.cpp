@@ -10,7 +10,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/write/load_text.hpp"
 
-namespace contct {
+namespace contct::lab {
 namespace {
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
@@ -168,4 +168,4 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   return out;
 }
 
-}  // namespace contct
+}  // namespace contct::lab

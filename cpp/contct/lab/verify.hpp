@@ -11,7 +11,7 @@
 #include "contct/path/observer.hpp"
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::lab {
 
 /// Observes a run and measures, afterwards, what the table asks for.
 class measurement final : public observer {
@@ -78,4 +78,4 @@ struct verified_case {
 /// kernel's states must be certified.
 [[nodiscard]] verified_case verify_case(const verification_case& c, const problem& p);
 
-}  // namespace contct
+}  // namespace contct::lab

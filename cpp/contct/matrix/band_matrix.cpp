@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace contct {
+namespace contct::matrix {
 
 band_matrix::band_matrix(int order, int subdiagonals)
     : order_(order),
@@ -13,4 +13,4 @@ void band_matrix::add(std::size_t row, std::size_t column, double value) {
   at(std::max(row, column), std::min(row, column)) += value;
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::matrix {
 
 /// Symmetric band matrix of order n with kd subdiagonals. Column j has its diagonal entry and
 /// those below it, one column after the other; for n = 5, kd = 2 (rows and columns from 0):
@@ -44,4 +46,4 @@ class band_matrix {
   std::vector<double> entries_;
 };
 
-}  // namespace contct
+}  // namespace contct::matrix

@@ -5,7 +5,7 @@
 
 #include "contct/matrix/several_right_hand_sides.hpp"
 
-namespace contct {
+namespace contct::matrix {
 namespace {
 
 /// A factor's column j: L_jj, L_j+1,j, ... and how many rows it has below the diagonal.
@@ -82,4 +82,4 @@ void solve_block_from(const band_matrix& factor_of_a, std::size_t first, std::sp
   back_substitution(factor_of_a, b.data());
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

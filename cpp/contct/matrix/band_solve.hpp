@@ -6,7 +6,7 @@
 
 #include "contct/matrix/band_matrix.hpp"
 
-namespace contct {
+namespace contct::matrix {
 
 /// Solve L L^T x = b in place, for b that is 0 before row `first` (from 0), with L in `factor_of_a` as dpbtrf
 /// leaves it. The time goes into reading the factor; the unit vector of a row needs half of it on average in
@@ -16,4 +16,4 @@ void solve_from(const band_matrix& factor_of_a, std::size_t first, std::span<dou
 /// The same for a block of right-hand sides, b[row * block_width + i]: see several_right_hand_sides.hpp.
 void solve_block_from(const band_matrix& factor_of_a, std::size_t first, std::span<double> b);
 
-}  // namespace contct
+}  // namespace contct::matrix

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <deque>
 
-namespace contct {
+namespace contct::matrix {
 namespace {
 
 // Both directions of every entry off the diagonal.
@@ -76,4 +76,4 @@ std::vector<int> rows_for_small_band(const sparse_matrix& a) {
   return rows;
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

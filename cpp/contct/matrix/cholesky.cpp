@@ -20,7 +20,7 @@ void CONTCT_FC_GLOBAL(dlacn2, DLACN2)(const int* n, double* v, double* x, int* i
                                       int* isave);
 }
 
-namespace contct {
+namespace contct::matrix {
 namespace {
 
 /// 1 / sqrt of each entry: what scales a matrix with this diagonal to a unit diagonal. Empty when an entry is
@@ -106,4 +106,4 @@ int digits_left(double rcond) {
   return std::clamp(static_cast<int>(digits), 0, 15);
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

@@ -8,7 +8,7 @@
 #include "contct/matrix/band_matrix.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
-namespace contct {
+namespace contct::matrix {
 
 /// Replace `matrix` by its Cholesky factor L, A = L L^T (dpbtrf, lower). Returns false when a
 /// pivot is not positive. Rounding can give the matrix of a mechanism a factor, too.
@@ -34,4 +34,4 @@ using in_place_solver = std::function<void(std::span<double>)>;
 /// never negative, at most 15.
 [[nodiscard]] int digits_left(double rcond);
 
-}  // namespace contct
+}  // namespace contct::matrix

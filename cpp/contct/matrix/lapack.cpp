@@ -11,7 +11,7 @@ void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)();
 }
 
-namespace contct {
+namespace contct::matrix {
 namespace {
 
 /// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found.
@@ -47,4 +47,4 @@ std::string lapack_identity() {
   return words;
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstring>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::matrix {
 
 /// How many right-hand sides a block has. Its entries are stored by rows: b[row * block_width + i].
 inline constexpr std::size_t block_width = 8;
@@ -52,4 +54,4 @@ inline block_row divide(double* row, double pivot, const block_row& sum = {}) {
   return r;
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

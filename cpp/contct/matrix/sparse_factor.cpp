@@ -11,7 +11,7 @@
 #include "contct/matrix/several_right_hand_sides.hpp"
 #include "contct/matrix/supernodal_solve.hpp"
 
-namespace contct {
+namespace contct::matrix {
 namespace {
 
 /// What CHOLMOD has made; std::bad_alloc where it has not.
@@ -167,11 +167,11 @@ std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns a, kind k) {
   return std::make_unique<cholmod>(std::move(a), k);
 }
 
-}  // namespace contct
+}  // namespace contct::matrix
 #else
 #include <stdexcept>
 
-namespace contct {
+namespace contct::matrix {
 
 bool sparse_factor::available() {
   return false;
@@ -182,5 +182,5 @@ std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns /*a*/, kind /*
   throw std::logic_error("a sparse factor needs CHOLMOD, which is not built in");
 }
 
-}  // namespace contct
+}  // namespace contct::matrix
 #endif

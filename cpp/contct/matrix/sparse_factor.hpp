@@ -9,7 +9,7 @@
 
 #include "contct/matrix/sparse_matrix.hpp"
 
-namespace contct {
+namespace contct::matrix {
 
 /// The factor of a symmetric positive definite matrix A, in an order of little fill. Rows are A's, from 0.
 class sparse_factor {
@@ -54,4 +54,4 @@ class sparse_factor {
   [[nodiscard]] virtual double flops() const = 0;
 };
 
-}  // namespace contct
+}  // namespace contct::matrix

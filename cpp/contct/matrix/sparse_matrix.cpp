@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace contct {
+namespace contct::matrix {
 namespace {
 
 int place_of(int row, std::span<const int> rows) {
@@ -96,4 +96,4 @@ sparse_columns columns_of(const band_matrix& a) {
   return k;
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

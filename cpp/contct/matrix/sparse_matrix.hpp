@@ -7,7 +7,7 @@
 
 #include "contct/matrix/band_matrix.hpp"
 
-namespace contct {
+namespace contct::matrix {
 
 /// One entry of the lower triangle, row >= column; from 0.
 struct matrix_entry {
@@ -54,4 +54,4 @@ struct sparse_columns {
 /// The same of a band; zeros in it are left out.
 [[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
-}  // namespace contct
+}  // namespace contct::matrix

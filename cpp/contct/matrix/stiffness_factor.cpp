@@ -7,7 +7,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/several_right_hand_sides.hpp"
 
-namespace contct {
+namespace contct::matrix {
 
 stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
   if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
@@ -16,7 +16,7 @@ stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
 bool stiffness_factor::factor(std::span<const spring_at> springs) {
   if (sparse_) return sparse_->factor(k_.diagonal_with(springs));
   assemble(springs);
-  return contct::factor(band_);
+  return contct::matrix::factor(band_);
 }
 
 void stiffness_factor::solve(std::span<double> b) {
@@ -45,11 +45,11 @@ double stiffness_factor::flops() const {
 double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {
   if (k_.is_band()) {
     assemble(springs);
-    return contct::reciprocal_condition(band_);
+    return contct::matrix::reciprocal_condition(band_);
   }
   if (!factor(springs)) return 0.0;
-  return contct::reciprocal_condition(k_, k_.diagonal_with(springs),
-                                      [this](std::span<double> b) { solve(b); });
+  return contct::matrix::reciprocal_condition(k_, k_.diagonal_with(springs),
+                                              [this](std::span<double> b) { solve(b); });
 }
 
 const band_matrix& stiffness_factor::band() const {
@@ -63,4 +63,4 @@ void stiffness_factor::assemble(std::span<const spring_at> springs) {
   for (const spring_at& s : springs) band_.at(s.row, s.row) += s.stiffness;
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

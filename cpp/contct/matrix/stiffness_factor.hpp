@@ -8,7 +8,7 @@
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
-namespace contct {
+namespace contct::matrix {
 
 /// K with springs on its diagonal: factored by LAPACK where K is a band, by CHOLMOD where it is not.
 /// Memory: the factor, besides K; for a sparse K its entries once more.
@@ -45,4 +45,4 @@ class stiffness_factor {
   std::unique_ptr<sparse_factor> sparse_;  // of K where it is no band
 };
 
-}  // namespace contct
+}  // namespace contct::matrix

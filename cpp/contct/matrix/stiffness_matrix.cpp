@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-namespace contct {
+namespace contct::matrix {
 namespace {
 
 /// Column by column, `on(column, value)` for the diagonal and `below(row, column, value)` for the rest.
@@ -103,4 +103,4 @@ double stiffness_matrix::one_norm(std::span<const double> diagonal, std::span<co
   return sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

@@ -9,7 +9,7 @@
 #include "contct/matrix/band_matrix.hpp"
 #include "contct/matrix/sparse_matrix.hpp"
 
-namespace contct {
+namespace contct::matrix {
 
 /// A spring at one row: its stiffness is added to the diagonal.
 struct spring_at {
@@ -53,4 +53,4 @@ class stiffness_matrix {
   std::variant<band_matrix, sparse_columns> stored_;
 };
 
-}  // namespace contct
+}  // namespace contct::matrix

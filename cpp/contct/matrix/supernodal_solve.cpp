@@ -4,7 +4,7 @@
 
 #include "contct/matrix/several_right_hand_sides.hpp"
 
-namespace contct {
+namespace contct::matrix {
 namespace {
 
 struct supernode {
@@ -65,4 +65,4 @@ void solve_block(const supernodes& l, std::span<double> b) {
   for (std::size_t s = l.count(); s-- > 0;) back_substitution(supernode_at(l, s, b));
 }
 
-}  // namespace contct
+}  // namespace contct::matrix

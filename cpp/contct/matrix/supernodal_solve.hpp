@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <span>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::matrix {
 
 /// A Cholesky factor L in supernodes: neighbouring columns that have the same rows below them, as one block.
 /// Supernode s has columns `columns[s]` to `columns[s + 1]`, not included; its rows are in `rows` from
@@ -24,4 +26,4 @@ struct supernodes {
 /// substitution skips supernodes whose rows are still zero: with unit vectors these are most.
 void solve_block(const supernodes& l, std::span<double> b);
 
-}  // namespace contct
+}  // namespace contct::matrix

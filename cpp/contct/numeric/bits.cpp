@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-namespace contct {
+namespace contct::numeric {
 
 std::string hexfloat(double x) {
   char text[40];
@@ -11,4 +11,4 @@ std::string hexfloat(double x) {
   return {text, static_cast<std::size_t>(length)};
 }
 
-}  // namespace contct
+}  // namespace contct::numeric

@@ -8,7 +8,9 @@
 #include <string>
 #include <type_traits>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::numeric {
 
 /// The unsigned integer as wide as `Real`.
 template <class Real>
@@ -46,4 +48,4 @@ template <class Real>
 /// The exact value as text, such as "0x1.8p+1", "-0x0p+0", "inf", "nan".
 [[nodiscard]] std::string hexfloat(double x);
 
-}  // namespace contct
+}  // namespace contct::numeric

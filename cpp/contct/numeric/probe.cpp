@@ -3,7 +3,7 @@
 #include <cfloat>
 #include <limits>
 
-namespace contct {
+namespace contct::numeric {
 namespace {
 
 // Operands pass through volatile, so that the compiler does not compute with them.
@@ -81,4 +81,4 @@ std::string describe(const floating_point& found) {
   return what;
 }
 
-}  // namespace contct
+}  // namespace contct::numeric

@@ -3,7 +3,9 @@
 
 #include <string>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::numeric {
 
 /// What the floating-point probe found. Equality between kernels is promised only where
 /// strict() holds; elsewhere a mismatch may be due to the environment.
@@ -27,4 +29,4 @@ struct floating_point {
 /// One line for people: "strict", or what is wrong, as in "subnormal results are flushed to zero".
 [[nodiscard]] std::string describe(const floating_point& found);
 
-}  // namespace contct
+}  // namespace contct::numeric

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::numeric {
 
 /// Sebastiano Vigna's splitmix64. The standard library's distributions differ between
 /// implementations; these do not.
@@ -35,4 +37,4 @@ class random_numbers {
   std::uint64_t state_;
 };
 
-}  // namespace contct
+}  // namespace contct::numeric

@@ -18,7 +18,7 @@
 #include <thread>
 #include <utility>
 
-namespace contct {
+namespace contct::outside {
 namespace {
 
 [[noreturn]] void fail(const char* what) {
@@ -162,4 +162,4 @@ void kernel_in_child::fail_without_answer(child_process::sent how) {
   fail(words);
 }
 
-}  // namespace contct
+}  // namespace contct::outside

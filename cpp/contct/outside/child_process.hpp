@@ -12,7 +12,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/outside/outside.hpp"
 
-namespace contct {
+namespace contct::outside {
 
 /// A child process and a channel to it. The child ends with this object, and with its parent.
 class child_process {
@@ -75,4 +75,4 @@ class kernel_in_child : public kernel {
   std::string last_;
 };
 
-}  // namespace contct
+}  // namespace contct::outside

@@ -7,7 +7,7 @@
 
 #include "contct/kernel/kernel.hpp"
 
-namespace contct {
+namespace contct::outside {
 
 /// How long a kernel from outside may take for one call, and after how many failures it is given up. A crash
 /// costs a millisecond, and many may show what they have in common; a timeout costs the user `patience`.
@@ -30,4 +30,4 @@ struct outside_limits {
 [[nodiscard]] std::unique_ptr<kernel> make_pipe(const std::string& command,
                                                 const outside_limits& limits = {});
 
-}  // namespace contct
+}  // namespace contct::outside

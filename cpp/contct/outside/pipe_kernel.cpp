@@ -9,7 +9,7 @@
 #include "contct/text/input_text.hpp"
 #include "contct/trace/trace.hpp"
 
-namespace contct {
+namespace contct::outside {
 namespace {
 
 /// Run `command` with the channel as its standard input and output.
@@ -91,4 +91,4 @@ std::unique_ptr<kernel> make_pipe(const std::string& command, const outside_limi
   return std::make_unique<pipe_kernel>(command, limits);
 }
 
-}  // namespace contct
+}  // namespace contct::outside

@@ -17,7 +17,7 @@
 #include "contct/outside/child_process.hpp"
 #include "contct/outside/outside.hpp"
 
-namespace contct {
+namespace contct::outside {
 namespace {
 
 using abi_function = decltype(&contct_kernel_abi);
@@ -87,17 +87,17 @@ void serve(const shared_memory& memory, kernel_function ask, int channel) {
   const auto reals = [m, &l](array_index a) { return at<double>(m, l.at[a]); };
   const auto wholes = [m, &l](array_index a) { return at<int>(m, l.at[a]); };
   char word = 0;
-  while (read(channel, &word, 1) == 1) {
+  while (::read(channel, &word, 1) == 1) {
     ask(reals(dd), reals(dtest), reals(cc), reals(ss), reals(smin), wholes(id), wholes(isep), wholes(isurf),
         l.nc, l.indof, l.ndofpn, l.ndof);
-    if (write(channel, &word, 1) != 1) return;
+    if (::write(channel, &word, 1) != 1) return;
   }
 }
 
 /// What the child does: load the library, say "ready" or what is wrong, serve.
 void host(const shared_memory& memory, const std::string& path, int channel) {
   const auto say = [channel](const std::string& words) {
-    [[maybe_unused]] const ssize_t n = write(channel, words.data(), words.size());
+    [[maybe_unused]] const ssize_t n = ::write(channel, words.data(), words.size());
   };
   fortran::forget_unit_26();  // the plug-in may be FORTRAN and write to its own unit 26
   // dlopen looks for a name without a slash among the system's libraries only.
@@ -221,4 +221,4 @@ std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limit
   return std::make_unique<plugin_kernel>(path, limits);
 }
 
-}  // namespace contct
+}  // namespace contct::outside

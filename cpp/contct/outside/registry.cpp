@@ -7,7 +7,7 @@
 #include "contct/outside/outside.hpp"
 #include "contct/text/did_you_mean.hpp"
 
-namespace contct {
+namespace contct::outside {
 namespace {
 
 /// What follows "plugin:" or "pipe:" in a name; nothing when it begins with something else.
@@ -42,4 +42,4 @@ kernel_facts facts_of_kernel(std::string_view name) {
   return *facts;
 }
 
-}  // namespace contct
+}  // namespace contct::outside

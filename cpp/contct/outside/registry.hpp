@@ -6,7 +6,7 @@
 
 #include "contct/kernel/built_in.hpp"
 
-namespace contct {
+namespace contct::outside {
 
 /// Make a kernel by name: one that is built in, "plugin:LIBRARY" or "pipe:COMMAND". Throws
 /// std::invalid_argument, naming what there is, when there is none of that name.
@@ -15,4 +15,4 @@ namespace contct {
 /// What the kernel of that name is, without making it. Throws as make_kernel does.
 [[nodiscard]] kernel_facts facts_of_kernel(std::string_view name);
 
-}  // namespace contct
+}  // namespace contct::outside

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace contct {
+namespace contct::path {
 namespace {
 constexpr std::size_t remembered_increments = 200;
 }
@@ -44,4 +44,4 @@ std::vector<int> cycle_detector::restless_pairs() const {
   return pairs;
 }
 
-}  // namespace contct
+}  // namespace contct::path

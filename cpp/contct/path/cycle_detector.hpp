@@ -7,7 +7,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// Watches statuses while nothing moves. The path is deterministic: when a set of statuses returns while D
 /// and R* are the same to the last bit, the same toggles follow for ever. Brent's method finds this with one
@@ -36,4 +36,4 @@ class cycle_detector {
   std::vector<int> toggles_;  // of each pair, in recent_
 };
 
-}  // namespace contct
+}  // namespace contct::path

@@ -7,7 +7,7 @@
 #include "contct/kernel/contct.hpp"
 #include "contct/solve/engine.hpp"
 
-namespace contct {
+namespace contct::path {
 namespace {
 
 std::size_t affordable(const frame_limits& limits, std::size_t dofs) {
@@ -141,4 +141,4 @@ void frame_keeper::thin() {
       frames_.end() - 1);
 }
 
-}  // namespace contct
+}  // namespace contct::path

@@ -10,7 +10,7 @@
 #include "contct/path/path.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// What a picture tells apart: at its face are pairs whose gap the listing takes for zero (under EPSGAP),
 /// whatever their status: stationary ones, which carry no force worth the name.
@@ -90,4 +90,4 @@ class frame_keeper final : public observer {
   std::vector<frame> frames_;
 };
 
-}  // namespace contct
+}  // namespace contct::path

@@ -6,7 +6,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// One call of the leading kernel.
 struct answered_call {
@@ -45,4 +45,4 @@ class observer {
   virtual void step_ended(const step_state& /*s*/) {}
 };
 
-}  // namespace contct
+}  // namespace contct::path

@@ -10,7 +10,7 @@
 #include "contct/path/policy.hpp"
 #include "contct/path/stabilized_policy.hpp"
 
-namespace contct {
+namespace contct::path {
 namespace {
 
 /// The loop, and how it ends.
@@ -126,4 +126,4 @@ path_end follow_path(const linear_structure& s, int steps, const load_history& t
   return end;
 }
 
-}  // namespace contct
+}  // namespace contct::path

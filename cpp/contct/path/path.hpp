@@ -12,7 +12,7 @@
 #include "contct/solve/engine.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// How a path ended.
 enum class path_status {
@@ -65,4 +65,4 @@ path_end follow_path(const linear_structure& s, int steps, const load_history& t
                      stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,
                      const path_limits& limits = {});
 
-}  // namespace contct
+}  // namespace contct::path

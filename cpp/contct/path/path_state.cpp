@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace contct {
+namespace contct::path {
 
 path_state::path_state(const linear_structure& structure_of_path, stiffness_engine& e,
                        std::span<observer* const> o, bool as_listed)
@@ -178,4 +178,4 @@ void path_state::tell_end(const step_state& end) const {
   for (observer* o : observers_) o->step_ended(end);
 }
 
-}  // namespace contct
+}  // namespace contct::path

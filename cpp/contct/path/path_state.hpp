@@ -10,7 +10,7 @@
 #include "contct/solve/engine.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// R*, D, d*, and all that belongs to the pairs. Pairs and dofs count from 0, but for ID.
 struct path_state {
@@ -94,4 +94,4 @@ struct path_state {
   std::vector<double> dd_, dtest_;  // D and d* over the structure, where the kernel is called so [dofs]
 };
 
-}  // namespace contct
+}  // namespace contct::path

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace contct {
+namespace contct::path {
 
 bool path_policy::reaches_full_load(double s_min) const {
   constexpr double never_less = 1e-9;
@@ -33,4 +33,4 @@ void policy_1989::displace(std::span<double> u) {
   now_.engine.recover(now_.applied_load(), now_.forces_gathered(), u);
 }
 
-}  // namespace contct
+}  // namespace contct::path

@@ -6,7 +6,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/path/path_state.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// How the structure responds to the residual load.
 enum class response {
@@ -80,4 +80,4 @@ class policy_1989 final : public path_policy {
   void displace(std::span<double> u) override;
 };
 
-}  // namespace contct
+}  // namespace contct::path

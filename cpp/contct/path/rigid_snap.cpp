@@ -5,7 +5,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::path {
 namespace {
 
 constexpr double rounding_of_work = 1e-12;
@@ -57,4 +57,4 @@ bool rigid_snap(const linear_structure& s, std::span<const int> status, std::spa
   return true;
 }
 
-}  // namespace contct
+}  // namespace contct::path

@@ -5,7 +5,7 @@
 
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// Write to `d_star` [pairs] a rigid motion that the residual load drives and that
 /// supports and closed pairs leave free: the limit, up to its size, of the response of the structure on a
@@ -16,4 +16,4 @@ namespace contct {
                               std::span<const double> increment, std::span<const double> d,
                               std::span<double> d_star);
 
-}  // namespace contct
+}  // namespace contct::path

@@ -1,6 +1,6 @@
 #include "contct/path/solve_problem.hpp"
 
-namespace contct {
+namespace contct::path {
 
 linear_structure structure_of(const problem& p) {
   return build(p.geometry, p.supports, p.pairs);
@@ -15,4 +15,4 @@ path_end follow(const problem& p, const linear_structure& s, std::string_view en
   return follow_steps(p.geometry, s, p.steps, engine, leader, observers, limits);
 }
 
-}  // namespace contct
+}  // namespace contct::path

@@ -10,7 +10,7 @@
 #include "contct/structure/load.hpp"
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// Follow the path of `s`, which was built from `geometry`, through load steps given by their totals,
 /// on an engine of its own. add_consistent_loads must know the geometry.
@@ -35,4 +35,4 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
 path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
                 const std::vector<observer*>& observers, const path_limits& limits = {});
 
-}  // namespace contct
+}  // namespace contct::path

@@ -7,7 +7,7 @@
 
 #include "contct/path/rigid_snap.hpp"
 
-namespace contct {
+namespace contct::path {
 
 void stabilized_policy::begin_step() {
   kept_in_contact_.clear();
@@ -175,4 +175,4 @@ bool stabilized_policy::fall_back(int step) {
   return true;
 }
 
-}  // namespace contct
+}  // namespace contct::path

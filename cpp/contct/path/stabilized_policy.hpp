@@ -8,7 +8,7 @@
 #include "contct/path/path.hpp"
 #include "contct/path/policy.hpp"
 
-namespace contct {
+namespace contct::path {
 
 /// Rigid motions that the load drives are followed to the next face at constant load; those that it does not
 /// drive are held by springs without force. A pair that toggles twice running without progress stays in
@@ -50,4 +50,4 @@ class stabilized_policy final : public path_policy {
   std::vector<double> d_test_;        // d* with 0 for the pairs kept in contact [pairs]
 };
 
-}  // namespace contct
+}  // namespace contct::path

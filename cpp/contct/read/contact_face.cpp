@@ -4,7 +4,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct {
+namespace contct::read {
 
 contact_pair read_face(const table_reader& t, int default_surface) {
   contact_pair p{};
@@ -34,4 +34,4 @@ void read_pair(const table_reader& t, int node, std::string_view fixed_dof, prob
         "{}: {}; the pair cannot change the answer, but the listing may toggle it", t.place(), fixed_dof));
 }
 
-}  // namespace contct
+}  // namespace contct::read

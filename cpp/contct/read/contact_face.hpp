@@ -6,7 +6,7 @@
 #include "contct/read/toml_reader.hpp"
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::read {
 
 /// surface, face and state of a pair or a bed. `default_surface` is 0 where the surface must be named.
 [[nodiscard]] contact_pair read_face(const table_reader& t, int default_surface);
@@ -15,4 +15,4 @@ namespace contct {
 /// fixes it, for a warning; otherwise it is empty.
 void read_pair(const table_reader& t, int node, std::string_view fixed_dof, problem& p);
 
-}  // namespace contct
+}  // namespace contct::read

@@ -4,7 +4,7 @@
 
 #include "contct/text/field_lines.hpp"
 
-namespace contct {
+namespace contct::read {
 
 std::vector<std::string> parse_labels(std::string_view text, std::string_view file) {
   constexpr std::size_t longest = 100;
@@ -47,4 +47,4 @@ std::string dof_index::allowed() const {
                      in_quotes(structure_.labels.front()));
 }
 
-}  // namespace contct
+}  // namespace contct::read

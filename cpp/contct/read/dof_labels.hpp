@@ -9,7 +9,7 @@
 
 #include "contct/structure/assembled.hpp"
 
-namespace contct {
+namespace contct::read {
 
 /// One label a line, in the matrix's order: any text without blanks, each once. Throws input_error.
 [[nodiscard]] std::vector<std::string> parse_labels(std::string_view text, std::string_view file);
@@ -31,4 +31,4 @@ class dof_index {
   std::unordered_map<std::string_view, int> dofs_;  // empty where the labels are the dofs' numbers
 };
 
-}  // namespace contct
+}  // namespace contct::read

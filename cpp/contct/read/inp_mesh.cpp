@@ -12,7 +12,7 @@
 
 #include "contct/text/field_lines.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 constexpr int any_number = std::numeric_limits<int>::max();
@@ -289,4 +289,4 @@ placed_nodes parse_inp_mesh(std::string_view text, std::string_view file) {
   return mesh;
 }
 
-}  // namespace contct
+}  // namespace contct::read

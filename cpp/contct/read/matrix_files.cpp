@@ -9,7 +9,7 @@
 
 #include "contct/text/field_lines.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 constexpr std::int64_t most_rows = std::numeric_limits<int>::max() - 1;
@@ -199,4 +199,4 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
   return values;
 }
 
-}  // namespace contct
+}  // namespace contct::read

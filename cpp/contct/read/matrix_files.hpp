@@ -7,7 +7,7 @@
 
 #include "contct/matrix/sparse_matrix.hpp"
 
-namespace contct {
+namespace contct::read {
 
 /// No such file may be larger, in MiB.
 inline constexpr std::size_t largest_matrix_file = 16384;
@@ -26,4 +26,4 @@ inline constexpr std::size_t largest_matrix_file = 16384;
 /// that are not 0. Throws input_error.
 [[nodiscard]] std::vector<double> parse_vector(std::string_view text, std::string_view file, int rows);
 
-}  // namespace contct
+}  // namespace contct::read

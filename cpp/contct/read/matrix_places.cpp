@@ -10,7 +10,7 @@
 #include "contct/read/inp_mesh.hpp"
 #include "contct/text/field_lines.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 /// No file of coordinates or of a mesh may be larger, in MiB: a million nodes take some 50.
@@ -170,4 +170,4 @@ placed_nodes places_from_inp(const std::string& path, const assembled& a) {
   return places;
 }
 
-}  // namespace contct
+}  // namespace contct::read

@@ -7,7 +7,7 @@
 
 #include "contct/structure/assembled.hpp"
 
-namespace contct {
+namespace contct::read {
 
 /// The direction of a label's last part: x, y, z or 1, 2, 3 are 1 to 3, rx, ry, rz or 4, 5, 6 are 4 to 6, and
 /// r, the turn of a plane structure, is 6; 0 for anything else.
@@ -35,4 +35,4 @@ void drop_idle_nodes(placed_nodes& places);
 [[nodiscard]] placed_nodes places_from_coordinates(const std::string& path, const assembled& a);
 [[nodiscard]] placed_nodes places_from_inp(const std::string& path, const assembled& a);
 
-}  // namespace contct
+}  // namespace contct::read

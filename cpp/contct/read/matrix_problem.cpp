@@ -10,7 +10,7 @@
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/matrix_tables.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 class matrix_problem_reader {
@@ -110,4 +110,4 @@ void read_on_matrix(const table_reader& top, const std::string& folder, problem&
   matrix_problem_reader(folder, p).read(top);
 }
 
-}  // namespace contct
+}  // namespace contct::read

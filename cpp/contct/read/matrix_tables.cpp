@@ -12,7 +12,7 @@
 #include "contct/read/memory_limit.hpp"
 #include "contct/text/field_lines.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 std::string bytes_words(std::int64_t bytes) {
@@ -50,7 +50,8 @@ std::string read_storage(const table_reader& t) {
   constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
   std::string said(t.text_of(t.required("storage", allowed), "storage", allowed));
   if (said != "band" && (said != "sparse" || !sparse_factor::available()))
-    t.refuse_key("storage", contct::in_quotes(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
+    t.refuse_key("storage", contct::text::in_quotes(said) + (said == "sparse" ? " without CHOLMOD" : ""),
+                 allowed);
   return said;
 }
 
@@ -93,7 +94,7 @@ void refuse_unknown_nodes(const table_reader& t, std::string_view key, const std
                           const assembled& a) {
   if (a.places.known()) return;
   t.refuse_key(
-      key, fmt::format("no node in {} of any label, as {}", path, contct::in_quotes(a.label_of(0))),
+      key, fmt::format("no node in {} of any label, as {}", path, contct::text::in_quotes(a.label_of(0))),
       "nodes by what stands before the last dot of labels, and behind it x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
@@ -148,4 +149,4 @@ assembled read_calculix(const table_reader& t, const std::string& folder) {
   return a;
 }
 
-}  // namespace contct
+}  // namespace contct::read

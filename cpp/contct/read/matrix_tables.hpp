@@ -6,7 +6,7 @@
 #include "contct/read/toml_reader.hpp"
 #include "contct/structure/assembled.hpp"
 
-namespace contct {
+namespace contct::read {
 
 /// A file that a problem file names: relative to the folder of the latter.
 [[nodiscard]] std::string beside(const std::string& folder, const std::string& name);
@@ -15,4 +15,4 @@ namespace contct {
 [[nodiscard]] assembled read_matrix(const table_reader& t, const std::string& folder);
 [[nodiscard]] assembled read_calculix(const table_reader& t, const std::string& folder);
 
-}  // namespace contct
+}  // namespace contct::read

@@ -11,7 +11,7 @@
 #include "contct/text/field_lines.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 constexpr std::int64_t mib = std::int64_t{1} << 20;
@@ -37,4 +37,4 @@ std::int64_t memory_limit() {
   return pages / 4 * 3 * bytes;
 }
 
-}  // namespace contct
+}  // namespace contct::read

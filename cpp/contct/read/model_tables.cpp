@@ -8,7 +8,7 @@
 
 #include "contct/read/matrix_tables.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 constexpr int most_elements = 2'000'000;
@@ -184,4 +184,4 @@ model read_model(const table_reader& top, const std::string& folder) {
   top.refuse("neither beam nor plate, matrix or calculix", allowed);
 }
 
-}  // namespace contct
+}  // namespace contct::read

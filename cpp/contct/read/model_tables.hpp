@@ -6,10 +6,10 @@
 #include "contct/read/toml_reader.hpp"
 #include "contct/structure/model.hpp"
 
-namespace contct {
+namespace contct::read {
 
 /// Read the one table of the document `top` that describes a structure; refuses a document with none
 /// of them, or with several. Other files that it names are in `folder`.
 [[nodiscard]] model read_model(const table_reader& top, const std::string& folder);
 
-}  // namespace contct
+}  // namespace contct::read

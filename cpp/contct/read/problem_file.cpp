@@ -15,7 +15,7 @@
 #include "contct/read/model_tables.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 constexpr std::size_t highest_degree = 20;
@@ -44,7 +44,7 @@ class problem_reader {
   }
 
  private:
-  [[nodiscard]] int nodes() const { return contct::nodes(problem_.geometry); }
+  [[nodiscard]] int nodes() const { return contct::structure::nodes(problem_.geometry); }
 
   [[nodiscard]] std::size_t dof_of(int node, int dof) const { return node * dof_names_.size() + dof; }
 
@@ -232,4 +232,4 @@ problem read_problem(const std::string& path) {
   return parse_problem(read_input(path), file);
 }
 
-}  // namespace contct
+}  // namespace contct::read

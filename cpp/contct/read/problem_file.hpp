@@ -7,7 +7,7 @@
 #include "contct/structure/problem.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct {
+namespace contct::read {
 
 /// Read and check the problem in the file at `path`; "-" is standard input.
 /// Throws input_error: nothing is half-accepted.
@@ -16,4 +16,4 @@ namespace contct {
 /// The same for text already in memory; `file` is its name in messages.
 [[nodiscard]] problem parse_problem(std::string_view text, std::string_view file);
 
-}  // namespace contct
+}  // namespace contct::read

@@ -11,7 +11,7 @@
 #include "contct/text/did_you_mean.hpp"
 #include "contct/text/field_lines.hpp"
 
-namespace contct {
+namespace contct::read {
 namespace {
 
 /// "file:12:3", or the file alone when the place is not known.
@@ -252,4 +252,4 @@ void table_reader::allow_only(const std::vector<std::string_view>& keys) const {
   }
 }
 
-}  // namespace contct
+}  // namespace contct::read

@@ -10,7 +10,7 @@
 
 #include "contct/text/input_text.hpp"
 
-namespace contct {
+namespace contct::read {
 
 /// A range of numbers in words and as a test.
 struct real_range {
@@ -101,4 +101,4 @@ class table_reader {
 /// Parse a whole document. Throws input_error with line and column.
 [[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view file);
 
-}  // namespace contct
+}  // namespace contct::read

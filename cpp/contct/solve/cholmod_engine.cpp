@@ -4,7 +4,7 @@
 
 #include "contct/solve/factored_stiffness.hpp"
 
-namespace contct {
+namespace contct::solve {
 namespace {
 
 constexpr double drift_allowed = 1e-10;  // of the response, relative to the largest
@@ -98,9 +98,9 @@ double cholmod_engine::reciprocal_condition() {
   } catch (const no_factor&) {
     return 0.0;
   }
-  return contct::reciprocal_condition(structure_.stiffness,
-                                      k().diagonal_with(springs_of(structure_, applied_)),
-                                      [this](std::span<double> b) { solve(b); });
+  return contct::matrix::reciprocal_condition(structure_.stiffness,
+                                              k().diagonal_with(springs_of(structure_, applied_)),
+                                              [this](std::span<double> b) { solve(b); });
 }
 
-}  // namespace contct
+}  // namespace contct::solve

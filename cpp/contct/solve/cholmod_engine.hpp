@@ -10,7 +10,7 @@
 #include "contct/solve/drift_monitor.hpp"
 #include "contct/solve/spring_engine.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// Keeps L D L^T of K in an order of little fill. A toggle changes the factor by one column (cholmod_updown);
 /// a response is one solve with it. When a check is due, a response is corrected by its residual, and the
@@ -45,4 +45,4 @@ class cholmod_engine final : public spring_engine {
   drift_monitor drift_;
 };
 
-}  // namespace contct
+}  // namespace contct::solve

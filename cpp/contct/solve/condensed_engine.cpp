@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct {
+namespace contct::solve {
 namespace {
 
 constexpr double drift_allowed = 1e-11;  // of the response, relative to the largest
@@ -273,4 +273,4 @@ double condensed_engine::reciprocal_condition() {
   return stiffness_.reciprocal_condition(wanted_);
 }
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -8,7 +8,7 @@
 #include "contct/solve/factored_stiffness.hpp"
 #include "contct/solve/spring_engine.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// A 2 x 2 matrix or a vector over a node's two dofs, w and theta.
 struct node_vector {
@@ -65,4 +65,4 @@ class condensed_engine final : public spring_engine {
   factored_stiffness stiffness_;
 };
 
-}  // namespace contct
+}  // namespace contct::solve

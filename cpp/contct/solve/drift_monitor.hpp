@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::solve {
 
 /// What a check finds at the pairs: the largest response, and the largest correction to one.
 struct drift {
@@ -54,4 +56,4 @@ class drift_monitor {
   int check_every_;
 };
 
-}  // namespace contct
+}  // namespace contct::solve

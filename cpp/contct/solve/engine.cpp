@@ -6,7 +6,7 @@
 #include "contct/solve/updated_engine.hpp"
 #include "contct/text/did_you_mean.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 std::vector<std::string> engine_names() {
   std::vector<std::string> names = {"refactor", "updated", "condensed"};
@@ -44,4 +44,4 @@ std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linea
   return std::make_unique<updated_engine>(s);
 }
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -11,7 +11,7 @@
 
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// R*, the residual load: the share of a step's load increment that is still to be applied.
 struct residual_load {
@@ -75,4 +75,4 @@ void refuse_unknown_engine(std::string_view name);
 /// The names of all engines in this build.
 [[nodiscard]] std::vector<std::string> engine_names();
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -3,7 +3,7 @@
 #include "contct/matrix/band_solve.hpp"
 #include "contct/solve/engine.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 void refuse_ill_conditioned() {
   throw no_factor(
@@ -58,7 +58,7 @@ void factored_stiffness::solve_units(std::span<const int> dofs, std::vector<doub
 }
 
 void factored_stiffness::solve_refined(std::span<const double> load, std::span<double> u) {
-  contct::solve_refined(
+  contct::solve::solve_refined(
       structure_, structure_.stiffness, springs_, [this](std::span<double> b) { factor_.solve(b); }, load, u);
 }
 
@@ -66,4 +66,4 @@ double factored_stiffness::reciprocal_condition(std::span<const char> closed) {
   return factor_.reciprocal_condition(springs_of(structure_, closed));
 }
 
-}  // namespace contct
+}  // namespace contct::solve

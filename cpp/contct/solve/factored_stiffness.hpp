@@ -9,7 +9,7 @@
 #include "contct/solve/refined_solve.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// Throws no_factor: the matrix has none although the structure is held.
 [[noreturn]] void refuse_ill_conditioned();
@@ -62,4 +62,4 @@ class factored_stiffness {
   std::vector<double> ordered_;  // a right-hand side in the order of the rows, where that is another
 };
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -5,7 +5,7 @@
 
 #include "contct/matrix/several_right_hand_sides.hpp"
 
-namespace contct {
+namespace contct::solve {
 namespace {
 
 constexpr int used_up = -1;  // in place of a pair
@@ -145,4 +145,4 @@ double inverse_columns::take_in(int pair, double sigma_k) {
   return g;
 }
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -8,7 +8,7 @@
 
 #include "contct/solve/factored_stiffness.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// K0 is factored; K = K0 + the springs that have been taken in since, or less those taken out. With
 /// c_j = K_j^-1 e_j, the column of toggle j when it came, and g_j = sigma k / (1 + sigma k (c_j)_p),
@@ -74,4 +74,4 @@ class inverse_columns {
   std::size_t solved_ahead_ = 0, used_ahead_ = 0;
 };
 
-}  // namespace contct
+}  // namespace contct::solve

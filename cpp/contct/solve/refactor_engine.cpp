@@ -1,6 +1,6 @@
 #include "contct/solve/refactor_engine.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 refactor_engine::refactor_engine(const linear_structure& s)
     : spring_engine(s), stiffness_(s), w_star_(s.dofs()) {}
@@ -29,4 +29,4 @@ double refactor_engine::reciprocal_condition() {
   return stiffness_.reciprocal_condition(wanted_);
 }
 
-}  // namespace contct
+}  // namespace contct::solve

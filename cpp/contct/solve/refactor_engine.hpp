@@ -4,7 +4,7 @@
 #include "contct/solve/factored_stiffness.hpp"
 #include "contct/solve/spring_engine.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// Copies the band, adds the springs now in contact, and factors (dpbtrf) at every response.
 /// Memory: two bands, the structure's own and the factor.
@@ -24,4 +24,4 @@ class refactor_engine final : public spring_engine {
   std::vector<double> w_star_;  // [dofs]
 };
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace contct {
+namespace contct::solve {
 
 std::vector<spring_at> springs_of(const linear_structure& s, std::span<const char> closed) {
   std::vector<spring_at> list;
@@ -67,4 +67,4 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
   for (std::size_t dof = 0; dof < u.size(); ++dof) u[dof] = x[s.row_of(dof)];
 }
 
-}  // namespace contct
+}  // namespace contct::solve

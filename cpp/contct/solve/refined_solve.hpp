@@ -7,7 +7,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// The springs of the pairs that are `closed` [pairs], by rows; none where the dof is fixed.
 [[nodiscard]] std::vector<spring_at> springs_of(const linear_structure& s, std::span<const char> closed);
@@ -31,4 +31,4 @@ void gather_at_pairs(const linear_structure& s, std::span<const double> u, std::
 void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::span<const spring_at> springs,
                    const in_place_solver& solve, std::span<const double> load, std::span<double> u);
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -5,7 +5,7 @@
 
 #include "contct/solve/engine.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// Switching a spring only records that it is wanted; the next response applies it.
 class spring_engine : public stiffness_engine {
@@ -53,4 +53,4 @@ class spring_engine : public stiffness_engine {
   std::vector<int> switched_;  // pairs that may differ
 };
 
-}  // namespace contct
+}  // namespace contct::solve

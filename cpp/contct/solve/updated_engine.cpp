@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct {
+namespace contct::solve {
 namespace {
 
 // Of the response, relative to the largest: 1e-8 of D is promised.
@@ -107,4 +107,4 @@ double updated_engine::reciprocal_condition() {
   return stiffness_.reciprocal_condition(wanted_);
 }
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -9,7 +9,7 @@
 #include "contct/solve/inverse_columns.hpp"
 #include "contct/solve/spring_engine.hpp"
 
-namespace contct {
+namespace contct::solve {
 
 /// Keeps x, the response of every pair to the step's whole load increment. When the spring k of pair p goes
 /// in (sigma = 1) or out (-1), K' = K + sigma k e e^T, and with c = K^-1 e, a column of the inverse at the
@@ -52,4 +52,4 @@ class updated_engine final : public spring_engine {
   drift_monitor drift_;
 };
 
-}  // namespace contct
+}  // namespace contct::solve

@@ -5,7 +5,7 @@
 
 #include "contct/structure/free_motions.hpp"
 
-namespace contct {
+namespace contct::structure {
 namespace {
 
 void refuse_without_stiffness(const assembled& a, const linear_structure& s) {
@@ -78,4 +78,4 @@ std::vector<double> tributary_shares(const assembled& a) {
   throw std::invalid_argument(a.name + ": a matrix knows no lengths or areas");
 }
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -12,7 +12,7 @@
 #include "contct/structure/placed_nodes.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::structure {
 
 /// Every dof is a node of its own here, so that the listing's NDOFPN and INDOF are 1 and its ID the dof.
 struct assembled {
@@ -50,4 +50,4 @@ void add_consistent_loads(const assembled& a, const load& l, std::span<double> f
 /// Throws std::invalid_argument: a matrix has no lengths or areas.
 [[nodiscard]] std::vector<double> tributary_shares(const assembled& a);
 
-}  // namespace contct
+}  // namespace contct::structure

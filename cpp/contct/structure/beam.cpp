@@ -5,7 +5,7 @@
 
 #include "contct/structure/gauss.hpp"
 
-namespace contct {
+namespace contct::structure {
 namespace {
 
 using element_vector = std::array<double, 4>;  // w, theta at the left end; w, theta at the right
@@ -126,4 +126,4 @@ std::vector<double> tributary_shares(const beam& b) {
   return tributary_lengths(b.x);
 }
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -8,7 +8,7 @@
 #include "contct/structure/load.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::structure {
 
 /// The geometry and stiffness of a beam.
 struct beam {
@@ -50,4 +50,4 @@ void add_consistent_loads(const beam& b, const load& l, std::span<double> f);
 /// Tributary length of each node [nodes].
 [[nodiscard]] std::vector<double> tributary_shares(const beam& b);
 
-}  // namespace contct
+}  // namespace contct::structure

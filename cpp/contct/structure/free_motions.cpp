@@ -14,7 +14,7 @@ extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* upl
                                                const int* lda, double* w, double* work, const int* lwork,
                                                int* info, std::size_t jobz_length, std::size_t uplo_length);
 
-namespace contct {
+namespace contct::structure {
 namespace {
 
 constexpr int most_tried = 10;              // six motions, and more to separate them from what follows
@@ -232,4 +232,4 @@ free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> kno
   return found;
 }
 
-}  // namespace contct
+}  // namespace contct::structure

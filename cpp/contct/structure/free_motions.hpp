@@ -7,7 +7,7 @@
 #include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/structure/rigid_modes.hpp"
 
-namespace contct {
+namespace contct::structure {
 
 /// With its diagonal scaled to 1, which removes the units, a stiffness matrix has eigenvalues between 0 and
 /// a few. One up to this size counts as 0, and its motion as free: matrices in files have 14 digits or
@@ -32,4 +32,4 @@ struct free_motions {
 /// fewer than `known`; the message calls it "the matrix".
 [[nodiscard]] free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> known);
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace contct {
+namespace contct::structure {
 
 std::vector<gauss_point> gauss_points(int n) {
   std::vector<gauss_point> points;
@@ -29,4 +29,4 @@ std::vector<gauss_point> gauss_points(int n) {
   return points;
 }
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -3,7 +3,9 @@
 
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::structure {
 
 struct gauss_point {
   double t;       ///< place, between 0 and 1
@@ -13,4 +15,4 @@ struct gauss_point {
 /// `n` points, exact for polynomials up to degree 2 n - 1. n >= 1.
 [[nodiscard]] std::vector<gauss_point> gauss_points(int n);
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-namespace contct {
+namespace contct::structure {
 namespace {
 
 /// Sums loads that act at the same place.
@@ -61,4 +61,4 @@ std::vector<double> tributary_lengths(std::span<const double> x) {
   return lengths;
 }
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::structure {
 
 /// A force or moment at one dof of one node, work-conjugate to the dof.
 struct point_load {
@@ -48,4 +50,4 @@ void for_each_loaded_element(const load& l, int elements, Visit visit) {
 /// The length that each point of a line stands for: half of each interval beside it. `x` increases.
 [[nodiscard]] std::vector<double> tributary_lengths(std::span<const double> x);
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace contct {
+namespace contct::structure {
 namespace {
 
 element_results table_of(const beam& b, const load& l, std::span<const double> u) {
@@ -114,4 +114,4 @@ resultant resultant_of(const model& m, const load& l) {
   return std::visit([&](const auto& kind) { return resultant_of_vector(kind, f); }, m.kind);
 }
 
-}  // namespace contct
+}  // namespace contct::structure

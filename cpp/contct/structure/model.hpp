@@ -12,7 +12,7 @@
 #include "contct/structure/beam.hpp"
 #include "contct/structure/plate.hpp"
 
-namespace contct {
+namespace contct::structure {
 
 /// A structure without its supports. A new kind joins the variant and implements each function below.
 struct model {
@@ -78,4 +78,4 @@ struct resultant {
 
 [[nodiscard]] resultant resultant_of(const model& m, const load& l);
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::structure {
 
 /// A node, by the name that labels of dofs have for it.
 struct placed_node {
@@ -36,4 +38,4 @@ struct placed_nodes {
   [[nodiscard]] bool known() const { return !nodes.empty(); }
 };
 
-}  // namespace contct
+}  // namespace contct::structure

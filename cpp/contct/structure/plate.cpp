@@ -6,7 +6,7 @@
 
 #include "contct/structure/plate_element.hpp"
 
-namespace contct {
+namespace contct::structure {
 namespace {
 
 plate_element element_of(const plate& p, int element) {
@@ -183,4 +183,4 @@ std::vector<double> tributary_shares(const plate& p) {
   return areas;
 }
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -9,7 +9,7 @@
 #include "contct/structure/load.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::structure {
 
 /// A plate on a grid of lines. Everything counts from 0: grid point (i, j), at x[i] and y[j], is node
 /// j * columns + i; the element with its lower left corner there is element j * (columns - 1) + i.
@@ -67,4 +67,4 @@ void add_consistent_loads(const plate& p, const load& l, std::span<double> f);
 /// Tributary area of each node: a quarter of each element beside it [nodes].
 [[nodiscard]] std::vector<double> tributary_shares(const plate& p);
 
-}  // namespace contct
+}  // namespace contct::structure

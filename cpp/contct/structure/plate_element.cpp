@@ -4,7 +4,7 @@
 
 #include "contct/structure/gauss.hpp"
 
-namespace contct {
+namespace contct::structure {
 namespace {
 
 // Everything here is in xi = x / a, eta = y / b, from -1 to 1, and in the dofs w, a wx, b wy, which are
@@ -160,4 +160,4 @@ std::array<curvature, 4> curvatures_at_corners(const plate_element& e, const ele
   return at;
 }
 
-}  // namespace contct
+}  // namespace contct::structure

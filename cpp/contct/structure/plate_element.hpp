@@ -3,7 +3,9 @@
 
 #include <array>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::structure {
 
 /// One number for each dof of an element: w, wx, wy at each corner, counter-clockwise from the lower left.
 using element_vector12 = std::array<double, 12>;
@@ -37,4 +39,4 @@ struct curvature {
 [[nodiscard]] std::array<curvature, 4> curvatures_at_corners(const plate_element& e,
                                                              const element_vector12& u);
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -8,7 +8,7 @@
 #include "contct/structure/model.hpp"
 #include "contct/structure/structure.hpp"
 
-namespace contct {
+namespace contct::structure {
 
 /// What a problem file says. Nodes, elements and pairs count from 0 here, from 1 in the file.
 struct problem {
@@ -20,4 +20,4 @@ struct problem {
   std::vector<std::string> warnings;
 };
 
-}  // namespace contct
+}  // namespace contct::structure

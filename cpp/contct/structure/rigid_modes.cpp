@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct {
+namespace contct::structure {
 
 double along(const rigid_row& q, const rigid_row& row) {
   double sum = q[0] * row[0];
@@ -43,4 +43,4 @@ void rigid_rank::hold(const rigid_row& row) {
   basis_[rank_++] = rest;
 }
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -4,7 +4,9 @@
 #include <array>
 #include <span>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::structure {
 
 /// A body in space has six rigid motions.
 inline constexpr int most_rigid_motions = 6;
@@ -42,4 +44,4 @@ class rigid_rank {
   int rank_ = 0;
 };
 
-}  // namespace contct
+}  // namespace contct::structure

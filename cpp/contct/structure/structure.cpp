@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace contct {
+namespace contct::structure {
 
 void add_to_band(band_matrix& k, int row, int column, double entry, int element) {
   if (!std::isfinite(entry))
@@ -53,4 +53,4 @@ std::vector<double> reactions_of(std::span<const support> supports, const load& 
   return values;
 }
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -10,7 +10,7 @@
 #include "contct/structure/load.hpp"
 #include "contct/structure/rigid_modes.hpp"
 
-namespace contct {
+namespace contct::structure {
 
 /// A permanent support of one dof, working both ways.
 struct support {
@@ -91,4 +91,4 @@ using need_of_elements = std::function<double(int node, int dof)>;
                                                std::span<const double> u, int dofs_per_node,
                                                const need_of_elements& need);
 
-}  // namespace contct
+}  // namespace contct::structure

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace contct {
+namespace contct::text {
 namespace {
 
 constexpr std::size_t longest_word = 64;  // the table grows with its square
@@ -54,4 +54,4 @@ std::string did_you_mean(std::string_view found, std::span<const std::string> kn
   return meant.empty() ? "" : " (did you mean \"" + std::string(meant) + "\"?)";
 }
 
-}  // namespace contct
+}  // namespace contct::text

@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::text {
 
 /// The least number of edits between two words (Damerau-Levenshtein): a character inserted, deleted or
 /// replaced, or two neighbours swapped. Case does not count.
@@ -18,4 +20,4 @@ namespace contct {
 /// " (did you mean \"stiffness\"?)", or nothing.
 [[nodiscard]] std::string did_you_mean(std::string_view found, std::span<const std::string> known);
 
-}  // namespace contct
+}  // namespace contct::text

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct {
+namespace contct::text {
 namespace {
 
 /// from_chars takes no plus sign.
@@ -90,4 +90,4 @@ void field_lines::expect(std::size_t fields, std::string_view allowed) const {
   if (count_ != fields) refuse(in_quotes(here()), allowed);
 }
 
-}  // namespace contct
+}  // namespace contct::text

@@ -12,7 +12,7 @@
 #include "contct/text/input_text.hpp"
 #include "contct/text/markup.hpp"
 
-namespace contct {
+namespace contct::text {
 
 /// What separates the fields of a line and is trimmed from its ends.
 inline constexpr std::string_view blanks = " \t\r\v\f";
@@ -91,4 +91,4 @@ class field_lines : public text_lines {
   std::size_t count_ = 0;
 };
 
-}  // namespace contct
+}  // namespace contct::text

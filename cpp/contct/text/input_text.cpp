@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace contct {
+namespace contct::text {
 namespace {
 
 struct closer {
@@ -43,4 +43,4 @@ std::string read_input(const std::string& path, const std::string& kind, std::si
   return text;
 }
 
-}  // namespace contct
+}  // namespace contct::text

@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::text {
 
 /// What is wrong with a file, where, what was found, what is allowed. what() is the whole message:
 /// "pb.toml:12:3: contact[2].stiffness: found -5; allowed: a number greater than 0".
@@ -26,4 +28,4 @@ class input_error : public std::runtime_error {
 [[nodiscard]] std::string read_input(const std::string& path, const std::string& kind = "problem file",
                                      std::size_t most_mib = 32);
 
-}  // namespace contct
+}  // namespace contct::text

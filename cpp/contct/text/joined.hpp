@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::text {
 
 /// `words` with `between` between each two of them.
 [[nodiscard]] inline std::string joined(const std::vector<std::string>& words, std::string_view between) {
@@ -17,4 +19,4 @@ namespace contct {
   return text;
 }
 
-}  // namespace contct
+}  // namespace contct::text

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace contct {
+namespace contct::text {
 namespace {
 
 bool is_control(char c) {
@@ -56,4 +56,4 @@ std::string in_quotes(std::string_view text) {
   return "\"" + printable(text) + "\"";
 }
 
-}  // namespace contct
+}  // namespace contct::text

@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::text {
 
 /// Text for between the tags and in the quoted attributes of HTML and XML. Control characters, which XML 1.0
 /// does not allow, become U+FFFD; tabs and line ends stay.
@@ -18,4 +20,4 @@ namespace contct {
 /// The same in quotation marks.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-}  // namespace contct
+}  // namespace contct::text

@@ -13,7 +13,7 @@
 
 #include "contct/text/signals_wait.hpp"
 
-namespace contct {
+namespace contct::text {
 namespace {
 
 namespace fs = std::filesystem;
@@ -171,4 +171,4 @@ bool same_file(const std::string& a, const std::string& b) {
   return followed(a) == followed(b);
 }
 
-}  // namespace contct
+}  // namespace contct::text

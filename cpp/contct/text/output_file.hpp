@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::text {
 
 /// Thrown when an output file cannot be made; what() names the file and the reason.
 class output_error : public std::runtime_error {
@@ -53,4 +55,4 @@ void flush_standard_output();
 /// it exists or not; false for devices, pipes and terminals.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
-}  // namespace contct
+}  // namespace contct::text

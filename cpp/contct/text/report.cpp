@@ -5,7 +5,7 @@
 
 #include "contct/text/markup.hpp"
 
-namespace contct {
+namespace contct::text {
 namespace {
 
 /// An attribute with a blank before it. XML takes a line's end in it for a blank unless it is a reference.
@@ -89,4 +89,4 @@ std::string markdown(const check_report& r) {
   return text;
 }
 
-}  // namespace contct
+}  // namespace contct::text

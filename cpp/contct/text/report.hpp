@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::text {
 
 enum class outcome { passed, failed, skipped };
 
@@ -34,4 +36,4 @@ struct check_report {
 /// The report as a Markdown summary: the verdict, a table, the details of what failed.
 [[nodiscard]] std::string markdown(const check_report& r);
 
-}  // namespace contct
+}  // namespace contct::text

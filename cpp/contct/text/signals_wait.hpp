@@ -3,7 +3,9 @@
 
 #include <csignal>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::text {
 
 /// Blocks every signal to this thread but SIGKILL while this object lives, so that a file with a temporary
 /// name is not left behind.
@@ -22,4 +24,4 @@ class signals_wait {
   sigset_t before_{};
 };
 
-}  // namespace contct
+}  // namespace contct::text

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cstdlib>
 
-namespace contct {
+namespace contct::text {
 namespace {
 
 /// The value of an environment variable; empty when it is not set.
@@ -62,4 +62,4 @@ std::vector<std::string> wrap(const std::vector<std::string>& items, int width) 
   return lines;
 }
 
-}  // namespace contct
+}  // namespace contct::text

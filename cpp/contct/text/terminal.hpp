@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace contct {
+#include "contct/rooms.hpp"
+
+namespace contct::text {
 
 /// How to print to standard output.
 struct terminal {
@@ -26,4 +28,4 @@ enum class paint { good, bad, quiet, strong };
 /// word longer than a line has one of its own.
 [[nodiscard]] std::vector<std::string> wrap(const std::vector<std::string>& items, int width);
 
-}  // namespace contct
+}  // namespace contct::text

@@ -5,7 +5,7 @@
 #include "contct/numeric/bits.hpp"
 #include "contct/numeric/probe.hpp"
 
-namespace contct {
+namespace contct::trace {
 namespace {
 
 void append_line(std::string& text, std::string_view key, std::string_view value) {
@@ -87,4 +87,4 @@ void append_answer(double smin, std::span<const double> ss, std::span<const int>
   text += "end\n";
 }
 
-}  // namespace contct
+}  // namespace contct::trace

@@ -13,7 +13,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/text/field_lines.hpp"
 
-namespace contct {
+namespace contct::trace {
 
 /// The first line of every trace: the format and the day on which it was fixed.
 inline constexpr std::string_view trace_format = "contct-trace-1 2026-11-21";
@@ -117,4 +117,4 @@ class trace_reader {
   std::vector<char> is_given_;      // by dof; never shrinks
 };
 
-}  // namespace contct
+}  // namespace contct::trace

@@ -6,7 +6,7 @@
 #include "contct/text/field_lines.hpp"
 #include "contct/trace/trace.hpp"
 
-namespace contct {
+namespace contct::trace {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -271,4 +271,4 @@ void trace_reader::read_answer(call_outputs& out) {
   if (line != "end") refuse(line, R"("|" and a line of unit 26, or "end")");
 }
 
-}  // namespace contct
+}  // namespace contct::trace

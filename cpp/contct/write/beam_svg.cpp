@@ -6,7 +6,7 @@
 
 #include "contct/write/run_svg.hpp"
 
-namespace contct::svg {
+namespace contct::write::svg {
 namespace {
 
 /// What has to fit in: the beam, where it was, and the faces that are not too far away.
@@ -120,4 +120,4 @@ drawn draw_beam(const beam& b, const shown_state& s) {
   return beam_picture(b, s).whole();
 }
 
-}  // namespace contct::svg
+}  // namespace contct::write::svg

@@ -14,7 +14,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/write/calculix_mesh.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 /// Largest deflection over the structure's length: CalculiX's NLGEOM must not notice that anything turns.
@@ -314,4 +314,4 @@ calculix_deck calculix_deck_of(const problem& p, const calculix_choice& choice) 
   return deck_writer(p, choice).write();
 }
 
-}  // namespace contct
+}  // namespace contct::write

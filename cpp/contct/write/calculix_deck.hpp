@@ -6,7 +6,7 @@
 
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// How a problem is to be written.
 struct calculix_choice {
@@ -30,4 +30,4 @@ struct calculix_deck {
 /// Throws std::invalid_argument where the problem has what cannot be written, naming it.
 [[nodiscard]] calculix_deck calculix_deck_of(const problem& p, const calculix_choice& choice);
 
-}  // namespace contct
+}  // namespace contct::write

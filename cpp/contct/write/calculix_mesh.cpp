@@ -7,7 +7,7 @@
 
 #include "contct/structure/gauss.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 /// One of the problem's dofs in CalculiX's directions. A slope is a turn: dw/dx against the turn about y,
@@ -204,4 +204,4 @@ calculix_mesh calculix_mesh_of(const problem& p, int refine, int step) {
   return mesh_of(std::get<plate>(p.geometry.kind), p, refine, l);
 }
 
-}  // namespace contct
+}  // namespace contct::write

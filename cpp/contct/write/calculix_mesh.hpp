@@ -7,7 +7,7 @@
 
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// Deflection is along z. A beam lies on the x axis, a plate in the plane of x and y. Nodes and elements
 /// count from 0; directions are CalculiX's: 1 to 3 along the axes, 4 to 6 about them.
@@ -30,4 +30,4 @@ struct calculix_mesh {
 /// and pairs are not in it: they stay at the problem's own nodes.
 [[nodiscard]] calculix_mesh calculix_mesh_of(const problem& p, int refine, int step);
 
-}  // namespace contct
+}  // namespace contct::write

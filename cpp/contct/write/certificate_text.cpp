@@ -7,7 +7,7 @@
 
 #include "contct/write/words.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 /// Correct digits at a relative error. Above ten they depend on the LAPACK in use.
@@ -79,4 +79,4 @@ std::vector<std::string> certificate_complaints(const problem& p, const certifie
   return lines;
 }
 
-}  // namespace contct
+}  // namespace contct::write

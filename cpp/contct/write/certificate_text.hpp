@@ -9,7 +9,7 @@
 #include "contct/compare/early_toggles.hpp"
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// A few words for a step: "certified", "NOT certified", or "no certificate".
 [[nodiscard]] std::string certificate_mark(const std::optional<certificate>& c);
@@ -23,4 +23,4 @@ namespace contct {
 [[nodiscard]] std::vector<std::string> certificate_complaints(const problem& p, const certifier& judged,
                                                               const early_toggles& early);
 
-}  // namespace contct
+}  // namespace contct::write

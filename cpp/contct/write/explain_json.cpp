@@ -7,7 +7,7 @@
 #include "contct/write/explain_words.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -151,4 +151,4 @@ void explain_json::finish(std::string_view status, const explained_path& path) {
   document_.finish();
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -11,7 +11,7 @@
 #include "contct/write/json_document.hpp"
 #include "contct/write/load_text.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// Writes increments as they come: memory does not grow with them. The file appears with `finish`.
 class explain_json {
@@ -33,4 +33,4 @@ class explain_json {
   json_document document_;
 };
 
-}  // namespace contct
+}  // namespace contct::write

@@ -7,7 +7,7 @@
 #include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 constexpr int margin = 6;
@@ -159,4 +159,4 @@ void explain_text::print(const explained_increment& i) {
   print_outcome(i);
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -11,7 +11,7 @@
 #include "contct/write/explain_words.hpp"
 #include "contct/write/load_text.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// Prints increments, one at a time.
 class explain_text {
@@ -43,4 +43,4 @@ class explain_text {
   bool begun_ = false;
 };
 
-}  // namespace contct
+}  // namespace contct::write

@@ -6,7 +6,7 @@
 
 #include "contct/numeric/bits.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 /// Nine digits, enough to compare by eye; the bits are given separately.
@@ -225,4 +225,4 @@ std::string side_by_side_words(std::string_view first_name, double first, std::s
   return words + fmt::format("{}: {}", hexfloat(second), apart);
 }
 
-}  // namespace contct
+}  // namespace contct::write

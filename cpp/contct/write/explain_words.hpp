@@ -8,7 +8,7 @@
 
 #include "contct/compare/explanation.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// A sentence about a line of fortran/contct.f.
 struct sentence {
@@ -39,4 +39,4 @@ struct sentence {
 [[nodiscard]] std::string side_by_side_words(std::string_view first_name, double first,
                                              std::string_view second_name, double second, int real_bytes);
 
-}  // namespace contct
+}  // namespace contct::write

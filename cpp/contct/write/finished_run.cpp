@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace contct {
+namespace contct::write {
 
 void run_record::called(const answered_call& c) {
   ++all_calls;
@@ -41,4 +41,4 @@ std::string title_of(const finished_run& r) {
   return r.file == "-" ? "A problem from standard input" : std::filesystem::path(r.file).filename().string();
 }
 
-}  // namespace contct
+}  // namespace contct::write

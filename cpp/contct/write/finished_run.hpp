@@ -12,7 +12,7 @@
 #include "contct/path/observer.hpp"
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// One increment of the path.
 struct increment_record {
@@ -86,4 +86,4 @@ struct finished_run {
 /// `text` with its line ends replaced by blanks.
 [[nodiscard]] std::string on_one_line(std::string text);
 
-}  // namespace contct
+}  // namespace contct::write

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 constexpr std::array<structure_view, views> all_views = {{
@@ -121,4 +121,4 @@ int fitting_view(const placed_nodes& places) {
   return views - 1;
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -10,7 +10,7 @@
 #include "contct/path/frames.hpp"
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// The deflection of node `node`, from 0, under the displacement `u` [dofs].
 [[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
@@ -106,4 +106,4 @@ inline constexpr int views = 4;
 /// none of them can leave that plane, else the last.
 [[nodiscard]] int fitting_view(const placed_nodes& places);
 
-}  // namespace contct
+}  // namespace contct::write

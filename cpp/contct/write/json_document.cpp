@@ -6,7 +6,7 @@
 
 #include "contct/matrix/cholesky.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -127,4 +127,4 @@ void put_place(json& entry, const model& m, int node) {
   }
 }
 
-}  // namespace contct
+}  // namespace contct::write

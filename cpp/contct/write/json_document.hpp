@@ -12,7 +12,7 @@
 #include "contct/text/output_file.hpp"
 #include "contct/write/load_text.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// An object written to a file while it grows: only the value at hand is in memory. Members and elements
 /// stand on lines of their own, indented by their depth.
@@ -68,4 +68,4 @@ class json_document {
 /// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
 void put_place(nlohmann::ordered_json& entry, const model& m, int node);
 
-}  // namespace contct
+}  // namespace contct::write

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 constexpr std::size_t most_parts = 32;
@@ -72,4 +72,4 @@ std::string load_path::words_at(int step, double fraction, int width) const {
   return fits(number) ? number : "";
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -6,7 +6,7 @@
 
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// The loads of a problem's steps, and what acts between them. Steps count from 1.
 class load_path {
@@ -44,4 +44,4 @@ class load_path {
 /// Do these elements follow one another, each once?
 [[nodiscard]] bool is_run(const std::vector<int>& elements);
 
-}  // namespace contct
+}  // namespace contct::write

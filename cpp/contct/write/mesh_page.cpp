@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -97,4 +97,4 @@ double mesh_page::unit() const {
   return shown_.reach > 0.0 ? shown_.reach / units : 1.0;
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -8,7 +8,7 @@
 #include "contct/write/frame_numbers.hpp"
 #include "contct/write/page_sampling.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// The mesh as the page numbers it: the nodes shown, from 0. All arguments must outlive it.
 class mesh_page {
@@ -42,4 +42,4 @@ class mesh_page {
   std::vector<int> number_;  // of a node on the page; -1: it is not there
 };
 
-}  // namespace contct
+}  // namespace contct::write

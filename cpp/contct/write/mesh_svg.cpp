@@ -7,7 +7,7 @@
 #include "contct/write/run_svg.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::svg {
+namespace contct::write::svg {
 namespace {
 
 constexpr double most_height = 430.0;
@@ -213,4 +213,4 @@ drawn draw_table(const shown_state& s) {
   return {text, y + 16};
 }
 
-}  // namespace contct::svg
+}  // namespace contct::write::svg

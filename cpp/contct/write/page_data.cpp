@@ -12,7 +12,7 @@
 #include "contct/write/page_sampling.hpp"
 #include "contct/write/run_page.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -293,4 +293,4 @@ std::string page_data_for_script(const finished_run& r) {
   return safe;
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -8,7 +8,7 @@
 
 #include "contct/write/frame_numbers.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 int watched_node(const finished_run& r, const std::vector<int>& among) {
@@ -229,4 +229,4 @@ shown_parts choose_parts(const finished_run& r) {
   return shown;
 }
 
-}  // namespace contct
+}  // namespace contct::write

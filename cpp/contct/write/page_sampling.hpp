@@ -7,7 +7,7 @@
 
 #include "contct/write/finished_run.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// At most so many numbers in all frames together: places along a beam, points of a plate's grid, states of
 /// pairs, displacements of a mesh.
@@ -52,4 +52,4 @@ struct shown_parts {
 /// The force per length of `l` at `load_samples` even places from end to end.
 [[nodiscard]] std::vector<double> sampled_load(const beam& b, const load& l);
 
-}  // namespace contct
+}  // namespace contct::write

@@ -5,7 +5,7 @@
 
 #include "contct/write/run_svg.hpp"
 
-namespace contct::svg {
+namespace contct::write::svg {
 namespace {
 
 /// Lighter is higher.
@@ -99,4 +99,4 @@ drawn draw_plate(const plate& p, const shown_state& s) {
   return plate_picture(p, s).whole();
 }
 
-}  // namespace contct::svg
+}  // namespace contct::write::svg

@@ -5,7 +5,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/write/frame_numbers.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -154,4 +154,4 @@ void result_json::finish(std::string_view status, const path_end& end, const loc
   document_.finish();
 }
 
-}  // namespace contct
+}  // namespace contct::write

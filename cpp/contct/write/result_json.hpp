@@ -17,7 +17,7 @@
 #include "contct/write/load_text.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// Observes a path and writes it as it goes: memory does not grow with the number of steps.
 /// The file appears when `finish` is called.
@@ -57,4 +57,4 @@ class result_json final : public observer {
   std::vector<compared_path> free_runs_;
 };
 
-}  // namespace contct
+}  // namespace contct::write

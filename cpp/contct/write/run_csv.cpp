@@ -5,7 +5,7 @@
 #include "contct/write/frame_numbers.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 std::string event_words(const std::vector<event>& events) {
@@ -98,4 +98,4 @@ void run_csv::finish() {
   if (pairs_ != nullptr) pairs_->finish();
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -13,7 +13,7 @@
 #include "contct/text/output_file.hpp"
 #include "contct/write/load_text.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// A field of a table: quoted where it has to be.
 [[nodiscard]] std::string csv_field(std::string_view text);
@@ -64,4 +64,4 @@ class run_csv final : public observer {
   state last_;
 };
 
-}  // namespace contct
+}  // namespace contct::write

@@ -6,7 +6,7 @@
 
 #include "contct/text/markup.hpp"
 
-namespace contct {
+namespace contct::write {
 
 // Files of report/ and reference/parallel-edition.html, built in: embed.cmake writes them.
 extern const std::string_view report_html, report_css, report_js, parallel_edition_html;
@@ -35,4 +35,4 @@ std::string run_page(const finished_run& r) {
   return page += rest;
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -6,7 +6,7 @@
 
 #include "contct/write/finished_run.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// The page of a run. The parallel edition of the two kernels is in it, folded.
 [[nodiscard]] std::string run_page(const finished_run& r);
@@ -18,4 +18,4 @@ namespace contct {
 /// The same as text of an HTML script element: whatever its strings hold, none of it is markup.
 [[nodiscard]] std::string page_data_for_script(const finished_run& r);
 
-}  // namespace contct
+}  // namespace contct::write

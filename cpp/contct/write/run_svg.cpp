@@ -8,7 +8,7 @@
 #include "contct/write/load_text.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace svg {
 
 std::string mark_of_pair(const shown_state& s, int pair, const spot& at, double r) {
@@ -145,4 +145,4 @@ std::string run_svg(const finished_run& r) {
                  content);
 }
 
-}  // namespace contct
+}  // namespace contct::write

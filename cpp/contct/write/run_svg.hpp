@@ -8,15 +8,15 @@
 #include "contct/write/page_sampling.hpp"
 #include "contct/write/svg_parts.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// One self-contained SVG. A beam is drawn from the side with its deflection magnified, a plate from above;
 /// under it the sum of the loads over the deflection of the node that deflects most.
 [[nodiscard]] std::string run_svg(const finished_run& r);
 
-}  // namespace contct
+}  // namespace contct::write
 
-namespace contct::svg {
+namespace contct::write::svg {
 
 inline constexpr double page_width = 900.0;
 inline constexpr double picture_top = 96.0;
@@ -48,4 +48,4 @@ struct shown_state {
 /// face a diamond.
 [[nodiscard]] std::string mark_of_pair(const shown_state& s, int pair, const spot& at, double r);
 
-}  // namespace contct::svg
+}  // namespace contct::write::svg

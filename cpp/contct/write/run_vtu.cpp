@@ -9,7 +9,7 @@
 #include "contct/write/frame_numbers.hpp"
 #include "contct/write/load_text.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_quad = 9;
@@ -200,4 +200,4 @@ std::string name_of_frame(const std::string& stem, std::size_t number) {
   return fmt::format("{}.{:03}.vtu", stem, number);
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -7,7 +7,7 @@
 #include "contct/path/frames.hpp"
 #include "contct/structure/problem.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// A frame as an unstructured grid: lines or quadrilaterals, and a vertex for each pair, at the undeformed
 /// places; beams lie along x, plates in x and y, z is up. Points have "displacement" (0, 0, w) and each dof
@@ -26,4 +26,4 @@ namespace contct {
 /// "out.007.vtu" for 7, of a stem "out".
 [[nodiscard]] std::string name_of_frame(const std::string& stem, std::size_t number);
 
-}  // namespace contct
+}  // namespace contct::write

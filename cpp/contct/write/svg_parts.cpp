@@ -7,7 +7,7 @@
 
 #include "contct/text/markup.hpp"
 
-namespace contct::svg {
+namespace contct::write::svg {
 
 void span_of::take(double x) {
   least = std::min(least, x);
@@ -76,4 +76,4 @@ std::string axis_below(const scale& X, double from, double to, double y) {
   return text;
 }
 
-}  // namespace contct::svg
+}  // namespace contct::write::svg

@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace contct::svg {
+#include "contct/rooms.hpp"
+
+namespace contct::write::svg {
 
 /// From the least to the largest of the values taken.
 struct span_of {
@@ -63,4 +65,4 @@ struct drawn {
 /// Ticks and numbers below a picture, without a line.
 [[nodiscard]] std::string axis_below(const scale& X, double from, double to, double y);
 
-}  // namespace contct::svg
+}  // namespace contct::write::svg

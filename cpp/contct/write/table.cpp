@@ -11,7 +11,7 @@
 #include "contct/write/frame_numbers.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct {
+namespace contct::write {
 namespace {
 
 // increment, share, s and kernels, each with the blanks behind it: what every row has.
@@ -134,4 +134,4 @@ void table::step_ended(const step_state& s) {
   }
 }
 
-}  // namespace contct
+}  // namespace contct::write

@@ -11,7 +11,7 @@
 #include "contct/text/terminal.hpp"
 #include "contct/write/load_text.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// A share in at most nine columns, with as many digits as fit. What is less than 1 is never shown as 1,
 /// which means the whole load: "1-3e-09".
@@ -44,4 +44,4 @@ class table final : public observer {
   bool headed_ = false;
 };
 
-}  // namespace contct
+}  // namespace contct::write

@@ -7,7 +7,7 @@
 #include "contct/path/frames.hpp"
 #include "contct/path/path.hpp"
 
-namespace contct {
+namespace contct::write {
 
 /// "below" or "above".
 constexpr std::string_view surface_name(int surface) {
@@ -66,4 +66,4 @@ constexpr std::string_view end_reason(path_status status) {
   return "";
 }
 
-}  // namespace contct
+}  // namespace contct::write

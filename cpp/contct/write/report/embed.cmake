@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 # Writes the page's files as strings of a C++ source, so that the program needs none of them when it runs.
 # Usage: cmake -DFILES=report.html,report.css,report.js -DOUT=report_files.cpp -P embed.cmake
-set(source "// Made by embed.cmake from the files of contct/write/report.\n#include <string_view>\n\nnamespace contct {\n\n")
+set(source "// Made by embed.cmake from the files of contct/write/report.\n#include <string_view>\n\nnamespace contct::write {\n\n")
 string(REPLACE "," ";" files "${FILES}")
 foreach(file IN LISTS files)
   cmake_path(GET file FILENAME name)
@@ -9,4 +9,4 @@ foreach(file IN LISTS files)
   file(READ ${file} text)
   string(APPEND source "extern const std::string_view ${variable};\nconst std::string_view ${variable} = R\"embedded(${text})embedded\";\n\n")
 endforeach()
-file(WRITE ${OUT} "${source}}  // namespace contct\n")
+file(WRITE ${OUT} "${source}}  // namespace contct::write\n")
