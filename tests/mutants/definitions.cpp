@@ -10,7 +10,7 @@ namespace contct_test {
 
 const std::vector<std::string> mutable_files{"fortran/contct.f", "cpp/contct/kernel/contct.hpp",
                                              "cpp/contct/kernel/log_text.cpp",
-                                             "cpp/contct/kernel/kernel.cpp"};
+                                             "cpp/contct/kernel/built_in.cpp"};
 
 const std::vector<std::string> fault_classes{
     "canary",       "off by one", "index",      "comparison", "literal", "constant",  "stale state",

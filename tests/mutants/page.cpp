@@ -90,7 +90,7 @@ std::string page(const std::vector<trial>& trials, const bounded_fuzz& fuzz) {
          "the other language as well. For each the first difference in the first trace that notices is "
          "named, and the\n"
          "first such call. They cannot notice what both kernels share: the rounding to 4 bytes in "
-         "`kernel.cpp`.\n"
+         "`built_in.cpp`.\n"
          "A mutant that nothing notices fails the run, and so does one that is said to be equivalent and is "
          "noticed.\n"
          "Made from `tests/mutants/mutants.toml`, not by hand:\n\n"
