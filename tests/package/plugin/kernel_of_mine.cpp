@@ -2,7 +2,7 @@
 // plugin.h.
 #include <contct/outside/plugin.h>
 
-#include <contct/kernel/kernel.hpp>
+#include <contct/outside/registry.hpp>
 
 int contct_kernel_abi() {
   return CONTCT_KERNEL_ABI;
