@@ -30,7 +30,8 @@ fi
 mkdir -p "$work"
 launcher="sh;$source/tests/probe/slack.sh;$slack"
 {
-  "$CMAKE" -G "$GENERATOR" -S "$source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DCONTCT_REPLAY_ONLY=ON \
+  "$CMAKE" -G "$GENERATOR" -S "$source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" \
+    -DCONTCT_REPLAY_ONLY=ON \
     -DCONTCT_FLANG=OFF -DCONTCT_F2C=OFF "-DCMAKE_CXX_COMPILER=$CXX" "-DCMAKE_Fortran_COMPILER=$FC" \
     "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" "-DCMAKE_Fortran_COMPILER_LAUNCHER=$launcher" &&
     "$CMAKE" --build "$work/build" --target contct_compare &&

@@ -1,5 +1,6 @@
 // A whole path from the installed rooms: PB1, a cantilever over a stop at its tip.
 #include <cmath>
+#include <contct/outside/registry.hpp>
 #include <contct/path/solve_problem.hpp>
 #include <contct/structure/beam.hpp>
 #include <cstdio>

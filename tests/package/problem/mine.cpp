@@ -1,4 +1,5 @@
 // A problem file, read and followed by the installed rooms.
+#include <contct/outside/registry.hpp>
 #include <contct/path/solve_problem.hpp>
 #include <contct/read/problem_file.hpp>
 #include <cstdio>
