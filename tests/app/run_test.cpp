@@ -361,6 +361,8 @@ TEST_CASE("only the end: the path's final states without a path, certified") {
     const auto& b = at_once["steps"][step];
     CHECK(b["increments"].empty());
     CHECK(b["certificate"]["exact"] == true);
+    CHECK(b["certificate"]["independent"] == false);  // it is the oracle's own state
+    CHECK(a["certificate"]["independent"] == true);
     for (std::size_t node = 0; node < a["w"].size(); ++node) {
       CHECK(a["w"][node].get<double>() == Approx(b["w"][node].get<double>()).epsilon(1e-9).margin(1e-11));
       ++compared;
@@ -370,6 +372,9 @@ TEST_CASE("only the end: the path's final states without a path, certified") {
   }
   CHECK(compared == 6 * 41);
   CHECK(at_once["engine_work"]["factors"] <= 40);  // 55 increments on the path
+  CHECK_THAT(contct_program(dir.path(), {"run", pb5, "--final-only"}).out,
+             Contains("taken from the oracle, by equilibrium, penetration and tension alone") &&
+                 !Contains("the oracle agrees"));
 
   dir.write("freed.toml", freed);
   const finished none = contct_program(dir.path(), {"run", "freed.toml", "--final-only"});

@@ -86,6 +86,7 @@ json certificate_json(const std::optional<certificate>& c) {
               {"tolerance", c->tolerance},
               {"shape_error", c->shape_error},
               {"unique", c->unique},
+              {"independent", c->independent},
               {"digits", digits_left(c->rcond)}};
   if (!c->unique) out["displacement_error"] = out["shape_error"] = nullptr;
   if (!c->problem.empty()) out["problem"] = c->problem;
