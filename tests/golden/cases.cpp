@@ -8,7 +8,6 @@ namespace golden {
 namespace {
 
 using contct::call_inputs;
-using contct::dof_layout;
 using contct::face_above;
 using contct::face_below;
 using contct::in_contact;
