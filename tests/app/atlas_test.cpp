@@ -17,7 +17,7 @@ namespace {
 using words = std::vector<std::string>;
 
 /// Refused: exit 2, nothing printed, no file made.
-std::string refusal(const words& arguments, const scratch_directory& dir) {
+std::string refusal(const words& arguments, const scratch_folder& dir) {
   const auto before = dir.files();
   const finished f = contct_program(dir.path(), arguments);
   INFO(f.out << f.err);
@@ -30,7 +30,7 @@ std::string refusal(const words& arguments, const scratch_directory& dir) {
 }  // namespace
 
 TEST_CASE("the same seed draws the same atlas, and table, CSV, JSON and picture agree") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const words asked = {"atlas", "--problems", "3",      "--seed", "7",    "--csv",
                        "a.csv", "--json",     "a.json", "--svg",  "a.svg"};
   const finished first = contct_program(dir.path(), asked);
@@ -66,7 +66,7 @@ TEST_CASE("the same seed draws the same atlas, and table, CSV, JSON and picture 
 }
 
 TEST_CASE("an output of the atlas may be standard output, alone") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"atlas", "--problems", "1", "--json", "-"});
   CHECK(f.exit == 0);
   CHECK(nlohmann::json::parse(f.out)["problems"] == 1);
@@ -75,7 +75,7 @@ TEST_CASE("an output of the atlas may be standard output, alone") {
 }
 
 TEST_CASE("bad usage of the atlas exits 2 before anything is tried") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("a.json", "mine");
   CHECK_THAT(refusal({"atlas", "--problems", "0"}, dir), Contains("--problems"));
   CHECK_THAT(refusal({"atlas", "--problems", "many"}, dir), Contains("--problems"));
@@ -88,7 +88,7 @@ TEST_CASE("bad usage of the atlas exits 2 before anything is tried") {
 }
 
 TEST_CASE("when standard output fails, the atlas leaves no files") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"atlas", "--problems", "1", "--svg", "a.svg"},
                                     {"", {}, false, "/dev/full"});
   CHECK(f.exit == 2);
@@ -97,7 +97,7 @@ TEST_CASE("when standard output fails, the atlas leaves no files") {
 }
 
 TEST_CASE("the copies of the listing that the atlas uses are no kernels to run") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   CHECK_THAT(contct_program(dir.path(), {"kernels"}).out, !Contains("EPSMUL"));
   for (const char* name : {"fortran with EPSMUL 1e-09", "epsmul", "fortran-1e-9"}) {
     const finished f = contct_program(dir.path(), {"run", "none.toml", "--kernels", name});

@@ -15,7 +15,7 @@ using Catch::Matchers::StartsWith;
 namespace {
 
 /// Run `file` in `dir` with an output asked for; nothing but the refusal may come of it.
-std::string refusal(const scratch_directory& dir, const std::string& file,
+std::string refusal(const scratch_folder& dir, const std::string& file,
                     const process_options& options = {}) {
   const auto before = dir.files();
   const finished f =
@@ -30,7 +30,7 @@ std::string refusal(const scratch_directory& dir, const std::string& file,
 }  // namespace
 
 TEST_CASE("every kind of bad problem file: exit 2, one message with its place, nothing written") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   auto kinds = bad_inputs();
   const auto plates = bad_plates();
   kinds.insert(kinds.end(), plates.begin(), plates.end());
@@ -45,14 +45,14 @@ TEST_CASE("every kind of bad problem file: exit 2, one message with its place, n
 }
 
 TEST_CASE("no such file, a directory, a file without permission to be one") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   CHECK_THAT(refusal(dir, "missing.toml"), Contains("missing.toml: cannot be read: No such file"));
   CHECK_THAT(refusal(dir, "."), Contains("found a directory"));
   CHECK_THAT(refusal(dir, ""), Contains("cannot be read"));
 }
 
 TEST_CASE("a key of endless parts is refused, and ends nothing else") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   std::string dotted = "a";
   for (int i = 0; i < 300000; ++i) dotted += ".a";
   dir.write("dotted.toml", dotted + " = 1\n");
@@ -60,7 +60,7 @@ TEST_CASE("a key of endless parts is refused, and ends nothing else") {
 }
 
 TEST_CASE("a binary file is refused at its first byte that is no text") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("program.toml", std::string("\x7f"
                                         "ELF\x02\x01\x01\x00",
                                         8) +
@@ -69,18 +69,18 @@ TEST_CASE("a binary file is refused at its first byte that is no text") {
 }
 
 TEST_CASE("a file of 50 MB is refused by its size, however well it begins") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("huge.toml", std::string(good_problem) + "# " + std::string(50'000'000, 'x'));
   CHECK_THAT(refusal(dir, "huge.toml"), Contains("32 MiB or more"));
 }
 
 TEST_CASE("standard input is named in the message") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   CHECK_THAT(refusal(dir, "-", {"[beam]\nEI = 0\n", {}, false}), StartsWith("contct: standard input:"));
 }
 
 TEST_CASE("a place that cannot be written is refused before anything is solved") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "good.toml", "--json", "no/such/place.json"});
   CHECK(f.exit == 2);
@@ -90,7 +90,7 @@ TEST_CASE("a place that cannot be written is refused before anything is solved")
 }
 
 TEST_CASE("wrong usage: exit 2, and what there is") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const auto refused = [&](const std::vector<std::string>& arguments, const char* words) {
     const finished f = contct_program(dir.path(), arguments);

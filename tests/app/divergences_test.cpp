@@ -48,7 +48,7 @@ void says(const std::string& text, const std::string& number, double measured) {
 
 /// A run of a file of reference/problems/divergences with one kernel.
 json run(const std::string& file, const char* kernel, int exit) {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string problem = (root / "reference/problems/divergences" / file).string();
   const finished f =
       contct_program(dir.path(), {"run", problem, "--kernels", kernel, "--strict", "--json", "out.json"});
@@ -145,7 +145,7 @@ TEST_CASE("way 4: an event exactly at full load is left to the next step, and on
 }
 
 TEST_CASE("way 5: a problem file whose state its faces contradict is refused") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string beam =
       "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\n"
       "surface = \"below\"\nstiffness = 1\n";

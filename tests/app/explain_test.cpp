@@ -55,7 +55,7 @@ finished explained(const std::vector<std::string>& more, const char* columns = "
 }  // namespace
 
 TEST_CASE("an increment is told pair by pair, with the listing's lines and the paper's equations") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"explain", "pb.toml"});
   INFO(f.out << f.err);
@@ -89,7 +89,7 @@ TEST_CASE("an increment is told pair by pair, with the listing's lines and the p
 
 TEST_CASE("each line that an explanation cites holds the statement shown beside it") {
   const std::vector<std::string> listing = listing_lines();
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("marked.toml", marked);
   std::set<int> cited;
   for (const std::string& file : {pb5, std::string("reference/problems/pb08c-heavy-beam-down-40.toml"),
@@ -153,7 +153,7 @@ TEST_CASE("step, increment and pair narrow what is told, and STEP.INCREMENT is a
 }
 
 TEST_CASE("what is out of range is exit 2, says what is allowed, and writes nothing") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string out = (dir.path() / "out.json").string();
   const auto refused = [&](std::vector<std::string> arguments, const char* words) {
     arguments.insert(arguments.end(), {"--json", out});
@@ -195,7 +195,7 @@ TEST_CASE("a pair that EPSMUL takes along before it touches is said to be, and h
 }
 
 TEST_CASE("a pair without any event that is toggled by its mark SS = 1 is said to be") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("marked.toml", marked);
   const finished f = contct_program(dir.path(), {"explain", "marked.toml", "--json", "out.json"});
   INFO(f.out << f.err);
@@ -210,7 +210,7 @@ TEST_CASE("a pair without any event that is toggled by its mark SS = 1 is said t
 }
 
 TEST_CASE("the JSON has the numbers, the branches with their margins, and both kernels' bits") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"explain", "pb.toml", "--json", "-"});
   CHECK(f.exit == 0);
@@ -234,7 +234,7 @@ TEST_CASE("the JSON has the numbers, the branches with their margins, and both k
 }
 
 TEST_CASE("every line in the JSON is the listing's") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::vector<std::string> listing = listing_lines();
   const finished f = explained({pb7, "--json", "-"});
   const json all = json::parse(f.out);
@@ -254,7 +254,7 @@ TEST_CASE("every line in the JSON is the listing's") {
 }
 
 TEST_CASE("a second kernel that rounds otherwise is told by its ULP, and is exit 1") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
   const finished f =
       explained({pb7, "--kernels", "fortran," + plugin, "--json", (dir.path() / "out.json").string()});
@@ -283,7 +283,7 @@ TEST_CASE("a kernel alone, and the listing as printed, are explained too") {
 }
 
 TEST_CASE("a path that ends in a mechanism is explained as far as it goes: exit 4") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("freed.toml",
             "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
             "0\nstiffness = 10\n[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n"
@@ -313,7 +313,7 @@ TEST_CASE("a long run is explained as it goes: memory does not grow with it") {
 
 TEST_CASE("an event so near to full load that only rounding is left is told, and that the driver undoes it") {
   // Unloading to nothing opens the pairs exactly at the end: computed, now and then just before it.
-  const scratch_directory dir;
+  const scratch_folder dir;
   int undone = 0;
   for (int elements = 4; elements <= 30; elements += 2) {
     for (const char* stiffness : {"1e5", "7.7e5"}) {

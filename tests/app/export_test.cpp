@@ -16,7 +16,7 @@ const std::string gaps = root + "/reference/problems/pb07-three-gap-supports.tom
 }  // namespace
 
 TEST_CASE("export writes a deck, and says by what its answers are to be divided") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"export", gaps, "--calculix", "gaps.inp", "--step", "3"});
   CHECK(f.exit == 0);
   CHECK(f.err.empty());
@@ -32,7 +32,7 @@ TEST_CASE("export writes a deck, and says by what its answers are to be divided"
 }
 
 TEST_CASE("export takes the last step and two elements for one, unless asked otherwise") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished usual = contct_program(dir.path(), {"export", gaps, "--calculix", "-"});
   const finished same = contct_program(dir.path(), {"export", gaps, "--calculix", "-", "--step", "4",
                                                     "--refine", "2", "--slenderness", "500"});
@@ -43,7 +43,7 @@ TEST_CASE("export takes the last step and two elements for one, unless asked oth
 }
 
 TEST_CASE("what export cannot do ends with 2, what was found, what is allowed, and no file") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("free.toml",
             "[beam]\nx = [0, 1, 2]\nEI = 1\n[[bed]]\nmodulus = 1\nface = 0\n[[step]]\nuniform = -1\n");
   const auto refused = [&dir](const std::vector<std::string>& arguments) {

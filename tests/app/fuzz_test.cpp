@@ -18,12 +18,12 @@ std::string variant(const char* fault) {
   return "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_" + fault + ".so";
 }
 
-finished fuzz(const scratch_directory& dir, std::vector<std::string> arguments) {
+finished fuzz(const scratch_folder& dir, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "fuzz");
   return contct_program(dir.path(), arguments);
 }
 
-nlohmann::json json_of(const scratch_directory& dir, const char* name) {
+nlohmann::json json_of(const scratch_folder& dir, const char* name) {
   return nlohmann::json::parse(dir.read(name));
 }
 
@@ -40,7 +40,7 @@ std::string output_of(const std::string& command, int& exit) {
 }  // namespace
 
 TEST_CASE("fortran and cpp are equal to the bit, and the run says how much it compared") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   for (const char* kernels : {"fortran,cpp", "fortran-r4,cpp-r4"}) {
     const finished f =
         fuzz(dir, {"--kernels", kernels, "--calls", "30000", "--json", "f.json", "--junit", "f.xml"});
@@ -61,14 +61,14 @@ TEST_CASE("fortran and cpp are equal to the bit, and the run says how much it co
 }
 
 TEST_CASE("a right kernel in C, called as a plug-in, is CONTCT") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("right"), "--calls", "20000"});
   INFO(f.out << f.err);
   CHECK(f.exit == 0);
 }
 
 TEST_CASE("the printed line runs the same once more") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string kernels = "fortran," + variant("less_equal");
   const finished a = fuzz(dir, {"--kernels", kernels, "--calls", "8000", "--seed", "77", "--shard", "2/3"});
   CHECK_THAT(a.out, Contains("--calls 8000 --problems 16 --seed 77 --shard 2/3"));
@@ -79,7 +79,7 @@ TEST_CASE("the printed line runs the same once more") {
 }
 
 TEST_CASE("an EPSMUL compared by less-or-equal is found, read as a tie, and shrunk to two pairs") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("less_equal"), "--calls", "20000", "--out",
                                 "found", "--json", "f.json"});
   INFO(f.out << f.err);
@@ -116,7 +116,7 @@ TEST_CASE("an EPSMUL compared by less-or-equal is found, read as a tie, and shru
 }
 
 TEST_CASE("a reassociated quotient is found in the last place, and its ULPs are counted") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f =
       fuzz(dir, {"--kernels", "fortran," + variant("reassociated"), "--calls", "4000", "--problems", "0"});
   CHECK(f.exit == 1);
@@ -124,7 +124,7 @@ TEST_CASE("a reassociated quotient is found in the last place, and its ULPs are 
 }
 
 TEST_CASE("a kernel that remembers the call before is shrunk to two calls") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f =
       fuzz(dir, {"--kernels", "fortran," + variant("remembers"), "--calls", "4000", "--problems", "0"});
   INFO(f.err);
@@ -133,7 +133,7 @@ TEST_CASE("a kernel that remembers the call before is shrunk to two calls") {
 }
 
 TEST_CASE("a plug-in that aborts now and then is a verdict, not the end of the run") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("crashes"), "--calls", "4000", "--problems",
                                 "0", "--json", "f.json"});
   INFO(f.err);
@@ -144,14 +144,14 @@ TEST_CASE("a plug-in that aborts now and then is a verdict, not the end of the r
 }
 
 TEST_CASE("a plug-in that leads and aborts ends the run with the status of kernels that disagree") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", variant("crashes") + ",fortran", "--calls", "4000"});
   CHECK(f.exit == 1);
   CHECK_THAT(f.err, Contains("the leading kernel gave no answer: it was ended by signal 6"));
 }
 
 TEST_CASE("shards are added up again, and a missing or doubled one is refused") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   for (const char* shard : {"1", "2", "3"}) {
     CHECK(fuzz(dir, {"--calls", "9000", "--problems", "9", "--shard", std::string(shard) + "/3", "--json",
                      std::string(shard) + ".json"})
@@ -171,7 +171,7 @@ TEST_CASE("shards are added up again, and a missing or doubled one is refused") 
 }
 
 TEST_CASE("a hunt that finds too little to compare fails") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   CHECK(fuzz(dir, {"--calls", "0"}).exit == 2);
   CHECK(fuzz(dir, {"--kernels", "fortran"}).exit == 2);
   CHECK(fuzz(dir, {"--shard", "3/2"}).exit == 2);

@@ -27,7 +27,7 @@ std::string strip(bool along_x) {
   return text + "[[step]]\nuniform = -0.001\n";
 }
 
-nlohmann::json result_of(const scratch_directory& dir, const std::string& text, long most_kib) {
+nlohmann::json result_of(const scratch_folder& dir, const std::string& text, long most_kib) {
   dir.write("plate.toml", text);
   const finished f = contct_program(dir.path(), {"run", "plate.toml", "--json", "plate.json"});
   INFO(f.out << f.err);
@@ -43,7 +43,7 @@ nlohmann::json result_of(const scratch_directory& dir, const std::string& text, 
 }  // namespace
 
 TEST_CASE("a plate of 3000 by 2 elements takes under 40 MB, lying or standing, and gives one answer") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const auto lying = result_of(dir, strip(true), 40 * 1000);
   const auto standing = result_of(dir, strip(false), 40 * 1000);
   REQUIRE(lying["steps"][0]["w"].size() == 9003);
@@ -66,7 +66,7 @@ TEST_CASE("a plate of 3000 by 2 elements takes under 40 MB, lying or standing, a
 TEST_CASE(
     "a plate of 100 by 100 elements takes three bands of 76 MB, one of them the certificate's, and little "
     "else") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const auto r = result_of(dir,
                            "[plate]\nsize = [1, 1]\nelements = [100, 100]\nD = 1\nnu = 0.3\n"
                            "[[support]]\nnodes = \"1..101\"\nfix = [\"w\", \"wx\"]\n"

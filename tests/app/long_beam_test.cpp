@@ -27,7 +27,7 @@ std::string hundred_thousand_nodes() {
 }  // namespace
 
 TEST_CASE("a beam of 100,000 nodes is read, solved and written in under 200 MB") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("long.toml", hundred_thousand_nodes());
   const finished f = contct_program(dir.path(), {"run", "long.toml", "--json", "long.json"});
   INFO(f.out << f.err);
@@ -49,7 +49,7 @@ TEST_CASE("a beam of 100,000 nodes is read, solved and written in under 200 MB")
 
 TEST_CASE("two hundred thousand beds of one node each are as quick as one bed of them all") {
   // Something done for every node, for every bed, would take minutes.
-  const scratch_directory dir;
+  const scratch_folder dir;
   std::string text = "[beam]\nlength = 200000\nelements = 200000\nEI = 1\n";
   for (int node = 1; node <= 200001; ++node)
     text += "[[bed]]\nmodulus = 1\nface = 0\nnodes = [" + std::to_string(node) + "]\n";
@@ -61,7 +61,7 @@ TEST_CASE("two hundred thousand beds of one node each are as quick as one bed of
 }
 
 TEST_CASE("a single span of 5,000 elements has lost its digits, and says so") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("span.toml",
             "[beam]\nlength = 1\nelements = 5000\nEI = 1\n[[support]]\nnodes = [1, 5001]\nfix = [\"w\"]\n"
             "[[step]]\nuniform = -1\n");

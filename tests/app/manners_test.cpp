@@ -51,7 +51,7 @@ std::vector<words> examples_in(const std::string& help) {
 }
 
 /// What the examples speak of.
-void prepare(const scratch_directory& dir, bool with_problems) {
+void prepare(const scratch_folder& dir, bool with_problems) {
   if (!with_problems) return;
   REQUIRE(contct_program(dir.path(), {"new", "beam", "beam.toml"}).exit == 0);
   REQUIRE(contct_program(dir.path(), {"run", "beam.toml", "--quiet", "--trace", "calls.trace"}).exit == 0);
@@ -73,7 +73,7 @@ TEST_CASE("every command has help with examples, and every example runs as it st
     CHECK_FALSE(examples.empty());
     for (const words& arguments : examples) {
       CHECK(arguments.at(0) == command);
-      const scratch_directory dir;
+      const scratch_folder dir;
       prepare(dir, command != "new");
       const finished f = contct_program(dir.path(), arguments);
       std::string line = "contct";
@@ -90,7 +90,7 @@ TEST_CASE("every command has help with examples, and every example runs as it st
 }
 
 TEST_CASE("a mistyped command or option is guessed, and far off ones are not") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const auto refused = [&](const words& arguments) {
     const finished f = contct_program(dir.path(), arguments);
@@ -115,7 +115,7 @@ TEST_CASE("a mistyped command or option is guessed, and far off ones are not") {
 }
 
 TEST_CASE("a mistyped key or word in a problem file is guessed, at its place") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const auto refused = [&](const std::string& piece, const std::string& mistake) {
     dir.write("bad.toml", with(piece, mistake));
     const finished f = contct_program(dir.path(), {"run", "bad.toml"});
@@ -135,7 +135,7 @@ TEST_CASE("a mistyped key or word in a problem file is guessed, at its place") {
 
 TEST_CASE("a new problem runs, has events, and is certified, and its comments name every table") {
   for (const char* shape : {"beam", "plate"}) {
-    const scratch_directory dir;
+    const scratch_folder dir;
     INFO(shape);
     const finished made = contct_program(dir.path(), {"new", shape});
     const std::string name = std::string(shape) + ".toml";
@@ -158,7 +158,7 @@ TEST_CASE("a new problem runs, has events, and is certified, and its comments na
 
 TEST_CASE("what is commented out in a new problem may be put in") {
   for (const char* shape : {"beam", "plate"}) {
-    const scratch_directory dir;
+    const scratch_folder dir;
     std::string text = contct_program(dir.path(), {"new", shape, "-"}).out;
     int put_in = 0;
     for (const char* piece : {"# [[", "# spring", "# nodes", "# fix", "# modulus", "# face"}) {
@@ -176,7 +176,7 @@ TEST_CASE("what is commented out in a new problem may be put in") {
 }
 
 TEST_CASE("a new problem overwrites nothing, not even a link that leads nowhere") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("beam.toml", "mine");
   fs::create_symlink("nowhere", dir.path() / "link.toml");
   for (const char* file : {"beam.toml", "link.toml", "."}) {

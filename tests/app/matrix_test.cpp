@@ -15,7 +15,7 @@ const std::string problem =
     "[[step]]\npoint = [ { dof = \"2\", value = -3 } ]\n";
 
 /// A cube of points, each tied to its neighbours and to the ground; pairs along one edge: p.toml and K.mtx.
-void write_cube(const scratch_directory& here) {
+void write_cube(const scratch_folder& here) {
   constexpr int side = 12;
   std::string entries;
   int count = 0;
@@ -42,7 +42,7 @@ void write_cube(const scratch_directory& here) {
 }  // namespace
 
 TEST_CASE("the frame by its matrix is solved in lockstep and certified, from any folder") {
-  const scratch_directory elsewhere;
+  const scratch_folder elsewhere;
   const finished f = contct_program(elsewhere.path(),
                                     {"run", (root / "reference/structures/frame.toml").string(), "--strict"});
   INFO(f.err);
@@ -64,7 +64,7 @@ TEST_CASE("the engines agree that the frame is certified, and so does the oracle
 }
 
 TEST_CASE("a matrix that is no stiffness, is missing or too large ends in exit 2 and one line that says so") {
-  const scratch_directory here;
+  const scratch_folder here;
   here.write("p.toml", problem);
   finished f = contct_program(here.path(), {"run", "p.toml"});
   CHECK(f.exit == 2);
@@ -82,7 +82,7 @@ TEST_CASE("a matrix that is no stiffness, is missing or too large ends in exit 2
 }
 
 TEST_CASE("what a band cannot hold is solved by its entries, and the certificate is the same") {
-  const scratch_directory here;
+  const scratch_folder here;
   write_cube(here);
   CHECK_THAT(contct_program(here.path(), {"run", "p.toml", "--strict"}).out, Contains("engine refactor\n"));
   process_options little;
@@ -116,7 +116,7 @@ TEST_CASE("what a band cannot hold is solved by its entries, and the certificate
 }
 
 TEST_CASE("two springs in a row, free at both ends, fall off their one face: a mechanism, exit 4") {
-  const scratch_directory here;
+  const scratch_folder here;
   here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 -1\n2 2 1\n");
   here.write("p.toml", problem);
   const finished f = contct_program(here.path(), {"run", "p.toml"});
@@ -131,7 +131,7 @@ TEST_CASE("two springs in a row, free at both ends, fall off their one face: a m
 }
 
 TEST_CASE("a structure without coordinates has its page, picture and tables, and no grid, which is said") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("K.mtx", header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
   dir.write("p.toml", problem);
   const finished f =
@@ -157,7 +157,7 @@ TEST_CASE("a structure without coordinates has its page, picture and tables, and
 TEST_CASE(
     "a structure with coordinates is drawn, all of it, and a pair without a place has no cell, which is "
     "said") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string frame = std::string(CONTCT_ROOT) + "/reference/structures/";
   const finished f = contct_program(dir.path(), {"run", frame + "frame.toml", "--html", "o.html", "--svg",
                                                  "o.svg", "--csv", "o.csv", "--vtu", "o.vtu"});
@@ -186,7 +186,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what is explained of a structure given by its matrix names dofs by their labels") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string frame = std::string(CONTCT_ROOT) + "/reference/structures/frame.toml";
   const finished explained = contct_program(dir.path(), {"explain", frame, "--json", "why.json"});
   CHECK(explained.exit == 0);

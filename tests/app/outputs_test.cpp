@@ -15,7 +15,7 @@ namespace {
 using words = std::vector<std::string>;
 
 /// A run that must be refused, and leave every file as it was.
-std::string refusal(const scratch_directory& dir, const words& arguments,
+std::string refusal(const scratch_folder& dir, const words& arguments,
                     const process_options& options = {}) {
   const auto before = dir.files();
   const finished f = contct_program(dir.path(), arguments, options);
@@ -29,7 +29,7 @@ std::string refusal(const scratch_directory& dir, const words& arguments,
 }  // namespace
 
 TEST_CASE("two results in one file are refused, however it is named") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("out", dir.path() / "link");
   fs::create_directory(dir.path() / "folder");
@@ -43,7 +43,7 @@ TEST_CASE("two results in one file are refused, however it is named") {
 }
 
 TEST_CASE("a result in the problem's own file is refused, also through a link, also from standard input") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("pb.toml", dir.path() / "link");
   fs::create_hard_link(dir.path() / "pb.toml", dir.path() / "hard");
@@ -56,7 +56,7 @@ TEST_CASE("a result in the problem's own file is refused, also through a link, a
 }
 
 TEST_CASE("a result in the file that standard output goes to is refused: - is the way") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   dir.write("out", "");
   CHECK_THAT(
@@ -65,7 +65,7 @@ TEST_CASE("a result in the file that standard output goes to is refused: - is th
 }
 
 TEST_CASE("a result goes through a symbolic link to its target") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("target", dir.path() / "link");
   for (int time = 0; time < 2; ++time) {
@@ -76,7 +76,7 @@ TEST_CASE("a result goes through a symbolic link to its target") {
 }
 
 TEST_CASE("standard output that is full or closed is exit 2, with a message, and no file either") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const words& arguments : {words{"run", "pb.toml"},
                                  {"run", "pb.toml", "--json", "out.json"},
@@ -93,7 +93,7 @@ TEST_CASE("standard output that is full or closed is exit 2, with a message, and
 }
 
 TEST_CASE("a long table that does not fit on a full device is exit 2 too") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   std::string text = good_problem;
   for (int i = 0; i < 200; ++i) text += "[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n";
   dir.write("long.toml", text);
@@ -103,7 +103,7 @@ TEST_CASE("a long table that does not fit on a full device is exit 2 too") {
 
 TEST_CASE("an answer without numbers leaves no files: exit 2") {
   // PB9, so stiff that the springs vanish in the rounding of the beam's own stiffness.
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("stiff.toml",
             "[beam]\nlength = 2.0\nelements = 16\nEI = 1e15\n[[bed]]\nmodulus = 5000.0\nface = 0.0\n"
             "[[step]]\nuniform = [ { polynomial = [-20.0, 20.0, -5.0] } ]\n");
@@ -116,7 +116,7 @@ TEST_CASE("an answer without numbers leaves no files: exit 2") {
 }
 
 TEST_CASE("kernels that were never called are not said to be equal") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("loose.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\n"
             "stiffness = 1\n[[step]]\nuniform = -1\n");

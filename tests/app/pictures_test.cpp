@@ -29,7 +29,7 @@ nlohmann::json data_of(const std::string& page) {
 
 /// Everything that a run of `text` writes; the page's data.
 nlohmann::json written(const std::string& text, int exit, const words& more = {}) {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", text);
   words arguments = run_of(all_of_them);
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -50,7 +50,7 @@ const char* const no_pairs =
 }  // namespace
 
 TEST_CASE("a run writes its page, picture, tables and grids, and nothing beside them") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), run_of(all_of_them));
   CHECK(f.exit == 0);
@@ -63,7 +63,7 @@ TEST_CASE("the page's last state is the result's, number for number, step by ste
   for (const char* file :
        {"pb01-cantilever-tip-stop", "pb07-three-gap-supports", "pp03d-corners-and-settled-stop-n4"}) {
     INFO(file);
-    const scratch_directory dir;
+    const scratch_folder dir;
     const finished f =
         contct_program(dir.path(), {"run", std::string(CONTCT_ROOT) + "/reference/problems/" + file + ".toml",
                                     "--json", "o.json", "--html", "o.html"});
@@ -144,7 +144,7 @@ TEST_CASE(
 
 TEST_CASE(
     "pictures in one file with another result are refused, all files that --csv and --vtu make included") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const words& two : {words{"--html", "out", "--svg", "out"},
                            {"--html", "pb.toml"},
@@ -165,7 +165,7 @@ TEST_CASE(
 }
 
 TEST_CASE("with - for standard output nothing else is printed") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);
   CHECK(contct_program(dir.path(), run_of({"--svg", "-"})).out.rfind("<svg ", 0) == 0);
@@ -175,7 +175,7 @@ TEST_CASE("with - for standard output nothing else is printed") {
 }
 
 TEST_CASE("a place that cannot be written is found out before anything is solved") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const char* option : {"--html", "--svg", "--csv", "--vtu"}) {
     INFO(option);

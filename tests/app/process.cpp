@@ -70,7 +70,7 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
   rusage used{};
   wait4(child, &status, 0, &used);
   f.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  f.peak_kib = used.ru_maxrss;  // NOLINT(cppcoreguidelines-pro-type-union-access): glibc's union
+  f.peak_kib = used.ru_maxrss;
   if (!options.terminal) f.out = streams.read("out");
   if (!options.error_terminal) f.err = streams.read("err");
   return f;

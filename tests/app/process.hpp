@@ -28,6 +28,5 @@ struct process_options {
 finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                         const process_options& options = {});
 
-using scratch_directory = scratch_folder;
 
 }  // namespace contct::app

@@ -29,7 +29,7 @@ std::vector<long_work> long_works() {
 }
 
 /// At a terminal whose owner waits for so many seconds before he wonders.
-finished at_terminal(const scratch_directory& dir, const std::vector<std::string>& arguments,
+finished at_terminal(const scratch_folder& dir, const std::vector<std::string>& arguments,
                      const std::string& seconds, bool both = false) {
   process_options o;
   o.terminal = both;
@@ -39,7 +39,7 @@ finished at_terminal(const scratch_directory& dir, const std::vector<std::string
 }
 
 /// With a plate.toml in it.
-class plate_directory : public scratch_directory {
+class plate_directory : public scratch_folder {
  public:
   plate_directory() { REQUIRE(contct_program(path(), {"new", "plate"}).exit == 0); }
 };

@@ -46,7 +46,7 @@ TEST_CASE("the README's beam and its plate can be run") {
   int problems = 0;
   for (std::size_t at = text.find("```toml\n"); at != std::string::npos;
        at = text.find("```toml\n", at + 1)) {
-    const scratch_directory dir;
+    const scratch_folder dir;
     dir.write("own.toml", between(text.substr(at), "```toml\n", "```"));
     const finished f = contct_program(dir.path(), {"run", "own.toml"});
     INFO(f.out << f.err);

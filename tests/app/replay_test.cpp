@@ -19,7 +19,7 @@ std::string reference_problem(const char* name) {
 }
 
 /// Record a problem's path in `dir`.
-std::string recorded(const scratch_directory& dir, const char* problem) {
+std::string recorded(const scratch_folder& dir, const char* problem) {
   const finished f =
       contct_program(dir.path(), {"run", reference_problem(problem), "--trace", "t.trace", "--quiet"});
   INFO(f.err);
@@ -47,7 +47,7 @@ void replace_once(std::string& text, const std::string& what, const std::string&
 }  // namespace
 
 TEST_CASE("a recorded path replays equal to the bit, by FORTRAN and by its twin") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string trace = recorded(dir, "pb07-three-gap-supports.toml");
   CHECK_THAT(trace, Contains("\nlapack LAPACK ") && Contains("\nfloating-point strict\n"));
   const finished f = contct_program(dir.path(), {"replay", "t.trace", "--kernel", "fortran,cpp"});
@@ -61,7 +61,7 @@ TEST_CASE("a recorded path replays equal to the bit, by FORTRAN and by its twin"
 }
 
 TEST_CASE("a trace of one precision is not put to a kernel of another") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   recorded(dir, "pb01-cantilever-tip-stop.toml");
   const finished f = contct_program(dir.path(), {"replay", "t.trace", "--kernel", "cpp-r4"});
   CHECK(f.exit == 2);
@@ -71,7 +71,7 @@ TEST_CASE("a trace of one precision is not put to a kernel of another") {
 
 TEST_CASE(
     "one bit, one status or one character of the text that differs is found, and told with its margin") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string trace = recorded(dir, "pb01-cantilever-tip-stop.toml");
   struct doctored {
     const char *what, *by, *words;
@@ -97,7 +97,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a trace that is none is refused with file and line") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("empty.trace", "");
   dir.write("header.trace", "contct-trace-1 2026-11-21\nkernel fortran\n");
   CHECK_THAT(contct_program(dir.path(), {"replay", "empty.trace"}).err,
@@ -110,7 +110,7 @@ TEST_CASE("a trace that is none is refused with file and line") {
 }
 
 TEST_CASE("contct-replay is the same code, and needs neither LAPACK nor BLAS") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   recorded(dir, "pb07-three-gap-supports.toml");
   const std::string program = (fs::path(CONTCT_PROGRAM).parent_path() / "contct-replay").string();
   const std::string out = output_of(program + " " + (dir.path() / "t.trace").string());
@@ -122,7 +122,7 @@ TEST_CASE("contct-replay is the same code, and needs neither LAPACK nor BLAS") {
 }
 
 TEST_CASE("run tells a CI system the kernels, the path and the certificate") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f =
       contct_program(dir.path(), {"run", reference_problem("pb05-cantilever-over-flat-obstacle.toml"),
                                   "--strict", "--quiet", "--junit", "-"});
@@ -132,7 +132,7 @@ TEST_CASE("run tells a CI system the kernels, the path and the certificate") {
 }
 
 TEST_CASE("verify writes one test for each problem") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f =
       contct_program(dir.path(), {"verify", "--quiet", "--junit", "v.xml", "--markdown", "v.md"});
   CHECK(f.exit == 0);

@@ -51,14 +51,14 @@ class built_project {
   }
 
  private:
-  scratch_directory dir_;
+  scratch_folder dir_;
 };
 
 }  // namespace
 
 TEST_CASE("run.sh takes file names as the caller's, wherever it is called from") {
   const built_project project;
-  const scratch_directory elsewhere;
+  const scratch_folder elsewhere;
   elsewhere.write("my own.toml", good_problem);
   const auto [status, out] = project.run(elsewhere.path(), "run 'my own.toml' --json out.json");
   INFO(out);
@@ -69,7 +69,7 @@ TEST_CASE("run.sh takes file names as the caller's, wherever it is called from")
 
 TEST_CASE("run.sh alone runs the README's problem, from anywhere") {
   const built_project project;
-  const scratch_directory elsewhere;
+  const scratch_folder elsewhere;
   const auto [at_home, shown] = project.run(project.root(), "");
   CHECK(at_home == 0);
   CHECK_THAT(shown, Contains("building in build/release\n"
@@ -87,7 +87,7 @@ TEST_CASE("run.sh alone runs the README's problem, from anywhere") {
 
 TEST_CASE("run.sh hands the program's exit status on, and shows why nothing can be built") {
   const built_project project;
-  const scratch_directory elsewhere;
+  const scratch_folder elsewhere;
   CHECK(WEXITSTATUS(project.run(elsewhere.path(), "run missing.toml").first) == 2);
   project.tool("cmake", "echo no compiler is found; exit 1");
   const auto [status, out] = project.run(elsewhere.path(), "kernels");

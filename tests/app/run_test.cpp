@@ -30,7 +30,7 @@ std::size_t longest_line(const std::string& text) {
 }  // namespace
 
 TEST_CASE("the table shows share, s, load, event, node and side, and that the kernels agreed") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml"});
   CHECK(f.exit == 0);
@@ -44,7 +44,7 @@ TEST_CASE("the table shows share, s, load, event, node and side, and that the ke
 }
 
 TEST_CASE("the table fits its terminal, from 40 columns to 160") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   std::string busy =
       "title = \"A beam of a long name, with which the narrowest of all terminals has its trouble\"\n"
       "[beam]\nlength = 2000\nelements = 2000\nEI = 1e9\n[[support]]\nnodes = [1, 2001]\nfix = [\"w\"]\n";
@@ -71,7 +71,7 @@ TEST_CASE("the table fits its terminal, from 40 columns to 160") {
 }
 
 TEST_CASE("on a narrow terminal an increment's events stand on lines of their own") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml"}, {"", {{"COLUMNS", "40"}}, false});
   CHECK_THAT(f.out, Contains("  incr  share      s          kernels\n"
@@ -84,7 +84,7 @@ TEST_CASE("on a narrow terminal an increment's events stand on lines of their ow
 }
 
 TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on a dumb one") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const auto escapes = [&](const process_options& o) {
     const finished f = contct_program(dir.path(), {"run", "pb.toml"}, o);
@@ -99,7 +99,7 @@ TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on
 }
 
 TEST_CASE("the problem may come by standard input, and the result leave by standard output, alone") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"run", "-", "--json", "-"}, {good_problem, {}, false});
   CHECK(f.exit == 0);
   const auto result = nlohmann::json::parse(f.out);
@@ -108,7 +108,7 @@ TEST_CASE("the problem may come by standard input, and the result leave by stand
 }
 
 TEST_CASE("unit 26 of the leader can be kept, and FORTRAN's and C++'s are the same file") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran", "--log", "fortran.log"}).exit ==
         0);
@@ -121,7 +121,7 @@ TEST_CASE("unit 26 of the leader can be kept, and FORTRAN's and C++'s are the sa
 }
 
 TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose opening freed the beam") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("freed.toml", freed);
   const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
   CHECK(f.exit == 4);
@@ -133,7 +133,7 @@ TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose
 }
 
 TEST_CASE("the limit of increments: exit 5, with a result that says so") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f =
       contct_program(dir.path(), {"run", "pb.toml", "--max-increments", "1", "--json", "out.json"});
@@ -143,7 +143,7 @@ TEST_CASE("the limit of increments: exit 5, with a result that says so") {
 }
 
 TEST_CASE("a kernel alone compares nothing, and says so") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f =
       contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran-r4", "--json", "out.json"});
@@ -153,7 +153,7 @@ TEST_CASE("a kernel alone compares nothing, and says so") {
 }
 
 TEST_CASE("single precision walks in lockstep with single precision") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran-r4,cpp-r4"});
   CHECK(f.exit == 0);
@@ -161,7 +161,7 @@ TEST_CASE("single precision walks in lockstep with single precision") {
 }
 
 TEST_CASE("free run: every kernel on a path of its own, r4 against r8 within a stated bound") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--free-run", "--kernels",
                                                  "fortran,cpp,fortran-r4,cpp-r4", "--json", "out.json"});
@@ -176,7 +176,7 @@ TEST_CASE("free run: every kernel on a path of its own, r4 against r8 within a s
 }
 
 TEST_CASE("free run: r4 against r8 through a step that takes all load off") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = contct_program(
       dir.path(),
       {"run", std::string(CONTCT_ROOT) + "/reference/problems/" + "pb06-settled-middle-support.toml",
@@ -188,7 +188,7 @@ TEST_CASE("free run: r4 against r8 through a step that takes all load off") {
 
 TEST_CASE("free run: a load fraction beyond its bound is exit 1, and the message says by how much") {
   // The face is met 1e-5 before and left 1e-5 behind: single precision cannot tell where in between.
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("near.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
             "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1\nstiffness = 1e-3\n"
@@ -207,7 +207,7 @@ TEST_CASE("free run: a load fraction beyond its bound is exit 1, and the message
 }
 
 TEST_CASE("contct kernels and --version name the listing's checksum and the floating-point probe") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished kernels = contct_program(dir.path(), {"kernels"});
   CHECK(kernels.exit == 0);
   CHECK_THAT(kernels.out, Contains("fortran-r4") && Contains("cpp") && Contains("floating point: strict"));
@@ -219,7 +219,7 @@ TEST_CASE("contct kernels and --version name the listing's checksum and the floa
 }
 
 TEST_CASE("help is on standard output and is no error") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   for (const auto& arguments :
        {std::vector<std::string>{"--help"}, {"run", "--help"}, {"kernels", "--help"}}) {
     const finished f = contct_program(dir.path(), arguments);
@@ -230,7 +230,7 @@ TEST_CASE("help is on standard output and is no error") {
 }
 
 TEST_CASE("a plate goes the same ways: lockstep, free run, table and results") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("plate.toml", good_plate);
   const finished lockstep = contct_program(dir.path(), {"run", "plate.toml", "--json", "out.json"});
   CHECK(lockstep.exit == 0);
@@ -246,7 +246,7 @@ TEST_CASE("a plate goes the same ways: lockstep, free run, table and results") {
 }
 
 TEST_CASE("a plate that loses its hold is a mechanism: exit 4") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("freed.toml",
             "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n[[contact]]\nnode = 1\nsurface = "
             "\"below\"\nface = 0\nstiffness = 10\n[[contact]]\nnode = 3\nsurface = \"below\"\nface = 0\n"
@@ -268,7 +268,7 @@ TEST_CASE("a plate that loses its hold is a mechanism: exit 4") {
 }
 
 TEST_CASE("a free beam above its bed: the 1989 rule has no start, the corrected one lets it fall") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("drop.toml",
             "[beam]\nlength = 2.0\nelements = 8\nEI = 10.0\n[[bed]]\nmodulus = 1000.0\nface = -0.01\n"
             "[[step]]\nuniform = -5.0\n");
@@ -287,7 +287,7 @@ TEST_CASE("a free beam above its bed: the 1989 rule has no start, the corrected 
 }
 
 TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that was too early is named") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string pb5 = CONTCT_ROOT "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
   CHECK(contct_program(dir.path(), {"run", pb5}).exit == 0);
   const finished strict = contct_program(dir.path(), {"run", pb5, "--strict", "--json", "s.json"});
@@ -302,7 +302,7 @@ TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that wa
 }
 
 TEST_CASE("corrected in lockstep with the listing is refused: rules differ") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,corrected"});
   CHECK(f.exit == 2);
@@ -311,7 +311,7 @@ TEST_CASE("corrected in lockstep with the listing is refused: rules differ") {
 
 TEST_CASE(
     "the 1989 rule keeps the 1989 way of solving unless asked, and the corrected rule takes the quickest") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const auto engine_of = [&dir](std::vector<std::string> more) {
     more.insert(more.begin(), {"run", "pb.toml", "--json", "-"});
@@ -342,7 +342,7 @@ TEST_CASE(
 }
 
 TEST_CASE("only the end: the path's final states without a path, certified") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const std::string pb5 =
       std::string(CONTCT_ROOT) + "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
   const finished path = contct_program(dir.path(), {"run", pb5, "--kernels", "corrected", "--json", "-"});

@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("verify passes every number of reference/, and says what kind of evidence each is") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"verify", "--json", "v.json"});
   INFO(f.err);
   CHECK(f.exit == 0);
@@ -44,7 +44,7 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
 }
 
 TEST_CASE("verify fails, with exit 1, on one wrong number in five hundred") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const fs::path reference = fs::path(CONTCT_ROOT) / "reference";
   fs::create_directory(dir.path() / "reference");
   fs::copy(reference / "problems", dir.path() / "reference/problems", fs::copy_options::recursive);
@@ -62,7 +62,7 @@ TEST_CASE("verify fails, with exit 1, on one wrong number in five hundred") {
 }
 
 TEST_CASE("verify says what it misses when there is no table") {
-  const scratch_directory dir;
+  const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"verify", "--reference", "nowhere"});
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("nowhere/verification.toml"));

@@ -8,7 +8,6 @@ namespace golden {
 namespace {
 
 using contct::app::call_inputs;
-using contct::app::dof_layout;
 using contct::app::face_above;
 using contct::app::face_below;
 using contct::app::in_contact;

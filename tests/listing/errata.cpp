@@ -32,7 +32,7 @@ struct place {
   [[nodiscard]] std::vector<std::string> texts(std::string_view key) const {
     std::vector<std::string> all;
     const toml::array* const array = table[key].as_array();
-    if (!array) refuse(key, "an array of texts is wanted");
+    if (array == nullptr) refuse(key, "an array of texts is wanted");
     for (const toml::node& node : *array) {
       const auto value = node.value<std::string>();
       if (!value || value->empty()) refuse(key, "an array of texts is wanted");
@@ -43,7 +43,7 @@ struct place {
 
   [[nodiscard]] const toml::array& tables(std::string_view key) const {
     const toml::array* const array = table[key].as_array();
-    if (!array || array->empty() || !array->is_array_of_tables()) refuse(key, "tables are wanted");
+    if (array == nullptr || array->empty() || !array->is_array_of_tables()) refuse(key, "tables are wanted");
     return *array;
   }
 

@@ -139,7 +139,7 @@ TEST_CASE("definitions with a key, a file or a class that is none are refused") 
     }
     return std::string();
   };
-  CHECK(refused("file = 'fortran/contct.f'\nfault = 'sign'") == "");
+  CHECK(refused("file = 'fortran/contct.f'\nfault = 'sign'").empty());
   CHECK(occurs("unknown key finds", refused("finds = 'a'")));
   CHECK(occurs("file: found \"contct.f\"; allowed: fortran/contct.f,", refused("file = 'contct.f'")));
   CHECK(occurs("fault: found \"slip\"; allowed: canary,",
