@@ -75,7 +75,7 @@ TEST_CASE(
                        "ELF\x02\0\0\0\n",
                        9),
            "K.xyz:1", "\"\\x7fELF", "name x y"},
-          {std::string(200000, 'x') + " 1 2 3 4 5\n", "K.xyz:1", "\"xxx", "name x y"},
+          {std::string(200000, 'q') + " 1 2 3 4 5\n", "K.xyz:1", "\"qqq", "name x y"},
       },
       of_coordinates);
   CHECK(of_coordinates(good) == "accepted");
