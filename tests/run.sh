@@ -75,7 +75,7 @@ if [ "$full" = yes ]; then
   with_tool "other processors" emulated/run.sh
   with_tool "the page in a browser" browser/run.sh build/release
   with_tool "grids read back by VTK" vtk/run.sh build/release
-  sh tests/tree/tidy.sh build/release
+  sh tests/tree/tidy.sh
   [ -z "$skipped" ] || echo "== skipped, because a tool cannot be had: ${skipped#; }"
   # The last lines are ctest's own summary, of everything that the release build has.
   ctest --preset release -j "$(nproc 2>/dev/null || echo 2)" --progress

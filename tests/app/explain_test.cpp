@@ -307,7 +307,7 @@ TEST_CASE("a long run is explained as it goes: memory does not grow with it") {
   CHECK(all.exit == 0);
   CHECK(all.out.empty());
 #if !defined(__SANITIZE_ADDRESS__)
-  CHECK(all.peak_kib < narrow.peak_kib + 8 * 1024);  // some 30 MB of JSON are written
+  CHECK(all.peak_kib < narrow.peak_kib + 8L * 1024);  // some 30 MB of JSON are written
 #endif
 }
 

@@ -398,7 +398,7 @@ TEST_CASE("a long simply supported span keeps its digits where a band solver alo
     comparison unrefined;
     std::vector<long double> exact(f.size());
     for (std::size_t i = 0; i <= n; ++i) {
-      const long double x = static_cast<long double>(i);
+      const auto x = static_cast<long double>(i);
       const long double l = elements;
       exact[2 * i] = -x * (l - x) * (l * l + l * x - x * x) / 2;
     }

@@ -70,7 +70,7 @@ TEST_CASE("text longer than any buffer comes back whole") {
     fortran::contct(arguments);
   }
   const std::string text = log.take();
-  CHECK(std::count(text.begin(), text.end(), '\n') == 2 * calls);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 2L * calls);
 }
 
 TEST_CASE("unit 26 belongs to the whole process: it cannot be opened twice") {

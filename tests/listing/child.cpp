@@ -25,12 +25,12 @@ bool redirect(int stream, const char* file) {
 }
 
 /// In the child: become the program. Limits and alarm outlive exec.
-[[noreturn]] void become(char* const* words, const char* folder, unsigned cpu_seconds) {
+[[noreturn]] void become(char* const* command, const char* folder, unsigned cpu_seconds) {
   const rlimit limit{cpu_seconds, cpu_seconds};
   if (chdir(folder) == 0 && redirect(STDOUT_FILENO, "said") && redirect(STDERR_FILENO, "complained") &&
       setrlimit(RLIMIT_CPU, &limit) == 0) {
     alarm(alarm_seconds);
-    execv(words[0], words);
+    execv(command[0], command);
   }
   _exit(could_not_start);
 }

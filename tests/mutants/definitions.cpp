@@ -22,9 +22,9 @@ bool one_of(const std::vector<std::string>& known, const std::string& word) {
   return std::find(known.begin(), known.end(), word) != known.end();
 }
 
-std::string in_a_row(const std::vector<std::string>& words) {
+std::string in_a_row(const std::vector<std::string>& known) {
   std::string row;
-  for (const std::string& word : words) row += (row.empty() ? "" : ", ") + word;
+  for (const std::string& word : known) row += (row.empty() ? "" : ", ") + word;
   return row;
 }
 

@@ -15,7 +15,7 @@ namespace contct::kernels::fortran {
 
 /// One call of the listing: built as printed for float, with 8-byte REAL for double.
 /// COMMON /DOF/ and unit 26 belong to the whole process, so calls are serialised by a lock.
-/// The text goes to the unit_26 of that door that is open, or nowhere.
+/// The text goes to the unit_26 object of that kernel that is open, or nowhere.
 void contct(call<float>& c);
 void contct(call<double>& c, const compiled_listing& by = gfortran);
 
