@@ -1,34 +1,23 @@
 // contct explain: what the listing did in each increment of a run, for each pair, and why.
-#include <fmt/format.h>
-
-#include <charconv>
-#include <memory>
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
-#include "app/commands.hpp"
-#include "app/exit_messages.hpp"
-#include "app/outputs.hpp"
-#include "app/problem_progress.hpp"
-#include "app/streams.hpp"
+#include "app/problem_runs.hpp"
 #include "contct/compare/explained_path.hpp"
-#include "contct/compare/follower.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/solve/engine.hpp"
-#include "contct/text/terminal.hpp"
+#include "contct/text/input_text.hpp"
 #include "contct/write/explain_json.hpp"
 #include "contct/write/explain_text.hpp"
-#include "contct/write/result_json.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct::app {
 namespace {
 
 /// All of `text` as a number from 1; 0 where it is none.
-int number_in(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && value > 0 ? value : 0;
+int number_from_1(std::string_view text) {
+  return std::max(0, number_in<int>(text).value_or(0));
 }
 
 /// --step and --increment together; the latter may say both, as the table of `contct run` does: 2.1.
@@ -37,8 +26,8 @@ increments_wanted wanted_of(const explain_options& o) {
   if (o.increment.empty()) return wanted;
   const std::size_t point = o.increment.find('.');
   const bool both = point != std::string::npos;
-  const int step = both ? number_in(o.increment.substr(0, point)) : wanted.step;
-  wanted.increment = number_in(both ? o.increment.substr(point + 1) : o.increment);
+  const int step = both ? number_from_1(o.increment.substr(0, point)) : wanted.step;
+  wanted.increment = number_from_1(both ? o.increment.substr(point + 1) : o.increment);
   if (wanted.increment == 0 || (both && step == 0))
     throw std::invalid_argument("--increment: found " + o.increment +
                                 "; allowed: a whole number from 1, or STEP.INCREMENT as in 2.1");
@@ -71,113 +60,84 @@ void refuse_kernels(const std::vector<std::string>& names) {
     throw std::invalid_argument("--kernels: \"" + names[0] + "\" is named twice");
 }
 
-class explanation_run {
- public:
-  explicit explanation_run(const explain_options& options)
-      : options_(options),
-        wanted_(wanted_of(options)),
-        prints_(!options.quiet && !takes_standard_output({{"--json", options.json}})) {}
+std::unique_ptr<kernel> second_kernel(const std::vector<std::string>& kernels) {
+  if (kernels.size() < 2) return nullptr;
+  refuse_unequal(facts_of_kernel(kernels[0]), facts_of_kernel(kernels[1]));
+  return make_kernel(kernels[1]);
+}
 
-  exit_status go() {
-    refuse_unknown_engine(options_.engine);
-    refuse_kernels(options_.kernels);
-    problem_ = read_with_progress(options_.file, options_.quiet);
-    refuse_what_is_not_there();
-    refuse_shared_outputs({{"--json", options_.json}}, {{"the problem", options_.file}});
-    const std::unique_ptr<output_file> file = open_output({"--json", options_.json});
-    const std::unique_ptr<kernel> leader = make_kernel(options_.kernels[0]);
-    const int bytes = leader->facts().real_bytes;
-    if (prints_)
-      text_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), look_at_terminal());
-    if (file) json_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), *file);
-    explained_path told(leader->facts(), second(), wanted_, [this](const auto& i) { tell(i); });
-    const linear_structure structure = build_with_progress(problem_, options_.quiet);
-    path_progress shown(problem_.steps.size(), options_.quiet);
-    const path_end end =
-        follow(problem_, structure, options_.engine, *leader, {shown.before(), &told, shown.behind()});
-    shown.erase();
-    return finish(end, told);
-  }
+void refuse_beyond(const char* option, std::optional<int> found, std::size_t most, const char* what) {
+  if (!found || (*found > 0 && static_cast<std::size_t>(*found) <= most)) return;
+  throw std::invalid_argument(
+      most == 0 ? fmt::format("{}: found {}, but the problem has no {}", option, *found, what)
+                : fmt::format("{}: found {}; allowed: a {} from 1 to {}", option, *found, what, most));
+}
 
- private:
-  [[nodiscard]] std::unique_ptr<kernel> second() const {
-    if (options_.kernels.size() < 2) return nullptr;
-    const kernel_facts leader = facts_of_kernel(options_.kernels[0]);
-    refuse_unequal(leader, facts_of_kernel(options_.kernels[1]));
-    return make_kernel(options_.kernels[1]);
-  }
+/// No increment was wanted, or none was reached.
+exit_status nothing_told(const explain_options& o, const increments_wanted& wanted, const path_end& end,
+                         const explained_path& told) {
+  if (wanted.step > told.steps())
+    complain("--step: found {}; allowed: a step from 1 to {}: the path ends there", wanted.step,
+             told.steps());
+  else if (wanted.increment > told.most_increments())
+    complain("--increment: found {}; allowed: an increment from 1 to {}{}", o.increment,
+             told.most_increments(),
+             wanted.step == 0 ? "" : fmt::format(", as many as step {} has", wanted.step));
+  const bool asked_for_more = wanted.step > 0 || wanted.increment > 0;
+  return asked_for_more ? exit_status::bad_input : status_of(end.status);
+}
 
-  void refuse_what_is_not_there() const {
-    if (options_.pair) refuse_beyond("--pair", *options_.pair, problem_.pairs.size(), "pair");
-    const std::optional<int> step = wanted_.step > 0 ? wanted_.step : options_.step;
-    if (step) refuse_beyond("--step", *step, problem_.steps.size(), "step");
-  }
-
-  static void refuse_beyond(const char* option, int found, std::size_t most, const char* what) {
-    if (found > 0 && static_cast<std::size_t>(found) <= most) return;
-    throw std::invalid_argument(
-        most == 0 ? fmt::format("{}: found {}, but the problem has no {}", option, found, what)
-                  : fmt::format("{}: found {}; allowed: a {} from 1 to {}", option, found, what, most));
-  }
-
-  void tell(const explained_increment& i) {
-    if (text_) text_->print(i);
-    if (json_) json_->write(i);
-  }
-
-  exit_status finish(const path_end& end, const explained_path& told) {
-    if (end.status == path_status::not_factored || told.explained() == 0) return nothing_told(end, told);
-    if (text_) print_comparison(told);
-    flush_standard_output();
-    if (told.first())
-      for (const std::string& line : words_of(*told.first())) complain("{}", line);
-    if (end.status != path_status::solved) complain("{}: {}", options_.file, end_words(problem_, end));
-    const bool equal = told.compared().mismatches == 0;
-    if (json_) json_->finish(equal ? status_name(end.status) : "kernels-disagree", told);
-    if (!equal) return exit_status::kernels_differ;
-    return status_of(end.status);
-  }
-
-  /// No increment was wanted, or none was reached.
-  [[nodiscard]] exit_status nothing_told(const path_end& end, const explained_path& told) const {
-    if (end.status != path_status::solved) complain("{}: {}", options_.file, end_words(problem_, end));
-    if (wanted_.step > told.steps())
-      complain("--step: found {}; allowed: a step from 1 to {}: the path ends there", wanted_.step,
-               told.steps());
-    else if (wanted_.increment > told.most_increments())
-      complain("--increment: found {}; allowed: an increment from 1 to {}{}", options_.increment,
-               told.most_increments(),
-               wanted_.step == 0 ? "" : fmt::format(", as many as step {} has", wanted_.step));
-    const bool asked_for_more = wanted_.step > 0 || wanted_.increment > 0;
-    return asked_for_more ? exit_status::bad_input : status_of(end.status);
-  }
-
-  void print_comparison(const explained_path& told) const {
-    if (options_.kernels.size() < 2) return;
-    const bool equal = told.compared().mismatches == 0;
-    const terminal t = look_at_terminal();
-    fmt::print("\n");
-    const std::vector<std::string> items = {
-        fmt::format("{} and {} {} to the bit in the whole run", options_.kernels[0], options_.kernels[1],
-                    equal ? "are equal" : "are NOT equal"),
-        fmt::format("{} calls, {} values compared, {} mismatches", told.calls(), told.compared().values,
-                    told.compared().mismatches)};
-    for (const std::string& line : wrap(items, t.width))
-      fmt::print("{}\n", painted(t, equal ? paint::good : paint::bad, line));
-  }
-
-  const explain_options& options_;
-  increments_wanted wanted_;
-  bool prints_;
-  problem problem_;
-  std::optional<explain_text> text_;
-  std::optional<explain_json> json_;
-};
+void print_comparison(const std::vector<std::string>& kernels, const explained_path& told) {
+  if (kernels.size() < 2) return;
+  const tally t = told.compared();
+  fmt::print("\n");
+  print_wrapped(
+      look_at_terminal(), t.mismatches == 0 ? paint::good : paint::bad,
+      {fmt::format("{} and {} {} to the bit in the whole run", kernels[0], kernels[1],
+                   t.mismatches == 0 ? "are equal" : "are NOT equal"),
+       fmt::format("{} calls, {} values compared, {} mismatches", told.calls(), t.values, t.mismatches)});
+}
 
 }  // namespace
 
 exit_status run_command(const explain_options& options) {
-  return explanation_run(options).go();
+  const increments_wanted wanted = wanted_of(options);
+  refuse_unknown_engine(options.engine);
+  refuse_kernels(options.kernels);
+  const problem p = read_with_progress(options.file, options.quiet);
+  refuse_beyond("--pair", options.pair, p.pairs.size(), "pair");
+  refuse_beyond("--step", wanted.step > 0 ? wanted.step : options.step, p.steps.size(), "step");
+  const std::vector<output_option> outputs = {{"--json", options.json}};
+  refuse_shared_outputs(outputs, {{"the problem", options.file}});
+  const output_files files(outputs);
+  const std::unique_ptr<kernel> leader = make_kernel(options.kernels[0]);
+  const int bytes = leader->facts().real_bytes;
+  const int pair = options.pair.value_or(0);
+  std::optional<explain_text> text;
+  std::optional<explain_json> json;
+  if (!options.quiet && !takes_standard_output(outputs))
+    text.emplace(p, options.kernels, bytes, pair, look_at_terminal());
+  if (output_file* const file = files["--json"]) json.emplace(p, options.kernels, bytes, pair, *file);
+  explained_path told(leader->facts(), second_kernel(options.kernels), wanted, [&](const auto& i) {
+    if (text) text->print(i);
+    if (json) json->write(i);
+  });
+  const linear_structure structure = build_with_progress(p, options.quiet);
+  path_progress shown(p.steps.size(), options.quiet);
+  const path_end end =
+      follow(p, structure, options.engine, *leader, {shown.before.get(), &told, shown.behind.get()});
+  shown.line.erase();
+
+  const bool anything = end.status != path_status::not_factored && told.explained() > 0;
+  if (anything && text) print_comparison(options.kernels, told);
+  if (anything) flush_standard_output();
+  if (anything && told.first())
+    for (const std::string& line : words_of(*told.first())) complain("{}", line);
+  if (end.status != path_status::solved) complain("{}: {}", options.file, end_words(p, end));
+  if (!anything) return nothing_told(options, wanted, end, told);
+  const bool equal = told.compared().mismatches == 0;
+  if (json) json->finish(equal ? status_name(end.status) : "kernels-disagree", told);
+  return equal ? status_of(end.status) : exit_status::kernels_differ;
 }
 
 }  // namespace contct::app

@@ -1,24 +1,18 @@
 // contct fuzz: random and adversarial calls and problems, kernels against each other.
 #include "contct/lab/fuzz.hpp"
 
-#include <fmt/format.h>
-
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 
-#include "app/commands.hpp"
 #include "app/outputs.hpp"
-#include "app/progress.hpp"
-#include "app/streams.hpp"
 #include "contct/lab/case_files.hpp"
 #include "contct/lab/fuzz_json.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
-#include "contct/text/joined.hpp"
-#include "contct/text/terminal.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::app {
 namespace {
@@ -43,9 +37,9 @@ fuzz_run fuzzed(const fuzz_request& request, bool quiet) {
   std::optional<progress> shown;
   const char* shown_what = nullptr;
   return run_fuzz(request, [&](std::int64_t done, std::int64_t all, const char* what) {
-    if (shown_what != what) shown.emplace(static_cast<long>(all), what, quiet);
+    if (shown_what != what) shown.emplace(all, what, quiet);
     shown_what = what;
-    shown->reached(static_cast<long>(done));
+    shown->reached(done);
   });
 }
 
@@ -76,16 +70,15 @@ check_report report_of(const fuzz_result& r, const std::string& missed) {
 
 void print_result(const fuzz_result& r) {
   const terminal t = look_at_terminal();
-  const auto say = [&t](paint p, const std::vector<std::string>& items) {
-    for (const std::string& line : wrap(items, t.width)) fmt::print("{}\n", painted(t, p, line));
-  };
   fmt::print("{}\n", command_of(r.request));
-  say(paint::quiet, {fmt::format("{} calls, {} problems, {:.1f} s", r.calls, r.problems, r.seconds),
-                     fmt::format("events: {} make, {} break, {} of them stationary", r.events.make,
-                                 r.events.break_, r.events.stationary),
-                     fmt::format("the rarest outcome of an IF came {} times", r.branches.rarest())});
+  print_wrapped(t, paint::quiet,
+                {fmt::format("{} calls, {} problems, {:.1f} s", r.calls, r.problems, r.seconds),
+                 fmt::format("events: {} make, {} break, {} of them stationary", r.events.make,
+                             r.events.break_, r.events.stationary),
+                 fmt::format("the rarest outcome of an IF came {} times", r.branches.rarest())});
   for (const fuzz_follower& f : r.followers)
-    say(f.compared.mismatches == 0 ? paint::good : paint::bad, {follower_words(f, r.request.kernels[0])});
+    print_wrapped(t, f.compared.mismatches == 0 ? paint::good : paint::bad,
+                  {follower_words(f, r.request.kernels[0])});
 }
 
 /// A kernel's name as part of a file's: "plugin:./mine.so" becomes "plugin-mine-so".
@@ -120,8 +113,9 @@ std::vector<std::string> write_cases(const std::vector<found_case>& cases, const
     const std::pair<const char*, std::string> files[] = {
         {".trace", trace_of(c, header_of(c))}, {"_test.cpp", catch_test_of(c)}, {".f", fortran_main_of(c)}};
     for (const auto& [end, text] : files) {
-      names.push_back(stem + end);
-      write_whole(std::make_unique<output_file>(names.back()), text);
+      output_file file(names.emplace_back(stem + end));
+      file.write(text);
+      file.finish();
     }
   }
   return names;
@@ -140,9 +134,7 @@ exit_status run_command(const fuzz_options& options) {
   std::vector<output_option> inputs;
   for (const std::string& file : options.merge) inputs.push_back({"a shard", file});
   refuse_shared_outputs(outputs, inputs);
-  const std::unique_ptr<output_file> json = open_output(outputs[0]);
-  report_files reports(options.report);
-
+  const output_files files(outputs);
   const bool merging = !options.merge.empty();
   const fuzz_run run =
       merging ? fuzz_run{merged_fuzz(options.merge), {}} : fuzzed(request, options.report.quiet);
@@ -156,8 +148,8 @@ exit_status run_command(const fuzz_options& options) {
   if (!options.out.empty())
     for (const std::string& name : write_cases(run.cases, options.out, request.seed))
       complain("written: {}", name);
-  if (json) write_whole(json, fuzz_json(r));
-  reports.write(report_of(r, missed));
+  files.write("--json", fuzz_json(r));
+  files.write(report_of(r, missed));
   if (r.compared().mismatches > 0) return exit_status::kernels_differ;
   return missed.empty() ? exit_status::solved : exit_status::bad_input;
 }

@@ -1,13 +1,92 @@
 #include "app/outputs.hpp"
 
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "contct/numeric/probe.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::app {
+namespace {
+
+/// An attribute with a blank before it. XML takes a line's end in it for a blank unless it is a reference.
+std::string attribute(std::string_view name, std::string_view value) {
+  constexpr escape line_end[] = {{'\n', "&#10;"}};
+  return fmt::format(" {}=\"{}\"", name, escaped(markup_text(value), line_end));
+}
+
+/// Text in a cell of a Markdown table.
+std::string in_cell(std::string_view text) {
+  constexpr escape escapes[] = {{'|', "\\|"}, {'\\', "\\\\"}, {'`', "\\`"}, {'<', "\\<"}, {'\n', " "}};
+  return escaped(text, escapes);
+}
+
+}  // namespace
+
+void hold_standard_streams() {
+  // Opened the wrong way round, input and output that were closed still fail, and are noticed.
+  constexpr std::pair<int, int> held[] = {
+      {STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}};
+  for (const auto& [stream, flags] : held) {
+    if (fcntl(stream, F_GETFD) < 0) (void)open("/dev/null", flags);  // the least number free: this one
+  }
+}
+
+void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items) {
+  for (const std::string& line : wrap(items, t.width)) fmt::print("{}\n", painted(t, p, line));
+}
+
+std::int64_t check_report::count(outcome o) const {
+  return std::ranges::count(results, o, &check_result::what);
+}
+
+std::string junit_xml(const check_report& r) {
+  const std::string counts =
+      fmt::format(R"( tests="{}" failures="{}" errors="0" skipped="{}" time="{:.3f}")", r.results.size(),
+                  r.count(outcome::failed), r.count(outcome::skipped), r.seconds);
+  std::string xml = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites{0}>\n  <testsuite{1}{0}>\n    <properties>\n",
+      counts, attribute("name", r.command));
+  for (const std::string& fact : r.facts)
+    xml += fmt::format("      <property name=\"fact\"{}/>\n", attribute("value", fact));
+  xml += "    </properties>\n";
+  for (const check_result& c : r.results) {
+    const std::string message = attribute("message", c.summary);
+    xml += fmt::format("    <testcase{}{}>\n", attribute("classname", r.command), attribute("name", c.name));
+    if (c.what == outcome::failed)
+      xml += fmt::format("      <failure{}>{}</failure>\n", message, markup_text(c.details));
+    if (c.what == outcome::skipped) xml += fmt::format("      <skipped{}/>\n", message);
+    xml += fmt::format("      <system-out>{}</system-out>\n    </testcase>\n", markup_text(c.summary));
+  }
+  return xml + "  </testsuite>\n</testsuites>\n";
+}
+
+std::string markdown(const check_report& r) {
+  constexpr std::string_view words[] = {"passed", "**failed**", "skipped"};  // as in `outcome`
+  const std::int64_t failed = r.count(outcome::failed);
+  std::string text = fmt::format("## {}: {}\n\n{} passed, {} failed, {} skipped\n\n", r.command,
+                                 failed == 0 ? "passed" : "failed", r.count(outcome::passed), failed,
+                                 r.count(outcome::skipped));
+  for (const std::string& fact : r.facts) text += "- " + in_cell(fact) + "\n";
+  text += "\n| what | result | |\n| --- | --- | --- |\n";
+  for (const check_result& c : r.results)
+    text += fmt::format("| {} | {} | {} |\n", in_cell(c.name), words[static_cast<int>(c.what)],
+                        in_cell(c.summary));
+  for (const check_result& c : r.results) {
+    if (c.what == outcome::failed && !c.details.empty())
+      text += fmt::format("\n### {}\n\n```\n{}\n```\n", in_cell(c.name), c.details);
+  }
+  return text;
+}
+
+std::vector<std::string> common_facts() {
+  return {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
+          "floating point: " + describe(probe_floating_point())};
+}
 
 std::vector<output_option> with_reports(std::vector<output_option> others, const report_options& options) {
   others.push_back({"--junit", options.junit});
@@ -39,31 +118,72 @@ void refuse_shared_outputs(const std::vector<output_option>& outputs,
 }
 
 bool takes_standard_output(const std::vector<output_option>& outputs) {
-  return std::any_of(outputs.begin(), outputs.end(), [](const output_option& o) { return o.path == "-"; });
+  return std::ranges::find(outputs, "-", &output_option::path) != outputs.end();
 }
 
-std::unique_ptr<output_file> open_output(const output_option& o) {
-  return o.path.empty() ? nullptr : std::make_unique<output_file>(o.path);
+output_files::output_files(const std::vector<output_option>& outputs) {
+  for (const output_option& o : outputs)
+    if (!o.path.empty() && !o.opens_later) files_[o.name] = std::make_unique<output_file>(o.path);
 }
 
-void write_whole(const std::unique_ptr<output_file>& file, std::string_view text) {
-  if (!file) return;
+output_file* output_files::operator[](std::string_view name) const {
+  const auto found = files_.find(name);
+  return found == files_.end() ? nullptr : found->second.get();
+}
+
+void output_files::write(std::string_view name, std::string_view text) const {
+  output_file* const file = (*this)[name];
+  if (file == nullptr) return;
   file->write(text);
   file->finish();
 }
 
-report_files::report_files(const report_options& options)
-    : junit_(open_output({"--junit", options.junit})),
-      markdown_(open_output({"--markdown", options.markdown})) {}
-
-void report_files::write(const check_report& report) {
-  if (junit_) write_whole(junit_, junit_xml(report));
-  if (markdown_) write_whole(markdown_, markdown(report));
+void output_files::write(const check_report& report) const {
+  write("--junit", junit_xml(report));
+  write("--markdown", markdown(report));
 }
 
-std::vector<std::string> common_facts() {
-  return {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
-          "floating point: " + describe(probe_floating_point())};
+double wait_before_progress() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
+  const char* const said = std::getenv("CONTCT_PROGRESS_AFTER");
+  const auto seconds = said == nullptr ? 1.0 : number_in<double>(said);
+  if (!seconds || !(*seconds >= 0.0))
+    throw std::invalid_argument(
+        fmt::format("CONTCT_PROGRESS_AFTER: found \"{}\"; allowed: seconds, 0 or more", said));
+  return *seconds;
+}
+
+bool waits_at_terminal(bool quiet) {
+  return !quiet && isatty(STDERR_FILENO) != 0;
+}
+
+progress::progress(std::int64_t all, std::string what, bool quiet)
+    : wanted_(waits_at_terminal(quiet)),
+      after_(wait_before_progress()),
+      between_(std::min(0.2, after_.count())),
+      all_(all),
+      what_(std::move(what)) {}
+
+bool progress::is_due() const {
+  const auto now = clock::now();
+  return wanted_ && now - begun_ >= after_ && now - last_ >= between_;
+}
+
+void progress::reached(std::int64_t done) {
+  if (is_due())
+    say(fmt::format("{:3} % of {} {}", 100 * done / std::max<std::int64_t>(all_, 1), all_, what_));
+}
+
+void progress::say(std::string_view words) {
+  if (!is_due()) return;
+  last_ = clock::now();
+  shown_ = true;
+  const std::string line = fmt::format("\r{}\033[K", words);
+  (void)std::fputs(line.c_str(), stderr);
+}
+
+void progress::erase() {
+  if (std::exchange(shown_, false)) (void)std::fputs("\r\033[K", stderr);
 }
 
 }  // namespace contct::app

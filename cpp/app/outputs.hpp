@@ -1,20 +1,71 @@
-// Where a command writes: files of their own, and at most one of them standard output.
+// What every command prints and writes: its files and reports, how far it has come, and what is wrong.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "app/options.hpp"
+#include "app/commands.hpp"
 #include "contct/text/output_file.hpp"
-#include "contct/text/report.hpp"
+#include "contct/text/terminal.hpp"
 
 namespace contct::app {
 
-/// An output as it was asked for; an empty path is one that was not.
+/// Take the place of standard streams that are closed, so that no file of ours gets their number
+/// and, with it, what is printed.
+void hold_standard_streams();
+
+/// "contct: ..." on standard error. Where nobody can be told, the exit status still tells.
+template <class... Arguments>
+void complain(fmt::format_string<Arguments...> words, Arguments&&... arguments) {
+  const std::string line = "contct: " + fmt::format(words, std::forward<Arguments>(arguments)...) + "\n";
+  (void)std::fputs(line.c_str(), stderr);
+}
+
+/// Print `items` in lines of the terminal's width; see wrap.
+void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items);
+
+enum class outcome { passed, failed, skipped };
+
+/// One thing that was checked.
+struct check_result {
+  std::string name;  ///< "pb07.trace: cpp"
+  outcome what = outcome::passed;
+  std::string summary;  ///< one line: "8 calls, 64 values, 0 mismatches"
+  std::string details;  ///< of a failure, lines
+};
+
+/// What one command checked.
+struct check_report {
+  std::string command;             ///< "contct replay"
+  std::vector<std::string> facts;  ///< "floating point: strict", ...
+  std::vector<check_result> results;
+  double seconds = 0.0;
+
+  [[nodiscard]] std::int64_t count(outcome o) const;
+};
+
+/// The report for CI systems, as JUnit XML: a test suite with a test case for each result.
+[[nodiscard]] std::string junit_xml(const check_report& r);
+
+/// The report as a Markdown summary: the verdict, a table, the details of what failed.
+[[nodiscard]] std::string markdown(const check_report& r);
+
+/// What every report says of the program: its version, the listing's checksum, the floating-point probe.
+[[nodiscard]] std::vector<std::string> common_facts();
+
+/// A file as it was asked for; an empty path is one that was not.
 struct output_option {
   const char* name;  ///< "--json"
   std::string path;
+  bool opens_later = false;
 };
 
 /// `others` and the outputs of `options`.
@@ -30,23 +81,59 @@ void refuse_shared_outputs(const std::vector<output_option>& outputs,
 /// Is one of them "-"? Then nothing else is printed.
 [[nodiscard]] bool takes_standard_output(const std::vector<output_option>& outputs);
 
-/// The file of an option, open before any work is done; null where it was not asked for.
-[[nodiscard]] std::unique_ptr<output_file> open_output(const output_option& o);
-
-/// Write all of a file and give it its name. Does nothing where `file` is null.
-void write_whole(const std::unique_ptr<output_file>& file, std::string_view text);
-
-/// The files of --junit and --markdown, open before any work is done.
-class report_files {
+/// The files of a command, open before any work is done.
+class output_files {
  public:
-  explicit report_files(const report_options& options);
-  void write(const check_report& report);
+  explicit output_files(const std::vector<output_option>& outputs);
+
+  /// The file of an option; null where it was not asked for.
+  [[nodiscard]] output_file* operator[](std::string_view name) const;
+
+  /// Write all of an option's file and give it its name. Does nothing where it was not asked for.
+  void write(std::string_view name, std::string_view text) const;
+  /// The same for --junit and --markdown.
+  void write(const check_report& report) const;
 
  private:
-  std::unique_ptr<output_file> junit_, markdown_;
+  std::map<std::string_view, std::unique_ptr<output_file>> files_;
 };
 
-/// What every report says of the program: its version, the listing's checksum, the floating-point probe.
-[[nodiscard]] std::vector<std::string> common_facts();
+/// Seconds before anything is shown: what CONTCT_PROGRESS_AFTER in the environment says, or 1. Throws
+/// std::invalid_argument when that is no time.
+[[nodiscard]] double wait_before_progress();
+
+/// Does anybody wait at a terminal?
+[[nodiscard]] bool waits_at_terminal(bool quiet);
+
+/// How far a long piece of work has come: one line on standard error, written over and over and gone in the
+/// end. Nothing at all in the first second, where standard error is not a terminal, or where it is to be
+/// quiet.
+class progress {
+ public:
+  /// `what` is counted: "problems". Throws std::invalid_argument when CONTCT_PROGRESS_AFTER is no time.
+  progress(std::int64_t all, std::string what, bool quiet);
+  ~progress() { erase(); }
+  progress(const progress&) = delete;
+  progress& operator=(const progress&) = delete;
+
+  void reached(std::int64_t done);
+
+  /// Say something else than a count.
+  void say(std::string_view words);
+
+  /// Take the line away, for something else to be printed; it comes back.
+  void erase();
+
+ private:
+  using clock = std::chrono::steady_clock;
+  [[nodiscard]] bool is_due() const;
+
+  bool wanted_;
+  std::chrono::duration<double> after_, between_;
+  bool shown_ = false;
+  std::int64_t all_;
+  std::string what_;
+  clock::time_point begun_ = clock::now(), last_ = begun_;
+};
 
 }  // namespace contct::app

@@ -1,20 +1,12 @@
 // contct replay, and contct-replay: recorded calls put to a kernel. Neither LAPACK nor finite elements.
 #include "contct/compare/replay.hpp"
 
-#include <fmt/format.h>
-
-#include <chrono>
-#include <memory>
 #include <stdexcept>
 
-#include "app/commands.hpp"
 #include "app/outputs.hpp"
-#include "app/progress.hpp"
-#include "app/streams.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"
-#include "contct/text/terminal.hpp"
 
 namespace contct::app {
 namespace {
@@ -81,7 +73,7 @@ exit_status run_command(const replay_options& options) {
   for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
   const std::vector<std::string> kernels =
       options.kernels.empty() ? std::vector<std::string>{""} : options.kernels;
-  report_files files(options.report);
+  const output_files files(outputs);
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   const terminal t = look_at_terminal();
   check_report report{"contct replay", common_facts(), {}, 0.0};

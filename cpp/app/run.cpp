@@ -1,21 +1,10 @@
 // contct run: follow the path of a problem, all kernels in lockstep.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <span>
 #include <stdexcept>
-#include <utility>
 
-#include "app/commands.hpp"
-#include "app/exit_messages.hpp"
-#include "app/outputs.hpp"
-#include "app/problem_progress.hpp"
-#include "app/run_pictures.hpp"
-#include "app/streams.hpp"
+#include "app/problem_runs.hpp"
 #include "contct/certify/fallback.hpp"
 #include "contct/certify/final_state.hpp"
 #include "contct/compare/free_run.hpp"
@@ -24,17 +13,24 @@
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/text/joined.hpp"
+#include "contct/text/strings.hpp"
 #include "contct/write/certificate_text.hpp"
 #include "contct/write/result_json.hpp"
+#include "contct/write/run_csv.hpp"
+#include "contct/write/run_page.hpp"
+#include "contct/write/run_svg.hpp"
+#include "contct/write/run_vtu.hpp"
 #include "contct/write/table.hpp"
 
 namespace contct::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// What is run; complete before any file is opened.
 struct run_setup {
   const run_options& options;
+  std::vector<output_option> outputs;
   std::chrono::steady_clock::time_point started;
   std::vector<std::string> kernels;  // the leader first; none under --final-only
   problem what;
@@ -44,9 +40,55 @@ struct run_setup {
   bool prints;  // heading, table and verdicts
 };
 
+// Files that belong to an option beside its own.
+constexpr const char* csv_pairs = "--csv (its pairs)";
+constexpr const char* vtu_collection = "--vtu (its collection)";
+constexpr const char* vtu_increments = "--vtu (its increments)";
+
+/// A file in the folder of `file`: its name without the extension, and `end`.
+std::string beside(const std::string& file, const std::string& end) {
+  const fs::path path(file);
+  return (path.parent_path() / (path.stem().string() + end)).string();
+}
+
+/// "out.pairs.csv" beside "out.csv"; none beside standard output.
+std::string pairs_table(const std::string& csv) {
+  if (csv.empty() || csv == "-") return "";
+  return beside(csv, ".pairs" + fs::path(csv).extension().string());
+}
+
+/// Every file that these options may write. Throws std::invalid_argument for names that cannot be theirs.
 std::vector<output_option> outputs_of(const run_options& o) {
-  return with_reports(with_pictures({{"--json", o.json}, {"--log", o.log}, {"--trace", o.trace}}, o.pictures),
-                      o.report);
+  const auto& [html, svg, csv, vtu] = o.pictures;
+  std::vector<output_option> all = {
+      {"--json", o.json}, {"--log", o.log}, {"--trace", o.trace},         {"--html", html},
+      {"--svg", svg},     {"--csv", csv},   {csv_pairs, pairs_table(csv)}};
+  if (vtu.empty()) return with_reports(std::move(all), o.report);
+  if (fs::path(vtu).extension() != ".vtu")
+    throw std::invalid_argument(fmt::format("--vtu: found \"{}\"; allowed: a file that ends in .vtu", vtu));
+  all.push_back({"--vtu", vtu});
+  all.push_back({vtu_collection, beside(vtu, ".pvd")});
+  for (std::size_t i = 0; i < frame_limits{}.most_frames; ++i)
+    all.push_back({vtu_increments, beside(vtu, name_of_frame("", i)), true});
+  return with_reports(std::move(all), o.report);
+}
+
+/// For --vtu: throws std::invalid_argument where a structure given by its matrix has no coordinates, and
+/// warns of pairs that get no cell.
+void check_grid_coordinates(const problem& p) {
+  const auto* a = std::get_if<assembled>(&p.geometry.kind);
+  if (a == nullptr) return;
+  if (!a->places.known())
+    throw std::invalid_argument(fmt::format(
+        "--vtu: found a structure given by its matrix, {}, without coordinates; allowed: one with "
+        "coordinates, by coordinates = \"FILE\" in [matrix] or CalculiX's mesh, JOB.inp beside its matrix or "
+        "mesh = \"FILE\" in [calculix]. --csv and --json have all its numbers, by label",
+        a->name));
+  const auto lost = std::count_if(p.pairs.begin(), p.pairs.end(),
+                                  [a](const contact_pair& c) { return a->places.dofs[c.node].node < 0; });
+  if (lost > 0)
+    complain("warning: --vtu: {} of {} pairs {} no cell: the places of their dofs are not known", lost,
+             p.pairs.size(), lost == 1 ? "has" : "have");
 }
 
 void refuse_bad_options(const run_options& o) {
@@ -66,7 +108,8 @@ std::string engine_for(const std::string& kernel, const run_options& o, const li
   return std::string(quickest_engine(s));
 }
 
-run_setup set_up(const run_options& o, const std::vector<output_option>& outputs) {
+run_setup set_up(const run_options& o) {
+  std::vector<output_option> outputs = outputs_of(o);
   const auto started = std::chrono::steady_clock::now();
   refuse_bad_options(o);
   problem p = read_with_progress(o.file, o.report.quiet);
@@ -74,14 +117,16 @@ run_setup set_up(const run_options& o, const std::vector<output_option>& outputs
   linear_structure s = build_with_progress(p, o.report.quiet);
   std::string engine = o.final_only ? "oracle" : engine_for(o.kernels.front(), o, s);
   refuse_shared_outputs(outputs, {{"the problem", o.file}});
+  const bool prints = !o.report.quiet && !takes_standard_output(outputs);
   return {.options = o,
+          .outputs = std::move(outputs),
           .started = started,
           .kernels = o.final_only ? std::vector<std::string>() : o.kernels,
           .what = std::move(p),
           .structure = std::move(s),
           .engine = std::move(engine),
           .screen = look_at_terminal(),
-          .prints = !o.report.quiet && !takes_standard_output(outputs)};
+          .prints = prints};
 }
 
 /// Writes what the leader writes to unit 26.
@@ -97,8 +142,8 @@ class log_writer final : public observer {
 trace_header header_of_trace(const run_setup& run, const kernel_facts& leader) {
   trace_header h = header_for(leader, CONTCT_LISTING_SHA256, lapack_identity());
   const std::string& file = run.options.file;
-  h.about = {"every call of " + (file == "-" ? "a problem from standard input"
-                                             : std::filesystem::path(file).filename().string())};
+  h.about = {"every call of " +
+             (file == "-" ? "a problem from standard input" : fs::path(file).filename().string())};
   if (!run.what.title.empty()) h.about.push_back(on_one_line(run.what.title));
   return h;
 }
@@ -106,49 +151,32 @@ trace_header header_of_trace(const run_setup& run, const kernel_facts& leader) {
 /// A run's files and the observers of the leader's path. Files are opened before anything is solved: a
 /// place that cannot be written is reported at once.
 struct observed_run {
-  /// `r` must outlive this object, and so must `lockstep_of_run`, which is null where nothing is compared.
-  observed_run(const run_setup& r, lockstep* lockstep_of_run);
-
-  /// In the order in which they must observe.
-  std::vector<observer*> observers();
-
   const run_setup& run;
-  lockstep* compared;
-  std::unique_ptr<output_file> json_file, log_file, trace_file;
-  run_pictures pictures;
-  report_files reports;
-  certifier judged;
-  early_toggles early;
-  digit_watch digits;
-  path_progress shown;
-  std::optional<table> rows;
-  std::optional<result_json> json;
-  std::optional<log_writer> log;
-  std::optional<trace_recorder> trace;
+  lockstep* compared;  // null where nothing is compared
+  output_files files{run.outputs};
+  certifier judged{run.structure, loads_of(run.what)};
+  early_toggles early{};
+  digit_watch digits{};
+  path_progress shown{run.what.steps.size(), run.options.report.quiet};
+  std::optional<table> rows = {};
+  std::optional<result_json> json = {};
+  std::optional<log_writer> log = {};
+  std::optional<trace_recorder> trace = {};
+  std::optional<frame_keeper> frames = {};  // these two for pictures
+  std::optional<run_record> record = {};
+  std::optional<run_csv> tables = {};
   bool has_verdict = false;
 };
 
-observed_run::observed_run(const run_setup& r, lockstep* lockstep_of_run)
-    : run(r),
-      compared(lockstep_of_run),
-      json_file(open_output({"--json", r.options.json})),
-      log_file(open_output({"--log", r.options.log})),
-      trace_file(open_output({"--trace", r.options.trace})),
-      pictures(r.options.pictures),
-      reports(r.options.report),
-      judged(r.structure, loads_of(r.what)),
-      shown(r.what.steps.size(), r.options.report.quiet) {
-  if (r.prints) rows.emplace(r.what, compared, judged, r.screen);
-  if (json_file) json.emplace(r.what, r.kernels, r.engine, judged, *json_file);
-  if (log_file) log.emplace(*log_file);
-}
-
-std::vector<observer*> observed_run::observers() {
-  std::vector<observer*> all = {compared, &judged, &early, shown.before()};
-  if (rows) all.push_back(&*rows);
-  if (json) all.push_back(&*json);
-  if (log) all.push_back(&*log);
-  all.insert(all.end(), {&digits, shown.behind()});
+/// Those that every run has, and those that its options ask for, in the order in which they must observe.
+std::vector<observer*> make_observers(observed_run& o) {
+  const run_setup& run = o.run;
+  std::vector<observer*> all = {o.compared, &o.judged, &o.early, o.shown.before.get()};
+  if (run.prints) all.push_back(&o.rows.emplace(run.what, o.compared, o.judged, run.screen));
+  if (output_file* const file = o.files["--json"])
+    all.push_back(&o.json.emplace(run.what, run.kernels, run.engine, o.judged, *file));
+  if (output_file* const file = o.files["--log"]) all.push_back(&o.log.emplace(*file));
+  all.insert(all.end(), {&o.digits, o.shown.behind.get()});
   std::erase(all, nullptr);
   return all;
 }
@@ -175,28 +203,30 @@ void print_heading(const run_setup& run) {
 void print_verdict(observed_run& o, paint p, const std::vector<std::string>& items) {
   if (!o.run.prints) return;
   if (!std::exchange(o.has_verdict, true)) fmt::print("\n");
-  for (const std::string& line : wrap(items, o.run.screen.width))
-    fmt::print("{}\n", painted(o.run.screen, p, line));
+  print_wrapped(o.run.screen, p, items);
 }
 
 path_limits limits_of(const run_setup& run) {
   return {run.options.max_increments, fallback_to_reference(run.structure)};
 }
 
-/// The leader's path, observed by all that was asked for, and by `record` where that is not null.
-path_end follow_leader(observed_run& o, kernel& leader, path_record* record) {
+/// The leader's path, observed by all that was asked for, and by `recorded` where that is not null.
+path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
   const run_setup& run = o.run;
-  std::vector<observer*> observers = o.observers();
-  if (o.trace_file)
+  std::vector<observer*> observers = make_observers(o);
+  if (output_file* const file = o.files["--trace"])
     observers.push_back(&o.trace.emplace(header_of_trace(run, leader.facts()),
-                                         [&o](std::string_view text) { o.trace_file->write(text); }));
-  const bool forces_by_law = leader.facts().rule != "listing";
-  for (observer* drawing :
-       o.pictures.observe(run.what, run.structure, loads_of(run.what), o.compared, forces_by_law))
-    observers.push_back(drawing);
-  if (record != nullptr) observers.push_back(record);
+                                         [file](std::string_view text) { file->write(text); }));
+  if (run.options.pictures.wants_frames()) {
+    const bool forces_by_law = leader.facts().rule != "listing";
+    observers.push_back(&o.frames.emplace(run.structure, loads_of(run.what), forces_by_law));
+    observers.push_back(&o.record.emplace(o.compared));
+  }
+  if (output_file* const file = o.files["--csv"])
+    observers.push_back(&o.tables.emplace(run.what, o.compared, *file, o.files[csv_pairs]));
+  if (recorded != nullptr) observers.push_back(recorded);
   path_end end = follow(run.what, run.structure, run.engine, leader, observers, limits_of(run));
-  o.shown.erase();
+  o.shown.line.erase();
   return end;
 }
 
@@ -292,29 +322,46 @@ exit_status exit_status_of(const observed_run& o, path_status ended, bool equal)
   return ended == path_status::solved && uncertified ? exit_status::uncertified : status_of(ended);
 }
 
+/// The collection last: whoever sees it finds all that it names.
+void write_grids(const output_files& files, const std::string& vtu, const finished_run& r) {
+  const auto& frames = r.kept.frames();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    output_file file(beside(vtu, name_of_frame("", i)));
+    file.write(vtu_of_frame(r.what, frames[i]));
+    file.finish();
+  }
+  files.write("--vtu", vtu_of_frame(r.what, frames.back()));
+  files.write(vtu_collection, pvd_of_frames(fs::path(vtu).stem().string(), frames.size()));
+}
+
 /// Complete and name all files.
 void write_files(observed_run& o, const path_end& end, const comparison& c) {
+  const run_setup& run = o.run;
   const std::string status(c.equal ? status_name(end.status) : "kernels-disagree");
   if (o.json) o.json->finish(status, end, o.compared);
-  if (o.log_file) o.log_file->finish();
-  if (o.trace_file) o.trace_file->finish();
-  o.pictures.finish([&]() -> finished_run {
-    return {o.run.what,
-            o.pictures.kept(),
-            o.pictures.record(),
-            o.judged,
-            o.early,
-            o.run.options.file,
-            o.run.kernels,
-            o.run.engine,
-            status,
-            end_words(o.run.what, end),
-            o.compared != nullptr,
-            c.equal,
-            c.words,
-            common_facts()};
-  });
-  o.reports.write(check_report_of(o, end, c));
+  for (const char* name : {"--log", "--trace"})
+    if (output_file* const file = o.files[name]) file->finish();
+  if (o.tables) o.tables->finish();
+  if (o.frames) {
+    const finished_run r{run.what,
+                         *o.frames,
+                         *o.record,
+                         o.judged,
+                         o.early,
+                         run.options.file,
+                         run.kernels,
+                         run.engine,
+                         status,
+                         end_words(run.what, end),
+                         o.compared != nullptr,
+                         c.equal,
+                         c.words,
+                         common_facts()};
+    if (o.files["--html"] != nullptr) o.files.write("--html", run_page(r));
+    if (o.files["--svg"] != nullptr) o.files.write("--svg", run_svg(r));
+    if (o.files["--vtu"] != nullptr) write_grids(o.files, run.options.pictures.vtu, r);
+  }
+  o.files.write(check_report_of(o, end, c));
 }
 
 /// What every run ends with: certificate, messages, files, exit status.
@@ -332,11 +379,11 @@ exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
 
 /// No path: the equilibrium under each step's load, by the oracle.
 exit_status final_states(const run_setup& run) {
-  observed_run o(run, nullptr);
+  observed_run o{run, nullptr};
   print_heading(run);
   const path_end end = find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
-                                         loads_of(run.what), o.observers());
-  o.shown.erase();
+                                         loads_of(run.what), make_observers(o));
+  o.shown.line.erase();
   print_verdict(o, paint::quiet,
                 {"only the end: the oracle's, judged by equilibrium, penetration and tension",
                  fmt::format("{} factorisations", end.work.factors)});
@@ -348,7 +395,7 @@ exit_status lockstep_run(const run_setup& run) {
   const std::unique_ptr<kernel> leader = make_kernel(run.kernels.front());
   lockstep compared = make_lockstep(leader->facts(), std::span(run.kernels).subspan(1));
   const bool alone = run.kernels.size() == 1;
-  observed_run o(run, alone ? nullptr : &compared);
+  observed_run o{run, alone ? nullptr : &compared};
   print_heading(run);
   const path_end end = follow_leader(o, *leader, nullptr);
   return finish(o, end, alone ? comparison{} : report_lockstep(o, compared));
@@ -356,7 +403,7 @@ exit_status lockstep_run(const run_setup& run) {
 
 /// Every kernel on a path of its own, one after the other: unit 26 exists only once.
 exit_status free_run(const run_setup& run) {
-  observed_run o(run, nullptr);
+  observed_run o{run, nullptr};
   print_heading(run);
   path_record leader;
   leader.end = follow_leader(o, *make_kernel(run.kernels.front()), &leader);
@@ -377,7 +424,7 @@ exit_status free_run(const run_setup& run) {
 }  // namespace
 
 exit_status run_command(const run_options& options) {
-  const run_setup run = set_up(options, outputs_of(options));
+  const run_setup run = set_up(options);
   if (options.final_only) return final_states(run);
   return options.free_run ? free_run(run) : lockstep_run(run);
 }

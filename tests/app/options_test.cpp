@@ -1,5 +1,5 @@
 // The options of both programs, as data: what a command line comes to, and what the manual is made of.
-#include "app/options.hpp"
+#include "app/commands.hpp"
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "contct/text/field_lines.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::app {
 namespace {

@@ -1,13 +1,31 @@
-// Whole files as text, and what is refused of them.
+// Whole files as text, their lines and fields: counted, split, read as numbers, refused with file and line.
 #include "contct/text/input_text.hpp"
 
 #include <filesystem>
+#include <limits>
+#include <vector>
 
 #include "catch.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
+
+namespace {
+
+/// What the one line `text` is refused with when its first field is read as a real, or "accepted".
+std::string refusal_of_real(const std::string& text) {
+  field_lines lines(text, "f");
+  REQUIRE(lines.next());
+  try {
+    (void)lines.real(0, "x");
+  } catch (const input_error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
 
 TEST_CASE("a file is read to its last byte, whatever its bytes are") {
   const scratch_folder here;
@@ -34,4 +52,85 @@ TEST_CASE("a refusal names the file and the line, or the file alone") {
   CHECK_THROWS_WITH(refuse_line("K.mtx", 12, "x", "y"), "K.mtx:12: found x; allowed: y");
   CHECK_THROWS_WITH(refuse_line("K.mtx", 0, "x", "y"), "K.mtx: found x; allowed: y");
   CHECK_THROWS_AS(refuse_line("K.mtx", 1, "", ""), input_error);
+}
+
+TEST_CASE("text is split at line feeds, and every line is counted") {
+  text_lines lines("one\n\n three \r\nlast", "f");
+  CHECK(lines.line() == 0);
+  std::vector<std::string> found;
+  while (lines.next()) found.emplace_back(lines.here());
+  CHECK(found == std::vector<std::string>{"one", "", " three \r", "last"});
+  CHECK(lines.line() == 4);
+  CHECK(lines.rest().empty());
+  CHECK_FALSE(text_lines("", "f").next());
+}
+
+TEST_CASE("only a last line without an end is refused as cut") {
+  text_lines lines("one\n2", "f");
+  REQUIRE(lines.next());
+  CHECK_NOTHROW(lines.refuse_unended());
+  REQUIRE(lines.next());
+  CHECK_THROWS_WITH(lines.refuse_unended(), Contains("f:2: found \"2\" without a line's end"));
+}
+
+TEST_CASE("fields are separated by any blanks, blank lines are skipped, and lines keep their numbers") {
+  field_lines lines("\n  a\tb  c\r\n \v\f\n1 2 3 4 5 6 7 8 9 10\n", "f");
+  REQUIRE(lines.next());
+  CHECK(lines.line() == 2);
+  REQUIRE(lines.fields() == 3);
+  CHECK(lines.field(0) == "a");
+  CHECK(lines.field(2) == "c");
+  CHECK_NOTHROW(lines.expect(3, "three"));
+  CHECK_THROWS_WITH(lines.expect(2, "two"), Contains("f:2: found \"  a\\x09b  c\\x0d\"; allowed: two"));
+  REQUIRE(lines.next());
+  CHECK(lines.line() == 4);
+  CHECK(lines.fields() == field_lines::most_fields + 1);
+  CHECK_FALSE(lines.next());
+  CHECK(lines.fields() == 0);
+}
+
+TEST_CASE("a line of fields that is cut is refused, blanks behind the last line are not") {
+  field_lines cut("1 2\n3 4", "f");
+  REQUIRE(cut.next());
+  CHECK_THROWS_WITH(cut.next(), Contains("f:2: found \"3 4\" without a line's end"));
+  field_lines whole("1 2\n  ", "f");
+  REQUIRE(whole.next());
+  CHECK_FALSE(whole.next());
+}
+
+TEST_CASE("whole numbers are read within their bounds, with a plus sign or without") {
+  field_lines lines("+7 -3 8 7.0 7x +-7 99999999999999999999\n", "f");
+  REQUIRE(lines.next());
+  CHECK(lines.whole(0, -3, 7, "n") == 7);
+  CHECK(lines.whole(1, -3, 7, "n") == -3);
+  for (const std::size_t i : {2, 3, 4, 5, 6}) {
+    INFO(lines.field(i));
+    CHECK_THROWS_WITH(lines.whole(i, -3, 7, "n"), Contains("f:1: found \"" + std::string(lines.field(i)) +
+                                                           "\" for n; allowed: a whole number from -3 to 7"));
+  }
+}
+
+TEST_CASE("reals are finite decimals, with FORTRAN's D only where it is asked for") {
+  field_lines lines("+1.5 -2e-3 .5 5.\n", "f");
+  REQUIRE(lines.next());
+  CHECK(lines.real(0, "x") == 1.5);
+  CHECK(lines.real(1, "x") == -2e-3);
+  CHECK(lines.real(2, "x") == 0.5);
+  CHECK(lines.real(3, "x") == 5.0);
+  for (const char* text : {"nan\n", "inf\n", "1e999\n", "1,5\n", "0x1p3\n", "1D0\n", "+-1\n", "+\n"})
+    CHECK_THAT(refusal_of_real(text), Contains("for x; allowed: a finite number"));
+  CHECK(lines.text_lines::real("-1.5D+01", "x", true) == -15.0);
+  CHECK(lines.text_lines::real("+2d1", "x", true) == 20.0);
+  CHECK_THROWS_WITH(lines.text_lines::real("1D999", "x", true), Contains("\"1D999\" for x"));
+}
+
+TEST_CASE("a number is all of a text or nothing") {
+  CHECK(number_in<int>("-12") == -12);
+  CHECK(number_in<double>("1e3") == 1000.0);
+  CHECK(number_in<double>("1.8p1", std::chars_format::hex) == 3.0);
+  CHECK(number_in<double>("inf") == std::numeric_limits<double>::infinity());
+  for (const char* text : {"", " 1", "1 ", "+1", "1x", "99999999999"}) {
+    INFO(text);
+    CHECK_FALSE(number_in<int>(text).has_value());
+  }
 }

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "contct/kernel/contct.h"
-#include "contct/text/signals_wait.hpp"
+#include "contct/text/output_file.hpp"
 
 namespace contct::kernels::fortran {
 

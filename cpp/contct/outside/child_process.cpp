@@ -139,17 +139,9 @@ void kernel_in_child::refuse_when_enough() const {
                        " failures; the last: it " + last_);
 }
 
-void kernel_in_child::fail(const std::string& words) {
-  fail_with(failures_, words);
-}
-
-void kernel_in_child::fail_late(const std::string& words) {
-  fail_with(waits_, words);
-}
-
-void kernel_in_child::fail_with(int& count, const std::string& words) {
+void kernel_in_child::fail(const std::string& words, bool waited) {
   child_.reset();
-  ++count;
+  ++(waited ? waits_ : failures_);
   last_ = words;
   throw kernel_failure("it " + words);
 }
@@ -157,8 +149,8 @@ void kernel_in_child::fail_with(int& count, const std::string& words) {
 void kernel_in_child::fail_without_answer(child_process::sent how) {
   const std::string words = child_->end();
   if (how == child_process::sent::late)
-    fail_late("did not answer within " + std::to_string(limits_.patience.count()) + " ms");
-  if (words == child_process::was_stopped) fail_late("closed its end of the pipe");  // and went on running
+    fail("did not answer within " + std::to_string(limits_.patience.count()) + " ms", true);
+  if (words == child_process::was_stopped) fail("closed its end of the pipe", true);  // and went on running
   fail(words);
 }
 

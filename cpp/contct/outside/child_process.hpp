@@ -1,16 +1,17 @@
-// A process of its own for a kernel from outside: it may crash, hang or answer nonsense, and the run goes on.
+// Kernels from outside: a shared library with the plug-in ABI, or a command that speaks the trace format.
+// Each has a process of its own: it may crash, hang or answer nonsense, and the run goes on.
 #pragma once
 
 #include <sys/types.h>
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "contct/kernel/kernel.hpp"
-#include "contct/outside/outside.hpp"
 
 namespace contct::outside {
 
@@ -43,6 +44,14 @@ class child_process {
   int channel_ = -1;
 };
 
+/// How long a kernel from outside may take for one call, and after how many failures it is given up. A crash
+/// costs a millisecond, and many may show what they have in common; a timeout costs the user `patience`.
+struct outside_limits {
+  std::chrono::milliseconds patience{10'000};
+  int most_failures = 1000;
+  int most_waits = 3;
+};
+
 /// What kernels from outside share: the child that answers, its deadline, and how often it may fail.
 class kernel_in_child : public kernel {
  public:
@@ -56,23 +65,32 @@ class kernel_in_child : public kernel {
   }
   /// Throws kernel_failure when the kernel has failed too often to be asked again.
   void refuse_when_enough() const;
-  /// End the child, and throw a failure that cost no time.
-  [[noreturn]] void fail(const std::string& words);
-  /// End the child, and throw a failure that had to be waited for.
-  [[noreturn]] void fail_late(const std::string& words);
+  /// End the child, and throw a failure, for which the caller had to wait or not.
+  [[noreturn]] void fail(const std::string& words, bool waited = false);
   /// End the child, and throw what kept a message from being sent or received whole.
   [[noreturn]] void fail_without_answer(child_process::sent how);
 
   std::optional<child_process> child_;
 
  private:
-  [[noreturn]] void fail_with(int& count, const std::string& words);
-
   kernel_facts facts_;
   outside_limits limits_;
   int failures_ = 0;
   int waits_ = 0;
   std::string last_;
 };
+
+/// What is known of a kernel from outside by its name alone: the listing's rule, 8-byte REAL, and no text of
+/// its own.
+[[nodiscard]] kernel_facts facts_of_plugin(const std::string& path);
+[[nodiscard]] kernel_facts facts_of_pipe(const std::string& command);
+
+/// "plugin:PATH". The library is loaded, and every call made, in a child process. Throws
+/// std::invalid_argument when it cannot be loaded, lacks a symbol, or has another ABI.
+[[nodiscard]] std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limits& limits = {});
+
+/// "pipe:COMMAND", run by the shell: one call as a block of trace text in, one answer out.
+[[nodiscard]] std::unique_ptr<kernel> make_pipe(const std::string& command,
+                                                const outside_limits& limits = {});
 
 }  // namespace contct::outside

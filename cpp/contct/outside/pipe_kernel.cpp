@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "contct/outside/child_process.hpp"
-#include "contct/outside/outside.hpp"
-#include "contct/text/input_text.hpp"
 #include "contct/trace/trace.hpp"
 
 namespace contct::outside {

@@ -15,7 +15,6 @@
 
 #include "contct/kernel/fortran.hpp"
 #include "contct/outside/child_process.hpp"
-#include "contct/outside/outside.hpp"
 
 namespace contct::outside {
 namespace {
@@ -132,11 +131,8 @@ class plugin_kernel final : public kernel_in_child {
     refuse_when_enough();
     const layout l(c);
     make_room(l.end);
-    if (!child_) {
-      const std::string wrong = start();
-      if (wrong == too_slow) fail_late(wrong);
-      if (!wrong.empty()) fail(wrong);
-    }
+    if (!child_)
+      if (const std::string wrong = start(); !wrong.empty()) fail(wrong, wrong == too_slow);
     write_call(l, c);
     const auto until = deadline();
     std::string word;

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "contct/outside/outside.hpp"
-#include "contct/text/did_you_mean.hpp"
+#include "contct/outside/child_process.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::outside {
 namespace {
@@ -17,11 +17,9 @@ std::optional<std::string> after(std::string_view prefix, std::string_view name)
 }
 
 [[noreturn]] void refuse_unknown(std::string_view name) {
-  std::string known;
-  for (const std::string& n : kernel_names()) known += n + ", ";
-  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"" +
-                              did_you_mean(name, kernel_names()) + "; there are: " + known +
-                              "plugin:LIBRARY, pipe:COMMAND");
+  const std::vector<std::string> known = kernel_names();
+  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"" + did_you_mean(name, known) +
+                              "; there are: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
 }
 
 }  // namespace

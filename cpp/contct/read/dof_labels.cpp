@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "contct/text/field_lines.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::read {
 

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "contct/text/field_lines.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::read {
 namespace {

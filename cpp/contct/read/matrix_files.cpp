@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "contct/text/field_lines.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::read {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "contct/read/inp_mesh.hpp"
-#include "contct/text/field_lines.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::read {
 namespace {

@@ -10,7 +10,7 @@
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/matrix_places.hpp"
 #include "contct/read/memory_limit.hpp"
-#include "contct/text/field_lines.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::read {
 namespace {

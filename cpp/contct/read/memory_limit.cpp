@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "contct/text/field_lines.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct::read {

@@ -8,8 +8,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "contct/text/did_you_mean.hpp"
-#include "contct/text/field_lines.hpp"
+#include "contct/text/strings.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::read {
 namespace {

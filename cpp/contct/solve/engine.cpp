@@ -4,7 +4,7 @@
 #include "contct/solve/condensed_engine.hpp"
 #include "contct/solve/refactor_engine.hpp"
 #include "contct/solve/updated_engine.hpp"
-#include "contct/text/did_you_mean.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::solve {
 

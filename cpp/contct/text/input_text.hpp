@@ -1,13 +1,17 @@
-// A whole input file as text, and the refusal of what is wrong in it.
+// Input files: a whole file as text, its lines and fields, and the refusal of what is wrong in it, with file
+// and line.
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
-#include "contct/rooms.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::text {
 
@@ -27,5 +31,82 @@ class input_error : public std::runtime_error {
 /// large as `most_mib`: a beam of 100,000 nodes with every coordinate written out takes 2.
 [[nodiscard]] std::string read_input(const std::string& path, const std::string& kind = "problem file",
                                      std::size_t most_mib = 32);
+
+/// What separates the fields of a line and is trimmed from its ends.
+inline constexpr std::string_view blanks = " \t\r\v\f";
+
+/// The number that the whole of `text` is, as std::from_chars reads it: no blanks, no plus sign. Nothing
+/// where it is anything else or out of range. `format`: a std::chars_format, for reals.
+template <class Number, class... Format>
+[[nodiscard]] std::optional<Number> number_in(std::string_view text, Format... format) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, format...);
+  return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+/// Goes through a text line by line. Refusals are input_errors: "K.mtx:12: found ...; allowed: ...".
+class text_lines {
+ public:
+  /// `text` must outlive this object; `file` is its name in messages.
+  text_lines(std::string_view text, std::string_view file) : rest_(text), file_(file) {}
+
+  /// Go to the next line; false where there is none.
+  bool next();
+
+  [[nodiscard]] std::string_view here() const { return here_; }  ///< the line without its end
+  [[nodiscard]] std::string_view rest() const { return rest_; }  ///< the text behind the line
+  [[nodiscard]] std::int64_t line() const { return line_; }      ///< counted from 1; 0 before the first
+  [[nodiscard]] const std::string& file() const { return file_; }
+
+  /// `field` as a whole number, or as a finite real; a plus sign is allowed. `what` it is, for messages. With
+  /// `fortran`, D may stand for E in a real.
+  [[nodiscard]] int whole(std::string_view field, std::int64_t least, std::int64_t most,
+                          std::string_view what) const;
+  [[nodiscard]] double real(std::string_view field, std::string_view what, bool fortran = false) const;
+
+  [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
+  /// Refuse a last line that has no end: a truncated number would still parse.
+  void refuse_unended() const;
+
+ private:
+  std::string_view rest_, here_;
+  std::string file_;
+  std::int64_t line_ = 0;
+  bool ended_ = true;
+};
+
+/// Lines of a few fields, which blanks and tabs separate. Blank lines are skipped; a last line without an end
+/// is refused. Linear in the text.
+class field_lines : public text_lines {
+ public:
+  using text_lines::text_lines;
+
+  /// Go to the next line that is not blank; false where there is none.
+  bool next();
+
+  /// How many fields the line has; more than `most_fields` count as one more than these.
+  [[nodiscard]] std::size_t fields() const { return count_; }
+  [[nodiscard]] std::string_view field(std::size_t i) const { return fields_[i]; }
+
+  /// Field `i`, from 0, as a number.
+  [[nodiscard]] int whole(std::size_t i, std::int64_t least, std::int64_t most, std::string_view what) const {
+    return text_lines::whole(field(i), least, most, what);
+  }
+  [[nodiscard]] double real(std::size_t i, std::string_view what) const {
+    return text_lines::real(field(i), what);
+  }
+
+  /// Refuse the line when it has another number of fields.
+  void expect(std::size_t fields, std::string_view allowed) const;
+
+  static constexpr std::size_t most_fields = 8;
+
+ private:
+  void split();
+
+  std::array<std::string_view, most_fields> fields_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace contct::text

@@ -11,8 +11,6 @@
 #include <string>
 #include <utility>
 
-#include "contct/text/signals_wait.hpp"
-
 namespace contct::text {
 namespace {
 
@@ -27,13 +25,6 @@ fs::path followed(fs::path path) {
     path = path.parent_path() / fs::read_symlink(path);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   return fs::weakly_canonical(folder, ignored) / path.filename();
-}
-
-/// The permissions of a new file: all but those that the umask removes.
-mode_t new_file_rights() {
-  const mode_t mask = umask(0);
-  umask(mask);
-  return 0666 & ~mask;
 }
 
 /// How temporary names begin: in the folder of `target`, since a link cannot leave its file system.
@@ -146,7 +137,9 @@ int output_file::copy_beside(std::string& name) const {
   name = temporary_prefix(target_) + "-XXXXXX";
   const int copy = mkstemp(name.data());
   if (copy < 0) return errno;
-  fchmod(copy, new_file_rights());
+  const mode_t removed = umask(0);
+  umask(removed);
+  fchmod(copy, 0666 & ~removed);  // as any new file
   const int error = copy_all(fileno(file_), copy);
   return close(copy) != 0 && error == 0 ? errno : error;
 }

@@ -1,6 +1,7 @@
 // Output files that appear whole or not at all.
 #pragma once
 
+#include <csignal>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,23 @@
 #include "contct/rooms.hpp"
 
 namespace contct::text {
+
+/// Blocks every signal to this thread but SIGKILL while this object lives, so that a file with a temporary
+/// name is not left behind.
+class signals_wait {
+ public:
+  signals_wait() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before_);
+  }
+  ~signals_wait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  signals_wait(const signals_wait&) = delete;
+  signals_wait& operator=(const signals_wait&) = delete;
+
+ private:
+  sigset_t before_{};
+};
 
 /// Thrown when an output file cannot be made; what() names the file and the reason.
 class output_error : public std::runtime_error {

@@ -11,7 +11,7 @@
 #include "contct/kernel/call.hpp"
 #include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
-#include "contct/text/field_lines.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::trace {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "contct/text/markup.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::write {
 

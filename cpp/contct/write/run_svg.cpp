@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "contct/text/markup.hpp"
+#include "contct/text/strings.hpp"
 #include "contct/write/load_text.hpp"
 #include "contct/write/words.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "contct/text/markup.hpp"
+#include "contct/text/strings.hpp"
 #include "contct/write/frame_numbers.hpp"
 #include "contct/write/load_text.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contct/text/markup.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::write::svg {
 

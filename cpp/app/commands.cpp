@@ -1,12 +1,15 @@
-// contct new: a commented problem file to start from.
-#include <fmt/format.h>
+// The commands that need few lines: new, export, atlas and kernels.
+#include "app/commands.hpp"
 
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/commands.hpp"
-#include "contct/text/did_you_mean.hpp"
-#include "contct/text/output_file.hpp"
+#include "app/problem_runs.hpp"
+#include "contct/lab/atlas_output.hpp"
+#include "contct/lab/atlas_svg.hpp"
+#include "contct/numeric/probe.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::app {
 namespace {
@@ -108,6 +111,7 @@ void refuse_taken(const std::string& file) {
 
 }  // namespace
 
+/// A commented problem file to start from.
 exit_status run_command(const new_options& options) {
   const char* const text = problem_of(options.shape);
   const std::string file = options.file.empty() ? options.shape + ".toml" : options.file;
@@ -116,6 +120,60 @@ exit_status run_command(const new_options& options) {
   out.write(text);
   out.finish();
   if (file != "-") fmt::print("{} is written; now: contct run {}\n", file, file);
+  return exit_status::solved;
+}
+
+/// A problem for another program.
+exit_status run_command(const export_options& options) {
+  const std::vector<output_option> outputs = {{"--calculix", options.calculix}};
+  refuse_shared_outputs(outputs, {{"the problem", options.file}});
+  const problem p = read_with_progress(options.file, false);
+  const calculix_deck deck = calculix_deck_of(p, options.choice);
+  const output_files files(outputs);
+  output_file& file = *files["--calculix"];
+  file.write(deck.text);
+  if (!file.is_standard_output()) {
+    fmt::print("{}: step {} of {}, {} elements, {} nodes, {} pairs\n", options.calculix, deck.step,
+               p.steps.size(), deck.elements, deck.nodes, p.pairs.size());
+    fmt::print("displacements are {:.12e} times the problem's, forces {:.12e} times\n",
+               deck.displacement_scale, deck.force_scale);
+  }
+  flush_standard_output();
+  file.finish();
+  return exit_status::solved;
+}
+
+/// Where the 1989 code goes wrong, measured on random problems.
+exit_status run_command(const atlas_options& options) {
+  const std::vector<output_option> outputs = {
+      {"--csv", options.csv}, {"--json", options.json}, {"--svg", options.svg}};
+  refuse_shared_outputs(outputs);
+  const output_files files(outputs);
+  atlas a{options.request, atlas_cells()};
+  {
+    progress shown(static_cast<std::int64_t>(a.cells.size()) * options.request.problems, "problems",
+                   options.quiet);
+    std::int64_t done = 0;
+    for (atlas_cell& c : a.cells) fill(c, options.request, [&] { shown.reached(++done); });
+  }
+  if (!options.quiet && !takes_standard_output(outputs)) fmt::print("{}", atlas_table(a, look_at_terminal()));
+  flush_standard_output();  // no files when the table is lost
+  if (files["--csv"] != nullptr) files.write("--csv", atlas_csv(a));
+  if (files["--json"] != nullptr) files.write("--json", atlas_json(a));
+  if (files["--svg"] != nullptr) files.write("--svg", atlas_svg(a));
+  return exit_status::solved;
+}
+
+/// What is built in.
+exit_status run_command(const kernels_options& /*options*/) {
+  fmt::print("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler");
+  for (const std::string& name : kernel_names()) {
+    const kernel_facts f = facts_of_kernel(name);
+    fmt::print("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language, f.compiler);
+  }
+  fmt::print("\nfrom outside: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n");
+  fmt::print("listing sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
+             describe(probe_floating_point()));
   return exit_status::solved;
 }
 

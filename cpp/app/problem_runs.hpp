@@ -1,14 +1,29 @@
-// How a run ended, in words for people.
+// What the commands that follow a problem share: progress at a terminal, and how the path ended, in words.
 #pragma once
 
+#include <memory>
 #include <string>
 
-#include "app/commands.hpp"
-#include "contct/path/observer.hpp"
+#include "app/outputs.hpp"
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct::app {
+
+/// Read a problem and print its warnings. Throws as read_problem does.
+[[nodiscard]] problem read_with_progress(const std::string& file, bool quiet);
+
+/// The structure of a problem. Throws as structure_of does.
+[[nodiscard]] linear_structure build_with_progress(const problem& p, bool quiet);
+
+/// Shows the step and the increment that a path has reached, by two observers around whoever prints.
+struct path_progress {
+  path_progress(std::size_t steps, bool quiet);
+
+  progress line;
+  std::unique_ptr<observer> before;  ///< erases the line when something may be printed
+  std::unique_ptr<observer> behind;  ///< shows it again
+};
 
 /// Why a path did not reach its end: step, share of its load, and the pairs that had to do with
 /// it. Empty for a path that did.

@@ -22,6 +22,8 @@ program_description small_program() {
                   {"--engine", "TEXT", "How", "", takes::engine, {"auto", "refactor"}, false}},
                  {{"SHAPE", "TEXT", "beam or plate", "", takes::word, {"beam", "plate"}, true},
                   {"FILE", "TEXT", "Where to", "", takes::file, {}, false}}}};
+  static constexpr example examples[] = {{"contct pull beam -", "what it is good for"}};
+  p.examples = examples;
   return p;
 }
 
@@ -69,6 +71,7 @@ TEST_CASE("the manual has every command with its arguments, in the macros of rof
   CHECK_THAT(text, Contains(".TP\n\\fB\\-\\-force\\fR \\fIFLOAT\\fR\nHow much. Usually 3.\n"));
   CHECK_THAT(text, Contains(".TP\n\\fB\\-\\-kernels\\fR \\fITEXT\\fR\nWhich. There are: fortran, cpp.\n"));
   CHECK_THAT(text, Contains(".TP\n\\fBFILE\\fR\nWhere to.\n"));
+  CHECK_THAT(text, Contains(".TP\n\\fBcontct pull beam \\-\\fR\nwhat it is good for.\n"));
   for (const char* section :
        {".SH OPTIONS", ".SH COMMANDS", ".SH EXIT STATUS", ".SH ENVIRONMENT", ".SH EXAMPLES"})
     CHECK_THAT(text, Contains(section));

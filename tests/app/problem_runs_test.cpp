@@ -1,5 +1,5 @@
 // How a path ended, in words and as an exit status, without running the program.
-#include "app/exit_messages.hpp"
+#include "app/problem_runs.hpp"
 
 #include <string>
 #include <vector>

@@ -1,0 +1,165 @@
+#include "app/problem_runs.hpp"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "contct/matrix/cholesky.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::app {
+namespace {
+
+/// As long as the thread lives, a terminal shows what the program is doing and for how long: "reading
+/// model.toml, 3 s". Nothing else may be printed meanwhile, and no process forked.
+std::jthread shown_activity(const std::string& activity, bool quiet) {
+  const double after = wait_before_progress();
+  if (!waits_at_terminal(quiet)) return {};
+  return std::jthread([activity, after](const std::stop_token& over) {
+    using seconds = std::chrono::duration<double>;
+    const auto begun = std::chrono::steady_clock::now();
+    const auto draw = [&activity](seconds since) {
+      const std::string line = fmt::format("\r{}, {:.0f} s\033[K", activity, since.count());
+      (void)std::fputs(line.c_str(), stderr);
+    };
+    bool shown = after <= 0.0;
+    if (shown) draw(seconds(0.0));
+    std::mutex guard;
+    std::unique_lock lock(guard);
+    std::condition_variable_any ended;
+    seconds next(shown ? 1.0 : after);
+    while (!ended.wait_for(lock, over, next, [&over] { return over.stop_requested(); })) {
+      draw(std::chrono::steady_clock::now() - begun);
+      shown = true;
+      next = seconds(1.0);
+    }
+    if (shown) (void)std::fputs("\r\033[K", stderr);
+  });
+}
+
+class eraser final : public observer {
+ public:
+  explicit eraser(progress& shown) : shown_(shown) {}
+  void incremented(const increment& /*i*/) override { shown_.erase(); }
+  void step_ended(const step_state& /*s*/) override { shown_.erase(); }
+
+ private:
+  progress& shown_;
+};
+
+class increment_counter final : public observer {
+ public:
+  increment_counter(progress& shown, std::size_t steps) : shown_(shown), steps_(steps) {}
+  void called(const answered_call& /*c*/) override {
+    shown_.say(fmt::format("step {} of {}, increment {}", step_, steps_, ++increment_));
+  }
+  void incremented(const increment& i) override {
+    shown_.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", i.step, steps_,
+                           i.number + 1, 100.0 * i.fraction));
+  }
+  void step_ended(const step_state& s) override {
+    step_ = s.step + 1;
+    increment_ = 0;
+  }
+
+ private:
+  progress& shown_;
+  std::size_t steps_;
+  int step_ = 1;
+  int increment_ = 0;
+};
+
+std::string pair_words(const problem& p, const std::vector<int>& pairs) {
+  constexpr std::size_t most_named = 8;
+  std::string words;
+  for (std::size_t i = 0; i < pairs.size() && i < most_named; ++i) {
+    const contact_pair& at = p.pairs[static_cast<std::size_t>(pairs[i])];
+    words += fmt::format("{}pair {} ({}, {})", i == 0 ? "" : ", ", pairs[i] + 1,
+                         place_words(p.geometry, at.node), surface_name(at.surface));
+  }
+  if (pairs.size() > most_named) words += fmt::format(" and {} more", pairs.size() - most_named);
+  return words;
+}
+
+std::string mechanism_words(const problem& p, const path_end& end) {
+  if (end.pairs.empty())
+    return "no equilibrium: supports and closed pairs do not hold the structure, which is free to move as a "
+           "rigid body. A structure held only by pairs must start with enough of them in contact; --kernels "
+           "corrected follows one that first falls onto its faces";
+  return "no equilibrium: the opening of " + pair_words(p, end.pairs) +
+         " left the structure free to move as a rigid body" +
+         (end.fraction < 1e-9 ? ". At a standstill the 1989 rule may pass by an equilibrium that exists"
+                              : "");
+}
+
+std::string reason_words(const problem& p, const path_end& end) {
+  switch (end.status) {
+    case path_status::mechanism:
+      return mechanism_words(p, end);
+    case path_status::cycle:
+      return "a cycle at a standstill: these pairs keep toggling: " + pair_words(p, end.pairs);
+    case path_status::iteration_limit:
+      return "the limit of increments (--max-increments) is reached; these pairs keep toggling: " +
+             (end.pairs.empty() ? "none" : pair_words(p, end.pairs));
+    default:
+      return "the structure is held, but its stiffness is too ill-conditioned, or its loads too large, for "
+             "double precision: no digit of the answer would be right. Use fewer elements in a span, or "
+             "stiffness and loads of less extreme size";
+  }
+}
+
+}  // namespace
+
+problem read_with_progress(const std::string& file, bool quiet) {
+  problem p = [&] {
+    const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
+    return read_problem(file);
+  }();
+  for (const std::string& w : p.warnings) complain("warning: {}", w);
+  return p;
+}
+
+linear_structure build_with_progress(const problem& p, bool quiet) {
+  const std::jthread here = shown_activity("building the structure", quiet);
+  return structure_of(p);
+}
+
+path_progress::path_progress(std::size_t steps, bool quiet)
+    : line(static_cast<std::int64_t>(steps), "steps", quiet),
+      before(std::make_unique<eraser>(line)),
+      behind(std::make_unique<increment_counter>(line, steps)) {}
+
+std::string end_words(const problem& p, const path_end& end) {
+  if (end.status == path_status::solved) return "";
+  return fmt::format("step {}, at share {:.9g} of its load: ", end.step, end.fraction) + reason_words(p, end);
+}
+
+exit_status status_of(path_status status) {
+  constexpr exit_status statuses[] = {exit_status::solved, exit_status::mechanism,
+                                      exit_status::iteration_limit, exit_status::iteration_limit,
+                                      exit_status::bad_input};
+  return statuses[static_cast<int>(status)];  // in the order of path_status
+}
+
+void digit_watch::step_ended(const step_state& s) {
+  if (digits_left(s.rcond) >= fewest_) return;
+  fewest_ = digits_left(s.rcond);
+  step_ = s.step;
+  rcond_ = s.rcond;
+}
+
+std::string digit_watch::warning() const {
+  constexpr int enough = 5;
+  if (fewest_ >= enough) return "";
+  const std::string digits = fewest_ == 0   ? "no digit"
+                             : fewest_ == 1 ? "about 1 digit"
+                                            : fmt::format("about {} digits", fewest_);
+  return fmt::format(
+      "step {}: {} of the answer can be relied on: the stiffness is ill-conditioned (rcond {:.1e}). Fewer "
+      "elements in a span, or more supports, would help",
+      step_, digits, rcond_);
+}
+
+}  // namespace contct::app
