@@ -150,17 +150,16 @@ exit_status run_command(const atlas_options& options) {
   refuse_shared_outputs(outputs);
   const output_files files(outputs);
   atlas a{options.request, atlas_cells()};
-  {
-    progress shown(static_cast<std::int64_t>(a.cells.size()) * options.request.problems, "problems",
-                   options.quiet);
-    std::int64_t done = 0;
-    for (atlas_cell& c : a.cells) fill(c, options.request, [&] { shown.reached(++done); });
-  }
+  progress shown(static_cast<std::int64_t>(a.cells.size()) * options.request.problems, "problems",
+                 options.quiet);
+  std::int64_t done = 0;
+  for (atlas_cell& c : a.cells) fill(c, options.request, [&] { shown.reached(++done); });
+  shown.erase();
   if (!options.quiet && !takes_standard_output(outputs)) fmt::print("{}", atlas_table(a, look_at_terminal()));
   flush_standard_output();  // no files when the table is lost
-  if (files["--csv"] != nullptr) files.write("--csv", atlas_csv(a));
-  if (files["--json"] != nullptr) files.write("--json", atlas_json(a));
-  if (files["--svg"] != nullptr) files.write("--svg", atlas_svg(a));
+  files.write("--csv", atlas_csv(a));
+  files.write("--json", atlas_json(a));
+  files.write("--svg", atlas_svg(a));
   return exit_status::solved;
 }
 

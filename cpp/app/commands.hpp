@@ -120,7 +120,7 @@ using command_options = std::variant<printed_text, run_options, explain_options,
 [[nodiscard]] command_options parse_contct_replay(int argc, const char* const* argv);
 
 /// What an option or a positional argument takes: the shells complete it accordingly.
-enum class takes { nothing, number, file, kernels, engine, word };
+enum class takes { nothing, number, file, kernels, word };
 
 struct option_description {
   std::string name;   ///< "--json", or "FILE" for a positional one

@@ -89,13 +89,12 @@ exit_status nothing_told(const explain_options& o, const increments_wanted& want
 
 void print_comparison(const std::vector<std::string>& kernels, const explained_path& told) {
   if (kernels.size() < 2) return;
-  const tally t = told.compared();
+  const bool equal = told.compared().mismatches == 0;
   fmt::print("\n");
-  print_wrapped(
-      look_at_terminal(), t.mismatches == 0 ? paint::good : paint::bad,
-      {fmt::format("{} and {} {} to the bit in the whole run", kernels[0], kernels[1],
-                   t.mismatches == 0 ? "are equal" : "are NOT equal"),
-       fmt::format("{} calls, {} values compared, {} mismatches", told.calls(), t.values, t.mismatches)});
+  print_wrapped(look_at_terminal(), equal ? paint::good : paint::bad,
+                {fmt::format("{} and {} {} to the bit in the whole run", kernels[0], kernels[1],
+                             equal ? "are equal" : "are NOT equal"),
+                 counts_of(told)});
 }
 
 }  // namespace
@@ -131,8 +130,7 @@ exit_status run_command(const explain_options& options) {
   const bool anything = end.status != path_status::not_factored && told.explained() > 0;
   if (anything && text) print_comparison(options.kernels, told);
   if (anything) flush_standard_output();
-  if (anything && told.first())
-    for (const std::string& line : words_of(*told.first())) complain("{}", line);
+  if (anything && told.first()) complain_of(words_of(*told.first()));
   if (end.status != path_status::solved) complain("{}: {}", options.file, end_words(p, end));
   if (!anything) return nothing_told(options, wanted, end, told);
   const bool equal = told.compared().mismatches == 0;

@@ -58,12 +58,11 @@ check_report report_of(const fuzz_result& r, const std::string& missed) {
   report.facts.push_back(command_of(r.request));
   for (const fuzz_follower& f : r.followers) {
     const bool equal = f.compared.mismatches == 0;
-    report.results.push_back({f.name + " against " + r.request.kernels[0],
-                              equal ? outcome::passed : outcome::failed,
+    report.results.push_back({f.name + " against " + r.request.kernels[0], passed_if(equal),
                               follower_words(f, r.request.kernels[0]), joined(f.mismatch_reports, "\n")});
   }
   report.results.push_back(
-      {"floors", missed.empty() ? outcome::passed : outcome::failed,
+      {"floors", passed_if(missed.empty()),
        missed.empty() ? fmt::format("{} calls, {} problems", r.calls, r.problems) : missed, missed});
   return report;
 }
@@ -94,12 +93,6 @@ std::string file_name_of(const std::string& kernel) {
   return name.substr(0, longest);
 }
 
-trace_header header_of(const found_case& c) {
-  trace_header h = header_for(facts_of_kernel(c.what.leader), CONTCT_LISTING_SHA256);
-  h.about = {"found by contct fuzz, and shrunk"};
-  return h;
-}
-
 /// Write each case to `folder`, which is made where it is missing: a trace, a Catch2 test and a FORTRAN main
 /// program. Returns the names of the files.
 std::vector<std::string> write_cases(const std::vector<found_case>& cases, const std::string& folder,
@@ -110,8 +103,10 @@ std::vector<std::string> write_cases(const std::vector<found_case>& cases, const
     const std::string stem =
         (std::filesystem::path(folder) / fmt::format("{}-seed{}", file_name_of(c.what.follower), seed))
             .string();
+    trace_header header = header_for(facts_of_kernel(c.what.leader), CONTCT_LISTING_SHA256);
+    header.about = {"found by contct fuzz, and shrunk"};
     const std::pair<const char*, std::string> files[] = {
-        {".trace", trace_of(c, header_of(c))}, {"_test.cpp", catch_test_of(c)}, {".f", fortran_main_of(c)}};
+        {".trace", trace_of(c, header)}, {"_test.cpp", catch_test_of(c)}, {".f", fortran_main_of(c)}};
     for (const auto& [end, text] : files) {
       output_file file(names.emplace_back(stem + end));
       file.write(text);
@@ -142,8 +137,7 @@ exit_status run_command(const fuzz_options& options) {
   const std::string missed = floors_missed(r);
   if (!options.report.quiet && !takes_standard_output(outputs)) print_result(r);
   flush_standard_output();
-  for (const fuzz_follower& f : r.followers)
-    for (const std::string& line : f.mismatch_reports) complain("{}", line);
+  for (const fuzz_follower& f : r.followers) complain_of(f.mismatch_reports);
   if (!missed.empty()) complain("{}", missed);
   if (!options.out.empty())
     for (const std::string& name : write_cases(run.cases, options.out, request.seed))

@@ -52,35 +52,29 @@ bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument[0] == '-';
 }
 
-/// What may have been meant by the first of `unknown` that looks like one of `options`.
-std::string meant_option(const std::vector<std::string>& unknown,
-                         const std::vector<option_description>& options) {
-  for (const std::string& argument : unknown) {
-    if (!is_option(argument)) continue;
-    if (std::string meant = did_you_mean(name_in(argument), names_of(options)); !meant.empty()) return meant;
-  }
-  return "";
-}
-
-std::string missing_command(const program_description& program, const std::vector<std::string>& unknown) {
-  if (unknown.empty()) return "a command is missing";
-  const bool option = is_option(unknown.front());
-  const std::vector<std::string> known = option ? names_of(program.options) : names_of(program.commands);
-  return fmt::format("\"{}\" is no {} of contct", unknown.front(), option ? "option" : "command") +
-         did_you_mean(name_in(unknown.front()), known);
-}
-
 /// `error` as the parser words it, and what may have been meant by an option or a command that `program` does
 /// not have. `command` is empty when the command line names none. `unknown`: the arguments that were not
 /// understood.
 std::string usage_words(const program_description& program, const std::string& command,
                         const std::vector<std::string>& unknown, const std::string& error) {
   constexpr const char* advice = "\nRun with --help for more information.";
-  if (program.commands.empty()) return error + meant_option(unknown, program.options) + advice;
   const auto named = std::ranges::find(program.commands, command, &command_description::name);
-  if (named != program.commands.end()) return error + meant_option(unknown, named->options) + advice;
-  return fmt::format("{}; the commands are: {}{}", missing_command(program, unknown),
-                     joined(names_of(program.commands), ", "), advice);
+  if (program.commands.empty() || named != program.commands.end()) {
+    const std::vector<std::string> known =
+        names_of(program.commands.empty() ? program.options : named->options);
+    std::string meant;
+    for (const std::string& argument : unknown)
+      if (meant.empty() && is_option(argument)) meant = did_you_mean(name_in(argument), known);
+    return error + meant + advice;
+  }
+  std::string words = "a command is missing";
+  if (!unknown.empty()) {
+    const bool option = is_option(unknown.front());
+    words = fmt::format("\"{}\" is no {} of contct{}", unknown.front(), option ? "option" : "command",
+                        did_you_mean(name_in(unknown.front()),
+                                     option ? names_of(program.options) : names_of(program.commands)));
+  }
+  return fmt::format("{}; the commands are: {}{}", words, joined(names_of(program.commands), ", "), advice);
 }
 
 /// A parser, and what it does not know of its options: the kind of argument that each takes.
@@ -235,7 +229,7 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   p.add_problem_file(c, o.file);
   p.add_kernels(c, "--kernels", o.kernels, "Kernels to run, the first one leads")->capture_default_str();
   p.add(
-      c, takes::engine, "--engine", o.engine,
+      c, takes::word, "--engine", o.engine,
       fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto for others]",
                   joined(engines, ", ")),
       engines);
@@ -270,7 +264,7 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
   p.add(c, takes::number, "--pair", o.pair, "Only this pair, from 1");
   p.add_kernels(c, "--kernels", o.kernels, "The kernels to put side by side, the first one leads")
       ->capture_default_str();
-  p.add(c, takes::engine, "--engine", o.engine, "How the stiffness equations are solved", engines)
+  p.add(c, takes::word, "--engine", o.engine, "How the stiffness equations are solved", engines)
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");
   p.add_quiet(c, o.quiet);

@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <cstdlib>
+#include <mutex>
 #include <stdexcept>
 
 #include "contct/numeric/probe.hpp"
@@ -25,6 +27,28 @@ std::string in_cell(std::string_view text) {
   return escaped(text, escapes);
 }
 
+/// Seconds before anything is shown: what CONTCT_PROGRESS_AFTER in the environment says, or 1.
+double wait_before_progress() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
+  const char* const said = std::getenv("CONTCT_PROGRESS_AFTER");
+  const auto seconds = said == nullptr ? 1.0 : number_in<double>(said);
+  if (!seconds || !(*seconds >= 0.0))
+    throw std::invalid_argument(
+        fmt::format("CONTCT_PROGRESS_AFTER: found \"{}\"; allowed: seconds, 0 or more", said));
+  return *seconds;
+}
+
+/// Does anybody wait at a terminal?
+bool waits_at_terminal(bool quiet) {
+  return !quiet && isatty(STDERR_FILENO) != 0;
+}
+
+/// Write over the line at which the cursor is.
+void put_line(std::string_view words) {
+  const std::string line = fmt::format("\r{}\033[K", words);
+  (void)std::fputs(line.c_str(), stderr);
+}
+
 }  // namespace
 
 void hold_standard_streams() {
@@ -38,6 +62,10 @@ void hold_standard_streams() {
 
 void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items) {
   for (const std::string& line : wrap(items, t.width)) fmt::print("{}\n", painted(t, p, line));
+}
+
+void complain_of(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) complain("{}", line);
 }
 
 std::int64_t check_report::count(outcome o) const {
@@ -89,8 +117,7 @@ std::vector<std::string> common_facts() {
 }
 
 std::vector<output_option> with_reports(std::vector<output_option> others, const report_options& options) {
-  others.push_back({"--junit", options.junit});
-  others.push_back({"--markdown", options.markdown});
+  others.insert(others.end(), {{"--junit", options.junit}, {"--markdown", options.markdown}});
   return others;
 }
 
@@ -143,20 +170,6 @@ void output_files::write(const check_report& report) const {
   write("--markdown", markdown(report));
 }
 
-double wait_before_progress() {
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  const char* const said = std::getenv("CONTCT_PROGRESS_AFTER");
-  const auto seconds = said == nullptr ? 1.0 : number_in<double>(said);
-  if (!seconds || !(*seconds >= 0.0))
-    throw std::invalid_argument(
-        fmt::format("CONTCT_PROGRESS_AFTER: found \"{}\"; allowed: seconds, 0 or more", said));
-  return *seconds;
-}
-
-bool waits_at_terminal(bool quiet) {
-  return !quiet && isatty(STDERR_FILENO) != 0;
-}
-
 progress::progress(std::int64_t all, std::string what, bool quiet)
     : wanted_(waits_at_terminal(quiet)),
       after_(wait_before_progress()),
@@ -178,12 +191,33 @@ void progress::say(std::string_view words) {
   if (!is_due()) return;
   last_ = clock::now();
   shown_ = true;
-  const std::string line = fmt::format("\r{}\033[K", words);
-  (void)std::fputs(line.c_str(), stderr);
+  put_line(words);
 }
 
 void progress::erase() {
-  if (std::exchange(shown_, false)) (void)std::fputs("\r\033[K", stderr);
+  if (std::exchange(shown_, false)) put_line("");
+}
+
+std::jthread shown_activity(const std::string& activity, bool quiet) {
+  const double after = wait_before_progress();
+  if (!waits_at_terminal(quiet)) return {};
+  return std::jthread([activity, after](const std::stop_token& over) {
+    using seconds = std::chrono::duration<double>;
+    const auto begun = std::chrono::steady_clock::now();
+    const auto draw = [&activity](seconds s) { put_line(fmt::format("{}, {:.0f} s", activity, s.count())); };
+    bool shown = after <= 0.0;
+    if (shown) draw(seconds(0.0));
+    std::mutex guard;
+    std::unique_lock lock(guard);
+    std::condition_variable_any ended;
+    seconds next(shown ? 1.0 : after);
+    while (!ended.wait_for(lock, over, next, [&over] { return over.stop_requested(); })) {
+      draw(std::chrono::steady_clock::now() - begun);
+      shown = true;
+      next = seconds(1.0);
+    }
+    if (shown) put_line("");
+  });
 }
 
 }  // namespace contct::app

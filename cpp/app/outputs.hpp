@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -29,10 +30,16 @@ void complain(fmt::format_string<Arguments...> words, Arguments&&... arguments) 
   (void)std::fputs(line.c_str(), stderr);
 }
 
+/// The same, a line each.
+void complain_of(const std::vector<std::string>& lines);
+
 /// Print `items` in lines of the terminal's width; see wrap.
 void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items);
 
 enum class outcome { passed, failed, skipped };
+constexpr outcome passed_if(bool good) {
+  return good ? outcome::passed : outcome::failed;
+}
 
 /// One thing that was checked.
 struct check_result {
@@ -98,13 +105,6 @@ class output_files {
   std::map<std::string_view, std::unique_ptr<output_file>> files_;
 };
 
-/// Seconds before anything is shown: what CONTCT_PROGRESS_AFTER in the environment says, or 1. Throws
-/// std::invalid_argument when that is no time.
-[[nodiscard]] double wait_before_progress();
-
-/// Does anybody wait at a terminal?
-[[nodiscard]] bool waits_at_terminal(bool quiet);
-
 /// How far a long piece of work has come: one line on standard error, written over and over and gone in the
 /// end. Nothing at all in the first second, where standard error is not a terminal, or where it is to be
 /// quiet.
@@ -135,5 +135,9 @@ class progress {
   std::string what_;
   clock::time_point begun_ = clock::now(), last_ = begun_;
 };
+
+/// As long as the thread lives, the terminal shows what the program is doing and for how long: "reading
+/// model.toml, 3 s". Nothing else may be printed meanwhile, and no process forked.
+[[nodiscard]] std::jthread shown_activity(const std::string& activity, bool quiet);
 
 }  // namespace contct::app

@@ -1,9 +1,5 @@
 #include "app/problem_runs.hpp"
 
-#include <condition_variable>
-#include <mutex>
-#include <thread>
-
 #include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
@@ -12,63 +8,31 @@
 namespace contct::app {
 namespace {
 
-/// As long as the thread lives, a terminal shows what the program is doing and for how long: "reading
-/// model.toml, 3 s". Nothing else may be printed meanwhile, and no process forked.
-std::jthread shown_activity(const std::string& activity, bool quiet) {
-  const double after = wait_before_progress();
-  if (!waits_at_terminal(quiet)) return {};
-  return std::jthread([activity, after](const std::stop_token& over) {
-    using seconds = std::chrono::duration<double>;
-    const auto begun = std::chrono::steady_clock::now();
-    const auto draw = [&activity](seconds since) {
-      const std::string line = fmt::format("\r{}, {:.0f} s\033[K", activity, since.count());
-      (void)std::fputs(line.c_str(), stderr);
-    };
-    bool shown = after <= 0.0;
-    if (shown) draw(seconds(0.0));
-    std::mutex guard;
-    std::unique_lock lock(guard);
-    std::condition_variable_any ended;
-    seconds next(shown ? 1.0 : after);
-    while (!ended.wait_for(lock, over, next, [&over] { return over.stop_requested(); })) {
-      draw(std::chrono::steady_clock::now() - begun);
-      shown = true;
-      next = seconds(1.0);
-    }
-    if (shown) (void)std::fputs("\r\033[K", stderr);
-  });
-}
+struct eraser final : observer {
+  explicit eraser(progress& p) : shown(p) {}
+  void incremented(const increment& /*i*/) override { shown.erase(); }
+  void step_ended(const step_state& /*s*/) override { shown.erase(); }
 
-class eraser final : public observer {
- public:
-  explicit eraser(progress& shown) : shown_(shown) {}
-  void incremented(const increment& /*i*/) override { shown_.erase(); }
-  void step_ended(const step_state& /*s*/) override { shown_.erase(); }
-
- private:
-  progress& shown_;
+  progress& shown;
 };
 
-class increment_counter final : public observer {
- public:
-  increment_counter(progress& shown, std::size_t steps) : shown_(shown), steps_(steps) {}
+struct increment_counter final : observer {
+  increment_counter(progress& p, std::size_t all_steps) : shown(p), steps(all_steps) {}
   void called(const answered_call& /*c*/) override {
-    shown_.say(fmt::format("step {} of {}, increment {}", step_, steps_, ++increment_));
+    shown.say(fmt::format("step {} of {}, increment {}", step, steps, ++number));
   }
   void incremented(const increment& i) override {
-    shown_.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", i.step, steps_,
-                           i.number + 1, 100.0 * i.fraction));
+    shown.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", i.step, steps,
+                          i.number + 1, 100.0 * i.fraction));
   }
   void step_ended(const step_state& s) override {
-    step_ = s.step + 1;
-    increment_ = 0;
+    step = s.step + 1;
+    number = 0;
   }
 
- private:
-  progress& shown_;
-  std::size_t steps_;
-  int step_ = 1;
-  int increment_ = 0;
+  progress& shown;
+  std::size_t steps;
+  int step = 1, number = 0;
 };
 
 std::string pair_words(const problem& p, const std::vector<int>& pairs) {
@@ -94,22 +58,6 @@ std::string mechanism_words(const problem& p, const path_end& end) {
                               : "");
 }
 
-std::string reason_words(const problem& p, const path_end& end) {
-  switch (end.status) {
-    case path_status::mechanism:
-      return mechanism_words(p, end);
-    case path_status::cycle:
-      return "a cycle at a standstill: these pairs keep toggling: " + pair_words(p, end.pairs);
-    case path_status::iteration_limit:
-      return "the limit of increments (--max-increments) is reached; these pairs keep toggling: " +
-             (end.pairs.empty() ? "none" : pair_words(p, end.pairs));
-    default:
-      return "the structure is held, but its stiffness is too ill-conditioned, or its loads too large, for "
-             "double precision: no digit of the answer would be right. Use fewer elements in a span, or "
-             "stiffness and loads of less extreme size";
-  }
-}
-
 }  // namespace
 
 problem read_with_progress(const std::string& file, bool quiet) {
@@ -132,8 +80,23 @@ path_progress::path_progress(std::size_t steps, bool quiet)
       behind(std::make_unique<increment_counter>(line, steps)) {}
 
 std::string end_words(const problem& p, const path_end& end) {
-  if (end.status == path_status::solved) return "";
-  return fmt::format("step {}, at share {:.9g} of its load: ", end.step, end.fraction) + reason_words(p, end);
+  const std::string where = fmt::format("step {}, at share {:.9g} of its load: ", end.step, end.fraction);
+  switch (end.status) {
+    case path_status::solved:
+      return "";
+    case path_status::mechanism:
+      return where + mechanism_words(p, end);
+    case path_status::cycle:
+      return where + "a cycle at a standstill: these pairs keep toggling: " + pair_words(p, end.pairs);
+    case path_status::iteration_limit:
+      return where + "the limit of increments (--max-increments) is reached; these pairs keep toggling: " +
+             (end.pairs.empty() ? "none" : pair_words(p, end.pairs));
+    default:
+      return where +
+             "the structure is held, but its stiffness is too ill-conditioned, or its loads too large, for "
+             "double precision: no digit of the answer would be right. Use fewer elements in a span, or "
+             "stiffness and loads of less extreme size";
+  }
 }
 
 exit_status status_of(path_status status) {
@@ -144,22 +107,22 @@ exit_status status_of(path_status status) {
 }
 
 void digit_watch::step_ended(const step_state& s) {
-  if (digits_left(s.rcond) >= fewest_) return;
-  fewest_ = digits_left(s.rcond);
-  step_ = s.step;
-  rcond_ = s.rcond;
+  if (digits_left(s.rcond) >= fewest) return;
+  fewest = digits_left(s.rcond);
+  step = s.step;
+  rcond = s.rcond;
 }
 
 std::string digit_watch::warning() const {
   constexpr int enough = 5;
-  if (fewest_ >= enough) return "";
-  const std::string digits = fewest_ == 0   ? "no digit"
-                             : fewest_ == 1 ? "about 1 digit"
-                                            : fmt::format("about {} digits", fewest_);
+  if (fewest >= enough) return "";
+  const std::string digits = fewest == 0   ? "no digit"
+                             : fewest == 1 ? "about 1 digit"
+                                           : fmt::format("about {} digits", fewest);
   return fmt::format(
       "step {}: {} of the answer can be relied on: the stiffness is ill-conditioned (rcond {:.1e}). Fewer "
       "elements in a span, or more supports, would help",
-      step_, digits, rcond_);
+      step, digits, rcond);
 }
 
 }  // namespace contct::app

@@ -32,18 +32,23 @@ struct path_progress {
 /// What the program ends with after such a path, where the kernels agree.
 [[nodiscard]] exit_status status_of(path_status status);
 
+/// "8 calls, 64 values compared, 0 mismatches", of what compares the calls of a path.
+template <class Comparing>
+[[nodiscard]] std::string counts_of(const Comparing& c) {
+  return fmt::format("{} calls, {} values compared, {} mismatches", c.calls(), c.compared().values,
+                     c.compared().mismatches);
+}
+
 /// Observes a path and remembers the step whose answer kept the fewest digits.
-class digit_watch final : public observer {
- public:
+struct digit_watch final : observer {
   void step_ended(const step_state& s) override;
 
   /// A warning where too few digits are left to rely on; empty otherwise.
   [[nodiscard]] std::string warning() const;
 
- private:
-  int fewest_ = 16;
-  int step_ = 0;
-  double rcond_ = 1.0;
+  int fewest = 16;
+  int step = 0;
+  double rcond = 1.0;
 };
 
 }  // namespace contct::app

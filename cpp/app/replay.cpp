@@ -17,17 +17,8 @@ std::string usual_kernel(const trace_header& h) {
   return h.real_bytes == 4 ? "fortran-r4" : "fortran";
 }
 
-std::string first_failure_details(const replay_report& r) {
-  std::string details;
-  for (const std::string& line : words_of(*r.first)) details += line + "\n";
-  if (const floating_point fp = probe_floating_point(); !fp.strict())
-    details += "environment, not kernel: " + describe(fp) + "\n";
-  return details;
-}
-
 /// What a replay says. What a floating point that is not strict computes says nothing of a kernel.
-std::string verdict_of(const replay_report& r) {
-  const floating_point fp = probe_floating_point();
+std::string verdict_of(const replay_report& r, const floating_point& fp) {
   if (r.compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";
   return fp.strict() ? "equal to the bit"
                      : fmt::format("equal to the bit, but the environment is not strict ({})", describe(fp));
@@ -55,10 +46,13 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   });
   shown.erase();
   if (r.calls == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
-  result.what = r.compared.mismatches == 0 ? outcome::passed : outcome::failed;
-  result.summary = fmt::format("{}; {} calls, {} values compared, {} mismatches", verdict_of(r), r.calls,
+  const floating_point fp = probe_floating_point();
+  result.what = passed_if(r.compared.mismatches == 0);
+  result.summary = fmt::format("{}; {} calls, {} values compared, {} mismatches", verdict_of(r, fp), r.calls,
                                r.compared.values, r.compared.mismatches);
-  if (r.first) result.details = first_failure_details(r);
+  if (!r.first) return result;
+  result.details = joined(words_of(*r.first), "\n") + "\n";
+  if (!fp.strict()) result.details += "environment, not kernel: " + describe(fp) + "\n";
   return result;
 }
 
@@ -76,15 +70,13 @@ exit_status run_command(const replay_options& options) {
   const output_files files(outputs);
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   const terminal t = look_at_terminal();
+  constexpr paint paints[] = {paint::good, paint::bad, paint::quiet};  // as in `outcome`
   check_report report{"contct replay", common_facts(), {}, 0.0};
   for (const std::string& file : options.traces) {
     const std::string text = read_input(file, "trace", 2048);
     for (const std::string& kernel : kernels) {
       check_result r = replay_one(file == "-" ? "standard input" : file, text, kernel, options.report.quiet);
-      const paint p = r.what == outcome::failed   ? paint::bad
-                      : r.what == outcome::passed ? paint::good
-                                                  : paint::quiet;
-      if (!silent) fmt::print("{}: {}\n", r.name, painted(t, p, r.summary));
+      if (!silent) fmt::print("{}: {}\n", r.name, painted(t, paints[static_cast<int>(r.what)], r.summary));
       if (!r.details.empty()) complain("{}: {}", r.name, r.details.substr(0, r.details.size() - 1));
       report.results.push_back(std::move(r));
     }

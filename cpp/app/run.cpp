@@ -27,19 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is run; complete before any file is opened.
-struct run_setup {
-  const run_options& options;
-  std::vector<output_option> outputs;
-  std::chrono::steady_clock::time_point started;
-  std::vector<std::string> kernels;  // the leader first; none under --final-only
-  problem what;
-  linear_structure structure;
-  std::string engine;  // of the leader's path
-  terminal screen;
-  bool prints;  // heading, table and verdicts
-};
-
 // Files that belong to an option beside its own.
 constexpr const char* csv_pairs = "--csv (its pairs)";
 constexpr const char* vtu_collection = "--vtu (its collection)";
@@ -108,35 +95,39 @@ std::string engine_for(const std::string& kernel, const run_options& o, const li
   return std::string(quickest_engine(s));
 }
 
+/// What is run; complete before any file is opened.
+struct run_setup {
+  const run_options& options;
+  std::vector<output_option> outputs = outputs_of(options);
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+  terminal screen = look_at_terminal();
+  bool prints = !options.report.quiet && !takes_standard_output(outputs);  // heading, table and verdicts
+  std::vector<std::string> kernels = {};  // the leader first; none under --final-only
+  problem what = {};
+  linear_structure structure = {};
+  std::string engine = "oracle";  // of the leader's path
+};
+
 run_setup set_up(const run_options& o) {
-  std::vector<output_option> outputs = outputs_of(o);
-  const auto started = std::chrono::steady_clock::now();
+  run_setup run{o};
   refuse_bad_options(o);
-  problem p = read_with_progress(o.file, o.report.quiet);
-  if (!o.pictures.vtu.empty()) check_grid_coordinates(p);
-  linear_structure s = build_with_progress(p, o.report.quiet);
-  std::string engine = o.final_only ? "oracle" : engine_for(o.kernels.front(), o, s);
-  refuse_shared_outputs(outputs, {{"the problem", o.file}});
-  const bool prints = !o.report.quiet && !takes_standard_output(outputs);
-  return {.options = o,
-          .outputs = std::move(outputs),
-          .started = started,
-          .kernels = o.final_only ? std::vector<std::string>() : o.kernels,
-          .what = std::move(p),
-          .structure = std::move(s),
-          .engine = std::move(engine),
-          .screen = look_at_terminal(),
-          .prints = prints};
+  run.what = read_with_progress(o.file, o.report.quiet);
+  if (!o.pictures.vtu.empty()) check_grid_coordinates(run.what);
+  run.structure = build_with_progress(run.what, o.report.quiet);
+  if (!o.final_only) {
+    run.kernels = o.kernels;
+    run.engine = engine_for(o.kernels.front(), o, run.structure);
+  }
+  refuse_shared_outputs(run.outputs, {{"the problem", o.file}});
+  return run;
 }
 
 /// Writes what the leader writes to unit 26.
-class log_writer final : public observer {
- public:
-  explicit log_writer(output_file& out) : out_(out) {}
-  void called(const answered_call& c) override { out_.write(c.text); }
+struct log_writer final : observer {
+  explicit log_writer(output_file& file) : out(file) {}
+  void called(const answered_call& c) override { out.write(c.text); }
 
- private:
-  output_file& out_;
+  output_file& out;
 };
 
 trace_header header_of_trace(const run_setup& run, const kernel_facts& leader) {
@@ -239,12 +230,8 @@ struct comparison {
 
 /// Print how the comparison came out. A mismatch under a bad probe is the environment's.
 comparison report_lockstep(observed_run& o, const lockstep& compared) {
-  const tally& t = compared.compared();
   const std::string names = joined(o.run.kernels, " and ");
-  comparison c{
-      t.mismatches == 0,
-      fmt::format("{} calls, {} values compared, {} mismatches", compared.calls(), t.values, t.mismatches),
-      ""};
+  comparison c{compared.compared().mismatches == 0, counts_of(compared), ""};
   if (compared.calls() == 0) {
     print_verdict(o, paint::quiet, {names + " were never called: nothing is compared"});
     return c;
@@ -252,10 +239,9 @@ comparison report_lockstep(observed_run& o, const lockstep& compared) {
   print_verdict(o, c.equal ? paint::good : paint::bad,
                 {fmt::format("{} {} to the bit", names, c.equal ? "are equal" : "are NOT equal"), c.words});
   if (!compared.first()) return c;
-  for (const std::string& line : words_of(*compared.first())) {
-    complain("{}", line);
-    c.differences += line + "\n";
-  }
+  const std::vector<std::string> lines = words_of(*compared.first());
+  complain_of(lines);
+  c.differences = joined(lines, "\n") + "\n";
   const floating_point fp = probe_floating_point();
   if (!fp.strict()) complain("environment, not kernel: {}", describe(fp));
   return c;
@@ -290,14 +276,7 @@ void report_certificate(observed_run& o) {
     print_verdict(o, good ? paint::good : paint::bad, items);
   }
   flush_standard_output();  // the table before what is said about it; and no files when it is lost
-  for (const std::string& line : certificate_complaints(o.run.what, o.judged, o.early)) complain("{}", line);
-}
-
-/// The result of the certificate as a check. Without --strict nothing fails for it.
-check_result certificate_result(const observed_run& o) {
-  if (o.judged.all_exact()) return {"certificate", outcome::passed, "every final state is certified", ""};
-  return {"certificate", o.run.options.strict ? outcome::failed : outcome::skipped, "NOT certified",
-          joined(certificate_complaints(o.run.what, o.judged, o.early), "\n")};
+  complain_of(certificate_complaints(o.run.what, o.judged, o.early));
 }
 
 /// The report for --junit and --markdown.
@@ -305,21 +284,18 @@ check_report check_report_of(const observed_run& o, const path_end& end, const c
   const run_setup& run = o.run;
   check_report r{"contct run", common_facts(), {}, 0.0};
   r.facts.push_back(fmt::format("{}: kernels {}", run.options.file, joined(run.kernels, ", ")));
-  if (run.kernels.size() > 1)
-    r.results.push_back({"kernels", c.equal ? outcome::passed : outcome::failed, c.words, c.differences});
+  if (run.kernels.size() > 1) r.results.push_back({"kernels", passed_if(c.equal), c.words, c.differences});
   const std::string ended = end_words(run.what, end);
   const bool solved = end.status == path_status::solved;
-  r.results.push_back({"path", solved ? outcome::passed : outcome::failed,
-                       solved ? "every step's load is applied" : ended, ended});
-  r.results.push_back(certificate_result(o));
+  r.results.push_back({"path", passed_if(solved), solved ? "every step's load is applied" : ended, ended});
+  if (o.judged.all_exact()) {
+    r.results.push_back({"certificate", outcome::passed, "every final state is certified", ""});
+  } else {  // without --strict nothing fails for it
+    r.results.push_back({"certificate", run.options.strict ? outcome::failed : outcome::skipped,
+                         "NOT certified", joined(certificate_complaints(run.what, o.judged, o.early), "\n")});
+  }
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - run.started).count();
   return r;
-}
-
-exit_status exit_status_of(const observed_run& o, path_status ended, bool equal) {
-  if (!equal) return exit_status::kernels_differ;
-  const bool uncertified = o.run.options.strict && !o.judged.all_exact();
-  return ended == path_status::solved && uncertified ? exit_status::uncertified : status_of(ended);
 }
 
 /// The collection last: whoever sees it finds all that it names.
@@ -372,7 +348,10 @@ exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
   } else if (const std::string w = o.digits.warning(); !w.empty()) {
     complain("warning: {}", w);
   }
-  const exit_status status = exit_status_of(o, end.status, c.equal);
+  const bool uncertified = o.run.options.strict && !o.judged.all_exact();
+  const exit_status status = !c.equal                                           ? exit_status::kernels_differ
+                             : end.status == path_status::solved && uncertified ? exit_status::uncertified
+                                                                                : status_of(end.status);
   if (status != exit_status::bad_input) write_files(o, end, c);  // without numbers no files
   return status;
 }

@@ -19,7 +19,7 @@ program_description small_program() {
                   {"--out", "TEXT", "Write to this file", "", takes::file, {}, false},
                   {"--force", "FLOAT", "How much", "3", takes::number, {}, false},
                   {"--kernels", "TEXT", "Which", "", takes::kernels, {"fortran", "cpp"}, false},
-                  {"--engine", "TEXT", "How", "", takes::engine, {"auto", "refactor"}, false}},
+                  {"--engine", "TEXT", "How", "", takes::word, {"auto", "refactor"}, false}},
                  {{"SHAPE", "TEXT", "beam or plate", "", takes::word, {"beam", "plate"}, true},
                   {"FILE", "TEXT", "Where to", "", takes::file, {}, false}}}};
   static constexpr example examples[] = {{"contct pull beam -", "what it is good for"}};

@@ -1,10 +1,9 @@
 // The options of both programs, as data: what a command line comes to, and what the manual is made of.
-#include "app/commands.hpp"
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
+#include "app/commands.hpp"
 #include "catch.hpp"
 #include "contct/kernel/built_in.hpp"
 
@@ -176,7 +175,7 @@ TEST_CASE("every option is described with the kind of argument that it takes") {
       INFO(c.name << " " << o.name);
       CHECK_FALSE(o.text.empty());
       CHECK((o.kind == takes::nothing) == o.value.empty());
-      const bool has_list = o.kind == takes::kernels || o.kind == takes::engine || o.kind == takes::word;
+      const bool has_list = o.kind == takes::kernels || o.kind == takes::word;
       CHECK(has_list != o.words.empty());
     }
     CHECK(option_in(c.options, "--help").kind == takes::nothing);

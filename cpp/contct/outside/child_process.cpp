@@ -43,17 +43,13 @@ void detach_from_parent(int channel) {
   close_range(kept + 1, ~0U, 0);
 }
 
-int milliseconds_until(child_process::clock::time_point deadline) {
-  const auto left =
-      std::chrono::ceil<std::chrono::milliseconds>(deadline - child_process::clock::now()).count();
-  return static_cast<int>(std::clamp<long long>(left, 0, 1'000'000'000));
-}
-
 /// Wait until the channel is ready for `events`. False when the deadline comes first.
 bool ready(int channel, short events, child_process::clock::time_point deadline) {
   while (true) {
+    using namespace std::chrono;
+    const std::int64_t left = ceil<milliseconds>(deadline - child_process::clock::now()).count();
     pollfd p{channel, events, 0};
-    const int found = poll(&p, 1, milliseconds_until(deadline));
+    const int found = poll(&p, 1, static_cast<int>(std::clamp<std::int64_t>(left, 0, 1'000'000'000)));
     if (found > 0) return true;
     if (found == 0 || errno != EINTR) return false;
   }

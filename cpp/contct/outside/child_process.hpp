@@ -82,8 +82,12 @@ class kernel_in_child : public kernel {
 
 /// What is known of a kernel from outside by its name alone: the listing's rule, 8-byte REAL, and no text of
 /// its own.
-[[nodiscard]] kernel_facts facts_of_plugin(const std::string& path);
-[[nodiscard]] kernel_facts facts_of_pipe(const std::string& command);
+[[nodiscard]] inline kernel_facts facts_of_plugin(const std::string& path) {
+  return {"plugin:" + path, 8, "listing", "a shared library", "", "", false};
+}
+[[nodiscard]] inline kernel_facts facts_of_pipe(const std::string& command) {
+  return {"pipe:" + command, 8, "listing", "a command", "", "", false};
+}
 
 /// "plugin:PATH". The library is loaded, and every call made, in a child process. Throws
 /// std::invalid_argument when it cannot be loaded, lacks a symbol, or has another ABI.

@@ -81,10 +81,6 @@ class pipe_kernel final : public kernel_in_child {
 
 }  // namespace
 
-kernel_facts facts_of_pipe(const std::string& command) {
-  return {"pipe:" + command, 8, "listing", "a command", "", "", false};
-}
-
 std::unique_ptr<kernel> make_pipe(const std::string& command, const outside_limits& limits) {
   return std::make_unique<pipe_kernel>(command, limits);
 }

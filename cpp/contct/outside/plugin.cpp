@@ -9,7 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 
@@ -24,25 +24,20 @@ using kernel_function = decltype(&contct_kernel);
 constexpr std::string_view ready_word = "ready";
 constexpr const char* too_slow = "did not load within its time";
 
-/// Memory that parent and child both see, as long as this object lives.
-class shared_memory {
- public:
-  explicit shared_memory(std::size_t bytes)
-      : at_(mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)), size_(bytes) {
-    if (at_ == MAP_FAILED)
-      throw std::system_error(errno, std::generic_category(), "no memory to share with a plug-in");
-  }
-  ~shared_memory() { munmap(at_, size_); }
-  shared_memory(const shared_memory&) = delete;
-  shared_memory& operator=(const shared_memory&) = delete;
-
-  [[nodiscard]] std::byte* data() const { return static_cast<std::byte*>(at_); }
-  [[nodiscard]] std::size_t size() const { return size_; }
-
- private:
-  void* at_;
-  std::size_t size_;
+struct unmapper {
+  std::size_t bytes = 0;
+  void operator()(std::byte* memory) const { munmap(memory, bytes); }
 };
+
+/// Memory that parent and child both see.
+using shared_memory = std::unique_ptr<std::byte[], unmapper>;
+
+shared_memory share_memory(std::size_t bytes) {
+  void* const at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (at == MAP_FAILED)
+    throw std::system_error(errno, std::generic_category(), "no memory to share with a plug-in");
+  return {static_cast<std::byte*>(at), unmapper{bytes}};
+}
 
 enum array_index { dd, dtest, cc, ss, smin, id, isep, isurf, arrays };
 constexpr const char* names[arrays] = {"DD", "DTEST", "CC", "SS", "SMIN", "ID", "ISEP", "ISURF"};
@@ -80,8 +75,7 @@ T* at(std::byte* memory, std::size_t place) {
 }
 
 /// What the child does until its channel is closed: wait for a call, make it, say so.
-void serve(const shared_memory& memory, kernel_function ask, int channel) {
-  std::byte* const m = memory.data();
+void serve(std::byte* m, kernel_function ask, int channel) {
   const layout& l = *at<layout>(m, 0);
   const auto reals = [m, &l](array_index a) { return at<double>(m, l.at[a]); };
   const auto wholes = [m, &l](array_index a) { return at<int>(m, l.at[a]); };
@@ -94,7 +88,7 @@ void serve(const shared_memory& memory, kernel_function ask, int channel) {
 }
 
 /// What the child does: load the library, say "ready" or what is wrong, serve.
-void host(const shared_memory& memory, const std::string& path, int channel) {
+void host(std::byte* memory, const std::string& path, int channel) {
   const auto say = [channel](const std::string& words) {
     [[maybe_unused]] const ssize_t n = ::write(channel, words.data(), words.size());
   };
@@ -122,7 +116,7 @@ class plugin_kernel final : public kernel_in_child {
   plugin_kernel(const std::string& path, const outside_limits& limits)
       : kernel_in_child(facts_of_plugin(path), limits), path_(path) {
     constexpr std::size_t enough_for_most = std::size_t{1} << 18;
-    memory_.emplace(enough_for_most);
+    memory_ = share_memory(enough_for_most);
     if (const std::string wrong = start(); !wrong.empty())
       throw std::invalid_argument("plugin:" + path + ": " + wrong);
   }
@@ -140,7 +134,7 @@ class plugin_kernel final : public kernel_in_child {
     if (how == child_process::sent::whole) how = child_->receive(word, until);
     if (how != child_process::sent::whole) fail_without_answer(how);
     refuse_changes(l, c);
-    std::byte* const m = memory_->data();
+    std::byte* const m = memory_.get();
     c.smin = *at<double>(m, l.at[smin]);
     std::copy_n(at<double>(m, l.at[ss]), c.ss.size(), c.ss.begin());
     std::copy_n(at<int>(m, l.at[isep]), c.isep.size(), c.isep.begin());
@@ -151,7 +145,7 @@ class plugin_kernel final : public kernel_in_child {
  private:
   /// Start the child. Returns what is wrong with the library.
   std::string start() {
-    child_.emplace([this](int channel) { host(*memory_, path_, channel); });
+    child_.emplace([this](int channel) { host(memory_.get(), path_, channel); });
     std::string word;
     const auto how = child_->receive(word, deadline());
     if (how == child_process::sent::whole && word == ready_word) return "";
@@ -163,9 +157,9 @@ class plugin_kernel final : public kernel_in_child {
 
   /// Memory is shared at the fork: more of it needs another child.
   void make_room(std::size_t bytes) {
-    if (bytes <= memory_->size()) return;
+    if (bytes <= memory_.get_deleter().bytes) return;
     child_.reset();
-    memory_.emplace(2 * bytes);
+    memory_ = share_memory(2 * bytes);
   }
 
   /// The caller's arrays, in the listing's order.
@@ -175,7 +169,7 @@ class plugin_kernel final : public kernel_in_child {
   }
 
   void write_call(const layout& l, const call<double>& c) {
-    std::byte* const m = memory_->data();
+    std::byte* const m = memory_.get();
     std::memset(m, std::to_integer<int>(fence_byte), l.end);
     std::memcpy(m, &l, sizeof l);
     const auto from = arrays_of(c);
@@ -185,7 +179,7 @@ class plugin_kernel final : public kernel_in_child {
 
   /// Fences and inputs must be as they were.
   void refuse_changes(const layout& l, const call<double>& c) {
-    const std::byte* const m = memory_->data();
+    const std::byte* const m = memory_.get();
     const auto from = arrays_of(c);
     std::string words;
     for (int a = 0; a < arrays; ++a) {
@@ -204,14 +198,10 @@ class plugin_kernel final : public kernel_in_child {
   }
 
   std::string path_;
-  std::optional<shared_memory> memory_;
+  shared_memory memory_;
 };
 
 }  // namespace
-
-kernel_facts facts_of_plugin(const std::string& path) {
-  return {"plugin:" + path, 8, "listing", "a shared library", "", "", false};
-}
 
 std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limits& limits) {
   return std::make_unique<plugin_kernel>(path, limits);

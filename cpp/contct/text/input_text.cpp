@@ -11,12 +11,6 @@
 namespace contct::text {
 namespace {
 
-struct closer {
-  void operator()(std::FILE* f) const {
-    if (f != stdin) (void)std::fclose(f);
-  }
-};
-
 /// from_chars takes no plus sign.
 std::string_view without_plus(std::string_view number) {
   const bool plus = number.size() > 1 && number[0] == '+' && number[1] != '-';
@@ -37,7 +31,8 @@ std::string read_input(const std::string& path, const std::string& kind, std::si
   std::error_code ignored;
   if (!standard && std::filesystem::is_directory(path, ignored))
     refuse_line(name, 0, "a directory", "a " + kind);
-  const std::unique_ptr<std::FILE, closer> file(standard ? stdin : std::fopen(path.c_str(), "rb"));
+  const auto close = [](std::FILE* f) { return f == stdin ? 0 : std::fclose(f); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(standard ? stdin : std::fopen(path.c_str(), "rb"));
   if (!file) throw input_error(name + ": cannot be read: " + std::strerror(errno));
   std::string text;
   char block[1 << 16];

@@ -14,10 +14,6 @@ bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-char lower(char ch) {
-  return ch >= 'A' && ch <= 'Z' ? static_cast<char>(ch - 'A' + 'a') : ch;
-}
-
 }  // namespace
 
 std::string joined(const std::vector<std::string>& words, std::string_view between) {
@@ -69,6 +65,7 @@ std::string in_quotes(std::string_view text) {
 }
 
 int edits_between(std::string_view a, std::string_view b) {
+  const auto lower = [](char ch) { return ch >= 'A' && ch <= 'Z' ? static_cast<char>(ch - 'A' + 'a') : ch; };
   // edits[i][j]: from the first i characters of a to the first j of b.
   std::vector<std::vector<int>> edits(a.size() + 1, std::vector<int>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = static_cast<int>(i);
@@ -86,26 +83,20 @@ int edits_between(std::string_view a, std::string_view b) {
   return edits[a.size()][b.size()];
 }
 
-std::string_view nearest(std::string_view found, std::span<const std::string> known) {
+std::string did_you_mean(std::string_view found, std::span<const std::string> known) {
   constexpr std::size_t longest_word = 64;  // the table of edits grows with its square
-  if (found.size() > longest_word) return {};
-  std::string_view best;
+  if (found.size() > longest_word) return "";
+  std::string_view nearest;
   int least = 0;
   for (const std::string& k : known) {
     const int edits = edits_between(found, k);
     const int allowed = std::max(1, static_cast<int>(k.size()) / 3);
     if (edits > allowed || edits >= static_cast<int>(k.size())) continue;
-    if (best.empty() || edits < least) {
-      best = k;
-      least = edits;
-    }
+    if (!nearest.empty() && edits >= least) continue;
+    nearest = k;
+    least = edits;
   }
-  return best;
-}
-
-std::string did_you_mean(std::string_view found, std::span<const std::string> known) {
-  const std::string_view meant = nearest(found, known);
-  return meant.empty() ? "" : " (did you mean \"" + std::string(meant) + "\"?)";
+  return nearest.empty() ? "" : " (did you mean \"" + std::string(nearest) + "\"?)";
 }
 
 }  // namespace contct::text

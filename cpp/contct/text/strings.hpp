@@ -37,11 +37,8 @@ struct escape {
 /// replaced, or two neighbours swapped. Case does not count.
 [[nodiscard]] int edits_between(std::string_view a, std::string_view b);
 
-/// The nearest of `known`, the first of equals, with at most a third of its letters wrong. Empty where none
-/// is near.
-[[nodiscard]] std::string_view nearest(std::string_view found, std::span<const std::string> known);
-
-/// " (did you mean \"stiffness\"?)", or nothing.
+/// " (did you mean \"stiffness\"?)": the nearest of `known`, the first of equals, with at most a third of its
+/// letters wrong. Empty where none is near.
 [[nodiscard]] std::string did_you_mean(std::string_view found, std::span<const std::string> known);
 
 }  // namespace contct::text

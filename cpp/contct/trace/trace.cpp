@@ -11,6 +11,17 @@
 namespace contct::trace {
 namespace {
 
+/// The lines "key value" of the header behind "about", in order; behind "kernel" stands "real". One whose
+/// value is empty is left out.
+constexpr std::pair<std::string_view, std::string trace_header::*> trace_facts[] = {
+    {"kernel", &trace_header::kernel},
+    {"rule", &trace_header::rule},
+    {"listing", &trace_header::listing},
+    {"compiler", &trace_header::compiler},
+    {"flags", &trace_header::flags},
+    {"lapack", &trace_header::lapack},
+    {"floating-point", &trace_header::floating_point}};
+
 void append_line(std::string& text, std::string_view key, std::string_view value) {
   if (value.empty()) return;
   text.append(key).append(" ").append(value).append("\n");
@@ -36,10 +47,6 @@ constexpr std::int64_t most_calls = 1'000'000'000'000'000'000;
 constexpr std::string_view dofs_line =
     "\"indof I ndofpn N dofs M nc K\", I and N from 1, M up to 10000000, K up to 1000000";
 
-bool is_hex_digit(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-}
-
 /// A hexfloat, as in -0x1.8p+1, or a decimal number; inf; nan.
 std::optional<double> real_in(std::string_view word) {
   const bool negative = word.starts_with('-');
@@ -47,7 +54,7 @@ std::optional<double> real_in(std::string_view word) {
   const bool hex = word.starts_with("0x");
   if (hex) word.remove_prefix(2);
   // from_chars takes a sign of its own, and inf behind 0x.
-  if (word.starts_with('-') || (hex && (word.empty() || !is_hex_digit(word.front())))) return {};
+  if (word.starts_with('-') || (hex && word.find_first_of("0123456789abcdefABCDEF") != 0)) return {};
   const auto value = number_in<double>(word, hex ? std::chars_format::hex : std::chars_format::general);
   return value && negative ? -*value : value;
 }
@@ -168,8 +175,6 @@ void append_answer(double smin, std::span<const double> ss, std::span<const int>
   text += "end\n";
 }
 
-trace_reader::trace_reader(std::string_view text, std::string_view name) : lines_(text, name) {}
-
 void trace_reader::refuse(std::string_view found, std::string_view allowed) const {
   constexpr std::size_t most_shown = 80;
   lines_.refuse(printable(found, most_shown), allowed);
@@ -210,13 +215,13 @@ void trace_reader::read_header_line(std::string_view line, trace_header& h) cons
     h.real_bytes = value == "4" ? 4 : 8;
     return;
   }
-  const auto* const fact = std::find_if(trace_facts.begin(), trace_facts.end(),
-                                        [&](const auto& f) { return takes(value, f.key); });
-  if (fact == trace_facts.end())
+  const auto* const fact =
+      std::ranges::find_if(trace_facts, [&](const auto& f) { return takes(value, f.first); });
+  if (fact == std::end(trace_facts))
     refuse(line,
            "about, kernel, real, rule, listing, compiler, flags, lapack, floating-point, or an empty line");
-  h.*fact->value = value;
-  if (fact->key == "rule" && value != "listing" && value != "corrected")
+  h.*fact->second = value;
+  if (fact->first == "rule" && value != "listing" && value != "corrected")
     refuse(line, R"("rule listing" or "rule corrected")");
 }
 

@@ -2,7 +2,6 @@
 // reference/trace-format.md describes it for people.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -31,22 +30,6 @@ struct trace_header {
   std::string lapack;              ///< whose solves the inputs come from, or "none"
   std::string floating_point;      ///< what the probe said
 };
-
-/// A line "key value" of the header; one whose value is empty is left out.
-struct trace_fact {
-  std::string_view key;
-  std::string trace_header::*value;
-};
-
-/// The lines of the header behind "about", in order; behind "kernel" stands "real".
-inline constexpr std::array<trace_fact, 7> trace_facts = {
-    {{"kernel", &trace_header::kernel},
-     {"rule", &trace_header::rule},
-     {"listing", &trace_header::listing},
-     {"compiler", &trace_header::compiler},
-     {"flags", &trace_header::flags},
-     {"lapack", &trace_header::lapack},
-     {"floating-point", &trace_header::floating_point}}};
 
 /// One call, and the answer to it.
 struct recorded_call {
@@ -83,7 +66,7 @@ class trace_reader {
   static constexpr int most_dofs = 10'000'000;
 
   /// `text` must outlive this object. `name` is the file's, for messages.
-  trace_reader(std::string_view text, std::string_view name);
+  trace_reader(std::string_view text, std::string_view name) : lines_(text, name) {}
 
   /// The header. Call it once, first.
   [[nodiscard]] trace_header read_header();
