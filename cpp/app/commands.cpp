@@ -95,8 +95,8 @@ point   = [ { node = 1, w = -4000.0 } ]  # a force at the near corner: the far o
 const char* problem_of(const std::string& shape) {
   if (shape == "beam") return new_beam;
   if (shape == "plate") return new_plate;
-  const std::vector<std::string> known = {"beam", "plate"};
-  throw std::invalid_argument("SHAPE: found " + shape + did_you_mean(shape, known) +
+  throw std::invalid_argument("SHAPE: found " + shape +
+                              did_you_mean(shape, std::vector<std::string>{"beam", "plate"}) +
                               "; allowed: beam or plate");
 }
 

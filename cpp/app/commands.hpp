@@ -88,8 +88,7 @@ struct atlas_options {
 };
 
 struct export_options {
-  std::string file;
-  std::string calculix;
+  std::string file, calculix;
   calculix_choice choice;
 };
 

@@ -83,12 +83,10 @@ exit_status nothing_told(const explain_options& o, const increments_wanted& want
     complain("--increment: found {}; allowed: an increment from 1 to {}{}", o.increment,
              told.most_increments(),
              wanted.step == 0 ? "" : fmt::format(", as many as step {} has", wanted.step));
-  const bool asked_for_more = wanted.step > 0 || wanted.increment > 0;
-  return asked_for_more ? exit_status::bad_input : status_of(end.status);
+  return wanted.step > 0 || wanted.increment > 0 ? exit_status::bad_input : status_of(end.status);
 }
 
 void print_comparison(const std::vector<std::string>& kernels, const explained_path& told) {
-  if (kernels.size() < 2) return;
   const bool equal = told.compared().mismatches == 0;
   fmt::print("\n");
   print_wrapped(look_at_terminal(), equal ? paint::good : paint::bad,
@@ -128,7 +126,7 @@ exit_status run_command(const explain_options& options) {
   shown.line.erase();
 
   const bool anything = end.status != path_status::not_factored && told.explained() > 0;
-  if (anything && text) print_comparison(options.kernels, told);
+  if (anything && text && options.kernels.size() > 1) print_comparison(options.kernels, told);
   if (anything) flush_standard_output();
   if (anything && told.first()) complain_of(words_of(*told.first()));
   if (end.status != path_status::solved) complain("{}: {}", options.file, end_words(p, end));

@@ -57,9 +57,9 @@ check_report report_of(const fuzz_result& r, const std::string& missed) {
   check_report report{"contct fuzz", common_facts(), {}, r.seconds};
   report.facts.push_back(command_of(r.request));
   for (const fuzz_follower& f : r.followers) {
-    const bool equal = f.compared.mismatches == 0;
-    report.results.push_back({f.name + " against " + r.request.kernels[0], passed_if(equal),
-                              follower_words(f, r.request.kernels[0]), joined(f.mismatch_reports, "\n")});
+    report.results.push_back({f.name + " against " + r.request.kernels[0],
+                              passed_if(f.compared.mismatches == 0), follower_words(f, r.request.kernels[0]),
+                              joined(f.mismatch_reports, "\n")});
   }
   report.results.push_back(
       {"floors", passed_if(missed.empty()),

@@ -18,8 +18,7 @@ exit_status status_of_program(int argc, char** argv) {
     complain("the leading kernel gave no answer: {}", e.what());
     return exit_status::kernels_differ;
   } catch (const std::system_error& e) {
-    const bool printing = std::ferror(stdout) != 0;
-    complain("{}{}", printing ? "standard output: " : "", e.what());
+    complain("{}{}", std::ferror(stdout) != 0 ? "standard output: " : "", e.what());
   } catch (const std::exception& e) {
     complain("{}", e.what());
   }

@@ -20,11 +20,10 @@ std::string roff(std::string_view text) {
   return (request ? "\\&" : "") + escaped(text, escapes);
 }
 
-/// A paragraph in short lines.
+/// A paragraph in lines of at most 72 characters.
 std::string filled(const std::string& text) {
-  constexpr int source_width = 72;
   std::string out;
-  for (const std::string& line : wrap({text}, source_width)) out += roff(line) + "\n";
+  for (const std::string& line : wrap({text}, 72)) out += roff(line) + "\n";
   return out;
 }
 

@@ -15,7 +15,6 @@ namespace contct::app {
 namespace {
 
 constexpr std::int64_t most_random_cases = 1'000'000'000'000;
-constexpr const char* checksum_line = "\nlisting sha256 " CONTCT_LISTING_SHA256;
 
 constexpr example all_examples[] = {
     {"contct new beam beam.toml", "a commented problem to start from"},
@@ -81,7 +80,7 @@ std::string usage_words(const program_description& program, const std::string& c
 class option_parser {
  public:
   option_parser(const std::string& name, const std::string& text) : program(text, name) {
-    program.set_version_flag("--version", name + " " CONTCT_VERSION + checksum_line,
+    program.set_version_flag("--version", name + " " CONTCT_VERSION "\nlisting sha256 " CONTCT_LISTING_SHA256,
                              "Print the version and the listing's checksum");
   }
 
@@ -102,7 +101,9 @@ class option_parser {
   CLI::Option* add(CLI::App* command, takes kind, const std::string& name, T& value, const std::string& text,
                    std::vector<std::string> words = {}) {
     CLI::Option* const option = command->add_option(name, value, text);
-    arguments_[option] = {kind, std::move(words)};
+    option_description& known = arguments_[option];
+    known.kind = kind;
+    known.words = std::move(words);
     return option;
   }
   CLI::Option* add_file(CLI::App* command, const std::string& name, std::string& file,
@@ -132,14 +133,10 @@ class option_parser {
   CLI::App program;
 
  private:
-  struct argument {
-    takes kind;
-    std::vector<std::string> words;
-  };
   [[nodiscard]] option_description describe(const CLI::Option& o, const std::string& name) const;
   [[nodiscard]] std::vector<option_description> options_of(const CLI::App& command) const;
 
-  std::map<const CLI::Option*, argument> arguments_;
+  std::map<const CLI::Option*, option_description> arguments_;  // what CLI11 does not know of them
   command_options chosen_;
 };
 
@@ -148,16 +145,14 @@ auto commands_of(auto& program) {
 }
 
 option_description option_parser::describe(const CLI::Option& o, const std::string& name) const {
-  option_description d;
+  const auto found = arguments_.find(&o);
+  option_description d = found == arguments_.end() ? option_description{} : found->second;  // or a flag
   d.name = name;
   d.text = o.get_description();
   d.default_value = o.get_default_str();
   d.required = o.get_required();
-  const auto found = arguments_.find(&o);
-  if (found == arguments_.end()) return d;  // a flag
-  d.kind = found->second.kind;
-  d.words = found->second.words;
-  d.value = o.get_type_name().substr(0, o.get_type_name().find(':'));  // without its range
+  if (d.kind != takes::nothing)
+    d.value = o.get_type_name().substr(0, o.get_type_name().find(':'));  // without its range
   return d;
 }
 
@@ -183,8 +178,7 @@ command_options option_parser::parse(int argc, const char* const* argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    const bool asked_for_text = e.get_exit_code() == 0;
-    if (!asked_for_text) {
+    if (e.get_exit_code() != 0) {  // otherwise a text was asked for
       const auto given = program.get_subcommands();
       throw std::invalid_argument(usage_words(description(), given.empty() ? "" : given.front()->get_name(),
                                               program.remaining(true), e.what()));
@@ -233,9 +227,8 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
       fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto for others]",
                   joined(engines, ", ")),
       engines);
-  CLI::Option* const free_run =
-      c->add_flag("--free-run", o.free_run,
-                  "Drive each kernel on a path of its own; compare events, load fractions and D");
+  c->add_flag("--free-run", o.free_run,
+              "Drive each kernel on a path of its own; compare events, load fractions and D");
   CLI::Option* const final_only =
       c->add_flag("--final-only", o.final_only,
                   "No path: the equilibrium under each step's load by the oracle, certified");
@@ -247,9 +240,8 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   declare_pictures(p, c, o.pictures);
   p.add_reports(c, o.report);
   p.add_file(c, "--log", o.log, "Write what the leader writes to unit 26 to this file");
-  final_only->excludes(free_run);
-  for (const char* of_a_path :
-       {"--kernels", "--engine", "--trace", "--log", "--max-increments", "--html", "--svg", "--csv", "--vtu"})
+  for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
+                                "--html", "--svg", "--csv", "--vtu"})
     final_only->excludes(c->get_option(of_a_path));
 }
 

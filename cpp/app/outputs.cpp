@@ -135,10 +135,9 @@ void refuse_shared_outputs(const std::vector<output_option>& outputs,
     }
     if (o.path.empty()) continue;
     for (const output_option& other : others) {
-      if (same_file(o.path, other.path)) {
+      if (same_file(o.path, other.path))
         throw std::invalid_argument(fmt::format("{} {}: found the file of {}; allowed: a file of its own",
                                                 o.name, o.path, other.name));
-      }
     }
     others.push_back(o);
   }

@@ -114,8 +114,7 @@ void digit_watch::step_ended(const step_state& s) {
 }
 
 std::string digit_watch::warning() const {
-  constexpr int enough = 5;
-  if (fewest >= enough) return "";
+  if (fewest >= 5) return "";
   const std::string digits = fewest == 0   ? "no digit"
                              : fewest == 1 ? "about 1 digit"
                                            : fmt::format("about {} digits", fewest);

@@ -65,8 +65,8 @@ exit_status run_command(const replay_options& options) {
   for (const std::string& file : options.traces) inputs.push_back({"a trace", file});
   refuse_shared_outputs(outputs, inputs);
   for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
-  const std::vector<std::string> kernels =
-      options.kernels.empty() ? std::vector<std::string>{""} : options.kernels;
+  const std::vector<std::string> usual = {""};
+  const std::vector<std::string>& kernels = options.kernels.empty() ? usual : options.kernels;
   const output_files files(outputs);
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   const terminal t = look_at_terminal();

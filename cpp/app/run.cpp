@@ -71,8 +71,8 @@ void check_grid_coordinates(const problem& p) {
         "coordinates, by coordinates = \"FILE\" in [matrix] or CalculiX's mesh, JOB.inp beside its matrix or "
         "mesh = \"FILE\" in [calculix]. --csv and --json have all its numbers, by label",
         a->name));
-  const auto lost = std::count_if(p.pairs.begin(), p.pairs.end(),
-                                  [a](const contact_pair& c) { return a->places.dofs[c.node].node < 0; });
+  const auto lost =
+      std::ranges::count_if(p.pairs, [a](const contact_pair& c) { return a->places.dofs[c.node].node < 0; });
   if (lost > 0)
     complain("warning: --vtu: {} of {} pairs {} no cell: the places of their dofs are not known", lost,
              p.pairs.size(), lost == 1 ? "has" : "have");
@@ -81,7 +81,7 @@ void check_grid_coordinates(const problem& p) {
 void refuse_bad_options(const run_options& o) {
   if (!o.engine.empty() && o.engine != "auto") refuse_unknown_engine(o.engine);
   for (const std::string& name : o.kernels) {
-    if (std::count(o.kernels.begin(), o.kernels.end(), name) > 1)
+    if (std::ranges::count(o.kernels, name) > 1)
       throw std::invalid_argument("--kernels: \"" + name + "\" is named twice");
     (void)facts_of_kernel(name);
   }
@@ -173,8 +173,7 @@ std::vector<observer*> make_observers(observed_run& o) {
 }
 
 /// "1 node", "3 nodes".
-template <class Count>
-std::string counted(Count n, std::string_view what) {
+std::string counted(std::size_t n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
@@ -271,8 +270,7 @@ void report_free_run(observed_run& o, const std::string& name, const free_run_di
 /// The certificate of the leader's path, for people.
 void report_certificate(observed_run& o) {
   if (const auto items = certificate_summary(o.judged); !items.empty()) {
-    const bool good = std::none_of(o.judged.steps().begin(), o.judged.steps().end(),
-                                   [](const auto& c) { return c && !c->exact; });
+    const bool good = std::ranges::none_of(o.judged.steps(), [](const auto& c) { return c && !c->exact; });
     print_verdict(o, good ? paint::good : paint::bad, items);
   }
   flush_standard_output();  // the table before what is said about it; and no files when it is lost

@@ -31,14 +31,9 @@ fs::path find_reference(const std::string& asked) {
   throw input_error("there is neither " + looked_at + "; name the folder with --reference");
 }
 
-/// What the listing gives where the table knows that it misses the value.
-bool known_to_miss(const verified_number& n) {
-  return n.expected.faithful.has_value();
-}
-
 std::string_view mark_of(const verified_number& n) {
   if (!n.passed) return "FAILED";
-  if (known_to_miss(n)) return "1989 differs";
+  if (n.expected.faithful) return "1989 differs";  // as the table knows
   return n.certified ? "certified" : "not certified";
 }
 
@@ -48,7 +43,7 @@ json json_of(const verified_number& n) {
               {"source", e.source},       {"expected", e.value},           {"computed", n.computed},
               {"corrected", n.corrected}, {"difference", n.difference()},  {"tolerance", e.tolerance},
               {"because", e.because},     {"certified", n.certified},      {"passed", n.passed}};
-  if (known_to_miss(n)) {
+  if (e.faithful) {
     out["faithful"] = *e.faithful;
     out["reason"] = e.reason;
   }
@@ -80,7 +75,7 @@ struct totals {
     for (const verified_number& n : c.numbers) {
       ++numbers;
       ++by_kind[n.expected.kind];
-      known += known_to_miss(n) ? 1 : 0;
+      known += n.expected.faithful ? 1 : 0;
       failed += n.passed ? 0 : 1;
     }
   }
@@ -111,7 +106,7 @@ constexpr std::string_view row = "{:>2} {:<20} {:>13} {:>13} {:>6} {:>6} {}";
 /// A row; its source and the reason of its tolerance above it, where they are not those of the row before.
 void print(const terminal& t, const verified_number& n, std::string& said) {
   const expected_number& e = n.expected;
-  const paint p = !n.passed ? paint::bad : known_to_miss(n) ? paint::quiet : paint::good;
+  const paint p = !n.passed ? paint::bad : e.faithful ? paint::quiet : paint::good;
   std::string source =
       fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
   if (source != said) {
@@ -123,7 +118,7 @@ void print(const terminal& t, const verified_number& n, std::string& said) {
              fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
              painted(t, p, mark_of(n)));
   fmt::print("\n");
-  if (!known_to_miss(n)) return;
+  if (!e.faithful) return;
   for (const std::string& line : wrap({e.reason}, t.width - 6)) fmt::print("      {}\n", line);
 }
 

@@ -112,13 +112,12 @@ std::string child_process::end() {
   pid_t waited = 0;
   for (int i = 0; i < 50 && (waited = waitpid(pid_, &status, WNOHANG)) == 0; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(i < 10 ? 1 : 4));
-  const bool stopped = waited == 0;
-  if (stopped) {
-    kill(pid_, SIGKILL);
-    waitpid(pid_, &status, 0);
+  const pid_t child = std::exchange(pid_, -1);
+  if (waited == 0) {
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+    return was_stopped;
   }
-  pid_ = -1;
-  if (stopped) return was_stopped;
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";

@@ -8,8 +8,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "contct/text/strings.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::read {
 namespace {

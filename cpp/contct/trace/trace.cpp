@@ -34,7 +34,7 @@ std::vector<std::size_t> addressed_dofs(const call<double>& c) {
   std::vector<std::size_t> dofs;
   dofs.reserve(c.id.size());
   for (const int node : c.id) dofs.push_back(c.dof.dof_of(node) - 1);
-  std::sort(dofs.begin(), dofs.end());
+  std::ranges::sort(dofs);
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
   return dofs;
 }
@@ -196,7 +196,7 @@ trace_header trace_reader::read_header() {
   while (lines_.next() && !lines_.here().empty()) {
     const std::string_view line = lines_.here();
     const std::string_view key = line.substr(0, line.find(' '));
-    if (key != "about" && std::find(keys.begin(), keys.end(), key) != keys.end())
+    if (key != "about" && std::ranges::find(keys, key) != keys.end())
       refuse(line, "each line of the header once, but for about");
     keys.push_back(key);
     read_header_line(line, h);
