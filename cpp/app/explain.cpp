@@ -11,15 +11,13 @@
 #include "app/outputs.hpp"
 #include "app/problem_progress.hpp"
 #include "app/streams.hpp"
-#include "contct/compare/explained_path.hpp"
+#include "contct/compare/explanation.hpp"
 #include "contct/compare/follower.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/solve/engine.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/explain_json.hpp"
-#include "contct/write/explain_text.hpp"
-#include "contct/write/result_json.hpp"
+#include "contct/write/explain.hpp"
 
 namespace contct::app {
 namespace {
@@ -87,9 +85,9 @@ class explanation_run {
     const std::unique_ptr<output_file> file = open_output({"--json", options_.json});
     const std::unique_ptr<kernel> leader = make_kernel(options_.kernels[0]);
     const int bytes = leader->facts().real_bytes;
-    if (prints_)
-      text_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), look_at_terminal());
-    if (file) json_.emplace(problem_, options_.kernels, bytes, options_.pair.value_or(0), *file);
+    const explained_kernels of{problem_, options_.kernels, bytes, options_.pair.value_or(0)};
+    if (prints_) text_.emplace(of, look_at_terminal());
+    if (file) json_.emplace(of, *file);
     explained_path told(leader->facts(), second(), wanted_, [this](const auto& i) { tell(i); });
     const linear_structure structure = build_with_progress(problem_, options_.quiet);
     path_progress shown(problem_.steps.size(), options_.quiet);

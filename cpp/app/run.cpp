@@ -25,9 +25,9 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/joined.hpp"
-#include "contct/write/certificate_text.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/table.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct::app {
 namespace {

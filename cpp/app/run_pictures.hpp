@@ -10,7 +10,7 @@
 #include "app/outputs.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/write/finished_run.hpp"
-#include "contct/write/run_csv.hpp"
+#include "contct/write/table.hpp"
 
 namespace contct::app {
 

@@ -20,7 +20,7 @@
 #include "contct/text/joined.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/json_document.hpp"
+#include "contct/write/result_json.hpp"
 
 namespace contct::app {
 namespace {

@@ -1,12 +1,21 @@
-// What is kept of a run for its page.
+// What is kept of a run for its page, and which parts of a large one are shown.
 #include "contct/write/finished_run.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
 #include "catch.hpp"
+#include "contct/write/run_page.hpp"
 #include "read/bad_inputs.hpp"
 #include "support/a_run.hpp"
 #include "support/one_pair.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct::app;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -76,4 +85,99 @@ TEST_CASE("a run without a title has its file's name") {
   CHECK(title(std::string("title = \"two\\nlines\"\n") + good_problem, "a/b.toml") == "two lines");
   CHECK(title(std::string("title = \" \\n\"\n") + good_problem, "a/b.toml") == "b.toml");
   CHECK(title(good_problem, "-") == "A problem from standard input");
+}
+
+TEST_CASE(
+    "of a large problem a bounded part is shown, with its largest values, and what is left out is said") {
+  std::string text =
+      "[beam]\nlength = 50\nelements = 5000\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
+  text += "[[bed]]\nmodulus = 100.0\nface = -0.01\n[[step]]\npoint = [ { node = 2222, w = -10.0 } ]\n";
+  const a_run r(text);
+  const shown_parts shown = choose_parts(r.finished());
+  const auto frames = r.kept.frames().size();
+  CHECK(shown.nodes.size() * frames <= most_places + 70 * frames);
+  CHECK(shown.pairs.size() == most_pairs_of_a_beam);
+  CHECK(std::find(shown.nodes.begin(), shown.nodes.end(), 0) != shown.nodes.end());
+  CHECK(std::find(shown.nodes.begin(), shown.nodes.end(), shown.watched) != shown.nodes.end());
+  REQUIRE(shown.omissions.size() >= 2);
+  CHECK_THAT(shown.omissions[0], Contains(" of 5001 nodes"));
+  CHECK_THAT(shown.omissions[1], Contains("300 of 5000 pairs"));
+  const nlohmann::json data = page_data(r.finished());
+  CHECK(data["frames"].back()["counts"][0].get<int>() + data["frames"].back()["counts"][1].get<int>() +
+            data["frames"].back()["counts"][2].get<int>() ==
+        5000);
+  CHECK(data["frames"].back()["largest"]["node"].get<int>() == shown.watched + 1);
+}
+
+TEST_CASE("evenly chosen numbers have both ends, and are all where there are few") {
+  CHECK(evenly(5, 9) == std::vector<int>{0, 1, 2, 3, 4});
+  CHECK(evenly(11, 3) == std::vector<int>{0, 5, 10});
+  CHECK(evenly(0, 3).empty());
+  CHECK(evenly(9, 1) == std::vector<int>{0});
+}
+
+TEST_CASE("a large mesh is drawn as far as a page stays quick: outer edges first, and it is said") {
+  // A chain of springs hangs in a block of 30 x 30 x 12 bricks, whose other nodes have no dof.
+  std::string inp = "*NODE\n";
+  constexpr int n = 31;
+  constexpr int high = 13;
+  for (int i = 0; i < n * n * high; ++i)
+    inp += fmt::format("{},{},{},{}\n", i + 1, i % n, i / n % n, i / n / n);
+  inp += "*ELEMENT,TYPE=C3D8\n";
+  for (int k = 0; k + 1 < high; ++k) {
+    for (int j = 0; j + 1 < n; ++j) {
+      for (int i = 0; i + 1 < n; ++i) {
+        const int a = (k * n + j) * n + i + 1;
+        const int b = a + n * n;
+        inp += fmt::format("{0},{0},{1},{2},{3},{4},{5},{6},{7}\n", a, a + 1, a + n + 1, a + n, b, b + 1,
+                           b + n + 1, b + n);
+      }
+    }
+  }
+  const scratch_folder folder;
+  folder.write("block.inp", inp);
+  folder.write("block.sti", "1 1 2\n1 2 -1\n2 2 2\n");
+  folder.write("block.dof", "6000.3\n6001.3\n");
+  const a_run r("[calculix]\njob = \"" + folder.at("block") +
+                "\"\n[[step]]\npoint = [ { dof = \"6000.3\", value = -1 } ]\n");
+  const auto& places = std::get<assembled>(r.what.geometry.kind).places;
+  REQUIRE(places.edges.size() == 30 * 31 * 13 * 2 + 31 * 31 * 12);
+  const shown_parts shown = choose_parts(r.finished());
+  CHECK(shown.edges.size() == most_edges);
+  const auto elements_of = [&](int i) { return places.edges[i].elements; };
+  const auto outer =
+      std::count_if(places.edges.begin(), places.edges.end(), [](const auto& e) { return e.elements < 4; });
+  CHECK(std::count_if(shown.edges.begin(), shown.edges.end(), [&](int i) { return elements_of(i) < 4; }) ==
+        outer);
+  // What is left of the inner ones is from everywhere: in each fifth of them about as many.
+  std::array<int, 5> fifths{};
+  for (const int i : shown.edges)
+    if (elements_of(i) == 4) ++fifths.at(static_cast<std::size_t>(i) * 5 / places.edges.size());
+  CHECK(*std::min_element(fifths.begin(), fifths.end()) * 2 >
+        *std::max_element(fifths.begin(), fifths.end()));
+  REQUIRE(shown.omissions.size() == 1);
+  CHECK_THAT(shown.omissions[0],
+             Contains(fmt::format("20000 of {} edges", places.edges.size())) && Contains("of 12493 nodes"));
+  CHECK(std::binary_search(shown.nodes.begin(), shown.nodes.end(), 5999));  // it moves most
+  CHECK(page_data(r.finished())["frames"][1]["u"].size() == shown.nodes.size());
+}
+
+TEST_CASE("of many loads the largest are drawn, by falling magnitude") {
+  std::vector<point_load> loads;
+  for (int i = 0; i < 100; ++i) loads.push_back({i, 0, i % 2 == 0 ? 1.0 * i : -1.0 * i});
+  const std::vector<point_load> drawn = largest_loads(loads);
+  REQUIRE(drawn.size() == most_loads);
+  CHECK(drawn.front().value == -99.0);
+  CHECK(drawn.back().value == 40.0);
+  CHECK(largest_loads({{0, 0, 1.0}, {1, 0, -1.0}}).front().node == 0);
+}
+
+TEST_CASE("a distributed load is sampled from end to end, each element with its own") {
+  const beam b{{0.0, 1.0, 2.0}, {1.0, 1.0}};
+  const std::vector<double> q = sampled_load(b, {{}, {{{-1.0}, {}}, {{0.0, 2.0}, {1}}}});
+  REQUIRE(q.size() == load_samples);
+  CHECK(q.front() == -1.0);
+  CHECK(q[11] == -1.0);
+  CHECK(q[12] == 1.0);  // x = 1: -1 + 2 x
+  CHECK(q.back() == 3.0);
 }

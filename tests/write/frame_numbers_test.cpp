@@ -1,4 +1,4 @@
-// What pictures and tables read off a state.
+// What pictures and tables read off a path.
 #include "contct/write/frame_numbers.hpp"
 
 #include <cmath>
@@ -27,7 +27,7 @@ TEST_CASE("a flat structure that stays flat is looked at straight on, any other 
   const std::vector<in_space> in_xz = {{0, 5, 1}, {1, 5, 0}, {0, 5, 2}};
   const std::vector<in_space> in_yz = {{3, 5, 1}, {3, 4, 0}, {3, 5, 2}};
   const auto view = [](const std::vector<in_space>& at, const std::vector<int>& directions) {
-    return std::string(view_at(fitting_view(at_places(at, directions))).name);
+    return std::string(all_views[fitting_view(at_places(at, directions))].name);
   };
   CHECK(view(in_xy, {1, 2, 6}) == "xy");
   CHECK(view(in_xy, {3, 4, 5}) == "oblique");
@@ -36,8 +36,7 @@ TEST_CASE("a flat structure that stays flat is looked at straight on, any other 
   CHECK(view({{0, 0, 0}, {1, 1, 1}}, {1}) == "oblique");
   CHECK(view({{0, 0, 0}, {1, 0, 0}}, {3}) == "xz");  // a beam along x
   CHECK(view({{0, 0, 0}, {1, 0, 0}}, {2}) == "xy");
-  for (int i = 0; i < views; ++i) {
-    const structure_view& v = view_at(i);
+  for (const structure_view& v : all_views) {
     INFO(v.name);
     CHECK(length_of(v.right) == Approx(1).epsilon(1e-3));
     CHECK(length_of(v.up) == Approx(1).epsilon(1e-3));
@@ -86,4 +85,49 @@ TEST_CASE("a plate's nodes go along x first, and w is the first of a node's dofs
   std::vector<double> u(18);
   u[12] = 7.0;
   CHECK(deflection_of(p, u, 4) == 7.0);
+}
+
+TEST_CASE("an event's load is told in the words of the problem file") {
+  const problem p = parse_problem(good_problem, "pb.toml");
+  CHECK(load_path(p).words_at(1, 0.25, 24) == "w -15 at node 3");
+  const problem uniform =
+      parse_problem(with("point = [ { node = 3, w = -60.0 } ]", "uniform = -8"), "pb.toml");
+  CHECK(load_path(uniform).words_at(1, 0.5, 24) == "uniform -4");
+  const problem mixed = parse_problem(with("point = [", "uniform = -8\npoint = ["), "pb.toml");
+  // Digits go before anything is cut.
+  CHECK(load_path(p).words_at(1, 1.0 / 3, 24) == "w -20 at node 3");
+  CHECK(load_path(p).words_at(1, 0.123456, 17) == "w -7.41 at node 3");
+  CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.41");
+  CHECK(load_path(p).words_at(1, 0.123456, 3).empty());
+  CHECK(load_path(mixed).words_at(1, 1.0, 24) == "force -76");
+}
+
+TEST_CASE("a plate's loads are told in its own words") {
+  const problem p = parse_problem(good_plate, "pb.toml");
+  CHECK(load_path(p).words_at(1, 1.0, 24) == "force -3");
+  const std::string mistake = "uniform = [ { value = -1.0 }, { value = -2.0, elements = \"2..2\" } ]\n";
+  const problem slope = parse_problem(
+      plate_with(mistake + "point = [ { node = 3, w = -1.0, wx = 0.25 }, { node = 6, wy = -0.5 } ]",
+                 "point = [ { node = 6, wy = -0.5 } ]"),
+      "pb.toml");
+  CHECK(load_path(slope).words_at(1, 0.5, 24) == "wy -0.25 at node 6");
+}
+
+TEST_CASE("between steps the load goes straight from one total to the next, from nothing at first") {
+  const problem p =
+      parse_problem(std::string(good_problem) + "[[step]]\npoint = [ { node = 3, w = 20.0 } ]\n", "pb.toml");
+  const load_path loads(p);
+  CHECK(loads.at(0, 1.0).points.empty());
+  CHECK(loads.at(1, 0.5).points[0].value == -30.0);
+  CHECK(loads.at(2, 0.25).points[0].value == -40.0);
+  CHECK(loads.resultant_at(2, 0.25).force == -40.0);
+  CHECK(loads.resultant_at(2, 0.25).moments == std::vector<double>{-80.0});
+  CHECK_FALSE(loads.has_many_parts(2));
+}
+
+TEST_CASE("elements are a run when they follow one another upwards") {
+  CHECK(is_run({4}));
+  CHECK(is_run({4, 5, 6}));
+  CHECK_FALSE(is_run({4, 6}));
+  CHECK_FALSE(is_run({6, 5, 4}));
 }

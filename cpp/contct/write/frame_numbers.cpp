@@ -1,20 +1,82 @@
 #include "contct/write/frame_numbers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace contct::write {
 namespace {
 
-constexpr std::array<structure_view, views> all_views = {{
-    {"xy", "x to the right, y up", {1, 0, 0}, {0, 1, 0}},
-    {"xz", "x to the right, z up", {1, 0, 0}, {0, 0, 1}},
-    {"yz", "y to the right, z up", {0, 1, 0}, {0, 0, 1}},
-    // The eye is at (3, -6, 3), nearly: right and up are at right angles, and of length 1.
-    {"oblique", "oblique, z up", {0.8944, 0.4472, 0}, {-0.1826, 0.3651, 0.9129}},
-}};
+/// How much there is to write: a list of scattered elements counts by its length.
+std::size_t parts_of(const load& l) {
+  std::size_t parts = l.points.size();
+  for (const distributed_load& d : l.distributed)
+    parts += d.elements.empty() || is_run(d.elements) ? 1 : d.elements.size();
+  return parts;
+}
+
+/// A load in words, with its one number apart.
+struct load_words {
+  std::string before;
+  double value;
+  std::string after{};
+};
+load_words words_for(const model& m, const load& l, const resultant& r) {
+  const bool of_matrix = std::holds_alternative<assembled>(m.kind);
+  if (l.points.size() == 1 && l.distributed.empty()) {
+    const point_load& p = l.points[0];
+    return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), p.value,
+            " at " + place_words(m, p.node)};
+  }
+  if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
+    return {"uniform ", l.distributed[0].polynomial[0]};
+  return {of_matrix ? "sum " : "force ", r.force};
+}
 
 }  // namespace
+
+bool is_run(const std::vector<int>& elements) {
+  return elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
+         std::is_sorted(elements.begin(), elements.end());
+}
+
+load_path::load_path(const problem& p) : problem_(p), totals_{resultant_of(p.geometry, {})}, parts_(1) {
+  for (const load& l : p.steps) {
+    totals_.push_back(resultant_of(p.geometry, l));
+    parts_.push_back(parts_of(l));
+  }
+}
+
+load load_path::at(int step, double fraction) const {
+  if (step == 0) return {};
+  return mix(step > 1 ? problem_.steps[step - 2] : load{}, problem_.steps[step - 1], fraction);
+}
+
+resultant load_path::resultant_at(int step, double fraction) const {
+  const resultant& a = totals_[step - 1];
+  const resultant& b = totals_[step];
+  resultant r{a.force + fraction * (b.force - a.force), a.moments};
+  for (std::size_t i = 0; i < r.moments.size(); ++i) r.moments[i] += fraction * (b.moments[i] - a.moments[i]);
+  return r;
+}
+
+bool load_path::has_many_parts(int step) const {
+  constexpr std::size_t most = 32;
+  return std::max(parts_[step - 1], parts_[step]) > most;
+}
+
+std::string load_path::words_at(int step, double fraction, int width) const {
+  const load l = has_many_parts(step) ? load{} : at(step, fraction);
+  const load_words w = words_for(problem_.geometry, l, resultant_at(step, fraction));
+  const auto fits = [width](const std::string& text) { return static_cast<int>(text.size()) <= width; };
+  for (int digits = 6; digits >= 3; --digits) {
+    std::string text = fmt::format("{}{:.{}g}{}", w.before, w.value, digits, w.after);
+    if (fits(text)) return text;
+  }
+  std::string number = fmt::format("{:.3g}", w.value);
+  return fits(number) ? number : "";
+}
 
 double deflection_of(const problem& p, std::span<const double> u, int node) {
   const int dof = node * dofs_per_node(p.geometry);
@@ -105,10 +167,6 @@ double length_of(const in_space& v) {
   return std::hypot(v[0], v[1], v[2]);
 }
 
-const structure_view& view_at(int number) {
-  return all_views.at(number);
-}
-
 int fitting_view(const placed_nodes& places) {
   const std::vector<int> axes = axes_of(places);
   for (const auto& [normal, view] : {std::pair(2, 0), {1, 1}, {0, 2}}) {
@@ -118,7 +176,7 @@ int fitting_view(const placed_nodes& places) {
                                   [&](const placed_node& n) { return coordinate(n) == first; });
     if (flat && std::find(axes.begin(), axes.end(), normal) == axes.end()) return view;
   }
-  return views - 1;
+  return static_cast<int>(all_views.size()) - 1;
 }
 
 }  // namespace contct::write

@@ -1,4 +1,5 @@
-// What pictures and tables read off a state: over all nodes and pairs, and in space where nodes have places.
+// What pictures and tables read off a path: its loads, and its states over all nodes and pairs, and in space
+// where nodes have places.
 #pragma once
 
 #include <array>
@@ -11,6 +12,34 @@
 #include "contct/structure/problem.hpp"
 
 namespace contct::write {
+
+/// The loads of a problem's steps, and what acts between them. Steps count from 1.
+class load_path {
+ public:
+  /// `p` must outlive this object.
+  explicit load_path(const problem& p);
+
+  /// Everything that acts at share `fraction` of step `step`; nothing in step 0, before the first.
+  [[nodiscard]] load at(int step, double fraction) const;
+  /// Its resultant; `step` is at least 1.
+  [[nodiscard]] resultant resultant_at(int step, double fraction) const;
+
+  /// Has either end of the step more than 32 parts to list? Each element of a scattered list counts.
+  [[nodiscard]] bool has_many_parts(int step) const;
+
+  /// A few words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load; with
+  /// as many digits, six at most, as fit into `width` columns. Never cut: the number alone, or
+  /// nothing, where the words do not fit.
+  [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
+
+ private:
+  const problem& problem_;
+  std::vector<resultant> totals_;   // at the start, then at the end of each step
+  std::vector<std::size_t> parts_;  // how many things there are to write, likewise
+};
+
+/// Do these elements follow one another, each once?
+[[nodiscard]] bool is_run(const std::vector<int>& elements);
 
 /// The deflection of node `node`, from 0, under the displacement `u` [dofs].
 [[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
@@ -99,8 +128,13 @@ struct structure_view {
 };
 
 /// Straight on to each plane of the axes, then from the front, a little from the right and from above.
-inline constexpr int views = 4;
-[[nodiscard]] const structure_view& view_at(int number);
+inline constexpr std::array<structure_view, 4> all_views = {{
+    {"xy", "x to the right, y up", {1, 0, 0}, {0, 1, 0}},
+    {"xz", "x to the right, z up", {1, 0, 0}, {0, 0, 1}},
+    {"yz", "y to the right, z up", {0, 1, 0}, {0, 0, 1}},
+    // The eye is at (3, -6, 3), nearly: right and up are at right angles, and of length 1.
+    {"oblique", "oblique, z up", {0.8944, 0.4472, 0}, {-0.1826, 0.3651, 0.9129}},
+}};
 
 /// The number of the view that shows most: straight on where one coordinate is the same for all nodes and
 /// none of them can leave that plane, else the last.

@@ -1,6 +1,9 @@
-// The result of a run as JSON, format "contct-result-1".
+// The result of a run as JSON, format "contct-result-1", and what other JSON files share with it.
 #pragma once
 
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,11 +16,64 @@
 #include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/finished_run.hpp"
-#include "contct/write/json_document.hpp"
-#include "contct/write/load_text.hpp"
+#include "contct/write/frame_numbers.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
+
+/// An object written to a file while it grows: only the value at hand is in memory. Members and elements
+/// stand on lines of their own, indented by their depth.
+class json_document {
+ public:
+  /// Opens the object. `out` must outlive this one.
+  explicit json_document(output_file& out);
+
+  /// A member of the open object, or several.
+  void put(std::string_view name, const nlohmann::ordered_json& value);
+  void put(const nlohmann::ordered_json& members);
+  /// An element of the open array.
+  void add(const nlohmann::ordered_json& value);
+
+  /// An array as a member of the open object; an object as an element of the open array.
+  void open_array(std::string_view name);
+  void open_object();
+  /// End what was opened last.
+  void close();
+  /// A whole array: entry(i) for each i below `count`.
+  template <class Entry>
+  void put_list(std::string_view name, std::size_t count, Entry entry) {
+    open_array(name);
+    for (std::size_t i = 0; i < count; ++i) add(entry(i));
+    close();
+  }
+
+  /// End the document; the file appears.
+  void finish();
+
+ private:
+  void begin_line(std::string_view name = {});
+  void open(char bracket);
+
+  output_file& out_;
+  std::string closing_;  // the brackets that are still to come, the outermost first
+  bool empty_ = true;    // nothing is in what was opened last
+};
+
+/// A step's certificate as result files have it; null where there is none.
+[[nodiscard]] nlohmann::ordered_json certificate_json(const std::optional<certificate>& c);
+
+/// How many calls, and values in them, were compared, and how many of these differ.
+[[nodiscard]] nlohmann::ordered_json agreement_json(std::int64_t calls, const tally& compared);
+
+/// What acts at share `fraction` of step `step` (from 1), as a problem file's `uniform` and `point`, with the
+/// resultant: an event's load in absolute terms. A beam's resultant has "force" and "moment", a plate's
+/// "force", "moment_wx" and "moment_wy", a matrix's the "sum" of all its loads. The parts are left out where
+/// load_path::has_many_parts: they would be written again at every event.
+[[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
+                                               double fraction);
+
+/// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
+void put_place(nlohmann::ordered_json& entry, const model& m, int node);
 
 /// Observes a path and writes it as it goes: memory does not grow with the number of steps.
 /// The file appears when `finish` is called.

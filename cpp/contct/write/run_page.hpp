@@ -11,11 +11,8 @@ namespace contct::write {
 /// The page of a run. The parallel edition of the two kernels is in it, folded.
 [[nodiscard]] std::string run_page(const finished_run& r);
 
-/// Everything the page shows, of a large problem the parts that page_sampling chooses; numbers with all their
+/// Everything the page shows, of a large problem the parts that choose_parts finds; numbers with all their
 /// digits.
 [[nodiscard]] nlohmann::ordered_json page_data(const finished_run& r);
-
-/// The same as text of an HTML script element: whatever its strings hold, none of it is markup.
-[[nodiscard]] std::string page_data_for_script(const finished_run& r);
 
 }  // namespace contct::write
