@@ -7,9 +7,7 @@
 #include <stdexcept>
 
 #include "app/streams.hpp"
-#include "contct/write/run_page.hpp"
-#include "contct/write/run_svg.hpp"
-#include "contct/write/run_vtu.hpp"
+#include "contct/write/pictures.hpp"
 
 namespace contct::app {
 namespace {

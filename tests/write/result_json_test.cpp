@@ -18,14 +18,13 @@ using namespace contct::app;
 
 namespace {
 
-/// What `write` makes of a document.
+/// A document with a title and an array "steps", of which `write` writes the rest.
 template <class Write>
 std::string written(Write write) {
   const scratch_folder folder;
   output_file out(folder.at("x.json"));
-  json_document document(out);
+  json_document document(out, {{"title", "a \"b\"\n"}}, "steps");
   write(document);
-  document.finish();
   return folder.read("x.json");
 }
 
@@ -49,36 +48,36 @@ nlohmann::json result_of(const std::string& text) {
 
 TEST_CASE("members and elements stand on lines of their own, indented by their depth") {
   const std::string text = written([](json_document& d) {
-    d.put("title", "a \"b\"\n");
-    d.open_array("steps");
-    d.open_object();
-    d.put("s", 0.25);
-    d.open_array("none");
-    d.close();
-    d.close();
-    d.add({1, 2});
-    d.close();
-    d.put("end", nullptr);
+    d.add({{"s", 0.25}, {"none", nullptr}, {"pairs", nullptr}},
+          {{"none", 0, {}}, {"pairs", 2, [](std::size_t i) {
+                               return nlohmann::ordered_json{i, 7};
+                             }}});
+    d.add({{"compact", {1, 2}}}, {});
+    d.finish({{"free", nullptr}, {"end", nullptr}}, {{"free", 1, [](std::size_t) {
+                                                        return nlohmann::ordered_json{{"a", 1}};
+                                                      }}});
   });
-  CHECK(text ==
-        "{\n  \"title\": \"a \\\"b\\\"\\n\",\n  \"steps\": [\n    {\n      \"s\": 0.25,\n      \"none\": []\n"
-        "    },\n    [1,2]\n  ],\n  \"end\": null\n}\n");
+  CHECK(
+      text ==
+      "{\n  \"title\": \"a \\\"b\\\"\\n\",\n  \"steps\": [\n    {\n      \"s\": 0.25,\n      \"none\": [],\n"
+      "      \"pairs\": [\n        [0,7],\n        [1,7]\n      ]\n    },\n    {\n      \"compact\": "
+      "[1,2]\n    }\n  ],\n  \"free\": [\n    {\"a\":1}\n  ],\n  \"end\": null\n}\n");
 }
 
-TEST_CASE("whatever is open when a document ends is closed, and numbers keep their bits") {
+TEST_CASE("numbers of a document keep their bits, and what is no number is null") {
   const double third = 1.0 / 3;
   const auto read = nlohmann::json::parse(written([&](json_document& d) {
-    d.open_array("a");
-    d.open_object();
-    d.put("x", third);
-    d.put("nan", std::numeric_limits<double>::quiet_NaN());
+    d.add({{"x", third}, {"nan", std::numeric_limits<double>::quiet_NaN()}}, {});
+    d.finish({{"end", 1}});
   }));
-  CHECK(read["a"][0]["x"].get<double>() == third);
-  CHECK(read["a"][0]["nan"].is_null());
+  CHECK(read["steps"][0]["x"].get<double>() == third);
+  CHECK(read["steps"][0]["nan"].is_null());
 }
 
-TEST_CASE("a document without a member is an empty object") {
-  CHECK(written([](json_document&) {}) == "{}\n");
+TEST_CASE("a document whose array stays empty has an empty one") {
+  CHECK(written([](json_document& d) {
+          d.finish({{"end", 1}});
+        }) == "{\n  \"title\": \"a \\\"b\\\"\\n\",\n  \"steps\": [],\n  \"end\": 1\n}\n");
 }
 
 TEST_CASE(

@@ -1,13 +1,12 @@
 // The page of a run: what it draws from, what is embedded in it, and that no text of a problem becomes
 // markup.
-#include "contct/write/run_page.hpp"
-
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "contct/write/pictures.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"

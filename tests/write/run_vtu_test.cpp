@@ -1,7 +1,6 @@
 // Frames for ParaView.
-#include "contct/write/run_vtu.hpp"
-
 #include "catch.hpp"
+#include "contct/write/pictures.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"

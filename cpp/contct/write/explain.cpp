@@ -15,6 +15,12 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+/// A sentence about a line of fortran/contct.f.
+struct sentence {
+  listing_line at;  // number 0: no line
+  std::string words;
+  std::string equation{};  // of the paper: "(4)", "lemma 2"; or empty
+};
 constexpr listing_line no_line{0, {}};
 
 /// Nine digits, enough to compare by eye; the bits are given separately.
@@ -32,26 +38,19 @@ bool is_separated(const explained_pair& p) {
   return p.isep_before == separated;
 }
 
-void tell_stationary(const explained_pair& p, std::vector<sentence>& story) {
+/// What the load does to a pair at its face, from the sign of SSCHK.
+sentence check_of_sign(const explained_pair& p) {
   const bool open = is_separated(p);
-  story.push_back({listing::stationary, "s = 1 to begin with: the mark for \"no event\"."});
-  story.push_back(
-      {listing::check_variable,
-       fmt::format("SSCHK = ISEP * ISURF / d* = ({}) * ({}) / {} = {}", p.isep_before > 0 ? "+1" : "-1",
-                   p.surface > 0 ? "+1" : "-1", number(p.d_star), number(p.s_chk)),
-       "(11)"});
-  if (p.way == way_to_s::stationary_event) {
-    story.push_back(
-        {listing::if_check_positive,
-         fmt::format("SSCHK > 0: the load {}. s = SSCHK * DELTA = {}, so small that it wins over every "
-                     "advancing or receding pair.",
-                     open ? "pushes the structure against the face" : "lifts it off the face", number(p.s)),
-         "(12)"});
-  } else {
-    story.push_back({listing::if_check_positive,
-                     fmt::format("SSCHK is not positive: the load {}. No event; the mark stays.",
-                                 open ? "moves the structure away from the face" : "keeps the pair closed")});
-  }
+  if (p.way == way_to_s::stationary_event)
+    return {
+        listing::if_check_positive,
+        fmt::format("SSCHK > 0: the load {}. s = SSCHK * DELTA = {}, so small that it wins over every "
+                    "advancing or receding pair.",
+                    open ? "pushes the structure against the face" : "lifts it off the face", number(p.s)),
+        "(12)"};
+  return {listing::if_check_positive,
+          fmt::format("SSCHK is not positive: the load {}. No event; the mark stays.",
+                      open ? "moves the structure away from the face" : "keeps the pair closed")};
 }
 
 std::string meaning_of_s(const explained_pair& p) {
@@ -106,32 +105,37 @@ std::string reason_for_toggle(const explained_pair& p) {
   return "";
 }
 
-}  // namespace
-
+/// How a pair came to its s: the body of the DO 10 loop.
 std::vector<sentence> scale_factor_story(const explained_pair& p) {
-  std::vector<sentence> story = {
-      {listing::gap, fmt::format("GAP = c - D = {} - ({}) = {}", number(p.c), number(p.d), number(p.gap)),
-       "(5)"}};
-  if (p.way == way_to_s::no_response) {
-    story.push_back({listing::if_no_response, "d* = 0: the pair does not respond to the residual load."});
-    story.push_back({listing::no_response, "s = 1: the mark for \"no event\"."});
-  } else {
-    story.push_back(
-        {listing::if_no_response, fmt::format("d* = {}, not 0: the pair responds.", number(p.d_star))});
-    if (p.way == way_to_s::moving) {
-      story.push_back({listing::if_stationary, "|GAP| is not less than EPSGAP = 1E-10: not stationary."});
-      story.push_back(
-          {listing::moving, fmt::format("s = GAP / d* = {}. {}", number(p.s), meaning_of_s(p)), "(4)"});
-    } else {
-      story.push_back(
-          {listing::if_stationary, "|GAP| < EPSGAP = 1E-10: at its face; the pair is stationary."});
-      tell_stationary(p, story);
-    }
-  }
-  story.push_back(competition(p));
-  return story;
+  const sentence gap{listing::gap,
+                     fmt::format("GAP = c - D = {} - ({}) = {}", number(p.c), number(p.d), number(p.gap)),
+                     "(5)"};
+  const sentence responds{listing::if_no_response,
+                          fmt::format("d* = {}, not 0: the pair responds.", number(p.d_star))};
+  if (p.way == way_to_s::no_response)
+    return {gap,
+            {listing::if_no_response, "d* = 0: the pair does not respond to the residual load."},
+            {listing::no_response, "s = 1: the mark for \"no event\"."},
+            competition(p)};
+  if (p.way == way_to_s::moving)
+    return {gap,
+            responds,
+            {listing::if_stationary, "|GAP| is not less than EPSGAP = 1E-10: not stationary."},
+            {listing::moving, fmt::format("s = GAP / d* = {}. {}", number(p.s), meaning_of_s(p)), "(4)"},
+            competition(p)};
+  return {gap,
+          responds,
+          {listing::if_stationary, "|GAP| < EPSGAP = 1E-10: at its face; the pair is stationary."},
+          {listing::stationary, "s = 1 to begin with: the mark for \"no event\"."},
+          {listing::check_variable,
+           fmt::format("SSCHK = ISEP * ISURF / d* = ({:+}) * ({:+}) / {} = {}", p.isep_before, p.surface,
+                       number(p.d_star), number(p.s_chk)),
+           "(11)"},
+          check_of_sign(p),
+          competition(p)};
 }
 
+/// Which pair won, and by how much: from SMIN to the IF that returns.
 std::vector<sentence> winner_story(const explained_call& c) {
   if (c.winner < 0)
     return {{listing::if_no_events,
@@ -142,6 +146,7 @@ std::vector<sentence> winner_story(const explained_call& c) {
           {no_line, runner_up(c)}};
 }
 
+/// Whether a pair was toggled, and why: the body of the DO 30 loop. The call had an event.
 std::vector<sentence> toggle_story(const explained_call& c, const explained_pair& p) {
   std::vector<sentence> story = {
       {listing::diff, p.pair == c.winner ? "DIFF = 0: s is SMIN."
@@ -174,6 +179,8 @@ std::string_view name_of(why_toggled why) {
   return names[static_cast<std::size_t>(why)];
 }
 
+}  // namespace
+
 std::uint64_t ulps_apart(double first, double second, int real_bytes) {
   return real_bytes == 4 ? ulps_between(static_cast<float>(first), static_cast<float>(second))
                          : ulps_between(first, second);
@@ -189,139 +196,149 @@ std::string side_by_side_words(std::string_view first_name, double first, std::s
   return words + fmt::format("{}: {}", hexfloat(second), apart);
 }
 
-explain_text::explain_text(explained_kernels of, const terminal& t)
-    : of_(std::move(of)), loads_(of_.what), terminal_(t) {}
-
-void explain_text::say(paint p, const std::string& words) const {
-  for (const std::string& line : wrap({words}, terminal_.width))
-    fmt::print("{}\n", painted(terminal_, p, line));
-}
-
-/// "  38  s = GAP / d* = 0.25.                 (4)"; where there is room, with the statement behind its
-/// number.
-void explain_text::say(const sentence& t, bool loud) const {
-  constexpr int margin = 6;
-  constexpr int statement_width = 49;
-  constexpr int width_with_statements = 120;
-  std::string head = t.at.number > 0 ? fmt::format("{:>4}  ", t.at.number) : std::string(margin, ' ');
-  if (terminal_.width >= width_with_statements)
-    head += fmt::format("{:<{}}", t.at.statement, statement_width);
-  const int room = terminal_.width - static_cast<int>(head.size());
-  std::vector<std::string> lines = wrap({t.words}, room);
-  if (!t.equation.empty()) {
-    const auto free = room - static_cast<int>(lines.back().size() + t.equation.size());
-    if (free >= 1) {
-      lines.back() += std::string(free, ' ') + t.equation;
-    } else {
-      lines.push_back(fmt::format("{:>{}}", t.equation, room));
-    }
-  }
-  for (const std::string& line : lines) {
-    fmt::print("{}{}\n", head, loud ? painted(terminal_, paint::bad, line) : line);
-    head.assign(head.size(), ' ');
-  }
-}
-
-void explain_text::say_side_by_side(std::string_view what, double first, double second) const {
-  const std::string words = side_by_side_words(of_.names[0], first, of_.names[1], second, of_.real_bytes);
-  say({no_line, fmt::format("{}: {}", what, words)}, words.find("equal to the bit") == std::string::npos);
-}
-
-void explain_text::print_load(const explained_increment& i) const {
-  constexpr int room = 24;
-  const std::string now = loads_.words_at(i.what.step, i.fraction_before, room);
-  const std::string aim = loads_.words_at(i.what.step, 1.0, room);
-  if (now.empty() || aim.empty()) return;
-  say(paint::quiet, fmt::format("The residual load leads from {} to {}.", now, aim));
-}
-
-void explain_text::print_pair(const explained_increment& i, const explained_pair& p) const {
-  fmt::print("\n");
-  say(paint::strong,
-      fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1, place_words(of_.what.geometry, p.node - 1),
-                  surface_name(p.surface), is_separated(p) ? "separated" : "in contact", kind_of_contact(p)));
-  for (const sentence& t : scale_factor_story(p)) say(t);
-  if (i.other != nullptr) say_side_by_side("s", p.s, i.other->ss[p.pair]);
-}
-
-void explain_text::print_winner(const explained_increment& i) const {
-  fmt::print("\n");
-  say(paint::strong, "The smallest s");
-  for (const sentence& t : winner_story(i.call)) say(t);
-  if (i.other != nullptr) say_side_by_side("SMIN", i.call.smin, i.other->smin);
-  if (!i.call.narrowest) return;
-  constexpr std::uint64_t close = 1'000'000;
-  say({no_line, i.call.narrowest->ulps <= close
-                    ? "The narrowest decision of this call: " + words_of(*i.call.narrowest) + "."
-                    : "No decision of this call was close."});
-}
-
-void explain_text::print_toggles(const explained_increment& i) const {
-  if (i.call.winner < 0) return;
-  for (const explained_pair& p : i.call.pairs) {
-    if (!of_.wants(p)) continue;
-    fmt::print("\n");
-    say(paint::strong, fmt::format("Pair {}: {}", p.pair + 1, name_of(p.why)));
-    for (const sentence& t : toggle_story(i.call, p))
-      say(t, t.at.number == 0 && p.why != why_toggled::same_moment);
-    if (i.other != nullptr && i.other->isep[p.pair] != p.isep_after)
-      say({no_line, fmt::format("ISEP: {} {}, {} {}: DIFFERENT", of_.names[0], p.isep_after, of_.names[1],
-                                i.other->isep[p.pair])},
-          true);
-  }
-}
-
-void explain_text::print_outcome(const explained_increment& i) const {
-  fmt::print("\n");
-  if (i.left_undone) {
-    say(paint::quiet,
-        "What would be left of the load after this event is rounding. The driver, not CONTCT, takes the "
-        "toggles back and applies the whole residual load.");
-  }
-  if (i.what.s == 1.0) {
-    say(paint::quiet, "The whole residual load is applied: D + d* is the new D (10). The step ends here.");
-  } else {
-    say(paint::quiet, fmt::format("s = {} of the residual load is applied: D + s d* is the new D (10). {} of "
-                                  "the step's load is applied by now.",
-                                  share_words(i.what.s), share_words(i.what.fraction)));
-  }
-  if (i.apart && i.other == nullptr)
-    say(paint::bad, fmt::format("{} gave no answer: {}", of_.names[1], i.apart->follower));
-  if (i.apart && i.apart->field == "text")
-    say(paint::bad, fmt::format(R"(Unit 26, line {}: {} wrote "{}", {} wrote "{}")", i.apart->index,
-                                of_.names[0], i.apart->leader, of_.names[1], i.apart->follower));
-}
-
-void explain_text::print(const explained_increment& i) {
-  if (!std::exchange(begun_, true)) {
-    if (!of_.what.title.empty()) say(paint::strong, of_.what.title);
-    say(paint::quiet,
-        "At the left: lines of the listing, fortran/contct.f. At the right: equations of the paper.");
-  }
-  fmt::print("\n");
-  const std::string heading = fmt::format("Step {}, increment {}", i.what.step, i.what.number);
-  say(paint::strong, heading);
-  say(paint::strong, std::string(heading.size(), '-'));
-  print_load(i);
-  for (const explained_pair& p : i.call.pairs) {
-    if (of_.wants(p)) print_pair(i, p);
-  }
-  print_winner(i);
-  print_toggles(i);
-  print_outcome(i);
-}
-
 namespace {
 
+/// Prints one increment.
+class increment_printer {
+ public:
+  increment_printer(const explained_kernels& of, const load_path& loads, const terminal& t,
+                    const explained_increment& i)
+      : of_(of), loads_(loads), terminal_(t), i_(i) {}
+
+  void print(bool first) const {
+    if (first && !of_.what.title.empty()) say(paint::strong, of_.what.title);
+    if (first)
+      say(paint::quiet,
+          "At the left: lines of the listing, fortran/contct.f. At the right: equations of the paper.");
+    fmt::print("\n");
+    const std::string heading = fmt::format("Step {}, increment {}", i_.what.step, i_.what.number);
+    say(paint::strong, heading);
+    say(paint::strong, std::string(heading.size(), '-'));
+    print_load();
+    for (const explained_pair& p : i_.call.pairs) {
+      if (of_.wants(p)) print_pair(p);
+    }
+    print_winner();
+    print_toggles();
+    print_outcome();
+  }
+
+ private:
+  void say(paint p, const std::string& words) const {
+    for (const std::string& line : wrap({words}, terminal_.width))
+      fmt::print("{}\n", painted(terminal_, p, line));
+  }
+
+  /// "  38  s = GAP / d* = 0.25.                 (4)"; where there is room, with the statement behind its
+  /// number.
+  void say(const sentence& t, bool loud = false) const {
+    constexpr int margin = 6;
+    constexpr int statement_width = 49;
+    constexpr int width_with_statements = 120;
+    std::string head = t.at.number > 0 ? fmt::format("{:>4}  ", t.at.number) : std::string(margin, ' ');
+    if (terminal_.width >= width_with_statements)
+      head += fmt::format("{:<{}}", t.at.statement, statement_width);
+    const int room = terminal_.width - static_cast<int>(head.size());
+    std::vector<std::string> lines = wrap({t.words}, room);
+    if (!t.equation.empty()) {
+      const auto free = room - static_cast<int>(lines.back().size() + t.equation.size());
+      if (free >= 1) {
+        lines.back() += std::string(free, ' ') + t.equation;
+      } else {
+        lines.push_back(fmt::format("{:>{}}", t.equation, room));
+      }
+    }
+    for (const std::string& line : lines) {
+      fmt::print("{}{}\n", head, loud ? painted(terminal_, paint::bad, line) : line);
+      head.assign(head.size(), ' ');
+    }
+  }
+
+  void say_side_by_side(std::string_view what, double first, double second) const {
+    const std::string words = side_by_side_words(of_.names[0], first, of_.names[1], second, of_.real_bytes);
+    say({no_line, fmt::format("{}: {}", what, words)}, words.find("equal to the bit") == std::string::npos);
+  }
+
+  void print_load() const {
+    constexpr int room = 24;
+    const std::string now = loads_.words_at(i_.what.step, i_.fraction_before, room);
+    const std::string aim = loads_.words_at(i_.what.step, 1.0, room);
+    if (now.empty() || aim.empty()) return;
+    say(paint::quiet, fmt::format("The residual load leads from {} to {}.", now, aim));
+  }
+
+  void print_pair(const explained_pair& p) const {
+    fmt::print("\n");
+    say(paint::strong, fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1,
+                                   place_words(of_.what.geometry, p.node - 1), surface_name(p.surface),
+                                   is_separated(p) ? "separated" : "in contact", kind_of_contact(p)));
+    for (const sentence& t : scale_factor_story(p)) say(t);
+    if (i_.other != nullptr) say_side_by_side("s", p.s, i_.other->ss[p.pair]);
+  }
+
+  void print_winner() const {
+    fmt::print("\n");
+    say(paint::strong, "The smallest s");
+    for (const sentence& t : winner_story(i_.call)) say(t);
+    if (i_.other != nullptr) say_side_by_side("SMIN", i_.call.smin, i_.other->smin);
+    if (!i_.call.narrowest) return;
+    constexpr std::uint64_t close = 1'000'000;
+    say({no_line, i_.call.narrowest->ulps <= close
+                      ? "The narrowest decision of this call: " + words_of(*i_.call.narrowest) + "."
+                      : "No decision of this call was close."});
+  }
+
+  void print_toggles() const {
+    if (i_.call.winner < 0) return;
+    for (const explained_pair& p : i_.call.pairs) {
+      if (!of_.wants(p)) continue;
+      fmt::print("\n");
+      say(paint::strong, fmt::format("Pair {}: {}", p.pair + 1, name_of(p.why)));
+      for (const sentence& t : toggle_story(i_.call, p))
+        say(t, t.at.number == 0 && p.why != why_toggled::same_moment);
+      if (i_.other != nullptr && i_.other->isep[p.pair] != p.isep_after)
+        say({no_line, fmt::format("ISEP: {} {}, {} {}: DIFFERENT", of_.names[0], p.isep_after, of_.names[1],
+                                  i_.other->isep[p.pair])},
+            true);
+    }
+  }
+
+  void print_outcome() const {
+    fmt::print("\n");
+    if (i_.left_undone) {
+      say(paint::quiet,
+          "What would be left of the load after this event is rounding. The driver, not CONTCT, takes the "
+          "toggles back and applies the whole residual load.");
+    }
+    if (i_.what.s == 1.0) {
+      say(paint::quiet, "The whole residual load is applied: D + d* is the new D (10). The step ends here.");
+    } else {
+      say(paint::quiet,
+          fmt::format("s = {} of the residual load is applied: D + s d* is the new D (10). {} of "
+                      "the step's load is applied by now.",
+                      share_words(i_.what.s), share_words(i_.what.fraction)));
+    }
+    if (i_.apart && i_.other == nullptr)
+      say(paint::bad, fmt::format("{} gave no answer: {}", of_.names[1], i_.apart->follower));
+    if (i_.apart && i_.apart->field == "text")
+      say(paint::bad, fmt::format(R"(Unit 26, line {}: {} wrote "{}", {} wrote "{}")", i_.apart->index,
+                                  of_.names[0], i_.apart->leader, of_.names[1], i_.apart->follower));
+  }
+
+  const explained_kernels& of_;
+  const load_path& loads_;
+  const terminal& terminal_;
+  const explained_increment& i_;
+};
+
 json story_json(const std::vector<sentence>& story) {
-  json list = json::array();
-  for (const sentence& t : story) {
-    json& entry = list.emplace_back(json::object());
+  return list_of(story, [](const sentence& t) {
+    json entry;
     if (t.at.number > 0) entry = {{"line", t.at.number}, {"statement", t.at.statement}};
     entry["words"] = t.words;
     if (!t.equation.empty()) entry["equation"] = t.equation;
-  }
-  return list;
+    return entry;
+  });
 }
 
 /// The IFs that were reached, in the listing's order, each with its margin.
@@ -387,47 +404,51 @@ json narrowest_json(const std::optional<decision>& d) {
 
 }  // namespace
 
-explain_json::explain_json(explained_kernels of, output_file& out)
-    : of_(std::move(of)), loads_(of_.what), document_(out) {
-  document_.put({{"format", "contct-explain-1"},
-                 {"title", of_.what.title},
-                 {"kernels", of_.names},
-                 {"real_bytes", of_.real_bytes}});
-  document_.open_array("increments");
+explain_text::explain_text(explained_kernels of, const terminal& t)
+    : of_(std::move(of)), loads_(of_.what), terminal_(t) {}
+
+void explain_text::print(const explained_increment& i) {
+  increment_printer(of_, loads_, terminal_, i).print(!std::exchange(begun_, true));
 }
 
+explain_json::explain_json(explained_kernels of, output_file& out)
+    : of_(std::move(of)),
+      loads_(of_.what),
+      document_(out,
+                {{"format", "contct-explain-1"},
+                 {"title", of_.what.title},
+                 {"kernels", of_.names},
+                 {"real_bytes", of_.real_bytes}},
+                "increments") {}
+
 void explain_json::write(const explained_increment& i) {
-  document_.open_object();
-  document_.put({{"step", i.what.step},
-                 {"increment", i.what.number},
-                 {"fraction_before", i.fraction_before},
-                 {"fraction", i.what.fraction},
-                 {"s", i.what.s},
-                 {"load", load_json(of_.what.geometry, loads_, i.what.step, i.what.fraction)},
-                 {"smin", both_json(of_, i.call.smin, i.other == nullptr ? nullptr : &i.other->smin)},
-                 {"winner", winner_json(i.call)},
-                 {"narrowest", narrowest_json(i.call.narrowest)},
-                 {"left_undone", i.left_undone},
-                 {"story", story_json(winner_story(i.call))}});
+  json out = {{"step", i.what.step},
+              {"increment", i.what.number},
+              {"fraction_before", i.fraction_before},
+              {"fraction", i.what.fraction},
+              {"s", i.what.s},
+              {"load", load_json(of_.what.geometry, loads_, i.what.step, i.what.fraction)},
+              {"smin", both_json(of_, i.call.smin, i.other == nullptr ? nullptr : &i.other->smin)},
+              {"winner", winner_json(i.call)},
+              {"narrowest", narrowest_json(i.call.narrowest)},
+              {"left_undone", i.left_undone},
+              {"story", story_json(winner_story(i.call))}};
   if (i.apart)
-    document_.put("apart", {{"field", i.apart->field},
-                            {"index", i.apart->index},
-                            {of_.names[0], i.apart->leader},
-                            {of_.names[1], i.apart->follower}});
-  document_.open_array("pairs");
-  for (const explained_pair& p : i.call.pairs) {
-    if (of_.wants(p)) document_.add(pair_json(of_, i, p));
-  }
-  document_.close();
-  document_.close();
+    out["apart"] = {{"field", i.apart->field},
+                    {"index", i.apart->index},
+                    {of_.names[0], i.apart->leader},
+                    {of_.names[1], i.apart->follower}};
+  out["pairs"] = nullptr;
+  const bool all = of_.pair == 0;
+  document_.add(out, {{"pairs", all ? i.call.pairs.size() : 1, [&](std::size_t k) {
+                         return pair_json(of_, i, i.call.pairs[all ? k : of_.pair - 1]);
+                       }}});
 }
 
 void explain_json::finish(std::string_view status, const explained_path& path) {
   json compared = nullptr;
   if (of_.names.size() > 1) compared = agreement_json(path.calls(), path.compared());
-  document_.close();  // the increments
-  document_.put({{"lockstep", compared}, {"status", status}});
-  document_.finish();
+  document_.finish({{"lockstep", compared}, {"status", status}});
 }
 
 }  // namespace contct::write

@@ -11,32 +11,10 @@
 #include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/frame_numbers.hpp"
+#include "contct/write/finished_run.hpp"
 #include "contct/write/result_json.hpp"
 
 namespace contct::write {
-
-/// A sentence about a line of fortran/contct.f.
-struct sentence {
-  listing_line at;  ///< number 0: no line
-  std::string words;
-  std::string equation{};  ///< of the paper: "(4)", "lemma 2"; or empty
-};
-
-/// How pair `p` came to its s: the body of the DO 10 loop.
-[[nodiscard]] std::vector<sentence> scale_factor_story(const explained_pair& p);
-
-/// Which pair won, and by how much: from SMIN to the IF that returns.
-[[nodiscard]] std::vector<sentence> winner_story(const explained_call& c);
-
-/// Whether pair `p` was toggled, and why: the body of the DO 30 loop. `c` had an event.
-[[nodiscard]] std::vector<sentence> toggle_story(const explained_call& c, const explained_pair& p);
-
-/// "advancing", "receding", "stationary", "no response".
-[[nodiscard]] std::string_view kind_of_contact(const explained_pair& p);
-
-/// "winner", "same moment", "too early", "by its mark", "not toggled".
-[[nodiscard]] std::string_view name_of(why_toggled why);
 
 /// How far two numbers of kernels of `real_bytes` are apart in ULP.
 [[nodiscard]] std::uint64_t ulps_apart(double first, double second, int real_bytes);
@@ -64,15 +42,6 @@ class explain_text {
   void print(const explained_increment& i);
 
  private:
-  void print_load(const explained_increment& i) const;
-  void print_pair(const explained_increment& i, const explained_pair& p) const;
-  void print_winner(const explained_increment& i) const;
-  void print_toggles(const explained_increment& i) const;
-  void print_outcome(const explained_increment& i) const;
-  void say(paint p, const std::string& words) const;
-  void say(const sentence& t, bool loud = false) const;
-  void say_side_by_side(std::string_view what, double first, double second) const;
-
   explained_kernels of_;
   load_path loads_;
   terminal terminal_;

@@ -5,20 +5,38 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <numeric>
-
-#include "contct/write/frame_numbers.hpp"
+#include <set>
+#include <utility>
 
 namespace contct::write {
 namespace {
 
-int watched_node(const finished_run& r, const std::vector<int>& among) {
-  extreme most{among.empty() ? 0 : among.front()};
-  for (const frame& f : r.kept.frames()) {
-    const extreme here = largest_deflection(r.what, f, among);
-    most.take(here.at, here.value);
+/// How much there is to write: a list of scattered elements counts by its length.
+std::size_t parts_of(const load& l) {
+  std::size_t parts = l.points.size();
+  for (const distributed_load& d : l.distributed)
+    parts += d.elements.empty() || is_run(d.elements) ? 1 : d.elements.size();
+  return parts;
+}
+
+/// A load in words, with its one number apart.
+struct load_words {
+  std::string before;
+  double value;
+  std::string after{};
+};
+load_words words_for(const model& m, const load& l, const resultant& r) {
+  const bool of_matrix = std::holds_alternative<assembled>(m.kind);
+  if (l.points.size() == 1 && l.distributed.empty()) {
+    const point_load& p = l.points[0];
+    return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), p.value,
+            " at " + place_words(m, p.node)};
   }
-  return most.at;
+  if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
+    return {"uniform ", l.distributed[0].polynomial[0]};
+  return {of_matrix ? "sum " : "force ", r.force};
 }
 
 void insert(std::vector<int>& sorted, int number) {
@@ -67,54 +85,40 @@ std::vector<int> edges_by_weight(const placed_nodes& places) {
   const auto spread = [](int i) { return i * golden - std::floor(i * golden); };
   std::vector<int> order(places.edges.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const int of_a = places.edges[a].elements;
-    const int of_b = places.edges[b].elements;
-    return of_a != of_b ? of_a < of_b : spread(a) < spread(b);
-  });
+  std::ranges::sort(order, {}, [&](int i) { return std::pair(places.edges[i].elements, spread(i)); });
   return order;
 }
 
 /// The nodes of what is marked: pairs, supports, and the dof that is watched.
-std::vector<char> marked_nodes(const finished_run& r, const placed_nodes& places, const shown_parts& shown) {
-  std::vector<char> marked(places.nodes.size(), 0);
-  const auto mark = [&](int dof) {
-    const int node = places.dofs[dof].node;
-    if (node >= 0) marked[node] = 1;
-  };
-  mark(shown.watched);
-  for (const int i : shown.pairs) mark(r.what.pairs[i].node);
-  for (const int dof : shown.supports) mark(dof);
+std::set<int> marked_nodes(const finished_run& r, const placed_nodes& places, const shown_parts& shown) {
+  std::set<int> marked = {places.dofs[shown.watched].node};
+  for (const int i : shown.pairs) marked.insert(places.dofs[r.what.pairs[i].node].node);
+  for (const int dof : shown.supports) marked.insert(places.dofs[dof].node);
+  marked.erase(-1);  // those of dofs whose place is not known
   return marked;
 }
 
 /// As many edges as the numbers of all frames together allow; where there are none, nodes.
 void choose_mesh(const placed_nodes& places, const finished_run& r, shown_parts& shown) {
-  std::vector<char> chosen = marked_nodes(r, places, shown);
+  std::set<int> chosen = marked_nodes(r, places, shown);
   const std::size_t numbers = r.kept.frames().size() * std::max<std::size_t>(1, axes_of(places).size());
   const std::size_t most = std::max<std::size_t>(300, most_mesh_numbers / numbers);
-  std::size_t count = std::count(chosen.begin(), chosen.end(), 1);
-  const auto choose = [&](int node) {
-    count += chosen[node] == 0 ? 1 : 0;
-    chosen[node] = 1;
-  };
   for (const int i : edges_by_weight(places)) {
-    if (shown.edges.size() == most_edges || count + 2 > most) break;
-    choose(places.edges[i].from);
-    choose(places.edges[i].to);
+    if (shown.edges.size() == most_edges || chosen.size() + 2 > most) break;
+    chosen.insert({places.edges[i].from, places.edges[i].to});
     shown.edges.push_back(i);
   }
   std::sort(shown.edges.begin(), shown.edges.end());
   // Nodes without an edge are points of their own.
-  const std::size_t all = places.nodes.size();
   if (shown.edges.size() == places.edges.size())
-    for (const int node : evenly(all, most)) choose(node);
-  for (std::size_t node = 0; node < all; ++node)
-    if (chosen[node] != 0) shown.nodes.push_back(static_cast<int>(node));
+    for (const int node : evenly(places.nodes.size(), most)) chosen.insert(node);
+  shown.nodes.assign(chosen.begin(), chosen.end());
   const std::vector<dofs_of_node> of_node = dofs_of_nodes(places);
   for (const frame& f : r.kept.frames()) {
-    for (const int node : shown.nodes)
-      shown.reach = std::max(shown.reach, length_of(reading_at(of_node[node].along, f)));
+    for (const int node : shown.nodes) {
+      const auto [x, y, z] = reading_at(of_node[node].along, f);
+      shown.reach = std::max(shown.reach, std::hypot(x, y, z));
+    }
   }
 }
 
@@ -145,10 +149,9 @@ void choose_pairs(const finished_run& r, shown_parts& shown) {
 
 /// The nodes with supports that are drawn.
 void choose_supports(const finished_run& r, shown_parts& shown) {
-  std::vector<int> held;
-  for (const support& s : r.what.supports) held.push_back(s.node);
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
+  std::set<int> nodes;
+  for (const support& s : r.what.supports) nodes.insert(s.node);
+  const std::vector<int> held(nodes.begin(), nodes.end());
   for (const int i : evenly(held.size(), most_supports)) shown.supports.push_back(held[i]);
   if (shown.supports.size() == held.size()) return;
   shown.omissions.push_back(fmt::format("Supports are drawn at {} of {} {}s that have them, evenly chosen.",
@@ -174,6 +177,143 @@ void add_count_omissions(const finished_run& r, shown_parts& shown) {
 
 }  // namespace
 
+bool is_run(const std::vector<int>& elements) {
+  return elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
+         std::is_sorted(elements.begin(), elements.end());
+}
+
+load_path::load_path(const problem& p) : problem_(p), totals_{resultant_of(p.geometry, {})}, parts_(1) {
+  for (const load& l : p.steps) {
+    totals_.push_back(resultant_of(p.geometry, l));
+    parts_.push_back(parts_of(l));
+  }
+}
+
+load load_path::at(int step, double fraction) const {
+  if (step == 0) return {};
+  return mix(step > 1 ? problem_.steps[step - 2] : load{}, problem_.steps[step - 1], fraction);
+}
+
+resultant load_path::resultant_at(int step, double fraction) const {
+  const resultant& a = totals_[step - 1];
+  const resultant& b = totals_[step];
+  resultant r{a.force + fraction * (b.force - a.force), a.moments};
+  for (std::size_t i = 0; i < r.moments.size(); ++i) r.moments[i] += fraction * (b.moments[i] - a.moments[i]);
+  return r;
+}
+
+bool load_path::has_many_parts(int step) const {
+  constexpr std::size_t most = 32;
+  return std::max(parts_[step - 1], parts_[step]) > most;
+}
+
+std::string load_path::words_at(int step, double fraction, int width) const {
+  const load l = has_many_parts(step) ? load{} : at(step, fraction);
+  const load_words w = words_for(problem_.geometry, l, resultant_at(step, fraction));
+  const auto fits = [width](const std::string& text) { return static_cast<int>(text.size()) <= width; };
+  for (int digits = 6; digits >= 3; --digits) {
+    std::string text = fmt::format("{}{:.{}g}{}", w.before, w.value, digits, w.after);
+    if (fits(text)) return text;
+  }
+  std::string number = fmt::format("{:.3g}", w.value);
+  return fits(number) ? number : "";
+}
+
+double deflection_of(const problem& p, std::span<const double> u, int node) {
+  return u[static_cast<std::size_t>(node) * dofs_per_node(p.geometry)];
+}
+
+pair_reading reading_of(const contact_pair& p, double w, bool closed) {
+  return {w, gap_of(p, w, closed), force_of(p, w, closed), look_of(p, w, closed)};
+}
+
+pair_reading reading_of(const problem& p, const frame& f, std::size_t pair) {
+  const contact_pair& at = p.pairs[pair];
+  return reading_of(at, deflection_of(p, f, at.node), f.closed(pair));
+}
+
+void extreme::take(int other_at, double other) {
+  if (std::abs(other) > std::abs(value)) *this = {other_at, other};
+}
+
+std::vector<int> deflecting_nodes(const problem& p) {
+  std::vector<char> is_length(nodes(p.geometry), 1);
+  const auto* a = std::get_if<assembled>(&p.geometry.kind);
+  if (a != nullptr && (a->places.known() || !p.pairs.empty())) {
+    for (std::size_t dof = 0; dof < is_length.size(); ++dof)
+      is_length[dof] = a->places.known() && a->places.dofs[dof].is_length() ? 1 : 0;
+    for (const contact_pair& pair : p.pairs) is_length[pair.node] = 1;
+  }
+  std::vector<int> list;
+  for (int node = 0; node < nodes(p.geometry); ++node)
+    if (is_length[node] != 0) list.push_back(node);
+  return list;
+}
+
+extreme largest_deflection(const problem& p, const frame& f, std::span<const int> among) {
+  extreme most{among.empty() ? 0 : among.front()};
+  for (const int node : among) most.take(node, deflection_of(p, f, node));
+  return most;
+}
+
+pair_counts count_pairs(const problem& p, const frame& f) {
+  pair_counts n;
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) ++n.of(reading_of(p, f, i).look);
+  return n;
+}
+
+std::string place_name(const model& m, int node) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  return a != nullptr ? a->label_of(node) : std::to_string(node + 1);
+}
+
+place place_of_node(const model& m, int node) {
+  if (const auto* b = std::get_if<beam>(&m.kind)) return {b->x[node], 0.0};
+  const auto* p = std::get_if<plate>(&m.kind);
+  if (p == nullptr) return {static_cast<double>(node), 0.0};
+  return {p->x[node % p->columns()], p->y[node / p->columns()]};
+}
+
+std::vector<dofs_of_node> dofs_of_nodes(const placed_nodes& places) {
+  std::vector<dofs_of_node> list(places.nodes.size());
+  for (std::size_t dof = 0; dof < places.dofs.size(); ++dof) {
+    const placed_dof& at = places.dofs[dof];
+    if (at.node < 0) continue;
+    dofs_of_node& of = list[at.node];
+    const int axis = (at.direction - 1) % 3;
+    (at.is_length() ? of.along : of.about)[axis] = static_cast<int>(dof);
+  }
+  return list;
+}
+
+std::vector<int> axes_of(const placed_nodes& places) {
+  std::array<bool, 3> has{};
+  for (const placed_dof& d : places.dofs)
+    if (d.is_length()) has[d.direction - 1] = true;
+  std::vector<int> axes;
+  for (int axis = 0; axis < 3; ++axis)
+    if (has[axis]) axes.push_back(axis);
+  return axes;
+}
+
+in_space reading_at(const std::array<int, 3>& dofs, const frame& f) {
+  in_space u{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (dofs[axis] >= 0) u[axis] = f.displacement[dofs[axis]];
+  return u;
+}
+
+int fitting_view(const placed_nodes& places) {
+  const std::vector<int> axes = axes_of(places);
+  for (const auto& [normal, view] : {std::pair(2, 0), {1, 1}, {0, 2}}) {
+    const double first = places.nodes.front().at[normal];
+    const bool flat = std::ranges::all_of(
+        places.nodes, [first, axis = normal](const placed_node& n) { return n.at[axis] == first; });
+    if (flat && std::ranges::find(axes, normal) == axes.end()) return view;
+  }
+  return static_cast<int>(all_views.size()) - 1;
+}
+
 void run_record::called(const answered_call& c) {
   ++all_calls;
   all_log += c.text.size();
@@ -181,26 +321,22 @@ void run_record::called(const answered_call& c) {
   if (log.size() + c.text.size() <= most_log && log.size() + c.text.size() == all_log) log += c.text;
   answers_ = calls.size() < most_calls;
   if (!answers_) return;
-  call_record r;
-  r.smin = c.c.smin;
   const auto first = c.c.ss.first(std::min(most_ss, c.c.ss.size()));
-  r.ss.assign(first.begin(), first.end());
-  if (compared_ != nullptr) r.followers = compared_->last_answers();
-  calls.push_back(std::move(r));
+  calls.push_back({0, 0, c.c.smin, {first.begin(), first.end()}, {}});
+  if (compared_ != nullptr) calls.back().followers = compared_->last_answers();
 }
 
 void run_record::incremented(const increment& i) {
-  if (answers_) {
+  if (std::exchange(answers_, false)) {
     calls.back().step = i.step;
     calls.back().number = i.number;
   }
-  answers_ = false;
   if (all_increments++ < most_increments) increments.emplace_back(i);
 }
 
 std::string on_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char ch) { return ch == '\n' || ch == '\r'; }, ' ');
+  std::ranges::replace_if(
+      text, [](char ch) { return ch == '\n' || ch == '\r'; }, ' ');
   return text;
 }
 
@@ -219,9 +355,7 @@ std::vector<int> evenly(std::size_t all, std::size_t count) {
 }
 
 std::vector<point_load> largest_loads(std::vector<point_load> loads) {
-  std::stable_sort(loads.begin(), loads.end(), [](const point_load& one, const point_load& other) {
-    return std::abs(one.value) > std::abs(other.value);
-  });
+  std::ranges::stable_sort(loads, std::greater{}, [](const point_load& p) { return std::abs(p.value); });
   if (loads.size() > most_loads) loads.resize(most_loads);
   return loads;
 }
@@ -234,11 +368,10 @@ std::vector<double> sampled_load(const beam& b, const load& l) {
     const int element = static_cast<int>(right - b.x.begin()) - 1;
     double q = 0.0;
     for (const distributed_load& d : l.distributed) {
-      const bool here =
-          d.elements.empty() || std::find(d.elements.begin(), d.elements.end(), element) != d.elements.end();
+      if (!d.elements.empty() && std::ranges::find(d.elements, element) == d.elements.end()) continue;
       double power = 1.0;
       for (const double a : d.polynomial) {
-        if (here) q += a * power;
+        q += a * power;
         power *= x;
       }
     }
@@ -254,7 +387,12 @@ bool shown_parts::has_support_at(int node) const {
 shown_parts choose_parts(const finished_run& r) {
   shown_parts shown;
   shown.deflecting = deflecting_nodes(r.what);
-  shown.watched = watched_node(r, shown.deflecting);
+  extreme most{shown.deflecting.empty() ? 0 : shown.deflecting.front()};
+  for (const frame& f : r.kept.frames()) {
+    const extreme here = largest_deflection(r.what, f, shown.deflecting);
+    most.take(here.at, here.value);
+  }
+  shown.watched = most.at;
   if (const auto* b = std::get_if<beam>(&r.what.geometry.kind)) choose_nodes(*b, r, shown);
   if (const auto* p = std::get_if<plate>(&r.what.geometry.kind)) choose_lines(*p, r, shown);
   choose_pairs(r, shown);

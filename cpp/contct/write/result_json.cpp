@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "contct/matrix/cholesky.hpp"
 
@@ -13,9 +15,7 @@ using json = nlohmann::ordered_json;
 
 /// Numbers from 1.
 json numbered(const std::vector<int>& all) {
-  json list = json::array();
-  for (const int i : all) list.push_back(i + 1);
-  return list;
+  return list_of(all, [](int i) { return i + 1; });
 }
 
 /// "all", "2..9", or a list; from 1.
@@ -33,6 +33,21 @@ json event_json(const problem& p, const event& e) {
   return entry;
 }
 
+json reaction_json(const model& m, const support& at, double value) {
+  json entry;
+  put_place(entry, m, at.node);
+  if (!entry.contains("dof")) entry["dof"] = dof_names(m)[at.dof];
+  entry["value"] = value;
+  return entry;
+}
+
+json element_json(const element_results& results, std::size_t e) {
+  json entry = {{"element", e + 1}};
+  for (std::size_t i = 0; i < results.names.size(); ++i)
+    entry[std::string(results.names[i])] = results.at(e, i);
+  return entry;
+}
+
 json lockstep_json(const lockstep& compared) {
   json out = agreement_json(compared.calls(), compared.compared());
   if (!compared.first()) return out;
@@ -45,57 +60,38 @@ json lockstep_json(const lockstep& compared) {
 
 }  // namespace
 
-json_document::json_document(output_file& out) : out_(out) {
-  open('{');
+json_document::json_document(output_file& out, const json& members, std::string_view name) : out_(out) {
+  out_.write("{");
+  write_members(members, {}, 2);
+  out_.write(fmt::format(",\n  {}: [", json(name).dump()));
 }
 
-void json_document::open(char bracket) {
-  out_.write({&bracket, 1});
-  closing_ += bracket == '{' ? '}' : ']';
-  empty_ = true;
+void json_document::write_members(const json& members, const std::vector<list>& lists, int indent) {
+  std::string_view before;
+  for (const auto& [name, value] : members.items()) {
+    out_.write(fmt::format("{}\n{:{}}{}: ", std::exchange(before, ","), "", indent, json(name).dump()));
+    const auto l = std::ranges::find(lists, std::string_view(name), &list::name);
+    if (l == lists.end()) {
+      out_.write(value.dump());
+    } else {
+      out_.write("[");
+      for (std::size_t i = 0; i < l->count; ++i)
+        out_.write(fmt::format("{}\n{:{}}{}", i == 0 ? "" : ",", "", indent + 2, l->entry(i).dump()));
+      out_.write(l->count == 0 ? "]" : fmt::format("\n{:{}}]", "", indent));
+    }
+  }
 }
 
-void json_document::begin_line(std::string_view name) {
-  out_.write(fmt::format("{}\n{:{}}", empty_ ? "" : ",", "", 2 * closing_.size()));
-  if (!name.empty()) out_.write(json(name).dump() + ": ");
-  empty_ = false;
+void json_document::add(const json& members, const std::vector<list>& lists) {
+  out_.write(fmt::format("{}\n    {{", std::exchange(before_, ",")));
+  write_members(members, lists, 6);
+  out_.write("\n    }");
 }
 
-void json_document::put(std::string_view name, const json& value) {
-  begin_line(name);
-  out_.write(value.dump());
-}
-
-void json_document::put(const json& members) {
-  for (const auto& [name, value] : members.items()) put(name, value);
-}
-
-void json_document::add(const json& value) {
-  begin_line();
-  out_.write(value.dump());
-}
-
-void json_document::open_array(std::string_view name) {
-  begin_line(name);
-  open('[');
-}
-
-void json_document::open_object() {
-  begin_line();
-  open('{');
-}
-
-void json_document::close() {
-  const char bracket = closing_.back();
-  closing_.pop_back();
-  if (!empty_) out_.write(fmt::format("\n{:{}}", "", 2 * closing_.size()));
-  out_.write({&bracket, 1});
-  empty_ = false;
-}
-
-void json_document::finish() {
-  while (!closing_.empty()) close();
-  out_.write("\n");
+void json_document::finish(const json& members, const std::vector<list>& lists) {
+  out_.write(before_.empty() ? "]," : "\n  ],");
+  write_members(members, lists, 2);
+  out_.write("\n}\n");
   out_.finish();
 }
 
@@ -153,114 +149,90 @@ void put_place(json& entry, const model& m, int node) {
 
 result_json::result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
                          const certifier& judged, output_file& out)
-    : problem_(p), judged_(judged), loads_(p), document_(out) {
-  document_.put(
-      {{"format", "contct-result-1"}, {"title", p.title}, {"kernels", kernels}, {"engine", engine}});
-  document_.open_array("steps");
-}
+    : problem_(p),
+      judged_(judged),
+      loads_(p),
+      document_(out,
+                {{"format", "contct-result-1"}, {"title", p.title}, {"kernels", kernels}, {"engine", engine}},
+                "steps") {}
 
 void result_json::step_ended(const step_state& s) {
+  const model& m = problem_.geometry;
   const load total = loads_.at(s.step, s.fraction);
+  const element_results results = results_in_elements(m, total, s.displacement);
+  const std::vector<double> reacting = reactions(m, total, problem_.supports, s.displacement);
   std::vector<double> w;
-  for (int node = 0; node < nodes(problem_.geometry); ++node)
-    w.push_back(deflection_of(problem_, s.displacement, node));
-  document_.open_object();
-  document_.put({{"step", s.step}, {"fraction", s.fraction}});
-  write_increments();
-  document_.put("w", w);
-  document_.put("displacement", s.displacement);
-  write_pairs(s);
-  write_reactions(s, total);
-  write_elements(s, total);
-  if (s.from_fallback) document_.put("ended_by", "oracle");
-  document_.put({{"rcond", s.rcond},
-                 {"digits", digits_left(s.rcond)},
-                 {"certificate", certificate_json(judged_.steps().back())}});
-  document_.close();
-}
-
-void result_json::write_increments() {
-  document_.put_list("increments", increments_.size(), [this](std::size_t at) {
-    const increment_record& i = increments_[at];
-    json events = json::array();
-    for (const event& e : i.events) events.push_back(event_json(problem_, e));
-    json entry = {{"increment", i.number},
-                  {"s", i.s},
-                  {"fraction", i.fraction},
-                  {"load", load_json(problem_.geometry, loads_, i.step, i.fraction)},
-                  {"events", std::move(events)}};
-    if (i.snaps) entry["snap"] = true;
-    return entry;
-  });
+  for (int node = 0; node < nodes(m); ++node) w.push_back(deflection_of(problem_, s.displacement, node));
+  json members = {{"step", s.step},
+                  {"fraction", s.fraction},
+                  {"increments", nullptr},
+                  {"w", w},
+                  {"displacement", s.displacement},
+                  {"pairs", nullptr},
+                  {"reactions", nullptr},
+                  {"elements", nullptr}};
+  if (s.from_fallback) members["ended_by"] = "oracle";
+  members.update({{"rcond", s.rcond},
+                  {"digits", digits_left(s.rcond)},
+                  {"certificate", certificate_json(judged_.steps().back())}});
+  document_.add(members,
+                {{"increments", increments_.size(), [this](auto i) { return increment_of(increments_[i]); }},
+                 {"pairs", problem_.pairs.size(), [&](auto i) { return pair_in(s, i); }},
+                 {"reactions", reacting.size(),
+                  [&](auto i) { return reaction_json(m, problem_.supports[i], reacting[i]); }},
+                 {"elements", results.elements(), [&](auto i) { return element_json(results, i); }}});
   increments_.clear();
 }
 
-void result_json::write_pairs(const step_state& s) {
-  document_.put_list("pairs", problem_.pairs.size(), [&](std::size_t i) {
-    const contact_pair& p = problem_.pairs[i];
-    const double w = deflection_of(problem_, s.displacement, p.node);
-    const pair_reading r = reading_of(p, w, s.isep[i] == in_contact);
-    json entry = {{"pair", i + 1}};
-    put_place(entry, problem_.geometry, p.node);
-    entry.update({{"surface", surface_name(p.surface)},
-                  {"state", state_name(s.isep[i])},
-                  {"gap", r.gap},
-                  {"force", r.force}});
-    return entry;
-  });
+json result_json::increment_of(const increment_record& i) const {
+  json entry = {{"increment", i.number},
+                {"s", i.s},
+                {"fraction", i.fraction},
+                {"load", load_json(problem_.geometry, loads_, i.step, i.fraction)},
+                {"events", list_of(i.events, [this](const event& e) { return event_json(problem_, e); })}};
+  if (i.snaps) entry["snap"] = true;
+  return entry;
 }
 
-void result_json::write_reactions(const step_state& s, const load& total) {
-  const std::vector<double> values = reactions(problem_.geometry, total, problem_.supports, s.displacement);
-  const auto names = dof_names(problem_.geometry);
-  document_.put_list("reactions", values.size(), [&](std::size_t i) {
-    const support& at = problem_.supports[i];
-    json entry;
-    put_place(entry, problem_.geometry, at.node);
-    if (!entry.contains("dof")) entry["dof"] = names[at.dof];
-    entry["value"] = values[i];
-    return entry;
-  });
-}
-
-void result_json::write_elements(const step_state& s, const load& total) {
-  const element_results results = results_in_elements(problem_.geometry, total, s.displacement);
-  document_.put_list("elements", results.elements(), [&](std::size_t e) {
-    json entry = {{"element", e + 1}};
-    for (std::size_t i = 0; i < results.names.size(); ++i)
-      entry[std::string(results.names[i])] = results.at(e, i);
-    return entry;
-  });
+json result_json::pair_in(const step_state& s, std::size_t pair) const {
+  const contact_pair& p = problem_.pairs[pair];
+  const double w = deflection_of(problem_, s.displacement, p.node);
+  const pair_reading r = reading_of(p, w, s.isep[pair] == in_contact);
+  json entry = {{"pair", pair + 1}};
+  put_place(entry, problem_.geometry, p.node);
+  entry.update({{"surface", surface_name(p.surface)},
+                {"state", state_name(s.isep[pair])},
+                {"gap", r.gap},
+                {"force", r.force}});
+  return entry;
 }
 
 void result_json::finish(std::string_view status, const path_end& end, const lockstep* compared) {
-  document_.close();  // the steps
-  document_.put({{"end",
-                  {{"reason", end_reason(end.status)},
-                   {"step", end.step},
-                   {"fraction", end.fraction},
-                   {"pairs", numbered(end.pairs)}}},
-                 {"engine_work",
-                  {{"factors", end.work.factors},
-                   {"solves", end.work.solves},
-                   {"updates", end.work.updates},
-                   {"checks", end.work.checks}}}});
-  if (!free_runs_.empty())
-    document_.put_list("free_run", free_runs_.size(), [this](std::size_t i) {
-      const auto& [kernel, d, certified] = free_runs_[i];
-      return json{{"kernel", kernel},
-                  {"same_end", d.same_end},
-                  {"same_events", d.same_events},
-                  {"first_difference", d.first_difference},
-                  {"fraction", d.fraction},
-                  {"displacement", d.displacement},
-                  {"bound", d.bound},
-                  {"within_bound", d.within_bound()},
-                  {"certified", certified}};
-    });
-  document_.put(
-      {{"lockstep", compared == nullptr ? json(nullptr) : lockstep_json(*compared)}, {"status", status}});
-  document_.finish();
+  json members = {{"end",
+                   {{"reason", end_reason(end.status)},
+                    {"step", end.step},
+                    {"fraction", end.fraction},
+                    {"pairs", numbered(end.pairs)}}},
+                  {"engine_work",
+                   {{"factors", end.work.factors},
+                    {"solves", end.work.solves},
+                    {"updates", end.work.updates},
+                    {"checks", end.work.checks}}}};
+  if (!free_runs_.empty()) members["free_run"] = nullptr;
+  members["lockstep"] = compared == nullptr ? json(nullptr) : lockstep_json(*compared);
+  members["status"] = status;
+  document_.finish(members, {{"free_run", free_runs_.size(), [this](auto i) -> json {
+                                const auto& [kernel, d, certified] = free_runs_[i];
+                                return {{"kernel", kernel},
+                                        {"same_end", d.same_end},
+                                        {"same_events", d.same_events},
+                                        {"first_difference", d.first_difference},
+                                        {"fraction", d.fraction},
+                                        {"displacement", d.displacement},
+                                        {"bound", d.bound},
+                                        {"within_bound", d.within_bound()},
+                                        {"certified", certified}};
+                              }}});
 }
 
 }  // namespace contct::write

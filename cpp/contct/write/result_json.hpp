@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -16,47 +17,46 @@
 #include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/finished_run.hpp"
-#include "contct/write/frame_numbers.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
 
-/// An object written to a file while it grows: only the value at hand is in memory. Members and elements
-/// stand on lines of their own, indented by their depth.
+/// A list with what `entry` gives for each element. The JSON library is only needed where this is called.
+template <class Json = nlohmann::ordered_json, class Range, class Entry>
+[[nodiscard]] Json list_of(const Range& range, Entry entry) {
+  Json list = Json::array();
+  for (const auto& element : range) list.push_back(Json(entry(element)));
+  return list;
+}
+
+/// An object with one array that grows: only the value at hand is in memory. The members of the object and of
+/// the array's elements stand on lines of their own, indented by their depth, and so do the elements of
+/// lists.
 class json_document {
  public:
-  /// Opens the object. `out` must outlive this one.
-  explicit json_document(output_file& out);
+  using json = nlohmann::ordered_json;
 
-  /// A member of the open object, or several.
-  void put(std::string_view name, const nlohmann::ordered_json& value);
-  void put(const nlohmann::ordered_json& members);
-  /// An element of the open array.
-  void add(const nlohmann::ordered_json& value);
+  /// A list that is written in place of the member of its name: entry(i) for each i below `count`.
+  struct list {
+    std::string_view name;
+    std::size_t count;
+    std::function<json(std::size_t)> entry;
+  };
 
-  /// An array as a member of the open object; an object as an element of the open array.
-  void open_array(std::string_view name);
-  void open_object();
-  /// End what was opened last.
-  void close();
-  /// A whole array: entry(i) for each i below `count`.
-  template <class Entry>
-  void put_list(std::string_view name, std::size_t count, Entry entry) {
-    open_array(name);
-    for (std::size_t i = 0; i < count; ++i) add(entry(i));
-    close();
-  }
+  /// Opens the object with these members, then the array `name`. `out` must outlive this one.
+  json_document(output_file& out, const json& members, std::string_view name);
 
-  /// End the document; the file appears.
-  void finish();
+  /// An element of the array: an object.
+  void add(const json& members, const std::vector<list>& lists);
+
+  /// End the array, and the document with these members behind it; the file appears.
+  void finish(const json& members, const std::vector<list>& lists = {});
 
  private:
-  void begin_line(std::string_view name = {});
-  void open(char bracket);
+  void write_members(const json& members, const std::vector<list>& lists, int indent);
 
   output_file& out_;
-  std::string closing_;  // the brackets that are still to come, the outermost first
-  bool empty_ = true;    // nothing is in what was opened last
+  std::string_view before_;  // the next element
 };
 
 /// A step's certificate as result files have it; null where there is none.
@@ -95,10 +95,8 @@ class result_json final : public observer {
   void finish(std::string_view status, const path_end& end, const lockstep* compared);
 
  private:
-  void write_increments();
-  void write_pairs(const step_state& s);
-  void write_reactions(const step_state& s, const load& total);
-  void write_elements(const step_state& s, const load& total);
+  [[nodiscard]] nlohmann::ordered_json increment_of(const increment_record& i) const;
+  [[nodiscard]] nlohmann::ordered_json pair_in(const step_state& s, std::size_t pair) const;
 
   struct compared_path {
     std::string kernel;

@@ -1,16 +1,13 @@
-#include "contct/write/run_page.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "contct/text/markup.hpp"
-#include "contct/write/frame_numbers.hpp"
+#include "contct/write/pictures.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 
@@ -25,114 +22,11 @@ using json = nlohmann::ordered_json;
 
 constexpr int load_words_width = 60;
 
-/// A list with what `entry` gives for each element.
-template <class Range, class Entry>
-json list_of(const Range& range, Entry entry) {
-  json list = json::array();
-  for (const auto& element : range) list.push_back(json(entry(element)));
-  return list;
-}
-
 /// A node as the page names it: its number, from 1, or its label.
 json named(const problem& p, int node) {
   if (std::holds_alternative<assembled>(p.geometry.kind)) return place_name(p.geometry, node);
   return node + 1;
 }
-
-/// The mesh of a structure from elsewhere whose nodes have places, as the page numbers it: the nodes shown,
-/// from 0. All arguments must outlive it.
-class page_mesh {
- public:
-  page_mesh(const assembled& a, const shown_parts& shown)
-      : structure_(a),
-        places_(a.places),
-        shown_(shown),
-        of_node_(dofs_of_nodes(places_)),
-        axes_(axes_of(places_)),
-        number_(places_.nodes.size(), -1) {
-    for (int i = 0; const int node : shown.nodes) number_[node] = i++;
-  }
-
-  /// "names" and places of the nodes, "edges" between them, by their numbers, two by two; the "axes" that
-  /// displacements have, the "unit" these are given in, and the largest of them, "reach"; "still": nodes
-  /// without a dof; the "views" there are, and which "view" shows most.
-  [[nodiscard]] json geometry() const {
-    const auto along = [this](int axis) {
-      return list_of(shown_.nodes, [&](int node) { return places_.nodes[node].at[axis]; });
-    };
-    json still = json::array();
-    for (const int node : shown_.nodes)
-      if (of_node_[node] == dofs_of_node{}) still.push_back(number_[node]);
-    json edges = json::array();
-    for (const int i : shown_.edges) {
-      edges.push_back(number_[places_.edges[i].from]);
-      edges.push_back(number_[places_.edges[i].to]);
-    }
-    return {
-        {"kind", "mesh"},
-        {"all_nodes", places_.nodes.size()},
-        {"all_edges", places_.edges.size()},
-        {"names", list_of(shown_.nodes, [&](int node) { return places_.nodes[node].name; })},
-        {"x", along(0)},
-        {"y", along(1)},
-        {"z", along(2)},
-        {"edges", std::move(edges)},
-        {"axes", axes_},
-        {"unit", unit()},
-        {"reach", shown_.reach},
-        {"still", std::move(still)},
-        {"views", list_of(all_views,
-                          [](const structure_view& v) -> json {
-                            return {{"name", v.name}, {"words", v.words}, {"right", v.right}, {"up", v.up}};
-                          })},
-        {"view", fitting_view(places_)}};
-  }
-
-  /// The displacements of all nodes along the axes, as whole numbers of units.
-  [[nodiscard]] json displacements(const frame& f) const {
-    json u = json::array();
-    for (const int node : shown_.nodes) {
-      const in_space at = reading_at(of_node_[node].along, f);
-      for (const int axis : axes_) u.push_back(std::lround(at[axis] / unit()));
-    }
-    return u;
-  }
-
-  /// The largest loads of those that can be drawn: [node, direction, dof, value, label].
-  [[nodiscard]] json points(const load& l) const {
-    std::vector<point_load> drawn;
-    std::copy_if(l.points.begin(), l.points.end(), std::back_inserter(drawn),
-                 [this](const point_load& p) { return node_of(p.node) >= 0 && p.value != 0.0; });
-    return list_of(largest_loads(std::move(drawn)), [this](const point_load& p) -> json {
-      return {node_of(p.node), places_.dofs[p.node].direction, p.node, p.value, structure_.label_of(p.node)};
-    });
-  }
-
-  /// Add "at" which node a dof is and in which "direction", 1 to 6; null and 0 where that is not shown.
-  void place(int dof, json& entry) const {
-    const int node = node_of(dof);
-    entry["at"] = node < 0 ? json(nullptr) : json(node);
-    entry["direction"] = node < 0 ? 0 : places_.dofs[dof].direction;
-  }
-
- private:
-  /// The node of a dof on the page; -1 where it is not there.
-  [[nodiscard]] int node_of(int dof) const {
-    const int node = places_.dofs[dof].node;
-    return node < 0 ? -1 : number_[node];
-  }
-  [[nodiscard]] double unit() const {
-    constexpr double units = 1e5;  // in the largest displacement: a tenth of a pixel is some hundred of them
-    return shown_.reach > 0.0 ? shown_.reach / units : 1.0;
-  }
-
-  const assembled& structure_;
-  const placed_nodes& places_;
-  const shown_parts& shown_;
-  std::vector<dofs_of_node> of_node_;
-  std::vector<int> axes_;
-  std::vector<int> number_;  // of a node on the page; -1: it is not there
-};
 
 /// A quantity just left and just right of each node shown, and the largest of it at any node.
 json section_force_json(const element_results& results, std::size_t name, const std::vector<int>& nodes) {
@@ -170,8 +64,13 @@ class page_writer {
       : run_(r), what_(r.what), loads_(r.what), shown_(choose_parts(r)) {
     beam_ = std::get_if<beam>(&what_.geometry.kind);
     plate_ = std::get_if<plate>(&what_.geometry.kind);
-    if (const auto* a = std::get_if<assembled>(&what_.geometry.kind); a != nullptr && a->places.known())
-      mesh_.emplace(*a, shown_);
+    const auto* const a = std::get_if<assembled>(&what_.geometry.kind);
+    if (a == nullptr || !a->places.known()) return;
+    mesh_ = a;
+    of_node_ = dofs_of_nodes(a->places);
+    axes_ = axes_of(a->places);
+    number_.assign(a->places.nodes.size(), -1);
+    for (int i = 0; const int node : shown_.nodes) number_[node] = i++;
   }
 
   [[nodiscard]] json whole() const {
@@ -228,9 +127,85 @@ class page_writer {
              {"columns", numbered(shown_.columns)},
              {"rows", numbered(shown_.rows)},
              {"all_columns", plate_->columns()}};
-    if (mesh_) out = mesh_->geometry();
+    if (mesh_ != nullptr) out = mesh_geometry();
     out["watched"] = named(what_, shown_.watched);
     return out;
+  }
+
+  /// A structure from elsewhere, its nodes numbered as they are shown, from 0: "names" and places of the
+  /// nodes, "edges" between them, by their numbers, two by two; the "axes" that displacements have, the
+  /// "unit" these are given in, and the largest of them, "reach"; "still": nodes without a dof; the "views"
+  /// there are, and which "view" shows most.
+  [[nodiscard]] json mesh_geometry() const {
+    const placed_nodes& places = mesh_->places;
+    const auto along = [&](int axis) {
+      return list_of(shown_.nodes, [&](int node) { return places.nodes[node].at[axis]; });
+    };
+    json still = json::array();
+    for (const int node : shown_.nodes)
+      if (of_node_[node] == dofs_of_node{}) still.push_back(number_[node]);
+    json edges = json::array();
+    for (const int i : shown_.edges) {
+      edges.push_back(number_[places.edges[i].from]);
+      edges.push_back(number_[places.edges[i].to]);
+    }
+    return {
+        {"kind", "mesh"},
+        {"all_nodes", places.nodes.size()},
+        {"all_edges", places.edges.size()},
+        {"names", list_of(shown_.nodes, [&](int node) { return places.nodes[node].name; })},
+        {"x", along(0)},
+        {"y", along(1)},
+        {"z", along(2)},
+        {"edges", std::move(edges)},
+        {"axes", axes_},
+        {"unit", unit()},
+        {"reach", shown_.reach},
+        {"still", std::move(still)},
+        {"views", list_of(all_views,
+                          [](const structure_view& v) -> json {
+                            return {{"name", v.name}, {"words", v.words}, {"right", v.right}, {"up", v.up}};
+                          })},
+        {"view", fitting_view(places)}};
+  }
+
+  /// The displacements of all nodes along the axes, as whole numbers of units.
+  [[nodiscard]] json mesh_displacements(const frame& f) const {
+    json u = json::array();
+    for (const int node : shown_.nodes) {
+      const in_space at = reading_at(of_node_[node].along, f);
+      for (const int axis : axes_) u.push_back(std::lround(at[axis] / unit()));
+    }
+    return u;
+  }
+
+  /// The largest loads of those that can be drawn: [node, direction, dof, value, label].
+  [[nodiscard]] json mesh_points(const load& l) const {
+    std::vector<point_load> drawn;
+    std::copy_if(l.points.begin(), l.points.end(), std::back_inserter(drawn),
+                 [this](const point_load& p) { return node_of(p.node) >= 0 && p.value != 0.0; });
+    return list_of(largest_loads(std::move(drawn)), [this](const point_load& p) -> json {
+      return {node_of(p.node), mesh_->places.dofs[p.node].direction, p.node, p.value,
+              mesh_->label_of(p.node)};
+    });
+  }
+
+  /// Add "at" which node a dof is and in which "direction", 1 to 6; null and 0 where that is not shown.
+  void add_place(int dof, json& entry) const {
+    if (mesh_ == nullptr) return;
+    const int node = node_of(dof);
+    entry["at"] = node < 0 ? json(nullptr) : json(node);
+    entry["direction"] = node < 0 ? 0 : mesh_->places.dofs[dof].direction;
+  }
+
+  /// The node of a dof on the page; -1 where it is not there.
+  [[nodiscard]] int node_of(int dof) const {
+    const int node = mesh_->places.dofs[dof].node;
+    return node < 0 ? -1 : number_[node];
+  }
+  [[nodiscard]] double unit() const {
+    constexpr double units = 1e5;  // in the largest displacement: a tenth of a pixel is some hundred of them
+    return shown_.reach > 0.0 ? shown_.reach / units : 1.0;
   }
 
   [[nodiscard]] json supports() const {
@@ -246,7 +221,7 @@ class page_writer {
     }
     return list_of(at, [this](const auto& of_node) {
       json entry = of_node.second;
-      if (mesh_) mesh_->place(of_node.first, entry);
+      add_place(of_node.first, entry);
       return entry;
     });
   }
@@ -261,7 +236,7 @@ class page_writer {
                   {"side", at.surface},
                   {"face", at.face},
                   {"stiffness", at.stiffness}};
-    if (mesh_) mesh_->place(at.node, entry);
+    add_place(at.node, entry);
     return entry;
   }
 
@@ -342,7 +317,7 @@ class page_writer {
     if (plate_ != nullptr) add_plate_shape(f, out);
     if (beam_ != nullptr || plate_ != nullptr) out["points"] = point_loads(l);
     add_pairs(f, out);
-    if (mesh_) out.update({{"u", mesh_->displacements(f)}, {"points", mesh_->points(l)}});
+    if (mesh_ != nullptr) out.update({{"u", mesh_displacements(f)}, {"points", mesh_points(l)}});
     return out;
   }
 
@@ -352,7 +327,10 @@ class page_writer {
   shown_parts shown_;
   const beam* beam_ = nullptr;
   const plate* plate_ = nullptr;
-  std::optional<page_mesh> mesh_;
+  const assembled* mesh_ = nullptr;    // whose nodes have places
+  std::vector<dofs_of_node> of_node_;  // of the mesh
+  std::vector<int> axes_;
+  std::vector<int> number_;  // of a node on the page; -1: it is not there
 };
 
 /// As text of an HTML script element, where only "<" can begin anything: whatever its strings hold, none of

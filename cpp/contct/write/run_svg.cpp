@@ -1,15 +1,83 @@
-#include "contct/write/run_svg.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "contct/text/markup.hpp"
-#include "contct/write/frame_numbers.hpp"
+#include "contct/write/pictures.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
+namespace svg {
+
+void span_of::take(double x) {
+  least = std::min(least, x);
+  most = std::max(most, x);
+}
+
+double round_down(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  const double digit = x / power;
+  return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
+}
+
+std::vector<double> ticks(double from, double to, int about) {
+  const double step = round_down((to - from) / about * 2);
+  const auto first = static_cast<long>(std::ceil(from / step - 1e-9));
+  const auto last = static_cast<long>(std::floor(to / step + 1e-9));
+  std::vector<double> at;
+  for (long i = first; i <= last; ++i) at.push_back(static_cast<double>(i) * step);
+  return at;
+}
+
+std::string element(std::string_view name, std::string_view attributes, std::string_view content) {
+  return fmt::format("<{}{}{}", name, attributes.empty() ? "" : " ", attributes) +
+         (content.empty() ? "/>\n" : fmt::format(">{}</{}>\n", content, name));
+}
+
+std::string circle(double x, double y, double r, std::string_view attributes, std::string_view content) {
+  return element("circle", fmt::format(R"(cx="{:.1f}" cy="{:.1f}" r="{:.1f}" {})", x, y, r, attributes),
+                 content);
+}
+
+std::string rectangle(double x, double y, double width, double height, std::string_view attributes,
+                      std::string_view content) {
+  return element("rect",
+                 fmt::format(R"(x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" {})", x, y, width,
+                             height, attributes),
+                 content);
+}
+
+std::string text_markup(double x, double y, std::string_view attributes, std::string_view markup) {
+  return element("text", fmt::format(R"(x="{:.1f}" y="{:.1f}" {})", x, y, attributes), markup);
+}
+
+std::string title(std::string_view words) {
+  return fmt::format("<title>{}</title>", markup_text(words));
+}
+
+std::string text_at(double x, double y, std::string_view kind, std::string_view words) {
+  return text_markup(x, y, fmt::format(R"(class="{}")", kind), markup_text(words));
+}
+
+std::string path(std::string_view d, std::string_view kind, std::string_view content) {
+  return d.empty() ? "" : element("path", fmt::format(R"(d="{}" class="{}")", d, kind), content);
+}
+
+std::string line(double x1, double y1, double x2, double y2, std::string_view kind) {
+  return path(fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", x1, y1, x2, y2), kind);
+}
+
+std::string axis_below(const scale& X, double from, double to, double y) {
+  std::string text;
+  for (const double x : ticks(from, to, 8)) {
+    text += line(X(x), y, X(x), y + 5, "thin");
+    text += text_at(X(x), y + 20, "quiet middle", fmt::format("{:.4g}", x));
+  }
+  return text;
+}
+
+}  // namespace svg
 
 using namespace svg;
 
@@ -19,123 +87,103 @@ constexpr double page_width = 900.0;
 constexpr double picture_top = 96.0;
 constexpr double side = 60.0;  // left and right of pictures
 
-/// What is drawn of a structure: a frame of a problem, and which of its parts. All must outlive it.
-class structure_picture {
- public:
-  structure_picture(const problem& p, const frame& f, const shown_parts& shown)
-      : what_(p), at_(f), shown_(shown) {}
+/// What is drawn of a structure: a frame of a problem, and which of its parts; and how.
+struct structure_picture {
+  const problem& what;
+  const frame& at;
+  const shown_parts& shown;
+  scale X{}, Y{};
+  double magnified = 1.0, bottom = 0.0;
 
- protected:
-  [[nodiscard]] double w_of(int node) const { return deflection_of(what_, at_, node); }
-  [[nodiscard]] std::string mark(int pair, const spot& at, double r) const {
-    return mark_of_pair(what_, at_, pair, at, r);
+  [[nodiscard]] double w_of(int node) const { return deflection_of(what, at, node); }
+
+  /// The marks of all pairs, of size `r`, at the places of their nodes.
+  template <class Spot>
+  [[nodiscard]] std::string marks(double r, Spot spot_of) const {
+    std::string text;
+    for (const int i : shown.pairs) text += mark_of_pair(what, at, i, spot_of(what.pairs[i].node), r);
+    return text;
   }
-
-  const problem& what_;
-  const frame& at_;
-  const shown_parts& shown_;
-  scale X_{}, Y_{};
-  double magnified_ = 1.0;
-  double bottom_ = 0.0;
 };
+
+/// What has to fit in: the beam, where it was, and the faces that are not too far away.
+span_of reach_of_beam(const structure_picture& s) {
+  span_of w;
+  w.take(0.0);
+  for (const int node : s.shown.nodes) w.take(s.w_of(node));
+  const double largest = std::max(std::abs(w.least), std::abs(w.most));
+  for (const int i : s.shown.pairs) {
+    const double face = s.what.pairs[i].face;
+    if (std::abs(face) <= 2.5 * largest || largest == 0.0) w.take(face);
+  }
+  return w;
+}
+
+/// Faces, `half` of which is so long, hatched on the side away from the beam; one that is too far away stands
+/// at the edge.
+std::string faces_of_beam(const beam& b, const structure_picture& s, double half) {
+  std::string text;
+  for (const int i : s.shown.pairs) {
+    const contact_pair& p = s.what.pairs[i];
+    const double x = s.X(b.x[p.node]);
+    const double y = std::clamp(s.Y(p.face), picture_top + 16, s.bottom - 10);
+    text += line(x - half, y, x + half, y, "surface");
+    for (int k = 0; 6 * k < 2 * half - 1; ++k) {
+      const double at = x - half + 6 * k + 3;
+      text += line(at, y, at - 3 * p.surface, y - 6 * p.surface, "hatch");
+    }
+  }
+  return text;
+}
+
+/// The elements' cubics between the nodes shown, as Bezier curves: the same curves.
+std::string curve_of_beam(const beam& b, const structure_picture& s) {
+  std::string d;
+  double x0 = 0.0;
+  double w0 = 0.0;
+  double slope0 = 0.0;
+  for (const int node : s.shown.nodes) {
+    const double x = b.x[node];
+    const double w = s.w_of(node);
+    const double slope = s.at.displacement[2 * node + 1];
+    const double third = (x - x0) / 3;
+    d += d.empty()
+             ? fmt::format("M{:.2f} {:.2f}", s.X(x), s.Y(w))
+             : fmt::format("C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", s.X(x0 + third),
+                           s.Y(w0 + third * slope0), s.X(x - third), s.Y(w - third * slope), s.X(x), s.Y(w));
+    x0 = x;
+    w0 = w;
+    slope0 = slope;
+  }
+  return d;
+}
 
 /// A beam from the side; deflections and faces magnified alike, as the heading says.
-class beam_picture : structure_picture {
- public:
-  beam_picture(const beam& b, const structure_picture& s) : structure_picture(s), x_(b.x) {
-    X_ = {x_.front(), (page_width - 2 * side) / (x_.back() - x_.front()), side};
-    const span_of w = reach();
-    constexpr double room = 170.0;
-    if (w.most > w.least) magnified_ = round_down(room / (w.range() * X_.per_unit));
-    Y_ = {w.most, -magnified_ * X_.per_unit, picture_top + 34};
-    bottom_ = Y_(w.least) + 44;
-    half_ =
-        std::clamp((page_width - 2 * side) / static_cast<double>(shown_.pairs.size() + 1) * 0.36, 1.0, 14.0);
+drawn draw_beam(const beam& b, structure_picture s) {
+  constexpr double width = page_width - 2 * side;
+  const double left = b.x.front();
+  const double right = b.x.back();
+  s.X = {left, width / (right - left), side};
+  const span_of w = reach_of_beam(s);
+  constexpr double room = 170.0;
+  if (w.most > w.least) s.magnified = round_down(room / (w.range() * s.X.per_unit));
+  s.Y = {w.most, -s.magnified * s.X.per_unit, picture_top + 34};
+  s.bottom = s.Y(w.least) + 44;
+  const double half = std::clamp(width / static_cast<double>(s.shown.pairs.size() + 1) * 0.36, 1.0, 14.0);
+  const auto spot_of = [&](int node) { return spot{s.X(b.x[node]), s.Y(s.w_of(node))}; };
+  std::string supports;
+  for (const support& held : s.what.supports) {
+    if (!s.shown.has_support_at(held.node)) continue;
+    const auto [x, y] = spot_of(held.node);
+    supports += held.dof == 0 ? path(fmt::format("M{:.1f} {:.1f}l8 13h-16z", x, y + 2), "support")
+                              : line(x, y - 13, x, y + 13, "clamp");
   }
-
-  [[nodiscard]] drawn whole() const {
-    return {
-        text_at(side, picture_top, "strong", fmt::format("Final state, deflection × {:.6g}", magnified_)) +
-            line(X_(x_.front()), Y_(0), X_(x_.back()), Y_(0), "undeformed") + faces() +
-            path(curve(), "beam") + supports() + pairs() + axis_below(X_, x_.front(), x_.back(), bottom_),
-        bottom_ + 30};
-  }
-
- private:
-  [[nodiscard]] spot spot_of(int node) const { return {X_(x_[node]), Y_(w_of(node))}; }
-
-  /// What has to fit in: the beam, where it was, and the faces that are not too far away.
-  [[nodiscard]] span_of reach() const {
-    span_of w;
-    w.take(0.0);
-    for (const int node : shown_.nodes) w.take(w_of(node));
-    const double largest = std::max(std::abs(w.least), std::abs(w.most));
-    for (const int i : shown_.pairs) {
-      const double face = what_.pairs[i].face;
-      if (std::abs(face) <= 2.5 * largest || largest == 0.0) w.take(face);
-    }
-    return w;
-  }
-
-  /// Hatched on the side away from the beam; one that is too far away stands at the edge.
-  [[nodiscard]] std::string faces() const {
-    std::string text;
-    for (const int i : shown_.pairs) {
-      const contact_pair& p = what_.pairs[i];
-      const double x = X_(x_[p.node]);
-      const double y = std::clamp(Y_(p.face), picture_top + 16, bottom_ - 10);
-      text += line(x - half_, y, x + half_, y, "surface");
-      for (int k = 0; 6 * k < 2 * half_ - 1; ++k) {
-        const double at = x - half_ + 6 * k + 3;
-        text += line(at, y, at - 3 * p.surface, y - 6 * p.surface, "hatch");
-      }
-    }
-    return text;
-  }
-
-  /// The elements' cubics between the nodes shown, as Bezier curves: the same curves.
-  [[nodiscard]] std::string curve() const {
-    std::string d;
-    double x0 = 0.0;
-    double w0 = 0.0;
-    double slope0 = 0.0;
-    for (const int node : shown_.nodes) {
-      const double x = x_[node];
-      const double w = w_of(node);
-      const double slope = at_.displacement[2 * node + 1];
-      const double third = (x - x0) / 3;
-      d += d.empty()
-               ? fmt::format("M{:.2f} {:.2f}", X_(x), Y_(w))
-               : fmt::format("C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", X_(x0 + third),
-                             Y_(w0 + third * slope0), X_(x - third), Y_(w - third * slope), X_(x), Y_(w));
-      x0 = x;
-      w0 = w;
-      slope0 = slope;
-    }
-    return d;
-  }
-
-  [[nodiscard]] std::string supports() const {
-    std::string text;
-    for (const support& s : what_.supports) {
-      if (!shown_.has_support_at(s.node)) continue;
-      const auto [x, y] = spot_of(s.node);
-      text += s.dof == 0 ? path(fmt::format("M{:.1f} {:.1f}l8 13h-16z", x, y + 2), "support")
-                         : line(x, y - 13, x, y + 13, "clamp");
-    }
-    return text;
-  }
-
-  [[nodiscard]] std::string pairs() const {
-    const double r = std::clamp(half_ * 0.5, 1.6, 5.0);
-    std::string text;
-    for (const int i : shown_.pairs) text += mark(i, spot_of(what_.pairs[i].node), r);
-    return text;
-  }
-
-  const std::vector<double>& x_;
-  double half_ = 0.0;  // of a face
-};
+  return {text_at(side, picture_top, "strong", fmt::format("Final state, deflection × {:.6g}", s.magnified)) +
+              line(s.X(left), s.Y(0), s.X(right), s.Y(0), "undeformed") + faces_of_beam(b, s, half) +
+              path(curve_of_beam(b, s), "beam") + supports +
+              s.marks(std::clamp(half * 0.5, 1.6, 5.0), spot_of) + axis_below(s.X, left, right, s.bottom),
+          s.bottom + 30};
+}
 
 /// Lighter is higher.
 std::string colour_of(double share) {
@@ -148,75 +196,57 @@ std::string colour_of(double share) {
   return fmt::format("rgb({},{},{})", mix(0), mix(1), mix(2));
 }
 
-/// A plate from above: a colour for each rectangle between the lines that are drawn.
-class plate_picture : structure_picture {
- public:
-  plate_picture(const plate& p, const structure_picture& s) : structure_picture(s), plate_(p) {
-    const double per_unit =
-        std::min((page_width - 330) / (p.x.back() - p.x.front()), 430 / (p.y.back() - p.y.front()));
-    X_ = {p.x.front(), per_unit, side};
-    Y_ = {p.y.back(), -per_unit, picture_top + 14};
-    bottom_ = Y_(p.y.front());
-    for (const int j : shown_.rows) {
-      for (const int i : shown_.columns) range_.take(w_at(i, j));
+/// What the colours mean.
+template <class Colour>
+std::string legend(double left, const span_of& range, Colour colour) {
+  std::string text;
+  for (int i = 0; i <= 10; ++i) {
+    const double w = range.most - (range.most - range.least) * i / 10;
+    const double top = picture_top + 14 + 20.0 * i;
+    text += rectangle(left, top, 20, 20, fmt::format(R"(fill="{}")", colour(w)));
+    if (i % 5 == 0) text += text_at(left + 28, top + 15, "quiet", fmt::format("{:.4g}", w));
+  }
+  return text;
+}
+
+/// A plate from above: a colour for each rectangle between the lines that are drawn, that of its mean.
+drawn draw_plate(const plate& p, structure_picture s) {
+  const double wide = p.x.back() - p.x.front();
+  const double per_unit = std::min((page_width - 330) / wide, 430 / (p.y.back() - p.y.front()));
+  s.X = {p.x.front(), per_unit, side};
+  s.Y = {p.y.back(), -per_unit, picture_top + 14};
+  s.bottom = s.Y(p.y.front());
+  const std::vector<int>& columns = s.shown.columns;
+  const std::vector<int>& rows = s.shown.rows;
+  const auto w_at = [&](int i, int j) { return s.w_of(p.node_at(i, j)); };
+  span_of range;
+  for (const int j : rows) {
+    for (const int i : columns) range.take(w_at(i, j));
+  }
+  const auto colour = [&](double w) { return colour_of((w - range.least) / range.range()); };
+  std::string text =
+      text_at(side, picture_top, "strong", "Final state from above: deflection w, and the pairs");
+  for (std::size_t b = 0; b + 1 < rows.size(); ++b) {
+    for (std::size_t a = 0; a + 1 < columns.size(); ++a) {
+      const int from = columns[a], to = columns[a + 1], low = rows[b], high = rows[b + 1];
+      const double mean = (w_at(from, low) + w_at(to, low) + w_at(to, high) + w_at(from, high)) / 4;
+      const double left = s.X(p.x[from]);
+      const double top = s.Y(p.y[high]);
+      text += element(
+          "rect",
+          fmt::format(R"(x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}" stroke="{}")", left,
+                      top, s.X(p.x[to]) - left, s.Y(p.y[low]) - top, colour(mean), colour(mean)));
     }
   }
-
-  [[nodiscard]] drawn whole() const {
-    const std::vector<int>& columns = shown_.columns;
-    const std::vector<int>& rows = shown_.rows;
-    std::string text =
-        text_at(side, picture_top, "strong", "Final state from above: deflection w, and the pairs");
-    for (std::size_t b = 0; b + 1 < rows.size(); ++b) {
-      for (std::size_t a = 0; a + 1 < columns.size(); ++a)
-        text += cell(columns[a], columns[a + 1], rows[b], rows[b + 1]);
-    }
-    text += pairs() + legend() + axis_below(X_, plate_.x.front(), plate_.x.back(), bottom_);
-    return {text, std::max(bottom_, picture_top + 260) + 30};
-  }
-
- private:
-  [[nodiscard]] double w_at(int i, int j) const { return w_of(plate_.node_at(i, j)); }
-  [[nodiscard]] std::string colour(double w) const { return colour_of((w - range_.least) / range_.range()); }
-
-  /// Between two columns and two rows, in the colour of its mean.
-  [[nodiscard]] std::string cell(int from, int to, int low, int high) const {
-    const double mean = (w_at(from, low) + w_at(to, low) + w_at(to, high) + w_at(from, high)) / 4;
-    const double left = X_(plate_.x[from]);
-    const double top = Y_(plate_.y[high]);
-    return element(
-        "rect",
-        fmt::format(R"(x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}" stroke="{}")", left,
-                    top, X_(plate_.x[to]) - left, Y_(plate_.y[low]) - top, colour(mean), colour(mean)));
-  }
-
-  [[nodiscard]] std::string pairs() const {
-    const double spacing = X_.per_unit * (plate_.x.back() - plate_.x.front()) / plate_.columns();
-    const double r = std::clamp(spacing * 0.25, 1.5, 6.0);
-    std::string text = "\n";
-    for (const int i : shown_.pairs) {
-      const place at = place_of_node(what_.geometry, what_.pairs[i].node);
-      text += mark(i, {X_(at.x), Y_(at.y)}, r);
-    }
-    return element("g", R"(class="map")", text);
-  }
-
-  /// What the colours mean.
-  [[nodiscard]] std::string legend() const {
-    const double left = X_(plate_.x.back()) + 40;
-    std::string text;
-    for (int i = 0; i <= 10; ++i) {
-      const double w = range_.most - (range_.most - range_.least) * i / 10;
-      const double top = picture_top + 14 + 20.0 * i;
-      text += rectangle(left, top, 20, 20, fmt::format(R"(fill="{}")", colour(w)));
-      if (i % 5 == 0) text += text_at(left + 28, top + 15, "quiet", fmt::format("{:.4g}", w));
-    }
-    return text;
-  }
-
-  const plate& plate_;
-  span_of range_;
-};
+  const auto spot_of = [&](int node) {
+    const place at = place_of_node(s.what.geometry, node);
+    return spot{s.X(at.x), s.Y(at.y)};
+  };
+  const double r = std::clamp(per_unit * wide / p.columns() * 0.25, 1.5, 6.0);
+  text += element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
+          legend(s.X(p.x.back()) + 40, range, colour) + axis_below(s.X, p.x.front(), p.x.back(), s.bottom);
+  return {text, std::max(s.bottom, picture_top + 260) + 30};
+}
 
 /// A structure from elsewhere in the view that shows most: its edges as they were, faint, and displaced, with
 /// pairs and supports at their nodes.
@@ -233,12 +263,12 @@ class mesh_picture : structure_picture {
   [[nodiscard]] drawn whole() const {
     std::string text =
         text_at(side, picture_top, "strong",
-                fmt::format("Final state ({}), displacement × {:.6g}", view_.words, magnified_));
-    text += path(edges(0.0), "was") + path(edges(magnified_), "member");
-    if (shown_.edges.empty()) text += points();
+                fmt::format("Final state ({}), displacement × {:.6g}", view_.words, magnified));
+    text += path(edges(0.0), "was") + path(edges(magnified), "member");
+    if (shown.edges.empty()) text += points();
     text += path(crosses(), "thin") + supports();
-    for (const int i : shown_.pairs) text += pair(i);
-    return {text, bottom_ + 24};
+    for (const int i : shown.pairs) text += pair(i);
+    return {text, bottom + 24};
   }
 
  private:
@@ -248,36 +278,35 @@ class mesh_picture : structure_picture {
     constexpr double share_of_displacements = 0.12;  // of the picture's size, for the largest of them
     span_of x;
     span_of y;
-    for (const int node : shown_.nodes) {
+    for (const int node : shown.nodes) {
       x.take(view_.x_of(places_.nodes[node].at));
       y.take(view_.y_of(places_.nodes[node].at));
     }
     const double size = std::max({x.most - x.least, y.most - y.least, 0.0});
     // By the whole path: a structure that came back is drawn where it was.
-    if (shown_.reach > 0.0 && size > 0.0)
-      magnified_ = round_down(share_of_displacements * size / shown_.reach);
-    const double room = std::max(magnified_ * shown_.reach, 0.02 * size);
+    if (shown.reach > 0.0 && size > 0.0) magnified = round_down(share_of_displacements * size / shown.reach);
+    const double room = std::max(magnified * shown.reach, 0.02 * size);
     for (span_of* s : {&x, &y}) {
       s->take(s->least - room);
       s->take(s->most + room);
     }
     const double per_unit = std::min((page_width - 2 * side) / x.range(), most_height / y.range());
-    X_ = {(x.least + x.most) / 2, per_unit, page_width / 2};
-    Y_ = {y.most, -per_unit, picture_top + 34};
-    bottom_ = Y_(y.least) + 20;
+    X = {(x.least + x.most) / 2, per_unit, page_width / 2};
+    Y = {y.most, -per_unit, picture_top + 34};
+    bottom = Y(y.least) + 20;
   }
 
   /// A node on the page, its displacement magnified so many times.
   [[nodiscard]] spot displaced(int node, double times) const {
-    const in_space u = reading_at(of_node_[node].along, at_);
+    const in_space u = reading_at(of_node_[node].along, at);
     in_space p = places_.nodes[node].at;
     for (int axis = 0; axis < 3; ++axis) p[axis] += times * u[axis];
-    return {X_(view_.x_of(p)), Y_(view_.y_of(p))};
+    return {X(view_.x_of(p)), Y(view_.y_of(p))};
   }
 
   [[nodiscard]] std::string edges(double times) const {
     std::string d;
-    for (const int i : shown_.edges) {
+    for (const int i : shown.edges) {
       const spot a = displaced(places_.edges[i].from, times);
       const spot b = displaced(places_.edges[i].to, times);
       d += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", a.x, a.y, b.x, b.y);
@@ -287,8 +316,8 @@ class mesh_picture : structure_picture {
 
   [[nodiscard]] std::string points() const {
     std::string text;
-    for (const int node : shown_.nodes) {
-      const spot s = displaced(node, magnified_);
+    for (const int node : shown.nodes) {
+      const spot s = displaced(node, magnified);
       text += circle(s.x, s.y, 1.6, R"(class="node")");
     }
     return text;
@@ -297,7 +326,7 @@ class mesh_picture : structure_picture {
   /// A cross at each node that has no dof.
   [[nodiscard]] std::string crosses() const {
     std::string d;
-    for (const int node : shown_.nodes) {
+    for (const int node : shown.nodes) {
       if (of_node_[node] != dofs_of_node{}) continue;
       const spot s = displaced(node, 0.0);
       d += fmt::format("M{:.1f} {:.1f}l6 6m-6 0l6 -6", s.x - 3, s.y - 3);
@@ -323,10 +352,10 @@ class mesh_picture : structure_picture {
   /// A triangle behind the node in each direction in which it is held, a square where it cannot turn.
   [[nodiscard]] std::string supports() const {
     std::string text;
-    for (const support& s : what_.supports) {
+    for (const support& s : what.supports) {
       const placed_dof& d = places_.dofs[s.node];
-      if (d.node < 0 || !shown_.has_support_at(s.node)) continue;
-      const spot p = displaced(d.node, magnified_);
+      if (d.node < 0 || !shown.has_support_at(s.node)) continue;
+      const spot p = displaced(d.node, magnified);
       const spot t = axis_on_page(d);
       const std::string shape =
           t.x == 0 && t.y == 0
@@ -342,16 +371,16 @@ class mesh_picture : structure_picture {
   [[nodiscard]] std::string pair(int i) const {
     constexpr double half = 13.0;  // of a face
     constexpr int hatches = 4;
-    const contact_pair& p = what_.pairs[i];
+    const contact_pair& p = what.pairs[i];
     const placed_dof& d = places_.dofs[p.node];
     if (d.node < 0) return "";
-    const spot node = displaced(d.node, magnified_);
-    std::string marked = mark(i, node, 5.0);
+    const spot node = displaced(d.node, magnified);
+    std::string marked = mark_of_pair(what, at, i, node, 5.0);
     const spot t = axis_on_page(d);
     if (t.x == 0 && t.y == 0) return marked;
     // The face is drawn beside the node, along which it has no end; one that is too far away, at the edge.
     constexpr double far = 90.0;
-    const double scale = magnified_ * X_.per_unit * std::hypot(seen(d).x, seen(d).y);
+    const double scale = magnified * X.per_unit * std::hypot(seen(d).x, seen(d).y);
     const double away = std::clamp(scale * p.face, -far, far) - scale * w_of(p.node);
     const spot m{node.x + away * t.x, node.y + away * t.y};
     std::string text =
@@ -387,36 +416,36 @@ std::string table_row(double y, std::string_view kind, const std::vector<std::st
 }
 
 /// A structure whose places are not known: its pairs as a table, the dof that moves most first.
-drawn draw_table(const problem& p, const frame& f, const shown_parts& shown) {
+drawn draw_table(const structure_picture& s) {
   constexpr std::size_t most_rows = 40;
   constexpr double row_height = 22.0;
   const auto number = [](double x) { return fmt::format("{:.6g}", x); };
-  const auto label = [&p](int node) { return cut(place_name(p.geometry, node)); };
+  const auto label = [&s](int node) { return cut(place_name(s.what.geometry, node)); };
   double y = picture_top;
   std::string text = text_at(side, y, "strong", "Final state: no coordinates are known, so this is a table");
   text += table_row(y += 30, "quiet", {"pair", "dof", "state", "displacement", "gap", "force"});
-  text += table_row(
-      y += row_height, "plain",
-      {"", label(shown.watched), "moves most on the path", number(deflection_of(p, f, shown.watched))});
-  const std::size_t rows = std::min(most_rows, shown.pairs.size());
+  text += table_row(y += row_height, "plain",
+                    {"", label(s.shown.watched), "moves most on the path", number(s.w_of(s.shown.watched))});
+  const std::size_t rows = std::min(most_rows, s.shown.pairs.size());
   for (std::size_t k = 0; k < rows; ++k) {
-    const int i = shown.pairs[k];
-    const pair_reading r = reading_of(p, f, i);
+    const int i = s.shown.pairs[k];
+    const pair_reading r = reading_of(s.what, s.at, i);
     text += table_row(y += row_height, "plain",
-                      {std::to_string(i + 1), label(p.pairs[i].node), std::string(look_name(r.look)),
+                      {std::to_string(i + 1), label(s.what.pairs[i].node), std::string(look_name(r.look)),
                        number(r.w), number(r.gap), number(r.force)});
   }
-  if (rows < p.pairs.size())
-    text += text_at(side, y += row_height, "quiet", fmt::format("and {} pairs more", p.pairs.size() - rows));
+  if (rows < s.what.pairs.size())
+    text +=
+        text_at(side, y += row_height, "quiet", fmt::format("and {} pairs more", s.what.pairs.size() - rows));
   return {text, y + 16};
 }
 
-drawn draw_structure(const problem& p, const frame& f, const shown_parts& shown) {
-  const structure_picture s(p, f, shown);
-  if (const auto* b = std::get_if<beam>(&p.geometry.kind)) return beam_picture(*b, s).whole();
-  if (const auto* of = std::get_if<plate>(&p.geometry.kind)) return plate_picture(*of, s).whole();
-  const placed_nodes& places = std::get<assembled>(p.geometry.kind).places;
-  return places.known() ? mesh_picture(places, s).whole() : draw_table(p, f, shown);
+drawn draw_structure(const structure_picture& s) {
+  const model& m = s.what.geometry;
+  if (const auto* b = std::get_if<beam>(&m.kind)) return draw_beam(*b, s);
+  if (const auto* p = std::get_if<plate>(&m.kind)) return draw_plate(*p, s);
+  const placed_nodes& places = std::get<assembled>(m.kind).places;
+  return places.known() ? mesh_picture(places, s).whole() : draw_table(s);
 }
 
 std::string_view kind_of(const frame& f) {
@@ -513,7 +542,7 @@ std::string mark_of_pair(const problem& p, const frame& f, int pair, const spot&
 
 std::string run_svg(const finished_run& r) {
   const shown_parts shown = choose_parts(r);
-  const drawn picture = draw_structure(r.what, r.kept.frames().back(), shown);
+  const drawn picture = draw_structure({r.what, r.kept.frames().back(), shown});
   const drawn path = draw_path(r, shown, picture.bottom + 20);
   const std::string words = words_of(r, shown);
   const std::string size = fmt::format(R"(width="{}" height="{:.0f}")", page_width, path.bottom);

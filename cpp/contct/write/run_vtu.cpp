@@ -1,12 +1,10 @@
-#include "contct/write/run_vtu.hpp"
-
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <type_traits>
 
 #include "contct/text/markup.hpp"
-#include "contct/write/frame_numbers.hpp"
+#include "contct/write/pictures.hpp"
 
 namespace contct::write {
 namespace {

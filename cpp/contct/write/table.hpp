@@ -11,7 +11,7 @@
 #include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/frame_numbers.hpp"
+#include "contct/write/finished_run.hpp"
 
 namespace contct::write {
 

@@ -39,21 +39,18 @@ std::string certificate_mark(const std::optional<certificate>& c) {
 
 std::vector<std::string> certificate_summary(const certifier& judged) {
   const auto& steps = judged.steps();
-  const auto bad = std::find_if(steps.begin(), steps.end(), [](const auto& c) { return c && !c->exact; });
+  const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->exact; });
   if (bad != steps.end()) {
     return {fmt::format("step {} is NOT certified: {}", bad - steps.begin() + 1, (*bad)->problem),
             fmt::format("allowed: {:.1e}", (*bad)->tolerance)};
   }
   double worst = 0.0;
-  int certified = 0;
-  int independent = 0;
+  const auto certified = std::ranges::count_if(steps, [](const auto& c) { return c.has_value(); });
+  const auto independent = std::ranges::count_if(steps, [](const auto& c) { return c && c->independent; });
   for (const auto& c : steps) {
-    if (!c) continue;
-    ++certified;
-    if (!c->independent) continue;
-    ++independent;
-    worst =
-        std::max({worst, c->displacement_error, c->shape_error, c->equilibrium, c->penetration, c->tension});
+    if (c && c->independent)
+      worst = std::max(
+          {worst, c->displacement_error, c->shape_error, c->equilibrium, c->penetration, c->tension});
   }
   if (certified == 0) return {};
   const std::string states = certified == 1   ? "the final state is"
