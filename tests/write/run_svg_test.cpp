@@ -17,15 +17,6 @@ using namespace contct::app;
 using Catch::Matchers::Contains;
 using namespace contct::write::svg;
 
-namespace {
-
-const std::string loaded_and_freed =
-    std::string(good_problem) +
-    "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.001\nstiffness = 1e5\n"
-    "[[step]]\npoint = [ { node = 3, w = 60.0 } ]\n";
-
-}  // namespace
-
 TEST_CASE("the picture is well-formed, whatever the title, and has a mark for every pair") {
   for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
     const a_run r("title = \"<b> & \\\"x\\\" \\u0001\"\n" + text);

@@ -69,11 +69,6 @@ double number(const std::string& field) {
   return std::strtod(field.c_str(), nullptr);
 }
 
-const std::string loaded_and_freed =
-    std::string(good_problem) +
-    "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.001\nstiffness = 1e5\n"
-    "[[step]]\npoint = [ { node = 3, w = 60.0 } ]\n";
-
 }  // namespace
 
 TEST_CASE("the terminal's width comes from COLUMNS, within reason, and a pipe has no colour") {

@@ -173,7 +173,7 @@ constexpr double total_force = 1e6;
 constexpr double within = 4;
 
 /// CalculiX cuts a field after 20 characters; this has 19 at most.
-std::string number(double x) {
+std::string field(double x) {
   return fmt::format("{:.12e}", x);
 }
 
@@ -303,20 +303,20 @@ class deck_writer {
 ** none, and is content too early: so the loads, with everything elastic, are in smaller units.
 ** The problem's node i is node i here; pair i presses on ground node {} + i.
 ** No field has more than 20 characters: CalculiX cuts it there.)",
-        choice_.step, problem_.steps.size(), number(scale_), number(force_scale()), smallness,
+        choice_.step, problem_.steps.size(), field(scale_), field(force_scale()), smallness,
         first_ground() - 1);
   }
 
   void write_nodes() {
     line("*NODE,NSET=STRUCTURE");
     for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
-      line("{},{},{},0", i + 1, number(mesh_.nodes[i].x), number(mesh_.nodes[i].y));
+      line("{},{},{},0", i + 1, field(mesh_.nodes[i].x), field(mesh_.nodes[i].y));
     if (springs_.empty()) return;
     line("** Ground: a node for each spring, straight above or below its node.\n*NODE,NSET=GROUND");
     int next = first_ground();
     for (const ground_spring& s : springs_) {
       const auto& at = mesh_.nodes[s.node];
-      line("{},{},{},{}", next++, number(at.x), number(at.y), number(s.side * length_ / 100));
+      line("{},{},{},{}", next++, field(at.x), field(at.y), field(s.side * length_ / 100));
     }
   }
 
@@ -339,9 +339,9 @@ class deck_writer {
       line("*ELEMENT,TYPE=B32R,ELSET=PART{}", part);
       element_lines(which);
       line("*MATERIAL,NAME=EI{}\n*ELASTIC\n{},0.", part,
-           number(unit_ * 12 * EI / thickness_ / thickness_ / thickness_ / thickness_));
+           field(unit_ * 12 * EI / thickness_ / thickness_ / thickness_ / thickness_));
       line("*BEAM SECTION,ELSET=PART{},MATERIAL=EI{},SECTION=RECT\n{},{}\n0.,0.,1.", part, part,
-           number(thickness_), number(thickness_));
+           field(thickness_), field(thickness_));
       ++part;
     }
   }
@@ -354,8 +354,8 @@ class deck_writer {
     std::iota(all.begin(), all.end(), std::size_t{0});
     element_lines(all);
     line("*MATERIAL,NAME=D\n*ELASTIC\n{},{}\n*SHELL SECTION,ELSET=PLATE,MATERIAL=D\n{}",
-         number(unit_ * 12 * p.D * (1 - p.nu * p.nu) / thickness_ / thickness_ / thickness_), number(p.nu),
-         number(thickness_));
+         field(unit_ * 12 * p.D * (1 - p.nu * p.nu) / thickness_ / thickness_ / thickness_), field(p.nu),
+         field(thickness_));
   }
 
   /// Each law is a table of force over lengthening. CalculiX holds the force constant outside it, so it ends
@@ -379,9 +379,9 @@ class deck_writer {
       line("*SPRING,ELSET=SPRINGS{},NONLINEAR", set++);
       const double face = -law.from * scale_;
       for (const double end : {-far, -near})
-        line("{},{}", number(unit_ * law.stiffness * end), number(face + end));
-      if (!law.both_ways) line("0.,{}", number(face));
-      line("{},{}", law.both_ways ? number(unit_ * law.stiffness * far) : "0.", number(face + far));
+        line("{},{}", field(unit_ * law.stiffness * end), field(face + end));
+      if (!law.both_ways) line("0.,{}", field(face));
+      line("{},{}", law.both_ways ? field(unit_ * law.stiffness * far) : "0.", field(face + far));
     }
   }
 
@@ -393,7 +393,7 @@ class deck_writer {
 1.,1.
 *CLOAD)");
     for (const auto& [at, value] : mesh_.forces) {
-      if (value != 0.0) line("{},{},{}", at.first + 1, at.second, number(value * force_scale()));
+      if (value != 0.0) line("{},{},{}", at.first + 1, at.second, field(value * force_scale()));
     }
     line("*NSET,NSET=GIVEN,GENERATE\n1,{},1\n*NODE PRINT,NSET=GIVEN\nU", nodes(problem_.geometry));
     if (!springs_.empty())

@@ -201,9 +201,8 @@ namespace {
 /// Prints one increment.
 class increment_printer {
  public:
-  increment_printer(const explained_kernels& of, const load_path& loads, const terminal& t,
-                    const explained_increment& i)
-      : of_(of), loads_(loads), terminal_(t), i_(i) {}
+  increment_printer(const explained_kernels& of, const terminal& t, const explained_increment& i)
+      : of_(of), terminal_(t), i_(i) {}
 
   void print(bool first) const {
     if (first && !of_.what.title.empty()) say(paint::strong, of_.what.title);
@@ -261,8 +260,8 @@ class increment_printer {
 
   void print_load() const {
     constexpr int room = 24;
-    const std::string now = loads_.words_at(i_.what.step, i_.fraction_before, room);
-    const std::string aim = loads_.words_at(i_.what.step, 1.0, room);
+    const std::string now = of_.loads.words_at(i_.what.step, i_.fraction_before, room);
+    const std::string aim = of_.loads.words_at(i_.what.step, 1.0, room);
     if (now.empty() || aim.empty()) return;
     say(paint::quiet, fmt::format("The residual load leads from {} to {}.", now, aim));
   }
@@ -326,7 +325,6 @@ class increment_printer {
   }
 
   const explained_kernels& of_;
-  const load_path& loads_;
   const terminal& terminal_;
   const explained_increment& i_;
 };
@@ -404,16 +402,12 @@ json narrowest_json(const std::optional<decision>& d) {
 
 }  // namespace
 
-explain_text::explain_text(explained_kernels of, const terminal& t)
-    : of_(std::move(of)), loads_(of_.what), terminal_(t) {}
-
 void explain_text::print(const explained_increment& i) {
-  increment_printer(of_, loads_, terminal_, i).print(!std::exchange(begun_, true));
+  increment_printer(of_, terminal_, i).print(!std::exchange(begun_, true));
 }
 
 explain_json::explain_json(explained_kernels of, output_file& out)
     : of_(std::move(of)),
-      loads_(of_.what),
       document_(out,
                 {{"format", "contct-explain-1"},
                  {"title", of_.what.title},
@@ -427,7 +421,7 @@ void explain_json::write(const explained_increment& i) {
               {"fraction_before", i.fraction_before},
               {"fraction", i.what.fraction},
               {"s", i.what.s},
-              {"load", load_json(of_.what.geometry, loads_, i.what.step, i.what.fraction)},
+              {"load", load_json(of_.what.geometry, of_.loads, i.what.step, i.what.fraction)},
               {"smin", both_json(of_, i.call.smin, i.other == nullptr ? nullptr : &i.other->smin)},
               {"winner", winner_json(i.call)},
               {"narrowest", narrowest_json(i.call.narrowest)},

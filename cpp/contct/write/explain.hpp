@@ -5,13 +5,11 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "contct/compare/explanation.hpp"
-#include "contct/structure/problem.hpp"
-#include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/finished_run.hpp"
 #include "contct/write/result_json.hpp"
 
 namespace contct::write {
@@ -29,6 +27,7 @@ struct explained_kernels {
   std::vector<std::string> names;  ///< of one kernel or two
   int real_bytes;
   int pair;  ///< the only one wanted, from 1, or 0
+  load_path loads{what};
 
   [[nodiscard]] bool wants(const explained_pair& p) const { return pair == 0 || pair == p.pair + 1; }
 };
@@ -37,13 +36,12 @@ struct explained_kernels {
 /// the right.
 class explain_text {
  public:
-  explain_text(explained_kernels of, const terminal& t);
+  explain_text(explained_kernels of, const terminal& t) : of_(std::move(of)), terminal_(t) {}
 
   void print(const explained_increment& i);
 
  private:
   explained_kernels of_;
-  load_path loads_;
   terminal terminal_;
   bool begun_ = false;
 };
@@ -62,7 +60,6 @@ class explain_json {
 
  private:
   explained_kernels of_;
-  load_path loads_;
   json_document document_;
 };
 

@@ -141,19 +141,11 @@ inline constexpr std::array<structure_view, 4> all_views = {{
 /// none of them can leave that plane, else the last.
 [[nodiscard]] int fitting_view(const placed_nodes& places);
 
-/// One increment of the path.
-struct increment_record {
+/// One increment of the path, with events of its own: the path's are gone when it goes on.
+struct increment_record : increment {
   explicit increment_record(const increment& i)
-      : step(i.step),
-        number(i.number),
-        s(i.s),
-        fraction(i.fraction),
-        snaps(i.snaps),
-        events(i.events.begin(), i.events.end()) {}
+      : increment{i.step, i.number, i.s, i.fraction, {}, i.snaps}, events(i.events.begin(), i.events.end()) {}
 
-  int step, number;
-  double s, fraction;
-  bool snaps;
   std::vector<event> events;
 };
 

@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/path/frames.hpp"
-#include "contct/structure/problem.hpp"
 #include "contct/write/finished_run.hpp"
 
 namespace contct::write {

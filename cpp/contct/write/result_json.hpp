@@ -9,12 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
-#include "contct/compare/lockstep.hpp"
-#include "contct/path/observer.hpp"
-#include "contct/path/path.hpp"
-#include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/finished_run.hpp"
 #include "contct/write/words.hpp"

@@ -138,22 +138,15 @@ std::string faces_of_beam(const beam& b, const structure_picture& s, double half
 
 /// The elements' cubics between the nodes shown, as Bezier curves: the same curves.
 std::string curve_of_beam(const beam& b, const structure_picture& s) {
-  std::string d;
-  double x0 = 0.0;
-  double w0 = 0.0;
-  double slope0 = 0.0;
-  for (const int node : s.shown.nodes) {
-    const double x = b.x[node];
-    const double w = s.w_of(node);
-    const double slope = s.at.displacement[2 * node + 1];
-    const double third = (x - x0) / 3;
-    d += d.empty()
-             ? fmt::format("M{:.2f} {:.2f}", s.X(x), s.Y(w))
-             : fmt::format("C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", s.X(x0 + third),
-                           s.Y(w0 + third * slope0), s.X(x - third), s.Y(w - third * slope), s.X(x), s.Y(w));
-    x0 = x;
-    w0 = w;
-    slope0 = slope;
+  const auto slope = [&s](int node) { return s.at.displacement[2 * node + 1]; };
+  int from = s.shown.nodes.front();
+  std::string d = fmt::format("M{:.2f} {:.2f}", s.X(b.x[from]), s.Y(s.w_of(from)));
+  for (const int to : std::span(s.shown.nodes).subspan(1)) {
+    const double third = (b.x[to] - b.x[from]) / 3;
+    d += fmt::format("C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", s.X(b.x[from] + third),
+                     s.Y(s.w_of(from) + third * slope(from)), s.X(b.x[to] - third),
+                     s.Y(s.w_of(to) - third * slope(to)), s.X(b.x[to]), s.Y(s.w_of(to)));
+    from = to;
   }
   return d;
 }

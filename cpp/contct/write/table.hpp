@@ -5,10 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/certify/certificate.hpp"
-#include "contct/compare/lockstep.hpp"
-#include "contct/path/observer.hpp"
-#include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
 #include "contct/write/finished_run.hpp"

@@ -8,7 +8,6 @@
 
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/early_toggles.hpp"
-#include "contct/kernel/call.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
