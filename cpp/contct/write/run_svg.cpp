@@ -202,43 +202,48 @@ std::string legend(double left, const span_of& range, Colour colour) {
   return text;
 }
 
-/// A plate from above: a colour for each rectangle between the lines that are drawn, that of its mean.
+/// A rectangle between each two columns and rows that are drawn, in the colour of its mean.
+template <class Colour>
+std::string cells_of_plate(const plate& p, const structure_picture& s, Colour colour) {
+  const auto cell = [&](int from, int to, int low, int high) {
+    const auto w_at = [&](int i, int j) { return s.w_of(p.node_at(i, j)); };
+    const double mean = (w_at(from, low) + w_at(to, low) + w_at(to, high) + w_at(from, high)) / 4;
+    const double left = s.X(p.x[from]);
+    const double top = s.Y(p.y[high]);
+    return element(
+        "rect", fmt::format(R"(x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}" stroke="{}")",
+                            left, top, s.X(p.x[to]) - left, s.Y(p.y[low]) - top, colour(mean), colour(mean)));
+  };
+  std::string text;
+  for (std::size_t b = 0; b + 1 < s.shown.rows.size(); ++b) {
+    for (std::size_t a = 0; a + 1 < s.shown.columns.size(); ++a)
+      text += cell(s.shown.columns[a], s.shown.columns[a + 1], s.shown.rows[b], s.shown.rows[b + 1]);
+  }
+  return text;
+}
+
+/// A plate from above.
 drawn draw_plate(const plate& p, structure_picture s) {
   const double wide = p.x.back() - p.x.front();
   const double per_unit = std::min((page_width - 330) / wide, 430 / (p.y.back() - p.y.front()));
   s.X = {p.x.front(), per_unit, side};
   s.Y = {p.y.back(), -per_unit, picture_top + 14};
   s.bottom = s.Y(p.y.front());
-  const std::vector<int>& columns = s.shown.columns;
-  const std::vector<int>& rows = s.shown.rows;
-  const auto w_at = [&](int i, int j) { return s.w_of(p.node_at(i, j)); };
   span_of range;
-  for (const int j : rows) {
-    for (const int i : columns) range.take(w_at(i, j));
+  for (const int j : s.shown.rows) {
+    for (const int i : s.shown.columns) range.take(s.w_of(p.node_at(i, j)));
   }
   const auto colour = [&](double w) { return colour_of((w - range.least) / range.range()); };
-  std::string text =
-      text_at(side, picture_top, "strong", "Final state from above: deflection w, and the pairs");
-  for (std::size_t b = 0; b + 1 < rows.size(); ++b) {
-    for (std::size_t a = 0; a + 1 < columns.size(); ++a) {
-      const int from = columns[a], to = columns[a + 1], low = rows[b], high = rows[b + 1];
-      const double mean = (w_at(from, low) + w_at(to, low) + w_at(to, high) + w_at(from, high)) / 4;
-      const double left = s.X(p.x[from]);
-      const double top = s.Y(p.y[high]);
-      text += element(
-          "rect",
-          fmt::format(R"(x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}" stroke="{}")", left,
-                      top, s.X(p.x[to]) - left, s.Y(p.y[low]) - top, colour(mean), colour(mean)));
-    }
-  }
   const auto spot_of = [&](int node) {
     const place at = place_of_node(s.what.geometry, node);
     return spot{s.X(at.x), s.Y(at.y)};
   };
   const double r = std::clamp(per_unit * wide / p.columns() * 0.25, 1.5, 6.0);
-  text += element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
-          legend(s.X(p.x.back()) + 40, range, colour) + axis_below(s.X, p.x.front(), p.x.back(), s.bottom);
-  return {text, std::max(s.bottom, picture_top + 260) + 30};
+  return {text_at(side, picture_top, "strong", "Final state from above: deflection w, and the pairs") +
+              cells_of_plate(p, s, colour) + element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
+              legend(s.X(p.x.back()) + 40, range, colour) +
+              axis_below(s.X, p.x.front(), p.x.back(), s.bottom),
+          std::max(s.bottom, picture_top + 260) + 30};
 }
 
 /// A structure from elsewhere in the view that shows most: its edges as they were, faint, and displaced, with
