@@ -4,12 +4,11 @@
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
-#include "contct/compare/explained_path.hpp"
+#include "contct/compare/explanation.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/input_text.hpp"
-#include "contct/write/explain_json.hpp"
-#include "contct/write/explain_text.hpp"
+#include "contct/write/explain.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::app {
@@ -108,13 +107,11 @@ exit_status run_command(const explain_options& options) {
   refuse_shared_outputs(outputs, {{"the problem", options.file}});
   const output_files files(outputs);
   const std::unique_ptr<kernel> leader = make_kernel(options.kernels[0]);
-  const int bytes = leader->facts().real_bytes;
-  const int pair = options.pair.value_or(0);
+  const explained_kernels of{p, options.kernels, leader->facts().real_bytes, options.pair.value_or(0)};
   std::optional<explain_text> text;
   std::optional<explain_json> json;
-  if (!options.quiet && !takes_standard_output(outputs))
-    text.emplace(p, options.kernels, bytes, pair, look_at_terminal());
-  if (output_file* const file = files["--json"]) json.emplace(p, options.kernels, bytes, pair, *file);
+  if (!options.quiet && !takes_standard_output(outputs)) text.emplace(of, look_at_terminal());
+  if (output_file* const file = files["--json"]) json.emplace(of, *file);
   explained_path told(leader->facts(), second_kernel(options.kernels), wanted, [&](const auto& i) {
     if (text) text->print(i);
     if (json) json->write(i);

@@ -14,13 +14,10 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/certificate_text.hpp"
+#include "contct/write/pictures.hpp"
 #include "contct/write/result_json.hpp"
-#include "contct/write/run_csv.hpp"
-#include "contct/write/run_page.hpp"
-#include "contct/write/run_svg.hpp"
-#include "contct/write/run_vtu.hpp"
 #include "contct/write/table.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct::app {
 namespace {

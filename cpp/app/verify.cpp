@@ -8,8 +8,11 @@
 
 #include "app/outputs.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/text/input_text.hpp"
+#include "contct/text/output_file.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/json_document.hpp"
+#include "contct/text/terminal.hpp"
+#include "contct/write/result_json.hpp"
 
 namespace contct::app {
 namespace {

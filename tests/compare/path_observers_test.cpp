@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "contct/compare/early_toggles.hpp"
-#include "contct/compare/explained_path.hpp"
+#include "contct/compare/explanation.hpp"
 #include "contct/compare/replay.hpp"
 #include "contct/compare/trace_recorder.hpp"
 #include "support/beams.hpp"

@@ -9,8 +9,15 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/write/finished_run.hpp"
+#include "read/good_problem.hpp"
 
 namespace contct::app {
+
+/// The good problem with a second step, which loads the beam upwards, towards a stop above it.
+inline const std::string loaded_and_freed =
+    std::string(good_problem) +
+    "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.001\nstiffness = 1e5\n"
+    "[[step]]\npoint = [ { node = 3, w = 60.0 } ]\n";
 
 /// FORTRAN leading C++ in lockstep, seen by all that pictures are made from.
 struct a_run {

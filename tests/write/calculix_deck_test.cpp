@@ -1,4 +1,4 @@
-// A deck for CalculiX avoids what CalculiX gets wrong.
+// A deck for CalculiX avoids what CalculiX gets wrong; beams and plates in its quadratic elements.
 #include "contct/write/calculix_deck.hpp"
 
 #include <fmt/format.h>
@@ -35,6 +35,17 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
+}
+
+double total_of(const calculix_mesh& m, int direction) {
+  double sum = 0.0;
+  for (const auto& [at, value] : m.forces) sum += at.second == direction ? value : 0.0;
+  return sum;
+}
+
+bool fixes(const calculix_mesh& m, int node, int direction) {
+  return std::any_of(m.fixed.begin(), m.fixed.end(),
+                     [&](const auto& f) { return f.node == node && f.direction == direction; });
 }
 
 }  // namespace
@@ -78,4 +89,45 @@ TEST_CASE("what CalculiX cannot have is refused by name") {
                     Contains("do not hold the structure"));
   CHECK_THROWS_WITH(deck_of(with(plate_text, "nu = 0.3", "nu = 0.5")), Contains("plate.nu: found 0.5"));
   CHECK_THROWS_WITH(deck_of(beam_text, {3, 2, 500}), Contains("--step: found 3; allowed: 1 to 2"));
+}
+
+TEST_CASE("each of a beam's elements becomes as many as asked for, with a node at every middle") {
+  const problem p = parse_problem(beam_text, "pb.toml");
+  for (const int refine : {1, 2, 5}) {
+    const calculix_mesh m = calculix_mesh_of(p, refine, 0);
+    CHECK(m.elements.size() == static_cast<std::size_t>(2 * refine));
+    CHECK(m.nodes.size() == static_cast<std::size_t>(4 * refine + 1));
+    for (const auto& e : m.elements) CHECK(e.size() == 3);
+    CHECK(std::abs(total_of(m, 3) + 12) < 1e-12);  // uniform: all of it arrives
+    CHECK(m.nodes[2].x == 2.0);
+  }
+}
+
+TEST_CASE("a beam's slope turns against CalculiX's axis") {
+  const calculix_mesh m = calculix_mesh_of(parse_problem(beam_text, "pb.toml"), 1, 1);
+  CHECK(m.forces.at({1, 5}) == -4.0);
+  CHECK(m.forces.at({2, 3}) == -60.0);
+  CHECK(fixes(m, 0, 5));
+}
+
+TEST_CASE("a plate's edge that is fixed at its nodes is fixed between them") {
+  const calculix_mesh m = calculix_mesh_of(parse_problem(plate_text, "pb.toml"), 2, 0);
+  CHECK(m.elements.size() == 8);
+  CHECK(std::abs(total_of(m, 3) + 12) < 1e-12);
+  int on_edge = 0;
+  for (std::size_t i = 0; i < m.nodes.size(); ++i) {
+    const bool edge = m.nodes[i].x == 0.0;
+    on_edge += edge ? 1 : 0;
+    for (const int direction : {3, 4, 5}) CHECK(fixes(m, static_cast<int>(i), direction) == edge);
+  }
+  CHECK(on_edge == 5);
+}
+
+TEST_CASE("a plate's nodes that are fixed in w alone are points: between them it is free") {
+  std::string text = plate_text;
+  text.replace(text.find("[\"w\", \"wx\", \"wy\"]"), 17, "[\"w\"]\n[[support]]\nnode = 3\nfix = [\"w\"]");
+  const calculix_mesh m = calculix_mesh_of(parse_problem(text, "pb.toml"), 2, 0);
+  int held = 0;
+  for (const auto& f : m.fixed) held += f.direction == 3 ? 1 : 0;
+  CHECK(held == 3);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "contct/compare/explained_path.hpp"
+#include "contct/compare/explanation.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 

@@ -1,12 +1,15 @@
+// JSON that is written value by value, and the result of a run.
 #include "contct/write/result_json.hpp"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
+#include "read/bad_inputs.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/scratch_folder.hpp"
@@ -14,6 +17,16 @@
 using namespace contct::app;
 
 namespace {
+
+/// A document with a title and an array "steps", of which `write` writes the rest.
+template <class Write>
+std::string written(Write write) {
+  const scratch_folder folder;
+  output_file out(folder.at("x.json"));
+  json_document document(out, {{"title", "a \"b\"\n"}}, "steps");
+  write(document);
+  return folder.read("x.json");
+}
 
 /// Run a problem with FORTRAN leading C++, and read the JSON back.
 nlohmann::json result_of(const std::string& text) {
@@ -32,6 +45,67 @@ nlohmann::json result_of(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("members and elements stand on lines of their own, indented by their depth") {
+  const std::string text = written([](json_document& d) {
+    d.add({{"s", 0.25}, {"none", nullptr}, {"pairs", nullptr}},
+          {{"none", 0, {}}, {"pairs", 2, [](std::size_t i) {
+                               return nlohmann::ordered_json{i, 7};
+                             }}});
+    d.add({{"compact", {1, 2}}}, {});
+    d.finish({{"free", nullptr}, {"end", nullptr}}, {{"free", 1, [](std::size_t) {
+                                                        return nlohmann::ordered_json{{"a", 1}};
+                                                      }}});
+  });
+  CHECK(
+      text ==
+      "{\n  \"title\": \"a \\\"b\\\"\\n\",\n  \"steps\": [\n    {\n      \"s\": 0.25,\n      \"none\": [],\n"
+      "      \"pairs\": [\n        [0,7],\n        [1,7]\n      ]\n    },\n    {\n      \"compact\": "
+      "[1,2]\n    }\n  ],\n  \"free\": [\n    {\"a\":1}\n  ],\n  \"end\": null\n}\n");
+}
+
+TEST_CASE("numbers of a document keep their bits, and what is no number is null") {
+  const double third = 1.0 / 3;
+  const auto read = nlohmann::json::parse(written([&](json_document& d) {
+    d.add({{"x", third}, {"nan", std::numeric_limits<double>::quiet_NaN()}}, {});
+    d.finish({{"end", 1}});
+  }));
+  CHECK(read["steps"][0]["x"].get<double>() == third);
+  CHECK(read["steps"][0]["nan"].is_null());
+}
+
+TEST_CASE("a document whose array stays empty has an empty one") {
+  CHECK(written([](json_document& d) {
+          d.finish({{"end", 1}});
+        }) == "{\n  \"title\": \"a \\\"b\\\"\\n\",\n  \"steps\": [],\n  \"end\": 1\n}\n");
+}
+
+TEST_CASE(
+    "a certificate that is not unique has no errors of displacement, and a problem only when there is one") {
+  CHECK(certificate_json({}).is_null());
+  certificate c;
+  c.exact = true;
+  c.displacement_error = 1e-12;
+  const auto good = certificate_json(c);
+  CHECK(good["displacement_error"] == 1e-12);
+  CHECK_FALSE(good.contains("problem"));
+  c.unique = false;
+  c.problem = "tension";
+  const auto other = certificate_json(c);
+  CHECK(other["displacement_error"].is_null());
+  CHECK(other["shape_error"].is_null());
+  CHECK(other["problem"] == "tension");
+}
+
+TEST_CASE("a load is written with its resultant, its nodes and elements from 1") {
+  const problem p = parse_problem(
+      with("point = [ {", "uniform = [ { value = -2, elements = [2] } ]\npoint = [ {"), "pb.toml");
+  const nlohmann::json load = load_json(p.geometry, load_path(p), 1, 0.5);
+  CHECK(load["force"] == -31.0);
+  CHECK(load["moment"] == -61.5);
+  CHECK(load["uniform"] == nlohmann::json::parse(R"([{"value": -1.0, "elements": "2..2"}])"));
+  CHECK(load["point"] == nlohmann::json::parse(R"([{"node": 3, "w": -30.0}])"));
+}
 
 TEST_CASE("the result has the format's fields, with the numbers of PB1's second step") {
   const auto r = result_of(good_problem);

@@ -1,11 +1,12 @@
-// A run in one picture.
-#include "contct/write/run_svg.hpp"
-
+// A run in one picture, structures in it, and the pieces of SVG.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "catch.hpp"
+#include "contct/write/pictures.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
@@ -14,15 +15,7 @@
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
-
-namespace {
-
-const std::string loaded_and_freed =
-    std::string(good_problem) +
-    "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.001\nstiffness = 1e5\n"
-    "[[step]]\npoint = [ { node = 3, w = 60.0 } ]\n";
-
-}  // namespace
+using namespace contct::write::svg;
 
 TEST_CASE("the picture is well-formed, whatever the title, and has a mark for every pair") {
   for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
@@ -65,4 +58,170 @@ TEST_CASE("load over deflection stands below the beam: the start top right, the 
   CHECK_THAT(svg, Contains(fmt::format("d=\"M840.00 {:.2f}L{:.2f} {:.2f}L110.00 {:.2f}\" class=\"track\"",
                                        top, touching, top + 60, top + 240)));
   CHECK_THAT(svg, Contains(fmt::format("height=\"{:.0f}\"", top + 240 + 48)));
+}
+
+TEST_CASE("a beam's axis, supports, faces and pairs stand where they are, deflections downwards") {
+  const a_run r(good_problem);
+  const std::string svg = run_svg(r.finished());
+  // 2 long from x = 60 to 840; deflections 50 times as large, at 390 to a unit; the axis at y = 130.
+  CHECK_THAT(svg, Contains("d=\"M60.0 130.0L840.0 130.0\" class=\"undeformed\""));
+  CHECK_THAT(svg, Contains("deflection × 50<"));
+  const double tip = 130 - 50 * 390 * r.kept.frames().back().displacement[4];
+  CHECK(tip > 200);
+  CHECK_THAT(svg, Contains("<path d=\"M60.00 130.00C") &&
+                      Contains(fmt::format(" 840.00 {:.2f}\" class=\"beam\"", tip)));
+  CHECK_THAT(svg, Contains("d=\"M60.0 132.0l8 13h-16z\" class=\"support\""));     // w: a triangle below
+  CHECK_THAT(svg, Contains("d=\"M60.0 117.0L60.0 143.0\" class=\"clamp\""));      // theta
+  CHECK_THAT(svg, Contains("d=\"M826.0 208.0L854.0 208.0\" class=\"surface\""));  // 0.004 * 50 * 390 below
+  CHECK_THAT(svg, Contains("d=\"M829.0 208.0L832.0 214.0\" class=\"hatch\""));    // on the face's far side
+  CHECK_THAT(
+      svg, Contains(fmt::format(
+               "<rect x=\"835.0\" y=\"{:.1f}\" width=\"10.0\" height=\"10.0\" class=\"closed\">", tip - 5)));
+  CHECK_THAT(svg,
+             Contains(fmt::format("d=\"M60.0 {0:.1f}L60.0 {1:.1f}\" class=\"thin\"", tip + 44, tip + 49)));
+}
+
+TEST_CASE("a face above is hatched upwards") {
+  std::string text = with("below", "above");
+  text.replace(text.find("-0.004"), 6, "0.004");
+  text.replace(text.find("-60.0"), 5, "60.0");
+  const std::string svg = run_svg(a_run(text).finished());
+  double x[2];
+  double y[2];
+  const std::size_t at = svg.rfind("d=\"", svg.find("class=\"hatch\""));
+  REQUIRE(std::sscanf(svg.c_str() + at, "d=\"M%lf %lfL%lf %lf", &x[0], &y[0], &x[1], &y[1]) == 4);
+  CHECK(x[1] == x[0] - 3);
+  CHECK(y[1] == y[0] - 6);
+}
+
+TEST_CASE("a plate is drawn with y upwards: a cell, a pair, the legend and the axis in their places") {
+  const a_run r(good_plate);
+  const std::string svg = run_svg(r.finished());
+  // 1 by 1 at 430 to a unit, its upper left corner at (60, 110); cells are half as wide.
+  CHECK_THAT(svg, Contains("<rect x=\"60.00\" y=\"110.00\" width=\"215.00\" height=\"430.00\" fill="));
+  CHECK_THAT(svg, Contains("<rect x=\"275.00\" y=\"110.00\" width=\"215.00\" height=\"430.00\" fill="));
+  CHECK_THAT(svg, Contains("M60.0 540.0L60.0 545.0"));
+  // The largest deflection is the lightest and on top.
+  CHECK_THAT(
+      svg,
+      Contains("<rect x=\"530.0\" y=\"110.0\" width=\"20.0\" height=\"20.0\" fill=\"rgb(250,244,228)\"/>"));
+  CHECK_THAT(
+      svg, Contains("<rect x=\"530.0\" y=\"310.0\" width=\"20.0\" height=\"20.0\" fill=\"rgb(22,52,98)\"/>"));
+  CHECK_THAT(
+      svg,
+      Contains(
+          "<rect x=\"484.0\" y=\"104.0\" width=\"12.0\" height=\"12.0\" class=\"closed\">"));  // at (1, 1)
+}
+
+TEST_CASE("a pair's mark is a ring, a square or a diamond around its point, with its numbers") {
+  const a_run r(good_problem);
+  const auto mark = [&](std::size_t frame) {
+    return mark_of_pair(r.what, r.kept.frames()[frame], 0, {100, 200}, 5);
+  };
+  CHECK_THAT(mark(0), Contains("<circle cx=\"100.0\" cy=\"200.0\" r=\"5.0\" class=\"open\">"));
+  CHECK_THAT(mark(0), Contains("<title>pair 1, node 3, face below at -0.004, open: gap 0.004</title>"));
+  CHECK_THAT(mark(1), Contains("M100.0 193.5l6.5 6.5l-6.5 6.5l-6.5 -6.5z\" class=\"face\"") &&
+                          Contains("at its face"));
+  CHECK_THAT(mark(2),
+             Contains("<rect x=\"95.0\" y=\"195.0\" width=\"10.0\" height=\"10.0\" class=\"closed\">"));
+  CHECK_THAT(mark(2), Contains("closed: force 41.8605</title>"));
+}
+
+TEST_CASE(
+    "the picture of a structure from elsewhere is well-formed, with a mark for every pair, or with a table") {
+  for (const std::string& text :
+       {portal_frame(), structure_problem("calculix/", "console"), frame_without_coordinates()}) {
+    const a_run r(text);
+    const std::string svg = run_svg(r.finished());
+    CHECK(why_not_well_formed(svg).empty());
+    CHECK_THAT(svg, !Contains("nan") && !Contains("inf"));
+    const auto& a = std::get<assembled>(r.what.geometry.kind);
+    for (std::size_t i = 0; i < r.what.pairs.size(); ++i) {
+      const std::string label = a.label_of(r.what.pairs[i].node);
+      CHECK_THAT(svg, Contains(a.places.known() ? fmt::format("<title>pair {}, dof {}, face", i + 1, label)
+                                                : fmt::format(">{}</text>", label)));
+    }
+    CHECK((svg.find("class=\"member\"") != std::string::npos) == a.places.known());
+    CHECK((svg.find("no coordinates are known") == std::string::npos) == a.places.known());
+  }
+}
+
+TEST_CASE("the frame's picture has its corner where it is, and is drawn where it was when it came back") {
+  const a_run r(portal_frame());
+  const std::string svg = run_svg(r.finished());
+  // Unloaded at the end: both paths are the same, and 4 m are wider than 3 m are high.
+  const auto path_of = [&svg](const std::string& kind) {
+    const std::size_t to = svg.find("\" class=\"" + kind + "\"/>");
+    const std::size_t from = svg.rfind("d=\"", to) + 3;
+    return svg.substr(from, to - from);
+  };
+  CHECK(path_of("member") == path_of("was"));
+  double x[2], y[2];
+  REQUIRE(std::sscanf(path_of("was").c_str(), "M%lf %lfL%lf %lf", &x[0], &y[0], &x[1], &y[1]) == 4);
+  CHECK(x[0] == x[1]);      // the left column
+  CHECK(y[0] > y[1] + 50);  // goes up
+  CHECK_THAT(svg, Contains("displacement × 200<"));
+}
+
+TEST_CASE("the frame stands in the middle of the page, its supports below its feet") {
+  const std::string svg = run_svg(a_run(portal_frame()).finished());
+  double x[2];
+  double y[3];
+  // The feet, 4 m apart: clamped, each with a triangle left of it (x), one below it (y) and a square.
+  const std::size_t foot = svg.find("<path d=\"M", svg.find("class=\"support\""));
+  REQUIRE(std::sscanf(svg.c_str() + foot, "<path d=\"M%lf %lfL%lf %lfL%*f %lf", &x[0], &y[0], &x[1], &y[1],
+                      &y[2]) == 5);
+  CHECK(y[1] == Approx(y[0] + 12));
+  CHECK(y[2] == Approx(y[0] + 12));
+  const std::size_t last = svg.rfind("d=\"M", svg.rfind("class=\"support\""));
+  double right = 0.0;
+  REQUIRE(std::sscanf(svg.c_str() + last, "d=\"M%lf", &right) == 1);
+  CHECK((x[0] + right + 4.5) / 2 == Approx(450.0).margin(0.11));
+}
+
+TEST_CASE("without coordinates pairs are rows of a table, 22 apart, below the dof that moves most") {
+  const std::string svg = run_svg(a_run(frame_without_coordinates()).finished());
+  CHECK_THAT(svg, Contains("<text x=\"60.0\" y=\"126.0\" class=\"quiet\">pair</text>"));
+  CHECK_THAT(svg, Contains("<text x=\"130.0\" y=\"148.0\" class=\"plain\">6.y</text>"));
+  CHECK_THAT(svg, Contains("<text x=\"60.0\" y=\"170.0\" class=\"plain\">1</text>"));
+  CHECK_THAT(svg, Contains("<text x=\"130.0\" y=\"192.0\" class=\"plain\">8.x</text>"));
+}
+
+TEST_CASE("a scale goes through its origin, and a span is never empty") {
+  const scale X{2.0, 10.0, 60.0};
+  CHECK(X(2.0) == 60.0);
+  CHECK(X(3.0) == 70.0);
+  span_of s;
+  s.take(4.0);
+  CHECK(s.range() == 1.0);
+  s.take(1.0);
+  CHECK(s.least == 1.0);
+  CHECK(s.most == 4.0);
+  CHECK(s.range() == 3.0);
+}
+
+TEST_CASE("ticks are 1, 2 or 5 times a power of ten apart, and within their span") {
+  CHECK(round_down(0.099) == Approx(0.05));
+  CHECK(round_down(20.0) == Approx(20.0));
+  CHECK(round_down(1.9) == Approx(1.0));
+  const std::vector<double> t = ticks(-1.0, 1.1, 5);
+  CHECK(t == std::vector<double>{-1.0, -0.5, 0.0, 0.5, 1.0});
+}
+
+TEST_CASE("words are escaped, markup is not, and an empty path is none") {
+  CHECK(text_at(1, 2.25, "quiet", "a < b") == "<text x=\"1.0\" y=\"2.2\" class=\"quiet\">a &lt; b</text>\n");
+  CHECK(text_markup(1, 2, "fill=\"red\"", "10<tspan>2</tspan>") ==
+        "<text x=\"1.0\" y=\"2.0\" fill=\"red\">10<tspan>2</tspan></text>\n");
+  CHECK(title("\"&\"") == "<title>&quot;&amp;&quot;</title>");
+  CHECK(path("", "thin").empty());
+  CHECK(line(0, 1, 2, 3, "thin") == "<path d=\"M0.0 1.0L2.0 3.0\" class=\"thin\"/>\n");
+  CHECK(circle(1, 2, 3, "id=\"x\"") == "<circle cx=\"1.0\" cy=\"2.0\" r=\"3.0\" id=\"x\"/>\n");
+  CHECK(rectangle(1, 2, 3, 4, "id=\"x\"", title("t")) ==
+        "<rect x=\"1.0\" y=\"2.0\" width=\"3.0\" height=\"4.0\" id=\"x\"><title>t</title></rect>\n");
+}
+
+TEST_CASE("an axis has a tick below its place and the number below the tick") {
+  const std::string axis = axis_below({0.0, 100.0, 60.0}, 0.0, 1.0, 300.0);
+  CHECK(axis.find("M60.0 300.0L60.0 305.0") != std::string::npos);
+  CHECK(axis.find("<text x=\"160.0\" y=\"320.0\" class=\"quiet middle\">1</text>") != std::string::npos);
 }

@@ -1,7 +1,6 @@
 // Frames for ParaView.
-#include "contct/write/run_vtu.hpp"
-
 #include "catch.hpp"
+#include "contct/write/pictures.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
@@ -10,15 +9,6 @@
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
-
-namespace {
-
-const std::string loaded_and_freed =
-    std::string(good_problem) +
-    "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.001\nstiffness = 1e5\n"
-    "[[step]]\npoint = [ { node = 3, w = 60.0 } ]\n";
-
-}  // namespace
 
 TEST_CASE("grids are well-formed, with as many points and cells as the structure and its pairs have") {
   for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {

@@ -1,13 +1,75 @@
-// The pieces of the table; what a whole table looks like is tested on the program itself (tests/cli).
+// The run as tables; what a whole one looks like on the terminal is tested on the program itself (tests/app).
 #include "contct/write/table.hpp"
 
 #include <cstdlib>
 
 #include "catch.hpp"
+#include "contct/outside/registry.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/write/finished_run.hpp"
+#include "contct/write/pictures.hpp"
 #include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
+#include "support/a_run.hpp"
+#include "support/scratch_folder.hpp"
+#include "support/structures.hpp"
+#include "support/well_formed.hpp"
 
 using namespace contct::app;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using row = std::vector<std::string>;
+
+/// The rows of a table by RFC 4180, quotes taken off.
+std::vector<row> rows_of(const std::string& text) {
+  std::vector<row> rows(1, row(1));
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+      rows.back().back() += text[++i];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted && c == ',') {
+      rows.back().emplace_back();
+    } else if (!quoted && c == '\r' && i + 1 < text.size() && text[i + 1] == '\n') {
+      ++i;
+      rows.emplace_back(1);
+    } else {
+      rows.back().back() += c;
+    }
+  }
+  REQUIRE(rows.back() == row(1));  // the last line has its end, too
+  rows.pop_back();
+  return rows;
+}
+
+struct tables {
+  std::vector<row> increments, pairs;
+  std::vector<frame> frames;
+};
+
+/// Two runs of one problem: its tables, and its frames to compare with.
+tables tables_of(const std::string& text) {
+  const problem p = parse_problem(text, "pb.toml");
+  const scratch_folder folder;
+  output_file increments(folder.at("run.csv")), pairs(folder.at("run.pairs.csv"));
+  auto leader = make_kernel("fortran");
+  lockstep compared = make_lockstep(leader->facts(), std::vector<std::string>{"cpp"});
+  run_csv csv(p, &compared, increments, &pairs);
+  follow(p, structure_of(p), "refactor", *leader, {&compared, &csv});
+  csv.finish();
+  leader.reset();  // unit 26 is there only once
+  return {rows_of(folder.read("run.csv")), rows_of(folder.read("run.pairs.csv")), a_run(text).kept.frames()};
+}
+
+double number(const std::string& field) {
+  return std::strtod(field.c_str(), nullptr);
+}
+
+}  // namespace
 
 TEST_CASE("the terminal's width comes from COLUMNS, within reason, and a pipe has no colour") {
   setenv("COLUMNS", "120", 1);
@@ -41,4 +103,89 @@ TEST_CASE("items are joined while they fit, and a long one goes on in the next l
   CHECK(wrap({"one two three four", "five"}, 9) == lines{"one two", "three", "four", "five"});
   CHECK(wrap({"unbreakable word"}, 5) == lines{"unbreakable", "word"});
   CHECK(wrap({}, 5).empty());
+}
+
+TEST_CASE("a field is quoted where a comma, a quote or a line end is in it") {
+  CHECK(csv_field("plain words") == "plain words");
+  CHECK(csv_field("a,b") == "\"a,b\"");
+  CHECK(csv_field("say \"no\"") == "\"say \"\"no\"\"\"");
+  CHECK(csv_field("two\nlines") == "\"two\nlines\"");
+}
+
+TEST_CASE("the table of increments has their numbers to the last digit, and their events") {
+  const tables t = tables_of(loaded_and_freed);
+  REQUIRE(t.increments.size() == t.frames.size());  // a heading, where the frames have the start
+  CHECK(t.increments[0] == row{"step", "increment", "kind", "s", "share", "force", "events", "closed", "open",
+                               "at_face", "smin", "kernels"});
+  for (std::size_t i = 1; i < t.increments.size(); ++i) {
+    const row& r = t.increments[i];
+    INFO("row " << i);
+    REQUIRE(r.size() == 12);
+    CHECK(r[0] == std::to_string(t.frames[i].step));
+    CHECK(r[1] == std::to_string(t.frames[i].number));
+    CHECK(number(r[3]) == t.frames[i].s);
+    CHECK(number(r[4]) == t.frames[i].fraction);
+    CHECK(number(r[10]) == t.frames[i].s);
+    CHECK(r[11] == "equal");
+  }
+  CHECK(t.increments[1][6] == "make 1");
+  CHECK(number(t.increments[2][5]) == -60.0);
+}
+
+TEST_CASE("the table of pairs has each in every increment, as the frames have it") {
+  const tables t = tables_of(loaded_and_freed);
+  REQUIRE(t.pairs.size() == 1 + 2 * (t.frames.size() - 1));
+  bool pressed = false;
+  for (std::size_t i = 1; i < t.pairs.size(); ++i) {
+    const row& r = t.pairs[i];
+    const frame& f = t.frames[(i + 1) / 2];
+    const std::size_t pair = (i + 1) % 2;
+    INFO("row " << i);
+    REQUIRE(r.size() == 10);
+    CHECK(r[2] == std::to_string(pair + 1));
+    CHECK(r[5] == (f.closed(pair) ? "contact" : "separated"));
+    const double w = f.displacement[pair == 0 ? 4 : 2];
+    // Exactly the state of a step's end; elsewhere the path's own D, which the frame's solution meets.
+    if (f.step_end) CHECK(number(r[7]) == w);
+    CHECK(number(r[7]) == Approx(w).margin(1e-14));
+    pressed = pressed || number(r[9]) > 10;
+  }
+  CHECK(pressed);
+}
+
+TEST_CASE("a step that never moves has a row all the same") {
+  const tables t = tables_of(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]"));
+  REQUIRE(t.increments.size() == 2);
+  CHECK(t.increments[1][2] == "end");
+  CHECK(t.increments[1][3].empty());
+  CHECK(t.increments[1][11].empty());
+}
+
+TEST_CASE("tables of structures from elsewhere name dofs by their labels, with coordinates or without") {
+  for (const auto& text : {portal_frame(), frame_without_coordinates()}) {
+    const problem p = parse_problem(text, "p.toml");
+    const scratch_folder folder;
+    output_file increments(folder.at("mesh.csv"));
+    output_file pairs(folder.at("mesh.pairs.csv"));
+    auto leader = make_kernel("cpp");
+    run_csv csv(p, nullptr, increments, &pairs);
+    follow(p, structure_of(p), "refactor", *leader, {&csv});
+    csv.finish();
+    const std::string table = folder.read("mesh.pairs.csv");
+    CHECK_THAT(table, Contains("\r\n1,1,1,6.y,below,contact,") && Contains("\r\n3,3,2,8.x,above,separated,"));
+  }
+}
+
+TEST_CASE("labels that are no plain words stay text in pictures and fields in tables") {
+  const scratch_folder folder;
+  const std::string matrix =
+      folder.write("odd.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
+  const std::string dofs = folder.write("odd.dof", "<b>,\"&.x\n");
+  const a_run r("[matrix]\nstiffness = \"" + matrix + "\"\ndofs = \"" + dofs +
+                "\"\n[[contact]]\ndof = '<b>,\"&.x'\nsurface = "
+                "\"below\"\nface = 0\nstiffness = 1\n[[step]]\n"
+                "point = [ { dof = '<b>,\"&.x', value = -1 } ]\n");
+  CHECK(why_not_well_formed(run_svg(r.finished())).empty());
+  CHECK_THAT(run_svg(r.finished()), Contains("&lt;b&gt;,&quot;&amp;.x"));
+  CHECK(csv_field(place_name(r.what.geometry, 0)) == "\"<b>,\"\"&.x\"");
 }

@@ -1,9 +1,13 @@
-// The words for statuses and events, as the formats of reference/ have them.
+// The words for statuses, events and certificates, as the formats of reference/ have them.
 #include "contct/write/words.hpp"
 
 #include "catch.hpp"
+#include "contct/text/input_text.hpp"
+#include "read/bad_inputs.hpp"
+#include "support/a_run.hpp"
 
 using namespace contct::app;
+using Catch::Matchers::Contains;
 
 TEST_CASE("sides, events and states have the words of a problem file") {
   CHECK(surface_name(face_below) == "below");
@@ -23,4 +27,32 @@ TEST_CASE("a path that stops short of its load has one of two statuses, and a re
   CHECK(end_reason(path_status::solved) == "all load applied");
   CHECK(end_reason(path_status::cycle) == "cycle");
   CHECK(end_reason(path_status::not_factored) == "not factored");
+}
+
+TEST_CASE("a step is certified, not certified, or without a certificate") {
+  certificate c;
+  c.exact = true;
+  CHECK(certificate_mark(c) == "certified");
+  c.exact = false;
+  CHECK(certificate_mark(c) == "NOT certified");
+  CHECK(certificate_mark({}) == "no certificate");
+}
+
+TEST_CASE("a certified run says how many steps are, and names no complaint") {
+  const a_run one(good_problem);
+  CHECK(certificate_summary(one.judged)[0] == "the final state is certified");
+  CHECK(certificate_complaints(one.what, one.judged, one.early).empty());
+  const a_run two(std::string(good_problem) + "[[step]]\npoint = [ { node = 3, w = 20.0 } ]\n");
+  CHECK(certificate_summary(two.judged)[0] == "both final states are certified");
+}
+
+TEST_CASE("of a state with locked-in forces the summary names the step, the complaint the early toggle") {
+  const a_run r(read_input(CONTCT_REFERENCE "/problems/divergences/locked-in-forces.toml"));
+  const std::vector<std::string> complaints = certificate_complaints(r.what, r.judged, r.early);
+  REQUIRE_FALSE(complaints.empty());
+  const std::string step = complaints[0].substr(0, complaints[0].find(" is not certified: "));
+  CHECK_THAT(certificate_summary(r.judged)[0], Contains(step + " is NOT certified: "));
+  const early_toggle& first = r.early.all().front();
+  CHECK_THAT(complaints[0], Contains("let pair ") && Contains(" contact ") && Contains("away from its face"));
+  CHECK(first.distance > 0.0);
 }

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "contct/lab/epsmul_variants.hpp"
-#include "contct/write/svg_parts.hpp"
+#include "contct/write/pictures.hpp"
 
 namespace contct::lab {
 namespace {

@@ -8,7 +8,7 @@
 #include "contct/compare/lockstep.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/write/load_text.hpp"
+#include "contct/write/finished_run.hpp"
 
 namespace contct::lab {
 namespace {

@@ -3,19 +3,164 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
-#include <span>
+#include <compare>
+#include <numeric>
+#include <set>
 #include <stdexcept>
-#include <tuple>
-#include <utility>
 
 #include "contct/certify/reference_solution.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/write/calculix_mesh.hpp"
+#include "contct/structure/gauss.hpp"
 
 namespace contct::write {
 namespace {
+
+/// One of the problem's dofs in CalculiX's directions. A slope is a turn: dw/dx against the turn about y,
+/// dw/dy with that about x.
+struct turned_dof {
+  int direction;
+  double sign;
+};
+constexpr std::array<turned_dof, 3> turned = {{{3, 1.0}, {5, -1.0}, {4, 1.0}}};  // w, wx (theta), wy
+
+/// Add what a problem's own nodes have: supports that are fixed, and point loads. Returns which (node, dof)
+/// the supports fix.
+std::set<std::pair<int, int>> take_over_nodes(const problem& p, const load& l, calculix_mesh& m) {
+  std::set<std::pair<int, int>> fixed;
+  for (const support& s : p.supports) {
+    if (s.fixed) fixed.insert({s.node, s.dof});
+  }
+  for (const auto& [node, dof] : fixed) m.fixed.push_back({node, turned[dof].direction});
+  for (const point_load& at : l.points) {
+    const turned_dof t = turned[at.dof];
+    m.forces[{at.node, t.direction}] += t.sign * at.value;
+  }
+  return fixed;
+}
+
+/// Work of a distributed load on the three shape functions of a quadratic line from x = left, h long.
+std::array<double, 3> load_on_line(const std::vector<double>& polynomial, double left, double h) {
+  std::array<double, 3> f{};
+  const int degree = static_cast<int>(polynomial.size()) - 1 + 2;
+  for (const auto& [t, weight] : gauss_points(degree / 2 + 1)) {  // t from 0 to 1
+    const double q = polynomial_at(polynomial, left + t * h) * weight * h;
+    f[0] += q * (1 - t) * (1 - 2 * t);
+    f[1] += q * 4 * t * (1 - t);
+    f[2] += q * t * (2 * t - 1);
+  }
+  return f;
+}
+
+calculix_mesh mesh_of(const beam& b, const problem& p, int refine, const load& l) {
+  calculix_mesh m;
+  for (const double x : b.x) m.nodes.push_back({x, 0.0});
+  const int intervals = 2 * refine;
+  for (int e = 0; e < b.elements(); ++e) {
+    std::vector<int> line = {e};  // from the left end to the right
+    for (int i = 1; i < intervals; ++i) {
+      line.push_back(static_cast<int>(m.nodes.size()));
+      m.nodes.push_back({b.x[e] + b.length_of(e) * i / intervals, 0.0});
+    }
+    line.push_back(e + 1);
+    for (int i = 0; i < intervals; i += 2) {
+      m.elements.push_back({line[i], line[i + 1], line[i + 2]});
+      m.origins.push_back(e);
+    }
+  }
+  take_over_nodes(p, l, m);
+  // Nothing pulls it sideways or turns it about its axis; these only keep it from floating there.
+  m.fixed.insert(m.fixed.end(), {{0, 1}, {0, 2}, {0, 4}, {b.nodes() - 1, 2}});
+  for_each_loaded_element(l, b.elements(), [&](int e, const std::vector<double>& polynomial) {
+    const double h = b.length_of(e) / refine;
+    for (int i = 0; i < refine; ++i) {
+      const std::vector<int>& nodes = m.elements[e * refine + i];
+      const auto f = load_on_line(polynomial, b.x[e] + i * h, h);
+      for (std::size_t k = 0; k < 3; ++k) m.forces[{nodes[k], 3}] += f[k];
+    }
+  });
+  return m;
+}
+
+/// The points of a plate's refined grid, every other line of which runs through the middles of elements. The
+/// problem's own lines are every `step`-th.
+struct fine_grid {
+  int step, columns, rows;
+  std::vector<int> numbers{};  // of the nodes, [rows][columns]
+
+  [[nodiscard]] int& at(int a, int b) { return numbers[static_cast<std::size_t>(b) * columns + a]; }
+};
+
+/// Number the nodes of a refined grid, and add them to `m`: the problem's own first.
+fine_grid grid_of(const plate& own, int step, calculix_mesh& m) {
+  for (const double y : own.y) {
+    for (const double x : own.x) m.nodes.push_back({x, y});
+  }
+  const auto along = [step](const std::vector<double>& lines, int a) {
+    const int i = a / step;
+    if (a % step == 0) return lines[i];
+    return lines[i] + (lines[i + 1] - lines[i]) * (a % step) / step;
+  };
+  fine_grid grid{step, (own.columns() - 1) * step + 1, (own.rows() - 1) * step + 1};
+  grid.numbers.assign(static_cast<std::size_t>(grid.rows) * grid.columns, -1);
+  for (int b = 0; b < grid.rows; ++b) {
+    for (int a = 0; a < grid.columns; ++a) {
+      if (a % 2 == 1 && b % 2 == 1) continue;  // the middle of an element: S8R has no node there
+      const bool is_own = a % step == 0 && b % step == 0;
+      grid.at(a, b) = is_own ? own.node_at(a / step, b / step) : static_cast<int>(m.nodes.size());
+      if (!is_own) m.nodes.push_back({along(own.x, a), along(own.y, b)});
+    }
+  }
+  return grid;
+}
+
+/// What is fixed at a node on the line between two of the problem's nodes follows from both. In an ACM
+/// rectangle the deflection there is a cubic, the slope across it linear: the first is zero where both ends
+/// have w and the slope along the line fixed, the second where both have it fixed.
+void fix_between(const std::set<std::pair<int, int>>& fixed, int one, int other, int along, int node,
+                 calculix_mesh& m) {
+  const auto both = [&](int dof) { return fixed.contains({one, dof}) && fixed.contains({other, dof}); };
+  const int across = 3 - along;
+  if (both(0) && both(along)) {
+    m.fixed.push_back({node, turned[0].direction});
+    m.fixed.push_back({node, turned[along].direction});
+  }
+  if (both(across)) m.fixed.push_back({node, turned[across].direction});
+}
+
+calculix_mesh mesh_of(const plate& own, const problem& p, int refine, const load& l) {
+  calculix_mesh m;
+  fine_grid grid = grid_of(own, 2 * refine, m);
+  const auto fixed = take_over_nodes(p, l, m);
+  for (int b = 0; b < grid.rows; ++b) {
+    for (int a = 0; a < grid.columns; ++a) {
+      const int here = own.node_at(a / grid.step, b / grid.step);
+      const bool on_column = a % grid.step == 0;
+      const bool on_row = b % grid.step == 0;
+      if (on_row && !on_column) fix_between(fixed, here, here + 1, 1, grid.at(a, b), m);
+      if (on_column && !on_row) fix_between(fixed, here, here + own.columns(), 2, grid.at(a, b), m);
+    }
+  }
+  // Nothing pulls it in its plane; these only keep it from floating there.
+  m.fixed.insert(m.fixed.end(), {{0, 1}, {0, 2}, {own.columns() - 1, 2}});
+  std::vector<double> pressure(own.elements(), 0.0);
+  for_each_loaded_element(
+      l, own.elements(), [&](int e, const std::vector<double>& polynomial) { pressure[e] += polynomial[0]; });
+  for (int b = 0; b + 2 < grid.rows; b += 2) {
+    for (int a = 0; a + 2 < grid.columns; a += 2) {
+      const std::vector<int>& nodes = m.elements.emplace_back(std::vector<int>{
+          grid.at(a, b), grid.at(a + 2, b), grid.at(a + 2, b + 2), grid.at(a, b + 2), grid.at(a + 1, b),
+          grid.at(a + 2, b + 1), grid.at(a + 1, b + 2), grid.at(a, b + 1)});
+      const int origin = m.origins.emplace_back(b / grid.step * (own.columns() - 1) + a / grid.step);
+      if (pressure[origin] == 0.0) continue;
+      const double force = pressure[origin] * own.width_of(origin) * own.height_of(origin) / refine / refine;
+      // Work of a uniform pressure on S8R's shape functions: its corners take less than nothing.
+      for (std::size_t k = 0; k < 8; ++k) m.forces[{nodes[k], 3}] += k < 4 ? -force / 12 : force / 3;
+    }
+  }
+  return m;
+}
 
 /// Largest deflection over the structure's length: CalculiX's NLGEOM must not notice that anything turns.
 constexpr double smallness = 1e-7;
@@ -28,8 +173,35 @@ constexpr double total_force = 1e6;
 constexpr double within = 4;
 
 /// CalculiX cuts a field after 20 characters; this has 19 at most.
-std::string number(double x) {
+std::string field(double x) {
   return fmt::format("{:.12e}", x);
+}
+
+void refuse_what_cannot_be_written(const problem& p, int step) {
+  const auto refuse = [](const std::string& why) { throw std::invalid_argument(why); };
+  const int steps = static_cast<int>(p.steps.size());
+  if (step < 1 || step > steps)
+    refuse(fmt::format("--step: found {}; allowed: {}", step,
+                       steps == 1 ? "1, the only one" : fmt::format("1 to {}", steps)));
+  if (std::holds_alternative<assembled>(p.geometry.kind))
+    refuse("only beams and plates can be written for CalculiX");
+  if (const auto* of = std::get_if<plate>(&p.geometry.kind); of != nullptr && of->nu > 0.49)
+    refuse(fmt::format(
+        "plate.nu: found {:g}; allowed: at most 0.49 for CalculiX, whose plates are solid inside", of->nu));
+  for (const support& s : p.supports) {
+    if (!s.fixed && s.dof != 0)
+      refuse(
+          fmt::format("the support at node {} has a spring in {}: CalculiX has none for the turns of beams "
+                      "and plates; allowed: springs in w",
+                      s.node + 1, dof_names(p.geometry)[s.dof]));
+  }
+  const linear_structure s = structure_of(p);
+  rigid_rank held;
+  for (const rigid_row& row : s.held_by_supports) held.hold(row);
+  if (held.rank() < s.rigid_motions)
+    refuse(
+        "the supports alone do not hold the structure: CalculiX's first step, with springs not yet pressed, "
+        "has no answer; allowed: a structure that its [[support]] tables hold");
 }
 
 /// What a spring, one-sided or not, has in common with its like: one table for all of them.
@@ -37,8 +209,7 @@ struct spring_law {
   double stiffness;
   double from;  // the shortening at which it begins to press, from the undeformed structure on
   bool both_ways;
-  [[nodiscard]] auto key() const { return std::tuple(stiffness, from, both_ways); }
-  bool operator<(const spring_law& other) const { return key() < other.key(); }
+  auto operator<=>(const spring_law&) const = default;
 };
 
 /// A spring between a node of the structure, from 0, and a node on the ground above or below it.
@@ -53,18 +224,28 @@ class deck_writer {
  public:
   deck_writer(const problem& p, const calculix_choice& choice) : problem_(p), choice_(choice) {
     if (choice_.step == 0) choice_.step = static_cast<int>(p.steps.size());
-    refuse_what_cannot_be_written();
+    refuse_what_cannot_be_written(p, choice_.step);
     mesh_ = calculix_mesh_of(p, choice_.refine, choice_.step - 1);
     measure();
-    gather_springs();
+    for (const contact_pair& at : p.pairs)
+      springs_.push_back({at.node, at.surface, {at.stiffness, at.surface * at.face, false}});
+    for (const support& s : p.supports) {
+      if (!s.fixed) springs_.push_back({s.node, face_below, {s.spring, 0.0, true}});
+    }
   }
 
   calculix_deck write() {
     write_heading();
     write_nodes();
-    write_elements();
+    if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) {
+      write_beam(*b);
+    } else {
+      write_plate(std::get<plate>(problem_.geometry.kind));
+    }
     write_springs();
-    write_boundary();
+    line("*BOUNDARY");
+    for (const auto& [node, direction] : mesh_.fixed) line("{},{}", node + 1, direction);
+    if (!springs_.empty()) line("GROUND,1,3");
     write_step();
     return {std::move(text_),
             scale_,
@@ -76,48 +257,14 @@ class deck_writer {
   }
 
  private:
-  void refuse_what_cannot_be_written() const {
-    const int steps = static_cast<int>(problem_.steps.size());
-    if (choice_.step < 1 || choice_.step > steps) {
-      throw std::invalid_argument(
-          fmt::format("--step: found {}; allowed: {}", choice_.step,
-                      steps == 1 ? "1, the only one" : fmt::format("1 to {}", steps)));
-    }
-    const auto* const plate_of = std::get_if<plate>(&problem_.geometry.kind);
-    if (plate_of == nullptr && !std::holds_alternative<beam>(problem_.geometry.kind))
-      throw std::invalid_argument("only beams and plates can be written for CalculiX");
-    if (plate_of != nullptr && plate_of->nu > 0.49) {
-      throw std::invalid_argument(fmt::format(
-          "plate.nu: found {:g}; allowed: at most 0.49 for CalculiX, whose plates are solid inside",
-          plate_of->nu));
-    }
-    const auto names = dof_names(problem_.geometry);
-    for (const support& s : problem_.supports) {
-      if (s.fixed || s.dof == 0) continue;
-      throw std::invalid_argument(fmt::format(
-          "the support at node {} has a spring in {}: CalculiX has none for the turns of beams and "
-          "plates; allowed: springs in w",
-          s.node + 1, names[s.dof]));
-    }
-    linear_structure s = structure_of(problem_);
-    rigid_rank held;
-    for (const rigid_row& row : s.held_by_supports) held.hold(row);
-    if (held.rank() < s.rigid_motions) {
-      throw std::invalid_argument(
-          "the supports alone do not hold the structure: CalculiX's first step, with springs not yet "
-          "pressed, has no "
-          "answer; allowed: a structure that its [[support]] tables hold");
-    }
-  }
-
   /// The sizes that everything is chosen by. Only the size of the answer is taken from the reference
   /// solution.
   void measure() {
-    const auto [left, right] = std::minmax_element(mesh_.nodes.begin(), mesh_.nodes.end(),
-                                                   [](const auto& a, const auto& b) { return a.x < b.x; });
-    const auto [low, high] = std::minmax_element(mesh_.nodes.begin(), mesh_.nodes.end(),
-                                                 [](const auto& a, const auto& b) { return a.y < b.y; });
-    length_ = std::max(right->x - left->x, high->y - low->y);
+    const auto extent = [this](double calculix_mesh::place::*along) {
+      const auto [least, most] = std::ranges::minmax(mesh_.nodes, {}, along);
+      return most.*along - least.*along;
+    };
+    length_ = std::max(extent(&calculix_mesh::place::x), extent(&calculix_mesh::place::y));
     thickness_ = length_ / choice_.slenderness;
 
     const linear_structure s = structure_of(problem_);
@@ -128,7 +275,6 @@ class deck_writer {
     if (found.how != reference_answer::outcome::found)
       throw std::invalid_argument(
           fmt::format("nothing carries the load of step {}: there is no final state", choice_.step));
-    deflection_ = 0.0;
     for (std::size_t dof = 0; dof < found.displacement.size(); dof += s.dofs_per_node)
       deflection_ = std::max(deflection_, std::abs(found.displacement[dof]));
     if (deflection_ == 0.0) deflection_ = length_;  // any length will do
@@ -136,14 +282,6 @@ class deck_writer {
     double forces = 0.0;
     for (const auto& [at, value] : mesh_.forces) forces += std::abs(value);
     if (forces > 0.0) unit_ = total_force / (forces * scale_);
-  }
-
-  void gather_springs() {
-    for (const contact_pair& p : problem_.pairs)
-      springs_.push_back({p.node, p.surface, {p.stiffness, p.surface * p.face, false}});
-    for (const support& s : problem_.supports) {
-      if (!s.fixed) springs_.push_back({s.node, face_below, {s.spring, 0.0, true}});
-    }
   }
 
   [[nodiscard]] double force_scale() const { return scale_ * unit_; }
@@ -155,38 +293,30 @@ class deck_writer {
   }
 
   void write_heading() {
-    line("** One state of a problem of contct: the end of its load step {} of {}.", choice_.step,
-         problem_.steps.size());
-    line("** Displacements and faces are the problem's times the first of these, forces times the second:");
-    line("** displacement-scale {}", number(scale_));
-    line("** force-scale {}", number(force_scale()));
-    line("** NLGEOM, without which CalculiX takes one-sided springs for linear ones, also counts every");
-    line("** turn: so the largest deflection is {:g} of the length. And it takes forces far below 0.01 for",
-         smallness);
-    line("** none, and is content too early: so the loads, with everything elastic, are in smaller units.");
-    line("** The problem's node i is node i here; pair i presses on ground node {} + i.", first_ground() - 1);
-    line("** No field has more than 20 characters: CalculiX cuts it there.");
+    line(
+        R"(** One state of a problem of contct: the end of its load step {} of {}.
+** Displacements and faces are the problem's times the first of these, forces times the second:
+** displacement-scale {}
+** force-scale {}
+** NLGEOM, without which CalculiX takes one-sided springs for linear ones, also counts every
+** turn: so the largest deflection is {:g} of the length. And it takes forces far below 0.01 for
+** none, and is content too early: so the loads, with everything elastic, are in smaller units.
+** The problem's node i is node i here; pair i presses on ground node {} + i.
+** No field has more than 20 characters: CalculiX cuts it there.)",
+        choice_.step, problem_.steps.size(), field(scale_), field(force_scale()), smallness,
+        first_ground() - 1);
   }
 
   void write_nodes() {
     line("*NODE,NSET=STRUCTURE");
     for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
-      line("{},{},{},0", i + 1, number(mesh_.nodes[i].x), number(mesh_.nodes[i].y));
+      line("{},{},{},0", i + 1, field(mesh_.nodes[i].x), field(mesh_.nodes[i].y));
     if (springs_.empty()) return;
-    line("** Ground: a node for each spring, straight above or below its node.");
-    line("*NODE,NSET=GROUND");
+    line("** Ground: a node for each spring, straight above or below its node.\n*NODE,NSET=GROUND");
     int next = first_ground();
     for (const ground_spring& s : springs_) {
       const auto& at = mesh_.nodes[s.node];
-      line("{},{},{},{}", next++, number(at.x), number(at.y), number(s.side * length_ / 100));
-    }
-  }
-
-  void write_elements() {
-    if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) {
-      write_beam(*b);
-    } else {
-      write_plate(std::get<plate>(problem_.geometry.kind));
+      line("{},{},{},{}", next++, field(at.x), field(at.y), field(s.side * length_ / 100));
     }
   }
 
@@ -199,22 +329,20 @@ class deck_writer {
   }
 
   void write_beam(const beam& b) {
-    line("** A square section, 1/{:g} of the length: shear adds (thickness over length)^2. E is what",
-         choice_.slenderness);
-    line("** gives EI; nu = 0, because EI knows none. Between nodes of the problem the intervals are even.");
+    line(
+        R"(** A square section, 1/{:g} of the length: shear adds (thickness over length)^2. E is what
+** gives EI; nu = 0, because EI knows none. Between nodes of the problem the intervals are even.)",
+        choice_.slenderness);
     std::map<double, std::vector<std::size_t>> by_stiffness;
     for (std::size_t e = 0; e < mesh_.elements.size(); ++e) by_stiffness[b.EI[mesh_.origins[e]]].push_back(e);
-    int part = 0;
-    for (const auto& [EI, which] : by_stiffness) {
-      ++part;
+    for (int part = 1; const auto& [EI, which] : by_stiffness) {
       line("*ELEMENT,TYPE=B32R,ELSET=PART{}", part);
       element_lines(which);
-      line("*MATERIAL,NAME=EI{}", part);
-      line("*ELASTIC");
-      line("{},0.", number(unit_ * 12 * EI / thickness_ / thickness_ / thickness_ / thickness_));
-      line("*BEAM SECTION,ELSET=PART{},MATERIAL=EI{},SECTION=RECT", part, part);
-      line("{},{}", number(thickness_), number(thickness_));
-      line("0.,0.,1.");
+      line("*MATERIAL,NAME=EI{}\n*ELASTIC\n{},0.", part,
+           field(unit_ * 12 * EI / thickness_ / thickness_ / thickness_ / thickness_));
+      line("*BEAM SECTION,ELSET=PART{},MATERIAL=EI{},SECTION=RECT\n{},{}\n0.,0.,1.", part, part,
+           field(thickness_), field(thickness_));
+      ++part;
     }
   }
 
@@ -223,14 +351,11 @@ class deck_writer {
          choice_.slenderness);
     line("*ELEMENT,TYPE=S8R,ELSET=PLATE");
     std::vector<std::size_t> all(mesh_.elements.size());
-    for (std::size_t e = 0; e < all.size(); ++e) all[e] = e;
+    std::iota(all.begin(), all.end(), std::size_t{0});
     element_lines(all);
-    line("*MATERIAL,NAME=D");
-    line("*ELASTIC");
-    line("{},{}", number(unit_ * 12 * p.D * (1 - p.nu * p.nu) / thickness_ / thickness_ / thickness_),
-         number(p.nu));
-    line("*SHELL SECTION,ELSET=PLATE,MATERIAL=D");
-    line("{}", number(thickness_));
+    line("*MATERIAL,NAME=D\n*ELASTIC\n{},{}\n*SHELL SECTION,ELSET=PLATE,MATERIAL=D\n{}",
+         field(unit_ * 12 * p.D * (1 - p.nu * p.nu) / thickness_ / thickness_ / thickness_), field(p.nu),
+         field(thickness_));
   }
 
   /// Each law is a table of force over lengthening. CalculiX holds the force constant outside it, so it ends
@@ -238,62 +363,42 @@ class deck_writer {
   void write_springs() {
     if (springs_.empty()) return;
     line(
-        "** Springs to the ground: SPRINGA, since SPRING1 cannot be nonlinear in CalculiX 2.20. A table is "
-        "force");
-    line(
-        "** over lengthening: the slope k up to the face, zero beyond. Outside a table the force stays as at "
-        "its");
-    line("** end, so it ends {:g} largest deflections away.", reach);
+        R"(** Springs to the ground: SPRINGA, since SPRING1 cannot be nonlinear in CalculiX 2.20. A table is force
+** over lengthening: the slope k up to the face, zero beyond. Outside a table the force stays as at its
+** end, so it ends {:g} largest deflections away.)",
+        reach);
     std::map<spring_law, std::vector<std::size_t>> by_law;
     for (std::size_t i = 0; i < springs_.size(); ++i) by_law[springs_[i].law].push_back(i);
     const double far = reach * deflection_ * scale_;
-    int set = 0;
-    for (const auto& [law, which] : by_law) {
-      ++set;
+    const double near = within * deflection_ * scale_;
+    for (int set = 1; const auto& [law, which] : by_law) {
       line("*ELEMENT,TYPE=SPRINGA,ELSET=SPRINGS{}", set);
-      for (const std::size_t i : which) {
+      for (const std::size_t i : which)
         line("{},{},{}", mesh_.elements.size() + 1 + i, springs_[i].node + 1,
              first_ground() + static_cast<int>(i));
-      }
-      line("*SPRING,ELSET=SPRINGS{},NONLINEAR", set);
+      line("*SPRING,ELSET=SPRINGS{},NONLINEAR", set++);
       const double face = -law.from * scale_;
-      const double near = within * deflection_ * scale_;
       for (const double end : {-far, -near})
-        line("{},{}", number(unit_ * law.stiffness * end), number(face + end));
-      if (!law.both_ways) line("0.,{}", number(face));
-      line("{},{}", law.both_ways ? number(unit_ * law.stiffness * far) : "0.", number(face + far));
+        line("{},{}", field(unit_ * law.stiffness * end), field(face + end));
+      if (!law.both_ways) line("0.,{}", field(face));
+      line("{},{}", law.both_ways ? field(unit_ * law.stiffness * far) : "0.", field(face + far));
     }
-  }
-
-  void write_boundary() {
-    line("*BOUNDARY");
-    for (const auto& [node, direction] : mesh_.fixed) line("{},{}", node + 1, direction);
-    if (!springs_.empty()) line("GROUND,1,3");
   }
 
   void write_step() {
     line(
-        "** One increment. The usual criterion is enough: on springs of straight pieces Newton's method "
-        "ends.");
-    line("*STEP,NLGEOM");
-    line("*STATIC");
-    line("1.,1.");
-    line("*CLOAD");
+        R"(** One increment. The usual criterion is enough: on springs of straight pieces Newton's method ends.
+*STEP,NLGEOM
+*STATIC
+1.,1.
+*CLOAD)");
     for (const auto& [at, value] : mesh_.forces) {
-      if (value != 0.0) line("{},{},{}", at.first + 1, at.second, number(value * force_scale()));
+      if (value != 0.0) line("{},{},{}", at.first + 1, at.second, field(value * force_scale()));
     }
-    line("*NSET,NSET=GIVEN,GENERATE");
-    line("1,{},1", nodes(problem_.geometry));
-    line("*NODE PRINT,NSET=GIVEN");
-    line("U");
-    if (!springs_.empty()) {
-      line("** What the ground is held with: the pairs' forces, up positive.");
-      line("*NODE PRINT,NSET=GROUND");
-      line("RF");
-    }
-    line("*NODE FILE,OUTPUT=2D");
-    line("U");
-    line("*END STEP");
+    line("*NSET,NSET=GIVEN,GENERATE\n1,{},1\n*NODE PRINT,NSET=GIVEN\nU", nodes(problem_.geometry));
+    if (!springs_.empty())
+      line("** What the ground is held with: the pairs' forces, up positive.\n*NODE PRINT,NSET=GROUND\nRF");
+    line("*NODE FILE,OUTPUT=2D\nU\n*END STEP");
   }
 
   const problem& problem_;
@@ -309,6 +414,12 @@ class deck_writer {
 };
 
 }  // namespace
+
+calculix_mesh calculix_mesh_of(const problem& p, int refine, int step) {
+  const load& l = p.steps[step];
+  if (const auto* b = std::get_if<beam>(&p.geometry.kind)) return mesh_of(*b, p, refine, l);
+  return mesh_of(std::get<plate>(p.geometry.kind), p, refine, l);
+}
 
 calculix_deck calculix_deck_of(const problem& p, const calculix_choice& choice) {
   return deck_writer(p, choice).write();

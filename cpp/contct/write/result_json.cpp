@@ -1,157 +1,238 @@
 #include "contct/write/result_json.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/write/frame_numbers.hpp"
 
 namespace contct::write {
 namespace {
 
 using json = nlohmann::ordered_json;
 
+/// Numbers from 1.
+json numbered(const std::vector<int>& all) {
+  return list_of(all, [](int i) { return i + 1; });
+}
+
+/// "all", "2..9", or a list; from 1.
+json elements_json(const std::vector<int>& elements) {
+  if (elements.empty()) return "all";
+  if (!is_run(elements)) return numbered(elements);
+  return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
+}
+
 json event_json(const problem& p, const event& e) {
   const contact_pair& at = p.pairs[e.pair];
   json entry = {{"pair", e.pair + 1}};
   put_place(entry, p.geometry, at.node);
-  entry["surface"] = surface_name(at.surface);
-  entry["change"] = change_name(e.what);
+  entry.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
   return entry;
 }
 
-json numbered(const std::vector<int>& pairs) {
-  json list = json::array();
-  for (const int pair : pairs) list.push_back(pair + 1);
-  return list;
+json reaction_json(const model& m, const support& at, double value) {
+  json entry;
+  put_place(entry, m, at.node);
+  if (!entry.contains("dof")) entry["dof"] = dof_names(m)[at.dof];
+  entry["value"] = value;
+  return entry;
+}
+
+json element_json(const element_results& results, std::size_t e) {
+  json entry = {{"element", e + 1}};
+  for (std::size_t i = 0; i < results.names.size(); ++i)
+    entry[std::string(results.names[i])] = results.at(e, i);
+  return entry;
 }
 
 json lockstep_json(const lockstep& compared) {
-  json out = {{"calls", compared.calls()},
-              {"values_compared", compared.compared().values},
-              {"mismatches", compared.compared().mismatches}};
-  if (compared.first()) {
-    const mismatch_report& d = *compared.first();
-    out["first"] = {{"call", d.call},         {"kernel", d.follower},     {"field", d.where.field},
-                    {"index", d.where.index}, {"leader", d.where.leader}, {"follower", d.where.follower},
-                    {"ulps", d.where.ulps}};
-  }
+  json out = agreement_json(compared.calls(), compared.compared());
+  if (!compared.first()) return out;
+  const mismatch_report& d = *compared.first();
+  out["first"] = {{"call", d.call},         {"kernel", d.follower},     {"field", d.where.field},
+                  {"index", d.where.index}, {"leader", d.where.leader}, {"follower", d.where.follower},
+                  {"ulps", d.where.ulps}};
   return out;
 }
 
 }  // namespace
 
+json_document::json_document(output_file& out, const json& members, std::string_view name) : out_(out) {
+  out_.write("{");
+  write_members(members, {}, 2);
+  out_.write(fmt::format(",\n  {}: [", json(name).dump()));
+}
+
+void json_document::write_members(const json& members, const std::vector<list>& lists, int indent) {
+  std::string_view before;
+  for (const auto& [name, value] : members.items()) {
+    out_.write(fmt::format("{}\n{:{}}{}: ", std::exchange(before, ","), "", indent, json(name).dump()));
+    const auto l = std::ranges::find(lists, std::string_view(name), &list::name);
+    if (l == lists.end()) {
+      out_.write(value.dump());
+    } else {
+      out_.write("[");
+      for (std::size_t i = 0; i < l->count; ++i)
+        out_.write(fmt::format("{}\n{:{}}{}", i == 0 ? "" : ",", "", indent + 2, l->entry(i).dump()));
+      out_.write(l->count == 0 ? "]" : fmt::format("\n{:{}}]", "", indent));
+    }
+  }
+}
+
+void json_document::add(const json& members, const std::vector<list>& lists) {
+  out_.write(fmt::format("{}\n    {{", std::exchange(before_, ",")));
+  write_members(members, lists, 6);
+  out_.write("\n    }");
+}
+
+void json_document::finish(const json& members, const std::vector<list>& lists) {
+  out_.write(before_.empty() ? "]," : "\n  ],");
+  write_members(members, lists, 2);
+  out_.write("\n}\n");
+  out_.finish();
+}
+
+json certificate_json(const std::optional<certificate>& c) {
+  if (!c) return nullptr;
+  json out = {{"exact", c->exact},
+              {"displacement_error", c->displacement_error},
+              {"equilibrium", c->equilibrium},
+              {"penetration", c->penetration},
+              {"tension", c->tension},
+              {"rcond", c->rcond},
+              {"tolerance", c->tolerance},
+              {"shape_error", c->shape_error},
+              {"unique", c->unique},
+              {"independent", c->independent},
+              {"digits", digits_left(c->rcond)}};
+  if (!c->unique) out["displacement_error"] = out["shape_error"] = nullptr;
+  if (!c->problem.empty()) out["problem"] = c->problem;
+  return out;
+}
+
+json agreement_json(std::int64_t calls, const tally& compared) {
+  return {{"calls", calls}, {"values_compared", compared.values}, {"mismatches", compared.mismatches}};
+}
+
+json load_json(const model& m, const load_path& loads, int step, double fraction) {
+  const resultant r = loads.resultant_at(step, fraction);
+  const auto names = dof_names(m);
+  json out = {{std::holds_alternative<assembled>(m.kind) ? "sum" : "force", r.force}};
+  for (std::size_t i = 0; i < r.moments.size(); ++i)
+    out[r.moments.size() == 1 ? "moment" : fmt::format("moment_{}", names[i + 1])] = r.moments[i];
+  if (loads.has_many_parts(step)) return out;
+  const load l = loads.at(step, fraction);
+  for (const distributed_load& d : l.distributed) {
+    const bool constant = d.polynomial.size() == 1;
+    out["uniform"].push_back(
+        {{constant ? "value" : "polynomial", constant ? json(d.polynomial[0]) : json(d.polynomial)},
+         {"elements", elements_json(d.elements)}});
+  }
+  for (const point_load& p : l.points) {
+    json& point = out["point"].emplace_back();
+    put_place(point, m, p.node);
+    point[names[p.dof]] = p.value;
+  }
+  return out;
+}
+
+void put_place(json& entry, const model& m, int node) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) {
+    entry["dof"] = a->label_of(node);
+  } else {
+    entry["node"] = node + 1;
+  }
+}
+
 result_json::result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
                          const certifier& judged, output_file& out)
-    : problem_(p), judged_(judged), loads_(p), document_(out) {
-  document_.put("format", "contct-result-1");
-  document_.put("title", p.title);
-  document_.put("kernels", kernels);
-  document_.put("engine", engine);
-  document_.open_array("steps");
-}
+    : problem_(p),
+      judged_(judged),
+      loads_(p),
+      document_(out,
+                {{"format", "contct-result-1"}, {"title", p.title}, {"kernels", kernels}, {"engine", engine}},
+                "steps") {}
 
 void result_json::step_ended(const step_state& s) {
+  const model& m = problem_.geometry;
   const load total = loads_.at(s.step, s.fraction);
+  const element_results results = results_in_elements(m, total, s.displacement);
+  const std::vector<double> reacting = reactions(m, total, problem_.supports, s.displacement);
   std::vector<double> w;
-  w.reserve(nodes(problem_.geometry));
-  for (int node = 0; node < nodes(problem_.geometry); ++node)
-    w.push_back(deflection_of(problem_, s.displacement, node));
-  document_.open_object();
-  document_.put("step", s.step);
-  document_.put("fraction", s.fraction);
-  write_increments();
-  document_.put("w", w);
-  document_.put("displacement", s.displacement);
-  write_pairs(s);
-  write_reactions(s, total);
-  write_elements(s, total);
-  if (s.from_fallback) document_.put("ended_by", "oracle");
-  document_.put("rcond", s.rcond);
-  document_.put("digits", digits_left(s.rcond));
-  document_.put("certificate", certificate_json(judged_.steps().back()));
-  document_.close();
-}
-
-void result_json::write_increments() {
-  document_.put_list("increments", increments_.size(), [this](std::size_t at) {
-    const increment_record& i = increments_[at];
-    json events = json::array();
-    for (const event& e : i.events) events.push_back(event_json(problem_, e));
-    json entry = {{"increment", i.number},
-                  {"s", i.s},
-                  {"fraction", i.fraction},
-                  {"load", load_json(problem_.geometry, loads_, i.step, i.fraction)},
-                  {"events", std::move(events)}};
-    if (i.snaps) entry["snap"] = true;
-    return entry;
-  });
+  for (int node = 0; node < nodes(m); ++node) w.push_back(deflection_of(problem_, s.displacement, node));
+  json members = {{"step", s.step},
+                  {"fraction", s.fraction},
+                  {"increments", nullptr},
+                  {"w", w},
+                  {"displacement", s.displacement},
+                  {"pairs", nullptr},
+                  {"reactions", nullptr},
+                  {"elements", nullptr}};
+  if (s.from_fallback) members["ended_by"] = "oracle";
+  members.update({{"rcond", s.rcond},
+                  {"digits", digits_left(s.rcond)},
+                  {"certificate", certificate_json(judged_.steps().back())}});
+  document_.add(members,
+                {{"increments", increments_.size(), [this](auto i) { return increment_of(increments_[i]); }},
+                 {"pairs", problem_.pairs.size(), [&](auto i) { return pair_in(s, i); }},
+                 {"reactions", reacting.size(),
+                  [&](auto i) { return reaction_json(m, problem_.supports[i], reacting[i]); }},
+                 {"elements", results.elements(), [&](auto i) { return element_json(results, i); }}});
   increments_.clear();
 }
 
-void result_json::write_pairs(const step_state& s) {
-  document_.put_list("pairs", problem_.pairs.size(), [&](std::size_t i) {
-    const contact_pair& p = problem_.pairs[i];
-    const double w = deflection_of(problem_, s.displacement, p.node);
-    const pair_reading r = reading_of(p, w, s.isep[i] == in_contact);
-    json entry = {{"pair", i + 1}};
-    put_place(entry, problem_.geometry, p.node);
-    entry["surface"] = surface_name(p.surface);
-    entry["state"] = state_name(s.isep[i]);
-    entry["gap"] = r.gap;
-    entry["force"] = r.force;
-    return entry;
-  });
+json result_json::increment_of(const increment_record& i) const {
+  json entry = {{"increment", i.number},
+                {"s", i.s},
+                {"fraction", i.fraction},
+                {"load", load_json(problem_.geometry, loads_, i.step, i.fraction)},
+                {"events", list_of(i.events, [this](const event& e) { return event_json(problem_, e); })}};
+  if (i.snaps) entry["snap"] = true;
+  return entry;
 }
 
-void result_json::write_reactions(const step_state& s, const load& total) {
-  const std::vector<double> values = reactions(problem_.geometry, total, problem_.supports, s.displacement);
-  const auto names = dof_names(problem_.geometry);
-  document_.put_list("reactions", values.size(), [&](std::size_t i) {
-    const support& at = problem_.supports[i];
-    json entry;
-    put_place(entry, problem_.geometry, at.node);
-    if (!entry.contains("dof")) entry["dof"] = names[at.dof];
-    entry["value"] = values[i];
-    return entry;
-  });
-}
-
-void result_json::write_elements(const step_state& s, const load& total) {
-  const element_results results = results_in_elements(problem_.geometry, total, s.displacement);
-  document_.put_list("elements", results.elements(), [&](std::size_t e) {
-    json entry = {{"element", e + 1}};
-    for (std::size_t i = 0; i < results.names.size(); ++i)
-      entry[std::string(results.names[i])] = results.at(e, i);
-    return entry;
-  });
+json result_json::pair_in(const step_state& s, std::size_t pair) const {
+  const contact_pair& p = problem_.pairs[pair];
+  const double w = deflection_of(problem_, s.displacement, p.node);
+  const pair_reading r = reading_of(p, w, s.isep[pair] == in_contact);
+  json entry = {{"pair", pair + 1}};
+  put_place(entry, problem_.geometry, p.node);
+  entry.update({{"surface", surface_name(p.surface)},
+                {"state", state_name(s.isep[pair])},
+                {"gap", r.gap},
+                {"force", r.force}});
+  return entry;
 }
 
 void result_json::finish(std::string_view status, const path_end& end, const lockstep* compared) {
-  document_.close();  // the steps
-  document_.put("end", {{"reason", end_reason(end.status)},
-                        {"step", end.step},
-                        {"fraction", end.fraction},
-                        {"pairs", numbered(end.pairs)}});
-  document_.put("engine_work", {{"factors", end.work.factors},
-                                {"solves", end.work.solves},
-                                {"updates", end.work.updates},
-                                {"checks", end.work.checks}});
-  if (!free_runs_.empty())
-    document_.put_list("free_run", free_runs_.size(), [this](std::size_t i) {
-      const auto& [kernel, d, certified] = free_runs_[i];
-      return json{{"kernel", kernel},
-                  {"same_end", d.same_end},
-                  {"same_events", d.same_events},
-                  {"first_difference", d.first_difference},
-                  {"fraction", d.fraction},
-                  {"displacement", d.displacement},
-                  {"bound", d.bound},
-                  {"within_bound", d.within_bound()},
-                  {"certified", certified}};
-    });
-  document_.put("lockstep", compared == nullptr ? json(nullptr) : lockstep_json(*compared));
-  document_.put("status", status);
-  document_.finish();
+  json members = {{"end",
+                   {{"reason", end_reason(end.status)},
+                    {"step", end.step},
+                    {"fraction", end.fraction},
+                    {"pairs", numbered(end.pairs)}}},
+                  {"engine_work",
+                   {{"factors", end.work.factors},
+                    {"solves", end.work.solves},
+                    {"updates", end.work.updates},
+                    {"checks", end.work.checks}}}};
+  if (!free_runs_.empty()) members["free_run"] = nullptr;
+  members["lockstep"] = compared == nullptr ? json(nullptr) : lockstep_json(*compared);
+  members["status"] = status;
+  document_.finish(members, {{"free_run", free_runs_.size(), [this](auto i) -> json {
+                                const auto& [kernel, d, certified] = free_runs_[i];
+                                return {{"kernel", kernel},
+                                        {"same_end", d.same_end},
+                                        {"same_events", d.same_events},
+                                        {"first_difference", d.first_difference},
+                                        {"fraction", d.fraction},
+                                        {"displacement", d.displacement},
+                                        {"bound", d.bound},
+                                        {"within_bound", d.within_bound()},
+                                        {"certified", certified}};
+                              }}});
 }
 
 }  // namespace contct::write

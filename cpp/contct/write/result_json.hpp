@@ -1,23 +1,74 @@
-// The result of a run as JSON, format "contct-result-1".
+// The result of a run as JSON, format "contct-result-1", and what other JSON files share with it.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
-#include "contct/compare/lockstep.hpp"
-#include "contct/path/observer.hpp"
-#include "contct/path/path.hpp"
-#include "contct/structure/problem.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/finished_run.hpp"
-#include "contct/write/json_document.hpp"
-#include "contct/write/load_text.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
+
+/// A list with what `entry` gives for each element. The JSON library is only needed where this is called.
+template <class Json = nlohmann::ordered_json, class Range, class Entry>
+[[nodiscard]] Json list_of(const Range& range, Entry entry) {
+  Json list = Json::array();
+  for (const auto& element : range) list.push_back(Json(entry(element)));
+  return list;
+}
+
+/// An object with one array that grows: only the value at hand is in memory. The members of the object and of
+/// the array's elements stand on lines of their own, indented by their depth, and so do the elements of
+/// lists.
+class json_document {
+ public:
+  using json = nlohmann::ordered_json;
+
+  /// A list that is written in place of the member of its name: entry(i) for each i below `count`.
+  struct list {
+    std::string_view name;
+    std::size_t count;
+    std::function<json(std::size_t)> entry;
+  };
+
+  /// Opens the object with these members, then the array `name`. `out` must outlive this one.
+  json_document(output_file& out, const json& members, std::string_view name);
+
+  /// An element of the array: an object.
+  void add(const json& members, const std::vector<list>& lists);
+
+  /// End the array, and the document with these members behind it; the file appears.
+  void finish(const json& members, const std::vector<list>& lists = {});
+
+ private:
+  void write_members(const json& members, const std::vector<list>& lists, int indent);
+
+  output_file& out_;
+  std::string_view before_;  // the next element
+};
+
+/// A step's certificate as result files have it; null where there is none.
+[[nodiscard]] nlohmann::ordered_json certificate_json(const std::optional<certificate>& c);
+
+/// How many calls, and values in them, were compared, and how many of these differ.
+[[nodiscard]] nlohmann::ordered_json agreement_json(std::int64_t calls, const tally& compared);
+
+/// What acts at share `fraction` of step `step` (from 1), as a problem file's `uniform` and `point`, with the
+/// resultant: an event's load in absolute terms. A beam's resultant has "force" and "moment", a plate's
+/// "force", "moment_wx" and "moment_wy", a matrix's the "sum" of all its loads. The parts are left out where
+/// load_path::has_many_parts: they would be written again at every event.
+[[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
+                                               double fraction);
+
+/// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
+void put_place(nlohmann::ordered_json& entry, const model& m, int node);
 
 /// Observes a path and writes it as it goes: memory does not grow with the number of steps.
 /// The file appears when `finish` is called.
@@ -39,10 +90,8 @@ class result_json final : public observer {
   void finish(std::string_view status, const path_end& end, const lockstep* compared);
 
  private:
-  void write_increments();
-  void write_pairs(const step_state& s);
-  void write_reactions(const step_state& s, const load& total);
-  void write_elements(const step_state& s, const load& total);
+  [[nodiscard]] nlohmann::ordered_json increment_of(const increment_record& i) const;
+  [[nodiscard]] nlohmann::ordered_json pair_in(const step_state& s, std::size_t pair) const;
 
   struct compared_path {
     std::string kernel;

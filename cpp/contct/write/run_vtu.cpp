@@ -1,13 +1,10 @@
-#include "contct/write/run_vtu.hpp"
-
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <type_traits>
 
 #include "contct/text/strings.hpp"
-#include "contct/write/frame_numbers.hpp"
-#include "contct/write/load_text.hpp"
+#include "contct/write/pictures.hpp"
 
 namespace contct::write {
 namespace {
@@ -19,15 +16,18 @@ std::vector<std::vector<int>> elements_of(const model& m) {
   std::vector<std::vector<int>> list;
   if (const auto* a = std::get_if<assembled>(&m.kind))
     for (const mesh_edge& e : a->places.edges) list.push_back({e.from, e.to});
-  if (const auto* b = std::get_if<beam>(&m.kind)) {
-    for (int e = 0; e < b->elements(); ++e) list.push_back({e, e + 1});
-  } else if (const auto* p = std::get_if<plate>(&m.kind)) {
-    for (int e = 0; e < p->elements(); ++e) {
-      const auto corners = p->corners_of(e);
-      list.emplace_back(corners.begin(), corners.end());
-    }
+  const auto* const on_plate = std::get_if<plate>(&m.kind);
+  for (int e = 0; e < elements(m); ++e) {
+    list.push_back({e, e + 1});
+    if (on_plate == nullptr) continue;
+    const auto corners = on_plate->corners_of(e);
+    list.back().assign(corners.begin(), corners.end());
   }
   return list;
+}
+
+std::string section(std::string_view name, std::string_view attributes, std::string_view arrays) {
+  return fmt::format("      <{0}{1}>\n{2}      </{0}>\n", name, attributes, arrays);
 }
 
 template <class Number>
@@ -41,19 +41,23 @@ std::string array(std::string_view name, std::size_t components, const std::vect
       type, markup_text(name), components, fmt::join(values, " "));
 }
 
-/// The pairs that have a cell, at a node, and the direction in which they act: all, but for those of a matrix
-/// whose dof has no place.
+/// A pair that has a cell, at a node, and what the cell says.
 struct placed_pair {
-  std::size_t pair;
-  int node, direction;
+  int number, node, direction, surface, look;
+  double face, gap, force;
 };
-std::vector<placed_pair> placed_pairs(const problem& p) {
+
+/// All pairs, but for those of a matrix whose dof has no place.
+std::vector<placed_pair> placed_pairs(const problem& p, const frame& f) {
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
   std::vector<placed_pair> list;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const int node = p.pairs[i].node;
-    const placed_dof at = a == nullptr ? placed_dof{node, 3} : a->places.dofs[node];
-    if (at.node >= 0) list.push_back({i, at.node, at.direction});
+    const contact_pair& of = p.pairs[i];
+    const placed_dof at = a == nullptr ? placed_dof{of.node, 3} : a->places.dofs[of.node];
+    const pair_reading now = reading_of(p, f, i);
+    if (at.node >= 0)
+      list.push_back({static_cast<int>(i) + 1, at.node, at.direction, of.surface, static_cast<int>(now.look),
+                      of.face, now.gap, now.force});
   }
   return list;
 }
@@ -68,7 +72,7 @@ std::string points_of(const problem& p) {
       at.insert(at.end(), {where.x, where.y, 0.0});
     }
   }
-  return "      <Points>\n" + array("points", 3, at) + "      </Points>\n";
+  return section("Points", "", array("points", 3, at));
 }
 
 std::string cells_of(const std::vector<std::vector<int>>& elements, const std::vector<placed_pair>& pairs) {
@@ -82,8 +86,9 @@ std::string cells_of(const std::vector<std::vector<int>>& elements, const std::v
   };
   for (const auto& corners : elements) add(corners, corners.size() == 2 ? vtk_line : vtk_quad);
   for (const placed_pair& at : pairs) add({at.node}, vtk_vertex);
-  return "      <Cells>\n" + array("connectivity", 1, connectivity) + array("offsets", 1, offsets) +
-         array("types", 1, types) + "      </Cells>\n";
+  return section(
+      "Cells", "",
+      array("connectivity", 1, connectivity) + array("offsets", 1, offsets) + array("types", 1, types));
 }
 
 /// Displacements, and rotations where there are any.
@@ -98,65 +103,50 @@ std::string mesh_point_data(const placed_nodes& places, const frame& f) {
     rotation.insert(rotation.end(), r.begin(), r.end());
     turns = turns || of.about != dofs_of_node{}.about;
   }
-  return "      <PointData Vectors=\"displacement\">\n" + array("displacement", 3, displacement) +
-         (turns ? array("rotation", 3, rotation) : "") + "      </PointData>\n";
+  return section("PointData", R"( Vectors="displacement")",
+                 array("displacement", 3, displacement) + (turns ? array("rotation", 3, rotation) : ""));
 }
 
 std::string point_data(const problem& p, const frame& f) {
   if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) return mesh_point_data(a->places, f);
   const auto names = dof_names(p.geometry);
-  const std::size_t stride = dofs_per_node(p.geometry);
   std::vector<double> displacement;
   std::vector<std::vector<double>> by_dof(names.size());
-  for (std::size_t i = 0; i < f.displacement.size(); i += stride) {
+  for (std::size_t i = 0; i < f.displacement.size(); i += names.size()) {
     displacement.insert(displacement.end(), {0.0, 0.0, f.displacement[i]});
-    for (std::size_t dof = 0; dof < stride; ++dof) by_dof[dof].push_back(f.displacement[i + dof]);
+    for (std::size_t dof = 0; dof < names.size(); ++dof) by_dof[dof].push_back(f.displacement[i + dof]);
   }
-  std::string text =
-      "      <PointData Vectors=\"displacement\" Scalars=\"w\">\n" + array("displacement", 3, displacement);
-  for (std::size_t dof = 0; dof < stride; ++dof) text += array(names[dof], 1, by_dof[dof]);
-  return text + "      </PointData>\n";
+  std::string arrays = array("displacement", 3, displacement);
+  for (std::size_t dof = 0; dof < names.size(); ++dof) arrays += array(names[dof], 1, by_dof[dof]);
+  return section("PointData", R"( Vectors="displacement" Scalars="w")", arrays);
 }
 
-/// What the elements read, with zeros for the pairs behind them.
-std::string element_data(const problem& p, const frame& f, std::size_t elements) {
-  if (std::holds_alternative<assembled>(p.geometry.kind)) return "";
-  const load_path loads(p);
-  const element_results results =
-      results_in_elements(p.geometry, loads.at(f.step, f.fraction), f.displacement);
-  const std::size_t places = results.places;
-  std::string text;
+/// A column has a number for each element, the same for all, then one for each pair; then comes what the
+/// elements read, with zeros for the pairs behind them.
+std::string cell_data(const problem& p, const frame& f, std::size_t elements,
+                      const std::vector<placed_pair>& pairs) {
+  const auto column = [&](std::string_view name, auto of_elements, auto of_pair) {
+    std::vector<decltype(of_elements)> values(elements, of_elements);
+    for (const placed_pair& at : pairs) values.push_back(at.*of_pair);
+    return array(name, 1, values);
+  };
+  std::string arrays = column("pair", 0, &placed_pair::number) + column("state", -1, &placed_pair::look) +
+                       column("surface", 0, &placed_pair::surface) +
+                       column("direction", 0, &placed_pair::direction) +
+                       column("face", 0.0, &placed_pair::face) + column("gap", 0.0, &placed_pair::gap) +
+                       column("force", 0.0, &placed_pair::force);
+  const load now = load_path(p).at(f.step, f.fraction);
+  const element_results results = results_in_elements(p.geometry, now, f.displacement);
   for (std::size_t name = 0; name < results.names.size(); ++name) {
     std::vector<double> values;
     for (std::size_t e = 0; e < elements; ++e) {
       const auto at = results.at(e, name);
       values.insert(values.end(), at.begin(), at.end());
     }
-    values.resize((elements + p.pairs.size()) * places);
-    text += array(results.names[name], places, values);
+    values.resize((elements + pairs.size()) * results.places);
+    arrays += array(results.names[name], results.places, values);
   }
-  return text;
-}
-
-/// A column has a number for each element, the same for all, then one for each pair.
-std::string cell_data(const problem& p, const frame& f, std::size_t elements,
-                      const std::vector<placed_pair>& pairs) {
-  const auto column = [&](std::string_view name, auto of_elements, auto of_pair) {
-    std::vector<decltype(of_elements)> values(elements, of_elements);
-    for (const placed_pair& at : pairs) values.push_back(of_pair(at.pair));
-    return array(name, 1, values);
-  };
-  std::string text = "      <CellData>\n";
-  text += column("pair", 0, [](std::size_t i) { return static_cast<int>(i) + 1; });
-  text += column("state", -1, [&](std::size_t i) { return static_cast<int>(reading_of(p, f, i).look); });
-  text += column("surface", 0, [&](std::size_t i) { return p.pairs[i].surface; });
-  std::vector<int> direction(elements, 0);
-  for (const placed_pair& at : pairs) direction.push_back(at.direction);
-  text += array("direction", 1, direction);
-  text += column("face", 0.0, [&](std::size_t i) { return p.pairs[i].face; });
-  text += column("gap", 0.0, [&](std::size_t i) { return reading_of(p, f, i).gap; });
-  text += column("force", 0.0, [&](std::size_t i) { return reading_of(p, f, i).force; });
-  return text + element_data(p, f, elements) + "      </CellData>\n";
+  return section("CellData", "", arrays);
 }
 
 std::string field_data(const frame& f) {
@@ -169,31 +159,36 @@ std::string field_data(const frame& f) {
          one("share", "Float64", f.fraction) + "    </FieldData>\n";
 }
 
-constexpr std::string_view head =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-    "<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
+/// A file of VTK's, with what is in its one part.
+std::string file_of(std::string_view type, std::string_view content) {
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<VTKFile type=\"{0}\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "  <{0}>\n{1}  </{0}>\n</VTKFile>\n",
+      type, content);
+}
 
 }  // namespace
 
 std::string vtu_of_frame(const problem& p, const frame& f) {
   const auto elements = elements_of(p.geometry);
-  const auto pairs = placed_pairs(p);
+  const auto pairs = placed_pairs(p, f);
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
   const auto points = a != nullptr ? std::ssize(a->places.nodes) : nodes(p.geometry);
-  return fmt::format(fmt::runtime(head), "UnstructuredGrid") + "  <UnstructuredGrid>\n" + field_data(f) +
-         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points,
-                     elements.size() + pairs.size()) +
-         point_data(p, f) + cell_data(p, f, elements.size(), pairs) + points_of(p) +
-         cells_of(elements, pairs) + "    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
+  return file_of("UnstructuredGrid",
+                 field_data(f) +
+                     fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points,
+                                 elements.size() + pairs.size()) +
+                     point_data(p, f) + cell_data(p, f, elements.size(), pairs) + points_of(p) +
+                     cells_of(elements, pairs) + "    </Piece>\n");
 }
 
 std::string pvd_of_frames(const std::string& stem, std::size_t count) {
-  std::string text = fmt::format(fmt::runtime(head), "Collection") + "  <Collection>\n";
-  for (std::size_t i = 0; i < count; ++i) {
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", i,
-                        markup_text(name_of_frame(stem, i)));
-  }
-  return text + "  </Collection>\n</VTKFile>\n";
+  std::string files;
+  for (std::size_t i = 0; i < count; ++i)
+    files += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", i,
+                         markup_text(name_of_frame(stem, i)));
+  return file_of("Collection", files);
 }
 
 std::string name_of_frame(const std::string& stem, std::size_t number) {

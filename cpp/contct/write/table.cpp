@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/write/certificate_text.hpp"
-#include "contct/write/frame_numbers.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
@@ -48,10 +46,6 @@ std::string deflection_words(const model& m, const extreme& most, int width) {
   return text;
 }
 
-void trim(std::string& line) {
-  line.erase(line.find_last_not_of(' ') + 1);
-}
-
 }  // namespace
 
 std::string share_words(double x) {
@@ -73,47 +67,36 @@ table::table(const problem& p, const lockstep* compared, const certifier& judged
   indent_ = events_below_ ? 4 : t.width - room + (load_width_ > 0 ? load_width_ + 2 : 0);
 }
 
-void table::print_heading() {
-  headed_ = true;
-  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {:<7}  ", "incr", "share", "s", "kernels");
-  if (load_width_ > 0) line += fmt::format("{:<{}}  ", "load", load_width_);
-  if (!events_below_) line += "events";
-  trim(line);
-  fmt::print("{}\n", painted(terminal_, paint::strong, line));
+std::string table::row(std::string_view number, std::string_view share, std::string_view s,
+                       std::string_view kernels, std::string_view load, std::string_view events) const {
+  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {}  ", number, share, s, kernels);
+  if (load_width_ > 0) line += fmt::format("{:<{}}  ", load, load_width_);
+  if (!events_below_) line += events;
+  return line.erase(line.find_last_not_of(' ') + 1);
 }
 
 std::string table::agreement() const {
-  const std::string word = compared_ == nullptr ? "one" : compared_->last_call_equal() ? "equal" : "DIFFER";
-  const std::string blanks(7 - word.size(), ' ');
-  if (compared_ == nullptr) return word + blanks;
-  return painted(terminal_, compared_->last_call_equal() ? paint::good : paint::bad, word) + blanks;
-}
-
-std::vector<std::string> table::event_lines(const increment& i) const {
-  std::vector<std::string> events;
-  for (std::size_t k = 0; k < std::min(i.events.size(), most_events_shown); ++k) {
-    const event& e = i.events[k];
-    events.push_back(event_words(problem_, e.what, e.pair));
-  }
-  if (i.events.size() > most_events_shown)
-    events.push_back(fmt::format("{} more in --json", i.events.size() - most_events_shown));
-  return wrap(events, terminal_.width - indent_);
+  if (compared_ == nullptr) return "one    ";
+  return compared_->last_call_equal() ? painted(terminal_, paint::good, "equal") + "  "
+                                      : painted(terminal_, paint::bad, "DIFFER") + " ";
 }
 
 void table::incremented(const increment& i) {
-  if (!headed_) print_heading();
-  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {}  ", fmt::format("{}.{}", i.step, i.number),
-                                 share_words(i.fraction), i.snaps ? "snap" : share_words(i.s), agreement());
-  if (load_width_ > 0)
-    line += fmt::format("{:<{}}  ", loads_.words_at(i.step, i.fraction, load_width_), load_width_);
-  std::vector<std::string> events = event_lines(i);
-  if (!events_below_ && !events.empty()) {
-    line += events.front();
-    events.erase(events.begin());
+  if (!std::exchange(headed_, true)) {
+    const std::string heading = row("incr", "share", "s", "kernels", "load", "events");
+    fmt::print("{}\n", painted(terminal_, paint::strong, heading));
   }
-  trim(line);
-  fmt::print("{}\n", line);
-  for (const std::string& more : events) fmt::print("{:{}}{}\n", "", indent_, more);
+  std::vector<std::string> events;
+  for (const event& e : i.events.first(std::min(i.events.size(), most_events_shown)))
+    events.push_back(event_words(problem_, e.what, e.pair));
+  if (i.events.size() > most_events_shown)
+    events.push_back(fmt::format("{} more in --json", i.events.size() - most_events_shown));
+  std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
+  if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
+  fmt::print("{}\n", row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
+                         i.snaps ? "snap" : share_words(i.s), agreement(),
+                         loads_.words_at(i.step, i.fraction, load_width_), lines.front()));
+  for (const std::string& more : std::span(lines).subspan(1)) fmt::print("{:{}}{}\n", "", indent_, more);
 }
 
 void table::step_ended(const step_state& s) {
@@ -132,6 +115,86 @@ void table::step_ended(const step_state& s) {
     fmt::print("{}\n", painted(terminal_, paint::quiet, label + line));
     label.assign(label.size(), ' ');
   }
+}
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+run_csv::run_csv(const problem& p, const lockstep* compared, output_file& increments, output_file* pairs)
+    : problem_(p),
+      loads_(p),
+      compared_(compared),
+      increments_(increments),
+      pairs_(pairs),
+      d_(p.pairs.size()),
+      d_star_(p.pairs.size()) {
+  increments_.write("step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels\r\n");
+  if (pairs_ != nullptr) pairs_->write("step,increment,pair,node,surface,state,look,w,gap,force\r\n");
+}
+
+void run_csv::called(const answered_call& c) {
+  for (std::size_t i = 0; i < d_.size(); ++i) {
+    const int dof = c.c.dof.dof_of(c.c.id[i]) - 1;
+    d_[i] = c.c.dd[dof];
+    d_star_[i] = c.c.dtest[dof];
+  }
+  isep_.assign(c.isep_before.begin(), c.isep_before.end());
+  if (pending_) write_pending();
+  smin_ = c.c.smin;
+  agreement_ = compared_ == nullptr ? "" : compared_->last_call_equal() ? "equal" : "differ";
+}
+
+void run_csv::incremented(const increment& i) {
+  last_ = {i.step, i.number, i.snaps ? "snap" : "load", i.s, i.fraction, {i.events.begin(), i.events.end()},
+           d_,     isep_};
+  for (std::size_t p = 0; p < d_.size(); ++p) last_.w[p] += i.s * d_star_[p];
+  for (const event& e : i.events) last_.isep[e.pair] = e.what == change::make ? in_contact : separated;
+  pending_ = true;
+}
+
+void run_csv::step_ended(const step_state& s) {
+  if (!pending_ || last_.step != s.step || s.from_fallback) {
+    if (pending_) write_pending();
+    last_ = {s.step, 0, s.from_fallback ? "rescue" : "end", 0.0, s.fraction, {}, {}, {}};
+    agreement_ = "";
+  }
+  last_.isep.assign(s.isep.begin(), s.isep.end());
+  last_.w.clear();
+  for (const contact_pair& p : problem_.pairs)
+    last_.w.push_back(deflection_of(problem_, s.displacement, p.node));
+  write_pending();
+}
+
+void run_csv::write_pending() {
+  pending_ = false;
+  pair_counts n;
+  for (std::size_t i = 0; i < last_.w.size(); ++i)
+    ++n.of(look_of(problem_.pairs[i], last_.w[i], last_.isep[i] == in_contact));
+  std::vector<std::string> events;
+  for (const event& e : last_.events) events.push_back(fmt::format("{} {}", change_name(e.what), e.pair + 1));
+  const bool called = last_.number > 0;
+  const double force = resultant_of(problem_.geometry, loads_.at(last_.step, last_.fraction)).force;
+  increments_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number,
+                                last_.kind, called ? fmt::format("{}", last_.s) : "", last_.fraction, force,
+                                csv_field(fmt::format("{}", fmt::join(events, ", "))), n.closed, n.open,
+                                n.at_face, called ? fmt::format("{}", smin_) : "", agreement_));
+  if (pairs_ == nullptr) return;
+  for (std::size_t i = 0; i < last_.w.size(); ++i) {
+    const contact_pair& p = problem_.pairs[i];
+    const pair_reading r = reading_of(p, last_.w[i], last_.isep[i] == in_contact);
+    pairs_->write(fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number, i + 1,
+                              csv_field(place_name(problem_.geometry, p.node)), surface_name(p.surface),
+                              state_name(last_.isep[i]), look_name(r.look), r.w, r.gap, r.force));
+  }
+}
+
+void run_csv::finish() {
+  increments_.finish();
+  if (pairs_ != nullptr) pairs_->finish();
 }
 
 }  // namespace contct::write

@@ -1,15 +1,13 @@
-// The run as a table on the terminal, an increment a row.
+// The run as tables, an increment a row: on the terminal, and in files for spreadsheets and data frames.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "contct/certify/certificate.hpp"
-#include "contct/compare/lockstep.hpp"
-#include "contct/path/observer.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/load_text.hpp"
+#include "contct/write/finished_run.hpp"
 
 namespace contct::write {
 
@@ -29,9 +27,10 @@ class table final : public observer {
   void step_ended(const step_state& s) override;
 
  private:
-  void print_heading();
+  [[nodiscard]] std::string row(std::string_view number, std::string_view share, std::string_view s,
+                                std::string_view kernels, std::string_view load,
+                                std::string_view events) const;
   [[nodiscard]] std::string agreement() const;
-  [[nodiscard]] std::vector<std::string> event_lines(const increment& i) const;
 
   const problem& problem_;
   load_path loads_;
@@ -42,6 +41,54 @@ class table final : public observer {
   int indent_ = 0;             // of the events
   bool events_below_ = false;  // on a narrow terminal they stand on lines of their own
   bool headed_ = false;
+};
+
+/// A field of a table in a file: quoted where it has to be.
+[[nodiscard]] std::string csv_field(std::string_view text);
+
+/// Observes a path and writes it as it goes, by RFC 4180, numbers with all their digits: memory does not grow
+/// with its length.
+///
+/// The first table has a row an increment: step, increment, kind ("load"; "snap": a rigid motion at constant
+/// load; "end": the step ended without an increment, "rescue": in a state from elsewhere), s, share (of the
+/// step's load), force (sum of the loads), events ("make 1, break 3"), closed, open and at_face (how many
+/// pairs), smin (of the call, as the kernel gave it), kernels ("equal" or "differ"; empty: not compared).
+///
+/// The second has a row for each pair in each of these: step, increment, pair, node, surface, state
+/// ("contact", "separated"; a dof's label stands for the node where each dof is one), look ("closed", "open",
+/// "at its face"), w, gap, force.
+class run_csv final : public observer {
+ public:
+  /// `compared` and `pairs` may be null; all must outlive this object, which observes behind `compared`.
+  run_csv(const problem& p, const lockstep* compared, output_file& increments, output_file* pairs);
+
+  void called(const answered_call& c) override;
+  void incremented(const increment& i) override;
+  void step_ended(const step_state& s) override;
+
+  void finish();
+
+ private:
+  void write_pending();
+
+  const problem& problem_;
+  load_path loads_;
+  const lockstep* compared_;
+  output_file& increments_;
+  output_file* pairs_;
+  std::vector<double> d_, d_star_;  // of the last call [pairs]
+  std::vector<int> isep_;           // before its toggles [pairs]
+  double smin_ = 0.0;
+  std::string_view agreement_;
+  bool pending_ = false;  // the last increment waits for its step's end, which knows it better
+  struct {
+    int step = 0, number = 0;
+    std::string_view kind;
+    double s = 0.0, fraction = 0.0;
+    std::vector<event> events;
+    std::vector<double> w;  // [pairs]
+    std::vector<int> isep;  // [pairs]
+  } last_;
 };
 
 }  // namespace contct::write

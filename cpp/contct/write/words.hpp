@@ -1,69 +1,58 @@
-// The words for statuses and events, the same on the terminal, on the page and in every file.
+// The words for statuses, events and certificates, the same on the terminal, on the page and in every file.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "contct/kernel/call.hpp"
+#include "contct/certify/certificate.hpp"
+#include "contct/compare/early_toggles.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/path/path.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::write {
 
-/// "below" or "above".
 constexpr std::string_view surface_name(int surface) {
   return surface == face_above ? "above" : "below";
 }
 
-/// "make" or "break".
 constexpr std::string_view change_name(change c) {
   return c == change::make ? "make" : "break";
 }
 
-/// "contact" or "separated".
 constexpr std::string_view state_name(int isep) {
   return isep == in_contact ? "contact" : "separated";
 }
 
-/// "open", "closed" or "at its face".
 constexpr std::string_view look_name(pair_look look) {
-  switch (look) {
-    case pair_look::open:
-      return "open";
-    case pair_look::closed:
-      return "closed";
-    case pair_look::at_face:
-      return "at its face";
-  }
-  return "";
+  constexpr std::string_view names[] = {"open", "closed", "at its face"};
+  return names[static_cast<std::size_t>(look)];
 }
 
-/// "solved", "mechanism" or "iteration-limit".
 constexpr std::string_view status_name(path_status status) {
-  switch (status) {
-    case path_status::solved:
-      return "solved";
-    case path_status::mechanism:
-      return "mechanism";
-    default:
-      return "iteration-limit";
-  }
+  if (status == path_status::solved) return "solved";
+  return status == path_status::mechanism ? "mechanism" : "iteration-limit";
 }
 
-/// Why a path ended where it did: "all load applied", "mechanism", "cycle", ...
+/// Why a path ended where it did.
 constexpr std::string_view end_reason(path_status status) {
-  switch (status) {
-    case path_status::solved:
-      return "all load applied";
-    case path_status::mechanism:
-      return "mechanism";
-    case path_status::cycle:
-      return "cycle";
-    case path_status::iteration_limit:
-      return "iteration limit";
-    case path_status::not_factored:
-      return "not factored";
-  }
-  return "";
+  constexpr std::string_view reasons[] = {"all load applied", "mechanism", "cycle", "iteration limit",
+                                          "not factored"};
+  return reasons[static_cast<std::size_t>(status)];
 }
+
+/// A few words for a step: "certified", "NOT certified", or "no certificate".
+[[nodiscard]] std::string certificate_mark(const std::optional<certificate>& c);
+
+/// One line for a whole run, in parts: that it is certified and how closely, or the first step that is
+/// not. Empty when no step came to its end.
+[[nodiscard]] std::vector<std::string> certificate_summary(const certifier& judged);
+
+/// For every step that is not certified a line that says what is wrong, how far off, and which
+/// increment toggled which pair away from its face before.
+[[nodiscard]] std::vector<std::string> certificate_complaints(const problem& p, const certifier& judged,
+                                                              const early_toggles& early);
 
 }  // namespace contct::write

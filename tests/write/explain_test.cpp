@@ -1,0 +1,140 @@
+// An explained run: its sentences, the text for people, and JSON: reference/explain-format.md. Whole texts
+// are tested on the program: tests/app/explain_test.cpp.
+#include "contct/write/explain.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+#include "support/scratch_folder.hpp"
+#include "write/explained_run.hpp"
+
+using namespace contct::app;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// The lines of the listing that a story cites; 0 where a sentence has none.
+std::vector<int> lines_of(const nlohmann::json& story) {
+  std::vector<int> lines;
+  for (const auto& sentence : story) lines.push_back(sentence.value("line", 0));
+  return lines;
+}
+
+/// What `print` writes to standard output.
+template <class Print>
+std::string printed(Print print) {
+  const scratch_folder folder;
+  (void)std::fflush(stdout);
+  const int kept = dup(STDOUT_FILENO);
+  std::FILE* const file = std::fopen(folder.at("out").c_str(), "w");
+  dup2(fileno(file), STDOUT_FILENO);
+  print();
+  (void)std::fflush(stdout);
+  dup2(kept, STDOUT_FILENO);
+  close(kept);
+  (void)std::fclose(file);
+  return folder.read("out");
+}
+
+std::string explained_text(int pair, int width) {
+  const problem p = parse_problem(two_pairs, "pb.toml");
+  return printed([&] {
+    explain_text text({p, {"fortran", "cpp"}, 8, pair}, {width, false});
+    explain_run(p, [&](const explained_increment& i) { text.print(i); });
+  });
+}
+
+nlohmann::json explained_json(const std::string& text, int pair = 0) {
+  const problem p = parse_problem(text, "pb.toml");
+  const scratch_folder folder;
+  output_file out(folder.at("x.json"));
+  explain_json json({p, {"fortran", "cpp"}, 8, pair}, out);
+  const explained_path path = explain_run(p, [&](const explained_increment& i) { json.write(i); });
+  json.finish("solved", path);
+  return nlohmann::json::parse(folder.read("x.json"));
+}
+
+}  // namespace
+
+TEST_CASE("a pair's story cites the lines that it went through, with the paper's equations") {
+  const nlohmann::json calls = explained_json(two_pairs)["increments"];
+  REQUIRE(calls.size() == 2);
+  const nlohmann::json& pairs = calls[0]["pairs"];
+  CHECK(lines_of(pairs[0]["story"]) == std::vector<int>{30, 31, 33, 38, 40, 51, 52, 54, 55});
+  CHECK(pairs[0]["story"][3]["equation"] == "(4)");
+  CHECK(lines_of(pairs[1]["story"]) == std::vector<int>{30, 31, 32, 40, 51, 52});
+  CHECK(lines_of(calls[0]["story"]) == std::vector<int>{42, 0});
+  CHECK(lines_of(calls[1]["story"]) == std::vector<int>{42, 45});
+  CHECK(calls[1]["pairs"][0]["kind"] == "stationary");
+  CHECK(pairs[0]["why"] == "winner");
+  CHECK(pairs[1]["why"] == "not toggled");
+}
+
+TEST_CASE("two numbers are equal to the bit, so many ULP apart, or one is no number") {
+  const double next = std::nextafter(0.25, 1.0);
+  CHECK(side_by_side_words("a", 0.25, "b", 0.25, 8) == "a 0x1p-2, b equal to the bit");
+  CHECK_THAT(side_by_side_words("a", 0.25, "b", next, 8), Contains(": 1 ULP apart"));
+  CHECK_THAT(side_by_side_words("a", 0.25, "b", std::numeric_limits<double>::quiet_NaN(), 8),
+             Contains("one is NaN"));
+  CHECK(ulps_apart(0.25, next, 8) == 1);
+  CHECK(ulps_apart(0.25, std::nextafter(0.25F, 1.0F), 4) == 1);
+}
+
+TEST_CASE("an explanation has a heading for each increment and each pair, and says when kernels agree") {
+  const std::string text = explained_text(0, 80);
+  CHECK_THAT(text, Contains("Step 1, increment 1\n-----"));
+  CHECK_THAT(text, Contains("Step 1, increment 2\n"));
+  CHECK_THAT(text, Contains("Pair 1, node 2, face below, separated: advancing\n"));
+  CHECK_THAT(text, Contains("Pair 2, node 1, face below, separated: no response\n"));
+  CHECK_THAT(text, Contains("cpp equal to the bit") && !Contains("DIFFERENT"));
+  CHECK_THAT(explained_text(2, 80), !Contains("Pair 1, node 2"));
+}
+
+TEST_CASE("statements of the listing are shown where there is room for them") {
+  CHECK_THAT(explained_text(0, 120), Contains("GAP = CC(I) - DD(NDOF)"));
+  CHECK_THAT(explained_text(0, 119), !Contains("GAP = CC(I)"));
+}
+
+TEST_CASE("each increment has its numbers, the winner and every pair with the reasons") {
+  const nlohmann::json j = explained_json(two_pairs);
+  CHECK(j["format"] == "contct-explain-1");
+  CHECK(j["real_bytes"] == 8);
+  CHECK(j["kernels"] == nlohmann::json({"fortran", "cpp"}));
+  REQUIRE(j["increments"].size() == 2);
+  const nlohmann::json& first = j["increments"][0];
+  CHECK(first["s"].get<double>() == Approx(0.25));  // d* = -1 at the tip: the gap is a quarter of it
+  CHECK(first["load"]["force"].get<double>() == Approx(-0.75));
+  CHECK(first["winner"]["pair"] == 1);
+  CHECK_FALSE(first.contains("apart"));
+  REQUIRE(first["pairs"].size() == 2);
+  const nlohmann::json& stop = first["pairs"][0];
+  CHECK(stop["before"] == "separated");
+  CHECK(stop["after"] == "contact");
+  CHECK(stop["why"] == "winner");
+  CHECK(stop["bits"]["ulps"] == 0);
+  CHECK(stop["bits"]["fortran"] == stop["bits"]["cpp"]);
+  CHECK(stop["story"][0]["line"] == 30);
+  const nlohmann::json& clamped = first["pairs"][1];
+  CHECK(clamped["node"] == 1);
+  CHECK(clamped["kind"] == "no response");
+  CHECK(clamped["toggled"] == false);
+  CHECK_FALSE(clamped.contains("distance_from_face"));
+  CHECK(j["increments"][1]["winner"].is_null());
+  CHECK(j["lockstep"]["mismatches"] == 0);
+  CHECK(j["lockstep"]["calls"] == 2);
+  CHECK(j["status"] == "solved");
+}
+
+TEST_CASE("one pair alone is written when it alone is wanted") {
+  const nlohmann::json j = explained_json(two_pairs, 2);
+  for (const auto& i : j["increments"]) {
+    REQUIRE(i["pairs"].size() == 1);
+    CHECK(i["pairs"][0]["pair"] == 2);
+  }
+}
