@@ -1,4 +1,6 @@
 // contct explain: what the listing did in each increment of a run, for each pair, and why.
+#include "contct/write/explain.hpp"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -17,7 +19,6 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/solve/engine.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/explain.hpp"
 
 namespace contct::app {
 namespace {
