@@ -1,4 +1,6 @@
 // contct explain: what the listing did in each increment of a run, for each pair, and why.
+#include "contct/write/explain.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -8,7 +10,6 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/input_text.hpp"
-#include "contct/write/explain.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::app {
