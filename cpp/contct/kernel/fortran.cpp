@@ -12,7 +12,51 @@
 #include "contct/kernel/contct.h"
 #include "contct/text/signals_wait.hpp"
 
+using contct::kernels::fortran::call_r8;
+using contct::kernels::fortran::log_act;
+using contct::kernels::fortran::log_open;
+
+extern "C" {
+call_r8 contct_flang_call_r8, contct_f2c_call_r8;
+log_open contct_flang_log_open, contct_f2c_log_open;
+log_act contct_flang_log_flush, contct_flang_log_rewind, contct_flang_log_close;
+log_act contct_f2c_log_flush, contct_f2c_log_rewind, contct_f2c_log_close;
+}
+
 namespace contct::kernels::fortran {
+
+// The compilers' names are set by CMake.
+compiled_listing gfortran{"fortran",
+                          CONTCT_FORTRAN_COMPILER,
+                          CONTCT_FORTRAN_FLAGS " -fdefault-real-8",
+                          false,
+                          contct_call_r8,
+                          contct_log_open,
+                          contct_log_flush,
+                          contct_log_rewind,
+                          contct_log_close};
+#ifdef CONTCT_FLANG_COMPILER
+compiled_listing flang{"flang",
+                       CONTCT_FLANG_COMPILER,
+                       "-O2 -fdefault-real-8 -ffp-contract=off",
+                       false,
+                       contct_flang_call_r8,
+                       contct_flang_log_open,
+                       contct_flang_log_flush,
+                       contct_flang_log_rewind,
+                       contct_flang_log_close};
+#endif
+#ifdef CONTCT_F2C_COMPILER
+compiled_listing f2c{"f2c",
+                     CONTCT_F2C_COMPILER,
+                     "-r8; -ffp-contract=off",
+                     true,
+                     contct_f2c_call_r8,
+                     contct_f2c_log_open,
+                     contct_f2c_log_flush,
+                     contct_f2c_log_rewind,
+                     contct_f2c_log_close};
+#endif
 
 std::mutex& process_wide() {
   static std::mutex mutex;
