@@ -16,7 +16,6 @@
 #include "app/problem_progress.hpp"
 #include "app/run_pictures.hpp"
 #include "app/streams.hpp"
-#include "contct/certify/fallback.hpp"
 #include "contct/certify/final_state.hpp"
 #include "contct/compare/free_run.hpp"
 #include "contct/compare/trace_recorder.hpp"

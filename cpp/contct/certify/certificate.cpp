@@ -15,16 +15,6 @@ double share(double part, double whole) {
   return part > 0.0 ? part / whole : 0.0;
 }
 
-bool all_finite(std::span<const double> numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-}
-
-std::string in_words(const char* what, double amount) {
-  char text[120];
-  (void)std::snprintf(text, sizeof text, "%s by %.2g", what, amount);
-  return text;
-}
-
 /// The worst of what is above the tolerance, in words.
 std::string worst_of(const certificate& c) {
   const std::pair<double, const char*> parts[] = {
@@ -35,7 +25,10 @@ std::string worst_of(const certificate& c) {
       {c.equilibrium, "loads and forces do not balance: they differ"},
   };
   for (const auto& [amount, words] : parts) {
-    if (!(amount <= c.tolerance)) return in_words(words, amount);
+    if (amount <= c.tolerance) continue;
+    char text[120];
+    (void)std::snprintf(text, sizeof text, "%s by %.2g", words, amount);
+    return text;
   }
   return "";
 }
@@ -52,11 +45,7 @@ certifier::certifier(const linear_structure& s, load_history total_load)
 }
 
 void certifier::step_ended(const step_state& s) {
-  if (s.fraction == 1.0) {
-    steps_.emplace_back(judge(s));
-  } else {
-    steps_.emplace_back();
-  }
+  steps_.push_back(s.fraction == 1.0 ? std::optional(judge(s)) : std::nullopt);
 }
 
 bool certifier::all_exact() const {
@@ -64,9 +53,10 @@ bool certifier::all_exact() const {
 }
 
 certificate certifier::judge(const step_state& s) {
-  if (!all_finite(s.displacement)) {  // they would slip through every comparison below
-    certificate c;
-    c.problem = "a displacement is not a finite number";
+  certificate c;
+  const auto finite = [](double x) { return std::isfinite(x); };
+  if (!std::all_of(s.displacement.begin(), s.displacement.end(), finite)) {
+    c.problem = "a displacement is not a finite number";  // it would slip through every comparison below
     return c;
   }
   std::vector<double> load(s.displacement.size(), 0.0);
@@ -74,25 +64,22 @@ certificate certifier::judge(const step_state& s) {
   const reference_answer answer = reference_.solve(load);
   remember_sizes(s.displacement);
   remember_sizes(answer.displacement);
-  certificate c;
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
   c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
                          certificate_never_above);
   c.unique = answer.unique;
   measure_state(s, load, c);
-  if (answer.how == reference_answer::outcome::no_equilibrium) {
-    c.unfounded = true;
+  c.unfounded = answer.how == reference_answer::outcome::no_equilibrium;
+  if (c.unfounded) {
     c.problem = "there is no equilibrium: nothing stops a rigid motion that the load drives";
-    return c;
-  }
-  if (answer.how == reference_answer::outcome::not_found) {
+  } else if (answer.how == reference_answer::outcome::not_found) {
     c.problem = "the oracle came to no answer: the stiffness is too ill-conditioned";
-    return c;
+  } else {
+    if (c.unique) compare_with(answer, s, c);
+    c.problem = worst_of(c);
+    c.exact = c.problem.empty();
   }
-  if (c.unique) compare_with(answer, s, c);
-  c.problem = worst_of(c);
-  c.exact = c.problem.empty();
   return c;
 }
 
@@ -111,9 +98,7 @@ double certifier::largest_length() const {
 
 /// From the state alone: equilibrium, penetration, tension.
 void certifier::measure_state(const step_state& s, std::span<const double> load, certificate& c) const {
-  const auto row = [this](std::size_t dof) -> std::size_t {
-    return structure_.row_of(static_cast<int>(dof));
-  };
+  const auto row = [this](std::size_t dof) { return structure_.row_of(static_cast<int>(dof)); };
   std::vector<double> u(load.size());
   std::vector<long double> left(load.size());
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
@@ -140,9 +125,8 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   }
   double unbalanced = 0.0;
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
-    if (structure_.fixed[dof] != 0) continue;
-    unbalanced =
-        std::max(unbalanced, std::abs(static_cast<double>(left[row(dof)])) / std::sqrt(stiffness[dof]));
+    const double there = std::abs(static_cast<double>(left[row(dof)])) / std::sqrt(stiffness[dof]);
+    if (structure_.fixed[dof] == 0) unbalanced = std::max(unbalanced, there);
   }
   c.penetration = share(deepest, largest_length());
   c.tension = share(farthest, largest_length());

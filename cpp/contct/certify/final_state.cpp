@@ -8,6 +8,8 @@
 namespace contct::certify {
 namespace {
 
+using outcome = reference_answer::outcome;
+
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
 /// rest, their springs take no force.
 std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) {
@@ -25,6 +27,14 @@ std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) 
 
 }  // namespace
 
+fallback_solver fallback_to_reference(const linear_structure& s) {
+  return [&s](std::span<const double> load) -> std::optional<equilibrium_state> {
+    reference_answer answer = reference_solver(s).solve(load);
+    if (answer.how != outcome::found) return {};
+    return equilibrium_state{std::move(answer.displacement), std::move(answer.pressed)};
+  };
+}
+
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
                            std::span<observer* const> observers) {
   reference_solver finds(s);
@@ -36,10 +46,8 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
     total_load(step, total);
     const reference_answer found = finds.solve(total);
     end.work.factors += found.factorisations;
-    if (found.how == reference_answer::outcome::no_equilibrium)
-      return {path_status::mechanism, step, 0.0, {}, end.work};
-    if (found.how != reference_answer::outcome::found)
-      return {path_status::not_factored, step, 0.0, {}, end.work};
+    if (found.how == outcome::no_equilibrium) return {path_status::mechanism, step, 0.0, {}, end.work};
+    if (found.how != outcome::found) return {path_status::not_factored, step, 0.0, {}, end.work};
     std::vector<int> status;
     for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);
     const double rcond = stiffness.reciprocal_condition(holding(s, found.pressed));

@@ -1,4 +1,4 @@
-// Only the end: the equilibrium under each step's load, without the path to it.
+// Where the reference solution is the end of a step: as a fallback, and in place of a path.
 #pragma once
 
 #include <span>
@@ -7,7 +7,12 @@
 
 namespace contct::certify {
 
-/// Find the equilibrium under the total load of every step and tell it to the observers as that step's end.
+/// A fallback for `s`, which must outlive it: the reference solution as the end of a step that a path cannot
+/// reach.
+[[nodiscard]] fallback_solver fallback_to_reference(const linear_structure& s);
+
+/// Only the ends: find the equilibrium under the total load of every step and tell it to the observers as
+/// that step's end.
 /// An elastic structure on one-sided springs without friction has no memory: each is where the path would
 /// arrive. A handful of factorisations a step; no increments, no events.
 ///

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "contct/certify/fallback.hpp"
+#include "contct/certify/final_state.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct::lab {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contct/certify/fallback.hpp"
+#include "contct/certify/final_state.hpp"
 #include "contct/compare/lockstep.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
