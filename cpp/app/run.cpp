@@ -18,7 +18,7 @@
 #include "app/streams.hpp"
 #include "contct/certify/final_state.hpp"
 #include "contct/compare/free_run.hpp"
-#include "contct/compare/trace_recorder.hpp"
+#include "contct/compare/path_observers.hpp"
 #include "contct/matrix/lapack.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/compare/early_toggles.hpp"
+#include "contct/compare/path_observers.hpp"
 #include "support/beams.hpp"
 
 using namespace contct::app;

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "catch.hpp"
-#include "contct/compare/margin.hpp"
+#include "contct/compare/branches.hpp"
 #include "contct/kernel/contct.hpp"
 
 using namespace contct::app;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "contct/compare/compare.hpp"
 #include "contct/compare/explanation.hpp"
-#include "contct/compare/follower.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct::compare {

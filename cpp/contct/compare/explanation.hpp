@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "contct/compare/branches.hpp"
-#include "contct/compare/margin.hpp"
 #include "contct/kernel/call.hpp"
 
 namespace contct::compare {

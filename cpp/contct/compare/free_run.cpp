@@ -6,25 +6,21 @@
 namespace contct::compare {
 namespace {
 
-std::string words(const timed_event& e) {
+std::string words_at(const std::vector<timed_event>& events, std::size_t i) {
+  if (i >= events.size()) return "no further event";
+  const timed_event& e = events[i];
   return "step " + std::to_string(e.step) + ": pair " + std::to_string(e.what.pair + 1) +
          (e.what.what == change::make ? " makes" : " breaks");
-}
-
-std::string words_at(const std::vector<timed_event>& events, std::size_t i) {
-  return i < events.size() ? words(events[i]) : "no further event";
 }
 
 void compare_events(const path_record& leader, const path_record& other, free_run_difference& d) {
   const std::size_t most = std::max(leader.events.size(), other.events.size());
   for (std::size_t i = 0; i < most; ++i) {
-    const bool both = i < leader.events.size() && i < other.events.size();
-    if (!both || leader.events[i].step != other.events[i].step ||
-        leader.events[i].what != other.events[i].what) {
+    const std::string led = words_at(leader.events, i);
+    const std::string its = words_at(other.events, i);
+    if (led != its) {
       d.same_events = false;
-      if (d.first_difference.empty()) {
-        d.first_difference = words_at(leader.events, i) + " against " + words_at(other.events, i);
-      }
+      if (d.first_difference.empty()) d.first_difference = led + " against " + its;
       return;
     }
     d.fraction = std::max(d.fraction, std::abs(leader.events[i].fraction - other.events[i].fraction));

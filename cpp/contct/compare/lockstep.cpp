@@ -31,9 +31,8 @@ lockstep::lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kerne
 
 lockstep make_lockstep(const kernel_facts& leader, std::span<const std::string> followers) {
   for (const std::string& name : followers) refuse_unequal(leader, facts_of_kernel(name));
-  std::vector<std::unique_ptr<kernel>> kernels;
-  kernels.reserve(followers.size());
-  for (const std::string& name : followers) kernels.push_back(make_kernel(name));
+  std::vector<std::unique_ptr<kernel>> kernels(followers.size());
+  std::ranges::transform(followers, kernels.begin(), make_kernel);
   return {leader, std::move(kernels)};
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/compare/follower.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct::compare {

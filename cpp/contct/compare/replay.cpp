@@ -1,17 +1,6 @@
 #include "contct/compare/replay.hpp"
 
 namespace contct::compare {
-namespace {
-
-/// The kernel that answered the trace. A trace of f2c's may be replayed where there is no f2c, so its name
-/// alone says that the zeros before its decimal points are missing.
-kernel_facts leader_of(const trace_header& h) {
-  kernel_facts leader{"the trace", h.real_bytes, h.rule, "", "", "", true};
-  leader.text_by_meaning = h.kernel == "f2c";
-  return leader;
-}
-
-}  // namespace
 
 bool comparable(const trace_header& h, const kernel_facts& k) {
   return h.real_bytes == k.real_bytes && h.rule == k.rule;
@@ -21,7 +10,9 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                      const std::function<void(std::int64_t)>& progress) {
   replay_report report;
   recorded_call c;
-  follower asked(leader_of(h), k);
+  // A trace of f2c's may be replayed where there is no f2c, so its name alone says that the zeros before its
+  // decimal points are missing.
+  follower asked({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, k);
   while (calls.next(c)) {
     ++report.calls;
     const call<double> recorded{c.in.dd, c.in.dtest, c.in.cc,    c.out.ss, c.out.smin,

@@ -5,9 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "contct/compare/branches.hpp"
-#include "contct/compare/follower.hpp"
-#include "contct/kernel/kernel.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/trace/trace.hpp"
 
 namespace contct::compare {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "contct/compare/branches.hpp"
-#include "contct/compare/follower.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/lab/shrink.hpp"

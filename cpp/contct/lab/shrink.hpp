@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/compare/follower.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
 

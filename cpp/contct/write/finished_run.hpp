@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/early_toggles.hpp"
 #include "contct/compare/lockstep.hpp"
+#include "contct/compare/path_observers.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/structure/problem.hpp"
