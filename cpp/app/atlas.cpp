@@ -7,7 +7,6 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "contct/lab/atlas_output.hpp"
-#include "contct/lab/atlas_svg.hpp"
 
 namespace contct::app {
 namespace {

@@ -8,8 +8,9 @@
 #include <string>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/lab/problem_result.hpp"
+#include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
+#include "support/problem_names.hpp"
 
 using namespace contct::app;
 

@@ -15,7 +15,7 @@
 
 #include "contct/compare/compare.hpp"
 #include "contct/compare/replay.hpp"
-#include "contct/lab/call_campaign.hpp"
+#include "contct/lab/random_calls.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"
 

@@ -7,13 +7,13 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/lab/problem_result.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/path.hpp"
 #include "contct/solve/condensed_engine.hpp"
 #include "support/beams.hpp"
+#include "support/problem_names.hpp"
 
 using namespace contct::app;
 

@@ -1,14 +1,26 @@
 // Where the 1989 code goes wrong, measured: kernels on random problems, cell by cell.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "contct/lab/problem_result.hpp"
+#include "contct/lab/random_problem.hpp"
 
 namespace contct::lab {
+
+/// EPSMUL as the listing prints it.
+inline constexpr double printed_epsmul = .390625E-02;
+
+/// EPSMUL of the 8-byte listing's variants, which differ in it alone, largest first; the printed one is not
+/// among them. They are what the atlas measures, and no kernels that can be chosen.
+[[nodiscard]] std::vector<double> epsmul_of_variants();
+
+/// The variant of that index. It keeps no text.
+[[nodiscard]] std::unique_ptr<kernel> make_epsmul_variant(std::size_t variant);
 
 /// An answer is wrong when it is off by more than this share of the largest deflection. One measure
 /// for all kernels: a 4-byte kernel rounds at 6e-8 and cannot meet the certificate's tolerance, which
@@ -33,14 +45,12 @@ struct atlas_cell {
 
   /// Count the result of one problem.
   void add(const problem_result& t);
+  /// The middle and the last of the errors; 0 when there is none.
+  [[nodiscard]] double median_error() const { return errors.empty() ? 0.0 : errors[errors.size() / 2]; }
+  [[nodiscard]] double worst_error() const { return errors.empty() ? 0.0 : errors.back(); }
+  /// Is this the listing with another EPSMUL than printed?
+  [[nodiscard]] bool has_other_epsmul() const { return epsmul != 0.0 && epsmul != printed_epsmul; }
 };
-
-/// The middle and the last of the errors; 0 when there is none.
-[[nodiscard]] double median_error(const atlas_cell& c);
-[[nodiscard]] double worst_error(const atlas_cell& c);
-
-/// Is the cell one of the listing with another EPSMUL than printed?
-[[nodiscard]] bool has_other_epsmul(const atlas_cell& c);
 
 /// The interval of a share with 95 % confidence (E. B. Wilson, 1927); it has a width for no hits at all, too.
 struct confidence {

@@ -1,4 +1,4 @@
-// The atlas as CSV, as JSON and as a table for the terminal.
+// The atlas as CSV, as JSON, as a table for the terminal and as a picture.
 #pragma once
 
 #include <string>
@@ -16,5 +16,9 @@ namespace contct::lab {
 
 /// All cells as a table of 80 columns, and what its columns mean.
 [[nodiscard]] std::string atlas_table(const atlas& a, const terminal& t);
+
+/// Share of wrong answers with its 95 % band, by the unit of length and by EPSMUL: above for structures
+/// held by supports, below for free ones. One self-contained SVG; every cell is a point with its numbers.
+[[nodiscard]] std::string atlas_svg(const atlas& a);
 
 }  // namespace contct::lab

@@ -2,23 +2,163 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
-#include "contct/lab/problem_campaign.hpp"
+#include "contct/compare/lockstep.hpp"
+#include "contct/kernel/contct.hpp"
+#include "contct/lab/random_calls.hpp"
+#include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
 
 namespace contct::lab {
 namespace {
 
+constexpr std::size_t calls_in_a_block = 2048;
+constexpr std::uint64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
 constexpr std::uint64_t few_ulps = 64;
+
+class call_campaign {
+ public:
+  call_campaign(const std::string& leader, const std::vector<std::string>& followers, std::uint64_t seed)
+      : source_(seed, facts_of_kernel(leader).real_bytes) {
+    for (const std::string& name : followers) refuse_unequal(facts_of_kernel(leader), facts_of_kernel(name));
+    leader_ = make_kernel(leader);
+    for (const std::string& name : followers) {
+      kernels_.push_back(make_kernel(name));
+      followers_.emplace_back(leader_->facts(), *kernels_.back());
+    }
+    result_.each.resize(followers.size());
+  }
+
+  campaign_result run(std::uint64_t first, std::uint64_t last, std::uint64_t stride,
+                      const std::function<void(std::int64_t)>& progress) {
+    for (std::uint64_t number = first; number <= last; number += stride) {
+      put(number);
+      if (block_.size() < calls_in_a_block) continue;
+      compare_texts();
+      if (progress) progress(result_.calls);
+    }
+    compare_texts();
+    for (std::size_t f = 0; f < followers_.size(); ++f) conclude(followers_[f], stride, result_.each[f]);
+    return std::move(result_);
+  }
+
+ private:
+  void put(std::uint64_t number) {
+    const call_inputs<double>& in = source_.at(number);
+    call<double> answered = leader_outputs_.prepare(in);
+    leader_->answer(answered);
+    result_.count(answered, in.isep);
+    for (std::size_t f = 0; f < followers_.size(); ++f) {
+      if (followers_[f].ask(static_cast<std::int64_t>(number), answered, in.isep, std::nullopt))
+        result_.each[f].note_difference(answered, followers_[f]);
+    }
+    block_.push_back(number);
+  }
+
+  /// Compare unit 26 of all the calls since the last time.
+  void compare_texts() {
+    const std::string text = leader_->take_text();
+    for (follower& f : followers_) {
+      const std::string its_text = f.asked().take_text();
+      const bool both = leader_->facts().has_text && f.asked().facts().has_text;
+      if (!both || block_.empty()) continue;
+      tally whole;
+      if (compare_text(text, its_text, whole, f.equality()))
+        find_text_difference(f);
+      else
+        f.compared.values += static_cast<std::int64_t>(block_.size());
+    }
+    block_.clear();
+  }
+
+  /// Put the block once more, and compare the text call by call.
+  void find_text_difference(follower& f) {
+    call_outputs its_outputs;
+    for (const std::uint64_t number : block_) {
+      const call_inputs<double>& in = source_.at(number);
+      call<double> answered = leader_outputs_.prepare(in);
+      leader_->answer(answered);
+      const std::string text = leader_->take_text();
+      call<double> asked = its_outputs.prepare(in);
+      try {
+        f.asked().answer(asked);
+      } catch (const kernel_failure&) {
+        continue;  // counted already
+      }
+      if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
+        f.note(static_cast<std::int64_t>(number), *found, answered, in.isep);
+    }
+  }
+
+  /// The first mismatch, and the calls up to it.
+  void conclude(const follower& f, std::uint64_t stride, follower_result& r) {
+    r.compared = f.compared;
+    r.first = f.first();
+    if (!r.first) return;
+    const auto number = static_cast<std::uint64_t>(r.first->call);
+    const std::uint64_t before = std::min(most_calls_before, (number - 1) / stride);
+    for (std::uint64_t k = before + 1; k-- > 0;) r.calls.push_back(source_.at(number - k * stride));
+  }
+
+  std::unique_ptr<kernel> leader_;
+  std::vector<std::unique_ptr<kernel>> kernels_;
+  std::vector<follower> followers_;
+  call_source source_;
+  call_outputs leader_outputs_;
+  std::vector<std::uint64_t> block_;  // numbers of the calls whose text is not yet compared
+  campaign_result result_;
+};
+
+/// Problems small enough that thousands of them are quick.
+random_problem_kind quick_problems() {
+  random_problem_kind kind;
+  kind.most_elements = 16;
+  kind.most_lines = 4;
+  return kind;
+}
+
+call_inputs<double> inputs_of(const answered_call& c) {
+  const auto owned = [](const auto& list) { return std::vector(list.begin(), list.end()); };
+  return {owned(c.c.dd),        owned(c.c.dtest), owned(c.c.cc), owned(c.c.id),
+          owned(c.isep_before), owned(c.c.isurf), c.c.dof};
+}
+
+/// Counts what the leader did and what the lockstep before it found, and keeps the calls up to each
+/// follower's first mismatch.
+class problem_watcher final : public observer {
+ public:
+  problem_watcher(campaign_result& p, const lockstep& compared) : p_(p), compared_(compared) {
+    p.each.resize(compared.followers().size());
+  }
+
+  void called(const answered_call& c) override {
+    p_.count(c.c, c.isep_before);
+    calls_.push_back(inputs_of(c));
+    for (std::size_t f = 0; f < p_.each.size(); ++f) {
+      const follower& asked = compared_.followers()[f];
+      p_.each[f].compared = asked.compared;
+      if (!asked.difference()) continue;
+      p_.each[f].note_difference(c.c, asked);
+      if (p_.each[f].first) continue;
+      p_.each[f].first = asked.first();
+      p_.each[f].calls = calls_;
+    }
+  }
+
+ private:
+  campaign_result& p_;
+  const lockstep& compared_;
+  call_sequence calls_;
+};
 
 class fuzzing {
  public:
   fuzzing(const fuzz_request& r, const fuzz_progress& progress)
-      : request_(r),
-        progress_(progress),
-        followers_(r.kernels.begin() + 1, r.kernels.end()),
-        totals_(followers_.size()) {
+      : request_(r), progress_(progress), followers_(r.kernels.begin() + 1, r.kernels.end()) {
     run_.result.request = r;
+    totals_.resize(followers_.size());
   }
 
   fuzz_run run() {
@@ -31,24 +171,23 @@ class fuzzing {
   }
 
  private:
-  void add(const campaign_counts& counts, const std::vector<follower_result>& each) {
-    run_.result.add(counts);
-    for (std::size_t f = 0; f < totals_.size(); ++f) totals_[f].add(each[f]);
+  void add(const campaign_result& r) {
+    run_.result.add(r);
+    for (std::size_t f = 0; f < totals_.size(); ++f) totals_[f].add(r.each[f]);
   }
 
   void compare_calls() {
-    call_campaign campaign(request_.kernels[0], followers_, request_.seed);
-    campaign.run(request_.shard, request_.calls, request_.shards, [this](std::int64_t done) {
+    const auto told = [this](std::int64_t done) {
       if (progress_) progress_(done, request_.calls / request_.shards, "calls");
-    });
-    add(campaign.counts(), campaign.results());
+    };
+    add(put_calls(request_.kernels[0], followers_, request_.seed, request_.shard, request_.calls,
+                  request_.shards, told));
   }
 
   void compare_problems() {
     for (std::int64_t number = request_.shard; number <= request_.problems; number += request_.shards) {
-      const problem_in_lockstep p =
-          follow_in_lockstep(request_.seed, number, request_.kernels[0], followers_);
-      add(p, p.each);
+      const campaign_result p = follow_in_lockstep(request_.seed, number, request_.kernels[0], followers_);
+      add(p);
       for (const follower_result& its : p.each)
         if (its.first) differing_problems_.push_back(number);
       ++run_.result.problems;
@@ -106,6 +245,79 @@ class fuzzing {
 };
 
 }  // namespace
+
+void campaign_counts::count(const call<double>& answered, std::span<const int> isep_before) {
+  ++calls;
+  branches.count(answered, isep_before);
+  for (std::size_t i = 0; i < isep_before.size(); ++i) {
+    if (answered.isep[i] == isep_before[i]) continue;
+    ++(answered.isep[i] == in_contact ? events.make : events.break_);
+    const int dof = answered.dof.dof_of(answered.id[i]) - 1;
+    const double gap = std::abs(answered.cc[i] - answered.dd[dof]);
+    events.stationary += gap < constants<double>::epsgap ? 1 : 0;
+  }
+}
+
+void campaign_counts::add(const campaign_counts& other) {
+  calls += other.calls;
+  branches.add(other.branches);
+  events.make += other.events.make;
+  events.break_ += other.events.break_;
+  events.stationary += other.events.stationary;
+}
+
+void follower_result::note_difference(const call<double>& leader, const follower& f) {
+  if (!f.answered()) {
+    always_answered = false;
+    return;
+  }
+  const call_outputs& answer = f.answer();
+  most_ulps = std::max(most_ulps, ulps_between(leader.smin, answer.smin));
+  for (std::size_t i = 0; i < leader.ss.size(); ++i) {
+    most_ulps = std::max(most_ulps, ulps_between(leader.ss[i], answer.ss[i]));
+    same_events = same_events && leader.isep[i] == answer.isep[i];
+  }
+}
+
+void follower_result::add(const follower_result& other) {
+  compared += other.compared;
+  most_ulps = std::max(most_ulps, other.most_ulps);
+  same_events = same_events && other.same_events;
+  always_answered = always_answered && other.always_answered;
+  if (first) return;
+  first = other.first;
+  calls = other.calls;
+}
+
+campaign_result put_calls(const std::string& leader, const std::vector<std::string>& followers,
+                          std::uint64_t seed, std::uint64_t first, std::uint64_t last, std::uint64_t stride,
+                          const std::function<void(std::int64_t)>& progress) {
+  return call_campaign(leader, followers, seed).run(first, last, stride, progress);
+}
+
+campaign_result follow_in_lockstep(std::uint64_t seed, std::uint64_t number, const std::string& leader,
+                                   const std::vector<std::string>& followers) {
+  const random_problem p = make_random_problem(seed, number, quick_problems());
+  const linear_structure s = build(p.geometry, p.supports, p.pairs);
+  const std::unique_ptr<kernel> leads = make_kernel(leader);
+  campaign_result out;
+  lockstep compared = make_lockstep(leads->facts(), followers);
+  problem_watcher watches(out, compared);
+  (void)follow_steps(p.geometry, s, p.steps, "refactor", *leads, std::vector<observer*>{&compared, &watches});
+  return out;
+}
+
+bool certified_as_leader(std::uint64_t seed, std::uint64_t number, const std::string& leader,
+                         const std::string& follower) {
+  const random_problem p = make_random_problem(seed, number, quick_problems());
+  const verdict leads = try_problem(p, *make_kernel(leader)).came_to;
+  if (leads != verdict::certified && leads != verdict::no_equilibrium) return true;
+  try {
+    return try_problem(p, *make_kernel(follower)).came_to == leads;
+  } catch (const kernel_failure&) {
+    return false;
+  }
+}
 
 std::string_view name_of(equality_level l) {
   constexpr std::string_view names[equality_levels] = {"bits", "ulps", "events", "certificate", "none"};

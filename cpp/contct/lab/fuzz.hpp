@@ -1,16 +1,75 @@
-// A fuzz run: calls and whole problems put to kernels, how equal these are, and mismatches shrunk.
+// A fuzz run: random and adversarial calls and whole problems put to kernels, how equal these are, and
+// mismatches shrunk.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "contct/lab/call_campaign.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/lab/shrink.hpp"
 
 namespace contct::lab {
+
+/// Events by kind. A pair at its face when its event came is counted as stationary, too.
+struct event_counts {
+  std::int64_t make = 0, break_ = 0, stationary = 0;
+};
+
+/// What the leader of a campaign did.
+struct campaign_counts {
+  std::int64_t calls = 0;
+  branch_counts branches;
+  event_counts events;
+
+  /// Count a call that the leader answered.
+  void count(const call<double>& answered, std::span<const int> isep_before);
+  void add(const campaign_counts& other);
+};
+
+/// What came of the calls to one follower.
+struct follower_result {
+  tally compared;
+  // How near it came where it was not equal to the bit:
+  std::uint64_t most_ulps = 0;  ///< of SMIN and SS, over all calls
+  bool same_events = true;      ///< ISEP was equal in all calls
+  bool always_answered = true;
+  std::optional<mismatch_report> first;  ///< the first mismatch
+  call_sequence calls;                   ///< the calls up to it, 41 at most in a campaign of single calls
+
+  /// Note how near the follower came in a call whose answer differs.
+  void note_difference(const call<double>& leader, const follower& f);
+  /// Add the result of other calls, which were put later.
+  void add(const follower_result& other);
+};
+
+/// What came of a number of calls, or of the calls on the path of a problem.
+struct campaign_result : campaign_counts {
+  std::vector<follower_result> each;  ///< [followers]
+};
+
+/// Put calls `first`, `first + stride`, ... up to `last` of `seed` to a leader and its followers. SMIN, SS
+/// and ISEP are compared at once, the unit-26 text in blocks: reading it back after every call would cost
+/// several times the call. Throws std::invalid_argument for kernels that are unknown, or of another precision
+/// or rule.
+[[nodiscard]] campaign_result put_calls(const std::string& leader, const std::vector<std::string>& followers,
+                                        std::uint64_t seed, std::uint64_t first, std::uint64_t last,
+                                        std::uint64_t stride,
+                                        const std::function<void(std::int64_t done)>& progress = nullptr);
+
+/// Follow problem `number` of `seed` with `leader`, and put every call to `followers`.
+[[nodiscard]] campaign_result follow_in_lockstep(std::uint64_t seed, std::uint64_t number,
+                                                 const std::string& leader,
+                                                 const std::vector<std::string>& followers);
+
+/// Does the follower's own path of that problem end as well as the leader's: certified, or truly without
+/// equilibrium? True where the leader's does not.
+[[nodiscard]] bool certified_as_leader(std::uint64_t seed, std::uint64_t number, const std::string& leader,
+                                       const std::string& follower);
 
 /// The levels of equality, highest first.
 enum class equality_level {
@@ -30,6 +89,8 @@ struct fuzz_request {
   std::int64_t problems = 400;
   std::uint64_t seed = 1989;
   int shard = 1, shards = 1;
+
+  friend bool operator==(const fuzz_request&, const fuzz_request&) = default;
 };
 
 /// One follower's result.

@@ -1,14 +1,21 @@
-// A found case as a trace, as a Catch2 test case, and as a FORTRAN main program.
+// A fuzz run as JSON, format "contct-fuzz-1", the results of shards added up, and a found case as files.
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "contct/lab/shrink.hpp"
+#include "contct/lab/fuzz.hpp"
 #include "contct/trace/trace.hpp"
 
 namespace contct::lab {
 
-/// The calls with the leader's answers. `h` says whose they are.
+[[nodiscard]] std::string fuzz_json(fuzz_result r);
+
+/// Read the results of all shards of one run and add them up. Throws input_error when one is no such file,
+/// when they are not of one run, or when a shard is missing or given twice.
+[[nodiscard]] fuzz_result merged_fuzz(const std::vector<std::string>& files);
+
+/// The calls of a case with the leader's answers, as a trace. `h` says whose they are.
 [[nodiscard]] std::string trace_of(const found_case& c, trace_header h);
 
 /// A TEST_CASE that asks the follower and expects the leader's answer.

@@ -1,15 +1,119 @@
-#include "contct/lab/case_files.hpp"
+#include "contct/lab/fuzz_output.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
 
 #include "contct/numeric/bits.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::lab {
 namespace {
+
+using json = nlohmann::ordered_json;
+constexpr const char* format = "contct-fuzz-1";
+
+/// Put a field into a file's object.
+struct writer {
+  json& object;
+  template <class Value>
+  void operator()(const std::string& name, const Value& value) const {
+    object[json::json_pointer(name)] = value;
+  }
+};
+
+/// Take a field from a file's object.
+struct reader {
+  const json& object;
+  template <class Value>
+  void operator()(const std::string& name, Value& value) const {
+    object.at(json::json_pointer(name)).get_to(value);
+  }
+};
+
+/// The fields of a follower's result, in the file's order: `field(name, value)` writes or reads one.
+template <class Field>
+void for_each_field(fuzz_follower& f, const Field& field) {
+  std::string level(name_of(f.highest));
+  field("/kernel", f.name);
+  field("/values_compared", f.compared.values);
+  field("/mismatches", f.compared.mismatches);
+  field("/rung", level);
+  field("/most_ulps", f.most_ulps);
+  field("/findings", f.mismatch_reports);
+  f.highest = equality_level::bits;
+  while (f.highest != equality_level::none && level != name_of(f.highest))
+    f.highest = static_cast<equality_level>(static_cast<int>(f.highest) + 1);
+}
+
+/// The same of a result, but for its followers.
+template <class Field>
+void for_each_field(fuzz_result& r, const Field& field) {
+  tally all = r.compared();  // written only
+  std::string its_format = format;
+  field("/format", its_format);
+  field("/kernels", r.request.kernels);
+  field("/calls", r.calls);
+  field("/values_compared", all.values);
+  field("/mismatches", all.mismatches);
+  field("/problems", r.problems);
+  field("/events/make", r.events.make);
+  field("/events/break", r.events.break_);
+  field("/events/stationary", r.events.stationary);
+  for (std::size_t b = 0; b < branch_names.size(); ++b) {
+    for (const bool outcome : {true, false})
+      field(fmt::format("/branches/{}_{}", branch_names[b], outcome),
+            r.branches.of(static_cast<branch>(b), outcome));
+  }
+  field("/seconds", r.seconds);
+  field("/seed", r.request.seed);
+  field("/asked/calls", r.request.calls);
+  field("/asked/problems", r.request.problems);
+  field("/shard/number", r.request.shard);
+  field("/shard/of", r.request.shards);
+}
+
+fuzz_result read_shard(const std::string& file) {
+  const json document = json::parse(read_input(file, "fuzz result"));
+  if (document.at("format") != format) throw input_error(file + ": found another format; allowed: " + format);
+  fuzz_result r;
+  for_each_field(r, reader{document});
+  for (const json& f : document.at("followers")) for_each_field(r.followers.emplace_back(), reader{f});
+  return r;
+}
+
+/// A shard, or an input_error that names the file.
+fuzz_result shard_from(const std::string& file) {
+  try {
+    return read_shard(file);
+  } catch (const json::exception& e) {
+    throw input_error(
+        fmt::format("{}: found no fuzz result: {}; allowed: what --json wrote", file, e.what()));
+  }
+}
+
+bool same_run(const fuzz_request& a, fuzz_request b) {
+  b.shard = a.shard;
+  return a == b;
+}
+
+void add(fuzz_result& all, const fuzz_result& shard) {
+  all.add(shard);
+  all.problems += shard.problems;
+  all.seconds += shard.seconds;
+  for (std::size_t f = 0; f < all.followers.size(); ++f) {
+    fuzz_follower& mine = all.followers[f];
+    const fuzz_follower& its = shard.followers[f];
+    mine.compared += its.compared;
+    mine.highest = std::max(mine.highest, its.highest);
+    mine.most_ulps = std::max(mine.most_ulps, its.most_ulps);
+    if (mine.mismatch_reports.empty()) mine.mismatch_reports = its.mismatch_reports;
+  }
+}
 
 /// A number as C++ has it.
 std::string cpp_number(double x) {
@@ -20,20 +124,15 @@ std::string cpp_number(double x) {
 }
 
 std::string cpp_list(const std::vector<double>& list) {
-  std::vector<std::string> words;
-  words.reserve(list.size());
-  for (const double x : list) words.push_back(cpp_number(x));
+  std::vector<std::string> words(list.size());
+  std::ranges::transform(list, words.begin(), cpp_number);
   return fmt::format("{{{}}}", fmt::join(words, ", "));
-}
-
-std::string cpp_list(const std::vector<int>& list) {
-  return fmt::format("{{{}}}", fmt::join(list, ", "));
 }
 
 /// A name for a test: its characters must not mean anything to Catch2.
 std::string test_name(std::string kernel) {
-  for (char& ch : kernel)
-    if (std::isalnum(static_cast<unsigned char>(ch)) == 0) ch = ' ';
+  const auto is_plain = [](unsigned char ch) { return std::isalnum(ch) != 0; };
+  std::ranges::replace_if(kernel, std::not_fn(is_plain), ' ');
   return kernel;
 }
 
@@ -101,6 +200,40 @@ std::string fortran_comment(const std::string& words) {
 
 }  // namespace
 
+std::string fuzz_json(fuzz_result r) {
+  json document;
+  for_each_field(r, writer{document});
+  document["followers"] = json::array();
+  for (fuzz_follower& f : r.followers) for_each_field(f, writer{document["followers"].emplace_back()});
+  return document.dump(1) + "\n";
+}
+
+fuzz_result merged_fuzz(const std::vector<std::string>& files) {
+  fuzz_result all;
+  for (const std::string& file : files) {
+    const fuzz_result shard = shard_from(file);
+    if (all.merged_shards.empty()) {
+      all = shard;
+    } else {
+      if (!same_run(all.request, shard.request) || all.followers.size() != shard.followers.size())
+        throw input_error(file + ": found another run than in " + files[0] +
+                          "; allowed: shards with the same kernels, calls, problems and seed");
+      if (std::count(all.merged_shards.begin(), all.merged_shards.end(), shard.request.shard) > 0)
+        throw input_error(
+            fmt::format("{}: found shard {} once more; allowed: each once", file, shard.request.shard));
+      add(all, shard);
+    }
+    all.merged_shards.push_back(shard.request.shard);
+  }
+  if (static_cast<int>(all.merged_shards.size()) != all.request.shards)
+    throw input_error(fmt::format("found {} of {} shards ({}); allowed: all of them",
+                                  all.merged_shards.size(), all.request.shards,
+                                  fmt::join(all.merged_shards, ", ")));
+  all.request.shard = 1;
+  all.request.shards = 1;
+  return all;
+}
+
 std::string trace_of(const found_case& c, trace_header h) {
   for (const std::string& line : words_of(c.what)) h.about.push_back(line);
   std::string text;
@@ -131,26 +264,27 @@ TEST_CASE("{} answers as {} does") {{
                       test_name(c.what.follower), test_name(c.what.leader), cpp_string(c.what.follower));
   for (std::size_t i = 0; i < c.calls.size(); ++i) {
     const call_inputs<double>& in = c.calls[i];
-    text +=
-        fmt::format(R"(
+    text += fmt::format(R"(
   in.dd = {};
   in.dtest = {};
   in.cc = {};
-  in.id = {};
-  in.isep = {};
-  in.isurf = {};
+  in.id = {{{}}};
+  in.isep = {{{}}};
+  in.isurf = {{{}}};
   in.dof = {{{}, {}}};
   {{
     contct::outside::call<double> asked = out.prepare(in);
     kernel->answer(asked);
     CHECK(contct::outside::same_bits(asked.smin, {}));
 )",
-                    cpp_list(in.dd), cpp_list(in.dtest), cpp_list(in.cc), cpp_list(in.id), cpp_list(in.isep),
-                    cpp_list(in.isurf), in.dof.indof, in.dof.ndofpn, cpp_number(c.leader[i].smin));
+                        cpp_list(in.dd), cpp_list(in.dtest), cpp_list(in.cc), fmt::join(in.id, ", "),
+                        fmt::join(in.isep, ", "), fmt::join(in.isurf, ", "), in.dof.indof, in.dof.ndofpn,
+                        cpp_number(c.leader[i].smin));
     for (std::size_t pair = 0; pair < in.pairs(); ++pair)
       text += fmt::format("    CHECK(contct::outside::same_bits(out.ss[{}], {}));\n", pair,
                           cpp_number(c.leader[i].ss[pair]));
-    text += fmt::format("    CHECK(out.isep == std::vector<int>{});\n  }}\n", cpp_list(c.leader[i].isep));
+    text += fmt::format("    CHECK(out.isep == std::vector<int>{{{}}});\n  }}\n",
+                        fmt::join(c.leader[i].isep, ", "));
   }
   return text + "}\n";
 }
