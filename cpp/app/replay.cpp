@@ -1,6 +1,4 @@
 // contct replay, and contct-replay: recorded calls put to a kernel. Neither LAPACK nor finite elements.
-#include "contct/compare/replay.hpp"
-
 #include <fmt/format.h>
 
 #include <chrono>
@@ -11,6 +9,7 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/streams.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"

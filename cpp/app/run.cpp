@@ -16,7 +16,7 @@
 #include "app/problem_progress.hpp"
 #include "app/run_pictures.hpp"
 #include "app/streams.hpp"
-#include "contct/certify/final_state.hpp"
+#include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
 #include "contct/compare/path_observers.hpp"
 #include "contct/matrix/lapack.hpp"

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "compare/other_compiler.hpp"
-#include "contct/compare/replay.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/outside/registry.hpp"
 
 using namespace contct::app;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/compare/explained_path.hpp"
-#include "contct/compare/replay.hpp"
 #include "support/beams.hpp"
 
 using namespace contct::app;

@@ -101,11 +101,11 @@ std::ostream& operator<<(std::ostream& out, const tally& t) {
              << t.most_increments << " increments, factor " << t.factor;
 }
 
-tally try_problems(std::uint64_t seed, std::uint64_t problems, const random_problem_kind& kind,
+tally try_problems(std::uint64_t seed, std::uint64_t count, const random_problem_kind& kind,
                    const char* leader) {
   tally all;
   const auto k = make_kernel(leader);
-  for (std::uint64_t number = 0; number < problems; ++number) {
+  for (std::uint64_t number = 0; number < count; ++number) {
     const random_problem p = make_random_problem(seed, number, kind);
     const problem_result t = try_problem(p, *k);
     all.add(p, t);

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "contct/compare/compare.hpp"
-#include "contct/compare/replay.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"

@@ -1,8 +1,9 @@
-// Tier 1: are two answers to one call equal to the bit? And a kernel that is asked each call of a leader
-// after it.
+// Tier 1: are two answers to one call equal to the bit? A kernel that is asked each call of a leader after
+// it, or each recorded call.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,9 +11,8 @@
 #include <vector>
 
 #include "contct/compare/branches.hpp"
-#include "contct/kernel/call_inputs.hpp"
-#include "contct/kernel/kernel.hpp"
 #include "contct/numeric/bits.hpp"
+#include "contct/trace/trace.hpp"
 
 namespace contct::compare {
 
@@ -134,5 +134,22 @@ class follower {
   std::optional<mismatch> difference_;
   std::optional<mismatch_report> first_;
 };
+
+/// The result of a replay.
+struct replay_report {
+  std::int64_t calls = 0;
+  tally compared;
+  branch_counts branches;
+  std::optional<mismatch_report> first;  ///< the first difference
+};
+
+/// Can a kernel with these facts be compared with the trace? Not with another precision or rule.
+[[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
+
+/// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
+/// both have it, by what it means where one of them is f2c. `progress` gets the number of calls done, after
+/// each. Throws input_error where the trace is malformed.
+[[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
+                                   const std::function<void(std::int64_t)>& progress = nullptr);
 
 }  // namespace contct::compare

@@ -102,20 +102,6 @@ std::vector<atlas_cell> atlas_cells() {
   return cells;
 }
 
-std::vector<atlas_cell> over_unit(const atlas& a, bool held) {
-  std::vector<atlas_cell> cells = a.cells;
-  std::erase_if(cells, [held](const atlas_cell& c) { return c.held != held || c.has_other_epsmul(); });
-  return cells;
-}
-
-std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit) {
-  std::vector<atlas_cell> cells = a.cells;
-  std::erase_if(cells, [held, unit](const atlas_cell& c) {
-    return c.held != held || c.kernel != "fortran" || c.unit != unit;
-  });
-  return cells;
-}
-
 void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried) {
   random_problem_kind kind;
   kind.least_unit = kind.most_unit = c.unit;

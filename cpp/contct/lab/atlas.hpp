@@ -77,12 +77,6 @@ struct atlas {
   std::vector<atlas_cell> cells;
 };
 
-/// The cells with EPSMUL as printed, or without any: kernels over the unit of length. In order.
-[[nodiscard]] std::vector<atlas_cell> over_unit(const atlas& a, bool held);
-
-/// The cells of the 8-byte listing in one unit, the printed EPSMUL first.
-[[nodiscard]] std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit);
-
 /// Try the problems of a cell, numbers 0 and up of the seed: in every cell of a kind they are the same
 /// problems in another unit. `tried` is called after each.
 void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried = nullptr);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -12,6 +14,25 @@ namespace contct::lab {
 namespace {
 
 using json = nlohmann::ordered_json;
+
+template <class Wanted>
+std::vector<atlas_cell> cells_that(const atlas& a, Wanted wanted) {
+  std::vector<atlas_cell> cells;
+  std::ranges::copy_if(a.cells, std::back_inserter(cells), wanted);
+  return cells;
+}
+
+/// The cells with EPSMUL as printed, or without any: kernels over the unit of length. In order.
+std::vector<atlas_cell> over_unit(const atlas& a, bool held) {
+  return cells_that(a, [held](const atlas_cell& c) { return c.held == held && !c.has_other_epsmul(); });
+}
+
+/// The cells of the 8-byte listing in one unit, the printed EPSMUL first.
+std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit) {
+  return cells_that(a, [held, unit](const atlas_cell& c) {
+    return c.held == held && c.kernel == "fortran" && c.unit == unit;
+  });
+}
 
 /// A cell without EPSMUL, or without errors, has null there.
 json cell_json(const atlas_cell& c) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
-#include "contct/compare/lockstep.hpp"
 #include "contct/kernel/contct.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/lab/random_problem.hpp"
@@ -17,99 +17,6 @@ namespace {
 constexpr std::size_t calls_in_a_block = 2048;
 constexpr std::uint64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
 constexpr std::uint64_t few_ulps = 64;
-
-class call_campaign {
- public:
-  call_campaign(const std::string& leader, const std::vector<std::string>& followers, std::uint64_t seed)
-      : source_(seed, facts_of_kernel(leader).real_bytes) {
-    for (const std::string& name : followers) refuse_unequal(facts_of_kernel(leader), facts_of_kernel(name));
-    leader_ = make_kernel(leader);
-    for (const std::string& name : followers) {
-      kernels_.push_back(make_kernel(name));
-      followers_.emplace_back(leader_->facts(), *kernels_.back());
-    }
-    result_.each.resize(followers.size());
-  }
-
-  campaign_result run(std::uint64_t first, std::uint64_t last, std::uint64_t stride,
-                      const std::function<void(std::int64_t)>& progress) {
-    for (std::uint64_t number = first; number <= last; number += stride) {
-      put(number);
-      if (block_.size() < calls_in_a_block) continue;
-      compare_texts();
-      if (progress) progress(result_.calls);
-    }
-    compare_texts();
-    for (std::size_t f = 0; f < followers_.size(); ++f) conclude(followers_[f], stride, result_.each[f]);
-    return std::move(result_);
-  }
-
- private:
-  void put(std::uint64_t number) {
-    const call_inputs<double>& in = source_.at(number);
-    call<double> answered = leader_outputs_.prepare(in);
-    leader_->answer(answered);
-    result_.count(answered, in.isep);
-    for (std::size_t f = 0; f < followers_.size(); ++f) {
-      if (followers_[f].ask(static_cast<std::int64_t>(number), answered, in.isep, std::nullopt))
-        result_.each[f].note_difference(answered, followers_[f]);
-    }
-    block_.push_back(number);
-  }
-
-  /// Compare unit 26 of all the calls since the last time.
-  void compare_texts() {
-    const std::string text = leader_->take_text();
-    for (follower& f : followers_) {
-      const std::string its_text = f.asked().take_text();
-      const bool both = leader_->facts().has_text && f.asked().facts().has_text;
-      if (!both || block_.empty()) continue;
-      tally whole;
-      if (compare_text(text, its_text, whole, f.equality()))
-        find_text_difference(f);
-      else
-        f.compared.values += static_cast<std::int64_t>(block_.size());
-    }
-    block_.clear();
-  }
-
-  /// Put the block once more, and compare the text call by call.
-  void find_text_difference(follower& f) {
-    call_outputs its_outputs;
-    for (const std::uint64_t number : block_) {
-      const call_inputs<double>& in = source_.at(number);
-      call<double> answered = leader_outputs_.prepare(in);
-      leader_->answer(answered);
-      const std::string text = leader_->take_text();
-      call<double> asked = its_outputs.prepare(in);
-      try {
-        f.asked().answer(asked);
-      } catch (const kernel_failure&) {
-        continue;  // counted already
-      }
-      if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
-        f.note(static_cast<std::int64_t>(number), *found, answered, in.isep);
-    }
-  }
-
-  /// The first mismatch, and the calls up to it.
-  void conclude(const follower& f, std::uint64_t stride, follower_result& r) {
-    r.compared = f.compared;
-    r.first = f.first();
-    if (!r.first) return;
-    const auto number = static_cast<std::uint64_t>(r.first->call);
-    const std::uint64_t before = std::min(most_calls_before, (number - 1) / stride);
-    for (std::uint64_t k = before + 1; k-- > 0;) r.calls.push_back(source_.at(number - k * stride));
-  }
-
-  std::unique_ptr<kernel> leader_;
-  std::vector<std::unique_ptr<kernel>> kernels_;
-  std::vector<follower> followers_;
-  call_source source_;
-  call_outputs leader_outputs_;
-  std::vector<std::uint64_t> block_;  // numbers of the calls whose text is not yet compared
-  campaign_result result_;
-};
 
 /// Problems small enough that thousands of them are quick.
 random_problem_kind quick_problems() {
@@ -125,32 +32,126 @@ call_inputs<double> inputs_of(const answered_call& c) {
           owned(c.isep_before), owned(c.c.isurf), c.c.dof};
 }
 
-/// Counts what the leader did and what the lockstep before it found, and keeps the calls up to each
-/// follower's first mismatch.
-class problem_watcher final : public observer {
+/// A leader and its followers, and what comes of the calls that they are put. Observes a path of the leader.
+class contest : public observer {
  public:
-  problem_watcher(campaign_result& p, const lockstep& compared) : p_(p), compared_(compared) {
-    p.each.resize(compared.followers().size());
+  contest(const std::string& leader, const std::vector<std::string>& followers) {
+    for (const std::string& name : followers) refuse_unequal(facts_of_kernel(leader), facts_of_kernel(name));
+    leader_ = make_kernel(leader);
+    for (const std::string& name : followers) {
+      kernels_.push_back(make_kernel(name));
+      followers_.emplace_back(leader_->facts(), *kernels_.back());
+    }
+    result_.each.resize(followers.size());
   }
 
   void called(const answered_call& c) override {
-    p_.count(c.c, c.isep_before);
-    calls_.push_back(inputs_of(c));
-    for (std::size_t f = 0; f < p_.each.size(); ++f) {
-      const follower& asked = compared_.followers()[f];
-      p_.each[f].compared = asked.compared;
-      if (!asked.difference()) continue;
-      p_.each[f].note_difference(c.c, asked);
-      if (p_.each[f].first) continue;
-      p_.each[f].first = asked.first();
-      p_.each[f].calls = calls_;
+    path_.push_back(inputs_of(c));
+    const bool has_text = leader_->facts().has_text;
+    compare(std::ssize(path_), c.c, c.isep_before, has_text ? std::optional(c.text) : std::nullopt);
+  }
+
+  void compare(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
+               std::optional<std::string_view> text) {
+    result_.count(answered, isep_before);
+    for (std::size_t f = 0; f < followers_.size(); ++f) {
+      if (followers_[f].ask(number, answered, isep_before, text))
+        result_.each[f].note_difference(answered, followers_[f]);
     }
   }
 
+  /// `up_to(number)`: the calls up to that one.
+  template <class Calls>
+  campaign_result conclude(Calls up_to) {
+    for (std::size_t f = 0; f < followers_.size(); ++f) {
+      follower_result& r = result_.each[f];
+      r.compared = followers_[f].compared;
+      r.first = followers_[f].first();
+      if (r.first) r.calls = up_to(r.first->call);
+    }
+    return std::move(result_);
+  }
+
+  [[nodiscard]] kernel& leader() { return *leader_; }
+  [[nodiscard]] std::vector<follower>& followers() { return followers_; }
+  [[nodiscard]] std::int64_t calls() const { return result_.calls; }
+  /// The calls of the path.
+  [[nodiscard]] const call_sequence& path() const { return path_; }
+
  private:
-  campaign_result& p_;
-  const lockstep& compared_;
-  call_sequence calls_;
+  std::unique_ptr<kernel> leader_;
+  std::vector<std::unique_ptr<kernel>> kernels_;
+  std::vector<follower> followers_;
+  call_sequence path_;
+  campaign_result result_;
+};
+
+/// A contest on calls of a source.
+class call_campaign : contest {
+ public:
+  call_campaign(const std::string& leader, const std::vector<std::string>& followers, std::uint64_t seed)
+      : contest(leader, followers), source_(seed, this->leader().facts().real_bytes) {}
+
+  campaign_result run(std::uint64_t first, std::uint64_t last, std::uint64_t stride,
+                      const std::function<void(std::int64_t)>& progress) {
+    for (std::uint64_t number = first; number <= last; number += stride) {
+      const call_inputs<double>& in = source_.at(number);
+      call<double> answered = outputs_.prepare(in);
+      leader().answer(answered);
+      compare(static_cast<std::int64_t>(number), answered, in.isep, std::nullopt);
+      block_.push_back(number);
+      if (block_.size() < calls_in_a_block) continue;
+      compare_texts();
+      if (progress) progress(calls());
+    }
+    compare_texts();
+    return conclude([&](std::uint64_t number) {
+      call_sequence up_to;
+      const std::uint64_t before = std::min(most_calls_before, (number - 1) / stride);
+      for (std::uint64_t k = before + 1; k-- > 0;) up_to.push_back(source_.at(number - k * stride));
+      return up_to;
+    });
+  }
+
+ private:
+  /// Compare unit 26 of all the calls since the last time.
+  void compare_texts() {
+    const std::string text = leader().take_text();
+    for (follower& f : followers()) {
+      const std::string its_text = f.asked().take_text();
+      const bool both = leader().facts().has_text && f.asked().facts().has_text;
+      if (!both || block_.empty()) continue;
+      tally whole;
+      if (compare_text(text, its_text, whole, f.equality()))
+        find_text_difference(f);
+      else
+        f.compared.values += static_cast<std::int64_t>(block_.size());
+    }
+    block_.clear();
+  }
+
+  /// Put the block once more, and compare the text call by call.
+  void find_text_difference(follower& f) {
+    call_outputs its_outputs;
+    for (const std::uint64_t number : block_) {
+      const call_inputs<double>& in = source_.at(number);
+      call<double> answered = outputs_.prepare(in);
+      leader().answer(answered);
+      const std::string text = leader().take_text();
+      call<double> asked = its_outputs.prepare(in);
+      try {
+        f.asked().answer(asked);
+      } catch (const kernel_failure&) {
+        continue;  // counted already
+      }
+      if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
+        f.note(static_cast<std::int64_t>(number), *found, answered, in.isep);
+    }
+  }
+
+  call_source source_;
+  call_outputs outputs_;              // of the leader
+  std::vector<std::uint64_t> block_;  // numbers of the calls whose text is not yet compared
 };
 
 class fuzzing {
@@ -299,12 +300,11 @@ campaign_result follow_in_lockstep(std::uint64_t seed, std::uint64_t number, con
                                    const std::vector<std::string>& followers) {
   const random_problem p = make_random_problem(seed, number, quick_problems());
   const linear_structure s = build(p.geometry, p.supports, p.pairs);
-  const std::unique_ptr<kernel> leads = make_kernel(leader);
-  campaign_result out;
-  lockstep compared = make_lockstep(leads->facts(), followers);
-  problem_watcher watches(out, compared);
-  (void)follow_steps(p.geometry, s, p.steps, "refactor", *leads, std::vector<observer*>{&compared, &watches});
-  return out;
+  contest watched(leader, followers);
+  (void)follow_steps(p.geometry, s, p.steps, "refactor", watched.leader(), std::vector<observer*>{&watched});
+  return watched.conclude([&calls = watched.path()](std::int64_t number) {
+    return call_sequence(calls.begin(), calls.begin() + number);
+  });
 }
 
 bool certified_as_leader(std::uint64_t seed, std::uint64_t number, const std::string& leader,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "contct/certify/final_state.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/path/solve_problem.hpp"

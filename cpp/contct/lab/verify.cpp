@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "contct/certify/final_state.hpp"
 #include "contct/compare/lockstep.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
