@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/random.hpp"
@@ -252,21 +251,9 @@ class drawing {
   double common_gap_ = 0.0;
 };
 
-/// Counts what happens on a path.
-class counter final : public observer {
- public:
-  explicit counter(problem_result& t) : t_(t) {}
-
-  void incremented(const increment& i) override {
-    ++t_.increments;
-    t_.at_rest += i.s == 0.0 ? 1 : 0;
-    t_.snaps += i.snaps ? 1 : 0;
-    for (const event& e : i.events) ++(e.what == change::make ? t_.makes : t_.breaks);
-  }
-  void step_ended(const step_state& s) override { t_.fallbacks += s.from_fallback ? 1 : 0; }
-
- private:
-  problem_result& t_;
+struct increment_counter final : observer {
+  int increments = 0;
+  void incremented(const increment& /*i*/) override { ++increments; }
 };
 
 verdict judge(const path_end& end, const certifier& judged, const load_history& total,
@@ -287,13 +274,9 @@ random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
 }
 
 void problem_result::add(const certificate& c) {
-  const double worst =
-      std::max({c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension});
   displacement_error = std::max(displacement_error, c.displacement_error);
   length_error = std::max({length_error, c.displacement_error, c.penetration, c.tension});
-  needed = std::max(needed, worst);
-  factor = std::max(factor, worst / (std::numeric_limits<double>::epsilon() / c.rcond));
-  ++steps;
+  certificates.push_back(c);
   uncertified += c.exact ? 0 : 1;
   unfounded += c.unfounded ? 1 : 0;
 }
@@ -303,19 +286,20 @@ problem_result try_problem(const random_problem& p, kernel& leader, std::string_
 }
 
 problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
-                             std::string_view engine) {
+                             std::string_view engine, std::vector<observer*> watching) {
   const load_history total = [&p](int step, std::span<double> f) {
     add_consistent_loads(p.geometry, p.steps[step - 1], f);
   };
   problem_result t;
-  counter counts(t);
+  increment_counter counted;
   certifier judged(s, total);
-  observer* const observers[] = {&counts, &judged};
+  watching.insert(watching.end(), {&counted, &judged});
   path_limits limits;
   limits.fallback = fallback_to_reference(s);
-  const path_end end = follow_steps(p.geometry, s, p.steps, engine, leader, observers, limits);
+  const path_end end = follow_steps(p.geometry, s, p.steps, engine, leader, watching, limits);
   for (const auto& c : judged.steps())
     if (c) t.add(*c);
+  t.increments = counted.increments;
   t.came_to = judge(end, judged, total, s);
   return t;
 }

@@ -54,15 +54,9 @@ struct problem_result {
   verdict came_to = verdict::no_end;
   double displacement_error = 0.0;  ///< the worst of any step, relative to the largest deflection
   double length_error = 0.0;        ///< of that, and of how far pairs are on the wrong side of their faces
-  double needed = 0.0;              ///< the worst of all that a certificate measures
-  double factor = 0.0;              ///< the worst of that in eps / rcond: what C would have to be
-  int steps = 0;                    ///< certified or judged
-  int uncertified = 0;              ///< of these
-  int unfounded = 0;                ///< and of these: an equilibrium is claimed where there is none
-  int makes = 0, breaks = 0;
-  int at_rest = 0;    ///< increments without progress
-  int snaps = 0;      ///< rigid, at constant load
-  int fallbacks = 0;  ///< steps that the reference solution ended
+  std::vector<certificate> certificates = {};  ///< of the steps that reached their load
+  int uncertified = 0;                         ///< of these
+  int unfounded = 0;  ///< and of these: an equilibrium is claimed where there is none
   int increments = 0;
 
   /// Take the certificate of one more step into account.
@@ -76,6 +70,6 @@ struct problem_result {
 
 /// The same on `s`, which is p's structure, however its stiffness is stored.
 [[nodiscard]] problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
-                                           std::string_view engine);
+                                           std::string_view engine, std::vector<observer*> watching = {});
 
 }  // namespace contct::lab
