@@ -8,7 +8,7 @@
 
 #include "app/examples.hpp"
 #include "app/usage.hpp"
-#include "contct/kernel/built_in.hpp"
+#include "contct/kernel/kernel.hpp"
 #include "contct/path/path.hpp"
 #include "contct/text/joined.hpp"
 

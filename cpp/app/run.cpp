@@ -18,7 +18,7 @@
 #include "app/streams.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
-#include "contct/compare/path_observers.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "contct/matrix/lapack.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/kernel/built_in.hpp"
+#include "contct/kernel/kernel.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/compare/path_observers.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "support/beams.hpp"
 #include "support/followed.hpp"
 

@@ -1,11 +1,10 @@
 // What observes a path: the explanation of its calls, the toggles that came too early, and its trace.
-#include "contct/compare/path_observers.hpp"
-
 #include <cmath>
 
 #include "catch.hpp"
 #include "contct/compare/compare.hpp"
 #include "contct/compare/explained_path.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "support/beams.hpp"
 
 using namespace contct::app;

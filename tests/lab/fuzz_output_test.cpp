@@ -24,8 +24,11 @@ fuzz_result shard(int number, equality_level highest) {
   r.seconds = 0.5;
   r.events = {1, 2, 3};
   r.branches.of(branch::no_events, true) += 7;
-  r.followers.push_back(
-      {"cpp", {1000 * number, number - 1}, highest, 5U * static_cast<unsigned>(number), {}});
+  fuzz_follower& f = r.followers.emplace_back();
+  f.name = "cpp";
+  f.compared = {1000 * number, number - 1};
+  f.highest = highest;
+  f.most_ulps = 5U * static_cast<unsigned>(number);
   if (number == 2) r.followers[0].mismatch_reports = {"call 3: cpp differs"};
   return r;
 }

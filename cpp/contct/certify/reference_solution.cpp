@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "contct/matrix/stiffness_factor.hpp"
 
@@ -22,9 +23,7 @@ void multiply_minus(const stiffness_matrix& k, const std::vector<long double>& x
 }
 
 long double dot(const std::vector<long double>& a, const std::vector<long double>& b) {
-  long double sum = 0.0L;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0L);
 }
 
 }  // namespace
@@ -116,18 +115,6 @@ class reference_solver::search {
     return holds(firm, rank);
   }
 
-  /// Is the load's work on this motion more than the rounding of its sums?
-  bool drives(const rigid_row& motion) const {
-    const double rounding = std::max(1e-12, structure_.rigid_rounding);
-    double work = 0.0;
-    double size = 0.0;
-    for (std::size_t m = 0; m < motion.size(); ++m) {
-      work = std::max(work, std::abs(motion[m]));
-      size = std::max(size, resultant_size_[m]);
-    }
-    return work > rounding * size;
-  }
-
   /// Does no open pair stand in the way of this rigid motion?
   bool nothing_stops(const numbers& motion) const {
     const long double rounding = std::max(1e-10, structure_.rigid_rounding);
@@ -143,7 +130,8 @@ class reference_solver::search {
   /// p = the rigid motion that the load drives and no held dof stops; false when it drives none.
   bool rigid_direction(const rigid_rank& rank, numbers& p) const {
     const rigid_row motion = rank.free_part(resultant_);
-    if (!drives(motion)) return false;
+    const double rounding = std::max(1e-12, structure_.rigid_rounding);  // of the sums of the load's work
+    if (!(largest_of(motion) > rounding * largest_of(resultant_size_))) return false;
     for (int dof = 0; dof < structure_.dofs(); ++dof) {
       long double along = 0.0L;
       for (std::size_t m = 0; m < motion.size(); ++m) along += motion[m] * structure_.rigid_rows[dof][m];

@@ -46,14 +46,6 @@ double relative_difference(const path_record& leader, const path_record& other, 
 
 }  // namespace
 
-void path_record::incremented(const increment& i) {
-  for (const event& e : i.events) events.push_back({i.step, i.fraction, e});
-}
-
-void path_record::step_ended(const step_state& s) {
-  displacement.emplace_back(s.displacement.begin(), s.displacement.end());
-}
-
 double free_run_bound(const kernel_facts& leader, const kernel_facts& other) {
   return leader.real_bytes == other.real_bytes && leader.rule == other.rule ? 1e-9 : 1e-4;
 }

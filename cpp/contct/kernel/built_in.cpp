@@ -1,5 +1,3 @@
-#include "contct/kernel/built_in.hpp"
-
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "contct/kernel/contct.hpp"
 #include "contct/kernel/corrected.hpp"
 #include "contct/kernel/fortran.hpp"
+#include "contct/kernel/kernel.hpp"
 #include "contct/kernel/log_text.hpp"
 
 namespace contct::kernels {

@@ -21,9 +21,11 @@ struct compiled_listing {
   const char* flags;     ///< for people
   bool text_by_meaning;  ///< its run-time library may write .25 for 0.25
   call_r8* call;
-  log_open* open;
-  log_act *flush, *rewind, *close;
-  bool unit_26_is_open = false;
+  struct {
+    log_open* open;
+    log_act *flush, *rewind, *close;
+    bool is_open = false;
+  } log;  ///< unit 26
 };
 
 extern compiled_listing gfortran;

@@ -33,76 +33,68 @@ call_inputs<double> inputs_of(const answered_call& c) {
 }
 
 /// A leader and its followers, and what comes of the calls that they are put. Observes a path of the leader.
-class contest : public observer {
- public:
-  contest(const std::string& leader, const std::vector<std::string>& followers) {
-    for (const std::string& name : followers) refuse_unequal(facts_of_kernel(leader), facts_of_kernel(name));
-    leader_ = make_kernel(leader);
-    for (const std::string& name : followers) {
-      kernels_.push_back(make_kernel(name));
-      followers_.emplace_back(leader_->facts(), *kernels_.back());
+struct contest : observer {
+  std::unique_ptr<kernel> leader;
+  std::vector<std::unique_ptr<kernel>> kernels;
+  std::vector<follower> followers;
+  call_sequence path;  ///< the calls that were observed
+  campaign_result result;
+
+  contest(const std::string& leads, const std::vector<std::string>& follow) {
+    for (const std::string& name : follow) refuse_unequal(facts_of_kernel(leads), facts_of_kernel(name));
+    leader = make_kernel(leads);
+    for (const std::string& name : follow) {
+      kernels.push_back(make_kernel(name));
+      followers.emplace_back(leader->facts(), *kernels.back());
     }
-    result_.each.resize(followers.size());
+    result.each.resize(follow.size());
   }
 
   void called(const answered_call& c) override {
-    path_.push_back(inputs_of(c));
-    const bool has_text = leader_->facts().has_text;
-    compare(std::ssize(path_), c.c, c.isep_before, has_text ? std::optional(c.text) : std::nullopt);
+    path.push_back(inputs_of(c));
+    const bool has_text = leader->facts().has_text;
+    compare(std::ssize(path), c.c, c.isep_before, has_text ? std::optional(c.text) : std::nullopt);
   }
 
   void compare(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
                std::optional<std::string_view> text) {
-    result_.count(answered, isep_before);
-    for (std::size_t f = 0; f < followers_.size(); ++f) {
-      if (followers_[f].ask(number, answered, isep_before, text))
-        result_.each[f].note_difference(answered, followers_[f]);
+    result.count(answered, isep_before);
+    for (std::size_t f = 0; f < followers.size(); ++f) {
+      if (followers[f].ask(number, answered, isep_before, text))
+        result.each[f].note_difference(answered, followers[f]);
     }
   }
 
   /// `up_to(number)`: the calls up to that one.
   template <class Calls>
   campaign_result conclude(Calls up_to) {
-    for (std::size_t f = 0; f < followers_.size(); ++f) {
-      follower_result& r = result_.each[f];
-      r.compared = followers_[f].compared;
-      r.first = followers_[f].first();
+    for (std::size_t f = 0; f < followers.size(); ++f) {
+      follower_result& r = result.each[f];
+      r.compared = followers[f].compared;
+      r.first = followers[f].first();
       if (r.first) r.calls = up_to(r.first->call);
     }
-    return std::move(result_);
+    return std::move(result);
   }
-
-  [[nodiscard]] kernel& leader() { return *leader_; }
-  [[nodiscard]] std::vector<follower>& followers() { return followers_; }
-  [[nodiscard]] std::int64_t calls() const { return result_.calls; }
-  /// The calls of the path.
-  [[nodiscard]] const call_sequence& path() const { return path_; }
-
- private:
-  std::unique_ptr<kernel> leader_;
-  std::vector<std::unique_ptr<kernel>> kernels_;
-  std::vector<follower> followers_;
-  call_sequence path_;
-  campaign_result result_;
 };
 
 /// A contest on calls of a source.
 class call_campaign : contest {
  public:
-  call_campaign(const std::string& leader, const std::vector<std::string>& followers, std::uint64_t seed)
-      : contest(leader, followers), source_(seed, this->leader().facts().real_bytes) {}
+  call_campaign(const std::string& leads, const std::vector<std::string>& follow, std::uint64_t seed)
+      : contest(leads, follow), source_(seed, leader->facts().real_bytes) {}
 
   campaign_result run(std::uint64_t first, std::uint64_t last, std::uint64_t stride,
                       const std::function<void(std::int64_t)>& progress) {
     for (std::uint64_t number = first; number <= last; number += stride) {
       const call_inputs<double>& in = source_.at(number);
       call<double> answered = outputs_.prepare(in);
-      leader().answer(answered);
+      leader->answer(answered);
       compare(static_cast<std::int64_t>(number), answered, in.isep, std::nullopt);
       block_.push_back(number);
       if (block_.size() < calls_in_a_block) continue;
       compare_texts();
-      if (progress) progress(calls());
+      if (progress) progress(result.calls);
     }
     compare_texts();
     return conclude([&](std::uint64_t number) {
@@ -116,10 +108,10 @@ class call_campaign : contest {
  private:
   /// Compare unit 26 of all the calls since the last time.
   void compare_texts() {
-    const std::string text = leader().take_text();
-    for (follower& f : followers()) {
+    const std::string text = leader->take_text();
+    for (follower& f : followers) {
       const std::string its_text = f.asked().take_text();
-      const bool both = leader().facts().has_text && f.asked().facts().has_text;
+      const bool both = leader->facts().has_text && f.asked().facts().has_text;
       if (!both || block_.empty()) continue;
       tally whole;
       if (compare_text(text, its_text, whole, f.equality()))
@@ -136,8 +128,8 @@ class call_campaign : contest {
     for (const std::uint64_t number : block_) {
       const call_inputs<double>& in = source_.at(number);
       call<double> answered = outputs_.prepare(in);
-      leader().answer(answered);
-      const std::string text = leader().take_text();
+      leader->answer(answered);
+      const std::string text = leader->take_text();
       call<double> asked = its_outputs.prepare(in);
       try {
         f.asked().answer(asked);
@@ -159,14 +151,14 @@ class fuzzing {
   fuzzing(const fuzz_request& r, const fuzz_progress& progress)
       : request_(r), progress_(progress), followers_(r.kernels.begin() + 1, r.kernels.end()) {
     run_.result.request = r;
-    totals_.resize(followers_.size());
+    for (const std::string& name : followers_) run_.result.followers.emplace_back().name = name;
   }
 
   fuzz_run run() {
     const auto started = std::chrono::steady_clock::now();
     compare_calls();
     compare_problems();
-    for (std::size_t f = 0; f < followers_.size(); ++f) conclude(f);
+    for (fuzz_follower& f : run_.result.followers) conclude(f);
     run_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return std::move(run_);
   }
@@ -174,7 +166,7 @@ class fuzzing {
  private:
   void add(const campaign_result& r) {
     run_.result.add(r);
-    for (std::size_t f = 0; f < totals_.size(); ++f) totals_[f].add(r.each[f]);
+    for (std::size_t f = 0; f < followers_.size(); ++f) run_.result.followers[f].add(r.each[f]);
   }
 
   void compare_calls() {
@@ -197,16 +189,15 @@ class fuzzing {
   }
 
   /// The result of a follower: its level of equality, and its first mismatch made small.
-  void conclude(std::size_t f) {
-    const follower_result& total = totals_[f];
-    run_.result.followers.push_back({followers_[f], total.compared, level_of(f), total.most_ulps, {}});
+  void conclude(fuzz_follower& total) {
+    total.highest = level_of(total);
     if (!total.first) return;
-    std::vector<std::string>& lines = run_.result.followers.back().mismatch_reports;
+    std::vector<std::string>& lines = total.mismatch_reports;
     lines = words_of(*total.first);
     const std::unique_ptr<kernel> leader = make_kernel(request_.kernels[0]);
     const std::string& field = total.first->where.field;
     const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs takes its time for every try
-    if (auto small = shrunk_case(*leader, followers_[f], total.calls, field, most_tries)) {
+    if (auto small = shrunk_case(*leader, total.name, total.calls, field, most_tries)) {
       lines.push_back("shrunk to " + std::to_string(small->calls.size()) + " call(s), " +
                       std::to_string(small->calls.back().pairs()) + " pair(s): " + words_of(small->what)[0]);
       run_.cases.push_back(std::move(*small));
@@ -216,31 +207,29 @@ class fuzzing {
     }
   }
 
-  equality_level level_of(std::size_t f) {
-    const follower_result& total = totals_[f];
+  equality_level level_of(const fuzz_follower& total) {
     if (total.compared.mismatches == 0) return equality_level::bits;
     if (total.always_answered && total.same_events)
       return total.most_ulps <= few_ulps ? equality_level::ulps : equality_level::events;
-    return certified_paths(f) ? equality_level::certificate : equality_level::none;
+    return certified_paths(total) ? equality_level::certificate : equality_level::none;
   }
 
   /// Are the follower's own paths certified: of the first problems, and of those in which a follower
   /// differed?
-  bool certified_paths(std::size_t f) {
+  bool certified_paths(const fuzz_follower& total) {
     constexpr std::int64_t enough = 20;
-    if (request_.problems == 0 || !totals_[f].always_answered) return false;
+    if (request_.problems == 0 || !total.always_answered) return false;
     std::vector<std::int64_t> asked = differing_problems_;
     for (std::int64_t n = 1; n <= std::min(enough, request_.problems); ++n) asked.push_back(n);
     asked.resize(std::min<std::size_t>(asked.size(), 2 * enough));
     return std::all_of(asked.begin(), asked.end(), [&](std::int64_t n) {
-      return certified_as_leader(request_.seed, n, request_.kernels[0], followers_[f]);
+      return certified_as_leader(request_.seed, n, request_.kernels[0], total.name);
     });
   }
 
   const fuzz_request& request_;
   const fuzz_progress& progress_;
   std::vector<std::string> followers_;
-  std::vector<follower_result> totals_;  // [followers]
   std::vector<std::int64_t> differing_problems_;
   fuzz_run run_;
 };
@@ -301,9 +290,9 @@ campaign_result follow_in_lockstep(std::uint64_t seed, std::uint64_t number, con
   const random_problem p = make_random_problem(seed, number, quick_problems());
   const linear_structure s = build(p.geometry, p.supports, p.pairs);
   contest watched(leader, followers);
-  (void)follow_steps(p.geometry, s, p.steps, "refactor", watched.leader(), std::vector<observer*>{&watched});
-  return watched.conclude([&calls = watched.path()](std::int64_t number) {
-    return call_sequence(calls.begin(), calls.begin() + number);
+  (void)follow_steps(p.geometry, s, p.steps, "refactor", *watched.leader, std::vector<observer*>{&watched});
+  return watched.conclude([&calls = watched.path](std::int64_t last) {
+    return call_sequence(calls.begin(), calls.begin() + last);
   });
 }
 

@@ -94,11 +94,9 @@ struct fuzz_request {
 };
 
 /// One follower's result.
-struct fuzz_follower {
+struct fuzz_follower : follower_result {
   std::string name;
-  tally compared;
   equality_level highest = equality_level::bits;
-  std::uint64_t most_ulps = 0;
   std::vector<std::string> mismatch_reports;  ///< the first mismatch, in lines
 };
 

@@ -97,18 +97,10 @@ class drawing {
   }
 
   Real from_the_edges() {
-    constexpr std::array edges = {Real(0),
-                                  limits::denorm_min(),
-                                  limits::min() / 2,
-                                  limits::min(),
-                                  constants<Real>::epsgap,
-                                  Real(0.5),
-                                  Real(1),
-                                  Real(3),
-                                  limits::max(),
-                                  limits::infinity(),
-                                  limits::max() / 2,
-                                  limits::quiet_NaN()};
+    constexpr Real least = limits::denorm_min(), normal = limits::min(), most = limits::max();
+    constexpr Real infinity = limits::infinity(), nan = limits::quiet_NaN(), gap = constants<Real>::epsgap;
+    constexpr std::array<Real, 12> edges = {0, least, normal / 2, normal,   gap,      0.5,
+                                            1, 3,     most,       infinity, most / 2, nan};
     const Real x = edges[random_.whole(0, edges.size() - 1)];
     return random_.chance(0.5) ? x : -x;
   }
@@ -165,18 +157,11 @@ class drawing {
   }
 
   Real scale_factor() {
-    switch (random_.whole(0, 4)) {
-      case 0:
-        return nudged(Real(256) / Real(257));
-      case 1:
-        return nudged(Real(1));
-      case 2:
-        return Real(0.5);
-      case 3:
-        return static_cast<Real>(random_.unit() * 1e-3);
-      default:
-        return static_cast<Real>(random_.unit());
-    }
+    const int how = random_.whole(0, 4);
+    if (how == 0) return nudged(Real(256) / Real(257));
+    if (how == 1) return nudged(Real(1));
+    if (how == 2) return Real(0.5);
+    return static_cast<Real>(how == 3 ? random_.unit() * 1e-3 : random_.unit());
   }
 
   random_numbers random_;

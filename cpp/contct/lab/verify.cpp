@@ -187,11 +187,6 @@ bool agrees(double measured, double value, double tolerance) {
   return std::abs(measured - value) <= tolerance * (value == 0.0 ? 1.0 : std::abs(value));
 }
 
-double verified_number::difference() const {
-  const double off = computed - expected.value;
-  return expected.value == 0.0 ? off : off / std::abs(expected.value);
-}
-
 bool verified_case::passed() const {
   return failure.empty() && !numbers.empty() &&
          std::all_of(numbers.begin(), numbers.end(), [](const verified_number& n) { return n.passed; });

@@ -2,6 +2,7 @@
 // judged.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,7 +81,10 @@ struct verified_number {
   bool passed = false;     ///< see verify_case
 
   /// Of `computed` from the expected value; absolute where that is 0.
-  [[nodiscard]] double difference() const;
+  [[nodiscard]] double difference() const {
+    const double off = computed - expected.value;
+    return expected.value == 0.0 ? off : off / std::abs(expected.value);
+  }
 };
 
 /// A problem file, and all its numbers.

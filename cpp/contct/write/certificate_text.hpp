@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/path_observers.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct::write {

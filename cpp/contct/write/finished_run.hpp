@@ -7,7 +7,6 @@
 
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
-#include "contct/compare/path_observers.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/structure/problem.hpp"
