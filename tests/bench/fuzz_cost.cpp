@@ -46,7 +46,7 @@ int main() {
                        }));
     lockstep = std::min(
         lockstep, seconds_of([&] {
-          read += static_cast<double>(contct::app::put_calls("fortran", {"cpp"}, seed, 1, calls, 1).calls);
+          read += static_cast<double>(contct::app::put_calls({{"fortran", "cpp"}, calls, 0, seed}).calls);
         }));
   }
   std::printf("%llu calls: making them %.0f ms; FORTRAN alone %.0f ms; in lockstep, all in all, %.0f ms\n",

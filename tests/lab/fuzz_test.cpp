@@ -12,6 +12,11 @@ using namespace contct::app;
 
 namespace {
 
+fuzz_request request_of(std::vector<std::string> kernels, std::int64_t calls = 1, std::uint64_t seed = 1,
+                        int shard = 1, int shards = 1) {
+  return {std::move(kernels), calls, 0, seed, shard, shards};
+}
+
 /// An answered call with one pair at its face and one a unit away.
 struct two_toggles {
   std::vector<double> dd = {0.0, 0.0}, dtest = {1.0, 1.0}, cc = {1e-11, 1.0}, ss = {0.5, 0.5};
@@ -36,11 +41,11 @@ fuzz_result full_result(std::int64_t calls, std::int64_t each) {
 TEST_CASE("shards together compare the calls of the whole run") {
   std::vector<branch_counts> counts;
   std::vector<std::int64_t> calls;
-  for (const std::uint64_t stride : {1, 3}) {
+  for (const int stride : {1, 3}) {
     counts.emplace_back();
     calls.push_back(0);
-    for (std::uint64_t shard = 1; shard <= stride; ++shard) {
-      const campaign_result h = put_calls("fortran", {"cpp"}, 5, shard, 3000, stride);
+    for (int shard = 1; shard <= stride; ++shard) {
+      const campaign_result h = put_calls(request_of({"fortran", "cpp"}, 3000, 5, shard, stride));
       counts.back().add(h.branches);
       calls.back() += h.calls;
       CHECK(h.each[0].compared.mismatches == 0);
@@ -55,9 +60,9 @@ TEST_CASE("shards together compare the calls of the whole run") {
 }
 
 TEST_CASE("a campaign refuses kernels that cannot be equal") {
-  CHECK_THROWS_AS(put_calls("fortran", {"corrected"}, 1, 1, 1, 1), std::invalid_argument);
-  CHECK_THROWS_AS(put_calls("fortran", {"cpp-r4"}, 1, 1, 1, 1), std::invalid_argument);
-  CHECK_THROWS_AS(put_calls("fortran", {"nobody"}, 1, 1, 1, 1), std::invalid_argument);
+  CHECK_THROWS_AS(put_calls(request_of({"fortran", "corrected"})), std::invalid_argument);
+  CHECK_THROWS_AS(put_calls(request_of({"fortran", "cpp-r4"})), std::invalid_argument);
+  CHECK_THROWS_AS(put_calls(request_of({"fortran", "nobody"})), std::invalid_argument);
 }
 
 TEST_CASE("events are counted by kind, and those of pairs within EPSGAP of their face as stationary") {
@@ -110,17 +115,18 @@ TEST_CASE("how near a follower came is the largest distance, and whether its eve
 }
 
 TEST_CASE("a problem in lockstep has every call of its path compared, and is the same every time") {
-  const campaign_result p = follow_in_lockstep(7, 3, "fortran", {"cpp"});
+  const fuzz_request r = request_of({"fortran", "cpp"}, 1, 7);
+  const campaign_result p = follow_in_lockstep(r, 3);
   CHECK(p.calls > 1);
   REQUIRE(p.each.size() == 1);
   CHECK(p.each[0].compared.mismatches == 0);
   CHECK(p.each[0].compared.values >= 4 * p.calls);
   CHECK_FALSE(p.each[0].first);
   CHECK(p.each[0].calls.empty());
-  const campaign_result again = follow_in_lockstep(7, 3, "fortran", {"cpp"});
+  const campaign_result again = follow_in_lockstep(r, 3);
   CHECK(again.calls == p.calls);
   CHECK(again.events.make == p.events.make);
-  CHECK(certified_as_leader(7, 3, "corrected", "corrected"));
+  CHECK(certified_as_leader(request_of({"corrected", "corrected"}, 1, 7), 3, "corrected"));
 }
 
 TEST_CASE("a run is floored on calls, values, events by kind and every outcome of every IF") {

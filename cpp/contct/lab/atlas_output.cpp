@@ -106,23 +106,17 @@ std::string power_words(double power) {
   return power == 1.0 ? "1" : fmt::format("1e{:.0f}", std::log10(power));
 }
 
-std::string table_over_unit(const atlas& a, bool held) {
+std::string tables(const atlas& a, bool held) {
   std::string text = heading(held ? "Structures held by supports, by the unit of length"
                                   : "Free structures, held by their pairs alone, by the unit of length",
                              "unit", "kernel");
   for (const atlas_cell& c : over_unit(a, held)) text += row(power_words(c.unit), c.kernel, c);
-  return text;
-}
-
-std::string table_over_epsmul(const atlas& a, bool held) {
-  std::string text = heading(held ? "Structures held by supports, fortran with another EPSMUL"
-                                  : "Free structures, fortran with another EPSMUL",
-                             "EPSMUL", "");
-  for (const double unit : epsmul_units) {
-    for (const atlas_cell& c : over_epsmul(a, held, unit)) {
+  text += heading(held ? "Structures held by supports, fortran with another EPSMUL"
+                       : "Free structures, fortran with another EPSMUL",
+                  "EPSMUL", "");
+  for (const double unit : epsmul_units)
+    for (const atlas_cell& c : over_epsmul(a, held, unit))
       text += row(c.has_other_epsmul() ? power_words(c.epsmul) : "2^-8", fmt::format("unit {}", unit), c);
-    }
-  }
   return text;
 }
 
@@ -205,10 +199,7 @@ std::string words_of(const atlas_cell& c) {
 /// A band, a line and a point for each cell; `decade` is where a cell stands.
 template <class Decade>
 std::string curve(const panel& p, std::span<const atlas_cell> cells, const look& l, Decade decade) {
-  std::string upper;
-  std::string lower;
-  std::string line;
-  std::string points;
+  std::string upper, lower, line, points;
   for (const atlas_cell& c : cells) {
     const confidence sure = wilson(c.wrong, c.problems);
     const double x = p.x(decade(c));
@@ -230,7 +221,8 @@ std::string power_of_ten(int decade) {
                      std::abs(decade));
 }
 
-std::string frame(const panel& p) {
+/// A panel's frame and axes, with a tick every so many decades.
+std::string frame(const panel& p, int every) {
   std::string text = svg::rectangle(p.left, p.top, p.width, p.height, R"(fill="#ffffff" stroke="#888888")");
   constexpr std::pair<double, const char*> shares[] = {
       {1.0, "100 %"}, {0.1, "10 %"}, {0.01, "1 %"}, {0.001, "\u2264 0.1 %"}, {0.0, "none"}};
@@ -238,11 +230,6 @@ std::string frame(const panel& p) {
     text += line_between(p.left, p.y(share), p.left + p.width, p.y(share), R"(stroke="#dddddd")");
     text += text_markup(p.left - 8, p.y(share) + 4, R"(text-anchor="end")", words);
   }
-  return text;
-}
-
-std::string x_axis(const panel& p, int every) {
-  std::string text;
   for (int decade = static_cast<int>(std::ceil(p.from)); decade <= p.to; decade += every) {
     text += line_between(p.x(decade), p.bottom(), p.x(decade), p.bottom() + 5, R"(stroke="#888888")");
     text += text_markup(p.x(decade), p.bottom() + 20, R"(text-anchor="middle")", power_of_ten(decade));
@@ -251,7 +238,7 @@ std::string x_axis(const panel& p, int every) {
 }
 
 std::string unit_panel(const panel& p, const atlas& a, bool held) {
-  std::string text = frame(p) + x_axis(p, 4);
+  std::string text = frame(p, 4);
   const auto decade = [](const atlas_cell& c) { return std::log10(c.unit); };
   const std::pair<const char*, look> lines[] = {
       {"corrected", as_corrected}, {"fortran-r4", as_printed}, {"fortran", as_8_bytes}};
@@ -265,7 +252,7 @@ std::string unit_panel(const panel& p, const atlas& a, bool held) {
 
 std::string epsmul_panel(const panel& p, const atlas& a, bool held) {
   const double printed = std::log10(printed_epsmul);
-  std::string text = frame(p) + x_axis(p, 2);
+  std::string text = frame(p, 2);
   text += line_between(p.x(printed), p.top, p.x(printed), p.bottom() + 30,
                        R"(stroke="#888888" stroke-dasharray="3 3")");
   text += text_markup(p.x(printed) + 14, p.bottom() + 42, R"(text-anchor="end")",
@@ -357,7 +344,7 @@ std::string atlas_table(const atlas& a, const terminal& t) {
   std::string text = painted(t, paint::strong, "Where the 1989 code goes wrong") +
                      fmt::format("\n{} random problems a cell, seed {}; EPSMUL as printed is 2^-8 = 3.9e-3\n",
                                  a.request.problems, a.request.seed);
-  for (const bool held : {true, false}) text += table_over_unit(a, held) + table_over_epsmul(a, held);
+  for (const bool held : {true, false}) text += tables(a, held);
   int never_held = 0;
   for (const atlas_cell& c : a.cells) {
     if (c.kernel == "fortran" && !c.has_other_epsmul() && c.unit == 1.0) never_held += c.never_held;

@@ -15,7 +15,7 @@ namespace contct::lab {
 namespace {
 
 constexpr std::size_t calls_in_a_block = 2048;
-constexpr std::uint64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
+constexpr std::int64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
 constexpr std::uint64_t few_ulps = 64;
 
 /// Problems small enough that thousands of them are quick.
@@ -40,14 +40,14 @@ struct contest : observer {
   call_sequence path;  ///< the calls that were observed
   campaign_result result;
 
-  contest(const std::string& leads, const std::vector<std::string>& follow) {
-    for (const std::string& name : follow) refuse_unequal(facts_of_kernel(leads), facts_of_kernel(name));
-    leader = make_kernel(leads);
-    for (const std::string& name : follow) {
+  explicit contest(const std::vector<std::string>& names) {
+    for (const std::string& name : names) refuse_unequal(facts_of_kernel(names[0]), facts_of_kernel(name));
+    leader = make_kernel(names[0]);
+    for (const std::string& name : std::span(names).subspan(1)) {
       kernels.push_back(make_kernel(name));
       followers.emplace_back(leader->facts(), *kernels.back());
     }
-    result.each.resize(follow.size());
+    result.each.resize(followers.size());
   }
 
   void called(const answered_call& c) override {
@@ -78,85 +78,54 @@ struct contest : observer {
   }
 };
 
-/// A contest on calls of a source.
-class call_campaign : contest {
- public:
-  call_campaign(const std::string& leads, const std::vector<std::string>& follow, std::uint64_t seed)
-      : contest(leads, follow), source_(seed, leader->facts().real_bytes) {}
-
-  campaign_result run(std::uint64_t first, std::uint64_t last, std::uint64_t stride,
-                      const std::function<void(std::int64_t)>& progress) {
-    for (std::uint64_t number = first; number <= last; number += stride) {
-      const call_inputs<double>& in = source_.at(number);
-      call<double> answered = outputs_.prepare(in);
-      leader->answer(answered);
-      compare(static_cast<std::int64_t>(number), answered, in.isep, std::nullopt);
-      block_.push_back(number);
-      if (block_.size() < calls_in_a_block) continue;
-      compare_texts();
-      if (progress) progress(result.calls);
+/// Put a block of calls once more, and compare the text call by call.
+void find_text_difference(contest& c, follower& f, call_source& source, std::span<const std::int64_t> block) {
+  call_outputs outputs;
+  call_outputs its_outputs;
+  for (const std::int64_t number : block) {
+    const call_inputs<double>& in = source.at(number);
+    call<double> answered = outputs.prepare(in);
+    c.leader->answer(answered);
+    const std::string text = c.leader->take_text();
+    call<double> asked = its_outputs.prepare(in);
+    try {
+      f.asked().answer(asked);
+    } catch (const kernel_failure&) {
+      continue;  // counted already
     }
-    compare_texts();
-    return conclude([&](std::uint64_t number) {
-      call_sequence up_to;
-      const std::uint64_t before = std::min(most_calls_before, (number - 1) / stride);
-      for (std::uint64_t k = before + 1; k-- > 0;) up_to.push_back(source_.at(number - k * stride));
-      return up_to;
-    });
+    if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
+      f.note(number, *found, answered, in.isep);
   }
+}
 
- private:
-  /// Compare unit 26 of all the calls since the last time.
-  void compare_texts() {
-    const std::string text = leader->take_text();
-    for (follower& f : followers) {
-      const std::string its_text = f.asked().take_text();
-      const bool both = leader->facts().has_text && f.asked().facts().has_text;
-      if (!both || block_.empty()) continue;
-      tally whole;
-      if (compare_text(text, its_text, whole, f.equality()))
-        find_text_difference(f);
-      else
-        f.compared.values += static_cast<std::int64_t>(block_.size());
-    }
-    block_.clear();
+/// Compare unit 26 of the calls of `block`, which were put since the last time.
+void compare_texts(contest& c, call_source& source, std::span<const std::int64_t> block) {
+  const std::string text = c.leader->take_text();
+  for (follower& f : c.followers) {
+    const std::string its_text = f.asked().take_text();
+    const bool both = c.leader->facts().has_text && f.asked().facts().has_text;
+    if (!both || block.empty()) continue;
+    tally whole;
+    if (compare_text(text, its_text, whole, f.equality()))
+      find_text_difference(c, f, source, block);
+    else
+      f.compared.values += std::ssize(block);
   }
-
-  /// Put the block once more, and compare the text call by call.
-  void find_text_difference(follower& f) {
-    call_outputs its_outputs;
-    for (const std::uint64_t number : block_) {
-      const call_inputs<double>& in = source_.at(number);
-      call<double> answered = outputs_.prepare(in);
-      leader->answer(answered);
-      const std::string text = leader->take_text();
-      call<double> asked = its_outputs.prepare(in);
-      try {
-        f.asked().answer(asked);
-      } catch (const kernel_failure&) {
-        continue;  // counted already
-      }
-      if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
-        f.note(static_cast<std::int64_t>(number), *found, answered, in.isep);
-    }
-  }
-
-  call_source source_;
-  call_outputs outputs_;              // of the leader
-  std::vector<std::uint64_t> block_;  // numbers of the calls whose text is not yet compared
-};
+}
 
 class fuzzing {
  public:
-  fuzzing(const fuzz_request& r, const fuzz_progress& progress)
-      : request_(r), progress_(progress), followers_(r.kernels.begin() + 1, r.kernels.end()) {
+  fuzzing(const fuzz_request& r, const fuzz_progress& progress) : request_(r), progress_(progress) {
     run_.result.request = r;
-    for (const std::string& name : followers_) run_.result.followers.emplace_back().name = name;
+    for (const std::string& name : std::span(r.kernels).subspan(1))
+      run_.result.followers.emplace_back().name = name;
   }
 
   fuzz_run run() {
     const auto started = std::chrono::steady_clock::now();
-    compare_calls();
+    add(put_calls(request_, [this](std::int64_t done) {
+      if (progress_) progress_(done, request_.calls / request_.shards, "calls");
+    }));
     compare_problems();
     for (fuzz_follower& f : run_.result.followers) conclude(f);
     run_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -166,20 +135,12 @@ class fuzzing {
  private:
   void add(const campaign_result& r) {
     run_.result.add(r);
-    for (std::size_t f = 0; f < followers_.size(); ++f) run_.result.followers[f].add(r.each[f]);
-  }
-
-  void compare_calls() {
-    const auto told = [this](std::int64_t done) {
-      if (progress_) progress_(done, request_.calls / request_.shards, "calls");
-    };
-    add(put_calls(request_.kernels[0], followers_, request_.seed, request_.shard, request_.calls,
-                  request_.shards, told));
+    for (std::size_t f = 0; f < r.each.size(); ++f) run_.result.followers[f].add(r.each[f]);
   }
 
   void compare_problems() {
     for (std::int64_t number = request_.shard; number <= request_.problems; number += request_.shards) {
-      const campaign_result p = follow_in_lockstep(request_.seed, number, request_.kernels[0], followers_);
+      const campaign_result p = follow_in_lockstep(request_, number);
       add(p);
       for (const follower_result& its : p.each)
         if (its.first) differing_problems_.push_back(number);
@@ -222,14 +183,12 @@ class fuzzing {
     std::vector<std::int64_t> asked = differing_problems_;
     for (std::int64_t n = 1; n <= std::min(enough, request_.problems); ++n) asked.push_back(n);
     asked.resize(std::min<std::size_t>(asked.size(), 2 * enough));
-    return std::all_of(asked.begin(), asked.end(), [&](std::int64_t n) {
-      return certified_as_leader(request_.seed, n, request_.kernels[0], total.name);
-    });
+    return std::all_of(asked.begin(), asked.end(),
+                       [&](std::int64_t n) { return certified_as_leader(request_, n, total.name); });
   }
 
   const fuzz_request& request_;
   const fuzz_progress& progress_;
-  std::vector<std::string> followers_;
   std::vector<std::int64_t> differing_problems_;
   fuzz_run run_;
 };
@@ -279,27 +238,42 @@ void follower_result::add(const follower_result& other) {
   calls = other.calls;
 }
 
-campaign_result put_calls(const std::string& leader, const std::vector<std::string>& followers,
-                          std::uint64_t seed, std::uint64_t first, std::uint64_t last, std::uint64_t stride,
-                          const std::function<void(std::int64_t)>& progress) {
-  return call_campaign(leader, followers, seed).run(first, last, stride, progress);
-}
-
-campaign_result follow_in_lockstep(std::uint64_t seed, std::uint64_t number, const std::string& leader,
-                                   const std::vector<std::string>& followers) {
-  const random_problem p = make_random_problem(seed, number, quick_problems());
-  const linear_structure s = build(p.geometry, p.supports, p.pairs);
-  contest watched(leader, followers);
-  (void)follow_steps(p.geometry, s, p.steps, "refactor", *watched.leader, std::vector<observer*>{&watched});
-  return watched.conclude([&calls = watched.path](std::int64_t last) {
-    return call_sequence(calls.begin(), calls.begin() + last);
+campaign_result put_calls(const fuzz_request& r, const std::function<void(std::int64_t)>& progress) {
+  contest c(r.kernels);
+  call_source source(r.seed, c.leader->facts().real_bytes);
+  call_outputs outputs;
+  std::vector<std::int64_t> block;  // numbers of the calls whose text is not yet compared
+  for (std::int64_t number = r.shard; number <= r.calls; number += r.shards) {
+    const call_inputs<double>& in = source.at(number);
+    call<double> answered = outputs.prepare(in);
+    c.leader->answer(answered);
+    c.compare(number, answered, in.isep, std::nullopt);
+    block.push_back(number);
+    if (block.size() < calls_in_a_block) continue;
+    compare_texts(c, source, block);
+    block.clear();
+    if (progress) progress(c.result.calls);
+  }
+  compare_texts(c, source, block);
+  return c.conclude([&](std::int64_t last) {
+    call_sequence calls;
+    for (std::int64_t k = std::min(most_calls_before, (last - 1) / r.shards); k >= 0; --k)
+      calls.push_back(source.at(last - k * r.shards));
+    return calls;
   });
 }
 
-bool certified_as_leader(std::uint64_t seed, std::uint64_t number, const std::string& leader,
-                         const std::string& follower) {
-  const random_problem p = make_random_problem(seed, number, quick_problems());
-  const verdict leads = try_problem(p, *make_kernel(leader)).came_to;
+campaign_result follow_in_lockstep(const fuzz_request& r, std::int64_t number) {
+  const random_problem p = make_random_problem(r.seed, number, quick_problems());
+  const linear_structure s = build(p.geometry, p.supports, p.pairs);
+  contest c(r.kernels);
+  (void)follow_steps(p.geometry, s, p.steps, "refactor", *c.leader, std::vector<observer*>{&c});
+  return c.conclude([&c](std::int64_t last) { return call_sequence(c.path.begin(), c.path.begin() + last); });
+}
+
+bool certified_as_leader(const fuzz_request& r, std::int64_t number, const std::string& follower) {
+  const random_problem p = make_random_problem(r.seed, number, quick_problems());
+  const verdict leads = try_problem(p, *make_kernel(r.kernels[0])).came_to;
   if (leads != verdict::certified && leads != verdict::no_equilibrium) return true;
   try {
     return try_problem(p, *make_kernel(follower)).came_to == leads;

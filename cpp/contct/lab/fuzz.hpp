@@ -52,23 +52,29 @@ struct campaign_result : campaign_counts {
   std::vector<follower_result> each;  ///< [followers]
 };
 
-/// Put calls `first`, `first + stride`, ... up to `last` of `seed` to a leader and its followers. SMIN, SS
-/// and ISEP are compared at once, the unit-26 text in blocks: reading it back after every call would cost
-/// several times the call. Throws std::invalid_argument for kernels that are unknown, or of another precision
-/// or rule.
-[[nodiscard]] campaign_result put_calls(const std::string& leader, const std::vector<std::string>& followers,
-                                        std::uint64_t seed, std::uint64_t first, std::uint64_t last,
-                                        std::uint64_t stride,
+/// Which calls and problems: numbers I, I + N, ... of shard I/N.
+struct fuzz_request {
+  std::vector<std::string> kernels = {"fortran", "cpp"};  ///< the first leads
+  std::int64_t calls = 200'000;
+  std::int64_t problems = 400;
+  std::uint64_t seed = 1989;
+  int shard = 1, shards = 1;
+
+  friend bool operator==(const fuzz_request&, const fuzz_request&) = default;
+};
+
+/// Put the calls of `r`. SMIN, SS and ISEP are compared at once, the unit-26 text in blocks: reading it back
+/// after every call would cost several times the call. Throws std::invalid_argument for kernels that are
+/// unknown, or of another precision or rule.
+[[nodiscard]] campaign_result put_calls(const fuzz_request& r,
                                         const std::function<void(std::int64_t done)>& progress = nullptr);
 
-/// Follow problem `number` of `seed` with `leader`, and put every call to `followers`.
-[[nodiscard]] campaign_result follow_in_lockstep(std::uint64_t seed, std::uint64_t number,
-                                                 const std::string& leader,
-                                                 const std::vector<std::string>& followers);
+/// Follow problem `number` with the leader, and put every call to the followers.
+[[nodiscard]] campaign_result follow_in_lockstep(const fuzz_request& r, std::int64_t number);
 
 /// Does the follower's own path of that problem end as well as the leader's: certified, or truly without
 /// equilibrium? True where the leader's does not.
-[[nodiscard]] bool certified_as_leader(std::uint64_t seed, std::uint64_t number, const std::string& leader,
+[[nodiscard]] bool certified_as_leader(const fuzz_request& r, std::int64_t number,
                                        const std::string& follower);
 
 /// The levels of equality, highest first.
@@ -81,17 +87,6 @@ enum class equality_level {
 };
 inline constexpr int equality_levels = 5;
 [[nodiscard]] std::string_view name_of(equality_level l);
-
-/// Which calls and problems: numbers I, I + N, ... of shard I/N.
-struct fuzz_request {
-  std::vector<std::string> kernels = {"fortran", "cpp"};  ///< the first leads
-  std::int64_t calls = 200'000;
-  std::int64_t problems = 400;
-  std::uint64_t seed = 1989;
-  int shard = 1, shards = 1;
-
-  friend bool operator==(const fuzz_request&, const fuzz_request&) = default;
-};
 
 /// One follower's result.
 struct fuzz_follower : follower_result {

@@ -246,9 +246,9 @@ std::string trace_of(const found_case& c, trace_header h) {
 }
 
 std::string catch_test_of(const found_case& c) {
-  std::string text = "// Found by contct fuzz, and shrunk.\n";
-  for (const std::string& line : words_of(c.what)) text += "// " + line + "\n";
-  text += fmt::format(R"(#include <catch2/catch.hpp>
+  std::string text = fmt::format(R"(// Found by contct fuzz, and shrunk.
+// {}
+#include <catch2/catch.hpp>
 #include <limits>
 #include <vector>
 
@@ -261,7 +261,8 @@ TEST_CASE("{} answers as {} does") {{
   contct::outside::call_inputs<double> in;
   contct::outside::call_outputs out;
 )",
-                      test_name(c.what.follower), test_name(c.what.leader), cpp_string(c.what.follower));
+                                 fmt::join(words_of(c.what), "\n// "), test_name(c.what.follower),
+                                 test_name(c.what.leader), cpp_string(c.what.follower));
   for (std::size_t i = 0; i < c.calls.size(); ++i) {
     const call_inputs<double>& in = c.calls[i];
     text += fmt::format(R"(
