@@ -6,7 +6,6 @@
 #include "app/commands.hpp"
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
-#include "contct/lab/atlas_output.hpp"
 
 namespace contct::app {
 namespace {

@@ -13,7 +13,6 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/streams.hpp"
-#include "contct/lab/fuzz_output.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/joined.hpp"

@@ -1,6 +1,4 @@
 // The atlas as table, CSV, JSON and picture: the same numbers everywhere.
-#include "contct/lab/atlas_output.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
@@ -8,6 +6,7 @@
 #include <string>
 
 #include "catch.hpp"
+#include "contct/lab/atlas.hpp"
 #include "support/well_formed.hpp"
 
 using namespace contct::app;

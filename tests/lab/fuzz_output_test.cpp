@@ -1,11 +1,10 @@
 // The result of a fuzz run as JSON, the results of shards added up, and a found case as files.
-#include "contct/lab/fuzz_output.hpp"
-
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "contct/lab/fuzz.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/text/input_text.hpp"
 #include "support/scratch_folder.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contct/lab/random_problem.hpp"
+#include "contct/text/terminal.hpp"
 
 namespace contct::lab {
 
@@ -80,5 +81,18 @@ struct atlas {
 /// Try the problems of a cell, numbers 0 and up of the seed: in every cell of a kind they are the same
 /// problems in another unit. `tried` is called after each.
 void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried = nullptr);
+
+/// As CSV: a line a cell, and one of names before them.
+[[nodiscard]] std::string atlas_csv(const atlas& a);
+
+/// Format "contct-atlas-1": what was asked for, and the same numbers.
+[[nodiscard]] std::string atlas_json(const atlas& a);
+
+/// All cells as a table of 80 columns, and what its columns mean.
+[[nodiscard]] std::string atlas_table(const atlas& a, const terminal& t);
+
+/// Share of wrong answers with its 95 % band, by the unit of length and by EPSMUL: above for structures
+/// held by supports, below for free ones. One self-contained SVG; every cell is a point with its numbers.
+[[nodiscard]] std::string atlas_svg(const atlas& a);
 
 }  // namespace contct::lab

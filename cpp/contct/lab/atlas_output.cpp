@@ -1,5 +1,3 @@
-#include "contct/lab/atlas_output.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "contct/lab/atlas.hpp"
 #include "contct/write/svg_parts.hpp"
 
 namespace contct::lab {

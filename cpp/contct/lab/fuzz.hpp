@@ -11,9 +11,39 @@
 #include <vector>
 
 #include "contct/compare/compare.hpp"
-#include "contct/lab/shrink.hpp"
+#include "contct/trace/trace.hpp"
 
 namespace contct::lab {
+
+/// Calls in order; the answers to the last one differ. More than one where a kernel keeps something from call
+/// to call.
+using call_sequence = std::vector<call_inputs<double>>;
+
+/// Does the last call of a sequence still differ, in the same way, when the whole is put to fresh kernels?
+using still_differs = std::function<bool(const call_sequence&)>;
+
+/// Make `calls` smaller while it still differs: first fewer calls, then fewer pairs, then nodes numbered
+/// from 1 with one dof each, then rounder numbers. The result differs, too, whenever `calls` does.
+/// `most_tries` bounds the work.
+[[nodiscard]] call_sequence shrink(call_sequence calls, const still_differs& differs, int most_tries = 4000);
+
+/// A mismatch with the calls that show it.
+struct found_case {
+  mismatch_report what;  ///< of the last call
+  int real_bytes = 8;
+  call_sequence calls;
+  std::vector<call_outputs> leader;  ///< the leader's answers [calls]
+};
+
+/// Put `calls` to the leader and to a fresh follower. The mismatch in the last call, when there is one
+/// in that `field` ("" takes any), with the leader's answers.
+[[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const std::string& follower,
+                                                  const call_sequence& calls, const std::string& field);
+
+/// `calls` shrunk while they differ in the same field. Nothing when they do not differ at all.
+[[nodiscard]] std::optional<found_case> shrunk_case(kernel& leader, const std::string& follower,
+                                                    const call_sequence& calls, const std::string& field,
+                                                    int most_tries = 4000);
 
 /// Events by kind. A pair at its face when its event came is counted as stationary, too.
 struct event_counts {
@@ -122,5 +152,22 @@ using fuzz_progress = std::function<void(std::int64_t done, std::int64_t all, co
 /// Put the calls and problems of `r` to its kernels. Throws std::invalid_argument for kernels that cannot be
 /// compared.
 [[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr);
+
+/// The result as JSON, format "contct-fuzz-1".
+[[nodiscard]] std::string fuzz_json(fuzz_result r);
+
+/// Read the results of all shards of one run and add them up. Throws input_error when one is no such file,
+/// when they are not of one run, or when a shard is missing or given twice.
+[[nodiscard]] fuzz_result merged_fuzz(const std::vector<std::string>& files);
+
+/// The calls of a case with the leader's answers, as a trace. `h` says whose they are.
+[[nodiscard]] std::string trace_of(const found_case& c, trace_header h);
+
+/// A TEST_CASE that asks the follower and expects the leader's answer.
+[[nodiscard]] std::string catch_test_of(const found_case& c);
+
+/// A main program in fixed-form FORTRAN 77 that calls CONTCT and prints what it gives; the expected
+/// values stand in its comments. Whoever has a FORTRAN compiler can run it.
+[[nodiscard]] std::string fortran_main_of(const found_case& c);
 
 }  // namespace contct::lab

@@ -1,5 +1,3 @@
-#include "contct/lab/fuzz_output.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "contct/lab/fuzz.hpp"
 #include "contct/numeric/bits.hpp"
 #include "contct/text/input_text.hpp"
 
@@ -253,6 +252,7 @@ std::string catch_test_of(const found_case& c) {
 #include <vector>
 
 #include "contct/kernel/call_inputs.hpp"
+#include "contct/lab/fuzz.hpp"
 #include "contct/numeric/bits.hpp"
 #include "contct/outside/registry.hpp"
 

@@ -1,5 +1,3 @@
-#include "contct/lab/shrink.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "contct/lab/fuzz.hpp"
 #include "contct/numeric/bits.hpp"
 #include "contct/outside/registry.hpp"
 
