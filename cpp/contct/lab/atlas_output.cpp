@@ -125,8 +125,8 @@ using svg::element;
 using svg::text_markup;
 
 constexpr double page_width = 980, page_height = 800;
-constexpr double left = 86, right = 640;  // of the two columns of panels
-constexpr double wide = 450, narrow = 300, panel_height = 230;
+constexpr double at_left = 86, at_right = 640;  // of the two columns of panels
+constexpr double wide_width = 450, narrow_width = 300, panel_height = 230;
 constexpr double first_panel = 184, pitch = panel_height + 74;
 
 constexpr double least_share = 1e-3;  // the scale is logarithmic down to here; below it stands "none"
@@ -270,29 +270,30 @@ std::string legend(double y, std::initializer_list<std::pair<double, look>> entr
 }
 
 std::string svg_heading(const atlas& a) {
-  return text_markup(left, 36, R"(font-weight="bold" font-size="22")", "Where the 1989 code goes wrong") +
-         text_markup(left, 60, "",
+  return text_markup(at_left, 36, R"(font-weight="bold" font-size="22")", "Where the 1989 code goes wrong") +
+         text_markup(at_left, 60, "",
                      "Share of random problems answered wrong without a word: off by more than 0.1 % of the "
                      "largest deflection.") +
-         text_markup(left, 79, "",
+         text_markup(at_left, 79, "",
                      fmt::format("{} problems a point, the same ones along each line (seed {}); bands: 95 % "
                                  "confidence.",
                                  a.request.problems, a.request.seed)) +
-         legend(108, {{left, as_8_bytes}, {left + 310, as_printed}, {left + 630, as_corrected}});
+         legend(108, {{at_left, as_8_bytes}, {at_left + 310, as_printed}, {at_left + 630, as_corrected}});
 }
 
 /// Two rows of panels, held structures above free ones; by unit at the left, by EPSMUL at the right.
 std::string panels(const atlas& a) {
   constexpr std::string_view strong = R"(font-weight="bold" font-size="15")";
-  std::string text = text_markup(left, 148, strong, "By the unit of length") +
-                     text_markup(right, 148, strong, "By EPSMUL, in 8 bytes") +
-                     legend(first_panel - 14, {{right, in_unit_1}, {right + 155, in_unit_100}});
+  std::string text = text_markup(at_left, 148, strong, "By the unit of length") +
+                     text_markup(at_right, 148, strong, "By EPSMUL, in 8 bytes") +
+                     legend(first_panel - 14, {{at_right, in_unit_1}, {at_right + 155, in_unit_100}});
   double top = first_panel;
   for (const bool held : {true, false}) {
-    text += text_markup(left, top - 10, "",
+    text += text_markup(at_left, top - 10, "",
                         held ? "Structures held by supports" : "Free structures, held by contact alone");
-    text += unit_panel({left, top, wide, panel_height, -12, 12}, a, held);
-    text += epsmul_panel({right, top, narrow, panel_height, -12, std::log10(printed_epsmul)}, a, held);
+    text += unit_panel({at_left, top, wide_width, panel_height, -12, 12}, a, held);
+    text +=
+        epsmul_panel({at_right, top, narrow_width, panel_height, -12, std::log10(printed_epsmul)}, a, held);
     top += pitch;
   }
   return text;
@@ -302,10 +303,10 @@ std::string panels(const atlas& a) {
 std::string captions() {
   constexpr double below = first_panel + 2 * pitch;
   constexpr std::string_view middle = R"(text-anchor="middle")";
-  return text_markup(left + wide / 2, below - 24, middle,
+  return text_markup(at_left + wide_width / 2, below - 24, middle,
                      "size of the structure in the unit it is put in; EPSGAP stays 10<tspan dy=\"-5\" "
                      "font-size=\"10\">\u221210</tspan>") +
-         text_markup(left + wide / 2, below - 4, middle,
+         text_markup(at_left + wide_width / 2, below - 4, middle,
                      "Paths that stop for a mechanism or a cycle say so, and are not counted as wrong.");
 }
 

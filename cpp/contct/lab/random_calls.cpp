@@ -19,12 +19,12 @@ constexpr std::uint64_t other_stream = 0x9e3779b97f4a7c15;  // so that the two g
 
 /// Draws one call with random numbers of its own.
 template <class Real>
-class drawing {
+class drawn_call {
  public:
   using limits = std::numeric_limits<Real>;
 
   /// What the call before left in dd and dtest is overwritten with NaN: no kernel may read there.
-  drawing(std::uint64_t seed, std::uint64_t number, call_inputs<Real>& in)
+  drawn_call(std::uint64_t seed, std::uint64_t number, call_inputs<Real>& in)
       : random_(random_numbers(seed ^ (number * 0xd1342543de82ef95)).bits()), in_(in) {
     for (std::size_t i = 0; i < in_.pairs(); ++i) {
       in_.dd[in_.dof_of_pair(i)] = limits::quiet_NaN();
@@ -173,13 +173,13 @@ class drawing {
 
 template <class Real>
 const call_inputs<Real>& random_calls<Real>::random(std::uint64_t number) {
-  drawing<Real>(seed_, number, in_).draw_random();
+  drawn_call<Real>(seed_, number, in_).draw_random();
   return in_;
 }
 
 template <class Real>
 const call_inputs<Real>& random_calls<Real>::adversarial(std::uint64_t number) {
-  drawing<Real>(seed_ ^ other_stream, number, in_).draw_adversarial();
+  drawn_call<Real>(seed_ ^ other_stream, number, in_).draw_adversarial();
   return in_;
 }
 
