@@ -39,7 +39,7 @@ TEMPLATE_TEST_CASE("adversarial calls stand on every threshold, and one ULP to e
   std::vector<Real> ss;
   std::vector<int> isep;
   std::vector<event> events;
-  for (std::uint64_t n = 1; n <= 40'000; ++n) {
+  for (std::uint64_t n = 1; n <= 60'000; ++n) {
     const call_inputs<Real>& in = source.adversarial(n);
     ss.resize(in.pairs());
     isep = in.isep;
