@@ -73,7 +73,7 @@ std::string supports_of(const random_problem& p) {
 }
 
 /// What a number of problems came to.
-struct tally {
+struct judged_problems {
   std::map<verdict, int> came_to;
   std::map<face_layout, int> layouts;
   long steps = 0, makes = 0, breaks = 0, at_rest = 0, snaps = 0, fallbacks = 0;
@@ -94,16 +94,16 @@ struct tally {
   }
 };
 
-std::ostream& operator<<(std::ostream& out, const tally& t) {
+std::ostream& operator<<(std::ostream& out, const judged_problems& t) {
   for (const auto& [v, times] : t.came_to) out << times << " " << name_of(v) << ", ";
   return out << t.steps << " steps, " << t.makes << " makes, " << t.breaks << " breaks, " << t.at_rest
              << " at rest, " << t.snaps << " snaps, " << t.fallbacks << " fallbacks, at most "
              << t.most_increments << " increments, factor " << t.factor;
 }
 
-tally try_problems(std::uint64_t seed, std::uint64_t count, const random_problem_kind& kind,
-                   const char* leader) {
-  tally all;
+judged_problems try_problems(std::uint64_t seed, std::uint64_t count, const random_problem_kind& kind,
+                             const char* leader) {
+  judged_problems all;
   const auto k = make_kernel(leader);
   for (std::uint64_t number = 0; number < count; ++number) {
     const random_problem p = make_random_problem(seed, number, kind);
@@ -391,7 +391,7 @@ TEST_CASE("layouts have names of their own") {
 TEST_CASE("held by their supports, all of 2000 structures are certified at every step, without help") {
   random_problem_kind kind;
   kind.free_share = 0.0;
-  const tally t = try_problems(1, 2000, kind, "corrected");
+  const judged_problems t = try_problems(1, 2000, kind, "corrected");
   INFO(t);
   CHECK(t.came_to.size() == 1);
   CHECK(t.came_to.count(verdict::certified) == 1);
@@ -409,7 +409,7 @@ TEST_CASE("held by their supports, all of 2000 structures are certified at every
 TEST_CASE("held by pairs alone, 1000 structures are certified, or mechanisms that the oracle confirms") {
   random_problem_kind kind;
   kind.free_share = 1.0;
-  const tally t = try_problems(2, 1000, kind, "corrected");
+  const judged_problems t = try_problems(2, 1000, kind, "corrected");
   INFO(t);
   CHECK(t.came_to.at(verdict::certified) > 500);
   CHECK(t.came_to.at(verdict::no_equilibrium) > 150);
@@ -426,7 +426,7 @@ TEST_CASE("plates of a few elements are certified too, where deflections may be 
   kind.free_share = 0.0;
   kind.plate_share = 1.0;
   kind.most_lines = 2;
-  const tally t = try_problems(13, 1000, kind, "corrected");
+  const judged_problems t = try_problems(13, 1000, kind, "corrected");
   INFO(t);
   CHECK(t.came_to.size() == 1);
   CHECK(t.makes + t.breaks > 2000);
@@ -435,7 +435,7 @@ TEST_CASE("plates of a few elements are certified too, where deflections may be 
 TEST_CASE("the listing's rule is wrong often enough to be caught, and right at other times") {
   random_problem_kind kind;
   kind.least_unit = kind.most_unit = 1.0;
-  const tally t = try_problems(3, 500, kind, "cpp");
+  const judged_problems t = try_problems(3, 500, kind, "cpp");
   INFO(t);
   CHECK(t.came_to.at(verdict::certified) > 250);
   CHECK(t.came_to.at(verdict::wrong) > 15);
@@ -450,7 +450,7 @@ TEST_CASE("the oracle ends what a path cannot, and the state is as right as any"
   random_problem_kind kind;
   kind.free_share = 1.0;
   kind.plate_share = 0.0;
-  const tally t = try_problems(1, 1500, kind, "corrected");
+  const judged_problems t = try_problems(1, 1500, kind, "corrected");
   INFO(t);
   CHECK(t.fallbacks > 0);
   CHECK(t.fallbacks < 15);
