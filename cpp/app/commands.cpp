@@ -5,8 +5,7 @@
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
-#include "contct/lab/atlas_output.hpp"
-#include "contct/lab/atlas_svg.hpp"
+#include "contct/lab/atlas.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/strings.hpp"

@@ -8,8 +8,6 @@
 #include <stdexcept>
 
 #include "app/outputs.hpp"
-#include "contct/lab/case_files.hpp"
-#include "contct/lab/fuzz_json.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/strings.hpp"

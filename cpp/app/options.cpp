@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "app/commands.hpp"
-#include "contct/kernel/built_in.hpp"
+#include "contct/kernel/kernel.hpp"
 #include "contct/path/path.hpp"
 #include "contct/text/strings.hpp"
 

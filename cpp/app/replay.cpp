@@ -1,9 +1,8 @@
 // contct replay, and contct-replay: recorded calls put to a kernel. Neither LAPACK nor finite elements.
-#include "contct/compare/replay.hpp"
-
 #include <stdexcept>
 
 #include "app/outputs.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"

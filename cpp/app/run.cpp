@@ -5,10 +5,9 @@
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
-#include "contct/certify/fallback.hpp"
-#include "contct/certify/final_state.hpp"
+#include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
-#include "contct/compare/trace_recorder.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "contct/matrix/lapack.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"

@@ -5,7 +5,7 @@
 
 #include "app/commands.hpp"
 #include "catch.hpp"
-#include "contct/kernel/built_in.hpp"
+#include "contct/kernel/kernel.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;

@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "contct/kernel/fortran.hpp"
-#include "contct/lab/call_campaign.hpp"
+#include "contct/lab/fuzz.hpp"
+#include "contct/lab/random_calls.hpp"
 
 namespace {
 
@@ -43,11 +44,10 @@ int main() {
                            read += c.smin;
                          }
                        }));
-    lockstep = std::min(lockstep, seconds_of([&] {
-                          contct::app::call_campaign h("fortran", {"cpp"}, seed);
-                          h.run(1, calls, 1);
-                          read += static_cast<double>(h.counts().calls);
-                        }));
+    lockstep = std::min(
+        lockstep, seconds_of([&] {
+          read += static_cast<double>(contct::app::put_calls({{"fortran", "cpp"}, calls, 0, seed}).calls);
+        }));
   }
   std::printf("%llu calls: making them %.0f ms; FORTRAN alone %.0f ms; in lockstep, all in all, %.0f ms\n",
               static_cast<unsigned long long>(calls), 1e3 * making, 1e3 * (fortran - making), 1e3 * lockstep);

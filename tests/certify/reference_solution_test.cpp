@@ -10,6 +10,7 @@
 #include "contct/matrix/lapack.hpp"
 #include "support/beams.hpp"
 #include "support/every_set.hpp"
+#include "support/tried_problem.hpp"
 
 using namespace contct::app;
 using outcome = reference_answer::outcome;

@@ -1,12 +1,16 @@
+// Two answers compared; a follower's are counted, and its first mismatch is reported; recorded text is
+// compared by bytes or by meaning. No f2c is needed for its traces.
 #include "contct/compare/compare.hpp"
 
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
 
 using namespace contct::app;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -14,6 +18,46 @@ std::optional<mismatch> differ(double smin, std::vector<double> ss, std::vector<
   const std::vector<double> leader_ss = {0.5, 0.0};
   const std::vector<int> leader_isep = {1, -1};
   return compare_answers<double>({0.5, leader_ss, leader_isep}, {smin, ss, isep}, t);
+}
+
+/// One pair that touches after half of the load.
+const call_inputs<double> half_way{{0.0}, {1.0}, {0.5}, {1}, {separated}, {face_above}, {}};
+
+/// The leader's answer to that call, with SMIN as given.
+struct answered_half_way {
+  call_outputs out;
+  call<double> c = out.prepare(half_way);
+
+  explicit answered_half_way(double smin = 0.5) {
+    c.smin = smin;
+    c.ss[0] = 0.5;
+    c.isep[0] = in_contact;
+  }
+};
+
+/// One pair with an event half way, as `kernel` is said to have answered it, with that scale factor in its
+/// text.
+std::string trace_of(const std::string& kernel, const std::string& scale_factor) {
+  const call_inputs<double> in{{0.0}, {1.0}, {0.5}, {1}, {separated}, {face_above}, {}};
+  const double ss[] = {0.5};
+  const int isep[] = {in_contact};
+  trace_header header;
+  header.kernel = kernel;
+  std::string text;
+  append_header(header, text);
+  append_inputs(1, "", in, text);
+  append_answer(0.5, ss, isep,
+                "  ******* MAKING CONTACT ********\n"
+                "   CONTACT PAIR:   1 NODE:   1 SURFACE:   1 SCALE FACTOR = " +
+                    scale_factor + "\n",
+                text);
+  return text;
+}
+
+replay_report replayed(const std::string& trace) {
+  trace_reader calls(trace, "a.trace");
+  const trace_header h = calls.read_header();
+  return replay(h, calls, *make_kernel("cpp"));
 }
 
 }  // namespace
@@ -95,4 +139,77 @@ TEST_CASE("the text of gfortran is compared with that of C++ by bytes, and only 
   CHECK(text_equality_of(without_zeros, facts_of_kernel("fortran")) == text_equality::meaning);
   for (const std::string& name : kernel_names())
     CHECK(facts_of_kernel(name).text_by_meaning == (name == "f2c"));
+}
+
+TEST_CASE("a follower counts what is compared and keeps the mismatch of the earliest call") {
+  const auto k = make_kernel("cpp");
+  follower f(k->facts(), *k);
+  const answered_half_way right;
+  const answered_half_way wrong(0.25);
+  CHECK_FALSE(f.ask(1, right.c, half_way.isep, std::nullopt));
+  CHECK_FALSE(f.first());
+  CHECK(f.answer().smin == 0.5);
+  CHECK(f.compared.values == 3);
+  REQUIRE(f.ask(5, wrong.c, half_way.isep, std::nullopt));
+  CHECK(f.difference()->field == "SMIN");
+  CHECK(f.answered());
+  CHECK(f.first()->call == 5);
+  CHECK(f.first()->decisions.size() == 6);
+  (void)f.ask(6, wrong.c, half_way.isep, std::nullopt);
+  CHECK(f.first()->call == 5);
+  f.note(3, {"text", 2, "a", "b", 0}, wrong.c, half_way.isep);  // found later, in an earlier call
+  CHECK(f.first()->call == 3);
+  CHECK(f.first()->where.field == "text");
+  CHECK(f.compared.values == 9);
+  CHECK(f.compared.mismatches == 2);
+}
+
+TEST_CASE("text is compared where the leader's is given, as one value") {
+  const auto k = make_kernel("cpp");
+  follower f(k->facts(), *k);
+  const answered_half_way right;
+  const auto found = f.ask(1, right.c, half_way.isep, "another text\n");
+  REQUIRE(found);
+  CHECK(found->field == "text");
+  CHECK(found->index == 1);
+  CHECK(f.compared.values == 4);
+  CHECK(f.compared.mismatches == 1);
+}
+
+TEST_CASE("kernels of another precision or rule are refused") {
+  CHECK_NOTHROW(refuse_unequal(facts_of_kernel("fortran"), facts_of_kernel("cpp")));
+  CHECK_THROWS_WITH(refuse_unequal(facts_of_kernel("fortran"), facts_of_kernel("cpp-r4")),
+                    Contains("precision"));
+  CHECK_THROWS_WITH(refuse_unequal(facts_of_kernel("fortran"), facts_of_kernel("corrected")),
+                    Contains("rule"));
+}
+
+TEST_CASE("a report names the call, the kernels and the place, and calls a narrow decision a tie") {
+  mismatch_report r{3, "fortran", "mine", {"ISEP", 2, "-1", "1", 0}, {}};
+  r.decisions = {{branch::within_epsmul, 1, true, 1}, {branch::s_positive, 0, true, 1'000'000}};
+  CHECK(words_of(r)[0] == "call 3: mine differs in ISEP(2): fortran has -1, mine has 1");
+  CHECK_THAT(words_of(r)[1], Contains("was true by 1 ULP: a tie"));
+  r.decisions[0].ulps = tie_ulps + 1;
+  CHECK_THAT(words_of(r)[1], Contains("by 5 ULP") && Contains("a bug"));
+  r.where = {"answer", 0, "an answer", "it ended with status 3", 0};
+  CHECK(words_of(r) == std::vector<std::string>{"call 3: mine gave no answer: it ended with status 3"});
+}
+
+TEST_CASE("the text of a trace is compared by bytes, and that of f2c's by meaning") {
+  CHECK(replayed(trace_of("fortran", " 0.5000E+00")).compared.mismatches == 0);
+  CHECK(replayed(trace_of("f2c", "  .5000E+00")).compared.mismatches == 0);
+  const replay_report dropped = replayed(trace_of("fortran", "  .5000E+00"));
+  CHECK(dropped.compared.mismatches == 1);
+  REQUIRE(dropped.first);
+  CHECK(dropped.first->where.field == "text");
+}
+
+TEST_CASE("a trace that names f2c has to mean the same number") {
+  CHECK(replayed(trace_of("f2c", "  .5001E+00")).compared.mismatches == 1);
+  CHECK(replayed(trace_of("f2c", "  .5000E+01")).compared.mismatches == 1);
+}
+
+TEST_CASE("a trace that names a kernel which is not known here is compared by bytes") {
+  CHECK(replayed(trace_of("another", " 0.5000E+00")).compared.mismatches == 0);
+  CHECK(replayed(trace_of("another", "  .5000E+00")).compared.mismatches == 1);
 }

@@ -116,7 +116,7 @@ TEST_CASE("the winner's s is SMIN, and what is explained as toggled was toggled:
     int events = 0;
     int wrong = 0;
     for (int n = 0; n < 20'000; ++n) {
-      const call_inputs<double>& in = calls.next();
+      const call_inputs<double>& in = calls.random(n);
       call_outputs out;
       call<double> c = out.prepare(in);
       k->answer(c);

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 #include "compare/other_compiler.hpp"
-#include "contct/compare/replay.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/outside/registry.hpp"
 
 using namespace contct::app;
@@ -53,7 +53,7 @@ TEST_CASE("a trace recorded from f2c is replayed by every 8-byte kernel, its tex
   const auto f2c = make_kernel("f2c");
   random_calls<double> source(26);
   for (int i = 1; i <= 100; ++i) {
-    const call_inputs<double>& in = source.next();
+    const call_inputs<double>& in = source.random(i);
     append_inputs(i, "", in, trace);
     const kernel_answer a = ask_kernel(*f2c, in);
     append_answer(a.smin, a.ss, a.isep, a.text, trace);

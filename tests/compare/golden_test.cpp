@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "contct/compare/replay.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/outside/registry.hpp"
 #include "golden/cases.hpp"
 

@@ -42,7 +42,7 @@ inline three_compared compare_three(const std::string& name, int calls) {
   random_calls<double> source(1989);
   three_compared result;
   for (int i = 0; i < calls; ++i) {
-    const call_inputs<double>& in = source.next();
+    const call_inputs<double>& in = source.random(i);
     const kernel_answer a = ask_kernel(*asked, in);
     for (kernel* other : {gfortran.get(), cpp.get()}) {
       const kernel_answer b = ask_kernel(*other, in);

@@ -2,10 +2,9 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "contct/compare/early_toggles.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/compare/explanation.hpp"
-#include "contct/compare/replay.hpp"
-#include "contct/compare/trace_recorder.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "support/beams.hpp"
 
 using namespace contct::app;

@@ -1,6 +1,4 @@
 // The atlas as table, CSV, JSON and picture: the same numbers everywhere.
-#include "contct/lab/atlas_output.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
@@ -8,7 +6,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "contct/lab/atlas_svg.hpp"
+#include "contct/lab/atlas.hpp"
 #include "support/well_formed.hpp"
 
 using namespace contct::app;
@@ -70,8 +68,8 @@ TEST_CASE("the atlas in JSON has every cell with its counts, its interval and it
     CHECK(cell["wrong"] == c.wrong);
     CHECK(cell["wrong_least"] == wilson(c.wrong, 800).least);
     CHECK(cell["wrong_most"] == wilson(c.wrong, 800).most);
-    CHECK((c.wrong == 0 ? cell["median_error"].is_null() : cell["median_error"] == median_error(c)));
-    CHECK((c.wrong == 0 ? cell["worst_error"].is_null() : cell["worst_error"] == worst_error(c)));
+    CHECK((c.wrong == 0 ? cell["median_error"].is_null() : cell["median_error"] == c.median_error()));
+    CHECK((c.wrong == 0 ? cell["worst_error"].is_null() : cell["worst_error"] == c.worst_error()));
     CHECK(cell["false_equilibrium"] == c.false_equilibrium);
     CHECK(cell["false_mechanism"] == c.false_mechanism);
     CHECK(cell["never_held"] == c.never_held);
@@ -134,7 +132,7 @@ TEST_CASE("the atlas's picture is well-formed, self-contained, and has every cel
     (void)std::snprintf(wrong, sizeof wrong, "%.1f %% wrong (%.1f to %.1f %%) of 800", c.wrong / 8.0,
                         100 * wilson(c.wrong, 800).least, 100 * wilson(c.wrong, 800).most);
     char epsmul[40] = "";
-    if (has_other_epsmul(c)) (void)std::snprintf(epsmul, sizeof epsmul, " with EPSMUL %.0e", c.epsmul);
+    if (c.has_other_epsmul()) (void)std::snprintf(epsmul, sizeof epsmul, " with EPSMUL %.0e", c.epsmul);
     CHECK_THAT(svg, Contains("<title>" + c.kernel + epsmul + ", unit " + unit +
                              (c.held ? ", held: " : ", free: ") + wrong + "</title>"));
   }

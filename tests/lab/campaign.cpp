@@ -8,8 +8,9 @@
 #include <string>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/lab/problem_result.hpp"
+#include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
+#include "support/tried_problem.hpp"
 
 using namespace contct::app;
 
@@ -21,16 +22,16 @@ struct verdict_counts {
   long problems = 0, from_fallback = 0, snapped = 0, at_rest = 0, events = 0, needed_more = 0;
   double worst = 0.0, factor = 0.0;
 
-  void add(const problem_result& t) {
+  void add(const problem_result& t, const path_counts& counted) {
     ++problems;
     ++came_to[static_cast<int>(t.came_to)];
-    from_fallback += t.fallbacks > 0 ? 1 : 0;
-    snapped += t.snaps > 0 ? 1 : 0;
-    at_rest += t.at_rest > 0 ? 1 : 0;
-    needed_more += t.needed > 1e-8 ? 1 : 0;
-    events += t.makes + t.breaks;
-    worst = std::max(worst, t.needed);
-    factor = std::max(factor, t.factor);
+    from_fallback += counted.fallbacks > 0 ? 1 : 0;
+    snapped += counted.snaps > 0 ? 1 : 0;
+    at_rest += counted.at_rest > 0 ? 1 : 0;
+    needed_more += needed_by(t) > 1e-8 ? 1 : 0;
+    events += counted.makes + counted.breaks;
+    worst = std::max(worst, needed_by(t));
+    factor = std::max(factor, factor_of(t));
   }
 };
 
@@ -66,14 +67,15 @@ int main(int argc, char** argv) {
   verdict_counts plates;
   for (long number = 0; number < problems; ++number) {
     const random_problem p = make_random_problem(seed, number);
-    const problem_result t = try_problem(p, *corrected);
+    path_counts counted;
+    const problem_result t = try_and_count(p, *corrected, counted);
     const std::size_t held = p.held ? 0 : 1;
-    by_hold[held].add(t);
-    by_layout[held][static_cast<int>(p.layout)].add(t);
-    if (std::holds_alternative<plate>(p.geometry.kind)) plates.add(t);
+    by_hold[held].add(t, counted);
+    by_layout[held][static_cast<int>(p.layout)].add(t, counted);
+    if (std::holds_alternative<plate>(p.geometry.kind)) plates.add(t, counted);
     if (t.came_to != verdict::certified && t.came_to != verdict::no_equilibrium) {
       std::printf("problem %ld: %s, needed %.2e\n", number, std::string(name_of(t.came_to)).c_str(),
-                  t.needed);
+                  needed_by(t));
     }
   }
 

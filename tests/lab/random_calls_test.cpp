@@ -7,7 +7,7 @@
 #include <map>
 
 #include "catch.hpp"
-#include "contct/compare/margin.hpp"
+#include "contct/compare/branches.hpp"
 #include "contct/kernel/contct.hpp"
 
 using namespace contct::app;
@@ -34,13 +34,13 @@ std::uint64_t digest(const call_inputs<double>& in) {
 TEMPLATE_TEST_CASE("adversarial calls stand on every threshold, and one ULP to either side of it", "", float,
                    double) {
   using Real = TestType;
-  adversarial_calls<Real> source(1989);
+  random_calls<Real> source(1989);
   std::map<branch, std::array<int, 3>> near;  // exactly on it; true and false by one ULP
   std::vector<Real> ss;
   std::vector<int> isep;
   std::vector<event> events;
-  for (std::uint64_t n = 1; n <= 40'000; ++n) {
-    const call_inputs<Real>& in = source.at(n);
+  for (std::uint64_t n = 1; n <= 60'000; ++n) {
+    const call_inputs<Real>& in = source.adversarial(n);
     ss.resize(in.pairs());
     isep = in.isep;
     events.resize(in.pairs());
@@ -96,7 +96,7 @@ TEMPLATE_TEST_CASE(
   std::map<std::pair<int, int>, int> layouts;
   int closed = 0, beyond = 0;
   for (std::uint64_t n = 1; n <= 2000; ++n) {
-    const call_inputs<TestType>& in = source.at(n);
+    const call_inputs<TestType>& in = source.random(n);
     REQUIRE(in.pairs() >= 1);
     REQUIRE(in.pairs() <= 64);
     ++layouts[{in.dof.indof, in.dof.ndofpn}];

@@ -1,9 +1,8 @@
 // Mismatches are made small: fewer calls, fewer pairs, rounder numbers, and the answers still differ.
-#include "contct/lab/shrink.hpp"
-
 #include <cmath>
 
 #include "catch.hpp"
+#include "contct/lab/fuzz.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/outside/registry.hpp"
 

@@ -13,9 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "contct/compare/follower.hpp"
-#include "contct/compare/replay.hpp"
-#include "contct/lab/call_campaign.hpp"
+#include "contct/compare/compare.hpp"
+#include "contct/lab/random_calls.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"
 
@@ -67,15 +66,13 @@ void put_random_calls(const std::string& language, int real_bytes, std::uint64_t
   const auto mutant = contct::app::make_kernel(in_precision(language, real_bytes));
   contct::app::call_source source(seed, real_bytes);
   contct::app::call_outputs led;
-  contct::app::call_outputs followed;
-  contct::app::tally t;
+  contct::app::follower asked(leader->facts(), *mutant);
   for (std::uint64_t n = 1; n <= count; ++n) {
     const contct::app::call_inputs<double>& in = source.at(n);
     contct::app::call<double> c = led.prepare(in);
     leader->answer(c);
     const std::string text = leader->take_text();
-    const auto found = contct::app::ask_and_compare(*mutant, c, in.isep, text,
-                                                    contct::app::text_equality::bytes, followed, t);
+    const auto& found = asked.ask(static_cast<std::int64_t>(n), c, in.isep, text);
     if (found) return say_difference(static_cast<std::int64_t>(n), *found);
   }
 }

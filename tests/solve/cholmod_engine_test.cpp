@@ -3,7 +3,6 @@
 #include "contct/solve/cholmod_engine.hpp"
 
 #include "catch.hpp"
-#include "contct/lab/problem_result.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
 #include "support/beam_over_stops.hpp"

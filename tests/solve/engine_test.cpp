@@ -7,13 +7,13 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/lab/problem_result.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/path.hpp"
 #include "contct/solve/condensed_engine.hpp"
 #include "support/beams.hpp"
+#include "support/tried_problem.hpp"
 
 using namespace contct::app;
 
@@ -129,7 +129,7 @@ TEST_CASE("on every engine the corrected kernel's paths of held structures are c
       const random_problem p = make_random_problem(2026, number, kind);
       if (engine == "condensed" && !condensed_engine::suits(build(p.geometry, p.supports, p.pairs))) continue;
       const problem_result t = try_problem(p, *kernel, engine);
-      INFO(engine << ", problem " << number << ": " << name_of(t.came_to) << ", needs " << t.needed);
+      INFO(engine << ", problem " << number << ": " << name_of(t.came_to) << ", needs " << needed_by(t));
       CHECK(t.came_to == verdict::certified);
       ++certified;
       makes += t.makes;

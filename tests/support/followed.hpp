@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/certify/fallback.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"

@@ -6,23 +6,15 @@
 #include <limits>
 #include <utility>
 
-#include "contct/kernel/call.hpp"
+#include "contct/solve/factored_stiffness.hpp"
 
 namespace contct::certify {
 namespace {
 
+using outcome = reference_answer::outcome;
+
 double share(double part, double whole) {
   return part > 0.0 ? part / whole : 0.0;
-}
-
-bool all_finite(std::span<const double> numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-}
-
-std::string in_words(const char* what, double amount) {
-  char text[120];
-  (void)std::snprintf(text, sizeof text, "%s by %.2g", what, amount);
-  return text;
 }
 
 /// The worst of what is above the tolerance, in words.
@@ -35,9 +27,27 @@ std::string worst_of(const certificate& c) {
       {c.equilibrium, "loads and forces do not balance: they differ"},
   };
   for (const auto& [amount, words] : parts) {
-    if (!(amount <= c.tolerance)) return in_words(words, amount);
+    if (amount <= c.tolerance) continue;
+    char text[120];
+    (void)std::snprintf(text, sizeof text, "%s by %.2g", words, amount);
+    return text;
   }
   return "";
+}
+
+/// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
+/// rest, their springs take no force.
+std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) {
+  rigid_rank rank = s.nothing_held();
+  for (const rigid_row& row : s.held_by_supports) rank.hold(row);
+  for (std::size_t i = 0; i < pressed.size(); ++i)
+    if (pressed[i] != 0) rank.hold(s.held_by_pairs[i]);
+  for (std::size_t i = 0; i < pressed.size() && rank.rank() < s.rigid_motions; ++i) {
+    const int before = rank.rank();
+    rank.hold(s.held_by_pairs[i]);
+    if (rank.rank() > before) pressed[i] = 1;
+  }
+  return pressed;
 }
 
 }  // namespace
@@ -52,11 +62,7 @@ certifier::certifier(const linear_structure& s, load_history total_load)
 }
 
 void certifier::step_ended(const step_state& s) {
-  if (s.fraction == 1.0) {
-    steps_.emplace_back(judge(s));
-  } else {
-    steps_.emplace_back();
-  }
+  steps_.push_back(s.fraction == 1.0 ? std::optional(judge(s)) : std::nullopt);
 }
 
 bool certifier::all_exact() const {
@@ -64,9 +70,10 @@ bool certifier::all_exact() const {
 }
 
 certificate certifier::judge(const step_state& s) {
-  if (!all_finite(s.displacement)) {  // they would slip through every comparison below
-    certificate c;
-    c.problem = "a displacement is not a finite number";
+  certificate c;
+  const auto finite = [](double x) { return std::isfinite(x); };
+  if (!std::all_of(s.displacement.begin(), s.displacement.end(), finite)) {
+    c.problem = "a displacement is not a finite number";  // it would slip through every comparison below
     return c;
   }
   std::vector<double> load(s.displacement.size(), 0.0);
@@ -74,25 +81,22 @@ certificate certifier::judge(const step_state& s) {
   const reference_answer answer = reference_.solve(load);
   remember_sizes(s.displacement);
   remember_sizes(answer.displacement);
-  certificate c;
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
   c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
                          certificate_never_above);
   c.unique = answer.unique;
   measure_state(s, load, c);
-  if (answer.how == reference_answer::outcome::no_equilibrium) {
-    c.unfounded = true;
+  c.unfounded = answer.how == outcome::no_equilibrium;
+  if (c.unfounded) {
     c.problem = "there is no equilibrium: nothing stops a rigid motion that the load drives";
-    return c;
-  }
-  if (answer.how == reference_answer::outcome::not_found) {
+  } else if (answer.how == outcome::not_found) {
     c.problem = "the oracle came to no answer: the stiffness is too ill-conditioned";
-    return c;
+  } else {
+    if (c.unique) compare_with(answer, s, c);
+    c.problem = worst_of(c);
+    c.exact = c.problem.empty();
   }
-  if (c.unique) compare_with(answer, s, c);
-  c.problem = worst_of(c);
-  c.exact = c.problem.empty();
   return c;
 }
 
@@ -111,9 +115,7 @@ double certifier::largest_length() const {
 
 /// From the state alone: equilibrium, penetration, tension.
 void certifier::measure_state(const step_state& s, std::span<const double> load, certificate& c) const {
-  const auto row = [this](std::size_t dof) -> std::size_t {
-    return structure_.row_of(static_cast<int>(dof));
-  };
+  const auto row = [this](std::size_t dof) { return structure_.row_of(static_cast<int>(dof)); };
   std::vector<double> u(load.size());
   std::vector<long double> left(load.size());
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
@@ -140,9 +142,8 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   }
   double unbalanced = 0.0;
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
-    if (structure_.fixed[dof] != 0) continue;
-    unbalanced =
-        std::max(unbalanced, std::abs(static_cast<double>(left[row(dof)])) / std::sqrt(stiffness[dof]));
+    const double there = std::abs(static_cast<double>(left[row(dof)])) / std::sqrt(stiffness[dof]);
+    if (structure_.fixed[dof] == 0) unbalanced = std::max(unbalanced, there);
   }
   c.penetration = share(deepest, largest_length());
   c.tension = share(farthest, largest_length());
@@ -159,6 +160,44 @@ void certifier::compare_with(const reference_answer& a, const step_state& s, cer
   }
   c.displacement_error = share(deflection, largest_length());
   c.shape_error = share(any, largest_displacement_);
+}
+
+fallback_solver fallback_to_reference(const linear_structure& s) {
+  return [&s](std::span<const double> load) -> std::optional<equilibrium_state> {
+    reference_answer answer = reference_solver(s).solve(load);
+    if (answer.how != outcome::found) return {};
+    return equilibrium_state{std::move(answer.displacement), std::move(answer.pressed)};
+  };
+}
+
+path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
+                           std::span<observer* const> observers) {
+  reference_solver finds(s);
+  factored_stiffness stiffness(s);
+  std::vector<double> total(s.dofs());
+  path_end end;
+  for (int step = 1; step <= steps; ++step) {
+    std::fill(total.begin(), total.end(), 0.0);
+    total_load(step, total);
+    const reference_answer found = finds.solve(total);
+    end.work.factors += found.factorisations;
+    if (found.how == outcome::no_equilibrium) return {path_status::mechanism, step, 0.0, {}, end.work};
+    if (found.how != outcome::found) return {path_status::not_factored, step, 0.0, {}, end.work};
+    std::vector<int> status;
+    for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);
+    const double rcond = stiffness.reciprocal_condition(holding(s, found.pressed));
+    ++end.work.factors;
+    for (observer* o : observers)
+      o->step_ended({.step = step,
+                     .fraction = 1.0,
+                     .displacement = found.displacement,
+                     .isep = status,
+                     .rcond = rcond,
+                     .from_fallback = false,
+                     .from_reference = true});
+    end.step = step;
+  }
+  return end;
 }
 
 }  // namespace contct::certify

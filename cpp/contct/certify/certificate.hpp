@@ -1,4 +1,5 @@
-// Is the final state of a step right? Judged by its own residuals, and against the reference solution.
+// Is the final state of a step right? Judged by its own residuals, and against the reference solution, which
+// may be such a state itself: as a fallback, and in place of a path.
 //
 // The reference solution shares no code with kernels, engines or the loop. It does share the assembled
 // stiffness, its Cholesky factor (matrix/stiffness_factor) and the count of rigid motions
@@ -70,5 +71,19 @@ class certifier final : public observer {
   double largest_displacement_ = 0.0;  // scaled, any dof
   std::vector<std::optional<certificate>> steps_;
 };
+
+/// A fallback for `s`, which must outlive it: the reference solution as the end of a step that a path cannot
+/// reach.
+[[nodiscard]] fallback_solver fallback_to_reference(const linear_structure& s);
+
+/// Only the ends: find the equilibrium under the total load of every step and tell it to the observers as
+/// that step's end.
+/// An elastic structure on one-sided springs without friction has no memory: each is where the path would
+/// arrive. A handful of factorisations a step; no increments, no events.
+///
+/// Ends as `mechanism` at the first step whose load nothing carries, and as `not_factored` where no
+/// answer is found in double precision; that step is not told.
+path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
+                           std::span<observer* const> observers);
 
 }  // namespace contct::certify

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+
+#include "contct/matrix/stiffness_factor.hpp"
 
 namespace contct::certify {
 namespace {
@@ -20,291 +23,288 @@ void multiply_minus(const stiffness_matrix& k, const std::vector<long double>& x
 }
 
 long double dot(const std::vector<long double>& a, const std::vector<long double>& b) {
-  long double sum = 0.0L;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0L);
 }
 
 }  // namespace
 
-reference_solver::reference_solver(const linear_structure& s) : structure_(s), factor_(s.stiffness) {
-  const std::size_t n = s.dofs();
-  load_.resize(n);
-  u_.resize(n);
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
-    pair_rows_.push_back(s.row_of(s.dof_of_pair(static_cast<int>(i))));
+class reference_solver::search {
+ public:
+  explicit search(const linear_structure& s)
+      : structure_(s), load_(s.dofs()), u_(s.dofs()), set_(s.pairs.size()), factor_(s.stiffness) {
+    for (std::size_t i = 0; i < s.pairs.size(); ++i)
+      pair_rows_.push_back(s.row_of(s.dof_of_pair(static_cast<int>(i))));
+    start_undeformed();
+    for (int row = 0; row < s.dofs(); ++row) scale_.push_back(std::sqrt(s.stiffness.diagonal(row)));
   }
-  set_.resize(s.pairs.size());
-  start_undeformed();
-  for (int row = 0; row < s.dofs(); ++row) scale_.push_back(std::sqrt(s.stiffness.diagonal(row)));
-}
 
-/// n (w - c) > 0; a pair within `tie` of its face keeps the state that `tied` has for it.
-reference_solver::pair_set reference_solver::pressed_at(const numbers& u, long double tie,
-                                                        const pair_set& tied) const {
-  pair_set set(pair_rows_.size());
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const contact_pair& p = structure_.pairs[i];
-    const long double pressing = p.surface * (u[row_of_pair(i)] - p.face);
-    set[i] = std::abs(pressing) <= tie ? tied[i] : static_cast<char>(pressing > 0.0L);
+  reference_answer solve(std::span<const double> load) {
+    factorisations_ = 0;
+    take(load);
+    reference_answer answer = from_here();
+    if (answer.how == outcome::found) return answer;
+    // A start that is far from the answer may have spoilt it by rounding.
+    start_undeformed();
+    answer = from_here();
+    if (answer.how != outcome::found) start_undeformed();
+    return answer;
   }
-  return set;
-}
 
-bool reference_solver::holds(const pair_set& set, rigid_rank& rank) const {
-  for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
-  for (std::size_t i = 0; i < set.size() && rank.rank() < structure_.rigid_motions; ++i) {
-    if (set[i] != 0) rank.hold(structure_.held_by_pairs[i]);
-  }
-  return rank.rank() == structure_.rigid_motions;
-}
-
-/// Do the supports and the pairs that press with more than the rounding of the load hold the structure?
-/// Otherwise other places are as good: a structure lying on its faces without load, or balanced.
-bool reference_solver::holds_firmly() const {
-  constexpr long double rounding = 1e-12L;
-  pair_set firm(set_.size());
-  for (std::size_t i = 0; i < firm.size(); ++i) {
-    const contact_pair& p = structure_.pairs[i];
-    firm[i] = p.stiffness * p.surface * (u_[row_of_pair(i)] - p.face) > rounding * largest_load_ ? 1 : 0;
-  }
-  rigid_rank rank = structure_.nothing_held();
-  return holds(firm, rank);
-}
-
-/// Is the load's work on this motion more than the rounding of its sums?
-bool reference_solver::drives(const rigid_row& motion) const {
-  const double rounding = std::max(1e-12, structure_.rigid_rounding);
-  double work = 0.0;
-  double size = 0.0;
-  for (std::size_t m = 0; m < motion.size(); ++m) {
-    work = std::max(work, std::abs(motion[m]));
-    size = std::max(size, resultant_size_[m]);
-  }
-  return work > rounding * size;
-}
-
-/// Does no open pair stand in the way of this rigid motion?
-bool reference_solver::nothing_stops(const numbers& motion) const {
-  const long double rounding = std::max(1e-10, structure_.rigid_rounding);
-  long double largest = 0.0L;
-  for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
-    largest = std::max(largest, std::abs(motion[structure_.row_of(dof)]));
-  }
-  for (std::size_t i = 0; i < pair_rows_.size(); ++i) {
-    if (set_[i] == 0 && structure_.pairs[i].surface * motion[row_of_pair(i)] > rounding * largest)
-      return false;
-  }
-  return true;
-}
-
-bool reference_solver::factor_with(const pair_set& set) {
-  std::vector<spring_at> springs;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const int dof = structure_.dof_of_pair(static_cast<int>(i));
-    const int row = structure_.row_of(dof);
-    if (set[i] != 0 && structure_.fixed[dof] == 0) {
-      springs.push_back({row, structure_.pairs[i].stiffness});
-    }
-  }
-  for (const holding_spring& h : holding_) springs.push_back({static_cast<int>(h.row), h.stiffness});
-  ++factorisations_;
-  return factor_.factor(springs);
-}
-
-void reference_solver::residual(const numbers& u, const pair_set& set, numbers& r) const {
-  multiply_minus(structure_.stiffness, u, r);
-  for (std::size_t i = 0; i < r.size(); ++i) r[i] += load_[i];
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    if (set[i] == 0) continue;
-    const contact_pair& p = structure_.pairs[i];
-    const std::size_t row = row_of_pair(i);
-    r[row] -= p.stiffness * (u[row] - p.face);
-  }
-  for (const holding_spring& h : holding_) r[h.row] -= h.stiffness * (u[h.row] - h.rest);
-  for (std::size_t dof = 0; dof < structure_.fixed.size(); ++dof) {
-    if (structure_.fixed[dof] != 0) r[structure_.row_of(static_cast<int>(dof))] = 0.0L;
-  }
-}
-
-long double reference_solver::refined_solve(const pair_set& set, numbers& u) {
-  numbers r(u.size());
-  std::vector<double> step(u.size());
-  long double before = std::numeric_limits<long double>::infinity();
-  long double size = 0.0L;  // the largest that u has been, so that an answer of 0 is reached
-  for (std::size_t i = 0; i < u.size(); ++i) size = std::max(size, scale_[i] * std::abs(u[i]));
-  for (int pass = 0; pass < most_refinements; ++pass) {
-    residual(u, set, r);
-    for (std::size_t i = 0; i < r.size(); ++i) step[i] = static_cast<double>(r[i]);
-    factor_.solve(step);
-    long double correction = 0.0L;
-    long double largest_step = 0.0L;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      u[i] += step[i];
-      correction = std::max(correction, static_cast<long double>(scale_[i] * std::abs(step[i])));
-      size = std::max(size, scale_[i] * std::abs(u[i]));
-    }
-    for (const std::size_t row : pair_rows_)
-      largest_step = std::max(largest_step, static_cast<long double>(std::abs(step[row])));
-    if (!std::isfinite(correction)) return -1.0L;
-    if (correction <= 4 * finest * size || (pass > 1 && correction > before / 2)) {
-      return correction <= good_enough * size ? largest_step : -1.0L;
-    }
-    before = correction;
-  }
-  return -1.0L;
-}
-
-/// Where E is least along u + alpha p, alpha > 0: its slope grows with alpha and bends where a pair
-/// meets its face. Infinite when E falls for ever.
-long double reference_solver::best_step(const numbers& u, const numbers& p) const {
-  numbers minus_kp(p.size());
-  multiply_minus(structure_.stiffness, p, minus_kp);
-  long double slope = -dot(minus_kp, u) - dot(load_, p);
-  long double growth = -dot(minus_kp, p);
-  struct bend {
-    long double at, slope, growth;
-  };
-  std::vector<bend> bends;
-  for (std::size_t i = 0; i < pair_rows_.size(); ++i) {
-    const contact_pair& c = structure_.pairs[i];
-    const long double w = u[row_of_pair(i)];
-    const long double dw = p[row_of_pair(i)];
-    const bool pressed = c.surface * (w - c.face) > 0;
-    if (pressed) {
-      slope += c.stiffness * dw * (w - c.face);
-      growth += c.stiffness * dw * dw;
-    }
-    const long double at = dw != 0 ? (c.face - w) / dw : -1.0L;
-    if (at < 0 || (at == 0 && c.surface * dw <= 0)) continue;
-    const int sign = pressed ? -1 : 1;
-    bends.push_back({at, sign * c.stiffness * dw * (w - c.face), sign * c.stiffness * dw * dw});
-  }
-  std::sort(bends.begin(), bends.end(), [](const bend& a, const bend& b) { return a.at < b.at; });
-  for (const bend& b : bends) {
-    if (slope + b.at * growth >= 0) break;
-    slope += b.slope;
-    growth += b.growth;
-  }
-  return growth > 0 ? -slope / growth : std::numeric_limits<long double>::infinity();
-}
-
-void reference_solver::take(std::span<const double> load) {
-  resultant_ = {};
-  resultant_size_ = {};
-  for (std::size_t dof = 0; dof < load.size(); ++dof) {
-    const bool fixed = structure_.fixed[dof] != 0;
-    load_[structure_.row_of(static_cast<int>(dof))] = fixed ? 0.0L : load[dof];
-    if (fixed) continue;
-    for (std::size_t m = 0; m < resultant_.size(); ++m) {
-      resultant_[m] += load[dof] * structure_.rigid_rows[dof][m];
-      resultant_size_[m] += std::abs(load[dof] * structure_.rigid_rows[dof][m]);
-    }
-  }
-}
-
-void reference_solver::remember_size_of_load() {
-  long double whole = 0.0L;
-  for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node) {
-    whole += std::abs(load_[structure_.row_of(dof)]);
-  }
-  largest_load_ = std::max(largest_load_, whole);
-}
-
-reference_answer reference_solver::end(reference_answer::outcome how, bool unique) const {
-  reference_answer answer;
-  answer.how = how;
-  answer.unique = unique;
-  answer.factorisations = factorisations_;
-  answer.pressed = set_;
-  for (int dof = 0; dof < structure_.dofs(); ++dof) {
-    answer.displacement.push_back(static_cast<double>(u_[structure_.row_of(dof)]));
-  }
-  return answer;
-}
-
-/// p = the rigid motion that the load drives and no held dof stops; false when it drives none.
-bool reference_solver::rigid_direction(const rigid_rank& rank, numbers& p) const {
-  const rigid_row motion = rank.free_part(resultant_);
-  if (!drives(motion)) return false;
-  for (int dof = 0; dof < structure_.dofs(); ++dof) {
-    long double along = 0.0L;
-    for (std::size_t m = 0; m < motion.size(); ++m) along += motion[m] * structure_.rigid_rows[dof][m];
-    p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0L : along;
-  }
-  for (std::size_t i = 0; i < set_.size(); ++i) {
-    if (set_[i] != 0) p[row_of_pair(i)] = 0.0L;  // what is left there is rounding
-  }
-  return true;
-}
-
-/// Springs without force at the present displacement, at as many dofs as it takes to hold the structure.
-void reference_solver::add_holding_springs(rigid_rank& rank) {
-  for (std::size_t dof = 0; dof < structure_.fixed.size() && rank.rank() < structure_.rigid_motions; ++dof) {
-    const int before = rank.rank();
-    if (structure_.fixed[dof] != 0) continue;
-    rank.hold(structure_.rigid_rows[dof]);
-    if (rank.rank() == before) continue;
-    const int row = structure_.row_of(static_cast<int>(dof));
-    holding_.push_back({static_cast<std::size_t>(row), structure_.stiffness.diagonal(row), u_[row]});
-  }
-}
-
-/// E falls for ever along p: there is no equilibrium, unless supports hold the structure or numbers went out
-/// of range.
-reference_answer::outcome reference_solver::why_endless(const numbers& p) const {
+ private:
+  using numbers = std::vector<long double>;
+  using pair_set = std::vector<char>;
   using outcome = reference_answer::outcome;
-  rigid_rank rank = structure_.nothing_held();
-  if (holds(pair_set(set_.size()), rank)) return outcome::not_found;
-  const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
-  return finite ? outcome::no_equilibrium : outcome::not_found;
-}
+  struct holding_spring {
+    std::size_t row;
+    double stiffness;
+    long double rest;
+  };
 
-/// Where the structure is before any load.
-void reference_solver::start_undeformed() {
-  std::fill(u_.begin(), u_.end(), 0.0L);
-  for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
-}
+  void take(std::span<const double> load) {
+    resultant_ = {};
+    resultant_size_ = {};
+    for (std::size_t dof = 0; dof < load.size(); ++dof) {
+      const bool fixed = structure_.fixed[dof] != 0;
+      load_[structure_.row_of(static_cast<int>(dof))] = fixed ? 0.0L : load[dof];
+      if (fixed) continue;
+      for (std::size_t m = 0; m < resultant_.size(); ++m) {
+        resultant_[m] += load[dof] * structure_.rigid_rows[dof][m];
+        resultant_size_[m] += std::abs(load[dof] * structure_.rigid_rows[dof][m]);
+      }
+    }
+    long double whole = 0.0L;
+    for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node)
+      whole += std::abs(load_[structure_.row_of(dof)]);
+    largest_load_ = std::max(largest_load_, whole);
+  }
+
+  /// Where the structure is before any load.
+  void start_undeformed() {
+    std::fill(u_.begin(), u_.end(), 0.0L);
+    for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
+  }
+
+  /// n (w - c) > 0; a pair within `tie` of its face keeps its state.
+  pair_set pressed_at(const numbers& u, long double tie) const {
+    pair_set set = set_;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const contact_pair& p = structure_.pairs[i];
+      const long double pressing = p.surface * (u[pair_rows_[i]] - p.face);
+      if (!(std::abs(pressing) <= tie)) set[i] = pressing > 0.0L ? 1 : 0;
+    }
+    return set;
+  }
+
+  bool holds(const pair_set& set, rigid_rank& rank) const {
+    for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
+    for (std::size_t i = 0; i < set.size() && rank.rank() < structure_.rigid_motions; ++i)
+      if (set[i] != 0) rank.hold(structure_.held_by_pairs[i]);
+    return rank.rank() == structure_.rigid_motions;
+  }
+
+  /// Do the supports and the pairs that press with more than the rounding of the load hold the structure?
+  /// Otherwise other places are as good: a structure lying on its faces without load, or balanced.
+  bool holds_firmly() const {
+    constexpr long double rounding = 1e-12L;
+    pair_set firm(set_.size());
+    for (std::size_t i = 0; i < firm.size(); ++i) {
+      const contact_pair& p = structure_.pairs[i];
+      firm[i] = p.stiffness * p.surface * (u_[pair_rows_[i]] - p.face) > rounding * largest_load_ ? 1 : 0;
+    }
+    rigid_rank rank = structure_.nothing_held();
+    return holds(firm, rank);
+  }
+
+  /// Does no open pair stand in the way of this rigid motion?
+  bool nothing_stops(const numbers& motion) const {
+    const long double rounding = std::max(1e-10, structure_.rigid_rounding);
+    long double largest = 0.0L;
+    for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node)
+      largest = std::max(largest, std::abs(motion[structure_.row_of(dof)]));
+    for (std::size_t i = 0; i < pair_rows_.size(); ++i)
+      if (set_[i] == 0 && structure_.pairs[i].surface * motion[pair_rows_[i]] > rounding * largest)
+        return false;
+    return true;
+  }
+
+  /// p = the rigid motion that the load drives and no held dof stops; false when it drives none.
+  bool rigid_direction(const rigid_rank& rank, numbers& p) const {
+    const rigid_row motion = rank.free_part(resultant_);
+    const double rounding = std::max(1e-12, structure_.rigid_rounding);  // of the sums of the load's work
+    if (!(largest_of(motion) > rounding * largest_of(resultant_size_))) return false;
+    for (int dof = 0; dof < structure_.dofs(); ++dof) {
+      long double along = 0.0L;
+      for (std::size_t m = 0; m < motion.size(); ++m) along += motion[m] * structure_.rigid_rows[dof][m];
+      p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0L : along;
+    }
+    for (std::size_t i = 0; i < set_.size(); ++i)
+      if (set_[i] != 0) p[pair_rows_[i]] = 0.0L;  // what is left there is rounding
+    return true;
+  }
+
+  /// Springs without force at the present displacement, at as many dofs as it takes to hold the structure.
+  void add_holding_springs(rigid_rank& rank) {
+    for (int dof = 0; dof < structure_.dofs() && rank.rank() < structure_.rigid_motions; ++dof) {
+      const int before = rank.rank();
+      if (structure_.fixed[dof] != 0) continue;
+      rank.hold(structure_.rigid_rows[dof]);
+      if (rank.rank() == before) continue;
+      const int row = structure_.row_of(dof);
+      holding_.push_back({static_cast<std::size_t>(row), structure_.stiffness.diagonal(row), u_[row]});
+    }
+  }
+
+  bool factor() {
+    std::vector<spring_at> springs;
+    for (std::size_t i = 0; i < set_.size(); ++i) {
+      const int dof = structure_.dof_of_pair(static_cast<int>(i));
+      if (set_[i] != 0 && structure_.fixed[dof] == 0)
+        springs.push_back({structure_.row_of(dof), structure_.pairs[i].stiffness});
+    }
+    for (const holding_spring& h : holding_) springs.push_back({static_cast<int>(h.row), h.stiffness});
+    ++factorisations_;
+    return factor_.factor(springs);
+  }
+
+  /// r = load - K u - the springs of the pressed pairs.
+  void residual(const numbers& u, numbers& r) const {
+    multiply_minus(structure_.stiffness, u, r);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] += load_[i];
+    for (std::size_t i = 0; i < set_.size(); ++i) {
+      const contact_pair& p = structure_.pairs[i];
+      const std::size_t row = pair_rows_[i];
+      if (set_[i] != 0) r[row] -= p.stiffness * (u[row] - p.face);
+    }
+    for (const holding_spring& h : holding_) r[h.row] -= h.stiffness * (u[h.row] - h.rest);
+    for (int dof = 0; dof < structure_.dofs(); ++dof)
+      if (structure_.fixed[dof] != 0) r[structure_.row_of(dof)] = 0.0L;
+  }
+
+  /// Solve for the point where the springs of the pressed pairs are in equilibrium. Returns the size of the
+  /// last correction, or a negative number when refinement does not converge.
+  long double refined_solve(numbers& u) {
+    numbers r(u.size());
+    std::vector<double> step(u.size());
+    long double before = std::numeric_limits<long double>::infinity();
+    long double size = 0.0L;  // the largest that u has been, so that an answer of 0 is reached
+    for (std::size_t i = 0; i < u.size(); ++i) size = std::max(size, scale_[i] * std::abs(u[i]));
+    for (int pass = 0; pass < most_refinements; ++pass) {
+      residual(u, r);
+      for (std::size_t i = 0; i < r.size(); ++i) step[i] = static_cast<double>(r[i]);
+      factor_.solve(step);
+      long double correction = 0.0L;
+      long double largest_step = 0.0L;
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        u[i] += step[i];
+        correction = std::max(correction, static_cast<long double>(scale_[i] * std::abs(step[i])));
+        size = std::max(size, scale_[i] * std::abs(u[i]));
+      }
+      for (const std::size_t row : pair_rows_)
+        largest_step = std::max(largest_step, static_cast<long double>(std::abs(step[row])));
+      if (!std::isfinite(correction)) return -1.0L;
+      if (correction <= 4 * finest * size || (pass > 1 && correction > before / 2))
+        return correction <= good_enough * size ? largest_step : -1.0L;
+      before = correction;
+    }
+    return -1.0L;
+  }
+
+  /// Where E is least along u_ + alpha p, alpha > 0: its slope grows with alpha and bends where a pair
+  /// meets its face. Infinite when E falls for ever.
+  long double best_step(const numbers& p) const {
+    numbers minus_kp(p.size());
+    multiply_minus(structure_.stiffness, p, minus_kp);
+    long double slope = -dot(minus_kp, u_) - dot(load_, p);
+    long double growth = -dot(minus_kp, p);
+    struct bend {
+      long double at, slope, growth;
+    };
+    std::vector<bend> bends;
+    for (std::size_t i = 0; i < pair_rows_.size(); ++i) {
+      const contact_pair& c = structure_.pairs[i];
+      const long double w = u_[pair_rows_[i]];
+      const long double dw = p[pair_rows_[i]];
+      const bool pressed = c.surface * (w - c.face) > 0;
+      if (pressed) {
+        slope += c.stiffness * dw * (w - c.face);
+        growth += c.stiffness * dw * dw;
+      }
+      const long double at = dw != 0 ? (c.face - w) / dw : -1.0L;
+      if (at < 0 || (at == 0 && c.surface * dw <= 0)) continue;
+      const int sign = pressed ? -1 : 1;
+      bends.push_back({at, sign * c.stiffness * dw * (w - c.face), sign * c.stiffness * dw * dw});
+    }
+    std::sort(bends.begin(), bends.end(), [](const bend& a, const bend& b) { return a.at < b.at; });
+    for (const bend& b : bends) {
+      if (slope + b.at * growth >= 0) break;
+      slope += b.slope;
+      growth += b.growth;
+    }
+    return growth > 0 ? -slope / growth : std::numeric_limits<long double>::infinity();
+  }
+
+  /// E falls for ever along p: there is no equilibrium, unless supports hold the structure or numbers went
+  /// out of range.
+  outcome why_endless(const numbers& p) const {
+    rigid_rank rank = structure_.nothing_held();
+    if (holds(pair_set(set_.size()), rank)) return outcome::not_found;
+    const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
+    return finite ? outcome::no_equilibrium : outcome::not_found;
+  }
+
+  reference_answer end(outcome how, bool unique) const {
+    reference_answer answer{how, unique, {}, set_, factorisations_};
+    for (int dof = 0; dof < structure_.dofs(); ++dof)
+      answer.displacement.push_back(static_cast<double>(u_[structure_.row_of(dof)]));
+    return answer;
+  }
+
+  reference_answer from_here() {
+    numbers p(u_.size());
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      rigid_rank rank = structure_.nothing_held();
+      const bool held = holds(set_, rank);
+      holding_.clear();
+      if (held || !rigid_direction(rank, p)) {
+        if (!held) add_holding_springs(rank);
+        if (!factor()) return end(outcome::not_found, held);
+        numbers target = u_;
+        const long double error = refined_solve(target);
+        if (error >= 0 && pressed_at(target, 4 * error) == set_) {
+          u_ = target;
+          return end(outcome::found, held && holds_firmly());
+        }
+        for (std::size_t i = 0; i < p.size(); ++i) p[i] = target[i] - u_[i];
+      } else if (nothing_stops(p)) {
+        return end(outcome::no_equilibrium, false);
+      }
+      const long double alpha = best_step(p);
+      if (!std::isfinite(alpha)) return end(why_endless(p), false);
+      for (std::size_t i = 0; i < p.size(); ++i) u_[i] += alpha * p[i];
+      set_ = pressed_at(u_, 0.0L);
+    }
+    return end(outcome::not_found, false);
+  }
+
+  const linear_structure& structure_;
+  std::vector<std::size_t> pair_rows_;   // [pairs]
+  numbers load_;                         // [rows]
+  rigid_row resultant_{};                // work of the load on each rigid motion
+  rigid_row resultant_size_{};           // the same with every part counted as positive
+  std::vector<holding_spring> holding_;  // of this iteration only
+  long double largest_load_ = 0.0L;      // sum of all forces on deflections, the largest so far
+  numbers u_;                            // the last answer [rows]
+  pair_set set_;                         // and its pressed pairs
+  stiffness_factor factor_;
+  std::vector<double> scale_;  // square roots of K's diagonal [rows]
+  int factorisations_ = 0;
+};
+
+reference_solver::reference_solver(const linear_structure& s) : search_(std::make_unique<search>(s)) {}
+reference_solver::~reference_solver() = default;
 
 reference_answer reference_solver::solve(std::span<const double> load) {
-  factorisations_ = 0;
-  take(load);
-  remember_size_of_load();
-  reference_answer answer = search();
-  if (answer.how == reference_answer::outcome::found) return answer;
-  // A start that is far from the answer may have spoilt it by rounding.
-  start_undeformed();
-  answer = search();
-  if (answer.how != reference_answer::outcome::found) start_undeformed();
-  return answer;
-}
-
-reference_answer reference_solver::search() {
-  using outcome = reference_answer::outcome;
-  numbers p(u_.size());
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    rigid_rank rank = structure_.nothing_held();
-    const bool held = holds(set_, rank);
-    holding_.clear();
-    if (held || !rigid_direction(rank, p)) {
-      if (!held) add_holding_springs(rank);
-      if (!factor_with(set_)) return end(outcome::not_found, held);
-      numbers target = u_;
-      const long double error = refined_solve(set_, target);
-      if (error >= 0 && pressed_at(target, 4 * error, set_) == set_) {
-        u_ = target;
-        return end(outcome::found, held && holds_firmly());
-      }
-      for (std::size_t i = 0; i < p.size(); ++i) p[i] = target[i] - u_[i];
-    } else if (nothing_stops(p)) {
-      return end(outcome::no_equilibrium, false);
-    }
-    const long double alpha = best_step(u_, p);
-    if (!std::isfinite(alpha)) return end(why_endless(p), false);
-    for (std::size_t i = 0; i < p.size(); ++i) u_[i] += alpha * p[i];
-    set_ = pressed_at(u_, 0.0L, set_);
-  }
-  return end(outcome::not_found, false);
+  return search_->solve(load);
 }
 
 }  // namespace contct::certify

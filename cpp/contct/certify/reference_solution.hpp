@@ -2,10 +2,10 @@
 // path.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "contct/matrix/stiffness_factor.hpp"
 #include "contct/structure/structure.hpp"
 
 namespace contct::certify {
@@ -50,54 +50,15 @@ class reference_solver {
  public:
   /// `s` must outlive this object.
   explicit reference_solver(const linear_structure& s);
+  ~reference_solver();
 
   /// The equilibrium under `load` [dofs]. Starts from the last answer, and once more from the undeformed
   /// structure where that leads nowhere.
   [[nodiscard]] reference_answer solve(std::span<const double> load);
 
  private:
-  using numbers = std::vector<long double>;
-  using pair_set = std::vector<char>;
-  struct holding_spring {
-    std::size_t row;
-    double stiffness;
-    long double rest;
-  };
-
-  [[nodiscard]] pair_set pressed_at(const numbers& u, long double tie, const pair_set& tied) const;
-  [[nodiscard]] bool holds(const pair_set& set, rigid_rank& rank) const;
-  [[nodiscard]] bool holds_firmly() const;
-  [[nodiscard]] bool drives(const rigid_row& motion) const;
-  [[nodiscard]] bool nothing_stops(const numbers& motion) const;
-  [[nodiscard]] bool rigid_direction(const rigid_rank& rank, numbers& p) const;
-  void add_holding_springs(rigid_rank& rank);
-  [[nodiscard]] bool factor_with(const pair_set& set);
-  /// r = load - K u - the springs of `set`.
-  void residual(const numbers& u, const pair_set& set, numbers& r) const;
-  /// Solve with `set` closed for the point where its springs are in equilibrium. Returns the size
-  /// of the last correction, or a negative number when refinement does not converge.
-  [[nodiscard]] long double refined_solve(const pair_set& set, numbers& u);
-  [[nodiscard]] long double best_step(const numbers& u, const numbers& p) const;
-  void take(std::span<const double> load);
-  void start_undeformed();
-  [[nodiscard]] reference_answer search();
-  [[nodiscard]] reference_answer::outcome why_endless(const numbers& p) const;
-  void remember_size_of_load();
-  [[nodiscard]] reference_answer end(reference_answer::outcome how, bool unique) const;
-  [[nodiscard]] std::size_t row_of_pair(std::size_t i) const { return pair_rows_[i]; }
-
-  const linear_structure& structure_;
-  std::vector<std::size_t> pair_rows_;   // [pairs]
-  numbers load_;                         // [rows]
-  rigid_row resultant_{};                // work of the load on each rigid motion
-  rigid_row resultant_size_{};           // the same with every part counted as positive
-  std::vector<holding_spring> holding_;  // of this iteration only
-  long double largest_load_ = 0.0L;      // sum of all forces on deflections, the largest so far
-  numbers u_;                            // the last answer [rows]
-  pair_set set_;                         // and its pressed pairs
-  stiffness_factor factor_;
-  std::vector<double> scale_;  // square roots of K's diagonal [rows]
-  int factorisations_ = 0;
+  class search;
+  std::unique_ptr<search> search_;
 };
 
 }  // namespace contct::certify

@@ -1,28 +1,38 @@
 #include "contct/compare/branches.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace contct::compare {
 
-template <class Real>
-void branch_counts::count(const call<Real>& c, std::span<const int> isep_before) {
-  for_each_decision(c, isep_before,
-                    [this](branch b, std::size_t, bool outcome, Real, Real) { add(b, outcome, 1); });
-}
-
-template void branch_counts::count(const call<float>&, std::span<const int>);
-template void branch_counts::count(const call<double>&, std::span<const int>);
-
 void branch_counts::add(const branch_counts& other) {
-  for (std::size_t b = 0; b < counts_.size(); ++b) {
+  for (std::size_t b = 0; b < counts_.size(); ++b)
     for (std::size_t outcome = 0; outcome < 2; ++outcome) counts_[b][outcome] += other.counts_[b][outcome];
-  }
 }
 
 std::int64_t branch_counts::rarest() const {
   std::int64_t least = counts_[0][0];
   for (const auto& both : counts_) least = std::min({least, both[0], both[1]});
   return least;
+}
+
+std::vector<decision> decisions_of(const call<double>& c, std::span<const int> isep_before, int real_bytes) {
+  if (real_bytes == 8) return decisions_of<double>(c, isep_before);
+  return as_float_call(c, [&](const call<float>& f) { return decisions_of<float>(f, isep_before); });
+}
+
+std::optional<decision> narrowest(const std::vector<decision>& all) {
+  const auto least = std::ranges::min_element(all, {}, &decision::ulps);
+  return least == all.end() ? std::nullopt : std::optional<decision>(*least);
+}
+
+std::string words_of(const decision& d) {
+  std::string words = d.pair >= 0 ? "pair " + std::to_string(d.pair + 1) + ": " : "";
+  words +=
+      "IF (" + std::string(branch_conditions[index_of(d.what)]) + ") was " + (d.outcome ? "true" : "false");
+  if (d.ulps == std::numeric_limits<std::uint64_t>::max()) return words + ", with NaN";
+  if (d.ulps == 0) return words + ", exactly on the threshold";
+  return words + " by " + std::to_string(d.ulps) + " ULP";
 }
 
 }  // namespace contct::compare

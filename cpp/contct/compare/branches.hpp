@@ -1,13 +1,18 @@
-// Which way the listing's IFs went, so that a comparison can require that every outcome was reached.
+// Which way the listing's IFs went, so that a comparison can require that every outcome was reached; and how
+// narrowly: a mismatch at a narrow decision is a tie, elsewhere a bug.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "contct/kernel/call.hpp"
+#include "contct/numeric/bits.hpp"
 
 namespace contct::compare {
 
@@ -40,33 +45,6 @@ inline constexpr std::array<std::string_view, 8> branch_conditions = {
 /// Walk through the decisions of one finished call, `c` with its outputs and `isep_before` as it went
 /// in: `visit(branch, pair from 0, outcome, left, right)`, the last two being the numbers compared.
 /// This derives the decisions from the listing's text and shares no code with either kernel.
-template <class Real, class Visit>
-void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit);
-
-/// How often each IF was true and false, worked out from what went into and came out of calls.
-class branch_counts {
- public:
-  /// Count one finished call: `c` with its outputs, `isep_before` as it went in.
-  template <class Real>
-  void count(const call<Real>& c, std::span<const int> isep_before);
-
-  [[nodiscard]] std::int64_t of(branch b, bool outcome) const {
-    return counts_[index_of(b)][outcome ? 1 : 0];
-  }
-  /// The rarest outcome's count: 0 means that some outcome of some IF was never reached.
-  [[nodiscard]] std::int64_t rarest() const;
-
-  /// Add the counts of another run.
-  void add(const branch_counts& other);
-  void add(branch b, bool outcome, std::int64_t count) { counts_[index_of(b)][outcome ? 1 : 0] += count; }
-
- private:
-  std::array<std::array<std::int64_t, 2>, 8> counts_{};
-};
-
-extern template void branch_counts::count(const call<float>&, std::span<const int>);
-extern template void branch_counts::count(const call<double>&, std::span<const int>);
-
 template <class Real, class Visit>
 void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit) {
   // The listing's DATA, read from its decimal text in the precision of the call. Not taken from
@@ -102,5 +80,82 @@ void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Vi
     }
   }
 }
+
+/// How often each IF was true and false, worked out from what went into and came out of calls.
+class branch_counts {
+ public:
+  /// Count one finished call: `c` with its outputs, `isep_before` as it went in.
+  template <class Real>
+  void count(const call<Real>& c, std::span<const int> isep_before) {
+    for_each_decision(c, isep_before,
+                      [this](branch b, std::size_t, bool outcome, Real, Real) { ++of(b, outcome); });
+  }
+
+  [[nodiscard]] std::int64_t& of(branch b, bool outcome) { return counts_[index_of(b)][outcome ? 1 : 0]; }
+  [[nodiscard]] std::int64_t of(branch b, bool outcome) const {
+    return counts_[index_of(b)][outcome ? 1 : 0];
+  }
+  /// The rarest outcome's count: 0 means that some outcome of some IF was never reached.
+  [[nodiscard]] std::int64_t rarest() const;
+  /// Add the counts of another run.
+  void add(const branch_counts& other);
+
+ private:
+  std::array<std::array<std::int64_t, 2>, 8> counts_{};
+};
+
+/// How many numbers lie between the two that an IF compares. The two zeros compare equal: none lies between
+/// them. The largest count there is where one of them is NaN.
+template <class Real>
+[[nodiscard]] std::uint64_t margin_between(Real a, Real b) {
+  return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
+}
+
+/// `then(call<float>)` with the call of a 4-byte kernel, which comes in double precision, rounded as the
+/// kernel rounds it.
+template <class Then>
+auto as_float_call(const call<double>& c, Then then) {
+  const auto rounded = [](std::span<const double> x) { return std::vector<float>(x.begin(), x.end()); };
+  const std::vector<float> dd = rounded(c.dd);
+  const std::vector<float> dtest = rounded(c.dtest);
+  const std::vector<float> cc = rounded(c.cc);
+  std::vector<float> ss = rounded(c.ss);
+  return then(call<float>{dd, dtest, cc, ss, static_cast<float>(c.smin), c.id, c.isep, c.isurf, c.dof});
+}
+
+/// One decision of one call, and by how much it was taken.
+struct decision {
+  branch what;
+  int pair;  ///< from 0; -1 for IF (SMIN.EQ.1.)
+  bool outcome;
+  std::uint64_t ulps;  ///< numbers between the two that were compared; 0: on the threshold. The largest
+                       ///< there is where one of them is NaN
+};
+
+/// All decisions of a finished call, in the listing's order. IF (ISEP(I).EQ.1) compares whole numbers
+/// and has no margin: it is left out.
+template <class Real>
+[[nodiscard]] std::vector<decision> decisions_of(const call<Real>& c, std::span<const int> isep_before) {
+  std::vector<decision> all;
+  for_each_decision(c, isep_before, [&all](branch b, std::size_t i, bool outcome, Real left, Real right) {
+    if (b == branch::was_separated) return;
+    const int pair = b == branch::no_events ? -1 : static_cast<int>(i);
+    all.push_back({b, pair, outcome, margin_between(left, right)});
+  });
+  return all;
+}
+
+/// The same for a kernel of `real_bytes`, whose call comes in double precision.
+[[nodiscard]] std::vector<decision> decisions_of(const call<double>& c, std::span<const int> isep_before,
+                                                 int real_bytes);
+
+/// The decision that was taken by least; none when there was none.
+[[nodiscard]] std::optional<decision> narrowest(const std::vector<decision>& all);
+
+/// "pair 3: IF (DIFF.LT.EPSMUL) was false by 1 ULP".
+[[nodiscard]] std::string words_of(const decision& d);
+
+/// A decision taken by at most this many ULP is within the rounding of one or two operations.
+inline constexpr std::uint64_t tie_ulps = 4;
 
 }  // namespace contct::compare

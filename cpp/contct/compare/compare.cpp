@@ -1,6 +1,9 @@
 #include "contct/compare/compare.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
 
 namespace contct::compare {
 namespace {
@@ -31,8 +34,34 @@ bool mean_the_same(std::string_view a, std::string_view b) {
   return true;
 }
 
-bool equal(std::string_view a, std::string_view b, text_equality equality) {
-  return equality == text_equality::bytes ? a == b : mean_the_same(a, b);
+std::string described(const kernel_facts& k) {
+  return "\"" + k.name + "\" (" + std::to_string(k.real_bytes) + "-byte REAL, rule \"" + k.rule + "\")";
+}
+
+/// "SS(3)", "text, line 2", "SMIN".
+std::string place_words(const mismatch& d) {
+  if (d.index == 0) return d.field;
+  return d.field + (d.field == "text" ? ", line " : "(") + std::to_string(d.index) +
+         (d.field == "text" ? "" : ")");
+}
+
+/// " (3 ULP)", where numbers were compared.
+std::string ulp_words(const mismatch& d) {
+  if (d.field != "SS" && d.field != "SMIN") return "";
+  if (d.ulps == std::numeric_limits<std::uint64_t>::max()) return " (one is NaN)";
+  return std::string(" (") + std::to_string(d.ulps) + " ULP)";
+}
+
+/// The branch margin.
+std::string margin_words(const mismatch_report& f) {
+  const std::optional<decision> least = narrowest(f.decisions);
+  if (!least) return "branch margin: the listing decided nothing in this call";
+  const bool with_nan = least->ulps == std::numeric_limits<std::uint64_t>::max();
+  const bool tie = least->ulps <= tie_ulps;
+  return "branch margin: " + words_of(*least) +
+         (tie        ? ": a tie, which rounding may decide otherwise"
+          : with_nan ? ""
+                     : "; every other decision by as much or more: no tie, a bug");
 }
 
 }  // namespace
@@ -50,11 +79,95 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
         leader.find('\n') != std::string_view::npos && follower.find('\n') != std::string_view::npos;
     const std::string_view a = take_line(leader);
     const std::string_view b = take_line(follower);
-    if (both_end && equal(a, b, equality)) continue;
+    if (both_end && (equality == text_equality::bytes ? a == b : mean_the_same(a, b))) continue;
     ++t.mismatches;
     return mismatch{"text", line, std::string(a), std::string(b), 0};
   }
   return std::nullopt;
+}
+
+std::vector<std::string> words_of(const mismatch_report& f) {
+  std::string line = std::string("call ") + std::to_string(f.call) + ": " + f.follower;
+  if (f.where.field == "answer") return {line + " gave no answer: " + f.where.follower};
+  line += " differs in " + place_words(f.where) + ": " + f.leader + " has " + f.where.leader + ", " +
+          f.follower + " has " + f.where.follower + ulp_words(f.where);
+  return {line, margin_words(f)};
+}
+
+void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower) {
+  if (follower.real_bytes == leader.real_bytes && follower.rule == leader.rule) return;
+  const bool precision = follower.real_bytes != leader.real_bytes;
+  throw std::invalid_argument(described(leader) + " and " + described(follower) + " differ in " +
+                              (precision ? "precision" : "rule") +
+                              " and cannot be equal to the bit; compare them with --free-run");
+}
+
+follower::follower(kernel_facts leader, kernel& k) : leader_(std::move(leader)), kernel_(&k) {}
+
+std::optional<mismatch> follower::compare(const call<double>& answered, std::span<const int> isep_before,
+                                          std::optional<std::string_view> text) {
+  answer_.ss.assign(answered.ss.size(), not_an_answer);
+  answer_.isep.assign(isep_before.begin(), isep_before.end());
+  call<double> asked = answered;
+  asked.ss = answer_.ss;
+  asked.isep = answer_.isep;
+  asked.smin = not_an_answer;
+  try {
+    kernel_->answer(asked);
+  } catch (const kernel_failure& failure) {
+    ++compared.values;
+    ++compared.mismatches;
+    return mismatch{"answer", 0, "an answer", failure.what(), 0};
+  }
+  answer_.smin = asked.smin;
+  std::optional<mismatch> found = compare_answers<double>({answered.smin, answered.ss, answered.isep},
+                                                          {asked.smin, asked.ss, asked.isep}, compared);
+  if (!text || !kernel_->facts().has_text) return found;
+  answer_.text = kernel_->take_text();
+  std::optional<mismatch> in_text = compare_text(*text, answer_.text, compared, equality());
+  return found ? found : in_text;
+}
+
+const std::optional<mismatch>& follower::ask(std::int64_t number, const call<double>& answered,
+                                             std::span<const int> isep_before,
+                                             std::optional<std::string_view> text) {
+  difference_ = compare(answered, isep_before, text);
+  if (difference_) note(number, *difference_, answered, isep_before);
+  return difference_;
+}
+
+void follower::note(std::int64_t number, const mismatch& found, const call<double>& answered,
+                    std::span<const int> isep_before) {
+  if (first_ && first_->call <= number) return;
+  first_ = mismatch_report{number, leader_.name, kernel_->facts().name, found,
+                           decisions_of(answered, isep_before, leader_.real_bytes)};
+}
+
+bool comparable(const trace_header& h, const kernel_facts& k) {
+  return h.real_bytes == k.real_bytes && h.rule == k.rule;
+}
+
+replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
+                     const std::function<void(std::int64_t)>& progress) {
+  replay_report report;
+  recorded_call c;
+  // A trace of f2c's may be replayed where there is no f2c, so its name alone says that the zeros before its
+  // decimal points are missing.
+  follower asked({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, k);
+  while (calls.next(c)) {
+    ++report.calls;
+    const call<double> recorded{c.in.dd, c.in.dtest, c.in.cc,    c.out.ss, c.out.smin,
+                                c.in.id, c.out.isep, c.in.isurf, c.in.dof};
+    report.branches.count(recorded, c.in.isep);
+    if (progress) progress(report.calls);
+    // A kernel with text writes some in every call: where the trace has none, its kernel had none.
+    std::optional<std::string_view> text;
+    if (!c.out.text.empty()) text = c.out.text;
+    (void)asked.ask(c.number, recorded, c.in.isep, text);
+  }
+  report.compared = asked.compared;
+  report.first = asked.first();
+  return report;
 }
 
 }  // namespace contct::compare

@@ -1,14 +1,18 @@
-// Tier 1: are two answers to one call equal to the bit?
+// Tier 1: are two answers to one call equal to the bit? A kernel that is asked each call of a leader after
+// it, or each recorded call.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "contct/kernel/kernel.hpp"
+#include "contct/compare/branches.hpp"
 #include "contct/numeric/bits.hpp"
+#include "contct/trace/trace.hpp"
 
 namespace contct::compare {
 
@@ -76,5 +80,76 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
 
 /// How the text of two kernels is compared.
 [[nodiscard]] text_equality text_equality_of(const kernel_facts& leader, const kernel_facts& follower);
+
+/// The first call in which a follower did not answer as the leader.
+struct mismatch_report {
+  std::int64_t call = 0;  ///< from 1
+  std::string leader;     ///< names of the kernels
+  std::string follower;
+  mismatch where;
+  std::vector<decision> decisions;  ///< of the leader in that call
+};
+
+/// Two lines: "call 7: mine differs in SS(3): fortran has 0x1p-1, mine has 0x1p-2 (4503599627370496 ULP)",
+/// and its branch margin: the narrowest decision of the call, and what follows from it.
+[[nodiscard]] std::vector<std::string> words_of(const mismatch_report& f);
+
+/// Throws std::invalid_argument when the two differ in precision or rule: their answers cannot be
+/// equal to the bit.
+void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower);
+
+/// Asks a kernel the calls of a leader, counts what is compared, and keeps the first mismatch.
+class follower {
+ public:
+  /// `k` must outlive this object. The leader's facts say what its calls are: precision, text.
+  follower(kernel_facts leader, kernel& k);
+
+  /// Ask call `number` (from 1), which the leader answered and whose ISEP was `isep_before`, and compare
+  /// SMIN, all of SS and all of ISEP; the text too, where the kernel writes any. `text` is the leader's unit
+  /// 26, or nothing where it is not to be compared. A kernel that fails has one mismatch, in the field
+  /// "answer".
+  const std::optional<mismatch>& ask(std::int64_t number, const call<double>& answered,
+                                     std::span<const int> isep_before, std::optional<std::string_view> text);
+  /// Keep a mismatch that was found in call `number`, unless an earlier call has one.
+  void note(std::int64_t number, const mismatch& found, const call<double>& answered,
+            std::span<const int> isep_before);
+
+  [[nodiscard]] kernel& asked() const { return *kernel_; }
+  /// How its text is compared with the leader's.
+  [[nodiscard]] text_equality equality() const { return text_equality_of(leader_, kernel_->facts()); }
+  /// The outputs of the last call, and where they differ first from the leader's.
+  [[nodiscard]] const call_outputs& answer() const { return answer_; }
+  [[nodiscard]] const std::optional<mismatch>& difference() const { return difference_; }
+  [[nodiscard]] bool answered() const { return !difference_ || difference_->field != "answer"; }
+  [[nodiscard]] const std::optional<mismatch_report>& first() const { return first_; }
+  tally compared;
+
+ private:
+  std::optional<mismatch> compare(const call<double>& answered, std::span<const int> isep_before,
+                                  std::optional<std::string_view> text);
+
+  kernel_facts leader_;
+  kernel* kernel_;
+  call_outputs answer_;
+  std::optional<mismatch> difference_;
+  std::optional<mismatch_report> first_;
+};
+
+/// The result of a replay.
+struct replay_report {
+  std::int64_t calls = 0;
+  tally compared;
+  branch_counts branches;
+  std::optional<mismatch_report> first;  ///< the first difference
+};
+
+/// Can a kernel with these facts be compared with the trace? Not with another precision or rule.
+[[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
+
+/// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
+/// both have it, by what it means where one of them is f2c. `progress` gets the number of calls done, after
+/// each. Throws input_error where the trace is malformed.
+[[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
+                                   const std::function<void(std::int64_t)>& progress = nullptr);
 
 }  // namespace contct::compare

@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "contct/compare/branches.hpp"
-#include "contct/compare/follower.hpp"
-#include "contct/compare/margin.hpp"
+#include "contct/compare/compare.hpp"
 #include "contct/kernel/call.hpp"
 #include "contct/path/observer.hpp"
 

@@ -6,25 +6,21 @@
 namespace contct::compare {
 namespace {
 
-std::string words(const timed_event& e) {
+std::string words_at(const std::vector<timed_event>& events, std::size_t i) {
+  if (i >= events.size()) return "no further event";
+  const timed_event& e = events[i];
   return "step " + std::to_string(e.step) + ": pair " + std::to_string(e.what.pair + 1) +
          (e.what.what == change::make ? " makes" : " breaks");
-}
-
-std::string words_at(const std::vector<timed_event>& events, std::size_t i) {
-  return i < events.size() ? words(events[i]) : "no further event";
 }
 
 void compare_events(const path_record& leader, const path_record& other, free_run_difference& d) {
   const std::size_t most = std::max(leader.events.size(), other.events.size());
   for (std::size_t i = 0; i < most; ++i) {
-    const bool both = i < leader.events.size() && i < other.events.size();
-    if (!both || leader.events[i].step != other.events[i].step ||
-        leader.events[i].what != other.events[i].what) {
+    const std::string led = words_at(leader.events, i);
+    const std::string its = words_at(other.events, i);
+    if (led != its) {
       d.same_events = false;
-      if (d.first_difference.empty()) {
-        d.first_difference = words_at(leader.events, i) + " against " + words_at(other.events, i);
-      }
+      if (d.first_difference.empty()) d.first_difference = led + " against " + its;
       return;
     }
     d.fraction = std::max(d.fraction, std::abs(leader.events[i].fraction - other.events[i].fraction));
@@ -49,14 +45,6 @@ double relative_difference(const path_record& leader, const path_record& other, 
 }
 
 }  // namespace
-
-void path_record::incremented(const increment& i) {
-  for (const event& e : i.events) events.push_back({i.step, i.fraction, e});
-}
-
-void path_record::step_ended(const step_state& s) {
-  displacement.emplace_back(s.displacement.begin(), s.displacement.end());
-}
 
 double free_run_bound(const kernel_facts& leader, const kernel_facts& other) {
   return leader.real_bytes == other.real_bytes && leader.rule == other.rule ? 1e-9 : 1e-4;

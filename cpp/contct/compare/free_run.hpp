@@ -20,8 +20,12 @@ struct timed_event {
 /// Remembers what free runs are compared by.
 class path_record final : public observer {
  public:
-  void incremented(const increment& i) override;
-  void step_ended(const step_state& s) override;
+  void incremented(const increment& i) override {
+    for (const event& e : i.events) events.push_back({i.step, i.fraction, e});
+  }
+  void step_ended(const step_state& s) override {
+    displacement.emplace_back(s.displacement.begin(), s.displacement.end());
+  }
 
   std::vector<timed_event> events;
   std::vector<std::vector<double>> displacement;  ///< at the end of each step [steps][dofs]

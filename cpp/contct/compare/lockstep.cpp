@@ -1,8 +1,10 @@
 #include "contct/compare/lockstep.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
+#include <iterator>
 
+#include "contct/compare/explanation.hpp"
 #include "contct/outside/registry.hpp"
 
 namespace contct::compare {
@@ -31,9 +33,8 @@ lockstep::lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kerne
 
 lockstep make_lockstep(const kernel_facts& leader, std::span<const std::string> followers) {
   for (const std::string& name : followers) refuse_unequal(leader, facts_of_kernel(name));
-  std::vector<std::unique_ptr<kernel>> kernels;
-  kernels.reserve(followers.size());
-  for (const std::string& name : followers) kernels.push_back(make_kernel(name));
+  std::vector<std::unique_ptr<kernel>> kernels(followers.size());
+  std::ranges::transform(followers, kernels.begin(), make_kernel);
   return {leader, std::move(kernels)};
 }
 
@@ -65,6 +66,24 @@ const std::optional<mismatch_report>& lockstep::first() const {
 bool lockstep::last_call_equal() const {
   return std::none_of(last_answers_.begin(), last_answers_.end(),
                       [](const follower_answer& a) { return a.mismatches > 0; });
+}
+
+void early_toggles::called(const answered_call& c) {
+  distances_.assign(c.isep_before.size(), 0.0);
+  for (std::size_t i = 0; i < c.isep_before.size(); ++i) {
+    const int dof = c.c.dof.dof_of(c.c.id[i]) - 1;
+    const double reached = c.c.dd[dof] + c.c.smin * c.c.dtest[dof];
+    if (std::isfinite(reached)) largest_ = std::max(largest_, std::abs(reached));
+    if (c.c.isep[i] != c.isep_before[i]) distances_[i] = std::abs(c.c.cc[i] - reached);
+  }
+}
+
+void early_toggles::incremented(const increment& i) {
+  const double rounding = rounding_share(sizeof(double)) * largest_;
+  for (const event& e : i.events) {
+    const double distance = e.pair < std::ssize(distances_) ? distances_[e.pair] : 0.0;
+    if (distance > rounding) all_.push_back({i.step, i.number, e, distance, distance / largest_});
+  }
 }
 
 }  // namespace contct::compare

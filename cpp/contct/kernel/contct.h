@@ -1,7 +1,7 @@
-/* The compiled_listing to the 1989 code, for C and C++: fortran/contct_c.f90 seen from outside.
+/* The 1989 code, for C and C++: fortran/contct_c.f90 seen from outside.
  *
- * COMMON /DOF/ and unit 26 belong to the whole process, and so does this compiled_listing: calls of anything
- * declared here must be serialised by the caller. (In C++, contct/kernel/fortran.hpp does it with a lock.)
+ * COMMON /DOF/ and unit 26 belong to the whole process, so calls of anything declared here must be
+ * serialised by the caller. (In C++, contct/kernel/fortran.hpp does it with a lock.)
  *
  * Deflections, d* and faces are lengths in one unit, positive up. Which unit is the caller's choice, but the
  * listing takes a gap below 1e-10 of it for closed. */
@@ -28,9 +28,8 @@ extern "C" {
  *   indof   in         which dof of a node deflects, from 1
  *   ndofpn  in         dofs of a node
  *
- * Pair i looks at element (id[i] - 1) * ndofpn + indof - 1 of dd and dtest. Neither the listing nor the
- * compiled_listing checks that it is there. No argument may be null unless nc is 0 (smin never), and none may
- * overlap another.
+ * Pair i looks at element (id[i] - 1) * ndofpn + indof - 1 of dd and dtest. Nothing checks that it is
+ * there. No argument may be null unless nc is 0 (smin never), and none may overlap another.
  */
 
 /* As printed: REAL is 4 bytes. */

@@ -12,7 +12,44 @@
 #include "contct/kernel/contct.h"
 #include "contct/text/output_file.hpp"
 
+using contct::kernels::fortran::call_r8;
+using contct::kernels::fortran::log_act;
+using contct::kernels::fortran::log_open;
+
+extern "C" {
+call_r8 contct_flang_call_r8, contct_f2c_call_r8;
+log_open contct_flang_log_open, contct_f2c_log_open;
+log_act contct_flang_log_flush, contct_flang_log_rewind, contct_flang_log_close;
+log_act contct_f2c_log_flush, contct_f2c_log_rewind, contct_f2c_log_close;
+}
+
 namespace contct::kernels::fortran {
+
+// The compilers' names are set by CMake.
+compiled_listing gfortran{"fortran",
+                          CONTCT_FORTRAN_COMPILER,
+                          CONTCT_FORTRAN_FLAGS " -fdefault-real-8",
+                          false,
+                          contct_call_r8,
+                          {contct_log_open, contct_log_flush, contct_log_rewind, contct_log_close}};
+#ifdef CONTCT_FLANG_COMPILER
+compiled_listing flang{
+    "flang",
+    CONTCT_FLANG_COMPILER,
+    "-O2 -fdefault-real-8 -ffp-contract=off",
+    false,
+    contct_flang_call_r8,
+    {contct_flang_log_open, contct_flang_log_flush, contct_flang_log_rewind, contct_flang_log_close}};
+#endif
+#ifdef CONTCT_F2C_COMPILER
+compiled_listing f2c{
+    "f2c",
+    CONTCT_F2C_COMPILER,
+    "-r8; -ffp-contract=off",
+    true,
+    contct_f2c_call_r8,
+    {contct_f2c_log_open, contct_f2c_log_flush, contct_f2c_log_rewind, contct_f2c_log_close}};
+#endif
 
 std::mutex& process_wide() {
   static std::mutex mutex;
@@ -33,37 +70,37 @@ void contct(call<double>& c, const compiled_listing& by) {
 
 void forget_unit_26() {
   constexpr std::string_view nowhere = "/dev/null";
-  gfortran.close();
-  (void)gfortran.open(nowhere.data(), static_cast<int>(nowhere.size()));
+  gfortran.log.close();
+  (void)gfortran.log.open(nowhere.data(), static_cast<int>(nowhere.size()));
 }
 
 unit_26::unit_26(compiled_listing& of) : listing_(of) {
   const std::scoped_lock lock(process_wide());
-  if (listing_.unit_26_is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
+  if (listing_.log.is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
   std::string path = (std::filesystem::temp_directory_path() / "contct-unit26-XXXXXX").string();
   const signals_wait until_unlinked;
   file_ = mkstemp(path.data());
   if (file_ < 0)
     throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + path);
-  const int status = listing_.open(path.data(), static_cast<int>(path.size()));
+  const int status = listing_.log.open(path.data(), static_cast<int>(path.size()));
   unlink(path.c_str());  // both sides hold it open
   if (status != 0) {
     close(file_);
     throw std::runtime_error("cannot connect unit 26 to " + path);
   }
-  listing_.unit_26_is_open = true;
+  listing_.log.is_open = true;
 }
 
 unit_26::~unit_26() {
   const std::scoped_lock lock(process_wide());
-  listing_.close();
+  listing_.log.close();
   close(file_);
-  listing_.unit_26_is_open = false;
+  listing_.log.is_open = false;
 }
 
 std::string unit_26::take() const {
   const std::scoped_lock lock(process_wide());
-  listing_.flush();
+  listing_.log.flush();
   std::string text;
   char block[1 << 16];
   ssize_t got = 0;
@@ -71,7 +108,7 @@ std::string unit_26::take() const {
     text.append(block, got);
   }
   if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
-  listing_.rewind();
+  listing_.log.rewind();
   if (ftruncate(file_, 0) != 0)
     throw std::system_error(errno, std::generic_category(), "cannot empty unit 26's file");
   return text;

@@ -1,8 +1,13 @@
-// A kernel: anything that answers one call of CONTCT.
+// A kernel: anything that answers one call of CONTCT. Built in are the compiled listing, C++ CONTCT, and the
+// corrected rule.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "contct/kernel/call.hpp"
 
@@ -41,5 +46,15 @@ class kernel {
   /// The unit-26 text of the calls since the last take; empty where facts().has_text is false.
   virtual std::string take_text() = 0;
 };
+
+/// "fortran", "fortran-r4", "cpp", "cpp-r4" or "corrected"; "flang" and "f2c" where built. Null when none has
+/// that name.
+[[nodiscard]] std::unique_ptr<kernel> make_built_in(std::string_view name);
+
+/// What the kernel of that name is, without making it: of the FORTRAN ones there is one at a time.
+[[nodiscard]] std::optional<kernel_facts> facts_of_built_in(std::string_view name);
+
+/// The names of all built-in kernels.
+[[nodiscard]] std::vector<std::string> kernel_names();
 
 }  // namespace contct::kernels

@@ -2,31 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <cstdio>
+#include <mutex>
 #include <stdexcept>
 
-#include "contct/lab/epsmul_variants.hpp"
+#include "contct/kernel/fortran.hpp"
 #include "contct/outside/registry.hpp"
+
+extern "C" {
+int contct_epsmul_variants(void);
+double contct_epsmul_of(int variant);
+void contct_call_epsmul(int variant, const double* dd, const double* dtest, const double* cc, double* ss,
+                        double* smin, const int* id, int* isep, const int* isurf, int nc, int indof,
+                        int ndofpn);
+}
 
 namespace contct::lab {
 namespace {
 
+class epsmul_variant final : public kernel {
+ public:
+  explicit epsmul_variant(int variant) : variant_(variant), facts_(facts_of_kernel("fortran")) {
+    char epsmul[24];
+    (void)std::snprintf(epsmul, sizeof epsmul, "%g", contct_epsmul_of(variant));
+    facts_.name += std::string(" with EPSMUL ") + epsmul;
+    facts_.has_text = false;
+  }
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+
+  void answer(call<double>& c) override {
+    const std::scoped_lock lock(fortran::process_wide());
+    contct_call_epsmul(variant_, c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(),
+                       c.isep.data(), c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
+  }
+
+  std::string take_text() override { return {}; }
+
+ private:
+  int variant_;  // from 1, as FORTRAN counts
+  kernel_facts facts_;
+};
+
 std::unique_ptr<kernel> kernel_of(const atlas_cell& c) {
-  if (!has_other_epsmul(c)) return make_kernel(c.kernel);
+  if (!c.has_other_epsmul()) return make_kernel(c.kernel);
   const std::vector<double> known = epsmul_of_variants();
   const auto at = std::find(known.begin(), known.end(), c.epsmul);
   if (at == known.end()) throw std::invalid_argument("no copy of the listing has that EPSMUL");
   return make_epsmul_variant(at - known.begin());
 }
 
-template <class Wanted>
-std::vector<atlas_cell> cells_that(const atlas& a, Wanted wanted) {
-  std::vector<atlas_cell> cells;
-  std::copy_if(a.cells.begin(), a.cells.end(), std::back_inserter(cells), wanted);
-  return cells;
+}  // namespace
+
+std::vector<double> epsmul_of_variants() {
+  std::vector<double> values;
+  for (int variant = 1; variant <= contct_epsmul_variants(); ++variant)
+    values.push_back(contct_epsmul_of(variant));
+  return values;
 }
 
-}  // namespace
+std::unique_ptr<kernel> make_epsmul_variant(std::size_t variant) {
+  return std::make_unique<epsmul_variant>(static_cast<int>(variant) + 1);
+}
 
 void atlas_cell::add(const problem_result& t) {
   const bool mechanism = t.came_to == verdict::false_mechanism;
@@ -40,18 +76,6 @@ void atlas_cell::add(const problem_result& t) {
   if (t.length_error <= wrong_beyond && t.unfounded == 0) return;
   ++wrong;
   errors.insert(std::upper_bound(errors.begin(), errors.end(), t.displacement_error), t.displacement_error);
-}
-
-double median_error(const atlas_cell& c) {
-  return c.errors.empty() ? 0.0 : c.errors[c.errors.size() / 2];
-}
-
-double worst_error(const atlas_cell& c) {
-  return c.errors.empty() ? 0.0 : c.errors.back();
-}
-
-bool has_other_epsmul(const atlas_cell& c) {
-  return c.epsmul != 0.0 && c.epsmul != printed_epsmul;
 }
 
 confidence wilson(int hits, int tried) {
@@ -76,16 +100,6 @@ std::vector<atlas_cell> atlas_cells() {
     }
   }
   return cells;
-}
-
-std::vector<atlas_cell> over_unit(const atlas& a, bool held) {
-  return cells_that(a, [held](const atlas_cell& c) { return c.held == held && !has_other_epsmul(c); });
-}
-
-std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit) {
-  return cells_that(a, [held, unit](const atlas_cell& c) {
-    return c.held == held && c.kernel == "fortran" && c.unit == unit;
-  });
 }
 
 void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried) {

@@ -1,14 +1,27 @@
 // Where the 1989 code goes wrong, measured: kernels on random problems, cell by cell.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "contct/lab/problem_result.hpp"
+#include "contct/lab/random_problem.hpp"
+#include "contct/text/terminal.hpp"
 
 namespace contct::lab {
+
+/// EPSMUL as the listing prints it.
+inline constexpr double printed_epsmul = .390625E-02;
+
+/// EPSMUL of the 8-byte listing's variants, which differ in it alone, largest first; the printed one is not
+/// among them. They are what the atlas measures, and no kernels that can be chosen.
+[[nodiscard]] std::vector<double> epsmul_of_variants();
+
+/// The variant of that index. It keeps no text.
+[[nodiscard]] std::unique_ptr<kernel> make_epsmul_variant(std::size_t variant);
 
 /// An answer is wrong when it is off by more than this share of the largest deflection. One measure
 /// for all kernels: a 4-byte kernel rounds at 6e-8 and cannot meet the certificate's tolerance, which
@@ -33,14 +46,12 @@ struct atlas_cell {
 
   /// Count the result of one problem.
   void add(const problem_result& t);
+  /// The middle and the last of the errors; 0 when there is none.
+  [[nodiscard]] double median_error() const { return errors.empty() ? 0.0 : errors[errors.size() / 2]; }
+  [[nodiscard]] double worst_error() const { return errors.empty() ? 0.0 : errors.back(); }
+  /// Is this the listing with another EPSMUL than printed?
+  [[nodiscard]] bool has_other_epsmul() const { return epsmul != 0.0 && epsmul != printed_epsmul; }
 };
-
-/// The middle and the last of the errors; 0 when there is none.
-[[nodiscard]] double median_error(const atlas_cell& c);
-[[nodiscard]] double worst_error(const atlas_cell& c);
-
-/// Is the cell one of the listing with another EPSMUL than printed?
-[[nodiscard]] bool has_other_epsmul(const atlas_cell& c);
 
 /// The interval of a share with 95 % confidence (E. B. Wilson, 1927); it has a width for no hits at all, too.
 struct confidence {
@@ -67,14 +78,21 @@ struct atlas {
   std::vector<atlas_cell> cells;
 };
 
-/// The cells with EPSMUL as printed, or without any: kernels over the unit of length. In order.
-[[nodiscard]] std::vector<atlas_cell> over_unit(const atlas& a, bool held);
-
-/// The cells of the 8-byte listing in one unit, the printed EPSMUL first.
-[[nodiscard]] std::vector<atlas_cell> over_epsmul(const atlas& a, bool held, double unit);
-
 /// Try the problems of a cell, numbers 0 and up of the seed: in every cell of a kind they are the same
 /// problems in another unit. `tried` is called after each.
 void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried = nullptr);
+
+/// As CSV: a line a cell, and one of names before them.
+[[nodiscard]] std::string atlas_csv(const atlas& a);
+
+/// Format "contct-atlas-1": what was asked for, and the same numbers.
+[[nodiscard]] std::string atlas_json(const atlas& a);
+
+/// All cells as a table of 80 columns, and what its columns mean.
+[[nodiscard]] std::string atlas_table(const atlas& a, const terminal& t);
+
+/// Share of wrong answers with its 95 % band, by the unit of length and by EPSMUL: above for structures
+/// held by supports, below for free ones. One self-contained SVG; every cell is a point with its numbers.
+[[nodiscard]] std::string atlas_svg(const atlas& a);
 
 }  // namespace contct::lab

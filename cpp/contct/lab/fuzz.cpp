@@ -2,53 +2,146 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <iterator>
 
-#include "contct/lab/problem_campaign.hpp"
+#include "contct/kernel/contct.hpp"
+#include "contct/lab/random_calls.hpp"
+#include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
 
 namespace contct::lab {
 namespace {
 
+constexpr std::size_t calls_in_a_block = 2048;
+constexpr std::int64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
 constexpr std::uint64_t few_ulps = 64;
+
+/// Problems small enough that thousands of them are quick.
+random_problem_kind quick_problems() {
+  random_problem_kind kind;
+  kind.most_elements = 16;
+  kind.most_lines = 4;
+  return kind;
+}
+
+call_inputs<double> inputs_of(const answered_call& c) {
+  const auto owned = [](const auto& list) { return std::vector(list.begin(), list.end()); };
+  return {owned(c.c.dd),        owned(c.c.dtest), owned(c.c.cc), owned(c.c.id),
+          owned(c.isep_before), owned(c.c.isurf), c.c.dof};
+}
+
+/// A leader and its followers, and what comes of the calls that they are put. Observes a path of the leader.
+struct contest : observer {
+  std::unique_ptr<kernel> leader;
+  std::vector<std::unique_ptr<kernel>> kernels;
+  std::vector<follower> followers;
+  call_sequence path;  ///< the calls that were observed
+  campaign_result result;
+
+  explicit contest(const std::vector<std::string>& names) {
+    for (const std::string& name : names) refuse_unequal(facts_of_kernel(names[0]), facts_of_kernel(name));
+    leader = make_kernel(names[0]);
+    for (const std::string& name : std::span(names).subspan(1)) {
+      kernels.push_back(make_kernel(name));
+      followers.emplace_back(leader->facts(), *kernels.back());
+    }
+    result.each.resize(followers.size());
+  }
+
+  void called(const answered_call& c) override {
+    path.push_back(inputs_of(c));
+    const bool has_text = leader->facts().has_text;
+    compare(std::ssize(path), c.c, c.isep_before, has_text ? std::optional(c.text) : std::nullopt);
+  }
+
+  void compare(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
+               std::optional<std::string_view> text) {
+    result.count(answered, isep_before);
+    for (std::size_t f = 0; f < followers.size(); ++f) {
+      if (followers[f].ask(number, answered, isep_before, text))
+        result.each[f].note_difference(answered, followers[f]);
+    }
+  }
+
+  /// `up_to(number)`: the calls up to that one.
+  template <class Calls>
+  campaign_result conclude(Calls up_to) {
+    for (std::size_t f = 0; f < followers.size(); ++f) {
+      follower_result& r = result.each[f];
+      r.compared = followers[f].compared;
+      r.first = followers[f].first();
+      if (r.first) r.calls = up_to(r.first->call);
+    }
+    return std::move(result);
+  }
+};
+
+/// Put a block of calls once more, and compare the text call by call.
+void find_text_difference(contest& c, follower& f, call_source& source, std::span<const std::int64_t> block) {
+  call_outputs outputs;
+  call_outputs its_outputs;
+  for (const std::int64_t number : block) {
+    const call_inputs<double>& in = source.at(number);
+    call<double> answered = outputs.prepare(in);
+    c.leader->answer(answered);
+    const std::string text = c.leader->take_text();
+    call<double> asked = its_outputs.prepare(in);
+    try {
+      f.asked().answer(asked);
+    } catch (const kernel_failure&) {
+      continue;  // counted already
+    }
+    if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
+      f.note(number, *found, answered, in.isep);
+  }
+}
+
+/// Compare unit 26 of the calls of `block`, which were put since the last time.
+void compare_texts(contest& c, call_source& source, std::span<const std::int64_t> block) {
+  const std::string text = c.leader->take_text();
+  for (follower& f : c.followers) {
+    const std::string its_text = f.asked().take_text();
+    const bool both = c.leader->facts().has_text && f.asked().facts().has_text;
+    if (!both || block.empty()) continue;
+    tally whole;
+    if (compare_text(text, its_text, whole, f.equality()))
+      find_text_difference(c, f, source, block);
+    else
+      f.compared.values += std::ssize(block);
+  }
+}
 
 class fuzzing {
  public:
-  fuzzing(const fuzz_request& r, const fuzz_progress& progress)
-      : request_(r),
-        progress_(progress),
-        followers_(r.kernels.begin() + 1, r.kernels.end()),
-        totals_(followers_.size()) {
+  fuzzing(const fuzz_request& r, const fuzz_progress& progress) : request_(r), progress_(progress) {
     run_.result.request = r;
+    for (const std::string& name : std::span(r.kernels).subspan(1))
+      run_.result.followers.emplace_back().name = name;
   }
 
   fuzz_run run() {
     const auto started = std::chrono::steady_clock::now();
-    compare_calls();
+    add(put_calls(request_, [this](std::int64_t done) {
+      if (progress_) progress_(done, request_.calls / request_.shards, "calls");
+    }));
     compare_problems();
-    for (std::size_t f = 0; f < followers_.size(); ++f) conclude(f);
+    for (fuzz_follower& f : run_.result.followers) conclude(f);
     run_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return std::move(run_);
   }
 
  private:
-  void add(const campaign_counts& counts, const std::vector<follower_result>& each) {
-    run_.result.add(counts);
-    for (std::size_t f = 0; f < totals_.size(); ++f) totals_[f].add(each[f]);
-  }
-
-  void compare_calls() {
-    call_campaign campaign(request_.kernels[0], followers_, request_.seed);
-    campaign.run(request_.shard, request_.calls, request_.shards, [this](std::int64_t done) {
-      if (progress_) progress_(done, request_.calls / request_.shards, "calls");
-    });
-    add(campaign.counts(), campaign.results());
+  void add(const campaign_result& r) {
+    run_.result.add(r);
+    for (std::size_t f = 0; f < r.each.size(); ++f) run_.result.followers[f].add(r.each[f]);
   }
 
   void compare_problems() {
     for (std::int64_t number = request_.shard; number <= request_.problems; number += request_.shards) {
-      const problem_in_lockstep p =
-          follow_in_lockstep(request_.seed, number, request_.kernels[0], followers_);
-      add(p, p.each);
+      const campaign_result p = follow_in_lockstep(request_, number);
+      add(p);
       for (const follower_result& its : p.each)
         if (its.first) differing_problems_.push_back(number);
       ++run_.result.problems;
@@ -57,16 +150,15 @@ class fuzzing {
   }
 
   /// The result of a follower: its level of equality, and its first mismatch made small.
-  void conclude(std::size_t f) {
-    const follower_result& total = totals_[f];
-    run_.result.followers.push_back({followers_[f], total.compared, level_of(f), total.most_ulps, {}});
+  void conclude(fuzz_follower& total) {
+    total.highest = level_of(total);
     if (!total.first) return;
-    std::vector<std::string>& lines = run_.result.followers.back().mismatch_reports;
+    std::vector<std::string>& lines = total.mismatch_reports;
     lines = words_of(*total.first);
     const std::unique_ptr<kernel> leader = make_kernel(request_.kernels[0]);
     const std::string& field = total.first->where.field;
     const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs takes its time for every try
-    if (auto small = shrunk_case(*leader, followers_[f], total.calls, field, most_tries)) {
+    if (auto small = shrunk_case(*leader, total.name, total.calls, field, most_tries)) {
       lines.push_back("shrunk to " + std::to_string(small->calls.size()) + " call(s), " +
                       std::to_string(small->calls.back().pairs()) + " pair(s): " + words_of(small->what)[0]);
       run_.cases.push_back(std::move(*small));
@@ -76,36 +168,119 @@ class fuzzing {
     }
   }
 
-  equality_level level_of(std::size_t f) {
-    const follower_result& total = totals_[f];
+  equality_level level_of(const fuzz_follower& total) {
     if (total.compared.mismatches == 0) return equality_level::bits;
     if (total.always_answered && total.same_events)
       return total.most_ulps <= few_ulps ? equality_level::ulps : equality_level::events;
-    return certified_paths(f) ? equality_level::certificate : equality_level::none;
+    return certified_paths(total) ? equality_level::certificate : equality_level::none;
   }
 
   /// Are the follower's own paths certified: of the first problems, and of those in which a follower
   /// differed?
-  bool certified_paths(std::size_t f) {
+  bool certified_paths(const fuzz_follower& total) {
     constexpr std::int64_t enough = 20;
-    if (request_.problems == 0 || !totals_[f].always_answered) return false;
+    if (request_.problems == 0 || !total.always_answered) return false;
     std::vector<std::int64_t> asked = differing_problems_;
     for (std::int64_t n = 1; n <= std::min(enough, request_.problems); ++n) asked.push_back(n);
     asked.resize(std::min<std::size_t>(asked.size(), 2 * enough));
-    return std::all_of(asked.begin(), asked.end(), [&](std::int64_t n) {
-      return certified_as_leader(request_.seed, n, request_.kernels[0], followers_[f]);
-    });
+    return std::all_of(asked.begin(), asked.end(),
+                       [&](std::int64_t n) { return certified_as_leader(request_, n, total.name); });
   }
 
   const fuzz_request& request_;
   const fuzz_progress& progress_;
-  std::vector<std::string> followers_;
-  std::vector<follower_result> totals_;  // [followers]
   std::vector<std::int64_t> differing_problems_;
   fuzz_run run_;
 };
 
 }  // namespace
+
+void campaign_counts::count(const call<double>& answered, std::span<const int> isep_before) {
+  ++calls;
+  branches.count(answered, isep_before);
+  for (std::size_t i = 0; i < isep_before.size(); ++i) {
+    if (answered.isep[i] == isep_before[i]) continue;
+    ++(answered.isep[i] == in_contact ? events.make : events.break_);
+    const int dof = answered.dof.dof_of(answered.id[i]) - 1;
+    const double gap = std::abs(answered.cc[i] - answered.dd[dof]);
+    events.stationary += gap < constants<double>::epsgap ? 1 : 0;
+  }
+}
+
+void campaign_counts::add(const campaign_counts& other) {
+  calls += other.calls;
+  branches.add(other.branches);
+  events.make += other.events.make;
+  events.break_ += other.events.break_;
+  events.stationary += other.events.stationary;
+}
+
+void follower_result::note_difference(const call<double>& leader, const follower& f) {
+  if (!f.answered()) {
+    always_answered = false;
+    return;
+  }
+  const call_outputs& answer = f.answer();
+  most_ulps = std::max(most_ulps, ulps_between(leader.smin, answer.smin));
+  for (std::size_t i = 0; i < leader.ss.size(); ++i) {
+    most_ulps = std::max(most_ulps, ulps_between(leader.ss[i], answer.ss[i]));
+    same_events = same_events && leader.isep[i] == answer.isep[i];
+  }
+}
+
+void follower_result::add(const follower_result& other) {
+  compared += other.compared;
+  most_ulps = std::max(most_ulps, other.most_ulps);
+  same_events = same_events && other.same_events;
+  always_answered = always_answered && other.always_answered;
+  if (first) return;
+  first = other.first;
+  calls = other.calls;
+}
+
+campaign_result put_calls(const fuzz_request& r, const std::function<void(std::int64_t)>& progress) {
+  contest c(r.kernels);
+  call_source source(r.seed, c.leader->facts().real_bytes);
+  call_outputs outputs;
+  std::vector<std::int64_t> block;  // numbers of the calls whose text is not yet compared
+  for (std::int64_t number = r.shard; number <= r.calls; number += r.shards) {
+    const call_inputs<double>& in = source.at(number);
+    call<double> answered = outputs.prepare(in);
+    c.leader->answer(answered);
+    c.compare(number, answered, in.isep, std::nullopt);
+    block.push_back(number);
+    if (block.size() < calls_in_a_block) continue;
+    compare_texts(c, source, block);
+    block.clear();
+    if (progress) progress(c.result.calls);
+  }
+  compare_texts(c, source, block);
+  return c.conclude([&](std::int64_t last) {
+    call_sequence calls;
+    for (std::int64_t k = std::min(most_calls_before, (last - 1) / r.shards); k >= 0; --k)
+      calls.push_back(source.at(last - k * r.shards));
+    return calls;
+  });
+}
+
+campaign_result follow_in_lockstep(const fuzz_request& r, std::int64_t number) {
+  const random_problem p = make_random_problem(r.seed, number, quick_problems());
+  const linear_structure s = build(p.geometry, p.supports, p.pairs);
+  contest c(r.kernels);
+  (void)follow_steps(p.geometry, s, p.steps, "refactor", *c.leader, std::vector<observer*>{&c});
+  return c.conclude([&c](std::int64_t last) { return call_sequence(c.path.begin(), c.path.begin() + last); });
+}
+
+bool certified_as_leader(const fuzz_request& r, std::int64_t number, const std::string& follower) {
+  const random_problem p = make_random_problem(r.seed, number, quick_problems());
+  const verdict leads = try_problem(p, *make_kernel(r.kernels[0])).came_to;
+  if (leads != verdict::certified && leads != verdict::no_equilibrium) return true;
+  try {
+    return try_problem(p, *make_kernel(follower)).came_to == leads;
+  } catch (const kernel_failure&) {
+    return false;
+  }
+}
 
 std::string_view name_of(equality_level l) {
   constexpr std::string_view names[equality_levels] = {"bits", "ulps", "events", "certificate", "none"};

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contct/kernel/call.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/random.hpp"
+#include "contct/path/solve_problem.hpp"
 
 namespace contct::lab {
 namespace {
@@ -37,9 +37,8 @@ class drawing {
 
   /// The node across the middle, along x.
   [[nodiscard]] int mirror_of(int node) const {
-    if (const auto* p = std::get_if<plate>(&problem_.geometry.kind)) {
+    if (const auto* p = std::get_if<plate>(&problem_.geometry.kind))
       return p->node_at(p->columns() - 1 - node % p->columns(), node / p->columns());
-    }
     return node_count() - 1 - node;
   }
   [[nodiscard]] bool mirrored() const {
@@ -76,23 +75,16 @@ class drawing {
   void draw_beam_supports() {
     const int last = node_count() - 1;
     const int middle = random_.whole(1, last - 1);
-    switch (mirrored() ? 2 * random_.whole(0, 1) : random_.whole(0, 5)) {
-      case 0:
-        return fix({{0, 0}, {last, 0}});
-      case 1:
-        return fix({{0, 0}, {0, 1}});
-      case 2:
-        return fix({{0, 0}, {0, 1}, {last, 0}, {last, 1}});
-      case 3:
-        return fix({{0, 0}, {0, 1}, {last, 0}});
-      case 4:
-        return fix({{0, 0}, {middle, 0}});
-      default: {
-        const double k = force_ / problem_.unit * power_between(0, 4);
-        problem_.supports.push_back({0, 0, false, k});
-        problem_.supports.push_back({last, 0, false, k});
-      }
-    }
+    const int how = mirrored() ? 2 * random_.whole(0, 1) : random_.whole(0, 5);
+    if (how == 0) fix({{0, 0}, {last, 0}});
+    if (how == 1) fix({{0, 0}, {0, 1}});
+    if (how == 2) fix({{0, 0}, {0, 1}, {last, 0}, {last, 1}});
+    if (how == 3) fix({{0, 0}, {0, 1}, {last, 0}});
+    if (how == 4) fix({{0, 0}, {middle, 0}});
+    if (how != 5) return;
+    const double k = force_ / problem_.unit * power_between(0, 4);
+    problem_.supports.push_back({0, 0, false, k});
+    problem_.supports.push_back({last, 0, false, k});
   }
 
   /// All edges held, clamped at one (or at two that mirror each other), held at the corners, or on
@@ -242,18 +234,12 @@ class drawing {
 
   double gap() {
     if (!problem_.held && random_.chance(0.7)) return 0.0;
-    switch (problem_.layout) {
-      case face_layout::zero:
-        return 0.0;
-      case face_layout::equal_gaps:
-        return common_gap_;
-      case face_layout::near_ties:
-        return common_gap_ * (1.0 + between(-1.0, 1.0) * power_between(-15, -3));
-      case face_layout::gaps:
-        return largest_ * power_between(-2, 0.2);
-      default:
-        return random_.chance(0.4) ? 0.0 : largest_ * power_between(-2, 0.2);
-    }
+    if (problem_.layout == face_layout::zero) return 0.0;
+    if (problem_.layout == face_layout::equal_gaps) return common_gap_;
+    if (problem_.layout == face_layout::near_ties)
+      return common_gap_ * (1.0 + between(-1.0, 1.0) * power_between(-15, -3));
+    const bool none = problem_.layout != face_layout::gaps && random_.chance(0.4);
+    return none ? 0.0 : largest_ * power_between(-2, 0.2);
   }
 
   random_numbers random_;
@@ -265,17 +251,57 @@ class drawing {
   double common_gap_ = 0.0;
 };
 
-}  // namespace
+struct increment_counter final : observer {
+  int increments = 0;
+  void incremented(const increment& /*i*/) override { ++increments; }
+};
 
-std::string_view name_of(face_layout f) {
-  constexpr std::string_view names[] = {"gaps",      "zero gaps", "mixed",         "equal gaps",
-                                        "near ties", "symmetric", "antisymmetric", "two-sided"};
-  return names[static_cast<int>(f)];
+verdict judge(const path_end& end, const certifier& judged, const load_history& total,
+              const linear_structure& s) {
+  if (end.status == path_status::solved) return judged.all_exact() ? verdict::certified : verdict::wrong;
+  if (end.status != path_status::mechanism) return verdict::no_end;
+  std::vector<double> load(s.dofs(), 0.0);
+  total(end.step, load);
+  const bool agreed = reference_solver(s).solve(load).how == reference_answer::outcome::no_equilibrium;
+  return agreed ? verdict::no_equilibrium : verdict::false_mechanism;
 }
+
+}  // namespace
 
 random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
                                    const random_problem_kind& kind) {
   return drawing(seed, number, kind).draw();
+}
+
+void problem_result::add(const certificate& c) {
+  displacement_error = std::max(displacement_error, c.displacement_error);
+  length_error = std::max({length_error, c.displacement_error, c.penetration, c.tension});
+  certificates.push_back(c);
+  uncertified += c.exact ? 0 : 1;
+  unfounded += c.unfounded ? 1 : 0;
+}
+
+problem_result try_problem(const random_problem& p, kernel& leader, std::string_view engine) {
+  return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, engine);
+}
+
+problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
+                             std::string_view engine, std::vector<observer*> watching) {
+  const load_history total = [&p](int step, std::span<double> f) {
+    add_consistent_loads(p.geometry, p.steps[step - 1], f);
+  };
+  problem_result t;
+  increment_counter counted;
+  certifier judged(s, total);
+  watching.insert(watching.end(), {&counted, &judged});
+  path_limits limits;
+  limits.fallback = fallback_to_reference(s);
+  const path_end end = follow_steps(p.geometry, s, p.steps, engine, leader, watching, limits);
+  for (const auto& c : judged.steps())
+    if (c) t.add(*c);
+  t.increments = counted.increments;
+  t.came_to = judge(end, judged, total, s);
+  return t;
 }
 
 }  // namespace contct::lab

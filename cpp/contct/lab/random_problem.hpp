@@ -1,10 +1,13 @@
-// Random problems on one-sided supports, the same everywhere from a seed and a number.
+// Random problems on one-sided supports, the same everywhere from a seed and a number, and what one kernel
+// makes of them.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "contct/certify/certificate.hpp"
+#include "contct/kernel/kernel.hpp"
 #include "contct/structure/model.hpp"
 
 namespace contct::lab {
@@ -12,7 +15,6 @@ namespace contct::lab {
 /// How the faces are placed.
 enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, antisymmetric, two_sided };
 inline constexpr int face_layouts = 8;
-[[nodiscard]] std::string_view name_of(face_layout f);
 
 /// What to draw from: beams and plates on 1 to all of their nodes' pairs, springs over eight decades,
 /// one to five load steps with unloading and reversal.
@@ -38,5 +40,36 @@ struct random_problem {
 /// Problem `number` of `seed`.
 [[nodiscard]] random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
                                                  const random_problem_kind& kind = {});
+
+/// How the path of one problem is judged.
+enum class verdict {
+  certified,        ///< every step's final state is certified
+  no_equilibrium,   ///< the path ended in a mechanism, and the reference solution has no equilibrium either
+  wrong,            ///< the path went to its end, and some final state is not right
+  false_mechanism,  ///< the path ended in a mechanism where there is an equilibrium
+  no_end,           ///< cycle, increments without end, or no factor
+};
+
+struct problem_result {
+  verdict came_to = verdict::no_end;
+  double displacement_error = 0.0;  ///< the worst of any step, relative to the largest deflection
+  double length_error = 0.0;        ///< of that, and of how far pairs are on the wrong side of their faces
+  std::vector<certificate> certificates = {};  ///< of the steps that reached their load
+  int uncertified = 0;                         ///< of these
+  int unfounded = 0;  ///< and of these: an equilibrium is claimed where there is none
+  int increments = 0;
+
+  /// Take the certificate of one more step into account.
+  void add(const certificate& c);
+};
+
+/// Follow `p` with `leader` on the engine named, with the reference solution as a fallback where its rule
+/// allows one.
+[[nodiscard]] problem_result try_problem(const random_problem& p, kernel& leader,
+                                         std::string_view engine = "refactor");
+
+/// The same on `s`, which is p's structure, however its stiffness is stored.
+[[nodiscard]] problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
+                                           std::string_view engine, std::vector<observer*> watching = {});
 
 }  // namespace contct::lab

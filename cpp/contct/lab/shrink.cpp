@@ -1,12 +1,11 @@
-#include "contct/lab/shrink.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
+#include <iterator>
 #include <utility>
 
+#include "contct/lab/fuzz.hpp"
 #include "contct/numeric/bits.hpp"
 #include "contct/outside/registry.hpp"
 
@@ -24,32 +23,17 @@ double rounded(double x, int digits) {
 /// that shrinking ends.
 std::vector<double> rounder_than(double x) {
   std::vector<double> all;
-  const auto offer = [&all, x](double y) {
-    const bool known = std::any_of(all.begin(), all.end(), [y](double z) { return same_bits(y, z); });
-    if (!known && !same_bits(x, y)) all.push_back(y);
+  const auto is_rounder = [&all, x](double y) {  // and is offered, once
+    if (same_bits(x, y)) return false;
+    if (std::none_of(all.begin(), all.end(), [y](double z) { return same_bits(y, z); })) all.push_back(y);
+    return true;
   };
-  constexpr double roundest[] = {0.0, 1.0, -1.0, 0.5, -0.5, 2.0};
-  for (const double r : roundest) {
-    if (same_bits(x, r)) return all;
-    offer(r);
-  }
-  if (!std::isfinite(x)) return all;
+  for (const double r : {0.0, 1.0, -1.0, 0.5, -0.5, 2.0})
+    if (!is_rounder(r)) return all;
   constexpr int all_digits = 6;
-  for (int digits = 1; digits <= all_digits; ++digits) {
-    const double r = rounded(x, digits);
-    if (same_bits(x, r)) return all;
-    offer(r);
-  }
+  for (int digits = 1; std::isfinite(x) && digits <= all_digits; ++digits)
+    if (!is_rounder(rounded(x, digits))) return all;
   return all;
-}
-
-/// The call without pairs `from` to `to`.
-call_inputs<double> without(const call_inputs<double>& in, int from, int to) {
-  call_inputs<double> out = in;
-  const auto cut = [from, to](auto& list) { list.erase(list.begin() + from, list.begin() + to); };
-  cut(out.cc);
-  for (auto* list : {&out.id, &out.isep, &out.isurf}) cut(*list);
-  return out;
 }
 
 /// The call with one dof a node, and nodes from 1 in the order of the pairs.
@@ -80,7 +64,7 @@ class shrinker {
     fewer_calls();
     for (std::size_t c = calls_.size(); c-- > 0;) {
       fewer_pairs(c);
-      replace(c, compact(calls_[c]));
+      try_with(c, [](call_inputs<double>& in) { in = compact(in); });
       rounder_numbers(c);
     }
     return std::move(calls_);
@@ -92,12 +76,15 @@ class shrinker {
     --tries_left_;
     if (!differs_(candidate)) return false;
     calls_ = std::move(candidate);
+    changed_ = true;
     return true;
   }
 
-  bool replace(std::size_t c, call_inputs<double> smaller) {
+  /// Accept the calls with `change` made to call `c`?
+  template <class Change>
+  bool try_with(std::size_t c, Change change) {
     call_sequence candidate = calls_;
-    candidate[c] = std::move(smaller);
+    change(candidate[c]);
     return accept(std::move(candidate));
   }
 
@@ -110,7 +97,7 @@ class shrinker {
     for (int c = static_cast<int>(calls_.size()); c-- > 1;) {
       call_sequence candidate = calls_;
       candidate.erase(candidate.begin() + c - 1);
-      (void)accept(std::move(candidate));
+      accept(std::move(candidate));
     }
   }
 
@@ -120,21 +107,23 @@ class shrinker {
     for (int chunk = (pairs() + 1) / 2; chunk > 0; chunk = chunk == 1 ? 0 : (chunk + 1) / 2) {
       for (int from = 0; from < pairs();) {
         const int to = std::min(from + chunk, pairs());
-        if (!replace(c, without(calls_[c], from, to))) from = to;
+        const auto cut = [from, to](auto& list) { list.erase(list.begin() + from, list.begin() + to); };
+        const bool cut_out = try_with(c, [&cut](call_inputs<double>& in) {
+          cut(in.cc);
+          for (auto* list : {&in.id, &in.isep, &in.isurf}) cut(*list);
+        });
+        if (!cut_out) from = to;
       }
     }
   }
 
   template <class Number>
   bool try_at(std::size_t c, std::vector<Number> call_inputs<double>::*list, std::size_t i, Number simpler) {
-    call_sequence candidate = calls_;
-    (candidate[c].*list)[i] = simpler;
-    return accept(std::move(candidate));
+    return try_with(c, [&](call_inputs<double>& in) { (in.*list)[i] = simpler; });
   }
 
   void rounder(std::size_t c, std::vector<double> call_inputs<double>::*list, std::size_t i) {
-    const double x = (calls_[c].*list)[i];
-    for (const double r : rounder_than(x)) {
+    for (const double r : rounder_than((calls_[c].*list)[i])) {
       if (try_at(c, list, i, r)) return;
     }
   }
@@ -145,20 +134,20 @@ class shrinker {
     const std::size_t dof = in.dof_of_pair(i);
     const double s = (in.cc[i] - in.dd[dof]) / in.dtest[dof];
     if (!std::isfinite(s) || (in.dd[dof] == 0.0 && in.dtest[dof] == 1.0)) return;
-    call_inputs<double> plainer = in;
-    plainer.dd[dof] = 0.0;
-    plainer.dtest[dof] = 1.0;
-    plainer.cc[i] = s;
-    (void)replace(c, std::move(plainer));
+    try_with(c, [i, dof, s](call_inputs<double>& out) {
+      out.dd[dof] = 0.0;
+      out.dtest[dof] = 1.0;
+      out.cc[i] = s;
+    });
   }
 
   /// All numbers of a call, again until none becomes rounder: one number may become so only after another
   /// did.
   void rounder_numbers(std::size_t c) {
     constexpr int most_rounds = 4;
-    for (int round = 0; round < most_rounds; ++round) {
-      const int left_before = tries_left_;
-      const call_inputs<double> before = calls_[c];
+    changed_ = true;
+    for (int round = 0; round < most_rounds && changed_; ++round) {
+      changed_ = false;
       for (std::size_t i = 0; i < calls_[c].pairs(); ++i) {
         const std::size_t dof = calls_[c].dof_of_pair(i);
         plainer_pair(c, i);
@@ -168,21 +157,13 @@ class shrinker {
         if (calls_[c].isep[i] != separated) try_at(c, &call_inputs<double>::isep, i, separated);
         if (calls_[c].isurf[i] != face_above) try_at(c, &call_inputs<double>::isurf, i, face_above);
       }
-      if (tries_left_ <= 0 || tries_left_ == left_before || same(before, calls_[c])) return;
     }
-  }
-
-  static bool same(const call_inputs<double>& a, const call_inputs<double>& b) {
-    const auto equal = [](const std::vector<double>& x, const std::vector<double>& y) {
-      return std::equal(x.begin(), x.end(), y.begin(), y.end(), same_bits<double>);
-    };
-    return equal(a.dd, b.dd) && equal(a.dtest, b.dtest) && equal(a.cc, b.cc) && a.isep == b.isep &&
-           a.isurf == b.isurf;
   }
 
   call_sequence calls_;
   const still_differs& differs_;
   int tries_left_;
+  bool changed_ = true;  // since the round began
 };
 
 }  // namespace
@@ -191,32 +172,27 @@ call_sequence shrink(call_sequence calls, const still_differs& differs, int most
   return shrinker(std::move(calls), differs, most_tries).go();
 }
 
-std::optional<found_case> reproduce(kernel& leader, const std::string& follower, const call_sequence& calls,
-                                    const std::string& field) {
-  const std::unique_ptr<kernel> fresh = make_kernel(follower);
+std::optional<found_case> reproduce(kernel& leader, const std::string& follower_name,
+                                    const call_sequence& calls, const std::string& field) {
+  const std::unique_ptr<kernel> fresh = make_kernel(follower_name);
+  follower asked(leader.facts(), *fresh);
   found_case c;
   c.real_bytes = leader.facts().real_bytes;
   c.calls = calls;
-  std::optional<mismatch> last;
-  call_outputs its;
-  tally ignored;
   (void)leader.take_text();
   for (const call_inputs<double>& in : calls) {
     call_outputs& out = c.leader.emplace_back();
-    call<double> asked = out.prepare(in);
-    leader.answer(asked);
-    out.smin = asked.smin;
+    call<double> answered = out.prepare(in);
+    leader.answer(answered);
+    out.smin = answered.smin;
     out.text = leader.take_text();
     const auto text = leader.facts().has_text ? std::optional<std::string_view>(out.text) : std::nullopt;
-    last = ask_and_compare(*fresh, asked, in.isep, text, text_equality_of(leader.facts(), fresh->facts()),
-                           its, ignored);
-    c.what.decisions = decisions_of(asked, in.isep, c.real_bytes);
+    asked.ask(std::ssize(c.leader), answered, in.isep, text);
+    c.what.decisions = decisions_of(answered, in.isep, c.real_bytes);
   }
+  const std::optional<mismatch>& last = asked.difference();
   if (!last || (!field.empty() && last->field != field)) return {};
-  c.what.call = static_cast<std::int64_t>(calls.size());
-  c.what.leader = leader.facts().name;
-  c.what.follower = follower;
-  c.what.where = *last;
+  c.what = {std::ssize(calls), leader.facts().name, follower_name, *last, c.what.decisions};
   return c;
 }
 

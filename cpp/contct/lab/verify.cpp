@@ -1,10 +1,11 @@
 #include "contct/lab/verify.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "contct/certify/fallback.hpp"
 #include "contct/compare/lockstep.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -12,6 +13,41 @@
 
 namespace contct::lab {
 namespace {
+
+constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
+constexpr int any_number = 1'000'000'000;
+
+expected_number read_check(const table_reader& t) {
+  t.allow_only({"step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from",
+                "along", "value", "kind", "tolerance", "because", "source", "faithful", "reason"});
+  expected_number e;
+  e.step = t.integer("step", 1, any_number);
+  e.quantity = t.text("quantity");
+  if (t.has("node")) e.node = t.integer("node", 1, any_number);
+  if (t.has("pair")) e.pair = t.integer("pair", 1, any_number);
+  if (t.has("element")) e.element = t.integer("element", 1, any_number);
+  if (t.has("end")) e.place = static_cast<int>(t.choice("end", {"left", "right"})) + 1;
+  if (t.has("corner")) e.place = t.integer("corner", 1, 4);
+  if (t.has("dof")) e.dof = t.text("dof");
+  if (t.has("change")) e.change = t.choice("change", {"make", "break"}) == 0 ? "make" : "break";
+  if (t.has("from")) e.from = t.real("from", any_real);
+  if (t.has("along")) e.along = t.choice("along", {"edge", "diagonal"}) == 0 ? "edge" : "diagonal";
+  if (e.quantity == "state") {
+    e.value = t.choice("value", {"contact", "separated"}) == 0 ? in_contact : separated;
+  } else {
+    e.value = t.real("value", any_real);
+    e.tolerance = t.real("tolerance", not_negative);
+    e.because = t.text("because");
+  }
+  (void)t.choice("kind", {"published", "closed form", "recomputed"});
+  e.kind = t.text("kind");
+  e.source = t.text("source");
+  if (t.has("faithful")) {
+    e.faithful = t.real("faithful", any_real);
+    e.reason = t.text("reason");
+  }
+  return e;
+}
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
@@ -38,64 +74,35 @@ std::vector<way_point> way_through(const model& m, const std::string& along) {
   return way;
 }
 
-}  // namespace
-
-void measurement::step_ended(const step_state& s) {
-  const load total = load_path(problem_).at(s.step, s.fraction);
-  path_.step_ended(s);
-  steps_.push_back({{s.isep.begin(), s.isep.end()},
-                    results_in_elements(problem_.geometry, total, s.displacement),
-                    reactions(problem_.geometry, total, problem_.supports, s.displacement)});
+double of_element(const measurement::step_record& s, const expected_number& e, std::size_t quantity) {
+  const bool there = e.element >= 1 && e.element <= static_cast<int>(s.elements.elements()) && e.place >= 1 &&
+                     e.place <= s.elements.places;
+  return there ? s.elements.at(e.element - 1, quantity)[e.place - 1] : not_there;
 }
 
-double measurement::of(const expected_number& e) const {
-  if (e.quantity == "event" || e.quantity == "events") return of_events(e);
-  if (e.step > static_cast<int>(steps_.size())) return not_there;
-  const step_record& s = steps_[e.step - 1];
-  const auto names = dof_names(problem_.geometry);
-  if (const auto at = std::find(names.begin(), names.end(), e.quantity); at != names.end())
-    return u(e).at((std::max(e.node, 1) - 1) * names.size() + (at - names.begin()));
-  if (e.quantity == "contacts")
-    return static_cast<double>(std::count(s.isep.begin(), s.isep.end(), in_contact));
-  if (e.quantity == "zero") return zero_right_of(e);
-  if (e.quantity == "reaction") return of_support(e);
-  const std::vector<std::string_view>& quantities = s.elements.names;
-  if (const auto at = std::find(quantities.begin(), quantities.end(), e.quantity); at != quantities.end())
-    return of_element(e, at - quantities.begin());
-  return of_pair(e);
-}
-
-double measurement::of_element(const expected_number& e, std::size_t quantity) const {
-  const element_results& results = steps_[e.step - 1].elements;
-  const bool there = e.element >= 1 && e.element <= static_cast<int>(results.elements()) && e.place >= 1 &&
-                     e.place <= results.places;
-  return there ? results.at(e.element - 1, quantity)[e.place - 1] : not_there;
-}
-
-double measurement::of_support(const expected_number& e) const {
-  const auto names = dof_names(problem_.geometry);
-  for (std::size_t i = 0; i < problem_.supports.size(); ++i) {
-    const support& at = problem_.supports[i];
-    if (at.node + 1 == e.node && names[at.dof] == e.dof) return steps_[e.step - 1].reactions[i];
+double of_support(const problem& p, const measurement::step_record& s, const expected_number& e) {
+  const auto names = dof_names(p.geometry);
+  for (std::size_t i = 0; i < p.supports.size(); ++i) {
+    const support& at = p.supports[i];
+    if (at.node + 1 == e.node && names[at.dof] == e.dof) return s.reactions[i];
   }
   return not_there;
 }
 
-double measurement::of_pair(const expected_number& e) const {
-  if (e.pair < 1 || e.pair > static_cast<int>(problem_.pairs.size())) return not_there;
-  const contact_pair& p = problem_.pairs[e.pair - 1];
-  const int dof = p.node * dofs_per_node(problem_.geometry);
-  const double w = u(e)[dof];
-  const int isep = steps_[e.step - 1].isep[e.pair - 1];
+double of_pair(const problem& problem, const measurement::step_record& s, const expected_number& e) {
+  if (e.pair < 1 || e.pair > static_cast<int>(problem.pairs.size())) return not_there;
+  const contact_pair& p = problem.pairs[e.pair - 1];
+  const double w = s.u[p.node * dofs_per_node(problem.geometry)];
+  const int isep = s.isep[e.pair - 1];
   if (e.quantity == "state") return isep;
   if (e.quantity == "force") return force_of(p, w, isep == in_contact);
   if (e.quantity == "gap") return gap_of(p, w, isep == in_contact);
   return not_there;
 }
 
-double measurement::of_events(const expected_number& e) const {
+double of_events(const std::vector<timed_event>& events, const expected_number& e) {
   int count = 0;
-  for (const timed_event& r : path_.events) {
+  for (const timed_event& r : events) {
     if (r.step != e.step) continue;
     ++count;
     const bool makes = r.what.what == change::make;
@@ -105,25 +112,77 @@ double measurement::of_events(const expected_number& e) const {
   return e.quantity == "events" ? count : not_there;
 }
 
-double measurement::zero_right_of(const expected_number& e) const {
-  const std::vector<way_point> way = way_through(problem_.geometry, e.along);
-  const int stride = dofs_per_node(problem_.geometry);
+double zero_right_of(const model& m, const std::vector<double>& u, const expected_number& e) {
+  const std::vector<way_point> way = way_through(m, e.along);
+  const int stride = dofs_per_node(m);
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    const double left = u(e)[way[i].node * stride];
-    const double right = u(e)[way[i + 1].node * stride];
+    const double left = u[way[i].node * stride];
+    const double right = u[way[i + 1].node * stride];
     if (way[i].s < e.from || left * right > 0 || left == right) continue;
     return way[i].s + (way[i + 1].s - way[i].s) * left / (left - right) - e.from;
   }
   return not_there;
 }
 
-bool agrees(double measured, double value, double tolerance) {
-  return std::abs(measured - value) <= tolerance * (value == 0.0 ? 1.0 : std::abs(value));
+/// The place of `name` among `names`; none where it is not there.
+template <class Names>
+std::optional<std::size_t> place_in(const Names& names, const std::string& name) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  return at == names.end() ? std::nullopt : std::optional<std::size_t>(at - names.begin());
 }
 
-double verified_number::difference() const {
-  const double off = computed - expected.value;
-  return expected.value == 0.0 ? off : off / std::abs(expected.value);
+}  // namespace
+
+std::vector<verification_case> read_verification(const std::string& path) {
+  const toml::table document = parse_toml(read_input(path), path);
+  const table_reader top(document, "", path);
+  top.allow_only({"case"});
+  std::vector<verification_case> cases;
+  for (const table_reader& t : top.tables("case")) {
+    t.allow_only({"file", "check"});
+    verification_case c{t.text("file"), {}};
+    for (const table_reader& check : t.tables("check")) c.checks.push_back(read_check(check));
+    cases.push_back(std::move(c));
+  }
+  return cases;
+}
+
+std::string quantity_words(const expected_number& e) {
+  if (e.quantity == "event") return fmt::format("pair {} {}s", e.pair, e.change);
+  if (e.quantity == "events") return "toggles";
+  if (e.quantity == "contacts") return "pairs in contact";
+  if (e.quantity == "zero") return e.along.empty() ? "w = 0 at x" : fmt::format("w = 0 along {}", e.along);
+  if (e.quantity == "reaction") return fmt::format("reaction {}, node {}", e.dof, e.node);
+  if (e.pair > 0) return fmt::format("{}, pair {}", e.quantity, e.pair);
+  if (e.element > 0) return fmt::format("{}, element {}.{}", e.quantity, e.element, e.place);
+  return fmt::format("{}, node {}", e.quantity, e.node);
+}
+
+void measurement::step_ended(const step_state& s) {
+  const load total = load_path(problem_).at(s.step, s.fraction);
+  steps_.push_back({{s.displacement.begin(), s.displacement.end()},
+                    {s.isep.begin(), s.isep.end()},
+                    results_in_elements(problem_.geometry, total, s.displacement),
+                    reactions(problem_.geometry, total, problem_.supports, s.displacement)});
+}
+
+double measurement::of(const expected_number& e) const {
+  if (e.quantity == "event" || e.quantity == "events") return of_events(path_.events, e);
+  if (e.step > static_cast<int>(steps_.size())) return not_there;
+  const step_record& s = steps_[e.step - 1];
+  const auto names = dof_names(problem_.geometry);
+  if (const auto dof = place_in(names, e.quantity))
+    return s.u.at((std::max(e.node, 1) - 1) * names.size() + *dof);
+  if (e.quantity == "contacts")
+    return static_cast<double>(std::count(s.isep.begin(), s.isep.end(), in_contact));
+  if (e.quantity == "zero") return zero_right_of(problem_.geometry, s.u, e);
+  if (e.quantity == "reaction") return of_support(problem_, s, e);
+  if (const auto quantity = place_in(s.elements.names, e.quantity)) return of_element(s, e, *quantity);
+  return of_pair(problem_, s, e);
+}
+
+bool agrees(double measured, double value, double tolerance) {
+  return std::abs(measured - value) <= tolerance * (value == 0.0 ? 1.0 : std::abs(value));
 }
 
 bool verified_case::passed() const {

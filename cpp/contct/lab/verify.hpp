@@ -1,17 +1,47 @@
-// Measures the numbers of the verification table on the paths of the kernels, and judges them.
+// The numbers that the problems in reference/ are checked against, measured on the paths of the kernels, and
+// judged.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
-#include "contct/lab/verification_table.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct::lab {
+
+/// One number of reference/verification.toml, whose head explains the fields. Nodes, elements and
+/// pairs count from 1, as in the file; 0 where a quantity does not need them.
+struct expected_number {
+  int step = 0;
+  std::string quantity;
+  int node = 0, pair = 0, element = 0;
+  int place = 0;  ///< in the element: its end, 1 the left one, or its corner
+  std::string dof, change, along;
+  double from = 0.0;
+  double value = 0.0;  ///< of a state: -1 in contact, +1 separated
+  std::string kind, because, source;
+  double tolerance = 0.0;          ///< relative; absolute for a value of 0
+  std::optional<double> faithful;  ///< what the 1989 rule gives instead
+  std::string reason;              ///< why it does
+};
+
+/// One problem file and its numbers.
+struct verification_case {
+  std::string file;  ///< as written, relative to reference/problems
+  std::vector<expected_number> checks;
+};
+
+/// Read the table. Throws input_error.
+[[nodiscard]] std::vector<verification_case> read_verification(const std::string& path);
+
+/// What a number is, in a few words: "w, node 3", "pair 2 makes" (the share of the load at which it
+/// does), "moment, element 4.1" (at its first end or corner).
+[[nodiscard]] std::string quantity_words(const expected_number& e);
 
 /// Observes a run and measures, afterwards, what the table asks for.
 class measurement final : public observer {
@@ -25,22 +55,15 @@ class measurement final : public observer {
   /// The quantity as this run has it; NaN when the run did not get there.
   [[nodiscard]] double of(const expected_number& e) const;
 
- private:
+  /// What is measured of a step, at its end.
   struct step_record {
+    std::vector<double> u;  ///< D [dofs]
     std::vector<int> isep;
     element_results elements;
     std::vector<double> reactions;
   };
-  /// D at the end of the number's step [dofs].
-  [[nodiscard]] const std::vector<double>& u(const expected_number& e) const {
-    return path_.displacement[e.step - 1];
-  }
-  [[nodiscard]] double of_element(const expected_number& e, std::size_t quantity) const;
-  [[nodiscard]] double of_support(const expected_number& e) const;
-  [[nodiscard]] double of_pair(const expected_number& e) const;
-  [[nodiscard]] double of_events(const expected_number& e) const;
-  [[nodiscard]] double zero_right_of(const expected_number& e) const;
 
+ private:
   const problem& problem_;
   path_record path_;
   std::vector<step_record> steps_;
@@ -58,7 +81,10 @@ struct verified_number {
   bool passed = false;     ///< see verify_case
 
   /// Of `computed` from the expected value; absolute where that is 0.
-  [[nodiscard]] double difference() const;
+  [[nodiscard]] double difference() const {
+    const double off = computed - expected.value;
+    return expected.value == 0.0 ? off : off / std::abs(expected.value);
+  }
 };
 
 /// A problem file, and all its numbers.

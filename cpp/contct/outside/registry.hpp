@@ -4,7 +4,7 @@
 #include <memory>
 #include <string_view>
 
-#include "contct/kernel/built_in.hpp"
+#include "contct/kernel/kernel.hpp"
 
 namespace contct::outside {
 

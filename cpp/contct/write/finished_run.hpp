@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/early_toggles.hpp"
 #include "contct/compare/lockstep.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/path/observer.hpp"

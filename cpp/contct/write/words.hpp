@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/early_toggles.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"

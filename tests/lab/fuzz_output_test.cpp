@@ -1,9 +1,11 @@
-// The result of a fuzz run as JSON, and the results of shards added up.
-#include "contct/lab/fuzz_json.hpp"
-
+// The result of a fuzz run as JSON, the results of shards added up, and a found case as files.
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "contct/lab/fuzz.hpp"
+#include "contct/lab/random_calls.hpp"
 #include "contct/text/input_text.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -20,11 +22,29 @@ fuzz_result shard(int number, equality_level highest) {
   r.problems = number;
   r.seconds = 0.5;
   r.events = {1, 2, 3};
-  r.branches.add(branch::no_events, true, 7);
-  r.followers.push_back(
-      {"cpp", {1000 * number, number - 1}, highest, 5U * static_cast<unsigned>(number), {}});
+  r.branches.of(branch::no_events, true) += 7;
+  fuzz_follower& f = r.followers.emplace_back();
+  f.name = "cpp";
+  f.compared = {1000 * number, number - 1};
+  f.highest = highest;
+  f.most_ulps = 5U * static_cast<unsigned>(number);
   if (number == 2) r.followers[0].mismatch_reports = {"call 3: cpp differs"};
   return r;
+}
+
+/// A case of one adversarial call with a few pairs.
+found_case a_case() {
+  call_source source(1989, 8);
+  std::uint64_t number = 2;
+  while (source.at(number).pairs() < 3) number += 2;
+  found_case c;
+  c.what = {1, "fortran", "mine", {"SS", 1, "0x1p+0", "0x1p-1", 1}, {}};
+  c.calls = {source.at(number)};
+  c.leader.resize(1);
+  c.leader[0].smin = 0.5;
+  c.leader[0].ss.assign(c.calls[0].pairs(), 0.5);
+  c.leader[0].isep = c.calls[0].isep;
+  return c;
 }
 
 }  // namespace
@@ -84,4 +104,52 @@ TEST_CASE("shards that are missing, given twice, of another run or no results ar
   CHECK_THROWS_WITH(merged_fuzz({one, folder.write("2.json", fuzz_json(other))}), Contains("another run"));
   CHECK_THROWS_AS(merged_fuzz({folder.write("empty.json", "{}")}), input_error);
   CHECK_THROWS_AS(merged_fuzz({folder.write("other.json", "{\"format\": \"another\"}")}), input_error);
+}
+
+TEST_CASE("a case as a FORTRAN main program fits its columns, and its literals are read back exactly") {
+  const std::string main = fortran_main_of(a_case());
+  std::size_t from = 0;
+  int lines = 0;
+  for (std::size_t to = 0; (to = main.find('\n', from)) != std::string::npos; from = to + 1, ++lines) {
+    INFO(main.substr(from, to - from));
+    CHECK(to - from <= 72);
+  }
+  CHECK(lines > 10);
+  CHECK_THAT(main, Contains("CALL CONTCT (DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, "));
+}
+
+TEST_CASE("what no FORTRAN literal can say is computed from zero") {
+  found_case c = a_case();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  c.calls[0].cc = {0.0, -0.0, std::nan("")};
+  c.calls[0].dd[c.calls[0].dof_of_pair(0)] = -infinity;
+  for (auto* list : {&c.calls[0].id, &c.calls[0].isep, &c.calls[0].isurf}) list->resize(3);
+  const std::string main = fortran_main_of(c);
+  CHECK_THAT(main, Contains("      CC(1) = 0.\n") && Contains("      CC(2) = -Z\n") &&
+                       Contains("      CC(3) = Z / Z\n"));
+  CHECK_THAT(main, Contains(" = -1. / Z\n"));
+}
+
+TEST_CASE("a case as a trace is read back, and says what differed") {
+  const found_case c = a_case();
+  const std::string text = trace_of(c, {});
+  trace_reader reader(text, "a case");
+  const trace_header h = reader.read_header();
+  REQUIRE_FALSE(h.about.empty());
+  CHECK(h.about[0] == "call 1: mine differs in SS(1): fortran has 0x1p+0, mine has 0x1p-1 (1 ULP)");
+  recorded_call read;
+  REQUIRE(reader.next(read));
+  CHECK(read.in.id == c.calls[0].id);
+  CHECK(read.out.ss == c.leader[0].ss);
+  CHECK_FALSE(reader.next(read));
+}
+
+TEST_CASE("a case as a Catch2 test asks the follower and expects the leader's numbers") {
+  found_case c = a_case();
+  c.what.follower = "plugin:\"./mine\".so";
+  const std::string test = catch_test_of(c);
+  CHECK_THAT(test, Contains("TEST_CASE(\"plugin    mine  so answers as fortran does\")"));
+  CHECK_THAT(test, Contains("make_kernel(\"plugin:\\\"./mine\\\".so\")"));
+  CHECK_THAT(test, Contains("CHECK(contct::outside::same_bits(asked.smin, 0x1p-1));"));
+  CHECK_THAT(test, Contains("CHECK(contct::outside::same_bits(out.ss[2], 0x1p-1));"));
 }

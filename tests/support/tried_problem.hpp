@@ -1,0 +1,64 @@
+// A random problem that is tried, and what is counted of its path; names of face layouts and verdicts.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+#include "contct/lab/random_problem.hpp"
+
+namespace contct::app {
+
+inline std::string_view name_of(face_layout f) {
+  constexpr std::string_view names[] = {"gaps",      "zero gaps", "mixed",         "equal gaps",
+                                        "near ties", "symmetric", "antisymmetric", "two-sided"};
+  return names[static_cast<int>(f)];
+}
+
+inline constexpr int verdicts = 5;
+
+inline std::string_view name_of(verdict v) {
+  constexpr std::string_view names[] = {"certified", "no equilibrium", "wrong", "false mechanism", "no end"};
+  return names[static_cast<int>(v)];
+}
+
+/// What happens on a path.
+struct path_counts final : observer {
+  int makes = 0, breaks = 0;
+  int at_rest = 0;    ///< increments without progress
+  int snaps = 0;      ///< rigid, at constant load
+  int fallbacks = 0;  ///< steps that the reference solution ended
+
+  void incremented(const increment& i) override {
+    at_rest += i.s == 0.0 ? 1 : 0;
+    snaps += i.snaps ? 1 : 0;
+    for (const event& e : i.events) ++(e.what == change::make ? makes : breaks);
+  }
+  void step_ended(const step_state& s) override { fallbacks += s.from_fallback ? 1 : 0; }
+};
+
+/// The worst of all that the certificates measure.
+inline double needed_by(const problem_result& t) {
+  double needed = 0.0;
+  for (const certificate& c : t.certificates)
+    needed = std::max({needed, c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension});
+  return needed;
+}
+
+/// The worst of that in eps / rcond: what C would have to be.
+inline double factor_of(const problem_result& t) {
+  double factor = 0.0;
+  for (const certificate& c : t.certificates) {
+    const double worst =
+        std::max({c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension});
+    factor = std::max(factor, worst / (std::numeric_limits<double>::epsilon() / c.rcond));
+  }
+  return factor;
+}
+
+/// The result on p's own structure, with `counts` of its path.
+inline problem_result try_and_count(const random_problem& p, kernel& leader, path_counts& counts) {
+  return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, "refactor", {&counts});
+}
+
+}  // namespace contct::app
