@@ -1,19 +1,17 @@
 #include "contct/compare/branches.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 namespace contct::compare {
 
 void branch_counts::add(const branch_counts& other) {
-  for (std::size_t b = 0; b < counts_.size(); ++b)
-    for (std::size_t outcome = 0; outcome < 2; ++outcome) counts_[b][outcome] += other.counts_[b][outcome];
+  std::ranges::transform(counts_, other.counts_, counts_.begin(), std::plus());
 }
 
 std::int64_t branch_counts::rarest() const {
-  std::int64_t least = counts_[0][0];
-  for (const auto& both : counts_) least = std::min({least, both[0], both[1]});
-  return least;
+  return *std::ranges::min_element(counts_);
 }
 
 std::vector<decision> decisions_of(const call<double>& c, std::span<const int> isep_before, int real_bytes) {

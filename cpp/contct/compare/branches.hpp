@@ -91,17 +91,15 @@ class branch_counts {
                       [this](branch b, std::size_t, bool outcome, Real, Real) { ++of(b, outcome); });
   }
 
-  [[nodiscard]] std::int64_t& of(branch b, bool outcome) { return counts_[index_of(b)][outcome ? 1 : 0]; }
-  [[nodiscard]] std::int64_t of(branch b, bool outcome) const {
-    return counts_[index_of(b)][outcome ? 1 : 0];
-  }
+  [[nodiscard]] std::int64_t& of(branch b, bool outcome) { return counts_[2 * index_of(b) + outcome]; }
+  [[nodiscard]] std::int64_t of(branch b, bool outcome) const { return counts_[2 * index_of(b) + outcome]; }
   /// The rarest outcome's count: 0 means that some outcome of some IF was never reached.
   [[nodiscard]] std::int64_t rarest() const;
   /// Add the counts of another run.
   void add(const branch_counts& other);
 
  private:
-  std::array<std::array<std::int64_t, 2>, 8> counts_{};
+  std::array<std::int64_t, 16> counts_{};  // of each IF, false and true
 };
 
 /// How many numbers lie between the two that an IF compares. The two zeros compare equal: none lies between

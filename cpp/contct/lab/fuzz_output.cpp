@@ -16,23 +16,16 @@ namespace {
 using json = nlohmann::ordered_json;
 constexpr const char* format = "contct-fuzz-1";
 
-/// Put a field into a file's object.
-struct writer {
-  json& object;
-  template <class Value>
-  void operator()(const std::string& name, const Value& value) const {
-    object[json::json_pointer(name)] = value;
-  }
-};
+/// Puts fields into a file's object.
+auto writer(json& object) {
+  return [&object](const std::string& name, const auto& value) { object[json::json_pointer(name)] = value; };
+}
 
-/// Take a field from a file's object.
-struct reader {
-  const json& object;
-  template <class Value>
-  void operator()(const std::string& name, Value& value) const {
-    object.at(json::json_pointer(name)).get_to(value);
-  }
-};
+/// Takes fields from a file's object.
+auto reader(const json& object) {
+  return
+      [&object](const std::string& name, auto& value) { object.at(json::json_pointer(name)).get_to(value); };
+}
 
 /// The fields of a follower's result, in the file's order: `field(name, value)` writes or reads one.
 template <class Field>
@@ -76,19 +69,16 @@ void for_each_field(fuzz_result& r, const Field& field) {
   field("/shard/of", r.request.shards);
 }
 
-fuzz_result read_shard(const std::string& file) {
-  const json document = json::parse(read_input(file, "fuzz result"));
-  if (document.at("format") != format) throw input_error(file + ": found another format; allowed: " + format);
-  fuzz_result r;
-  for_each_field(r, reader{document});
-  for (const json& f : document.at("followers")) for_each_field(r.followers.emplace_back(), reader{f});
-  return r;
-}
-
 /// A shard, or an input_error that names the file.
 fuzz_result shard_from(const std::string& file) {
   try {
-    return read_shard(file);
+    const json document = json::parse(read_input(file, "fuzz result"));
+    if (document.at("format") != format)
+      throw input_error(file + ": found another format; allowed: " + format);
+    fuzz_result r;
+    for_each_field(r, reader(document));
+    for (const json& f : document.at("followers")) for_each_field(r.followers.emplace_back(), reader(f));
+    return r;
   } catch (const json::exception& e) {
     throw input_error(
         fmt::format("{}: found no fuzz result: {}; allowed: what --json wrote", file, e.what()));
@@ -201,9 +191,9 @@ std::string fortran_comment(const std::string& words) {
 
 std::string fuzz_json(fuzz_result r) {
   json document;
-  for_each_field(r, writer{document});
+  for_each_field(r, writer(document));
   document["followers"] = json::array();
-  for (fuzz_follower& f : r.followers) for_each_field(f, writer{document["followers"].emplace_back()});
+  for (fuzz_follower& f : r.followers) for_each_field(f, writer(document["followers"].emplace_back()));
   return document.dump(1) + "\n";
 }
 
