@@ -8,13 +8,6 @@
 
 using namespace contct::app;
 
-namespace {
-const int apart = separated;
-const int touching = in_contact;
-const int above = face_above;
-const int below = face_below;
-}  // namespace
-
 TEMPLATE_TEST_CASE("a pair closes at the share of the load that brings it to its face (eq. 4)", "", float,
                    double) {
   // 1 of 4 units of the test response are used up when the structure meets the face below it.

@@ -14,10 +14,6 @@ using namespace contct::app;
 
 namespace {
 
-const int apart = separated;
-const int touching = in_contact;
-const int above = face_above;
-const int below = face_below;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// The one event of a call, from its statuses before and after.

@@ -10,7 +10,7 @@ constexpr plate_element element = {0.75, 0.5, 12.0, 0.3};  // 1.5 by 1
 
 /// The dofs of w = f(x, y) with slopes fx and fy, at the corners (-a, -b), (a, -b), (a, b), (-a, b).
 template <class W, class Wx, class Wy>
-element_vector12 field(W f, Wx fx, Wy fy) {
+element_vector12 at_corners(W f, Wx fx, Wy fy) {
   element_vector12 u{};
   const double x[4] = {-element.a, element.a, element.a, -element.a};
   const double y[4] = {-element.b, -element.b, element.b, element.b};
@@ -22,7 +22,7 @@ element_vector12 field(W f, Wx fx, Wy fy) {
   return u;
 }
 
-double product(const element_vector12& a, const element_vector12& b) {
+double work_of(const element_vector12& a, const element_vector12& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 12; ++i) sum += a[i] * b[i];
   return sum;
@@ -34,35 +34,35 @@ TEST_CASE("the stiffness of an element is symmetric, and rigid motions need no f
   const element_matrix12 k = stiffness_of(element);
   for (std::size_t i = 0; i < 12; ++i)
     for (std::size_t j = 0; j < i; ++j) CHECK(k[i][j] == Approx(k[j][i]).margin(1e-12));
-  const auto tilt = field([](double x, double y) { return 1 + 2 * x - 3 * y; },
-                          [](double, double) { return 2; }, [](double, double) { return -3; });
+  const auto tilt = at_corners([](double x, double y) { return 1 + 2 * x - 3 * y; },
+                               [](double, double) { return 2; }, [](double, double) { return -3; });
   for (const double force : forces_at(element, tilt)) CHECK(std::abs(force) <= 1e-12);
 }
 
 TEST_CASE(
     "bent to w = x^2 / 2 and twisted to w = x y, an element has the curvatures and the energy of that") {
-  const auto bent = field([](double x, double) { return x * x / 2; }, [](double x, double) { return x; },
-                          [](double, double) { return 0; });
+  const auto bent = at_corners([](double x, double) { return x * x / 2; }, [](double x, double) { return x; },
+                               [](double, double) { return 0; });
   for (const curvature& c : curvatures_at_corners(element, bent)) {
     CHECK(c.xx == Approx(1.0));
     CHECK(c.yy == Approx(0.0).margin(1e-13));
     CHECK(c.xy == Approx(0.0).margin(1e-13));
   }
   const double area = 4 * element.a * element.b;
-  CHECK(product(bent, forces_at(element, bent)) == Approx(element.D * area));  // D w_xx^2
-  const auto twisted = field([](double x, double y) { return x * y; }, [](double, double y) { return y; },
-                             [](double x, double) { return x; });
+  CHECK(work_of(bent, forces_at(element, bent)) == Approx(element.D * area));  // D w_xx^2
+  const auto twisted = at_corners([](double x, double y) { return x * y; },
+                                  [](double, double y) { return y; }, [](double x, double) { return x; });
   for (const curvature& c : curvatures_at_corners(element, twisted)) CHECK(c.xy == Approx(1.0));
-  CHECK(product(twisted, forces_at(element, twisted)) ==
+  CHECK(work_of(twisted, forces_at(element, twisted)) ==
         Approx(2 * (1 - element.nu) * element.D * area));  // 2 D (1 - nu) w_xy^2
 }
 
 TEST_CASE("a unit pressure does the work of its resultant: area times height, none by tilting") {
   const element_vector12 f = unit_pressure_on(element);
-  const auto flat = field([](double, double) { return 1; }, [](double, double) { return 0; },
-                          [](double, double) { return 0; });
-  CHECK(product(f, flat) == Approx(4 * element.a * element.b));
-  const auto tilt = field([](double x, double y) { return x + y; }, [](double, double) { return 1; },
-                          [](double, double) { return 1; });
-  CHECK(product(f, tilt) == Approx(0.0).margin(1e-14));
+  const auto flat = at_corners([](double, double) { return 1; }, [](double, double) { return 0; },
+                               [](double, double) { return 0; });
+  CHECK(work_of(f, flat) == Approx(4 * element.a * element.b));
+  const auto tilt = at_corners([](double x, double y) { return x + y; }, [](double, double) { return 1; },
+                               [](double, double) { return 1; });
+  CHECK(work_of(f, tilt) == Approx(0.0).margin(1e-14));
 }

@@ -8,6 +8,12 @@
 
 namespace contct::app {
 
+// Short words for tables of pairs.
+inline constexpr int apart = separated;
+inline constexpr int touching = in_contact;
+inline constexpr int above = face_above;
+inline constexpr int below = face_below;
+
 /// Where a pair stands before a call.
 template <class Real>
 struct pair_at {

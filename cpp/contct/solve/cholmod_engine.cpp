@@ -7,8 +7,8 @@
 namespace contct::solve {
 namespace {
 
-constexpr double drift_allowed = 1e-10;  // of the response, relative to the largest
-constexpr drift_monitor::limits drift_limits = {16, 256, drift_allowed, drift_allowed / 8};
+constexpr double cholmod_drift_allowed = 1e-10;  // of the response, relative to the largest
+constexpr drift_monitor::limits cholmod_drift_limits = {16, 256, cholmod_drift_allowed, cholmod_drift_allowed / 8};
 
 }  // namespace
 
@@ -17,7 +17,7 @@ cholmod_engine::cholmod_engine(const linear_structure& s)
       entries_(entries_of_band(s)),
       factor_(sparse_factor::make(
           k().columns(), entries_ ? sparse_factor::kind::updatable_amd : sparse_factor::kind::updatable)),
-      drift_(drift_limits) {}
+      drift_(cholmod_drift_limits) {}
 
 void cholmod_engine::factor_anew() {
   has_factor_ = false;

@@ -6,8 +6,8 @@
 namespace contct::solve {
 namespace {
 
-constexpr double drift_allowed = 1e-11;  // of the response, relative to the largest
-constexpr drift_monitor::limits drift_limits = {32, 512, drift_allowed, drift_allowed / 4};
+constexpr double condensed_drift_allowed = 1e-11;  // of the response, relative to the largest
+constexpr drift_monitor::limits condensed_drift_limits = {32, 512, condensed_drift_allowed, condensed_drift_allowed / 4};
 constexpr double below_rounding = 1e-18;
 // k c_p of a spring that opens, from which the response is checked at once: the rounding of x_p is multiplied
 // by it.
@@ -74,7 +74,7 @@ bool condensed_engine::suits(const linear_structure& s) {
 }
 
 condensed_engine::condensed_engine(const linear_structure& s)
-    : spring_engine(s), drift_(drift_limits), stiffness_(s) {
+    : spring_engine(s), drift_(condensed_drift_limits), stiffness_(s) {
   if (!suits(s))
     throw std::invalid_argument(
         "engine \"condensed\": found a structure that is no beam with pairs; allowed: those");

@@ -7,8 +7,8 @@ namespace contct::solve {
 namespace {
 
 // Of the response, relative to the largest: 1e-8 of D is promised.
-constexpr double drift_allowed = 1e-11;
-constexpr drift_monitor::limits drift_limits = {16, 256, drift_allowed, drift_allowed / 4};
+constexpr double updated_drift_allowed = 1e-11;
+constexpr drift_monitor::limits updated_drift_limits = {16, 256, updated_drift_allowed, updated_drift_allowed / 4};
 // The least 1 - k c when a stiff spring opens: with less, too many of its digits have cancelled.
 constexpr double least_denominator = 1e-2;
 
@@ -29,7 +29,7 @@ updated_engine::updated_engine(const linear_structure& s, bool dissected)
       most_toggles_(columns_worth_keeping(stiffness_.flops(), s.pairs.size())),
       response_(s.pairs.size()),
       work_(s.dofs()),
-      drift_(drift_limits) {}
+      drift_(updated_drift_limits) {}
 
 void updated_engine::respond(const residual_load& residual, std::span<double> d_star) {
   if (!has_factor_) factor_anew();
