@@ -15,8 +15,7 @@ using Catch::Matchers::StartsWith;
 namespace {
 
 /// Run `file` in `dir` with an output asked for; nothing but the refusal may come of it.
-std::string refusal(const scratch_folder& dir, const std::string& file,
-                    const process_options& options = {}) {
+std::string refusal(const scratch_folder& dir, const std::string& file, const process_options& options = {}) {
   const auto before = dir.files();
   const finished f =
       contct_program(dir.path(), {"run", file, "--json", "out.json", "--log", "out.log"}, options);

@@ -15,9 +15,9 @@
 #include "bench/kernels.hpp"
 #include "bench/measure.hpp"
 #include "bench/problems.hpp"
-#include "contct/matrix/lapack.hpp"
+#include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/solve/condensed_engine.hpp"
+#include "contct/solve/spring_engine.hpp"
 #include "contct/text/output_file.hpp"
 
 namespace {
@@ -122,7 +122,7 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   fmt::print("{}: {} dofs, half bandwidth {}, {} pairs; one dpbtrs {:.3f} ms\n", name, s.dofs(),
              s.stiffness.band().subdiagonals(), s.pairs.size(), solve_ms);
   for (const std::string& engine : o.engines) {
-    if (engine == "condensed" && !contct::app::condensed_engine::suits(s)) continue;
+    if (engine == "condensed" && !contct::app::can_be_condensed(s)) continue;
     show(name + ": " + engine);
     const bench::run_of_engine r =
         measured(o, p, s, engine, engine == "refactor" ? events_of_refactor(o, name) : o.events);

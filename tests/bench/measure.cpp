@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <stdexcept>
 
 #include "bench/cpu_clock.hpp"
 #include "contct/certify/certificate.hpp"
@@ -88,16 +89,16 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
 }
 
 double seconds_of_a_solve(const contct::app::linear_structure& s) {
-  contct::app::factored_stiffness f(s);
+  contct::app::stiffness_factor f(s.stiffness);
   std::vector<char> closed(s.pairs.size());
   for (std::size_t i = 0; i < closed.size(); ++i) closed[i] = s.pairs[i].closed ? 1 : 0;
-  f.factor(closed);
+  if (!f.factor(contct::app::springs_of(s, closed))) throw std::runtime_error("the stiffness has no factor");
   std::vector<double> x(static_cast<std::size_t>(s.dofs()));
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 15; ++round) {
     std::fill(x.begin(), x.end(), 1.0);
     const auto start = clock::now();
-    contct::app::solve_with(f.factor_band(), x);
+    f.solve(x);
     least = std::min(least, std::chrono::duration<double>(clock::now() - start).count());
   }
   return least;

@@ -7,7 +7,6 @@
 #include "catch.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/matrix/lapack.hpp"
 #include "support/beams.hpp"
 #include "support/every_set.hpp"
 #include "support/tried_problem.hpp"

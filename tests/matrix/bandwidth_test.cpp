@@ -1,8 +1,7 @@
-#include "contct/matrix/bandwidth.hpp"
-
 #include <algorithm>
 
 #include "catch.hpp"
+#include "contct/matrix/stiffness_matrix.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;

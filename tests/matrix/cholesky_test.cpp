@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/structure/beam.hpp"
+#include "contct/structure/problem.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;
@@ -27,8 +27,7 @@ linear_structure simple_span(int n, double h) {
 }
 
 double rcond_of(const linear_structure& s) {
-  band_matrix k = s.stiffness.band();
-  return reciprocal_condition(k);
+  return stiffness_factor(s.stiffness).reciprocal_condition({});
 }
 
 }  // namespace
@@ -101,7 +100,8 @@ TEST_CASE("the exact condition of a small matrix is found") {
   a.add(0, 0, 4.0);
   a.add(1, 1, 25.0);
   a.add(1, 0, 5.0);
-  CHECK(reciprocal_condition(a) == Approx(1.0 / 3.0).epsilon(1e-14));
+  const stiffness_matrix k(a);
+  CHECK(stiffness_factor(k).reciprocal_condition({}) == Approx(1.0 / 3.0).epsilon(1e-14));
 }
 
 TEST_CASE(
@@ -117,4 +117,13 @@ TEST_CASE("digits never go below none") {
   CHECK(digits_left(0.0) == 0);
   CHECK(digits_left(1e-30) == 0);
   CHECK(digits_left(1.0) == 15);
+}
+
+TEST_CASE("LAPACK is identified by its version and the library that holds dpbtrf") {
+  const std::string identity = lapack_identity();
+  CHECK(identity.rfind("LAPACK 3.", 0) == 0);
+  const std::size_t comma = identity.find(", ");
+  REQUIRE(comma != std::string::npos);
+  CHECK(identity.find('/') == std::string::npos);  // its folder is left out
+  CHECK(identity.size() > comma + 2);
 }

@@ -2,8 +2,8 @@
 #include "contct/matrix/sparse_factor.hpp"
 
 #include "catch.hpp"
+#include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/matrix/several_right_hand_sides.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;

@@ -1,8 +1,7 @@
 // One stiffness in two storages, factored by two libraries. Only where CHOLMOD is built in.
-#include "contct/matrix/stiffness_factor.hpp"
-
 #include "catch.hpp"
-#include "contct/matrix/several_right_hand_sides.hpp"
+#include "contct/matrix/block_solve.hpp"
+#include "contct/matrix/cholesky.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;

@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/structure/beam.hpp"
+#include "contct/structure/problem.hpp"
 
 using namespace contct::app;
 

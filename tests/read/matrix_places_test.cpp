@@ -1,4 +1,4 @@
-// Where a matrix's dofs are: files of coordinates, labels, and the edges between nodes.
+// Where a matrix's dofs are: files of coordinates, labels, the edges between nodes, and CalculiX's input.
 #include "contct/read/matrix_places.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "contct/numeric/random.hpp"
+#include "contct/read/matrix_files.hpp"
 #include "read/refusals.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -209,4 +210,245 @@ TEST_CASE("mutilated coordinates are refused or read whole: no crash, no hang") 
   }
   CHECK(refused > 1500);
   CHECK(refused < 9500);
+}
+
+namespace {
+
+std::string of_mesh(const std::string& text) {
+  return verdict([&] { (void)parse_inp_mesh(text, "job.inp"); });
+}
+
+/// So many nodes, one behind the other.
+std::string nodes_text(int count) {
+  std::string text = "*NODE\n";
+  for (int i = 1; i <= count; ++i) text += fmt::format("{},{},0,0\n", i, i);
+  return text;
+}
+
+/// An element of the type with nodes 1, 2, ..
+std::string element_text(const std::string& type, int nodes) {
+  std::string text = "*ELEMENT, TYPE=" + type + "\n7";
+  for (int i = 1; i <= nodes; ++i) text += fmt::format("{}{}", i == 15 ? ",\n" : ",", i);
+  return text + "\n";
+}
+
+}  // namespace
+
+TEST_CASE(
+    "CalculiX's nodes are read: any case, blanks, comments, FORTRAN's numbers, what is not there is 0") {
+  const placed_nodes m = parse_inp_mesh(
+      "** a comment\n*HEADING\n1, 2, three\n * node , NSET = all\r\n1, 1.5 , "
+      "-2.E-3,+.5\n\n2,1D1,,2d-1\n3\t,4\n"
+      "*NODE FILE\nU\n*Node\n3,4.,0,0,\n*STEP\n5,5,5\n*END STEP",
+      "job.inp");
+  REQUIRE(m.nodes.size() == 3);
+  CHECK(m.nodes[0].name == "1");
+  CHECK(m.nodes[0].at == place{1.5, -2e-3, 0.5});
+  CHECK(m.nodes[1].at == place{10, 0, 0.2});
+  CHECK(m.nodes[2].at == place{4, 0, 0});
+  CHECK(m.edges.empty());
+  CHECK(m.said.empty());
+}
+
+TEST_CASE("each type of solid has its edges, through the nodes at their middles") {
+  struct shape {
+    const char* type;
+    int nodes;
+    std::vector<edge> edges;
+  };
+  const std::vector<shape> shapes = {
+      {"C3D4", 4, {{0, 1, 1}, {0, 2, 1}, {0, 3, 1}, {1, 2, 1}, {1, 3, 1}, {2, 3, 1}}},
+      {"c3d6",
+       6,
+       {{0, 1, 1}, {0, 2, 1}, {0, 3, 1}, {1, 2, 1}, {1, 4, 1}, {2, 5, 1}, {3, 4, 1}, {3, 5, 1}, {4, 5, 1}}},
+      {"C3D8I",
+       8,
+       {{0, 1, 1},
+        {0, 3, 1},
+        {0, 4, 1},
+        {1, 2, 1},
+        {1, 5, 1},
+        {2, 3, 1},
+        {2, 6, 1},
+        {3, 7, 1},
+        {4, 5, 1},
+        {4, 7, 1},
+        {5, 6, 1},
+        {6, 7, 1}}},
+      // Corner to middle and middle to corner, by CalculiX's manual: 5 lies between 1 and 2, 6 between 2 and
+      // 3, ..
+      {"C3D10T",
+       10,
+       {{0, 4, 1},
+        {0, 6, 1},
+        {0, 7, 1},
+        {1, 4, 1},
+        {1, 5, 1},
+        {1, 8, 1},
+        {2, 5, 1},
+        {2, 6, 1},
+        {2, 9, 1},
+        {3, 7, 1},
+        {3, 8, 1},
+        {3, 9, 1}}},
+      {"C3D15",
+       15,
+       {{0, 6, 1},
+        {0, 8, 1},
+        {0, 12, 1},
+        {1, 6, 1},
+        {1, 7, 1},
+        {1, 13, 1},
+        {2, 7, 1},
+        {2, 8, 1},
+        {2, 14, 1},
+        {3, 9, 1},
+        {3, 11, 1},
+        {3, 12, 1},
+        {4, 9, 1},
+        {4, 10, 1},
+        {4, 13, 1},
+        {5, 10, 1},
+        {5, 11, 1},
+        {5, 14, 1}}},
+      {"C3D20R", 20, {{0, 8, 1},  {0, 11, 1}, {0, 16, 1}, {1, 8, 1},  {1, 9, 1},  {1, 17, 1},
+                      {2, 9, 1},  {2, 10, 1}, {2, 18, 1}, {3, 10, 1}, {3, 11, 1}, {3, 19, 1},
+                      {4, 12, 1}, {4, 15, 1}, {4, 16, 1}, {5, 12, 1}, {5, 13, 1}, {5, 17, 1},
+                      {6, 13, 1}, {6, 14, 1}, {6, 18, 1}, {7, 14, 1}, {7, 15, 1}, {7, 19, 1}}},
+  };
+  for (const shape& s : shapes) {
+    INFO(s.type);
+    // Nodes behind the elements: CalculiX reads a deck twice.
+    const placed_nodes m = parse_inp_mesh(element_text(s.type, s.nodes) + nodes_text(s.nodes), "job.inp");
+    CHECK(edges_of(m) == s.edges);
+    CHECK(m.said.empty());
+  }
+}
+
+TEST_CASE("an edge that elements share is there once, with how many have it") {
+  const placed_nodes m = parse_inp_mesh(
+      nodes_text(6) +
+          "*ELEMENT,ELSET=A,TYPE=C3D4\n1,1,2,3,4\n2,2,3,4,\n5\n*ELEMENT,TYPE=C3D4,ELSET=B\n3,3,2,4,6\n",
+      "job.inp");
+  CHECK(edges_of(m) == std::vector<edge>{{0, 1, 1},
+                                         {0, 2, 1},
+                                         {0, 3, 1},
+                                         {1, 2, 3},
+                                         {1, 3, 3},
+                                         {1, 4, 1},
+                                         {1, 5, 1},
+                                         {2, 3, 3},
+                                         {2, 4, 1},
+                                         {2, 5, 1},
+                                         {3, 4, 1},
+                                         {3, 5, 1}});
+}
+
+TEST_CASE("an element's nodes may follow on other lines, and a comment between them is ignored") {
+  const placed_nodes m =
+      parse_inp_mesh(nodes_text(4) + "*ELEMENT,TYPE=C3D4\n1,1,2,\n** a comment\n3,\n4\n", "job.inp");
+  CHECK(m.edges.size() == 6);
+}
+
+TEST_CASE("what of an input file is not drawn is counted in words") {
+  const placed_nodes m =
+      parse_inp_mesh(nodes_text(3) +
+                         "*INCLUDE, INPUT=more.inp\n*ELEMENT, "
+                         "TYPE=B31\n1,1,2\n2,2,3\n*element,type=s8r\n3,1,2,3,1,2,\n3,1,2\n",
+                     "job.inp");
+  CHECK(m.edges.empty());
+  REQUIRE(m.said.size() == 2);
+  CHECK_THAT(m.said[0], Contains("*INCLUDE in job.inp is not followed"));
+  CHECK_THAT(m.said[1], Contains("2 of type \"B31\", 1 of type \"S8R\""));
+}
+
+TEST_CASE("every mistake in an input file is refused with its line, what was found and what is allowed") {
+  const std::string nodes = nodes_text(4);  // 5 lines
+  check_refusals(
+      {
+          {nodes + "x,1,2,3\n", "job.inp:6", "\"x\" for the node's number", "a whole number from 1"},
+          {nodes + "0,1,2,3\n", "job.inp:6", "\"0\" for the node's number", "a whole number from 1"},
+          {nodes + "99999999999,1,2,3\n", "job.inp:6", "\"99999999999\"", "to 2147483647"},
+          {nodes + "7\n", "job.inp:6", "\"7\"", "number, x, y, z"},
+          {nodes + "7,1,nan,3\n", "job.inp:6", "\"nan\" for a coordinate", "finite"},
+          {nodes + "7,1,2,3mm\n", "job.inp:6", "\"3mm\" for a coordinate", "as 1.5"},
+          {nodes + "7,1e999,2,3\n", "job.inp:6", "\"1e999\"", "finite"},
+          {nodes + "7 1 2 3\n", "job.inp:6", "\"7 1 2 3\" for the node's number", "a whole number"},
+          {nodes + "4,9,9,9\n", "job.inp:6", "node 4 again, at another place", "one place"},
+          {nodes + "7,1,2,3", "job.inp:6", "\"7,1,2,3\" without a line's end", "a line's end"},
+          {nodes + std::string("7,1\0,2,3\n", 9), "job.inp:6", "a byte of 0", "text"},
+          {nodes + "*ELEMENT\n1,1,2,3,4\n", "job.inp:6", "\"*ELEMENT\"", "TYPE="},
+          {nodes + "*ELEMENT, TYPE=\n1,1,2,3,4\n", "job.inp:6", "\"*ELEMENT, TYPE=\"", "TYPE="},
+          {nodes + "*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n", "job.inp:7", "node 9 in an element", "*NODE has"},
+          {nodes + "*INCLUDE,INPUT=a\n*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n", "job.inp:8", "node 9 in an element",
+           "*INCLUDE is not followed"},
+          {nodes + "*ELEMENT, TYPE=C3D4\n1,1,2,3\n*STEP\n", "job.inp:7", "an element with 3 nodes",
+           "4 nodes for type C3D4"},
+          {nodes + "*ELEMENT, TYPE=C3D4\n\n1,1,2,3\n", "job.inp:8", "an element with 3 nodes",
+           "4 nodes for type C3D4"},
+          {nodes + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4,1\n", "job.inp:7", "\"1,1,2,3,4,1\"",
+           "4 nodes for an element"},
+          {nodes + "*ELEMENT, TYPE=C3D4\nx,1,2,3,4\n", "job.inp:7", "\"x\" for the element's number",
+           "a whole number"},
+          {nodes + "*ELEMENT, TYPE=C3D4\n1,1,,3,4\n", "job.inp:7", "\"\" for a node's number",
+           "a whole number"},
+      },
+      of_mesh);
+  CHECK(of_mesh(nodes) == "accepted");
+}
+
+TEST_CASE("mutilated meshes are refused or read whole: no crash, no hang") {
+  random_numbers random(20261122);
+  const std::string good =
+      nodes_text(8) + element_text("C3D8", 8) + "*INCLUDE,INPUT=x\n*ELEMENT,TYPE=S3\n1,2,3\n";
+  const std::string pieces[] = {"1", "-", "\n", " ", "e", "nan", "3,", "*", "999999999999",
+                                ".", "#", ",",  "**"};
+  int refused = 0;
+  for (int trial = 0; trial < 10000; ++trial) {
+    std::string text = good;
+    for (int change = random.whole(1, 3); change > 0; --change) {
+      const std::size_t at = random.whole(0, static_cast<int>(text.size()));
+      if (random.whole(0, 2) == 0) {
+        text.erase(at, random.whole(0, 6));
+      } else {
+        text.insert(at, pieces[random.whole(0, 12)]);
+      }
+    }
+    INFO(text);
+    placed_nodes m;
+    const std::string message = verdict([&] { m = parse_inp_mesh(text, "job.inp"); });
+    if (message != "accepted") {
+      ++refused;
+      CHECK(message.find("; allowed: ") != std::string::npos);
+    }
+    bool sound = true;
+    for (const mesh_edge& e : m.edges)
+      sound = sound && 0 <= e.from && e.from < e.to && e.to < static_cast<int>(m.nodes.size());
+    CHECK(sound);
+  }
+  CHECK(refused > 1500);
+  CHECK(refused < 9500);
+}
+
+TEST_CASE("a mesh of 60,000 bricks is read whole: its edges are those of the grid") {
+  std::string text = "*NODE\n";
+  constexpr int across = 41;
+  constexpr int along = 38;
+  for (int i = 0; i < across * across * along; ++i)
+    text += fmt::format("{},{},{},{}\n", i + 1, i % across, i / across % across, i / across / across);
+  text += "*ELEMENT,TYPE=C3D8\n";
+  int bricks = 0;
+  for (int k = 0; k + 1 < along; ++k) {
+    for (int j = 0; j + 1 < across; ++j) {
+      for (int i = 0; i + 1 < across; ++i) {
+        const int a = (k * across + j) * across + i + 1;
+        const int b = a + across * across;
+        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", ++bricks, a, a + 1, a + across + 1, a + across, b,
+                            b + 1, b + across + 1, b + across);
+      }
+    }
+  }
+  const placed_nodes m = parse_inp_mesh(text, "job.inp");  // quadratic work would exceed the time limit
+  CHECK(bricks == 59200);
+  CHECK(m.edges.size() == std::size_t{40} * 41 * 38 * 2 + std::size_t{41} * 41 * 37);
 }

@@ -1,12 +1,19 @@
-// [beam] and [plate] in their forms. What is refused is in bad_inputs.hpp and bad_plates.hpp.
+// [beam] and [plate] in their forms, of which what is refused is in bad_inputs.hpp and bad_plates.hpp.
+// [matrix] and [calculix]: the files that they name, how K is stored, and what is refused before it is
+// allocated.
 #include "contct/read/model_tables.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <cstdlib>
 
 #include "catch.hpp"
 #include "contct/kernel/call.hpp"
-#include "contct/read/contact_face.hpp"
+#include "contct/matrix/sparse_factor.hpp"
+#include "contct/read/problem_file.hpp"
 #include "read/refusals.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -20,11 +27,6 @@ model model_in(const std::string& text) {
 
 std::string refusal(const std::string& text) {
   return verdict([&] { (void)model_in(text); });
-}
-
-contact_pair face_in(const std::string& text, int default_surface) {
-  const toml::table document = parse_toml(text, "m.toml");
-  return read_face(table_reader(document, "contact[1]", "m.toml"), default_surface);
 }
 
 }  // namespace
@@ -64,13 +66,120 @@ TEST_CASE("the largest plate that is allowed takes 4 GB") {
   CHECK_THAT(square(n + 1), Contains("whose stiffness matrix takes 4.0 GB"));
 }
 
-TEST_CASE("a face below is in contact at 0, open beneath, and inside the structure above") {
-  CHECK(face_in("face = 0.0\n", face_below).closed);
-  CHECK_FALSE(face_in("face = 0\nstate = \"separated\"\n", face_below).closed);
-  const contact_pair open = face_in("surface = \"above\"\nface = 0.5\n", face_below);
-  CHECK(open.surface == face_above);
-  CHECK(open.face == 0.5);
-  CHECK_FALSE(open.closed);
-  CHECK_THAT(verdict([] { (void)face_in("face = 0.5\n", face_below); }), Contains("inside the undeformed"));
-  CHECK_THAT(verdict([] { (void)face_in("face = 0\n", 0); }), Contains("contact[1].surface: found nothing"));
+namespace {
+
+std::string message_of(const std::string& path) {
+  return verdict([&] { (void)read_problem(path); });
+}
+
+const char* const small_matrix =
+    "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 1\n";
+const char* const a_step = "[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
+
+}  // namespace
+
+TEST_CASE("a file that a problem names is relative to the problem's folder, and never standard input") {
+  CHECK(beside("a/b", "K.mtx") == "a/b/K.mtx");
+  CHECK(beside("a/b", "../K.mtx") == "a/b/../K.mtx");
+  CHECK(beside("a/b", "/c/K.mtx") == "/c/K.mtx");
+  CHECK(beside("", "K.mtx") == "K.mtx");
+  CHECK(beside("", "-") == "./-");
+}
+
+TEST_CASE(
+    "a matrix without labels has its dofs' numbers, and free_motions and storage are taken as they are") {
+  const scratch_folder here;
+  (void)here.write("K.mtx", small_matrix);
+  const auto read = [&](const std::string& keys) {
+    const problem p = read_problem(here.write("p.toml", "[matrix]\nstiffness = \"K.mtx\"\n" + keys + a_step));
+    return std::get<assembled>(p.geometry.kind);
+  };
+  const assembled a = read("");
+  CHECK(a.dofs() == 3);
+  CHECK(a.label_of(2) == "3");
+  CHECK(a.as_band);
+  CHECK_FALSE(a.free_motions.has_value());
+  CHECK_FALSE(a.places.known());
+  CHECK(read("free_motions = 2\n").free_motions == 2);
+  CHECK(read("storage = \"band\"\n").as_band);
+  if (sparse_factor::available()) CHECK_FALSE(read("storage = \"sparse\"\n").as_band);
+}
+
+TEST_CASE(
+    "CalculiX's mesh is read from beside its matrix where it is there, or from the file that is named") {
+  const scratch_folder here;
+  (void)here.write("job.sti", "1 1 2\n1 2 -1\n2 2 2\n");
+  (void)here.write("job.dof", "2.3\n3.3\n");
+  const std::string mesh =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,9,9,9\n*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n";
+  const auto with_mesh = [&](const std::string& key) {
+    return here.write("p.toml", "[calculix]\njob = \"job\"\n" + key +
+                                    "[[step]]\npoint = [ { dof = \"2.3\", value = 1 } ]\n");
+  };
+  const auto places = [&](const std::string& key) {
+    return std::get<assembled>(read_problem(with_mesh(key)).geometry.kind).places;
+  };
+  CHECK_FALSE(places("").known());
+  (void)here.write("other.inp", mesh);
+  CHECK(places("mesh = \"other.inp\"\n").edges.size() == 6);
+  CHECK_FALSE(places("").known());
+  (void)here.write("job.inp", mesh);
+  const placed_nodes found = places("");
+  CHECK(found.nodes.size() == 4);
+  CHECK(found.edges.size() == 6);
+  CHECK(found.dofs[1].node == 2);
+  CHECK(found.dofs[1].direction == 3);
+  // Another job's input beside it is no mistake, but naming one is.
+  (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
+  CHECK_FALSE(places("").known());
+  CHECK_THAT(places("").said.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));
+  CHECK_THAT(message_of(with_mesh("mesh = \"job.inp\"\n")),
+             Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node in") &&
+                 Catch::Matchers::Contains("allowed: nodes by what stands before the last dot"));
+  CHECK_THAT(message_of(with_mesh("mesh = \"none.inp\"\n")),
+             Catch::Matchers::Contains("none.inp: cannot be read"));
+  (void)here.write("job.inp", "*NODE\n2,0,0,x\n");
+  CHECK_THAT(message_of(with_mesh("")), Catch::Matchers::Contains("job.inp:2: found \"x\" for a coordinate"));
+}
+
+TEST_CASE("what takes more memory than there is, or than is said, is refused before it is taken") {
+  const scratch_folder here;
+  (void)here.write("K.mtx", small_matrix);
+  // An arrow: the last row is full, whatever the order.
+  constexpr int n = 40000;
+  std::string arrow =
+      fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n", n, n, 2 * n - 1);
+  for (int i = 1; i < n; ++i) arrow += fmt::format("{} {} 2\n{} {} -1e-6\n", i, i, n, i);
+  arrow += fmt::format("{} {} 2\n", n, n);
+  (void)here.write("arrow.mtx", arrow);
+  const std::string tail = "\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
+  const std::string small = here.write("p.toml", "[matrix]\nstiffness = \"K.mtx" + tail);
+  const std::string large =
+      here.write("q.toml", "[matrix]\nstorage = \"band\"\nstiffness = \"arrow.mtx" + tail);
+  const std::string open = here.write("r.toml", "[matrix]\nstiffness = \"arrow.mtx" + tail);
+  setenv("CONTCT_MEMORY_MIB", "100", 1);
+  CHECK(message_of(small) == "accepted");
+  CHECK_THAT(message_of(large),
+             Catch::Matchers::Contains("q.toml:1:1: matrix: found 40000 dofs with a half bandwidth of"));
+  CHECK_THAT(message_of(large), Catch::Matchers::Contains("GiB; allowed: 100 MiB (CONTCT_MEMORY_MIB"));
+  CHECK_THAT(message_of(large), Catch::Matchers::Contains("condense the matrix"));
+  CHECK_THAT(message_of(large), Catch::Matchers::Contains(sparse_factor::available() ? "storage = \"sparse\""
+                                                                                     : "build with CHOLMOD"));
+  if (sparse_factor::available()) {  // which has few entries to keep, and no fill
+    CHECK(message_of(open) == "accepted");
+    setenv("CONTCT_MEMORY_MIB", "3", 1);
+    CHECK_THAT(message_of(open),
+               Catch::Matchers::Contains("GiB, or ") &&
+                   Catch::Matchers::Contains(" MiB in CHOLMOD's sparse factors; allowed: 3.0 MiB"));
+  } else {
+    CHECK_THAT(message_of(open), Catch::Matchers::Contains("/r.toml:1:1: matrix: found 40000 dofs"));
+    CHECK_THAT(message_of(open), Catch::Matchers::Contains("build with CHOLMOD"));
+  }
+  for (const char* wrong : {"", "0", "-5", "lots", "1.5", "99999999999999999999"}) {
+    setenv("CONTCT_MEMORY_MIB", wrong, 1);
+    INFO(wrong);
+    CHECK_THAT(message_of(small), Catch::Matchers::StartsWith("CONTCT_MEMORY_MIB: found \""));
+  }
+  unsetenv("CONTCT_MEMORY_MIB");
+  CHECK(message_of(small) == "accepted");
 }

@@ -18,6 +18,15 @@ const beam& beam_of(const problem& p) {
   return std::get<beam>(p.geometry.kind);
 }
 
+/// The first pair of a table [[bed]], or of [[contact]], where the surface must be named.
+contact_pair face_in(const std::string& keys, const std::string& table) {
+  const std::string other = table == "bed" ? "modulus = 1\n" : "node = 1\nstiffness = 1\n";
+  return parse_problem("[beam]\nlength = 1\nelements = 1\nEI = 1\n[[" + table + "]]\n" + other + keys +
+                           "[[step]]\nuniform = 1\n",
+                       "pb.toml")
+      .pairs.at(0);
+}
+
 }  // namespace
 
 TEST_CASE("the good problem is accepted") {
@@ -228,4 +237,17 @@ TEST_CASE(
       parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\nnodes = [6]\n" + tail, "pb.toml");
   REQUIRE(part.pairs.size() == 1);
   CHECK(part.pairs[0].stiffness == 4.0);
+}
+
+TEST_CASE("a face below is in contact at 0, open beneath, and inside the structure above") {
+  CHECK(face_in("face = 0.0\n", "bed").closed);
+  CHECK_FALSE(face_in("face = 0\nstate = \"separated\"\n", "bed").closed);
+  const contact_pair open = face_in("surface = \"above\"\nface = 0.5\n", "bed");
+  CHECK(open.surface == face_above);
+  CHECK(open.face == 0.5);
+  CHECK_FALSE(open.closed);
+  CHECK_THAT(verdict([] { (void)face_in("face = 0.5\n", "bed"); }),
+             Catch::Matchers::Contains("inside the undeformed"));
+  CHECK_THAT(verdict([] { (void)face_in("face = 0\n", "contact"); }),
+             Catch::Matchers::Contains("contact[1].surface: found nothing"));
 }

@@ -1,9 +1,8 @@
 // A stiffness kept by its entries alone: the same paths, the same ends, the same certificate. Only where
 // CHOLMOD is built in.
-#include "contct/solve/cholmod_engine.hpp"
-
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/solve/spring_engine.hpp"
 #include "support/beam_over_stops.hpp"
 #include "support/tried_problem.hpp"
 
@@ -74,27 +73,27 @@ TEST_CASE("toggles update the factor of CHOLMOD, and the response is that of a n
   linear_structure sparse = band;
   sparse.stiffness = columns_of(band.stiffness.band());
   for (const linear_structure* s : {&band, &sparse}) {
-    cholmod_engine engine(*s);
+    const auto engine = make_engine("cholmod", *s);
     std::vector<double> load(s->dofs());
     load[24] = -10.0;
     std::vector<double> d_star(s->pairs.size());
     std::vector<char> closed(s->pairs.size());
-    engine.respond({load, 1.0, 1}, d_star);
+    engine->respond({load, 1.0, 1}, d_star);
     for (const int pair : {11, 4, 0, 7}) {
       closed[pair] = 1;
-      engine.switch_spring(pair, true);
-      engine.respond({load, 0.25, 1}, d_star);
+      engine->switch_spring(pair, true);
+      engine->respond({load, 0.25, 1}, d_star);
       std::vector<double> expected = response_by_factor(*s, closed, load);
       for (double& d : expected) d *= 0.25;
       CHECK(relative_difference(expected, d_star) <= 1e-10);
     }
-    CHECK(engine.counts().updates == 4);
-    CHECK(engine.counts().factors == 1);
-    CHECK(engine.counts().checks == 1);      // of the new factor
-    CHECK(engine.counts().solves == 5 + 1);  // a response each, and a correction
+    CHECK(engine->counts().updates == 4);
+    CHECK(engine->counts().factors == 1);
+    CHECK(engine->counts().checks == 1);      // of the new factor
+    CHECK(engine->counts().solves == 5 + 1);  // a response each, and a correction
     std::vector<double> u(s->dofs());
-    engine.recover(load, std::vector<double>(s->pairs.size()), u);
-    CHECK(engine.counts().factors == 2);  // one without updates
+    engine->recover(load, std::vector<double>(s->pairs.size()), u);
+    CHECK(engine->counts().factors == 2);  // one without updates
     std::vector<double> at_pairs(s->pairs.size());
     gather_at_pairs(*s, u, at_pairs);
     CHECK(relative_difference(response_by_factor(*s, closed, load), at_pairs) <= 1e-12);
@@ -104,15 +103,15 @@ TEST_CASE("toggles update the factor of CHOLMOD, and the response is that of a n
 TEST_CASE("a spring that is stiffer than the structure is checked for as soon as it opens") {
   linear_structure s = cantilever_over_stops(6);
   s.pairs[5].stiffness = 1e9;
-  cholmod_engine engine(s);
+  const auto engine = make_engine("cholmod", s);
   std::vector<double> load(s.dofs(), 1.0);
   std::vector<double> d_star(s.pairs.size());
-  engine.respond({load, 1.0, 1}, d_star);
-  engine.switch_spring(5, true);
-  engine.respond({load, 1.0, 1}, d_star);
-  CHECK(engine.counts().checks == 1);
-  engine.switch_spring(5, false);
-  engine.respond({load, 1.0, 1}, d_star);
-  CHECK(engine.counts().checks == 2);
+  engine->respond({load, 1.0, 1}, d_star);
+  engine->switch_spring(5, true);
+  engine->respond({load, 1.0, 1}, d_star);
+  CHECK(engine->counts().checks == 1);
+  engine->switch_spring(5, false);
+  engine->respond({load, 1.0, 1}, d_star);
+  CHECK(engine->counts().checks == 2);
   CHECK(relative_difference(response_by_factor(s, std::vector<char>(6), load), d_star) <= 1e-10);
 }

@@ -1,22 +1,21 @@
-#include "contct/solve/condensed_engine.hpp"
-
 #include <stdexcept>
 
 #include "catch.hpp"
-#include "contct/structure/plate.hpp"
+#include "contct/solve/spring_engine.hpp"
+#include "contct/structure/problem.hpp"
 #include "support/beam_over_stops.hpp"
 
 using namespace contct::app;
 
 TEST_CASE("beams with pairs can be condensed, beams without and plates not") {
-  CHECK(condensed_engine::suits(cantilever_over_stops(3)));
+  CHECK(can_be_condensed(cantilever_over_stops(3)));
   linear_structure bare = cantilever_over_stops(3);
   bare.pairs.clear();
-  CHECK_FALSE(condensed_engine::suits(bare));
+  CHECK_FALSE(can_be_condensed(bare));
   const plate square{{0, 1}, {0, 1}, 1.0, 0.3};
   const linear_structure p = build(square, {}, {{0, -1, 0.0, 1.0, true}});
-  CHECK_FALSE(condensed_engine::suits(p));
-  CHECK_THROWS_AS(condensed_engine(p), std::invalid_argument);
+  CHECK_FALSE(can_be_condensed(p));
+  CHECK_THROWS_AS(make_engine("condensed", p), std::invalid_argument);
 }
 
 TEST_CASE("nodes without pairs are eliminated wherever they are, and the response is that of a factor") {
@@ -26,39 +25,39 @@ TEST_CASE("nodes without pairs are eliminated wherever they are, and the respons
     linear_structure s = all;
     s.pairs.clear();
     for (const int i : kept) s.pairs.push_back(all.pairs[i]);
-    condensed_engine engine(s);
+    const auto engine = make_engine("condensed", s);
     std::vector<double> load(s.dofs());
     load[24] = -10.0;
     load[7] = 4.0;
     std::vector<double> d_star(s.pairs.size());
     std::vector<char> closed(s.pairs.size());
-    engine.respond({load, 1.0, 1}, d_star);
+    engine->respond({load, 1.0, 1}, d_star);
     CHECK(relative_difference(response_by_factor(s, closed, load), d_star) <= 1e-12);
     for (int round = 0; round < 2; ++round) {
       for (std::size_t i = 0; i < kept.size(); ++i) {
         closed[i] = round == 0 ? 1 : 0;
-        engine.switch_spring(static_cast<int>(i), closed[i] != 0);
-        engine.respond({load, 0.5, 1}, d_star);
+        engine->switch_spring(static_cast<int>(i), closed[i] != 0);
+        engine->respond({load, 0.5, 1}, d_star);
         std::vector<double> expected = response_by_factor(s, closed, load);
         for (double& d : expected) d *= 0.5;
         CHECK(relative_difference(expected, d_star) <= 1e-10);
       }
     }
-    CHECK(engine.counts().factors == 1);
-    CHECK(engine.counts().updates == static_cast<std::int64_t>(2 * kept.size()));
+    CHECK(engine->counts().factors == 1);
+    CHECK(engine->counts().updates == static_cast<std::int64_t>(2 * kept.size()));
   }
 }
 
 TEST_CASE("a pair at a fixed dof moves nothing") {
   linear_structure s = cantilever_over_stops(4);
   s.pairs.push_back({0, -1, 0.0, 1e6, false});
-  condensed_engine engine(s);
+  const auto engine = make_engine("condensed", s);
   std::vector<double> load(s.dofs(), 1.0);
   std::vector<double> before(5);
   std::vector<double> after(5);
-  engine.respond({load, 1.0, 1}, before);
-  engine.switch_spring(4, true);
-  engine.respond({load, 1.0, 1}, after);
+  engine->respond({load, 1.0, 1}, before);
+  engine->switch_spring(4, true);
+  engine->respond({load, 1.0, 1}, after);
   CHECK(after == before);
   CHECK(after[4] == 0.0);
 }

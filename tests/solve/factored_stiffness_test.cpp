@@ -1,10 +1,10 @@
 #include "contct/solve/factored_stiffness.hpp"
 
 #include "catch.hpp"
-#include "contct/matrix/several_right_hand_sides.hpp"
+#include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/solve/engine.hpp"
-#include "contct/structure/plate.hpp"
+#include "contct/structure/problem.hpp"
 #include "support/beam_over_stops.hpp"
 
 using namespace contct::app;
@@ -79,4 +79,72 @@ TEST_CASE("a held structure whose matrix has no factor is refused") {
   factored_stiffness k(s);
   CHECK_THROWS_AS(k.factor(std::vector<char>(3)), no_factor);
   CHECK(k.reciprocal_condition(std::vector<char>(3)) == 0.0);
+}
+
+namespace {
+
+/// Three dofs in reverse order of rows, the first of them fixed; a pair at each.
+linear_structure three_dofs() {
+  linear_structure s;
+  s.dofs_per_node = 1;
+  band_matrix k(3, 1);
+  for (int row = 0; row < 3; ++row) k.at(row, row) = 4.0;
+  k.at(1, 0) = -1.0;
+  s.stiffness = k;
+  s.stiffness.fix(std::vector<char>{0, 0, 1});
+  s.rows = {2, 1, 0};
+  s.fixed = {1, 0, 0};
+  for (int node = 0; node < 3; ++node) s.pairs.push_back({node, -1, 0.0, 10.0 + node, false});
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("springs of closed pairs are at the rows of their dofs, and not at fixed ones") {
+  const std::vector<spring_at> springs = springs_of(three_dofs(), std::vector<char>{1, 0, 1});
+  REQUIRE(springs.size() == 1);
+  CHECK(springs[0].row == 0);
+  CHECK(springs[0].stiffness == 12.0);
+}
+
+TEST_CASE("loads go from dofs to rows, displacements from dofs to pairs, forces from pairs to dofs") {
+  const linear_structure s = three_dofs();
+  const std::vector<double> load = {5, 6, 7};
+  CHECK(in_rows(s, load) == std::vector<double>{7, 6, 0});
+  std::vector<double> at_pairs(3);
+  gather_at_pairs(s, load, at_pairs);
+  CHECK(at_pairs == load);
+  CHECK(with_pair_forces(s, load, std::vector<double>{1, -1, 0.5}) == std::vector<double>{6, 5, 7.5});
+}
+
+TEST_CASE("the residual is b - K x less the springs' forces") {
+  const linear_structure s = three_dofs();
+  const std::vector<spring_at> springs = {{0, 12.0}};
+  const std::vector<double> left =
+      residual(s.stiffness, springs, std::vector<double>{100, 10, 0}, std::vector<double>{2, 3, 0});
+  CHECK(left == std::vector<double>{100 - (4 * 2 - 3 + 12 * 2), 10 - (4 * 3 - 2), 0});
+}
+
+TEST_CASE(
+    "a solver that is wrong by a tenth is corrected to full precision, a hopeless one is not followed") {
+  const linear_structure s = three_dofs();
+  const std::vector<spring_at> springs = {{0, 12.0}};
+  std::vector<double> u(3);
+  int solves = 0;
+  const auto jacobi = [&solves](double factor) {  // without the coupling of -1
+    return [&solves, factor](std::span<double> b) {
+      ++solves;
+      b[0] *= factor / 16;
+      b[1] *= factor / 4;
+    };
+  };
+  solve_refined(s, s.stiffness, springs, jacobi(1.0), std::vector<double>{9, 1, 15}, u);
+  // 16 x0 - x1 = 15, 4 x1 - x0 = 1, row 0 being dof 2
+  CHECK(u[0] == 0.0);
+  CHECK(u[1] == Approx(31.0 / 63).epsilon(1e-5));
+  CHECK(u[2] == Approx(61.0 / 63).epsilon(1e-5));
+  CHECK(solves == 7);  // one, and the most corrections there may be
+  solves = 0;
+  solve_refined(s, s.stiffness, springs, jacobi(-1.0), std::vector<double>{0, 1, 15}, u);
+  CHECK(solves == 3);  // the correction grows: the second one is not applied
 }

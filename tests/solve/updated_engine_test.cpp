@@ -1,41 +1,40 @@
-#include "contct/solve/updated_engine.hpp"
-
 #include "catch.hpp"
+#include "contct/solve/spring_engine.hpp"
 #include "support/beam_over_stops.hpp"
 
 using namespace contct::app;
 
 TEST_CASE("toggles are taken in without a factor, and the response is that of a new one") {
   const linear_structure s = cantilever_over_stops(12);
-  updated_engine engine(s);
+  const auto engine = make_engine("updated", s);
   std::vector<double> load(s.dofs());
   load[24] = -10.0;
   load[9] = 3.0;
   std::vector<double> d_star(s.pairs.size());
-  engine.respond({load, 1.0, 1}, d_star);
+  engine->respond({load, 1.0, 1}, d_star);
   std::vector<char> closed(s.pairs.size());
   for (const int pair : {11, 4, 0, 11, 7}) {
     closed[pair] = closed[pair] == 0 ? 1 : 0;
-    engine.switch_spring(pair, closed[pair] != 0);
-    engine.respond({load, 1.0, 1}, d_star);
+    engine->switch_spring(pair, closed[pair] != 0);
+    engine->respond({load, 1.0, 1}, d_star);
     CHECK(relative_difference(response_by_factor(s, closed, load), d_star) <= 1e-10);
   }
-  CHECK(engine.counts().updates == 5);
-  CHECK(engine.counts().factors == 1);
-  CHECK(engine.counts().solves == 1 + 5);  // the load, and a column a toggle
+  CHECK(engine->counts().updates == 5);
+  CHECK(engine->counts().factors == 1);
+  CHECK(engine->counts().solves == 1 + 5);  // the load, and a column a toggle
 }
 
 TEST_CASE("the response is checked after 16 responses to one increment, and then after 32") {
   const linear_structure s = cantilever_over_stops(6);
-  updated_engine engine(s);
+  const auto engine = make_engine("updated", s);
   std::vector<double> load(s.dofs(), 1.0);
   std::vector<double> d_star(s.pairs.size());
-  engine.switch_spring(2, true);
-  engine.respond({load, 1.0, 1}, d_star);
-  engine.switch_spring(1, true);  // an update to check: the first spring is in the factor
+  engine->switch_spring(2, true);
+  engine->respond({load, 1.0, 1}, d_star);
+  engine->switch_spring(1, true);  // an update to check: the first spring is in the factor
   const auto respond = [&](int times) {
-    for (int i = 0; i < times; ++i) engine.respond({load, 1.0, 1}, d_star);
-    return engine.counts().checks;
+    for (int i = 0; i < times; ++i) engine->respond({load, 1.0, 1}, d_star);
+    return engine->counts().checks;
   };
   CHECK(respond(15) == 0);
   CHECK(respond(1) == 1);
@@ -46,16 +45,16 @@ TEST_CASE("the response is checked after 16 responses to one increment, and then
 TEST_CASE("a much stiffer spring that opens takes a new factor: too many digits would cancel") {
   linear_structure s = cantilever_over_stops(6);
   s.pairs[5].stiffness = 1e9;
-  updated_engine engine(s);
+  const auto engine = make_engine("updated", s);
   std::vector<double> load(s.dofs(), 1.0);
   std::vector<double> d_star(s.pairs.size());
-  engine.respond({load, 1.0, 1}, d_star);
-  engine.switch_spring(5, true);
-  engine.respond({load, 1.0, 1}, d_star);
-  CHECK(engine.counts().factors == 1);
-  engine.switch_spring(5, false);
-  engine.respond({load, 1.0, 1}, d_star);
-  CHECK(engine.counts().factors == 2);
-  CHECK(engine.counts().updates == 1);
+  engine->respond({load, 1.0, 1}, d_star);
+  engine->switch_spring(5, true);
+  engine->respond({load, 1.0, 1}, d_star);
+  CHECK(engine->counts().factors == 1);
+  engine->switch_spring(5, false);
+  engine->respond({load, 1.0, 1}, d_star);
+  CHECK(engine->counts().factors == 2);
+  CHECK(engine->counts().updates == 1);
   CHECK(relative_difference(response_by_factor(s, std::vector<char>(6), load), d_star) <= 1e-12);
 }

@@ -1,10 +1,7 @@
 // A structure of which only the matrix is known: what it is, and which motions it leaves free.
-#include "contct/structure/assembled.hpp"
-
 #include "catch.hpp"
-#include "contct/structure/beam.hpp"
-#include "contct/structure/free_motions.hpp"
-#include "contct/structure/plate.hpp"
+#include "contct/structure/problem.hpp"
+#include "contct/structure/rigid_modes.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;

@@ -1,12 +1,11 @@
 // Hermite beams against what every textbook has.
-#include "contct/structure/beam.hpp"
-
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 
 #include "catch.hpp"
 #include "contct/matrix/cholesky.hpp"
+#include "contct/structure/problem.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;

@@ -1,6 +1,4 @@
 // Adini-Clough-Melosh plates against fields they must reproduce, and Navier's series.
-#include "contct/structure/plate.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "catch.hpp"
 #include "contct/matrix/cholesky.hpp"
+#include "contct/structure/problem.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;

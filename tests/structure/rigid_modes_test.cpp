@@ -1,6 +1,11 @@
 #include "contct/structure/rigid_modes.hpp"
 
+#include <stdexcept>
+
 #include "catch.hpp"
+#include "contct/matrix/sparse_factor.hpp"
+#include "contct/structure/problem.hpp"
+#include "support/matrices.hpp"
 
 using namespace contct::app;
 
@@ -48,4 +53,80 @@ TEST_CASE("only a row's direction counts: lengths of 1e-200 or 1e200 make no dif
   rigid_rank none;
   none.hold({0, 0, 0});
   CHECK(none.rank() == 0);
+}
+
+namespace {
+
+/// Points on a line with a unit spring between neighbours: they move together or not at all.
+band_matrix chain(int points) {
+  band_matrix k(points, 1);
+  for (int i = 0; i + 1 < points; ++i) {
+    k.add(i, i, 1.0);
+    k.add(i + 1, i + 1, 1.0);
+    k.add(i + 1, i, -1.0);
+  }
+  return k;
+}
+
+}  // namespace
+
+TEST_CASE("a chain of springs has one free motion: all points by the same length") {
+  const free_motions f = find_free_motions(chain(9), {});
+  REQUIRE(f.count == 1);
+  REQUIRE(f.rows.size() == 9);
+  for (const rigid_row& row : f.rows) CHECK(std::abs(row[0]) == Approx(1.0).epsilon(1e-12));
+  CHECK(f.stiffest_free < free_below);
+  CHECK(f.softest_held > 1e-3);
+  CHECK(f.rounding < 1e-9);
+}
+
+TEST_CASE("a spring to the ground leaves a chain no free motion") {
+  band_matrix k = chain(9);
+  k.at(3, 3) += 0.5;
+  CHECK(find_free_motions(k, {}).count == 0);
+}
+
+TEST_CASE("the scale of the matrix, and of single dofs, does not matter") {
+  stiffness_matrix k = chain(9);
+  std::vector<double> d(9, 1e-8);
+  d[4] = 1e3;
+  k.scale(d);
+  const free_motions f = find_free_motions(k, {});
+  REQUIRE(f.count == 1);
+  // K becomes D K D, so its free motion becomes D^-1 times the old one; the largest entry is 1.
+  CHECK(std::abs(f.rows[0][0]) == Approx(1.0).epsilon(1e-9));
+  CHECK(std::abs(f.rows[4][0]) <= 1e-10);
+}
+
+TEST_CASE("what is said of the free motions must be so") {
+  CHECK(find_free_motions(chain(9), 1).count == 1);
+  CHECK_THROWS_WITH(find_free_motions(chain(9), 2), Catch::Matchers::Contains("leaves 1"));
+  band_matrix negative = chain(9);
+  negative.add(0, 0, -0.5);
+  CHECK_THROWS_AS(find_free_motions(negative, {}), std::invalid_argument);
+}
+
+TEST_CASE("free motions are found without a band as with one") {
+  if (!sparse_factor::available()) return;
+  assembled body;
+  body.name = "K";
+  body.stiffness = braced(box_at(0), 1e5);
+  const std::vector<contact_pair> six = {{2, -1, 0, 1, true}, {5, -1, 0, 1, true}, {8, -1, 0, 1, true},
+                                         {0, -1, 0, 1, true}, {6, -1, 0, 1, true}, {1, -1, 0, 1, true}};
+  const std::vector<support> two_corners = {{0, 0, true}, {1, 0, true}, {2, 0, true}, {5, 0, true}};
+  for (const auto& supports : {std::vector<support>{}, two_corners}) {
+    body.as_band = true;
+    const linear_structure wide = build(body, supports, six);
+    body.as_band = false;
+    const linear_structure narrow = build(body, supports, six);
+    CHECK_FALSE(narrow.stiffness.is_band());
+    CHECK(narrow.rigid_motions == wide.rigid_motions);
+    CHECK(narrow.rigid_motions == (supports.empty() ? 6 : 2));
+    CHECK(narrow.rigid_rounding < 1e-6);
+    rigid_rank rank = narrow.nothing_held();
+    for (const rigid_row& row : narrow.held_by_pairs) rank.hold(row);
+    CHECK(rank.rank() == narrow.rigid_motions);
+  }
+  body.stiffness.entries.front().value = -1e5;
+  CHECK_THROWS_WITH(build(body, {}, {}), Catch::Matchers::Contains("K: "));
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contct/solve/factored_stiffness.hpp"
-#include "contct/structure/beam.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::app {
 

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "contct/matrix/band_matrix.hpp"
-#include "contct/matrix/sparse_matrix.hpp"
+#include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/structure/structure.hpp"
 

@@ -38,15 +38,8 @@ std::string worst_of(const certificate& c) {
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
 /// rest, their springs take no force.
 std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) {
-  rigid_rank rank = s.nothing_held();
-  for (const rigid_row& row : s.held_by_supports) rank.hold(row);
-  for (std::size_t i = 0; i < pressed.size(); ++i)
-    if (pressed[i] != 0) rank.hold(s.held_by_pairs[i]);
-  for (std::size_t i = 0; i < pressed.size() && rank.rank() < s.rigid_motions; ++i) {
-    const int before = rank.rank();
-    rank.hold(s.held_by_pairs[i]);
-    if (rank.rank() > before) pressed[i] = 1;
-  }
+  rigid_rank rank = s.held_by([&](std::size_t i) { return pressed[i] != 0; });
+  for (const int pair : s.pairs_that_hold(rank)) pressed[pair] = 1;
   return pressed;
 }
 

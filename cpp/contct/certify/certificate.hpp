@@ -2,7 +2,7 @@
 // may be such a state itself: as a fallback, and in place of a path.
 //
 // The reference solution shares no code with kernels, engines or the loop. It does share the assembled
-// stiffness, its Cholesky factor (matrix/stiffness_factor) and the count of rigid motions
+// stiffness, its Cholesky factor (matrix/cholesky) and the count of rigid motions
 // (structure/rigid_modes) with them.
 #pragma once
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "contct/matrix/stiffness_factor.hpp"
+#include "contct/matrix/cholesky.hpp"
 
 namespace contct::certify {
 namespace {
@@ -95,11 +95,8 @@ class reference_solver::search {
     return set;
   }
 
-  bool holds(const pair_set& set, rigid_rank& rank) const {
-    for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
-    for (std::size_t i = 0; i < set.size() && rank.rank() < structure_.rigid_motions; ++i)
-      if (set[i] != 0) rank.hold(structure_.held_by_pairs[i]);
-    return rank.rank() == structure_.rigid_motions;
+  rigid_rank held_by(const pair_set& set) const {
+    return structure_.held_by([&set](std::size_t i) { return set[i] != 0; });
   }
 
   /// Do the supports and the pairs that press with more than the rounding of the load hold the structure?
@@ -111,8 +108,7 @@ class reference_solver::search {
       const contact_pair& p = structure_.pairs[i];
       firm[i] = p.stiffness * p.surface * (u_[pair_rows_[i]] - p.face) > rounding * largest_load_ ? 1 : 0;
     }
-    rigid_rank rank = structure_.nothing_held();
-    return holds(firm, rank);
+    return structure_.is_held(held_by(firm));
   }
 
   /// Does no open pair stand in the way of this rigid motion?
@@ -246,8 +242,7 @@ class reference_solver::search {
   /// E falls for ever along p: there is no equilibrium, unless supports hold the structure or numbers went
   /// out of range.
   outcome why_endless(const numbers& p) const {
-    rigid_rank rank = structure_.nothing_held();
-    if (holds(pair_set(set_.size()), rank)) return outcome::not_found;
+    if (structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
     const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
     return finite ? outcome::no_equilibrium : outcome::not_found;
   }
@@ -262,8 +257,8 @@ class reference_solver::search {
   reference_answer from_here() {
     numbers p(u_.size());
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      rigid_rank rank = structure_.nothing_held();
-      const bool held = holds(set_, rank);
+      rigid_rank rank = held_by(set_);
+      const bool held = structure_.is_held(rank);
       holding_.clear();
       if (held || !rigid_direction(rank, p)) {
         if (!held) add_holding_springs(rank);

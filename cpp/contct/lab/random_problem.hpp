@@ -8,7 +8,7 @@
 
 #include "contct/certify/certificate.hpp"
 #include "contct/kernel/kernel.hpp"
-#include "contct/structure/model.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::lab {
 

@@ -10,7 +10,6 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/toml_reader.hpp"
-#include "contct/text/input_text.hpp"
 #include "contct/write/finished_run.hpp"
 
 namespace contct::lab {

@@ -1,10 +1,11 @@
-#include "contct/matrix/bandwidth.hpp"
-
+// The order of rows that makes a matrix a narrow band: by Boost.Graph, for matrices from files.
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/graph/cuthill_mckee_ordering.hpp>
 #include <boost/graph/properties.hpp>
 #include <cstdint>
 #include <deque>
+
+#include "contct/matrix/stiffness_matrix.hpp"
 
 namespace contct::matrix {
 namespace {

@@ -1,12 +1,14 @@
 #include "contct/matrix/cholesky.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <limits>
-#include <utility>
-#include <vector>
 
+#include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
 // gfortran passes the length of each CHARACTER argument behind the others.
@@ -18,6 +20,7 @@ void CONTCT_FC_GLOBAL(dpbtrs, DPBTRS)(const char* uplo, const int* n, const int*
                                       std::size_t uplo_length);
 void CONTCT_FC_GLOBAL(dlacn2, DLACN2)(const int* n, double* v, double* x, int* isgn, double* est, int* kase,
                                       int* isave);
+void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 }
 
 namespace contct::matrix {
@@ -55,6 +58,24 @@ double reciprocal(double norm, double inverse_norm) {
   return std::isfinite(norm) && std::isfinite(inverse_norm) ? 1.0 / inverse_norm / norm : 0.0;
 }
 
+/// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found.
+std::string library_of_dpbtrf() {
+  Dl_info found{};
+  // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses
+  if (dladdr(reinterpret_cast<void*>(&CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)), &found) == 0) return "";
+  std::error_code ignored;
+  const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, ignored);
+  return (ignored ? std::filesystem::path(found.dli_fname) : real).filename().string();
+}
+
+/// The configuration of OpenBLAS with the core type that it uses; empty where it is not loaded.
+std::string openblas_identity() {
+  using configuration = char*();
+  // NOLINTNEXTLINE(*-reinterpret-cast)
+  const auto get_config = reinterpret_cast<configuration*>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
+  return get_config == nullptr ? "" : get_config();
+}
+
 }  // namespace
 
 bool factor(band_matrix& matrix) {
@@ -75,19 +96,6 @@ void solve_with(const band_matrix& factor_of_a, std::span<double> b) {
   CONTCT_FC_GLOBAL(dpbtrs, DPBTRS)("L", &n, &kd, &one, factor_of_a.data(), &ldab, b.data(), &n, &info, 1);
 }
 
-double reciprocal_condition(band_matrix& matrix) {
-  stiffness_matrix k(std::move(matrix));
-  const std::vector<double> diagonal = k.diagonal_with({});
-  const std::vector<double> scale = unit_scale(diagonal);
-  if (scale.empty()) return 0.0;
-  const double norm = k.one_norm(diagonal, scale);
-  k.scale(scale);
-  matrix = std::move(k.band());
-  if (!std::isfinite(norm) || !factor(matrix)) return 0.0;
-  return reciprocal(
-      norm, norm_of_inverse(matrix.order(), [&matrix](std::span<double> x) { solve_with(matrix, x); }));
-}
-
 double reciprocal_condition(const stiffness_matrix& k, std::span<const double> diagonal,
                             const in_place_solver& solve) {
   const std::vector<double> scale = unit_scale(diagonal);
@@ -104,6 +112,51 @@ int digits_left(double rcond) {
   if (!(rcond > 0.0)) return 0;
   const double digits = -std::log10(std::numeric_limits<double>::epsilon() / 2.0 / rcond);
   return std::clamp(static_cast<int>(digits), 0, 15);
+}
+
+stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
+  if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
+}
+
+void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
+  if (sparse_) return sparse_->solve_units(rows, x);
+  x.assign(band_.order() * block_width, 0.0);
+  int first = band_.order();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
+    x[rows[i] * block_width + i] = 1.0;
+    first = std::min(first, rows[i]);
+  }
+  if (first < band_.order()) solve_block_from(band_, first, x);
+}
+
+double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {
+  const std::vector<double> diagonal = k_.diagonal_with(springs);
+  if (!k_.is_band()) {
+    if (!factor(springs)) return 0.0;
+    return contct::matrix::reciprocal_condition(k_, diagonal, [this](std::span<double> b) { solve(b); });
+  }
+  const std::vector<double> scale = unit_scale(diagonal);
+  if (scale.empty()) return 0.0;
+  const double norm = k_.one_norm(diagonal, scale);
+  assemble(springs);
+  stiffness_matrix scaled(std::move(band_));
+  scaled.scale(scale);
+  band_ = std::move(scaled.band());
+  if (!std::isfinite(norm) || !contct::matrix::factor(band_)) return 0.0;
+  return reciprocal(norm, norm_of_inverse(k_.order(), [this](std::span<double> x) { solve(x); }));
+}
+
+std::string lapack_identity() {
+  int major = 0;
+  int minor = 0;
+  int patch = 0;
+  CONTCT_FC_GLOBAL(ilaver, ILAVER)(&major, &minor, &patch);
+  std::string words = "LAPACK " + std::to_string(major);
+  words += "." + std::to_string(minor) + "." + std::to_string(patch);
+  for (const std::string& more : {library_of_dpbtrf(), openblas_identity()})
+    if (!more.empty()) words += ", " + more;
+  return words;
 }
 
 }  // namespace contct::matrix

@@ -1,11 +1,15 @@
-// LAPACK's band Cholesky: dpbtrf, dpbtrs, and the condition estimate of dpbcon.
+// Cholesky factors: LAPACK's of bands (dpbtrf, dpbtrs), those of K with springs in either storage, and their
+// condition.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "contct/matrix/band_matrix.hpp"
+#include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
 namespace contct::matrix {
@@ -17,21 +21,75 @@ namespace contct::matrix {
 /// Solve A x = b in place, with the factor of A (dpbtrs).
 void solve_with(const band_matrix& factor_of_a, std::span<double> b);
 
-/// Reciprocal condition number, in the 1-norm, of `matrix` scaled to a unit diagonal: 1 / (norm
-/// of A times norm of its inverse), estimated as dpbcon does, in linear time. The scaling makes
-/// it independent of units.
-/// Overwrites `matrix`. 0 when the scaled matrix has no factor.
-[[nodiscard]] double reciprocal_condition(band_matrix& matrix);
-
 /// Solves A x = b in place.
 using in_place_solver = std::function<void(std::span<double>)>;
 
-/// The same of `k` with `diagonal` [rows] in place of its own; `solve` solves with that matrix, unscaled.
+/// Reciprocal condition number, in the 1-norm, of `k` with `diagonal` [rows] in place of its own, scaled to a
+/// unit diagonal: 1 / (norm of A times norm of its inverse), estimated as dpbcon does, in linear time. The
+/// scaling makes it independent of units. `solve` solves with that matrix, unscaled.
 [[nodiscard]] double reciprocal_condition(const stiffness_matrix& k, std::span<const double> diagonal,
                                           const in_place_solver& solve);
 
 /// Whole decimal digits that a solution keeps at this reciprocal condition: -log10(eps / rcond),
 /// never negative, at most 15.
 [[nodiscard]] int digits_left(double rcond);
+
+/// K with springs on its diagonal: factored by LAPACK where K is a band, by CHOLMOD where it is not.
+/// Memory: the factor, besides K; for a sparse K its entries once more.
+class stiffness_factor {
+ public:
+  /// `k` must outlive this object.
+  explicit stiffness_factor(const stiffness_matrix& k);
+
+  /// False when a pivot is not positive. Rounding can give a mechanism a factor, too.
+  [[nodiscard]] bool factor(std::span<const spring_at> springs) {
+    if (sparse_) return sparse_->factor(k_.diagonal_with(springs));
+    assemble(springs);
+    return contct::matrix::factor(band_);
+  }
+
+  /// Solve in place, by rows.
+  void solve(std::span<double> b) {
+    if (sparse_) return sparse_->solve(b);
+    solve_with(band_, b);
+  }
+
+  /// Solve for the unit vectors of up to `block_width` rows in one pass over the factor:
+  /// x[row * block_width + i] for the i-th. A row of -1 leaves zeros.
+  void solve_units(std::span<const int> rows, std::vector<double>& x);
+
+  /// Products and sums that a factorisation takes.
+  [[nodiscard]] double flops() const {
+    if (sparse_) return sparse_->flops();
+    const double kd = k_.band().subdiagonals();
+    return static_cast<double>(k_.order()) * kd * kd;
+  }
+
+  /// Reciprocal condition of K with `springs`, its diagonal scaled to 1; 0 when it has no factor then.
+  /// Overwrites the factor.
+  [[nodiscard]] double reciprocal_condition(std::span<const spring_at> springs);
+
+  /// The factor itself, of a band. Throws std::logic_error otherwise.
+  [[nodiscard]] const band_matrix& band() const {
+    if (!k_.is_band()) throw std::logic_error("a sparse stiffness has no band");
+    return band_;
+  }
+
+ private:
+  /// Overwrites the last factor.
+  void assemble(std::span<const spring_at> springs) {
+    band_ = k_.band();
+    for (const spring_at& s : springs) band_.at(s.row, s.row) += s.stiffness;
+  }
+
+  const stiffness_matrix& k_;
+  band_matrix band_;
+  std::unique_ptr<sparse_factor> sparse_;  // of K where it is no band
+};
+
+/// The LAPACK in use: its version as ILAVER has it, and the library that holds dpbtrf, as in
+/// "LAPACK 3.11.0, liblapack.so.3.11.0"; and the configuration of OpenBLAS where that is loaded. Results of
+/// solves differ between libraries, calls of CONTCT do not.
+[[nodiscard]] std::string lapack_identity();
 
 }  // namespace contct::matrix

@@ -8,8 +8,7 @@
 #include <new>
 #include <utility>
 
-#include "contct/matrix/several_right_hand_sides.hpp"
-#include "contct/matrix/supernodal_solve.hpp"
+#include "contct/matrix/block_solve.hpp"
 
 namespace contct::matrix {
 namespace {
@@ -39,14 +38,10 @@ cholmod_sparse view_of(std::size_t rows, std::size_t columns, int* starts, int* 
   return view;
 }
 
-/// CHOLMOD's settings and working space.
+/// CHOLMOD's settings and working space. Never copied: only `cholmod` has one, which cannot be copied.
 struct workspace : cholmod_common {
   workspace() : cholmod_common{} { cholmod_start(this); }
   ~workspace() { cholmod_finish(this); }
-  workspace(const workspace&) = delete;
-  workspace& operator=(const workspace&) = delete;
-  workspace(workspace&&) = delete;
-  workspace& operator=(workspace&&) = delete;
 };
 
 class cholmod final : public sparse_factor {
@@ -54,7 +49,19 @@ class cholmod final : public sparse_factor {
   cholmod(sparse_columns a, kind k) : a_(std::move(a)) {
     work_.print = 0;
     work_.quick_return_if_not_posdef = 1;
-    choose(k);
+    if (k == kind::supernodal) {
+      work_.supernodal = CHOLMOD_SUPERNODAL;
+      work_.nmethods = 2;  // the better of both
+      work_.method[0].ordering = CHOLMOD_METIS;
+      work_.method[1].ordering = CHOLMOD_AMD;
+    } else {
+      work_.supernodal = CHOLMOD_SIMPLICIAL;  // cholmod_updown takes no other
+      work_.final_ll = 0;
+    }
+    if (k == kind::updatable_amd) {
+      work_.nmethods = 1;
+      work_.method[0].ordering = CHOLMOD_AMD;
+    }
     cholmod_sparse view = view_of_a();
     factor_ = made(cholmod_analyze(&view, &work_));
     b_ = made(cholmod_zeros(view.nrow, 1, CHOLMOD_REAL, &work_));
@@ -66,10 +73,6 @@ class cholmod final : public sparse_factor {
     cholmod_free_factor(&factor_, &work_);
     for (cholmod_dense** vector : {&b_, &x_, &y_, &e_}) cholmod_free_dense(vector, &work_);
   }
-  cholmod(const cholmod&) = delete;
-  cholmod& operator=(const cholmod&) = delete;
-  cholmod(cholmod&&) = delete;
-  cholmod& operator=(cholmod&&) = delete;
 
   [[nodiscard]] std::int64_t bytes() const override {
     return static_cast<std::int64_t>(sizeof(double) * factor_->xsize + sizeof(int) * factor_->ssize);
@@ -111,22 +114,6 @@ class cholmod final : public sparse_factor {
   [[nodiscard]] double flops() const override { return work_.fl; }
 
  private:
-  void choose(kind k) {
-    if (k == kind::supernodal) {
-      work_.supernodal = CHOLMOD_SUPERNODAL;
-      work_.nmethods = 2;  // the better of both
-      work_.method[0].ordering = CHOLMOD_METIS;
-      work_.method[1].ordering = CHOLMOD_AMD;
-    } else {
-      work_.supernodal = CHOLMOD_SIMPLICIAL;  // cholmod_updown takes no other
-      work_.final_ll = 0;
-    }
-    if (k == kind::updatable_amd) {
-      work_.nmethods = 1;
-      work_.method[0].ordering = CHOLMOD_AMD;
-    }
-  }
-
   [[nodiscard]] cholmod_sparse view_of_a() {
     const std::size_t n = a_.order();
     cholmod_sparse view = view_of(n, n, a_.starts.data(), a_.rows.data(), a_.values.data(), a_.values.size());

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "contct/matrix/sparse_matrix.hpp"
+#include "contct/matrix/stiffness_matrix.hpp"
 
 namespace contct::matrix {
 
@@ -30,8 +30,6 @@ class sparse_factor {
   virtual ~sparse_factor() = default;
   sparse_factor(const sparse_factor&) = delete;
   sparse_factor& operator=(const sparse_factor&) = delete;
-  sparse_factor(sparse_factor&&) = delete;
-  sparse_factor& operator=(sparse_factor&&) = delete;
 
   /// Bytes that a supernodal factor takes; known before it is made.
   [[nodiscard]] virtual std::int64_t bytes() const = 0;

@@ -2,20 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <tuple>
 
 namespace contct::matrix {
 namespace {
 
+int place_of(int row, std::span<const int> rows) {
+  return rows.empty() ? row : rows[row];
+}
+
+/// Each column's entries by their rows: the diagonal's becomes the first.
+void sort_columns(sparse_columns& a) {
+  std::vector<std::pair<int, double>> column;
+  for (std::size_t c = 0; c + 1 < a.starts.size(); ++c) {
+    const int first = a.starts[c];
+    const int last = a.starts[c + 1];
+    column.clear();
+    for (int i = first; i < last; ++i) column.emplace_back(a.rows[i], a.values[i]);
+    std::sort(column.begin(), column.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    for (int i = first; i < last; ++i) std::tie(a.rows[i], a.values[i]) = column[i - first];
+  }
+}
+
 /// Column by column, `on(column, value)` for the diagonal and `below(row, column, value)` for the rest.
-template <class Matrix, class On, class Below>
-void each_entry(Matrix& k, On on, Below below) {
-  for (int column = 0; column < k.order(); ++column) {
-    if constexpr (std::is_same_v<std::remove_const_t<Matrix>, band_matrix>) {
-      on(column, k.at(column, column));
-      const int last = std::min(column + k.subdiagonals(), k.order() - 1);
-      for (int row = column + 1; row <= last; ++row) below(row, column, k.at(row, column));
-    } else {
+/// `Stored`: the variant that a stiffness matrix is, const or not.
+template <class Stored, class On, class Below>
+void each_entry(Stored& stored, On on, Below below) {
+  if (auto* const band = std::get_if<band_matrix>(&stored)) {
+    for (int column = 0; column < band->order(); ++column) {
+      on(column, band->at(column, column));
+      const int last = std::min(column + band->subdiagonals(), band->order() - 1);
+      for (int row = column + 1; row <= last; ++row) below(row, column, band->at(row, column));
+    }
+  } else {
+    auto& k = std::get<sparse_columns>(stored);
+    for (int column = 0; column < k.order(); ++column) {
       const int first = k.starts[column];
       on(column, k.values[first]);
       for (int i = first + 1; i < k.starts[column + 1]; ++i) below(k.rows[i], column, k.values[i]);
@@ -23,8 +49,8 @@ void each_entry(Matrix& k, On on, Below below) {
   }
 }
 
-template <class Matrix, class Real>
-void subtract(const Matrix& k, std::span<const Real> x, std::span<long double> r) {
+template <class Stored, class Real>
+void subtract(const Stored& k, std::span<const Real> x, std::span<long double> r) {
   each_entry(
       k, [&](std::size_t i, double value) { r[i] -= value * static_cast<long double>(x[i]); },
       [&](std::size_t row, std::size_t column, double value) {
@@ -35,16 +61,65 @@ void subtract(const Matrix& k, std::span<const Real> x, std::span<long double> r
 
 }  // namespace
 
-int stiffness_matrix::order() const {
-  return std::visit([](const auto& k) { return k.order(); }, stored_);
+std::vector<long double> sparse_matrix::times(std::span<const double> x) const {
+  std::vector<long double> y(x.size(), 0.0L);
+  for (const auto& [row, column, value] : entries) {
+    y[row] += static_cast<long double>(value) * x[column];
+    if (row != column) y[column] += static_cast<long double>(value) * x[row];
+  }
+  return y;
 }
 
-double stiffness_matrix::diagonal(std::size_t row) const {
-  return is_band() ? band().at(row, row) : columns().diagonal(row);
+int subdiagonals_of(const sparse_matrix& a, std::span<const int> rows) {
+  int widest = 0;
+  for (const matrix_entry& e : a.entries)
+    widest = std::max(widest, std::abs(place_of(e.row, rows) - place_of(e.column, rows)));
+  return widest;
 }
 
-void stiffness_matrix::add_to_diagonal(std::size_t row, double value) {
-  (is_band() ? band().at(row, row) : columns().diagonal(row)) += value;
+band_matrix band_of(const sparse_matrix& a, std::span<const int> rows) {
+  band_matrix band(a.order, subdiagonals_of(a, rows));
+  for (const matrix_entry& e : a.entries) band.add(place_of(e.row, rows), place_of(e.column, rows), e.value);
+  return band;
+}
+
+sparse_columns columns_of(const sparse_matrix& a) {
+  const std::size_t n = a.order;
+  constexpr std::size_t most = std::numeric_limits<int>::max();
+  if (a.entries.size() + n > most)
+    throw std::length_error("a matrix of " + std::to_string(a.entries.size()) +
+                            " entries; allowed: at most " + std::to_string(most));
+  sparse_columns k;
+  k.starts.assign(n + 1, 1);  // a diagonal entry each
+  k.starts[0] = 0;
+  for (const matrix_entry& e : a.entries)
+    if (e.row != e.column) ++k.starts[e.column + 1];
+  std::partial_sum(k.starts.begin(), k.starts.end(), k.starts.begin());
+  k.rows.resize(k.starts.back());
+  k.values.assign(k.rows.size(), 0.0);
+  for (int row = 0; row < a.order; ++row) k.rows[k.starts[row]] = row;
+  std::vector<int> next(k.starts.begin(), k.starts.end() - 1);
+  for (const matrix_entry& e : a.entries) {
+    const int place = e.row == e.column ? k.starts[e.column] : ++next[e.column];
+    k.rows[place] = e.row;
+    k.values[place] = e.value;
+  }
+  sort_columns(k);
+  return k;
+}
+
+sparse_columns columns_of(const band_matrix& a) {
+  sparse_columns k;
+  for (int column = 0; column < a.order(); ++column) {
+    const int last = std::min(column + a.subdiagonals(), a.order() - 1);
+    for (int row = column; row <= last; ++row) {
+      if (row != column && a.at(row, column) == 0.0) continue;
+      k.rows.push_back(row);
+      k.values.push_back(a.at(row, column));
+    }
+    k.starts.push_back(static_cast<int>(k.rows.size()));
+  }
+  return k;
 }
 
 std::vector<double> stiffness_matrix::diagonal_with(std::span<const spring_at> springs) const {
@@ -55,51 +130,39 @@ std::vector<double> stiffness_matrix::diagonal_with(std::span<const spring_at> s
 }
 
 void stiffness_matrix::fix(std::span<const char> fixed) {
-  std::visit(
-      [fixed](auto& k) {
-        each_entry(
-            k,
-            [fixed](std::size_t i, double& value) {
-              if (fixed[i] != 0) value = 1.0;
-            },
-            [fixed](std::size_t row, std::size_t column, double& value) {
-              if (fixed[row] != 0 || fixed[column] != 0) value = 0.0;
-            });
+  each_entry(
+      stored_,
+      [fixed](std::size_t i, double& value) {
+        if (fixed[i] != 0) value = 1.0;
       },
-      stored_);
+      [fixed](std::size_t row, std::size_t column, double& value) {
+        if (fixed[row] != 0 || fixed[column] != 0) value = 0.0;
+      });
 }
 
 void stiffness_matrix::scale(std::span<const double> d) {
-  std::visit(
-      [d](auto& k) {
-        each_entry(
-            k, [d](std::size_t i, double& value) { value *= d[i] * d[i]; },
-            [d](std::size_t row, std::size_t column, double& value) { value *= d[row] * d[column]; });
-      },
-      stored_);
+  each_entry(
+      stored_, [d](std::size_t i, double& value) { value *= d[i] * d[i]; },
+      [d](std::size_t row, std::size_t column, double& value) { value *= d[row] * d[column]; });
 }
 
 void stiffness_matrix::subtract_product(std::span<const double> x, std::span<long double> r) const {
-  std::visit([x, r](const auto& k) { subtract(k, x, r); }, stored_);
+  subtract(stored_, x, r);
 }
 
 void stiffness_matrix::subtract_product(std::span<const long double> x, std::span<long double> r) const {
-  std::visit([x, r](const auto& k) { subtract(k, x, r); }, stored_);
+  subtract(stored_, x, r);
 }
 
 double stiffness_matrix::one_norm(std::span<const double> diagonal, std::span<const double> d) const {
   std::vector<double> sums(d.size(), 0.0);
-  std::visit(
-      [&](const auto& k) {
-        each_entry(
-            k, [&](std::size_t i, double /*own*/) { sums[i] += std::abs(diagonal[i] * (d[i] * d[i])); },
-            [&](std::size_t row, std::size_t column, double value) {
-              const double size = std::abs(value * (d[row] * d[column]));
-              sums[row] += size;
-              sums[column] += size;
-            });
-      },
-      stored_);
+  each_entry(
+      stored_, [&](std::size_t i, double /*own*/) { sums[i] += std::abs(diagonal[i] * (d[i] * d[i])); },
+      [&](std::size_t row, std::size_t column, double value) {
+        const double size = std::abs(value * (d[row] * d[column]));
+        sums[row] += size;
+        sums[column] += size;
+      });
   return sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
 }
 

@@ -1,15 +1,113 @@
-// The stiffness matrix K of a structure, in either of two storages.
+// Symmetric matrices without their zeros, in three storages; and the stiffness matrix K of a structure.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "contct/matrix/band_matrix.hpp"
-#include "contct/matrix/sparse_matrix.hpp"
+#include "contct/rooms.hpp"
 
 namespace contct::matrix {
+
+/// Symmetric band matrix of order n with kd subdiagonals, in LAPACK's lower band storage. Column j has its
+/// diagonal entry and those below it, one column after the other; for n = 5, kd = 2 (rows and columns from
+/// 0):
+///
+///     a00                              column 0: a00 a10 a20
+///     a10 a11                          column 1: a11 a21 a31
+///     a20 a21 a22                      column 2: a22 a32 a42
+///         a31 a32 a33                  column 3: a33 a43  *
+///             a42 a43 a44              column 4: a44  *   *
+///
+/// The places marked * exist and are never read. Memory: 8 (kd + 1) bytes a row.
+class band_matrix {
+ public:
+  band_matrix() = default;
+  band_matrix(int order, int subdiagonals)
+      : order_(order),
+        subdiagonals_(subdiagonals),
+        entries_(static_cast<std::size_t>(order) * (subdiagonals + 1), 0.0) {}
+
+  [[nodiscard]] int order() const { return order_; }
+  [[nodiscard]] int subdiagonals() const { return subdiagonals_; }
+
+  /// Entry (row, column), row >= column, row - column <= kd.
+  [[nodiscard]] double& at(std::size_t row, std::size_t column) { return entries_[place(row, column)]; }
+  [[nodiscard]] double at(std::size_t row, std::size_t column) const { return entries_[place(row, column)]; }
+
+  /// Add `value` at (row, column) and, by symmetry, at (column, row); any order of the two.
+  void add(std::size_t row, std::size_t column, double value) {
+    at(std::max(row, column), std::min(row, column)) += value;
+  }
+
+  [[nodiscard]] double* data() { return entries_.data(); }
+  [[nodiscard]] const double* data() const { return entries_.data(); }
+
+ private:
+  [[nodiscard]] std::size_t place(std::size_t row, std::size_t column) const {
+    return column * (subdiagonals_ + 1) + (row - column);
+  }
+
+  int order_ = 0;
+  int subdiagonals_ = 0;
+  std::vector<double> entries_;
+};
+
+/// One entry of the lower triangle, row >= column; from 0.
+struct matrix_entry {
+  int row;
+  int column;
+  double value;
+};
+
+/// Symmetric, by single entries, as other programs write it: each place of the lower triangle at most once,
+/// places not named are 0. 16 bytes an entry.
+struct sparse_matrix {
+  int order = 0;
+  std::vector<matrix_entry> entries;
+
+  /// y = A x in long double.
+  [[nodiscard]] std::vector<long double> times(std::span<const double> x) const;
+};
+
+/// The largest distance of an entry from the diagonal, with row i of the matrix at `rows[i]`; at i where
+/// `rows` is empty.
+[[nodiscard]] int subdiagonals_of(const sparse_matrix& a, std::span<const int> rows);
+
+/// Bytes of the band that holds it in that order.
+[[nodiscard]] inline std::int64_t bytes_of_band(const sparse_matrix& a, std::span<const int> rows) {
+  return std::int64_t{8} * a.order * (subdiagonals_of(a, rows) + 1);
+}
+
+/// As a band in that order.
+[[nodiscard]] band_matrix band_of(const sparse_matrix& a, std::span<const int> rows);
+
+/// The order that makes it a narrow band, by reverse Cuthill and McKee: the row of each dof, from 0; empty
+/// where the order that `a` has is as good. Linear in the entries, but for sorting neighbours by their
+/// degree. Needs Boost.Graph, and has a source of its own.
+[[nodiscard]] std::vector<int> rows_for_small_band(const sparse_matrix& a);
+
+/// The lower triangle by columns, from 0. Every column begins with its diagonal entry, also where that is 0.
+/// Memory: 12 bytes an entry.
+struct sparse_columns {
+  /// [order + 1] place of each column's diagonal; the last is the number of entries.
+  std::vector<int> starts = {0};
+  std::vector<int> rows;       ///< [entries] ascending within a column
+  std::vector<double> values;  ///< [entries]
+
+  [[nodiscard]] int order() const { return static_cast<int>(starts.size()) - 1; }
+  [[nodiscard]] double& diagonal(std::size_t row) { return values[starts[row]]; }
+  [[nodiscard]] double diagonal(std::size_t row) const { return values[starts[row]]; }
+};
+
+/// Throws std::length_error when there are more entries than an int counts.
+[[nodiscard]] sparse_columns columns_of(const sparse_matrix& a);
+
+/// The same of a band; zeros in it are left out.
+[[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
 /// A spring at one row: its stiffness is added to the diagonal.
 struct spring_at {
@@ -17,14 +115,17 @@ struct spring_at {
   double stiffness;
 };
 
-/// Symmetric: a band, or, where a band would take too much memory, sparse columns.
+/// K: a band, or, where a band would take too much memory, sparse columns.
 class stiffness_matrix {
  public:
   stiffness_matrix() = default;
   stiffness_matrix(band_matrix k) : stored_(std::move(k)) {}
   stiffness_matrix(sparse_columns k) : stored_(std::move(k)) {}
 
-  [[nodiscard]] int order() const;
+  [[nodiscard]] int order() const {
+    return std::visit([](const auto& k) { return k.order(); }, stored_);
+  }
+
   [[nodiscard]] bool is_band() const { return std::holds_alternative<band_matrix>(stored_); }
   /// Throws std::bad_variant_access when K has the other storage.
   [[nodiscard]] band_matrix& band() { return std::get<band_matrix>(stored_); }
@@ -32,8 +133,14 @@ class stiffness_matrix {
   [[nodiscard]] sparse_columns& columns() { return std::get<sparse_columns>(stored_); }
   [[nodiscard]] const sparse_columns& columns() const { return std::get<sparse_columns>(stored_); }
 
-  [[nodiscard]] double diagonal(std::size_t row) const;
-  void add_to_diagonal(std::size_t row, double value);
+  [[nodiscard]] double diagonal(std::size_t row) const {
+    return is_band() ? band().at(row, row) : columns().diagonal(row);
+  }
+
+  void add_to_diagonal(std::size_t row, double value) {
+    (is_band() ? band().at(row, row) : columns().diagonal(row)) += value;
+  }
+
   /// The diagonal of K with springs [rows].
   [[nodiscard]] std::vector<double> diagonal_with(std::span<const spring_at> springs) const;
   /// Rows and columns `r` with `fixed[r]` [rows] become those of the identity.

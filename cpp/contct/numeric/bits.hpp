@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -46,6 +47,11 @@ template <class Real>
 }
 
 /// The exact value as text, such as "0x1.8p+1", "-0x0p+0", "inf", "nan".
-[[nodiscard]] std::string hexfloat(double x);
+[[nodiscard]] inline std::string hexfloat(double x) {
+  char text[40];
+  // printf, and not to_chars: %a writes the 0x that every language reads back.
+  const int length = std::snprintf(text, sizeof text, "%a", x);
+  return {text, static_cast<std::size_t>(length)};
+}
 
 }  // namespace contct::numeric

@@ -2,6 +2,7 @@
 
 #include <cfloat>
 #include <limits>
+#include <utility>
 
 namespace contct::numeric {
 namespace {
@@ -54,30 +55,26 @@ constexpr bool may_rearrange() {
 }  // namespace
 
 floating_point probe_floating_point() {
-  floating_point found{};
-  found.contracts = contraction_happens();
-  found.rounds_to_nearest = nearest_even();
-  found.flushes_results = results_are_flushed();
-  found.flushes_operands = operands_are_flushed();
-  found.extra_precision = FLT_EVAL_METHOD != 0;
-  found.rearranges = may_rearrange();
-  return found;
+  return {.contracts = contraction_happens(),
+          .rounds_to_nearest = nearest_even(),
+          .flushes_results = results_are_flushed(),
+          .flushes_operands = operands_are_flushed(),
+          .extra_precision = FLT_EVAL_METHOD != 0,
+          .rearranges = may_rearrange()};
 }
 
 std::string describe(const floating_point& found) {
   if (found.strict()) return "strict";
+  const std::pair<bool, const char*> faults[] = {
+      {found.contracts, "products and sums are contracted into one rounding"},
+      {!found.rounds_to_nearest, "the rounding mode is not to nearest, ties to even"},
+      {found.flushes_results, "subnormal results are flushed to zero"},
+      {found.flushes_operands, "subnormal operands count as zero"},
+      {found.extra_precision, "intermediate results carry extra precision"},
+      {found.rearranges, "the compiler was allowed to rearrange sums and to forget NaN"}};
   std::string what;
-  const auto add = [&what](bool wrong, const char* words) {
-    if (!wrong) return;
-    if (!what.empty()) what += "; ";
-    what += words;
-  };
-  add(found.contracts, "products and sums are contracted into one rounding");
-  add(!found.rounds_to_nearest, "the rounding mode is not to nearest, ties to even");
-  add(found.flushes_results, "subnormal results are flushed to zero");
-  add(found.flushes_operands, "subnormal operands count as zero");
-  add(found.extra_precision, "intermediate results carry extra precision");
-  add(found.rearranges, "the compiler was allowed to rearrange sums and to forget NaN");
+  for (const auto& [wrong, words] : faults)
+    if (wrong) what += (what.empty() ? "" : "; ") + std::string(words);
   return what;
 }
 

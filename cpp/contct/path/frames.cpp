@@ -8,15 +8,6 @@
 #include "contct/solve/engine.hpp"
 
 namespace contct::path {
-namespace {
-
-std::size_t affordable(const frame_limits& limits, std::size_t dofs) {
-  constexpr std::size_t never_fewer = 4;
-  return std::max(never_fewer,
-                  std::min(limits.most_frames, limits.most_numbers / std::max<std::size_t>(dofs, 1)));
-}
-
-}  // namespace
 
 pair_look look_of(const contact_pair& p, double w, bool closed) {
   if (std::abs(p.face - w) < constants<double>::epsgap) return pair_look::at_face;
@@ -28,7 +19,9 @@ frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, b
     : structure_(s),
       total_load_(std::move(total_load)),
       forces_by_law_(forces_by_law),
-      most_frames_(affordable(limits, s.dofs())),
+      most_frames_(
+          std::max(fewest_frames,
+                   std::min(limits.most_frames, limits.most_numbers / std::max<std::size_t>(s.dofs(), 1)))),
       before_(s.dofs()),
       after_(before_),
       d_(s.pairs.size()),
@@ -50,14 +43,6 @@ void frame_keeper::called(const answered_call& c) {
   isep_.assign(c.isep_before.begin(), c.isep_before.end());
 }
 
-void frame_keeper::begin_step(int step) {
-  if (step == step_) return;
-  step_ = step;
-  std::swap(before_, after_);
-  std::fill(after_.begin(), after_.end(), 0.0);
-  total_load_(step, after_);
-}
-
 void frame_keeper::incremented(const increment& i) {
   begin_step(i.step);
   ++increments_;
@@ -66,10 +51,14 @@ void frame_keeper::incremented(const increment& i) {
     d_[p] += i.s * d_star_[p];
   }
   for (const event& e : i.events) isep_[e.pair] = e.what == change::make ? in_contact : separated;
-  last_ = {increments_, i.step, i.number,
-           i.fraction,  i.s,    i.snaps,
-           false,       false,  {i.events.begin(), i.events.end()},
-           {},          isep_};
+  last_ = {.at = increments_,
+           .step = i.step,
+           .number = i.number,
+           .fraction = i.fraction,
+           .s = i.s,
+           .snaps = i.snaps,
+           .events = {i.events.begin(), i.events.end()},
+           .isep = isep_};
   if (increments_ % stride_ != 0) return;
   frame f = last_;
   f.displacement = shape(i.fraction);
@@ -79,8 +68,8 @@ void frame_keeper::incremented(const increment& i) {
 void frame_keeper::step_ended(const step_state& s) {
   begin_step(s.step);
   const bool after_increment = last_.step == s.step && !s.from_fallback;
-  frame f = after_increment ? last_ : frame{increments_, s.step,          0,  s.fraction, 0.0, false,
-                                            true,        s.from_fallback, {}, {},         {}};
+  frame f =
+      after_increment ? last_ : frame{.at = increments_, .step = s.step, .from_fallback = s.from_fallback};
   f.step_end = true;
   f.fraction = s.fraction;
   f.displacement.assign(s.displacement.begin(), s.displacement.end());
@@ -110,35 +99,16 @@ std::vector<double> frame_keeper::shape(double fraction) {
   }
 }
 
-/// Do supports and all pairs together hold the structure? Then the factor is there.
-bool frame_keeper::can_be_solved() {
-  if (stiffness_ || unsolvable_) return !unsolvable_;
-  rigid_rank rank;
-  for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
-  for (const rigid_row& row : structure_.held_by_pairs) rank.hold(row);
-  unsolvable_ = rank.rank() < structure_.rigid_motions;
-  if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(d_.size(), 1));
-  return !unsolvable_;
-}
-
-void frame_keeper::keep(frame f) {
-  frames_.push_back(std::move(f));
-  if (frames_.size() > most_frames_) thin();
-}
-
-bool frame_keeper::is_kept(const frame& f) const {
-  return f.step_end ? f.step % step_stride_ == 0 : f.at % stride_ == 0;
-}
-
 /// The first frame and the latest stay in any case.
 void frame_keeper::thin() {
   const bool steps_crowd =
       static_cast<std::size_t>(std::count_if(frames_.begin(), frames_.end(),
                                              [](const frame& f) { return f.step_end; })) > most_frames_ / 2;
   (steps_crowd ? step_stride_ : stride_) *= 2;
-  frames_.erase(
-      std::remove_if(frames_.begin() + 1, frames_.end() - 1, [this](const frame& f) { return !is_kept(f); }),
-      frames_.end() - 1);
+  const auto is_left_out = [this](const frame& f) {
+    return f.step_end ? f.step % step_stride_ != 0 : f.at % stride_ != 0;
+  };
+  frames_.erase(std::remove_if(frames_.begin() + 1, frames_.end() - 1, is_left_out), frames_.end() - 1);
 }
 
 }  // namespace contct::path

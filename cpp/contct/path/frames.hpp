@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "contct/path/observer.hpp"
@@ -28,9 +27,9 @@ struct frame {
   bool snaps = false;          ///< the increment was a rigid motion at constant load
   bool step_end = false;       ///< the state that the step ended in, exactly
   bool from_fallback = false;  ///< that came from elsewhere
-  std::vector<event> events;
-  std::vector<double> displacement;  ///< [dofs]
-  std::vector<int> isep;             ///< [pairs]
+  std::vector<event> events = {};
+  std::vector<double> displacement = {};  ///< [dofs]
+  std::vector<int> isep = {};             ///< [pairs]
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
 };
@@ -66,13 +65,34 @@ class frame_keeper final : public observer {
   [[nodiscard]] int stride() const { return stride_; }
 
  private:
-  void begin_step(int step);
-  void keep(frame f);
-  void thin();
-  [[nodiscard]] bool is_kept(const frame& f) const;
-  [[nodiscard]] std::vector<double> shape(double fraction);
-  [[nodiscard]] bool can_be_solved();
+  void begin_step(int step) {
+    if (step == step_) return;
+    step_ = step;
+    std::swap(before_, after_);
+    std::fill(after_.begin(), after_.end(), 0.0);
+    total_load_(step, after_);
+  }
 
+  void keep(frame f) {
+    frames_.push_back(std::move(f));
+    if (frames_.size() > most_frames_) thin();
+  }
+
+  void thin();
+  [[nodiscard]] std::vector<double> shape(double fraction);
+
+  /// Do supports and all pairs together hold the structure? Then the factor is there.
+  [[nodiscard]] bool can_be_solved() {
+    if (stiffness_ || unsolvable_) return !unsolvable_;
+    rigid_rank rank;
+    for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
+    for (const rigid_row& row : structure_.held_by_pairs) rank.hold(row);
+    unsolvable_ = rank.rank() < structure_.rigid_motions;
+    if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(d_.size(), 1));
+    return !unsolvable_;
+  }
+
+  static constexpr std::size_t fewest_frames = 4;
   const linear_structure& structure_;
   load_history total_load_;
   bool forces_by_law_;

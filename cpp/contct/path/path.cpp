@@ -5,10 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "contct/path/cycle_detector.hpp"
 #include "contct/path/path_state.hpp"
 #include "contct/path/policy.hpp"
-#include "contct/path/stabilized_policy.hpp"
 
 namespace contct::path {
 namespace {
@@ -20,13 +18,8 @@ class path {
        std::span<observer* const> observers, const path_limits& limits)
       : increments_allowed_(increments_allowed(limits, s.pairs.size())),
         now_(s, engine, observers, leader.facts().rule == "listing"),
-        cycles_(s.pairs.size()) {
-    if (leader.facts().rule == "listing") {
-      policy_ = std::make_unique<policy_1989>(now_, leader);
-    } else {
-      policy_ = std::make_unique<stabilized_policy>(now_, leader, cycles_, limits.fallback);
-    }
-  }
+        cycles_(s.pairs.size()),
+        policy_(make_policy(now_, leader, cycles_, limits.fallback)) {}
 
   /// The paper's loop, for one load step.
   path_end follow_step(int step, const load_history& total_load) {

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "contct/kernel/kernel.hpp"
@@ -57,8 +56,8 @@ inline constexpr int most_increments = 1'000'000'000;
 [[nodiscard]] int increments_allowed(const path_limits& limits, std::size_t pairs);
 
 /// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch. What else has
-/// to be decided is up to a policy: policy_1989's for a leader with the listing's rule, stabilized_policy's
-/// for any other (contct/path/policy.hpp, contct/path/stabilized_policy.hpp).
+/// to be decided is up to a policy: the 1989 driver's for a leader with the listing's rule, the stabilized
+/// one for any other (contct/path/policy.hpp).
 ///
 /// The engine must be fresh: the springs of the pairs that start closed in, all others out.
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,

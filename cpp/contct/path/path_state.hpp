@@ -1,7 +1,12 @@
-// Where a path stands, in the paper's words.
+// Where a path stands, in the paper's words, and whether it goes in cycles.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <deque>
 #include <span>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "contct/kernel/kernel.hpp"
@@ -18,7 +23,35 @@ struct path_state {
   /// pairs there by ID, INDOF and NDOFPN, as the listing was; and springs gather their forces increment by
   /// increment. Otherwise the pairs' own D and d* are all that the kernel gets, and ID counts them: a call
   /// then costs no more on a larger structure. All arguments must outlive this object.
-  path_state(const linear_structure& s, stiffness_engine& e, std::span<observer* const> o, bool as_listed);
+  path_state(const linear_structure& structure_of_path, stiffness_engine& e, std::span<observer* const> o,
+             bool as_listed)
+      : structure(structure_of_path),
+        engine(e),
+        total(structure.fixed.size()),
+        increment(total.size()),
+        d(structure.pairs.size()),
+        d_star(structure.pairs.size()),
+        s(structure.pairs.size()),
+        pair_force(structure.pairs.size()),
+        observers_(o),
+        as_listed_(as_listed) {
+    for (const contact_pair& p : structure.pairs) {
+      c.push_back(p.face);
+      id.push_back(as_listed ? p.node + 1 : static_cast<int>(id.size()) + 1);
+      surface.push_back(p.surface);
+      status.push_back(p.closed ? in_contact : separated);
+    }
+    std::unordered_map<std::size_t, std::size_t> first_at;
+    for (std::size_t i = 0; i < pairs(); ++i) {
+      at_dof.push_back(structure.dof_of_pair(i));
+      first_there.push_back(first_at.emplace(at_dof[i], i).first->second);
+    }
+    if (as_listed) {
+      dd_.resize(structure.dofs());
+      dtest_.resize(dd_.size());
+    }
+    sprung = status;
+  }
   path_state(const path_state&) = delete;
   path_state& operator=(const path_state&) = delete;
 
@@ -48,50 +81,196 @@ struct path_state {
   [[nodiscard]] double fraction() const { return 1.0 - residual.share; }
 
   /// R* becomes the load of step `number` less the previous one's.
-  void begin_step(int number, const load_history& total_load);
+  void begin_step(int number, const load_history& total_load) {
+    step = number;
+    for (std::size_t i = 0; i < total.size(); ++i) increment[i] = -total[i];
+    std::fill(total.begin(), total.end(), 0.0);
+    total_load(step, total);
+    for (std::size_t i = 0; i < total.size(); ++i) increment[i] += total[i];
+    residual = {increment, 1.0, residual.version + 1};
+    last_opened.clear();
+  }
 
   /// Put one call to the kernel, with `d_test` [pairs] for d* and `at_rest` for call::at_rest, and tell the
   /// observers. Sets s, status and events; returns s_min. Throws no_factor when d* is not finite.
-  double ask(kernel& leader, std::span<const double> d_test, int at_rest);
+  double ask(kernel& leader, std::span<const double> d_test, int at_rest) {
+    if (!response_is_finite()) throw no_factor("the response to the residual load is not finite");
+    call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}, at_rest};
+    if (as_listed_) {
+      for (std::size_t i = 0; i < pairs(); ++i) {
+        dd_[at_dof[i]] = d[i];
+        dtest_[at_dof[i]] = d_test[i];
+      }
+      arguments.dd = dd_;
+      arguments.dtest = dtest_;
+      arguments.dof = {structure.deflection + 1, structure.dofs_per_node};
+    }
+    leader.answer(arguments);
+    find_events();
+    const std::string text = leader.take_text();
+    residual.last_s = s;
+    for (observer* o : observers_) o->called({arguments, sprung, text});
+    return arguments.smin;
+  }
 
   /// Undo the toggles of the last call.
-  void take_back_toggles();
+  void take_back_toggles() {
+    status = sprung;
+    events.clear();
+  }
 
   /// D <- D + s_min d*. False when nothing moved to the last bit and no load was applied.
-  bool advance(double s_min);
+  bool advance(double s_min) {
+    for (std::size_t i = 0; as_listed_ && i < pairs(); ++i)
+      if (sprung[i] == in_contact) pair_force[i] -= structure.pairs[i].stiffness * (s_min * d_star[i]);
+    const bool consumes = 1.0 - s_min != 1.0;
+    bool moved = consumes;
+    for (std::size_t i = 0; !consumes && i < pairs(); ++i) moved |= d[i] + s_min * d_star[i] != d[i];
+    for (std::size_t i = 0; i < pairs(); ++i) d[i] += s_min * d_star[i];
+    return moved;
+  }
 
   /// Switch the springs of the pairs that the last call toggled.
-  void switch_springs();
+  void switch_springs() {
+    for (const event& e : events) engine.switch_spring(e.pair, e.what == change::make);
+    if (std::vector<int> pairs = opened(); !pairs.empty()) last_opened = std::move(pairs);
+    sprung = status;
+  }
 
   /// Switch every spring that is not as its pair's status says.
-  void adopt_statuses();
+  void adopt_statuses() {
+    for (std::size_t i = 0; i < pairs(); ++i)
+      if (status[i] != sprung[i]) engine.switch_spring(static_cast<int>(i), status[i] == in_contact);
+    sprung = status;
+  }
 
   /// The rigid-body motions that supports and pairs in contact stop, and whether these are all.
-  [[nodiscard]] rigid_rank held_by() const;
-  [[nodiscard]] bool held() const;
+  [[nodiscard]] rigid_rank held_by() const {
+    return structure.held_by([this](std::size_t i) { return status[i] == in_contact; });
+  }
+  [[nodiscard]] bool held() const { return structure.is_held(held_by()); }
 
   /// The pairs that the last call opened.
-  [[nodiscard]] std::vector<int> opened() const;
+  [[nodiscard]] std::vector<int> opened() const {
+    std::vector<int> open;
+    for (const event& e : events)
+      if (e.what == change::break_) open.push_back(e.pair);
+    return open;
+  }
 
   /// The load applied so far [dofs].
-  [[nodiscard]] std::vector<double> applied_load() const;
+  [[nodiscard]] std::vector<double> applied_load() const {
+    std::vector<double> applied(total.size());
+    for (std::size_t i = 0; i < applied.size(); ++i) applied[i] = total[i] - residual.share * increment[i];
+    return applied;
+  }
 
-  /// The part of the springs' forces on the structure that does not depend on D [pairs]: each with
-  /// the force that it has gathered, the 1989 way, whatever its law says; or by its law, k c.
-  [[nodiscard]] std::vector<double> forces_gathered() const;
-  [[nodiscard]] std::vector<double> forces_by_law() const;
+  /// The part of the springs' forces on the structure that does not depend on D [pairs]: as listed each with
+  /// the force that it has gathered, whatever its law says; otherwise by its law, k c.
+  [[nodiscard]] std::vector<double> spring_forces() const {
+    std::vector<double> forces = pair_force;
+    for (std::size_t i = 0; i < pairs(); ++i) {
+      const double k = structure.pairs[i].stiffness;
+      if (sprung[i] == in_contact) forces[i] = as_listed_ ? pair_force[i] + k * d[i] : k * c[i];
+    }
+    return forces;
+  }
 
   /// Tell the observers.
-  void tell_increment(int number, double s_min, bool rigid) const;
-  void tell_end(const step_state& end) const;
+  void tell_increment(int number, double s_min, bool rigid) const {
+    for (observer* o : observers_) o->incremented({step, number, s_min, fraction(), events, rigid});
+  }
+
+  void tell_end(const step_state& end) const {
+    for (observer* o : observers_) o->step_ended(end);
+  }
 
  private:
-  void find_events();
-  [[nodiscard]] bool response_is_finite() const;
+  /// Thousands of pairs, and one or two events: whole stretches are the same.
+  void find_events() {
+    constexpr std::size_t stretch = 16;
+    events.clear();
+    const auto look_at = [this](std::size_t i) {
+      if (status[i] != sprung[i])
+        events.push_back({static_cast<int>(i), status[i] == in_contact ? change::make : change::break_});
+    };
+    std::size_t i = 0;
+    for (; i + stretch <= pairs(); i += stretch) {
+      int differs = 0;
+      for (std::size_t j = 0; j < stretch; ++j) differs |= status[i + j] ^ sprung[i + j];
+      for (std::size_t j = 0; differs != 0 && j < stretch; ++j) look_at(i + j);
+    }
+    for (; i < pairs(); ++i) look_at(i);
+  }
+
+  [[nodiscard]] bool response_is_finite() const {
+    std::array<double, 4> off{};  // sums of zeros, unless there is one that is not finite
+    std::size_t i = 0;
+    for (; i + off.size() <= d_star.size(); i += off.size())
+      for (std::size_t j = 0; j < off.size(); ++j) off[j] += d_star[i + j] - d_star[i + j];
+    for (; i < d_star.size(); ++i) off[0] += d_star[i] - d_star[i];
+    return off[0] + off[1] + off[2] + off[3] == 0.0;
+  }
 
   std::span<observer* const> observers_;
   bool as_listed_;
   std::vector<double> dd_, dtest_;  // D and d* over the structure, where the kernel is called so [dofs]
+};
+
+/// Watches statuses while nothing moves. The path is deterministic: when a set of statuses returns while D
+/// and R* are the same to the last bit, the same toggles follow for ever. Brent's method finds this with one
+/// saved set.
+class cycle_detector {
+ public:
+  explicit cycle_detector(std::size_t pairs) : toggles_(pairs) {}
+
+  /// A new step begins.
+  void reset() {
+    saved_.clear();
+    recent_.clear();
+    std::fill(toggles_.begin(), toggles_.end(), 0);
+  }
+
+  /// Tell of one increment: whether D or R* moved, the statuses after it, and its events.
+  /// Returns true when these statuses came before and nothing has moved since.
+  bool repeats(bool moved, std::span<const int> status, std::span<const event> events) {
+    remember(events);
+    if (moved) {
+      saved_.clear();
+      return false;
+    }
+    if (!saved_.empty() && std::equal(status.begin(), status.end(), saved_.begin())) return true;
+    if (saved_.empty() || ++steps_since_saved_ == next_save_) {
+      next_save_ = saved_.empty() ? 1 : 2 * next_save_;
+      steps_since_saved_ = 0;
+      saved_.assign(status.begin(), status.end());
+    }
+    return false;
+  }
+
+  /// Pairs, from 0, that toggled more than once in the last increments (at most 200 of them).
+  [[nodiscard]] std::vector<int> restless_pairs() const {
+    std::vector<int> pairs;
+    for (std::size_t i = 0; i < toggles_.size(); ++i)
+      if (toggles_[i] > 1) pairs.push_back(static_cast<int>(i));
+    return pairs;
+  }
+
+ private:
+  void remember(std::span<const event> events) {
+    for (const event& e : events) ++toggles_[e.pair];
+    recent_.emplace_back(events.begin(), events.end());
+    if (recent_.size() <= remembered_increments) return;
+    for (const event& e : recent_.front()) --toggles_[e.pair];
+    recent_.pop_front();
+  }
+
+  static constexpr std::size_t remembered_increments = 200;
+  std::vector<int> saved_;
+  long steps_since_saved_ = 0;
+  long next_save_ = 1;
+  std::deque<std::vector<event>> recent_;
+  std::vector<int> toggles_;  // of each pair, in recent_
 };
 
 }  // namespace contct::path

@@ -1,36 +1,268 @@
 #include "contct/path/policy.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace contct::path {
+namespace {
 
-bool path_policy::reaches_full_load(double s_min) const {
-  constexpr double never_less = 1e-9;
-  constexpr double never_more = 1e-6;
-  const double share_left = now_.residual.share * (1.0 - s_min);
-  if (share_left > never_more) return false;
-  if (share_left <= never_less) return true;
-  return share_left <= std::numeric_limits<double>::epsilon() / now_.engine.reciprocal_condition();
+/// The 1989 driver: it solves, and takes the kernel's word, except for events within rounding of full load.
+class policy_1989 final : public path_policy {
+ public:
+  using path_policy::path_policy;
+
+  response respond() override {
+    if (!now_.held()) return response::none;
+    now_.engine.respond(now_.residual, now_.d_star);
+    return response::elastic;
+  }
+
+  bool accept(double& s_min) override {
+    if (s_min < 1.0 && reaches_full_load(s_min)) leave_undone(s_min);
+    return true;
+  }
+
+  [[nodiscard]] bool goes_on() const override { return now_.held(); }
+
+  void displace(std::span<double> u) override {
+    now_.engine.recover(now_.applied_load(), now_.spring_forces(), u);
+  }
+};
+
+/// The free motion on which the step's load does most work, its largest part 1; all zero when it does none.
+rigid_row driven_motion(const path_state& now) {
+  constexpr double rounding_of_work = 1e-12;
+  const linear_structure& s = now.structure;
+  rigid_row work{};
+  rigid_row size{};
+  for (std::size_t dof = 0; dof < now.increment.size(); ++dof) {
+    if (s.fixed[dof] != 0) continue;
+    for (std::size_t m = 0; m < work.size(); ++m) {
+      work[m] += now.increment[dof] * s.rigid_rows[dof][m];
+      size[m] += std::abs(now.increment[dof] * s.rigid_rows[dof][m]);
+    }
+  }
+  rigid_row motion = now.held_by().free_part(work);
+  const double driven = largest_of(motion);
+  if (!(driven > std::max(rounding_of_work, s.rigid_rounding) * largest_of(size))) return {};
+  for (double& part : motion) part /= driven;
+  return motion;
 }
 
-void path_policy::leave_undone(double& s_min) {
-  now_.take_back_toggles();
-  s_min = 1.0;
-}
-
-response policy_1989::respond() {
-  if (!now_.held()) return response::none;
-  now_.engine.respond(now_.residual, now_.d_star);
-  return response::elastic;
-}
-
-bool policy_1989::accept(double& s_min) {
-  if (s_min < 1.0 && reaches_full_load(s_min)) leave_undone(s_min);
+/// A structure that nothing holds moves rigidly, at constant load, to the next face. Write to d* a rigid
+/// motion that the residual load drives and that supports and closed pairs leave free: the limit, up to its
+/// size, of the response of the structure on a ground that gets ever softer. It is long enough to reach every
+/// separated pair on its way. False, and nothing written, when the load does no work on any free motion.
+bool rigid_snap(path_state& now) {
+  constexpr double rounding_of_motion = 1e-10;
+  const linear_structure& s = now.structure;
+  const rigid_row motion = driven_motion(now);
+  if (largest_of(motion) == 0.0) return false;
+  const double still = std::max(rounding_of_motion, s.rigid_rounding);
+  double longest_way = 0.0;
+  for (std::size_t i = 0; i < now.pairs(); ++i) {
+    const double moves = along(motion, s.held_by_pairs[i]);
+    if (now.status[i] == in_contact || std::abs(moves) < still) continue;
+    longest_way = std::max(longest_way, (now.c[i] - now.d[i]) / moves);
+  }
+  for (std::size_t i = 0; i < now.pairs(); ++i) {
+    const double moves = along(motion, s.held_by_pairs[i]) * (longest_way > 0.0 ? 2.0 * longest_way : 1.0);
+    now.d_star[i] = now.status[i] == in_contact ? 0.0 : moves;  // what is left in contact is rounding
+  }
   return true;
 }
 
-void policy_1989::displace(std::span<double> u) {
-  now_.engine.recover(now_.applied_load(), now_.forces_gathered(), u);
+/// The policy of the corrected rule: what no kernel can decide from one call (reference/corrected-rule.md).
+///
+/// Rigid motions that the load drives are followed to the next face at constant load; those that it does not
+/// drive are held by springs without force. A pair that toggles twice running without progress stays in
+/// contact until the load advances. At the end of a step D is computed from the springs' own law, and what
+/// rounding left out of balance is put to the kernel once more. A path that cannot go on ends by `fallback`.
+class stabilized_policy final : public path_policy {
+ public:
+  stabilized_policy(path_state& now, kernel& leader, cycle_detector& cycles, const fallback_solver& fallback)
+      : path_policy(now, leader), cycles_(cycles), fallback_(fallback) {}
+
+  void begin_step() override {
+    kept_in_contact_.clear();
+    last_toggled_at_rest_ = -1;
+  }
+
+  response respond() override {
+    rigid_ = !now_.held() && rigid_snap(now_);
+    if (rigid_) return response::rigid;
+    if (!add_holding_springs()) return response::none;
+    now_.engine.respond(now_.residual, now_.d_star);
+    remove_holding_springs();
+    return response::elastic;
+  }
+
+  double ask() override {
+    const double s_min = now_.ask(leader_, d_test(), at_rest_);
+    at_rest_ = s_min == 0.0 ? at_rest_ + 1 : 0;
+    return s_min;
+  }
+
+  bool accept(double& s_min) override {
+    if (rigid_ && s_min == 1.0) return false;
+    // Only the last pairs that hold the structure open too early; any other event is followed.
+    if (s_min < 1.0 && !now_.held() && reaches_full_load(s_min)) leave_undone(s_min);
+    if (keep_in_contact_if_toggled_again(s_min)) cycles_.reset();
+    return true;
+  }
+
+  [[nodiscard]] bool goes_on() const override { return true; }
+
+  void end_step(int number) override {
+    const int rounds = 20 + 4 * static_cast<int>(now_.pairs());
+    std::vector<double> u(now_.total.size());
+    for (int round = 0; round < rounds; ++round) {
+      displace(u);
+      if (statuses_agree_with(u)) return put_pairs_at(u);
+      put_overshot_pairs_on_their_faces();
+      for (std::size_t i = 0; i < now_.pairs(); ++i) now_.d_star[i] = u[now_.at_dof[i]] - now_.d[i];
+      const double s_min = ask();
+      if (now_.events.empty() || !now_.held()) {  // nothing to settle, or only rounding opens the last pair
+        now_.take_back_toggles();
+        return put_pairs_at(u);
+      }
+      now_.advance(s_min);
+      now_.tell_increment(++number, s_min, false);
+      now_.switch_springs();
+    }
+  }
+
+  void displace(std::span<double> u) override {
+    std::vector<double> load = now_.applied_load();
+    add_holding_springs();
+    for (const int pair : holding_)  // no force where the pair is
+      load[now_.at_dof[pair]] += now_.structure.pairs[pair].stiffness * now_.d[pair];
+    now_.engine.recover(load, now_.spring_forces(), u);
+    remove_holding_springs();
+  }
+
+  [[nodiscard]] double reciprocal_condition() override {
+    add_holding_springs();
+    const double rcond = now_.engine.reciprocal_condition();
+    remove_holding_springs();
+    return rcond;
+  }
+
+  [[nodiscard]] bool can_be_held() override {
+    const bool can = add_holding_springs();
+    remove_holding_springs();
+    return can;
+  }
+
+  bool fall_back(int step) override {
+    if (!fallback_) return false;
+    const std::optional<equilibrium_state> found = fallback_(now_.total);
+    if (!found) return false;
+    remove_holding_springs();
+    for (std::size_t i = 0; i < now_.pairs(); ++i)
+      now_.status[i] = found->closed[i] != 0 ? in_contact : separated;
+    now_.adopt_statuses();
+    put_pairs_at(found->displacement);
+    now_.tell_end(step_state{.step = step,
+                             .fraction = 1.0,
+                             .displacement = found->displacement,
+                             .isep = now_.status,
+                             .rcond = reciprocal_condition(),
+                             .from_fallback = true,
+                             .from_reference = true});
+    return true;
+  }
+
+ private:
+  /// Where supports and pairs in contact leave rigid motions free that the load does not drive, springs of
+  /// separated pairs hold the structure for a solve, each at rest where its pair is. False when even these do
+  /// not hold it.
+  bool add_holding_springs() {
+    remove_holding_springs();
+    rigid_rank rank = now_.held_by();
+    std::vector<int> holding = now_.structure.pairs_that_hold(rank);
+    if (!now_.structure.is_held(rank)) return false;
+    holding_ = std::move(holding);
+    for (const int pair : holding_) now_.engine.switch_spring(pair, true);
+    return true;
+  }
+
+  void remove_holding_springs() {
+    for (const int pair : holding_) now_.engine.switch_spring(pair, false);
+    holding_.clear();
+  }
+
+  /// In exact arithmetic d* keeps its sign when its pair is toggled at its face, d' = d / (1 + k F): a pair
+  /// toggled twice running without progress has a d* of rounding.
+  bool keep_in_contact_if_toggled_again(double s_min) {
+    if (s_min > 0.0) {
+      begin_step();
+      return false;
+    }
+    if (now_.events.empty()) return false;
+    const int pair = now_.events.front().pair;
+    if (std::exchange(last_toggled_at_rest_, pair) != pair) return false;
+    kept_in_contact_.push_back(pair);
+    last_toggled_at_rest_ = -1;
+    now_.status[pair] = in_contact;
+    if (now_.sprung[pair] == in_contact) now_.events.clear();
+    return true;
+  }
+
+  /// d* as the kernel is to see it [pairs].
+  [[nodiscard]] std::span<const double> d_test() {
+    if (kept_in_contact_.empty()) return now_.d_star;
+    d_test_ = now_.d_star;
+    for (const int pair : kept_in_contact_) d_test_[now_.first_there[pair]] = 0.0;
+    for (std::size_t i = 0; i < d_test_.size(); ++i) d_test_[i] = d_test_[now_.first_there[i]];
+    return d_test_;
+  }
+
+  /// Is every pair on the side of its face that its status says? A separated one may be beyond it by rounding
+  /// of the largest deflection, one in contact off it by rounding of the face.
+  [[nodiscard]] bool statuses_agree_with(std::span<const double> u) const {
+    constexpr double eps = std::numeric_limits<double>::epsilon();
+    double largest = 0.0;
+    for (const std::size_t dof : now_.at_dof) largest = std::max(largest, std::abs(u[dof]));
+    for (std::size_t i = 0; i < now_.pairs(); ++i) {
+      const double penetration = now_.surface[i] * (u[now_.at_dof[i]] - now_.c[i]);
+      const bool agrees = now_.status[i] == in_contact ? penetration >= -4 * eps * std::abs(now_.c[i])
+                                                       : penetration <= 32 * eps * largest;
+      if (!agrees) return false;
+    }
+    return true;
+  }
+
+  void put_overshot_pairs_on_their_faces() {
+    for (std::size_t i = 0; i < now_.pairs(); ++i) {
+      double& at = now_.d[now_.first_there[i]];
+      if (now_.status[i] * now_.surface[i] * (now_.c[i] - at) < 0) at = now_.c[i];
+    }
+    for (std::size_t i = 0; i < now_.pairs(); ++i) now_.d[i] = now_.d[now_.first_there[i]];
+  }
+
+  void put_pairs_at(std::span<const double> u) {
+    for (std::size_t i = 0; i < now_.pairs(); ++i) now_.d[i] = u[now_.at_dof[i]];
+  }
+
+  cycle_detector& cycles_;
+  const fallback_solver& fallback_;
+  bool rigid_ = false;                // the last response
+  int at_rest_ = 0;                   // answers in a row with SMIN = 0
+  int last_toggled_at_rest_ = -1;     // the pair that the last answer without progress toggled
+  std::vector<int> kept_in_contact_;  // pairs that are not asked until the load advances
+  std::vector<int> holding_;          // separated pairs whose springs hold the structure for a solve
+  std::vector<double> d_test_;        // d* with 0 for the pairs kept in contact [pairs]
+};
+
+}  // namespace
+
+std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader, cycle_detector& cycles,
+                                         const fallback_solver& fallback) {
+  if (leader.facts().rule == "listing") return std::make_unique<policy_1989>(now, leader);
+  return std::make_unique<stabilized_policy>(now, leader, cycles, fallback);
 }
 
 }  // namespace contct::path

@@ -1,6 +1,7 @@
 // What has to be decided on a path besides the paper's loop.
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "contct/kernel/kernel.hpp"
@@ -61,23 +62,29 @@ class path_policy {
   /// Is what would be left of the step's load after s_min no more than the error of an event's load: 1e-9 of
   /// it, or eps / rcond up to 1e-6? Unloading to nothing opens the last pairs exactly at full load; computed,
   /// that may come a rounding too early.
-  [[nodiscard]] bool reaches_full_load(double s_min) const;
+  [[nodiscard]] bool reaches_full_load(double s_min) const {
+    constexpr double never_less = 1e-9;
+    constexpr double never_more = 1e-6;
+    const double share_left = now_.residual.share * (1.0 - s_min);
+    if (share_left > never_more) return false;
+    if (share_left <= never_less) return true;
+    return share_left <= std::numeric_limits<double>::epsilon() / now_.engine.reciprocal_condition();
+  }
 
   /// Undo the kernel's toggles and apply all of R*: as the listing does with an event exactly at s = 1.
-  void leave_undone(double& s_min);
+  void leave_undone(double& s_min) {
+    now_.take_back_toggles();
+    s_min = 1.0;
+  }
 
   path_state& now_;
   kernel& leader_;
 };
 
-/// The 1989 driver: it solves, and takes the kernel's word, except for events within rounding of full load.
-class policy_1989 final : public path_policy {
- public:
-  using path_policy::path_policy;
-  response respond() override;
-  bool accept(double& s_min) override;
-  [[nodiscard]] bool goes_on() const override { return now_.held(); }
-  void displace(std::span<double> u) override;
-};
+/// The 1989 driver's policy for a leader whose rule is the listing's, or else the stabilized one, which the
+/// corrected rule takes. All must outlive it; `fallback` may be empty.
+[[nodiscard]] std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader,
+                                                       cycle_detector& cycles,
+                                                       const fallback_solver& fallback);
 
 }  // namespace contct::path

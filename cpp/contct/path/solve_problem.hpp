@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "contct/path/path.hpp"
-#include "contct/structure/load.hpp"
 #include "contct/structure/problem.hpp"
+#include "contct/structure/structure.hpp"
 
 namespace contct::path {
 
@@ -26,13 +26,19 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
 }
 
 /// The structure that a problem describes.
-[[nodiscard]] linear_structure structure_of(const problem& p);
+[[nodiscard]] inline linear_structure structure_of(const problem& p) {
+  return build(p.geometry, p.supports, p.pairs);
+}
 
 /// The load vectors of a problem's steps. `p` must outlive them.
-[[nodiscard]] load_history loads_of(const problem& p);
+[[nodiscard]] inline load_history loads_of(const problem& p) {
+  return [&p](int step, std::span<double> f) { add_consistent_loads(p.geometry, p.steps[step - 1], f); };
+}
 
 /// Follow a problem's path on an engine by name. `s` is its structure.
-path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
-                const std::vector<observer*>& observers, const path_limits& limits = {});
+inline path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
+                       const std::vector<observer*>& observers, const path_limits& limits = {}) {
+  return follow_steps(p.geometry, s, p.steps, engine, leader, observers, limits);
+}
 
 }  // namespace contct::path

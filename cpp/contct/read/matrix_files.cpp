@@ -134,6 +134,26 @@ void read_lines(field_lines& lines, int said, std::string_view kind, const Read&
                  fmt::format("as many as line {} says", size_line));
 }
 
+/// Where each name stands.
+using line_numbers = std::unordered_map<std::string_view, std::int64_t>;
+
+/// Refuse a name that a line before has.
+void refuse_again(const field_lines& lines, std::string_view what, std::string_view name,
+                  line_numbers& line_of) {
+  const auto [before, is_new] = line_of.try_emplace(name, lines.line());
+  if (!is_new)
+    lines.refuse(fmt::format("{} {} again, which line {} has", what, in_quotes(name), before->second),
+                 fmt::format("each {} once", what));
+}
+
+/// How many fields stand before a comment.
+std::size_t fields_before_comment(const field_lines& lines) {
+  std::size_t count = 0;
+  while (count < lines.fields() && count < field_lines::most_fields && lines.field(count).front() != '#')
+    ++count;
+  return count;
+}
+
 }  // namespace
 
 sparse_matrix parse_symmetric(std::string_view text, std::string_view file) {
@@ -197,6 +217,66 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
     values[e.row] = e.value;
   });
   return values;
+}
+
+std::vector<std::string> parse_labels(std::string_view text, std::string_view file) {
+  constexpr std::size_t longest = 100;
+  field_lines lines(text, file);
+  std::vector<std::string> labels;
+  line_numbers line_of;  // views of the text: the labels move
+  while (lines.next()) {
+    lines.expect(1, "one label a line, without blanks");
+    const std::string_view label = lines.field(0);
+    if (label.size() > longest)
+      lines.refuse(in_quotes(label), fmt::format("a label of at most {} bytes", longest));
+    refuse_again(lines, "label", label, line_of);
+    labels.emplace_back(label);
+  }
+  if (labels.empty()) refuse_line(file, 0, "no label", "one label a line");
+  return labels;
+}
+
+dof_index::dof_index(const assembled& a) : structure_(a) {
+  for (const std::string& label : a.labels) dofs_.emplace(label, static_cast<int>(dofs_.size()));
+}
+
+std::optional<int> dof_index::find(std::string_view label) const {
+  if (!structure_.labels.empty()) {
+    const auto at = dofs_.find(label);
+    return at == dofs_.end() ? std::nullopt : std::optional(at->second);
+  }
+  const auto number = number_in<int>(label);
+  // "01" and "+1" are no labels: a dof has one name.
+  if (!number || *number < 1 || *number > structure_.dofs() || label.front() == '0') return std::nullopt;
+  return *number - 1;
+}
+
+std::string dof_index::allowed() const {
+  if (structure_.labels.empty()) return fmt::format(R"(a label, "1" to "{}")", structure_.dofs());
+  return fmt::format("a label of {}, such as {}", structure_.labels_from,
+                     in_quotes(structure_.labels.front()));
+}
+
+std::vector<placed_node> parse_coordinates(std::string_view text, std::string_view file) {
+  constexpr std::string_view allowed = "name x y, or name x y z";
+  field_lines lines(text, file);
+  std::vector<placed_node> nodes;
+  line_numbers line_of;  // views of the text
+  std::size_t alike = 0;
+  while (lines.next()) {
+    const std::size_t fields = fields_before_comment(lines);
+    if (fields == 0) continue;
+    if (fields != 3 && fields != 4) lines.refuse(in_quotes(lines.here()), allowed);
+    if (alike == 0) alike = fields;
+    if (fields != alike)
+      lines.refuse(fmt::format("{} coordinates for node {}", fields - 1, in_quotes(lines.field(0))),
+                   fmt::format("{}, as the lines before have", alike - 1));
+    refuse_again(lines, "node", lines.field(0), line_of);
+    nodes.push_back({std::string(lines.field(0)),
+                     {lines.real(1, "x"), lines.real(2, "y"), fields == 4 ? lines.real(3, "z") : 0.0}});
+  }
+  if (nodes.empty()) refuse_line(file, 0, "no node", allowed);
+  return nodes;
 }
 
 }  // namespace contct::read

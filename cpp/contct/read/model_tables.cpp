@@ -1,12 +1,19 @@
 #include "contct/read/model_tables.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
 
-#include "contct/read/matrix_tables.hpp"
+#include "contct/matrix/sparse_factor.hpp"
+#include "contct/read/matrix_files.hpp"
+#include "contct/read/matrix_places.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::read {
 namespace {
@@ -81,32 +88,22 @@ void check_size(const table_reader& t, std::int64_t along_x, std::int64_t along_
   constexpr double gigabyte = 1e9 / sizeof(double);
   const std::int64_t shorter = std::min(along_x, along_y);
   const std::int64_t longer = std::max(along_x, along_y);
-  if (longer > most_elements || shorter * longer > most_elements) {
+  if (longer > most_elements || shorter * longer > most_elements)
     t.refuse(fmt::format("{} x {} elements", along_x, along_y),
              fmt::format("at most {} elements", most_elements));
-  }
   const std::int64_t entries = 3 * (shorter + 1) * (longer + 1) * (3 * (shorter + 2) + 3);
-  if (entries > most_band_entries) {
+  if (entries > most_band_entries)
     t.refuse(fmt::format("{} x {} elements, whose stiffness matrix takes {:.1f} GB", along_x, along_y,
                          static_cast<double>(entries) / gigabyte),
              fmt::format("at most {:.1f} GB: it grows with the square of the shorter side",
                          static_cast<double>(most_band_entries) / gigabyte));
-  }
-}
-
-std::vector<double> read_size(const table_reader& t) {
-  std::vector<double> size = t.reals("size", positive_real, 2);
-  if (size.size() != 2) t.refuse_key("size", "two numbers: along x, along y");
-  return size;
 }
 
 std::vector<int> read_counts(const table_reader& t) {
   const char* const allowed = "two whole numbers: elements along x, along y";
-  const toml::array& array = t.array("elements", allowed, 2);
-  if (array.size() != 2) t.refuse_key("elements", allowed);
   std::vector<int> counts;
-  for (std::size_t i = 0; i < 2; ++i)
-    counts.push_back(t.integer_of(*array.get(i), indexed("elements", i), 1, most_elements));
+  for (const toml::node& count : t.array("elements", allowed, 2, 2))
+    counts.push_back(t.integer_of(count, indexed("elements", counts.size()), 1, most_elements));
   return counts;
 }
 
@@ -118,7 +115,8 @@ void read_grid(const table_reader& t, plate& p) {
     check_size(t, p.x.size() - 1, p.y.size() - 1);
     return;
   }
-  const std::vector<double> size = read_size(t);
+  const std::vector<double> size = t.reals("size", positive_real, 2);
+  if (size.size() != 2) t.refuse_key("size", "two numbers: along x, along y");
   const std::vector<int> counts = read_counts(t);
   check_size(t, counts[0], counts[1]);
   p.x = even_coordinates(size[0], counts[0]);
@@ -134,10 +132,9 @@ void read_material(const table_reader& t, plate& p) {
   }
   const double E = t.real("E", positive_real);
   p.D = bending_stiffness(E, p.nu, t.real("thickness", positive_real));
-  if (!std::isnormal(p.D)) {
+  if (!std::isnormal(p.D))
     t.refuse(fmt::format("E, nu and thickness that make D = {:g}", p.D),
              "D = E t^3 / 12 (1 - nu^2) within the range of double precision");
-  }
 }
 
 /// The same for plates: D b / a^3 along x and y, with the moments and twists that go with it.
@@ -151,10 +148,9 @@ void check_elements(const table_reader& t, const plate& p) {
   for (int e = 0; e < p.elements(); ++e) {
     const double width = p.width_of(e);
     const double height = p.height_of(e);
-    if (!sound(width, height) || !sound(height, width)) {
+    if (!sound(width, height) || !sound(height, width))
       t.refuse(fmt::format("element {}, {:g} by {:g}, and D {:g}", e + 1, width, height, p.D),
                "elements whose stiffness, as D b / a^3, is within the range of double precision");
-    }
   }
 }
 
@@ -167,7 +163,156 @@ plate read_plate(const table_reader& t) {
   return p;
 }
 
+/// How many bytes a structure may take: what CONTCT_MEMORY_MIB in the environment says, in MiB, or three
+/// quarters of what the machine has. Throws input_error when the variable is not a whole number of 1 or more.
+std::int64_t memory_limit() {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t mib = std::int64_t{1} << 20;
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
+  if (const char* const said = std::getenv("CONTCT_MEMORY_MIB"); said != nullptr) {
+    const std::int64_t limit = number_in<std::int64_t>(said).value_or(0);
+    if (limit < 1 || limit > most / mib)
+      throw input_error("CONTCT_MEMORY_MIB: found " + in_quotes(said) +
+                        "; allowed: a whole number of MiB, 1 or more");
+    return limit * mib;
+  }
+  const std::int64_t pages = sysconf(_SC_PHYS_PAGES);
+  const std::int64_t bytes = sysconf(_SC_PAGESIZE);
+  return pages <= 0 || bytes <= 0 ? most : pages / 4 * 3 * bytes;
+}
+
+std::string bytes_words(std::int64_t bytes) {
+  constexpr double mib = 1 << 20;
+  constexpr double gib = 1 << 30;
+  const auto amount = static_cast<double>(bytes);
+  if (amount >= gib) return fmt::format("{:.1f} GiB", amount / gib);
+  return amount >= 10 * mib ? fmt::format("{:.0f} MiB", amount / mib)
+                            : fmt::format("{:.1f} MiB", amount / mib);
+}
+
+/// What a run takes beyond what there may be, and what to do about it.
+[[noreturn]] void refuse_too_large(const table_reader& t, const assembled& a, const std::string& takes,
+                                   const std::string& remedy) {
+  t.refuse(fmt::format("{} dofs with {}", a.dofs(), takes),
+           fmt::format("{} (CONTCT_MEMORY_MIB in the environment sets another limit); {}condense the matrix "
+                       "onto the dofs that have pairs and loads, or use a coarser model",
+                       bytes_words(memory_limit()), remedy));
+}
+
+/// Bytes that a run holds at its largest, K as it is stored: the structure's, an engine's and the reference
+/// solution's. Where K is sparse, CHOLMOD finds an ordering for it.
+std::int64_t bytes_of_run(const assembled& a) {
+  if (a.as_band) return 3 * bytes_of_band(a.stiffness, a.rows);
+  // An engine's factor that is updated takes half as much again as the reference solution's.
+  constexpr std::int64_t as_read = sizeof(matrix_entry);
+  constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
+  const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());
+  return (as_read + 3 * in_columns) * entries + 5 * sparse_factor::make(columns_of(a.stiffness))->bytes() / 2;
+}
+
+/// "band", "sparse", or nothing where the table does not say.
+std::string read_storage(const table_reader& t) {
+  if (!t.has("storage")) return "";
+  constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
+  std::string said(t.text_of(t.required("storage", allowed), "storage", allowed));
+  if (said != "band" && (said != "sparse" || !sparse_factor::available()))
+    t.refuse_key("storage", in_quotes(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
+  return said;
+}
+
+/// A band, unless CHOLMOD is built in and the band is too large, or so wide that sparse factors take far
+/// less. Decided before any of it is allocated.
+void choose_storage(const table_reader& t, assembled& a) {
+  constexpr std::int64_t small_band = std::int64_t{256} << 20;
+  constexpr std::int64_t far_less = 4;
+  const std::string said = read_storage(t);
+  const std::int64_t limit = memory_limit();
+  const std::int64_t band = bytes_of_run(a);
+  const bool may_be_sparse = said != "band" && sparse_factor::available();
+  if (said != "sparse" && band <= limit && (!may_be_sparse || band <= small_band)) return;
+  const std::string band_takes = fmt::format("a half bandwidth of {}, which take {}",
+                                             subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
+  if (!may_be_sparse && band > limit)
+    refuse_too_large(t, a, band_takes,
+                     sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ");
+  a.as_band = false;
+  const std::int64_t sparse = bytes_of_run(a);
+  if (said != "sparse" && band <= limit) a.as_band = band <= far_less * sparse;
+  if (!a.as_band && sparse > limit)
+    refuse_too_large(
+        t, a, fmt::format("{}, or {} in CHOLMOD's sparse factors", band_takes, bytes_words(sparse)), "");
+}
+
+std::vector<std::string> read_labels(const std::string& path) {
+  return parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
+}
+
+/// The keys that both tables have, and the ordering.
+void finish(const table_reader& t, assembled& a) {
+  if (t.has("free_motions")) a.free_motions = t.integer("free_motions", 0, most_rigid_motions);
+  a.rows = rows_for_small_band(a.stiffness);
+  choose_storage(t, a);
+}
+
+/// Refuse a file that has none of the nodes: it belongs to another structure.
+void refuse_unknown_nodes(const table_reader& t, std::string_view key, const std::string& path,
+                          const assembled& a) {
+  if (a.places.known()) return;
+  t.refuse_key(
+      key, fmt::format("no node in {} of any label, as {}", path, in_quotes(a.label_of(0))),
+      "nodes by what stands before the last dot of labels, and behind it x, y, z, r, rx, ry, rz or 1 to 6");
+}
+
+/// The mesh that the table names, or else the one beside the job's matrix, where there is one.
+void find_mesh(const table_reader& t, const std::string& folder, const std::string& job, assembled& a) {
+  const std::string path = t.has("mesh") ? beside(folder, t.text("mesh")) : job + ".inp";
+  if (!t.has("mesh") && !std::filesystem::exists(path)) return;
+  a.places = places_from_inp(path, a);
+  if (t.has("mesh")) refuse_unknown_nodes(t, "mesh", path, a);
+}
+
+assembled read_matrix(const table_reader& t, const std::string& folder) {
+  t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
+  assembled a;
+  a.name = beside(folder, t.text("stiffness"));
+  a.stiffness = parse_symmetric(read_input(a.name, "Matrix Market file", largest_matrix_file), a.name);
+  if (t.has("dofs")) {
+    a.labels_from = beside(folder, t.text("dofs"));
+    a.labels = read_labels(a.labels_from);
+    if (a.labels.size() != static_cast<std::size_t>(a.dofs()))
+      t.refuse_key("dofs", fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
+                   fmt::format("{}, one for each row of {}", a.dofs(), a.name));
+  }
+  finish(t, a);
+  if (t.has("coordinates")) {
+    const std::string path = beside(folder, t.text("coordinates"));
+    a.places = places_from_coordinates(path, a);
+    refuse_unknown_nodes(t, "coordinates", path, a);
+  }
+  return a;
+}
+
+assembled read_calculix(const table_reader& t, const std::string& folder) {
+  t.allow_only({"job", "mesh", "free_motions", "storage"});
+  const std::string job = beside(folder, t.text("job"));
+  assembled a;
+  a.name = job + ".sti";
+  a.labels_from = job + ".dof";
+  a.labels = read_labels(a.labels_from);
+  a.stiffness =
+      parse_calculix_stiffness(read_input(a.name, "stiffness matrix of CalculiX", largest_matrix_file),
+                               a.name, static_cast<int>(a.labels.size()));
+  finish(t, a);
+  find_mesh(t, folder, job, a);
+  return a;
+}
+
 }  // namespace
+
+std::string beside(const std::string& folder, const std::string& name) {
+  const std::string path = (std::filesystem::path(folder) / name).string();
+  return path == "-" ? "./-" : path;  // a file of that name: standard input holds the problem, if anything
+}
 
 model read_model(const table_reader& top, const std::string& folder) {
   const char* const allowed = "exactly one of [beam], [plate], [matrix] and [calculix]";

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <unordered_set>
 #include <utility>
 
@@ -43,14 +42,13 @@ void refuse_endless_keys(std::string_view text, std::string_view file) {
   }
 }
 
-/// "a..b", or nothing where the text is something else.
-std::optional<std::pair<int, int>> range_in(std::string_view text) {
+/// The numbers from 1 to `count` that "a..b" or "all" names; none where the text is something else.
+std::pair<int, int> range_in(std::string_view text, int count) {
+  if (text == "all") return {1, count};
   const std::size_t dots = text.find("..");
   if (dots == std::string_view::npos) return {};
-  const auto first = number_in<int>(text.substr(0, dots));
-  const auto last = number_in<int>(text.substr(dots + 2));
-  if (!first || !last) return {};
-  return std::pair(*first, *last);
+  return {number_in<int>(text.substr(0, dots)).value_or(0),
+          number_in<int>(text.substr(dots + 2)).value_or(0)};
 }
 
 }  // namespace
@@ -79,9 +77,6 @@ toml::table parse_toml(std::string_view text, std::string_view file) {
   }
 }
 
-table_reader::table_reader(const toml::table& table, std::string where, std::string_view file)
-    : table_(&table), where_(std::move(where)), file_(file) {}
-
 std::string table_reader::full_name(std::string_view name) const {
   if (where_.empty()) return std::string(name);
   return name.empty() ? where_ : fmt::format("{}.{}", where_, name);
@@ -105,14 +100,6 @@ const toml::node& table_reader::required(std::string_view key, std::string_view 
   if (node == nullptr)
     refuse_at(file_, table_->source().begin, full_name(key), "nothing: this key is missing", allowed);
   return *node;
-}
-
-void table_reader::refuse_key(std::string_view key, std::string_view found, std::string_view allowed) const {
-  refuse(required(key, allowed), key, found, allowed);
-}
-
-void table_reader::refuse_key(std::string_view key, std::string_view allowed) const {
-  refuse_key(key, found_words(required(key, allowed)), allowed);
 }
 
 void table_reader::refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
@@ -144,16 +131,8 @@ std::string_view table_reader::text_of(const toml::node& node, std::string_view 
   return value->get();
 }
 
-double table_reader::real(std::string_view key, const real_range& range) const {
-  return real_of(required(key, range.words), key, range);
-}
-
 int table_reader::integer(std::string_view key, int least, int most) const {
   return integer_of(required(key, whole_words(least, most)), key, least, most);
-}
-
-std::string table_reader::text(std::string_view key) const {
-  return std::string(text_of(required(key, "text"), key, "text"));
 }
 
 std::size_t table_reader::choice(std::string_view key,
@@ -171,10 +150,10 @@ std::size_t table_reader::choice(std::string_view key,
   return at - choices.begin();
 }
 
-const toml::array& table_reader::array(std::string_view key, std::string_view allowed,
-                                       std::size_t least) const {
+const toml::array& table_reader::array(std::string_view key, std::string_view allowed, std::size_t least,
+                                       std::size_t most) const {
   const toml::array* const array = required(key, allowed).as_array();
-  if (array == nullptr || array->size() < least) refuse_key(key, allowed);
+  if (array == nullptr || array->size() < least || array->size() > most) refuse_key(key, allowed);
   return *array;
 }
 
@@ -196,10 +175,9 @@ std::vector<int> table_reader::numbers(std::string_view key, int count) const {
       fmt::format(R"(a list of whole numbers from 1 to {}, each once, "a..b" or "all")", count);
   std::vector<int> list;
   if (const auto* text = required(key, allowed).as_string()) {
-    const auto range = text->get() == "all" ? std::optional(std::pair(1, count)) : range_in(text->get());
-    if (!range || range->first < 1 || range->first > range->second || range->second > count)
-      refuse_key(key, allowed);
-    for (int number = range->first; number <= range->second; ++number) list.push_back(number - 1);
+    const auto [first, last] = range_in(text->get(), count);
+    if (first < 1 || first > last || last > count) refuse_key(key, allowed);
+    for (int number = first; number <= last; ++number) list.push_back(number - 1);
     return list;
   }
   std::unordered_set<int> seen;  // not one mark for each of `count`: a file may hold thousands of short lists
@@ -237,10 +215,6 @@ std::vector<table_reader> table_reader::tables(std::string_view key) const {
     readers.emplace_back(*table, full_name(name), file_);
   }
   return readers;
-}
-
-std::vector<table_reader> table_reader::optional_tables(std::string_view key) const {
-  return has(key) ? tables(key) : std::vector<table_reader>{};
 }
 
 void table_reader::allow_only(const std::vector<std::string_view>& keys) const {

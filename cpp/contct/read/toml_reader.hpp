@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "contct/text/input_text.hpp"
@@ -26,27 +27,35 @@ struct real_range {
 inline constexpr real_range any_real{-1.7976931348623157e308, true, "a finite number"};
 inline constexpr real_range positive_real{0.0, false, "a finite number greater than 0"};
 
+/// A value in words: "-5", "\"abc\"", "a table", "an array of 3".
+[[nodiscard]] std::string found_words(const toml::node& node);
+
 /// One table of a TOML file. `where` names the table for people: "contact[2]", "beam", or "" for the file
 /// itself. Every refusal is an input_error with file, line and column. The table and
 /// the file's name must outlive this object.
 class table_reader {
  public:
-  table_reader(const toml::table& table, std::string where, std::string_view file);
+  table_reader(const toml::table& table, std::string where, std::string_view file)
+      : table_(&table), where_(std::move(where)), file_(file) {}
 
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
 
   /// The node behind `key`; refuses the table when there is none.
   [[nodiscard]] const toml::node& required(std::string_view key, std::string_view allowed) const;
 
-  [[nodiscard]] double real(std::string_view key, const real_range& range) const;
+  [[nodiscard]] double real(std::string_view key, const real_range& range) const {
+    return real_of(required(key, range.words), key, range);
+  }
   [[nodiscard]] int integer(std::string_view key, int least, int most) const;
-  [[nodiscard]] std::string text(std::string_view key) const;
+  [[nodiscard]] std::string text(std::string_view key) const {
+    return std::string(text_of(required(key, "text"), key, "text"));
+  }
   /// One of `choices`; returns its index.
   [[nodiscard]] std::size_t choice(std::string_view key,
                                    std::initializer_list<std::string_view> choices) const;
-  /// An array of at least `least` entries, of any type.
-  [[nodiscard]] const toml::array& array(std::string_view key, std::string_view allowed,
-                                         std::size_t least) const;
+  /// An array of at least `least` entries, and at most `most`, of any type.
+  [[nodiscard]] const toml::array& array(std::string_view key, std::string_view allowed, std::size_t least,
+                                         std::size_t most = -1) const;
   /// An array of numbers in `range`, at least `least` of them.
   [[nodiscard]] std::vector<double> reals(std::string_view key, const real_range& range,
                                           std::size_t least) const;
@@ -58,7 +67,9 @@ class table_reader {
   /// An array of tables under `key`, at least one; refuses anything else.
   [[nodiscard]] std::vector<table_reader> tables(std::string_view key) const;
   /// The same, or none where the key is missing.
-  [[nodiscard]] std::vector<table_reader> optional_tables(std::string_view key) const;
+  [[nodiscard]] std::vector<table_reader> optional_tables(std::string_view key) const {
+    return has(key) ? tables(key) : std::vector<table_reader>{};
+  }
 
   /// A node under `key` as a whole number or text. `name` is the key, with an index if any.
   [[nodiscard]] int integer_of(const toml::node& node, std::string_view name, int least, int most) const;
@@ -72,8 +83,12 @@ class table_reader {
   [[noreturn]] void refuse(const toml::node& node, std::string_view name, std::string_view found,
                            std::string_view allowed) const;
   /// Refuse the file at a key that is there; without `found`, for its value.
-  [[noreturn]] void refuse_key(std::string_view key, std::string_view found, std::string_view allowed) const;
-  [[noreturn]] void refuse_key(std::string_view key, std::string_view allowed) const;
+  [[noreturn]] void refuse_key(std::string_view key, std::string_view found, std::string_view allowed) const {
+    refuse(required(key, allowed), key, found, allowed);
+  }
+  [[noreturn]] void refuse_key(std::string_view key, std::string_view allowed) const {
+    refuse_key(key, found_words(required(key, allowed)), allowed);
+  }
   /// Refuse the table itself.
   [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
   /// Refuse `others` beside the key or keys in `beside`.
@@ -91,9 +106,6 @@ class table_reader {
   std::string where_;
   std::string_view file_;
 };
-
-/// A value in words: "-5", "\"abc\"", "a table", "an array of 3".
-[[nodiscard]] std::string found_words(const toml::node& node);
 
 /// "key[3]", with the index from 1.
 [[nodiscard]] std::string indexed(std::string_view key, std::size_t from_zero);

@@ -1,17 +1,26 @@
-#include "contct/solve/condensed_engine.hpp"
-
+// Beams: the stiffness condensed onto the nodes with pairs, swept from both ends.
 #include <algorithm>
 #include <cmath>
+
+#include "contct/solve/factored_stiffness.hpp"
+#include "contct/solve/spring_engine.hpp"
 
 namespace contct::solve {
 namespace {
 
-constexpr double condensed_drift_allowed = 1e-11;  // of the response, relative to the largest
-constexpr drift_monitor::limits condensed_drift_limits = {32, 512, condensed_drift_allowed, condensed_drift_allowed / 4};
 constexpr double below_rounding = 1e-18;
 // k c_p of a spring that opens, from which the response is checked at once: the rounding of x_p is multiplied
 // by it.
 constexpr double stiff = 100.0;
+
+/// A 2 x 2 matrix or a vector over a node's two dofs, w and theta.
+struct node_vector {
+  double w = 0.0, theta = 0.0;
+};
+struct node_matrix {
+  double ww = 0.0, wt = 0.0, tw = 0.0, tt = 0.0;
+  bool operator==(const node_matrix&) const = default;
+};
 
 node_matrix operator-(const node_matrix& a, const node_matrix& b) {
   return {a.ww - b.ww, a.wt - b.wt, a.tw - b.tw, a.tt - b.tt};
@@ -38,9 +47,6 @@ node_matrix transposed(const node_matrix& a) {
 node_matrix negative(const node_matrix& a) {
   return {-a.ww, -a.wt, -a.tw, -a.tt};
 }
-bool same(const node_matrix& a, const node_matrix& b) {
-  return a.ww == b.ww && a.wt == b.wt && a.tw == b.tw && a.tt == b.tt;
-}
 
 /// A^-1 B for a symmetric positive definite A. Throws no_factor where A is not.
 node_matrix solved(const node_matrix& a, const node_matrix& b) {
@@ -66,211 +72,238 @@ node_matrix block(const band_matrix& k, int row_node, int column_node) {
   return {entry(r, c), entry(r, c + 1), entry(r + 1, c), entry(r + 1, c + 1)};
 }
 
+/// For structures whose nodes form a chain, with two dofs each. The nodes without pairs are eliminated once,
+/// exactly. What remains is block tridiagonal, K = [D_i, E_i], and is kept as two sweeps:
+///
+///     L_i = D_i - E_{i-1}^T L_{i-1}^-1 E_{i-1}   from the left,   R_i from the right in the same way
+///
+/// The column of the inverse at pair p begins with (L_p + R_p - D_p)^-1 and goes outwards by -L_i^-1 E_i and
+/// its mirror image, until it is below rounding. A toggle at p changes L to its right and R to its left, and
+/// the sweeps stop where they give the same to the bit. On a beam with many supports both happen within some
+/// tens of them: the cost of an event does not depend on the length of the beam.
+class condensed_engine final : public spring_engine {
+ public:
+  explicit condensed_engine(const linear_structure& s) : spring_engine(s), stiffness_(s) {
+    if (!can_be_condensed(s))
+      throw std::invalid_argument(
+          "engine \"condensed\": found a structure that is no beam with pairs; allowed: those");
+    for (const contact_pair& p : s.pairs) kept_.push_back(p.node);
+    std::sort(kept_.begin(), kept_.end());
+    kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
+    for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+      place_.push_back(std::lower_bound(kept_.begin(), kept_.end(), s.pairs[i].node) - kept_.begin());
+      spring_factor_.push_back(s.fixed[s.dof_of_pair(i)] != 0 ? 0.0 : 1.0);
+    }
+    x_.resize(kept_.size());
+    load_.resize(kept_.size());
+    column_.resize(kept_.size());
+    condense();
+  }
+  [[nodiscard]] std::string_view name() const override { return "condensed"; }
+
+  void respond(const residual_load& residual, std::span<double> d_star) override {
+    (void)apply_switched([this](int pair) { return update(pair); });
+    if (response_to_ != residual.version) {
+      respond_anew(residual);
+    } else if (drift_.is_due()) {
+      refine_response();
+    }
+    for (std::size_t i = 0; i < place_.size(); ++i) d_star[i] = residual.share * x_[place_[i]].w;
+  }
+
+  void recover(std::span<const double> load, std::span<const double> pair_forces,
+               std::span<double> u) override {
+    stiffness_.factor(wanted_);
+    ++counts_.factors;
+    stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
+  }
+
+  [[nodiscard]] double reciprocal_condition() override { return stiffness_.reciprocal_condition(wanted_); }
+
+ private:
+  /// Eliminate the nodes between two kept ones; node -1 and node `nodes` stand for the beam's ends.
+  void eliminate_between(int left_node, int right_node, std::size_t left) {
+    const band_matrix& k = structure_.stiffness.band();
+    const bool has_left = left_node >= 0;
+    const bool has_right = right_node < k.order() / 2;
+    if (left_node + 1 == right_node) {
+      if (has_left && has_right) e_[left] = block(k, left_node, right_node);
+      return;
+    }
+    node_matrix pivot = block(k, left_node + 1, left_node + 1);
+    node_matrix to_left = has_left ? block(k, left_node, left_node + 1) : node_matrix{};
+    for (int node = left_node + 1; node < right_node; ++node) {
+      if (has_left) d_[left] = d_[left] - to_left * solved(pivot, transposed(to_left));
+      if (node + 1 == k.order() / 2) return;
+      const node_matrix next = block(k, node, node + 1);
+      const node_matrix by_pivot = solved(pivot, next);
+      to_left = negative(to_left * by_pivot);
+      const node_matrix less = transposed(next) * by_pivot;
+      if (node + 1 < right_node) {
+        pivot = block(k, node + 1, node + 1) - less;
+      } else {
+        const std::size_t right = has_left ? left + 1 : 0;
+        d_[right] = d_[right] - less;
+        if (has_left) e_[left] = to_left;
+      }
+    }
+  }
+
+  void condense() {
+    const std::size_t n = kept_.size();
+    e_.assign(n, {});
+    for (const int node : kept_) {
+      d_.push_back(block(structure_.stiffness.band(), node, node));
+      reach_.push_back(std::sqrt(d_.back().tt / d_.back().ww));
+    }
+    eliminate_between(-1, kept_.front(), 0);
+    for (std::size_t i = 0; i + 1 < n; ++i) eliminate_between(kept_[i], kept_[i + 1], i);
+    eliminate_between(kept_.back(), structure_.stiffness.order() / 2, n - 1);
+    for (std::size_t i = 0; i < place_.size(); ++i)
+      if (wanted_[i] != 0) d_[place_[i]].ww += spring_factor_[i] * structure_.pairs[i].stiffness;
+    apply_all();
+    left_.assign(n, {});
+    right_.assign(n, {});
+    go_left_.assign(n, {});
+    go_right_.assign(n, {});
+    for (std::size_t i = 0; i < n; ++i) step_right(i);
+    for (std::size_t i = n; i-- > 0;) step_left(i);
+  }
+
+  /// L_i, and how a column goes on from i + 1 to i.
+  void step_right(std::size_t i) {
+    left_[i] = i == 0 ? d_[0] : d_[i] + transposed(e_[i - 1]) * go_left_[i - 1];
+    if (i + 1 < d_.size()) go_left_[i] = negative(solved(left_[i], e_[i]));
+  }
+
+  /// R_i, and how a column goes on from i - 1 to i.
+  void step_left(std::size_t i) {
+    right_[i] = i + 1 == d_.size() ? d_[i] : d_[i] + e_[i] * go_right_[i + 1];
+    if (i > 0) go_right_[i] = negative(solved(right_[i], transposed(e_[i - 1])));
+  }
+
+  /// After a change of D_at: the sweeps from there on, as far as they give something else than before.
+  void sweep_from(std::size_t at) {
+    for (std::size_t i = at; i < d_.size(); ++i) {
+      const node_matrix before = left_[i];
+      step_right(i);
+      if (i > at && before == left_[i]) break;
+    }
+    for (std::size_t i = at + 1; i-- > 0;) {
+      const node_matrix before = right_[i];
+      step_left(i);
+      if (i < at && before == right_[i]) break;
+    }
+  }
+
+  /// Column of the inverse at place `at`, from first_ to last_.
+  void inverse_column(std::size_t at) {
+    column_[at] = solved(left_[at] + right_[at] - d_[at], node_vector{1.0, 0.0});
+    const auto size = [this](std::size_t i) {
+      return std::abs(column_[i].w) + reach_[i] * std::abs(column_[i].theta);
+    };
+    const double negligible = below_rounding * size(at);
+    first_ = at;
+    while (first_ > 0) {
+      --first_;
+      column_[first_] = go_left_[first_] * column_[first_ + 1];
+      if (size(first_) < negligible) break;
+    }
+    last_ = at;
+    while (last_ + 1 < d_.size()) {
+      ++last_;
+      column_[last_] = go_right_[last_] * column_[last_ - 1];
+      if (size(last_) < negligible) break;
+    }
+  }
+
+  /// The response with one more spring, or one less; true: it takes no new factor. The column c is that of
+  /// the new K', K' c = e, so that x' = x - sigma k x_p c.
+  bool update(int pair) {
+    const std::size_t at = place_[pair];
+    const double k = spring_factor_[pair] * stiffness_of(pair);
+    const double sigma_k = applied_[pair] != 0 ? k : -k;
+    ++counts_.updates;
+    if (k == 0.0) return true;
+    d_[at].ww += sigma_k;
+    sweep_from(at);
+    inverse_column(at);
+    if (-sigma_k * column_[at].w > stiff) drift_.check_next();
+    const double factor = sigma_k * x_[at].w;
+    for (std::size_t i = first_; i <= last_; ++i)
+      x_[i] = {x_[i].w - factor * column_[i].w, x_[i].theta - factor * column_[i].theta};
+    return true;
+  }
+
+  /// One solve of the whole beam. The condensed load is then the condensed K times its solution.
+  void respond_anew(const residual_load& residual) {
+    stiffness_.factor(applied_);
+    std::vector<double> u(residual.increment.begin(), residual.increment.end());
+    stiffness_.solve(u);
+    ++counts_.factors;
+    ++counts_.solves;
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      const int dof = 2 * kept_[i];
+      x_[i] = {u[dof], u[dof + 1]};
+      load_[i] = {};
+    }
+    residual_of_response();
+    for (std::size_t i = 0; i < kept_.size(); ++i) load_[i] = {-column_[i].w, -column_[i].theta};
+    response_to_ = residual.version;
+    drift_.start_interval();
+  }
+
+  /// column_ = load - K x.
+  void residual_of_response() {
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      node_vector sum = d_[i] * x_[i];
+      if (i > 0) sum = sum + transposed(e_[i - 1]) * x_[i - 1];
+      if (i + 1 < kept_.size()) sum = sum + e_[i] * x_[i + 1];
+      column_[i] = load_[i] - sum;
+    }
+  }
+
+  /// x + K^-1 (load - K x). The correction is the drift.
+  void refine_response() {
+    ++counts_.checks;
+    ++counts_.solves;
+    residual_of_response();
+    for (std::size_t i = 1; i < kept_.size(); ++i)  // forwards: r_i - E^T L^-1 r
+      column_[i] = column_[i] + transposed(go_left_[i - 1]) * column_[i - 1];
+    drift found;
+    for (std::size_t i = kept_.size(); i-- > 0;) {
+      node_vector correction = solved(left_[i], column_[i]);
+      if (i + 1 < kept_.size()) correction = correction + go_left_[i] * column_[i + 1];
+      column_[i] = correction;
+      x_[i] = x_[i] + correction;
+      found.include(x_[i].w, correction.w);
+    }
+    (void)drift_.accepts(found);
+  }
+
+  std::vector<std::size_t> place_;               // of each pair's node among the kept ones [pairs]
+  std::vector<int> kept_;                        // nodes with pairs, from 0, in order
+  std::vector<double> spring_factor_;            // [pairs] 1, or 0 where the dof is fixed
+  std::vector<node_matrix> d_, e_;               // D_i; E_i couples i (rows) with i + 1 (columns)
+  std::vector<node_matrix> left_, right_;        // L_i, R_i
+  std::vector<node_matrix> go_left_, go_right_;  // -L_i^-1 E_i; -R_i^-1 E_{i-1}^T
+  std::vector<double> reach_;                    // sqrt(D_tt / D_ww): a rotation's weight as a length
+  std::vector<node_vector> x_, load_, column_;
+  std::size_t first_ = 0, last_ = 0;  // of the column
+  std::uint64_t response_to_ = 0;
+  drift_monitor drift_{{32, 512, 1e-11, 1e-11 / 4}};
+  factored_stiffness stiffness_;
+};
+
 }  // namespace
 
-bool condensed_engine::suits(const linear_structure& s) {
+bool can_be_condensed(const linear_structure& s) {
   return s.dofs_per_node == 2 && s.stiffness.is_band() && s.stiffness.band().subdiagonals() == 3 &&
          s.rows.empty() && s.deflection == 0 && !s.pairs.empty();
 }
 
-condensed_engine::condensed_engine(const linear_structure& s)
-    : spring_engine(s), drift_(condensed_drift_limits), stiffness_(s) {
-  if (!suits(s))
-    throw std::invalid_argument(
-        "engine \"condensed\": found a structure that is no beam with pairs; allowed: those");
-  for (const contact_pair& p : s.pairs) kept_.push_back(p.node);
-  std::sort(kept_.begin(), kept_.end());
-  kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
-    place_.push_back(std::lower_bound(kept_.begin(), kept_.end(), s.pairs[i].node) - kept_.begin());
-    spring_factor_.push_back(s.fixed[s.dof_of_pair(i)] != 0 ? 0.0 : 1.0);
-  }
-  x_.resize(kept_.size());
-  load_.resize(kept_.size());
-  column_.resize(kept_.size());
-  condense();
-}
-
-/// Eliminate the nodes between two kept ones; node -1 and node `nodes` stand for the beam's ends.
-void condensed_engine::eliminate_between(int left_node, int right_node, std::size_t left) {
-  const band_matrix& k = structure_.stiffness.band();
-  const bool has_left = left_node >= 0;
-  const bool has_right = right_node < k.order() / 2;
-  if (left_node + 1 == right_node) {
-    if (has_left && has_right) e_[left] = block(k, left_node, right_node);
-    return;
-  }
-  node_matrix pivot = block(k, left_node + 1, left_node + 1);
-  node_matrix to_left = has_left ? block(k, left_node, left_node + 1) : node_matrix{};
-  for (int node = left_node + 1; node < right_node; ++node) {
-    if (has_left) d_[left] = d_[left] - to_left * solved(pivot, transposed(to_left));
-    if (node + 1 == k.order() / 2) return;
-    const node_matrix next = block(k, node, node + 1);
-    const node_matrix by_pivot = solved(pivot, next);
-    to_left = negative(to_left * by_pivot);
-    const node_matrix less = transposed(next) * by_pivot;
-    if (node + 1 < right_node) {
-      pivot = block(k, node + 1, node + 1) - less;
-    } else {
-      const std::size_t right = has_left ? left + 1 : 0;
-      d_[right] = d_[right] - less;
-      if (has_left) e_[left] = to_left;
-    }
-  }
-}
-
-void condensed_engine::condense() {
-  const std::size_t n = kept_.size();
-  d_.clear();
-  e_.assign(n, {});
-  reach_.clear();
-  for (const int node : kept_) {
-    d_.push_back(block(structure_.stiffness.band(), node, node));
-    reach_.push_back(std::sqrt(d_.back().tt / d_.back().ww));
-  }
-  eliminate_between(-1, kept_.front(), 0);
-  for (std::size_t i = 0; i + 1 < n; ++i) eliminate_between(kept_[i], kept_[i + 1], i);
-  eliminate_between(kept_.back(), structure_.stiffness.order() / 2, n - 1);
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    if (wanted_[i] != 0) d_[place_[i]].ww += spring_factor_[i] * structure_.pairs[i].stiffness;
-  apply_all();
-  left_.assign(n, {});
-  right_.assign(n, {});
-  go_left_.assign(n, {});
-  go_right_.assign(n, {});
-  for (std::size_t i = 0; i < n; ++i) step_right(i);
-  for (std::size_t i = n; i-- > 0;) step_left(i);
-}
-
-/// L_i, and how a column goes on from i + 1 to i.
-void condensed_engine::step_right(std::size_t i) {
-  left_[i] = i == 0 ? d_[0] : d_[i] + transposed(e_[i - 1]) * go_left_[i - 1];
-  if (i + 1 < d_.size()) go_left_[i] = negative(solved(left_[i], e_[i]));
-}
-
-/// R_i, and how a column goes on from i - 1 to i.
-void condensed_engine::step_left(std::size_t i) {
-  right_[i] = i + 1 == d_.size() ? d_[i] : d_[i] + e_[i] * go_right_[i + 1];
-  if (i > 0) go_right_[i] = negative(solved(right_[i], transposed(e_[i - 1])));
-}
-
-/// After a change of D_at: the sweeps from there on, as far as they give something else than before.
-void condensed_engine::sweep_from(std::size_t at) {
-  for (std::size_t i = at; i < d_.size(); ++i) {
-    const node_matrix before = left_[i];
-    step_right(i);
-    if (i > at && same(before, left_[i])) break;
-  }
-  for (std::size_t i = at + 1; i-- > 0;) {
-    const node_matrix before = right_[i];
-    step_left(i);
-    if (i < at && same(before, right_[i])) break;
-  }
-}
-
-void condensed_engine::inverse_column(std::size_t at) {
-  column_[at] = solved(left_[at] + right_[at] - d_[at], node_vector{1.0, 0.0});
-  const auto size = [this](std::size_t i) {
-    return std::abs(column_[i].w) + reach_[i] * std::abs(column_[i].theta);
-  };
-  const double negligible = below_rounding * size(at);
-  first_ = at;
-  while (first_ > 0) {
-    --first_;
-    column_[first_] = go_left_[first_] * column_[first_ + 1];
-    if (size(first_) < negligible) break;
-  }
-  last_ = at;
-  while (last_ + 1 < d_.size()) {
-    ++last_;
-    column_[last_] = go_right_[last_] * column_[last_ - 1];
-    if (size(last_) < negligible) break;
-  }
-}
-
-/// The response with one more spring, or one less. The column c is that of the new K', K' c = e, so that
-/// x' = x - sigma k x_p c.
-bool condensed_engine::update(int pair) {
-  const std::size_t at = place_[pair];
-  const double k = spring_factor_[pair] * stiffness_of(pair);
-  const double sigma_k = applied_[pair] != 0 ? k : -k;
-  ++counts_.updates;
-  if (k == 0.0) return true;
-  d_[at].ww += sigma_k;
-  sweep_from(at);
-  inverse_column(at);
-  if (-sigma_k * column_[at].w > stiff) drift_.check_next();
-  const double factor = sigma_k * x_[at].w;
-  for (std::size_t i = first_; i <= last_; ++i)
-    x_[i] = {x_[i].w - factor * column_[i].w, x_[i].theta - factor * column_[i].theta};
-  return true;
-}
-
-void condensed_engine::respond(const residual_load& residual, std::span<double> d_star) {
-  (void)apply_switched([this](int pair) { return update(pair); });
-  if (response_to_ != residual.version) {
-    respond_anew(residual);
-  } else if (drift_.is_due()) {
-    refine_response();
-  }
-  for (std::size_t i = 0; i < place_.size(); ++i) d_star[i] = residual.share * x_[place_[i]].w;
-}
-
-/// One solve of the whole beam. The condensed load is then the condensed K times its solution.
-void condensed_engine::respond_anew(const residual_load& residual) {
-  stiffness_.factor(applied_);
-  std::vector<double> u(residual.increment.begin(), residual.increment.end());
-  stiffness_.solve(u);
-  ++counts_.factors;
-  ++counts_.solves;
-  for (std::size_t i = 0; i < kept_.size(); ++i) {
-    const int dof = 2 * kept_[i];
-    x_[i] = {u[dof], u[dof + 1]};
-    load_[i] = {};
-  }
-  residual_of_response();
-  for (std::size_t i = 0; i < kept_.size(); ++i) load_[i] = {-column_[i].w, -column_[i].theta};
-  response_to_ = residual.version;
-  drift_.start_interval();
-}
-
-/// column_ = load - K x.
-void condensed_engine::residual_of_response() {
-  for (std::size_t i = 0; i < kept_.size(); ++i) {
-    node_vector sum = d_[i] * x_[i];
-    if (i > 0) sum = sum + transposed(e_[i - 1]) * x_[i - 1];
-    if (i + 1 < kept_.size()) sum = sum + e_[i] * x_[i + 1];
-    column_[i] = load_[i] - sum;
-  }
-}
-
-/// x + K^-1 (load - K x). The correction is the drift.
-void condensed_engine::refine_response() {
-  ++counts_.checks;
-  ++counts_.solves;
-  residual_of_response();
-  for (std::size_t i = 1; i < kept_.size(); ++i)  // forwards: r_i - E^T L^-1 r
-    column_[i] = column_[i] + transposed(go_left_[i - 1]) * column_[i - 1];
-  drift found;
-  for (std::size_t i = kept_.size(); i-- > 0;) {
-    node_vector correction = solved(left_[i], column_[i]);
-    if (i + 1 < kept_.size()) correction = correction + go_left_[i] * column_[i + 1];
-    column_[i] = correction;
-    x_[i] = x_[i] + correction;
-    found.include(x_[i].w, correction.w);
-  }
-  (void)drift_.accepts(found);
-}
-
-void condensed_engine::recover(std::span<const double> load, std::span<const double> pair_forces,
-                               std::span<double> u) {
-  stiffness_.factor(wanted_);
-  ++counts_.factors;
-  stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
-}
-
-double condensed_engine::reciprocal_condition() {
-  return stiffness_.reciprocal_condition(wanted_);
+std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& s) {
+  return std::make_unique<condensed_engine>(s);
 }
 
 }  // namespace contct::solve

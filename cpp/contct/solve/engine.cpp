@@ -1,12 +1,50 @@
 #include "contct/solve/engine.hpp"
 
-#include "contct/solve/cholmod_engine.hpp"
-#include "contct/solve/condensed_engine.hpp"
-#include "contct/solve/refactor_engine.hpp"
-#include "contct/solve/updated_engine.hpp"
+#include <algorithm>
+
+#include "contct/matrix/sparse_factor.hpp"
+#include "contct/solve/factored_stiffness.hpp"
+#include "contct/solve/spring_engine.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct::solve {
+namespace {
+
+/// The 1989 way: copies the band, adds the springs now in contact, and factors (dpbtrf) at every response.
+/// Memory: two bands, the structure's own and the factor.
+class refactor_engine final : public spring_engine {
+ public:
+  explicit refactor_engine(const linear_structure& s) : spring_engine(s), stiffness_(s), w_star_(s.dofs()) {}
+  [[nodiscard]] std::string_view name() const override { return "refactor"; }
+
+  void respond(const residual_load& residual, std::span<double> d_star) override {
+    factor();
+    for (std::size_t i = 0; i < w_star_.size(); ++i) w_star_[i] = residual.share * residual.increment[i];
+    stiffness_.solve(w_star_);
+    gather_at_pairs(structure_, w_star_, d_star);
+  }
+
+  void recover(std::span<const double> load, std::span<const double> pair_forces,
+               std::span<double> u) override {
+    factor();
+    stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
+  }
+
+  [[nodiscard]] double reciprocal_condition() override { return stiffness_.reciprocal_condition(wanted_); }
+
+ private:
+  /// For the one solve that follows.
+  void factor() {
+    stiffness_.factor(apply_all());
+    ++counts_.factors;
+    ++counts_.solves;
+  }
+
+  factored_stiffness stiffness_;
+  std::vector<double> w_star_;  // [dofs]
+};
+
+}  // namespace
 
 std::vector<std::string> engine_names() {
   std::vector<std::string> names = {"refactor", "updated", "condensed"};
@@ -16,32 +54,29 @@ std::vector<std::string> engine_names() {
 
 std::string_view quickest_engine(const linear_structure& s) {
   if (!s.stiffness.is_band()) return "cholmod";
-  if (condensed_engine::suits(s)) return "condensed";
+  if (can_be_condensed(s)) return "condensed";
   constexpr int wide = 128;  // subdiagonals from which CHOLMOD's order is quicker than the band
   return sparse_factor::available() && s.stiffness.band().subdiagonals() >= wide ? "dissected" : "updated";
 }
 
 void refuse_unknown_engine(std::string_view name) {
-  std::string known;
-  for (const std::string& n : engine_names()) {
-    if (n == name) return;
-    known += (known.empty() ? "" : ", ") + n;
-  }
-  throw std::invalid_argument("no engine is named \"" + std::string(name) + "\"" +
-                              did_you_mean(name, engine_names()) + "; there are: " + known);
+  const std::vector<std::string> names = engine_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw std::invalid_argument("no engine is named \"" + std::string(name) + "\"" + did_you_mean(name, names) +
+                              "; there are: " + joined(names, ", "));
 }
 
 std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s) {
   refuse_unknown_engine(name);
-  if (name == "condensed") return std::make_unique<condensed_engine>(s);
-  if (name == "cholmod") return std::make_unique<cholmod_engine>(s);
-  if (name == "dissected") return std::make_unique<updated_engine>(s, true);
+  if (name == "condensed") return make_condensed_engine(s);
+  if (name == "cholmod") return make_cholmod_engine(s);
+  if (name == "dissected") return make_updated_engine(s, true);
   if (name == "refactor") return std::make_unique<refactor_engine>(s);
   if (!s.stiffness.is_band())
     throw std::invalid_argument(
         "engine \"updated\": found a stiffness that is not stored as a band; allowed: refactor, cholmod or "
         "dissected");
-  return std::make_unique<updated_engine>(s);
+  return make_updated_engine(s, false);
 }
 
 }  // namespace contct::solve

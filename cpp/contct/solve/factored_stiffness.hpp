@@ -1,21 +1,76 @@
-// The stiffness with a set of closed springs, factored anew: what engines have in common.
+// The stiffness with a set of closed springs, factored anew; the residual, solutions corrected by it, and
+// vectors by dofs, by rows and by pairs.
 #pragma once
 
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "contct/matrix/stiffness_factor.hpp"
-#include "contct/solve/refined_solve.hpp"
-#include "contct/structure/structure.hpp"
+#include "contct/matrix/cholesky.hpp"
+#include "contct/solve/engine.hpp"
 
 namespace contct::solve {
 
+/// The springs of the pairs that are `closed` [pairs], by rows; none where the dof is fixed.
+[[nodiscard]] inline std::vector<spring_at> springs_of(const linear_structure& s,
+                                                       std::span<const char> closed) {
+  std::vector<spring_at> list;
+  for (std::size_t i = 0; i < closed.size(); ++i) {
+    const int dof = s.dof_of_pair(i);
+    if (closed[i] != 0 && s.fixed[dof] == 0) list.push_back({s.row_of(dof), s.pairs[i].stiffness});
+  }
+  return list;
+}
+
+/// A load by dofs in the order of the rows of K; 0 at fixed dofs.
+[[nodiscard]] inline std::vector<double> in_rows(const linear_structure& s, std::span<const double> load) {
+  std::vector<double> b(load.size());
+  for (std::size_t dof = 0; dof < load.size(); ++dof)
+    if (s.fixed[dof] == 0) b[s.row_of(dof)] = load[dof];
+  return b;
+}
+
+/// A solution by rows in the order of the dofs.
+inline void to_dofs(const linear_structure& s, std::span<const double> x, std::span<double> u) {
+  for (std::size_t dof = 0; dof < u.size(); ++dof) u[dof] = x[s.row_of(dof)];
+}
+
+/// Displacements [dofs] where the pairs act, to `at_pairs` [pairs].
+inline void gather_at_pairs(const linear_structure& s, std::span<const double> u,
+                            std::span<double> at_pairs) {
+  for (std::size_t i = 0; i < at_pairs.size(); ++i) at_pairs[i] = u[s.dof_of_pair(i)];
+}
+
+/// A load [dofs] with the pairs' forces [pairs] added where they act.
+[[nodiscard]] inline std::vector<double> with_pair_forces(const linear_structure& s,
+                                                          std::span<const double> load,
+                                                          std::span<const double> pair_forces) {
+  std::vector<double> all(load.begin(), load.end());
+  for (std::size_t i = 0; i < pair_forces.size(); ++i) all[s.dof_of_pair(i)] += pair_forces[i];
+  return all;
+}
+
+/// b - (K + springs) x, all by rows. Every product and sum in long double.
+[[nodiscard]] std::vector<double> residual(const stiffness_matrix& k, std::span<const spring_at> springs,
+                                           std::span<const double> b, std::span<const double> x);
+
+/// Solve (K + springs) u = load, all by dofs, and correct u by solving with its residual until that no longer
+/// helps. `k`: K of `s`, however it is stored. `solve`: with a factor of K + springs, by rows.
+void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::span<const spring_at> springs,
+                   const in_place_solver& solve, std::span<const double> load, std::span<double> u);
+
 /// Throws no_factor: the matrix has none although the structure is held.
-[[noreturn]] void refuse_ill_conditioned();
+[[noreturn]] inline void refuse_ill_conditioned() {
+  throw no_factor(
+      "the structure is held, but its stiffness matrix is too ill-conditioned to be factored "
+      "in double precision");
+}
 
 /// The entries of K without zeros where it is stored as a band; nothing otherwise.
-[[nodiscard]] std::optional<stiffness_matrix> entries_of_band(const linear_structure& s);
+[[nodiscard]] inline std::optional<stiffness_matrix> entries_of_band(const linear_structure& s) {
+  if (!s.stiffness.is_band()) return {};
+  return columns_of(s.stiffness.band());
+}
 
 /// K with the springs of some pairs, and its Cholesky factor. Dofs and pairs are numbered from 0.
 /// Memory: the factor, besides the structure's own.
@@ -25,10 +80,17 @@ class factored_stiffness {
   explicit factored_stiffness(const linear_structure& s, bool dissected = false);
 
   /// Factor K with the springs of the pairs that are `closed` [pairs] (dpbtrf). Throws no_factor.
-  void factor(std::span<const char> closed);
+  void factor(std::span<const char> closed) {
+    springs_ = springs_of(structure_, closed);
+    if (!factor_.factor(springs_)) refuse_ill_conditioned();
+  }
 
   /// Solve K x = x in place for every dof by the factor (dpbtrs); 0 at fixed dofs.
-  void solve(std::span<double> x);
+  void solve(std::span<double> x) {
+    std::vector<double> b = in_rows(structure_, x);
+    factor_.solve(b);
+    to_dofs(structure_, b, x);
+  }
 
   /// Solve K x = e for the unit vector of one dof: x [dofs], which must be 0 before. Where K is a band this
   /// reads less of the factor than `solve`: see solve_from.
@@ -36,30 +98,33 @@ class factored_stiffness {
 
   /// The same for up to `block_width` dofs in one pass over the factor: x[row * block_width + i] for the
   /// i-th, in the order of the structure's rows.
-  void solve_units(std::span<const int> dofs, std::vector<double>& x);
+  void solve_units(std::span<const int> dofs, std::vector<double>& x) {
+    std::vector<int> rows;
+    for (const int dof : dofs) rows.push_back(structure_.fixed[dof] != 0 ? -1 : structure_.row_of(dof));
+    factor_.solve_units(rows, x);
+  }
 
   /// Solve K u = load, corrected with the residual in long double until that no longer helps: u has the
   /// digits that the stored matrix has, or 3 more than LAPACK alone where its condition takes more.
-  void solve_refined(std::span<const double> load, std::span<double> u);
+  void solve_refined(std::span<const double> load, std::span<double> u) {
+    contct::solve::solve_refined(
+        structure_, structure_.stiffness, springs_, [this](std::span<double> b) { factor_.solve(b); }, load,
+        u);
+  }
 
   /// Reciprocal condition of K with these springs, its diagonal scaled to 1. Overwrites the factor.
-  [[nodiscard]] double reciprocal_condition(std::span<const char> closed);
-
-  /// The factor itself, in the order of the structure's rows.
-  [[nodiscard]] const band_matrix& factor_band() const { return factor_.band(); }
+  [[nodiscard]] double reciprocal_condition(std::span<const char> closed) {
+    return factor_.reciprocal_condition(springs_of(structure_, closed));
+  }
 
   /// Products and sums that a factorisation takes.
   [[nodiscard]] double flops() const { return factor_.flops(); }
 
  private:
-  template <class Solve>
-  void in_order_of_rows(std::span<double> x, Solve solve);
-
   const linear_structure& structure_;
   std::optional<stiffness_matrix> entries_;  // of a band that CHOLMOD factors
   std::vector<spring_at> springs_;           // those in the factor
   stiffness_factor factor_;
-  std::vector<double> ordered_;  // a right-hand side in the order of the rows, where that is another
 };
 
 }  // namespace contct::solve

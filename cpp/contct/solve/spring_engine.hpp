@@ -1,11 +1,63 @@
-// What all engines have: a structure, the springs that are wanted and those that are applied, and counts.
+// What all engines have: the springs that are wanted and those that are applied, counts, and a monitor of
+// drift.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <vector>
 
 #include "contct/solve/engine.hpp"
 
 namespace contct::solve {
+
+/// What a check finds at the pairs: the largest response, and the largest correction to one.
+struct drift {
+  double size = 0.0;
+  double correction = 0.0;
+
+  void include(double response, double corrected_by) {
+    size = std::max(size, std::abs(response));
+    correction = std::max(correction, std::abs(corrected_by));
+  }
+  [[nodiscard]] double relative() const { return size > 0.0 ? correction / size : 0.0; }
+};
+
+/// Checks every so many responses. The interval halves when the drift is more than allowed, and doubles when
+/// it is negligible.
+class drift_monitor {
+ public:
+  struct limits {
+    int first_check;    ///< responses until the first check, and between the next
+    int longest;        ///< the most responses between two checks
+    double allowed;     ///< correction relative to the response
+    double negligible;  ///< the same; less than `allowed`
+  };
+
+  explicit drift_monitor(const limits& l)
+      : limits_(l), until_check_(l.first_check), check_every_(l.first_check) {}
+
+  /// Count a response. True when it is to be checked.
+  [[nodiscard]] bool is_due() { return --until_check_ <= 0; }
+  void check_next() { until_check_ = 1; }
+  void start_interval() { until_check_ = check_every_; }
+
+  /// False when the drift is more than is allowed, or than `rounding`, where that is more.
+  [[nodiscard]] bool accepts(const drift& found, double rounding = 0.0) {
+    const bool good = found.correction <= std::max(limits_.allowed, rounding) * found.size;
+    if (!good) check_every_ = std::max(check_every_ / 2, shortest);
+    if (found.correction < limits_.negligible * found.size)
+      check_every_ = std::min(2 * check_every_, limits_.longest);
+    start_interval();
+    return good;
+  }
+
+ private:
+  static constexpr int shortest = 4;
+  limits limits_;
+  int until_check_;
+  int check_every_;
+};
 
 /// Switching a spring only records that it is wanted; the next response applies it.
 class spring_engine : public stiffness_engine {
@@ -52,5 +104,14 @@ class spring_engine : public stiffness_engine {
  private:
   std::vector<int> switched_;  // pairs that may differ
 };
+
+/// The engines that have a source of their own: see make_engine.
+[[nodiscard]] std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s,
+                                                                    bool dissected);
+[[nodiscard]] std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& s);
+[[nodiscard]] std::unique_ptr<stiffness_engine> make_cholmod_engine(const linear_structure& s);
+
+/// Is this a beam with pairs, stored as a band: one that can be condensed?
+[[nodiscard]] bool can_be_condensed(const linear_structure& s);
 
 }  // namespace contct::solve

@@ -1,14 +1,14 @@
-#include "contct/solve/updated_engine.hpp"
-
+// One factor for many events: the response at the pairs is updated by one column of the inverse an event.
 #include <algorithm>
 #include <cmath>
+
+#include "contct/solve/factored_stiffness.hpp"
+#include "contct/solve/inverse_columns.hpp"
+#include "contct/solve/spring_engine.hpp"
 
 namespace contct::solve {
 namespace {
 
-// Of the response, relative to the largest: 1e-8 of D is promised.
-constexpr double updated_drift_allowed = 1e-11;
-constexpr drift_monitor::limits updated_drift_limits = {16, 256, updated_drift_allowed, updated_drift_allowed / 4};
 // The least 1 - k c when a stiff spring opens: with less, too many of its digits have cancelled.
 constexpr double least_denominator = 1e-2;
 
@@ -19,92 +19,124 @@ std::size_t columns_worth_keeping(double flops_of_factor, std::size_t pairs) {
   return static_cast<std::size_t>(std::clamp(worth, 8.0, 1000.0));
 }
 
+/// Keeps x, the response of every pair to the step's whole load increment. When the spring k of pair p goes
+/// in (sigma = 1) or out (-1), K' = K + sigma k e e^T, and with c = K^-1 e, a column of the inverse at the
+/// pairs (Sherman and Morrison):
+///
+///     g = sigma k / (1 + sigma k c_p),   x' = x - g x_p c
+///
+/// `inverse_columns` has the columns. Nothing else costs more than O(pairs) an event.
+/// Memory: a factor, and a column of pairs a toggle.
+///
+/// Updates drift: the drift monitor says when x is checked by one more solve. The factor is made anew when
+/// the drift is too large, when the columns cost more than a factor would, or when 1 + sigma k c_p has lost
+/// its digits.
+class updated_engine final : public spring_engine {
+ public:
+  /// `dissected`: with CHOLMOD's factor in place of a band's.
+  updated_engine(const linear_structure& s, bool dissected)
+      : spring_engine(s),
+        dissected_(dissected),
+        stiffness_(s, dissected),
+        columns_(s, stiffness_),
+        most_toggles_(columns_worth_keeping(stiffness_.flops(), s.pairs.size())),
+        response_(s.pairs.size()),
+        work_(s.dofs()) {}
+  [[nodiscard]] std::string_view name() const override { return dissected_ ? "dissected" : "updated"; }
+
+  void respond(const residual_load& residual, std::span<double> d_star) override {
+    if (!has_factor_) factor_anew();
+    if (!apply_switched([&](int pair) { return update(pair, residual.last_s); })) factor_anew();
+    if (response_to_ != residual.version) {
+      respond_anew(residual);
+    } else if (drift_.is_due() && columns_.toggles() > 0 && !still_solves(residual.increment)) {
+      factor_anew();
+      respond_anew(residual);
+    }
+    for (std::size_t i = 0; i < d_star.size(); ++i) d_star[i] = residual.share * response_[i];
+  }
+
+  void recover(std::span<const double> load, std::span<const double> pair_forces,
+               std::span<double> u) override {
+    if (!has_factor_ || columns_.toggles() > 0 || applied_ != wanted_) factor_anew();
+    apply_all();
+    stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
+  }
+
+  [[nodiscard]] double reciprocal_condition() override {
+    has_factor_ = false;
+    response_to_ = 0;
+    return stiffness_.reciprocal_condition(wanted_);
+  }
+
+  [[nodiscard]] engine_counts counts() const override {
+    engine_counts all = counts_;
+    all.solves += columns_.passes();
+    return all;
+  }
+
+ private:
+  void factor_anew() {
+    has_factor_ = false;
+    stiffness_.factor(apply_all());
+    ++counts_.factors;
+    has_factor_ = true;
+    columns_.start_anew();
+    response_to_ = 0;
+  }
+
+  void respond_anew(const residual_load& residual) {
+    std::copy(residual.increment.begin(), residual.increment.end(), work_.begin());
+    stiffness_.solve(work_);
+    ++counts_.solves;
+    gather_at_pairs(structure_, work_, response_);
+    columns_.correct(response_);
+    response_to_ = residual.version;
+  }
+
+  /// Update the response by the toggle of one pair. False when that takes a new factor.
+  [[nodiscard]] bool update(int pair, std::span<const double> last_s) {
+    if (columns_.toggles() >= most_toggles_) return false;
+    const double sigma_k = applied_[pair] != 0 ? stiffness_of(pair) : -stiffness_of(pair);
+    const std::span<const double> c = columns_.column(pair, last_s);
+    if (!(1.0 + sigma_k * c[pair] > least_denominator)) return false;
+    const double factor = columns_.take_in(pair, sigma_k) * response_[pair];
+    for (std::size_t i = 0; i < response_.size(); ++i) response_[i] -= factor * c[i];
+    ++counts_.updates;
+    return true;
+  }
+
+  /// Compares x with the solution of K_0 y = f - sum of sigma k x_p e_p, which is x again.
+  [[nodiscard]] bool still_solves(std::span<const double> increment) {
+    ++counts_.checks;
+    std::copy(increment.begin(), increment.end(), work_.begin());
+    for (const inverse_columns::toggle& t : columns_.all_toggles())
+      work_[structure_.dof_of_pair(t.pair)] -= t.sigma_k * response_[t.pair];
+    stiffness_.solve(work_);
+    ++counts_.solves;
+    drift found;
+    for (std::size_t i = 0; i < response_.size(); ++i) {
+      const double again = work_[structure_.dof_of_pair(i)];
+      found.include(again, again - response_[i]);
+    }
+    return drift_.accepts(found);
+  }
+
+  bool dissected_;
+  factored_stiffness stiffness_;
+  inverse_columns columns_;
+  bool has_factor_ = false;
+  std::size_t most_toggles_;                          // between factors
+  std::vector<double> response_;                      // to the whole increment [pairs]
+  std::uint64_t response_to_ = 0;                     // which increment
+  std::vector<double> work_;                          // [dofs]
+  drift_monitor drift_{{16, 256, 1e-11, 1e-11 / 4}};  // 1e-8 of D is promised
+};
+
 }  // namespace
 
-updated_engine::updated_engine(const linear_structure& s, bool dissected)
-    : spring_engine(s),
-      dissected_(dissected),
-      stiffness_(s, dissected),
-      columns_(s, stiffness_),
-      most_toggles_(columns_worth_keeping(stiffness_.flops(), s.pairs.size())),
-      response_(s.pairs.size()),
-      work_(s.dofs()),
-      drift_(updated_drift_limits) {}
-
-void updated_engine::respond(const residual_load& residual, std::span<double> d_star) {
-  if (!has_factor_) factor_anew();
-  if (!apply_switched([&](int pair) { return update(pair, residual.last_s); })) factor_anew();
-  if (response_to_ != residual.version) {
-    respond_anew(residual);
-  } else if (drift_.is_due() && columns_.toggles() > 0 && !still_solves(residual.increment)) {
-    factor_anew();
-    respond_anew(residual);
-  }
-  for (std::size_t i = 0; i < d_star.size(); ++i) d_star[i] = residual.share * response_[i];
-}
-
-void updated_engine::factor_anew() {
-  has_factor_ = false;
-  stiffness_.factor(apply_all());
-  ++counts_.factors;
-  has_factor_ = true;
-  columns_.start_anew();
-  response_to_ = 0;
-}
-
-void updated_engine::respond_anew(const residual_load& residual) {
-  std::copy(residual.increment.begin(), residual.increment.end(), work_.begin());
-  stiffness_.solve(work_);
-  ++counts_.solves;
-  gather_at_pairs(structure_, work_, response_);
-  columns_.correct(response_);
-  response_to_ = residual.version;
-}
-
-bool updated_engine::update(int pair, std::span<const double> last_s) {
-  if (columns_.toggles() >= most_toggles_) return false;
-  const double sigma_k = applied_[pair] != 0 ? stiffness_of(pair) : -stiffness_of(pair);
-  const std::span<const double> c = columns_.column(pair, last_s);
-  if (!(1.0 + sigma_k * c[pair] > least_denominator)) return false;
-  const double factor = columns_.take_in(pair, sigma_k) * response_[pair];
-  for (std::size_t i = 0; i < response_.size(); ++i) response_[i] -= factor * c[i];
-  ++counts_.updates;
-  return true;
-}
-
-engine_counts updated_engine::counts() const {
-  engine_counts all = counts_;
-  all.solves += columns_.passes();
-  return all;
-}
-
-/// Compares x with the solution of K_0 y = f - sum of sigma k x_p e_p, which is x again.
-bool updated_engine::still_solves(std::span<const double> increment) {
-  ++counts_.checks;
-  std::copy(increment.begin(), increment.end(), work_.begin());
-  for (const inverse_columns::toggle& t : columns_.all_toggles())
-    work_[structure_.dof_of_pair(t.pair)] -= t.sigma_k * response_[t.pair];
-  stiffness_.solve(work_);
-  ++counts_.solves;
-  drift found;
-  for (std::size_t i = 0; i < response_.size(); ++i) {
-    const double again = work_[structure_.dof_of_pair(i)];
-    found.include(again, again - response_[i]);
-  }
-  return drift_.accepts(found);
-}
-
-void updated_engine::recover(std::span<const double> load, std::span<const double> pair_forces,
-                             std::span<double> u) {
-  if (!has_factor_ || columns_.toggles() > 0 || applied_ != wanted_) factor_anew();
-  apply_all();
-  stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
-}
-
-double updated_engine::reciprocal_condition() {
-  has_factor_ = false;
-  response_to_ = 0;
-  return stiffness_.reciprocal_condition(wanted_);
+std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s, bool dissected) {
+  return std::make_unique<updated_engine>(s, dissected);
 }
 
 }  // namespace contct::solve

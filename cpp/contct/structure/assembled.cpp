@@ -1,9 +1,7 @@
-#include "contct/structure/assembled.hpp"
-
 #include <stdexcept>
 #include <utility>
 
-#include "contct/structure/free_motions.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::structure {
 namespace {
@@ -16,22 +14,6 @@ void refuse_without_stiffness(const assembled& a, const linear_structure& s) {
                                 ": found no stiffness and no support; allowed: a positive entry on the "
                                 "diagonal, or a support");
   }
-}
-
-free_motions motions_of(const assembled& a, const linear_structure& s) {
-  try {
-    return find_free_motions(s.stiffness, a.free_motions);
-  } catch (const std::invalid_argument& e) {
-    throw std::invalid_argument(a.name + ": " + e.what());
-  }
-}
-
-/// A matrix does not say which of its dofs are lengths. Those of pairs are; without pairs, all are taken to
-/// be.
-std::vector<char> lengths_of(const linear_structure& s) {
-  std::vector<char> lengths(s.dofs(), s.pairs.empty() ? 1 : 0);
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) lengths[s.dof_of_pair(i)] = 1;
-  return lengths;
 }
 
 }  // namespace
@@ -51,20 +33,26 @@ linear_structure build(const assembled& a, std::span<const support> supports,
   refuse_without_stiffness(a, s);
 
   // These are the motions that the supports leave free: the supports hold none of them.
-  const free_motions motions = motions_of(a, s);
+  free_motions motions;
+  try {
+    motions = find_free_motions(s.stiffness, a.free_motions);
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(a.name + ": " + e.what());
+  }
   s.rigid_motions = motions.count;
   s.rigid_rounding = motions.rounding;
   s.held_by_supports.clear();
   s.held_by_pairs.clear();
   for (std::size_t dof = 0; dof < s.fixed.size(); ++dof)
     if (s.fixed[dof] == 0) s.rigid_rows[dof] = motions.rows[s.row_of(dof)];
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) s.held_by_pairs.push_back(s.rigid_rows[s.dof_of_pair(i)]);
-  s.lengths = lengths_of(s);
+  // A matrix does not say which of its dofs are lengths. Those of pairs are; without pairs, all are taken to
+  // be.
+  s.lengths.assign(a.dofs(), s.pairs.empty() ? 1 : 0);
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+    s.held_by_pairs.push_back(s.rigid_rows[s.dof_of_pair(i)]);
+    s.lengths[s.dof_of_pair(i)] = 1;
+  }
   return s;
-}
-
-void add_consistent_loads(const assembled& /*a*/, const load& l, std::span<double> f) {
-  add_point_loads(l, assembled::dofs_per_node, f);
 }
 
 std::vector<double> reactions(const assembled& a, const load& l, std::span<const support> supports,

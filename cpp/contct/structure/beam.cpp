@@ -1,9 +1,7 @@
-#include "contct/structure/beam.hpp"
-
 #include <array>
 #include <utility>
 
-#include "contct/structure/gauss.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::structure {
 namespace {
@@ -20,7 +18,9 @@ std::array<double, 10> stiffness_of_element(double EI, double h) {
 }
 
 /// Work of a distributed load on the four shape functions of one element.
-element_vector consistent_load(std::span<const double> polynomial, double left, double h) {
+element_vector consistent_load(const beam& b, int element, std::span<const double> polynomial) {
+  const double left = b.x[element];
+  const double h = b.length_of(element);
   if (polynomial.size() == 1) {
     const double q = polynomial[0];
     return {q * h / 2, q * h * h / 12, q * h / 2, -q * h * h / 12};
@@ -35,14 +35,6 @@ element_vector consistent_load(std::span<const double> polynomial, double left, 
     f[3] -= q * h * t * t * (1 - t);
   }
   return f;
-}
-
-/// Call visit(element, load on it) for every element that the distributed loads act on.
-template <class Visit>
-void for_each_consistent_load(const beam& b, const load& l, Visit visit) {
-  for_each_loaded_element(l, b.elements(), [&](int e, std::span<const double> polynomial) {
-    visit(e, consistent_load(polynomial, b.x[e], b.length_of(e)));
-  });
 }
 
 void assemble_elements(const beam& b, band_matrix& k) {
@@ -82,7 +74,8 @@ linear_structure build(const beam& b, std::span<const support> supports, std::ve
 
 void add_consistent_loads(const beam& b, const load& l, std::span<double> f) {
   add_point_loads(l, beam::dofs_per_node, f);
-  for_each_consistent_load(b, l, [&](int e, const element_vector& q) {
+  for_each_loaded_element(l, b.elements(), [&](int e, std::span<const double> polynomial) {
+    const element_vector q = consistent_load(b, e, polynomial);
     for (int i = 0; i < 4; ++i) f[2 * e + i] += q[i];
   });
 }
@@ -101,7 +94,8 @@ std::vector<element_forces> forces_in_elements(const beam& b, const load& l, std
     const double v = (m1 + m2) / h;
     forces[e] = {{v, v}, {-m1, m2}};
   }
-  for_each_consistent_load(b, l, [&](int e, const element_vector& q) {
+  for_each_loaded_element(l, b.elements(), [&](int e, std::span<const double> polynomial) {
+    const element_vector q = consistent_load(b, e, polynomial);
     element_forces& f = forces[e];
     f.shear[0] -= q[0];
     f.moment[0] += q[1];
@@ -120,10 +114,6 @@ std::vector<double> reactions(const beam& b, const load& l, std::span<const supp
     if (node > 0) need += dof == 0 ? -forces[node - 1].shear[1] : forces[node - 1].moment[1];
     return need;
   });
-}
-
-std::vector<double> tributary_shares(const beam& b) {
-  return tributary_lengths(b.x);
 }
 
 }  // namespace contct::structure

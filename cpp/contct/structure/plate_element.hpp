@@ -30,9 +30,7 @@ struct plate_element {
 
 /// w_xx, w_yy, w_xy.
 struct curvature {
-  double xx;
-  double yy;
-  double xy;
+  double xx, yy, xy;
 };
 
 /// Curvatures at the four corners under `u`. Free of the element's rigid motion.

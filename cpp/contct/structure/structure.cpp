@@ -1,12 +1,68 @@
 #include "contct/structure/structure.hpp"
 
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace contct::structure {
+
+load mix(const load& before, const load& after, double fraction) {
+  if (fraction == 1.0) return after;
+  std::map<std::pair<int, int>, double> points;
+  std::map<std::vector<int>, std::vector<double>> distributed;
+  for (const auto& [part, share] : {std::pair(&before, 1.0 - fraction), std::pair(&after, fraction)}) {
+    for (const point_load& p : part->points) points[{p.node, p.dof}] += share * p.value;
+    for (const distributed_load& d : part->distributed)
+      add_polynomial(distributed[d.elements], d.polynomial, share);
+  }
+  load sum;
+  for (const auto& [place, value] : points) sum.points.push_back({place.first, place.second, value});
+  for (const auto& [elements, polynomial] : distributed) sum.distributed.push_back({polynomial, elements});
+  return sum;
+}
+
+void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share) {
+  sum.resize(std::max(sum.size(), part.size()), 0.0);
+  for (std::size_t i = 0; i < part.size(); ++i) sum[i] += share * part[i];
+}
+
+std::vector<gauss_point> gauss_points(int n) {
+  std::vector<gauss_point> points;
+  for (int i = 0; i < n; ++i) {
+    // Newton from Tricomi's approximation of the i-th root of the Legendre polynomial P_n.
+    double z = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
+    double slope = 1.0;
+    for (int step = 0; step < 20; ++step) {
+      double p = 1.0;
+      double previous = 0.0;
+      for (int k = 1; k <= n; ++k) {
+        const double next = ((2 * k - 1) * z * p - (k - 1) * previous) / k;
+        previous = p;
+        p = next;
+      }
+      slope = n * (z * p - previous) / (z * z - 1);
+      const double correction = p / slope;
+      z -= correction;
+      if (std::abs(correction) < 1e-16) break;
+    }
+    points.push_back({(1 - z) / 2, 1 / ((1 - z * z) * slope * slope)});
+  }
+  return points;
+}
+
+std::vector<int> linear_structure::pairs_that_hold(rigid_rank& rank) const {
+  std::vector<int> holding;
+  for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i) {
+    const int before = rank.rank();
+    rank.hold(held_by_pairs[i]);
+    if (rank.rank() > before) holding.push_back(static_cast<int>(i));
+  }
+  return holding;
+}
 
 void add_to_band(band_matrix& k, int row, int column, double entry, int element) {
   if (!std::isfinite(entry))

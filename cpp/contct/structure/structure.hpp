@@ -1,16 +1,83 @@
-// A linear elastic structure with its supports and candidate contact pairs, as the path sees it.
+// A linear elastic structure with its supports and candidate contact pairs, as the path sees it, and its
+// loads.
 #pragma once
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <span>
 #include <vector>
 
-#include "contct/matrix/stiffness_matrix.hpp"
-#include "contct/structure/load.hpp"
 #include "contct/structure/rigid_modes.hpp"
 
 namespace contct::structure {
+
+/// A force or moment at one dof of one node, work-conjugate to the dof.
+struct point_load {
+  int node;      ///< from 0
+  int dof;       ///< within the node, from 0
+  double value;  ///< positive as the dof
+};
+
+/// Force per length (beams), as a polynomial in x: a0 + a1 x + a2 x^2 + ...; positive up.
+struct distributed_load {
+  std::vector<double> polynomial;  ///< coefficients, constant first; at least one
+  std::vector<int> elements;       ///< from 0; empty means all
+};
+
+/// Everything that acts on the structure at one moment.
+struct load {
+  std::vector<point_load> points;
+  std::vector<distributed_load> distributed;
+};
+
+/// The load at share `fraction` of the way from `before` to `after`, with equal places merged.
+/// Exactly `after` at 1.
+[[nodiscard]] load mix(const load& before, const load& after, double fraction);
+
+/// Add the point loads of `l` to `f` [dofs].
+inline void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
+  for (const point_load& p : l.points) f[p.node * dofs_per_node + p.dof] += p.value;
+}
+
+/// sum += share * part, for polynomials from the constant on.
+void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share);
+
+/// The value of a polynomial at x; `coefficients` from the constant on.
+[[nodiscard]] inline double polynomial_at(std::span<const double> coefficients, double x) {
+  double sum = 0.0;
+  for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + coefficients[i];
+  return sum;
+}
+
+/// Call visit(element, polynomial) for every element, from 0, that a distributed load acts on.
+template <class Visit>
+void for_each_loaded_element(const load& l, int elements, Visit visit) {
+  std::vector<int> all(elements);
+  std::iota(all.begin(), all.end(), 0);
+  for (const distributed_load& d : l.distributed)
+    for (const int e : d.elements.empty() ? all : d.elements) visit(e, d.polynomial);
+}
+
+/// The length that each point of a line stands for: half of each interval beside it. `x` increases.
+[[nodiscard]] inline std::vector<double> tributary_lengths(std::span<const double> x) {
+  std::vector<double> lengths(x.size(), 0.0);
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const double half = (x[i + 1] - x[i]) / 2;
+    lengths[i] += half;
+    lengths[i + 1] += half;
+  }
+  return lengths;
+}
+
+/// Gauss-Legendre quadrature on [0, 1].
+struct gauss_point {
+  double t;       ///< place, between 0 and 1
+  double weight;  ///< the weights add up to 1
+};
+
+/// `n` points, exact for polynomials up to degree 2 n - 1. n >= 1.
+[[nodiscard]] std::vector<gauss_point> gauss_points(int n);
 
 /// A permanent support of one dof, working both ways.
 struct support {
@@ -69,6 +136,20 @@ struct linear_structure {
   }
   /// What stops rigid motions while no dof is held.
   [[nodiscard]] rigid_rank nothing_held() const { return rigid_rank(std::max(1e-12, rigid_rounding)); }
+  /// The motions that the supports and those pairs stop, from 0, for which `closed(pair)` is true.
+  template <class Closed>
+  [[nodiscard]] rigid_rank held_by(Closed closed) const {
+    rigid_rank rank = nothing_held();
+    for (std::size_t i = 0; i < held_by_supports.size() && !is_held(rank); ++i)
+      rank.hold(held_by_supports[i]);
+    for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i)
+      if (closed(i)) rank.hold(held_by_pairs[i]);
+    return rank;
+  }
+  /// Are these all of its rigid motions?
+  [[nodiscard]] bool is_held(const rigid_rank& rank) const { return rank.rank() >= rigid_motions; }
+  /// The first pairs that stop what `rank` leaves free; they are counted as held.
+  [[nodiscard]] std::vector<int> pairs_that_hold(rigid_rank& rank) const;
   /// The dof, from 0, at which pair `i` (from 0) acts.
   [[nodiscard]] int dof_of_pair(std::size_t i) const { return pairs[i].node * dofs_per_node + deflection; }
 };

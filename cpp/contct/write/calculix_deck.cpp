@@ -12,7 +12,7 @@
 
 #include "contct/certify/reference_solution.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/structure/gauss.hpp"
+#include "contct/structure/structure.hpp"
 
 namespace contct::write {
 namespace {

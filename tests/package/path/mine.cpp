@@ -2,7 +2,7 @@
 #include <cmath>
 #include <contct/outside/registry.hpp>
 #include <contct/path/solve_problem.hpp>
-#include <contct/structure/beam.hpp>
+#include <contct/structure/problem.hpp>
 #include <cstdio>
 
 using namespace contct::path;

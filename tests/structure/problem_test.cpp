@@ -1,9 +1,8 @@
 // One set of verbs for beams and plates.
-#include "contct/structure/model.hpp"
-
 #include <string>
 
 #include "catch.hpp"
+#include "contct/structure/problem.hpp"
 
 using namespace contct::app;
 

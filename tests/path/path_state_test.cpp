@@ -1,8 +1,7 @@
-#include "contct/path/cycle_detector.hpp"
-
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/path/path_state.hpp"
 
 using namespace contct::app;
 

@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "contct/kernel/corrected.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/solve/refactor_engine.hpp"
+#include "contct/solve/spring_engine.hpp"
 #include "support/beams.hpp"
 
 using namespace contct::app;
@@ -421,9 +421,9 @@ TEST_CASE("recovery is refined: a nearly rigid free beam keeps digits that a ban
     load[2 * static_cast<std::size_t>(node)] = -7.0;
     const double left = -7.0 * (4 - node) / 4 / 3;  // the springs share the load by the lever
     const double right = -7.0 * node / 4 / 5;
-    refactor_engine engine(s);
+    const auto engine = make_engine("refactor", s);
     std::vector<double> refined(10);
-    engine.recover(load, std::vector<double>{0.0, 0.0}, refined);
+    engine->recover(load, std::vector<double>{0.0, 0.0}, refined);
     off_refined = std::max({off_refined, std::abs(refined[0] - left), std::abs(refined[8] - right)});
     band_matrix k = s.stiffness.band();
     k.add(0, 0, 3.0);
@@ -442,11 +442,11 @@ TEST_CASE("recovery is refined: a span of 40 elements has its middle to 14 digit
   const beam_problem p{
       even_beam(40.0, 40, 1.0), {{0, 0, true}, {40, 0, true}}, {{20, -1, 0.0, 2.0, true}}, {}};
   const linear_structure s = p.structure();
-  refactor_engine engine(s);
+  const auto engine = make_engine("refactor", s);
   std::vector<double> load(82, 0.0);
   add_consistent_loads(p.geometry, {{{0, 0, 5.0}}, {{{-12.0}, {}}}}, load);
   std::vector<double> u(82);
-  engine.recover(load, std::vector<double>{4.0}, u);  // a spring that stands at 2
+  engine->recover(load, std::vector<double>{4.0}, u);  // a spring that stands at 2
   const double without = 12.0 * 5 / 384 * std::pow(40.0, 4);
   const double f = std::pow(40.0, 3) / 48;
   CHECK(u[40] == Approx((-without + 4 * f) / (1 + 2 * f)).epsilon(1e-14));
