@@ -9,6 +9,7 @@
 #include "contct/compare/lockstep.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/read/toml_reader.hpp"
 #include "contct/write/finished_run.hpp"
 
 namespace contct::lab {
