@@ -154,6 +154,7 @@ struct program_description {
 template <class Described>
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<Described>& all) {
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const Described& d : all) names.push_back(d.name);
   return names;
 }
