@@ -17,8 +17,6 @@ using json = nlohmann::json;
 
 namespace {
 
-const std::filesystem::path root = CONTCT_ROOT;
-
 std::string file_text(const char* name) {
   std::ostringstream text;
   text << std::ifstream(root / "reference" / name).rdbuf();

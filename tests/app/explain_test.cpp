@@ -16,7 +16,6 @@ using Catch::Matchers::Contains;
 namespace {
 
 using json = nlohmann::json;
-const std::filesystem::path root = CONTCT_ROOT;
 const std::string pb7 = "reference/problems/pb07-three-gap-supports.toml";
 const std::string pb5 = "reference/problems/pb05-cantilever-over-flat-obstacle.toml";
 

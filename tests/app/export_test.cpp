@@ -10,8 +10,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string root = CONTCT_ROOT;
-const std::string gaps = root + "/reference/problems/pb07-three-gap-supports.toml";
+const std::string gaps = (root / "reference/problems/pb07-three-gap-supports.toml").string();
 
 }  // namespace
 
@@ -59,7 +58,8 @@ TEST_CASE("what export cannot do ends with 2, what was found, what is allowed, a
   CHECK_THAT(refused({"export", "free.toml", "--calculix", "x.inp"}), Contains("do not hold the structure"));
   CHECK_THAT(refused({"export", "free.toml", "--calculix", "free.toml"}),
              Contains("allowed: a file of its own"));
-  CHECK_THAT(refused({"export", root + "/reference/structures/calculix/console.toml", "--calculix", "x.inp"}),
+  CHECK_THAT(refused({"export", (root / "reference/structures/calculix/console.toml").string(), "--calculix",
+                      "x.inp"}),
              Contains("only beams and plates"));
   CHECK(dir.files() == std::vector<std::string>{"free.toml"});
 }

@@ -7,9 +7,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::filesystem::path root = CONTCT_ROOT;
 const std::string header = "%%MatrixMarket matrix coordinate real symmetric\n";
-const std::string problem =
+const std::string spring_problem =
     "[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndof = \"2\"\nsurface = \"below\"\nface = -0.5\nstiffness "
     "= 10\n"
     "[[step]]\npoint = [ { dof = \"2\", value = -3 } ]\n";
@@ -65,7 +64,7 @@ TEST_CASE("the engines agree that the frame is certified, and so does the oracle
 
 TEST_CASE("a matrix that is no stiffness, is missing or too large ends in exit 2 and one line that says so") {
   const scratch_folder here;
-  here.write("p.toml", problem);
+  here.write("p.toml", spring_problem);
   finished f = contct_program(here.path(), {"run", "p.toml"});
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("K.mtx: cannot be read"));
@@ -118,7 +117,7 @@ TEST_CASE("what a band cannot hold is solved by its entries, and the certificate
 TEST_CASE("two springs in a row, free at both ends, fall off their one face: a mechanism, exit 4") {
   const scratch_folder here;
   here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 -1\n2 2 1\n");
-  here.write("p.toml", problem);
+  here.write("p.toml", spring_problem);
   const finished f = contct_program(here.path(), {"run", "p.toml"});
   INFO(f.err);
   CHECK(f.exit == 4);
@@ -133,7 +132,7 @@ TEST_CASE("two springs in a row, free at both ends, fall off their one face: a m
 TEST_CASE("a structure without coordinates has its page, picture and tables, and no grid, which is said") {
   const scratch_folder dir;
   dir.write("K.mtx", header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
-  dir.write("p.toml", problem);
+  dir.write("p.toml", spring_problem);
   const finished f =
       contct_program(dir.path(), {"run", "p.toml", "--html", "o.html", "--svg", "o.svg", "--csv", "o.csv"});
   INFO(f.err);
@@ -171,7 +170,7 @@ TEST_CASE(
   dir.write("K.mtx", two);
   dir.write("K.dof", "a.x\n2\n");
   dir.write("K.xyz", "a 1 2 3\n");
-  std::string text = problem;
+  std::string text = spring_problem;
   text.insert(text.find("[[contact]]"), "dofs = \"K.dof\"\ncoordinates = \"K.xyz\"\n");
   dir.write("p.toml", text);
   const finished lost = contct_program(dir.path(), {"run", "p.toml", "--vtu", "p.vtu", "--html", "p.html"});

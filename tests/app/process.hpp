@@ -24,9 +24,11 @@ struct process_options {
   bool error_terminal = false;  ///< standard error is a terminal; the same one where both are
 };
 
+/// The project's folder.
+inline const std::filesystem::path root = CONTCT_ROOT;
+
 /// Run the program with these arguments in `directory`.
 finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                         const process_options& options = {});
-
 
 }  // namespace contct::app

@@ -10,8 +10,6 @@ using namespace contct::app;
 
 namespace {
 
-const std::filesystem::path root = CONTCT_ROOT;
-
 std::string page(const char* name) {
   std::ostringstream text;
   text << std::ifstream(root / name).rdbuf();

@@ -12,8 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path root = CONTCT_ROOT;
-
 std::string reference_problem(const char* name) {
   return (root / "reference/problems" / name).string();
 }

@@ -10,7 +10,7 @@ using namespace contct::app;
 
 namespace {
 
-constexpr int rows = 40;
+constexpr int unknowns = 40;
 
 std::vector<double> diagonal_of(const band_matrix& k) {
   return stiffness_matrix(k).diagonal_with({});
@@ -24,7 +24,7 @@ std::vector<double> solution(band_matrix k, std::vector<double> b) {
 }
 
 void check_solves(sparse_factor& f, const band_matrix& k) {
-  const std::vector<double> b = random_vector(rows, 3);
+  const std::vector<double> b = random_vector(unknowns, 3);
   std::vector<double> x = b;
   f.solve(x);
   const std::vector<double> expected = solution(k, b);
@@ -34,7 +34,7 @@ void check_solves(sparse_factor& f, const band_matrix& k) {
 }  // namespace
 
 TEST_CASE("every kind of sparse factor solves as LAPACK does, again with another diagonal") {
-  band_matrix k = random_band(rows, 7, 1);
+  band_matrix k = random_band(unknowns, 7, 1);
   using kind = sparse_factor::kind;
   for (const kind how : {kind::supernodal, kind::updatable, kind::updatable_amd}) {
     const auto f = sparse_factor::make(columns_of(k), how);
@@ -48,7 +48,7 @@ TEST_CASE("every kind of sparse factor solves as LAPACK does, again with another
 }
 
 TEST_CASE("a spring that is put into a factor, and taken out again, is that of the changed matrix") {
-  const band_matrix k = random_band(rows, 7, 2);
+  const band_matrix k = random_band(unknowns, 7, 2);
   const auto f = sparse_factor::make(columns_of(k), sparse_factor::kind::updatable);
   REQUIRE(f->factor(diagonal_of(k)));
   band_matrix with_spring = k;
@@ -60,26 +60,26 @@ TEST_CASE("a spring that is put into a factor, and taken out again, is that of t
 }
 
 TEST_CASE("a matrix that is not positive definite has no factor, and a better diagonal has one") {
-  const band_matrix k = random_band(rows, 7, 4);
+  const band_matrix k = random_band(unknowns, 7, 4);
   const auto f = sparse_factor::make(columns_of(k));
   std::vector<double> diagonal = diagonal_of(k);
   diagonal[20] = -1.0;
   CHECK_FALSE(f->factor(diagonal));
   CHECK(f->factor(diagonal_of(k)));
-  CHECK(f->bytes() >= static_cast<std::int64_t>(sizeof(double)) * rows);
+  CHECK(f->bytes() >= static_cast<std::int64_t>(sizeof(double)) * unknowns);
   CHECK(f->flops() > 0.0);
 }
 
 TEST_CASE("unit vectors give columns of the inverse, and a row of -1 zeros") {
-  const band_matrix k = random_band(rows, 7, 5);
+  const band_matrix k = random_band(unknowns, 7, 5);
   const auto f = sparse_factor::make(columns_of(k));
   REQUIRE(f->factor(diagonal_of(k)));
   const std::vector<int> rows = {11, -1, 39};
   std::vector<double> x;
   f->solve_units(rows, x);
-  REQUIRE(x.size() == rows * block_width);
+  REQUIRE(x.size() == unknowns * block_width);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::vector<double> e(rows);
+    std::vector<double> e(unknowns);
     if (rows[i] >= 0) e[rows[i]] = 1.0;
     const std::vector<double> column = solution(k, e);
     for (std::size_t row = 0; row < column.size(); ++row)

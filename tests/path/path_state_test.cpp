@@ -1,7 +1,8 @@
+#include "contct/path/path_state.hpp"
+
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/path/path_state.hpp"
 
 using namespace contct::app;
 

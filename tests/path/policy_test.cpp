@@ -8,24 +8,11 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/solve/spring_engine.hpp"
 #include "support/beams.hpp"
+#include "support/made_kernel.hpp"
 
 using namespace contct::app;
 
 namespace {
-
-/// A kernel made for a test, of another rule than the listing's unless it says so.
-class made_kernel final : public kernel {
- public:
-  explicit made_kernel(std::function<void(call<double>&)> answer, std::string rule = "made")
-      : facts_{"made", 8, std::move(rule), "", "", "", false}, answer_(std::move(answer)) {}
-  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
-  void answer(call<double>& c) override { answer_(c); }
-  std::string take_text() override { return {}; }
-
- private:
-  kernel_facts facts_;
-  std::function<void(call<double>&)> answer_;
-};
 
 /// A free beam above stops at its ends, 0.1 and 0.3 below it.
 beam_problem beam_above_stops() {

@@ -5,25 +5,9 @@
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
 #include "support/beams.hpp"
+#include "support/made_kernel.hpp"
 
 using namespace contct::app;
-
-namespace {
-
-/// A kernel made for a test: `answer` does what it likes.
-class made_kernel final : public kernel {
- public:
-  explicit made_kernel(std::function<void(call<double>&)> answer) : answer_(std::move(answer)) {}
-  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
-  void answer(call<double>& c) override { answer_(c); }
-  std::string take_text() override { return {}; }
-
- private:
-  kernel_facts facts_{"made", 8, "test", "", "", "", false};
-  std::function<void(call<double>&)> answer_;
-};
-
-}  // namespace
 
 TEST_CASE("a mechanism: the pair whose opening frees the beam is named, with the load at which it opened") {
   // A beam on two springs; a force that moves outside them lifts the other end off.

@@ -16,7 +16,7 @@ using namespace contct::app;
 namespace {
 
 const std::string header = "%%MatrixMarket matrix coordinate real symmetric\n";
-const std::string good = header + "3 3 5\n1 1 4\n2 1 -1\n2 2 4.5\n3 2 -2e-1\n3 3 1\n";
+const std::string good_matrix = header + "3 3 5\n1 1 4\n2 1 -1\n2 2 4.5\n3 2 -2e-1\n3 3 1\n";
 const std::string good_vector = "%%MatrixMarket matrix array real general\n3 1\n1\n0\n-2.5\n";
 const std::string sparse_vector = "%%MatrixMarket matrix coordinate real general\n3 1 2\n3 1 -2.5\n1 1 1\n";
 const std::string good_job = "1 1  4.0000000000000e+00\n1 2  0.0000000000000e+00\n2 2  1.5e+00\n";
@@ -87,7 +87,7 @@ std::string grid_text(int side) {
 
 TEST_CASE("a Matrix Market file is read: comments, blank lines, any case, any order, signs and tabs") {
   const std::vector<std::vector<double>> expected = {{4, -1, 0}, {-1, 4.5, -0.2}, {0, -0.2, 1}};
-  CHECK(full(parse_symmetric(good, "K.mtx")) == expected);
+  CHECK(full(parse_symmetric(good_matrix, "K.mtx")) == expected);
   CHECK(full(parse_symmetric(
             "%%matrixmarket MATRIX Coordinate REAL Symmetric\r\n% made by hand\r\n\r\n%\r\n"
             "  3\t3   5\r\n\r\n3 3 +1.0\r\n3 2 -.2\r\n\r\n\t1 1 4e0\r\n2 2 45E-1\r\n2 1 -1\r\n",
@@ -112,54 +112,58 @@ TEST_CASE(
   check_refusals(
       {
           {"", "K.mtx", "no header", "%%MatrixMarket matrix coordinate real symmetric"},
-          {"\n" + good, "K.mtx:2", "no header", "symmetric"},
+          {"\n" + good_matrix, "K.mtx:2", "no header", "symmetric"},
           {"3 3 1\n1 1 1\n", "K.mtx:1", "\"3 3 1\"", "%%MatrixMarket matrix"},
-          {replaced(good, "symmetric", "general"), "K.mtx:1", "\"%%MatrixMarket matrix coordinate real gener",
-           "real symmetric"},
-          {replaced(good, "symmetric", "skew-symmetric"), "K.mtx:1", "\"", "real symmetric"},
-          {replaced(good, "real", "complex"), "K.mtx:1", "\"", "real symmetric"},
-          {replaced(good, "real", "pattern"), "K.mtx:1", "\"", "real symmetric"},
-          {replaced(good, "coordinate", "array"), "K.mtx:1", "\"", "coordinate"},
-          {replaced(good, "symmetric", "symmetric twice"), "K.mtx:1", "\"", "real symmetric"},
+          {replaced(good_matrix, "symmetric", "general"), "K.mtx:1",
+           "\"%%MatrixMarket matrix coordinate real gener", "real symmetric"},
+          {replaced(good_matrix, "symmetric", "skew-symmetric"), "K.mtx:1", "\"", "real symmetric"},
+          {replaced(good_matrix, "real", "complex"), "K.mtx:1", "\"", "real symmetric"},
+          {replaced(good_matrix, "real", "pattern"), "K.mtx:1", "\"", "real symmetric"},
+          {replaced(good_matrix, "coordinate", "array"), "K.mtx:1", "\"", "coordinate"},
+          {replaced(good_matrix, "symmetric", "symmetric twice"), "K.mtx:1", "\"", "real symmetric"},
           {header, "K.mtx:1", "the end of the file", "rows, columns"},
           {header + "% only\n\n", "K.mtx:3", "the end of the file", "rows, columns"},
-          {replaced(good, "3 3 5", "3 3"), "K.mtx:2", "\"3 3\"", "rows, columns and the number"},
-          {replaced(good, "3 3 5", "3 4 5"), "K.mtx:2", "3 rows and 4 columns", "square"},
-          {replaced(good, "3 3 5", "0 0 5"), "K.mtx:2", "\"0\" for the rows", "from 1 to"},
-          {replaced(good, "3 3 5", "-3 3 5"), "K.mtx:2", "\"-3\" for the rows", "from 1 to"},
-          {replaced(good, "3 3 5", "3.0 3 5"), "K.mtx:2", "\"3.0\"", "a whole number"},
-          {replaced(good, "3 3 5", "99999999999 99999999999 5"), "K.mtx:2", "\"99999999999\"",
+          {replaced(good_matrix, "3 3 5", "3 3"), "K.mtx:2", "\"3 3\"", "rows, columns and the number"},
+          {replaced(good_matrix, "3 3 5", "3 4 5"), "K.mtx:2", "3 rows and 4 columns", "square"},
+          {replaced(good_matrix, "3 3 5", "0 0 5"), "K.mtx:2", "\"0\" for the rows", "from 1 to"},
+          {replaced(good_matrix, "3 3 5", "-3 3 5"), "K.mtx:2", "\"-3\" for the rows", "from 1 to"},
+          {replaced(good_matrix, "3 3 5", "3.0 3 5"), "K.mtx:2", "\"3.0\"", "a whole number"},
+          {replaced(good_matrix, "3 3 5", "99999999999 99999999999 5"), "K.mtx:2", "\"99999999999\"",
            "to 2147483646"},
-          {replaced(good, "3 3 5", "2147483646 2147483646 5"), "K.mtx", "2147483646 rows and 5 entries",
-           "on the diagonal of every row"},
-          {replaced(good, "3 3 5", "3 3 2147483646"), "K.mtx:7", "the end of the file after 5 of 2147483646",
+          {replaced(good_matrix, "3 3 5", "2147483646 2147483646 5"), "K.mtx",
+           "2147483646 rows and 5 entries", "on the diagonal of every row"},
+          {replaced(good_matrix, "3 3 5", "3 3 2147483646"), "K.mtx:7",
+           "the end of the file after 5 of 2147483646", "line 2"},
+          {replaced(good_matrix, "3 3 5", "3 3 4"), "K.mtx:7", "more entries", "4, as line 2"},
+          {replaced(good_matrix, "3 3 5", "3 3 6"), "K.mtx:7", "the end of the file after 5 of 6", "line 2"},
+          {good_matrix.substr(0, good_matrix.size() - 6), "K.mtx:6", "the end of the file after 4 of 5",
            "line 2"},
-          {replaced(good, "3 3 5", "3 3 4"), "K.mtx:7", "more entries", "4, as line 2"},
-          {replaced(good, "3 3 5", "3 3 6"), "K.mtx:7", "the end of the file after 5 of 6", "line 2"},
-          {good.substr(0, good.size() - 6), "K.mtx:6", "the end of the file after 4 of 5", "line 2"},
-          {good.substr(0, good.size() - 1), "K.mtx:7", "\"3 3 1\" without a line's end", "a line's end"},
-          {replaced(good, "3 3 1\n", "3 3 \n"), "K.mtx:7", "\"3 3 \"", "row, column and value"},
-          {replaced(good, "2 1 -1", "1 2 -1"), "K.mtx:4", "row 1 and column 2, above", "lower triangle"},
-          {replaced(good, "2 1 -1", "0 1 -1"), "K.mtx:4", "\"0\" for the row", "from 1 to 3"},
-          {replaced(good, "2 1 -1", "4 1 -1"), "K.mtx:4", "\"4\" for the row", "from 1 to 3"},
-          {replaced(good, "2 1 -1", "2 x -1"), "K.mtx:4", "\"x\" for the column", "from 1 to 3"},
-          {replaced(good, "2 1 -1", "2 1 nan"), "K.mtx:4", "\"nan\" for an entry", "finite"},
-          {replaced(good, "2 1 -1", "2 1 -inf"), "K.mtx:4", "\"-inf\" for an entry", "finite"},
-          {replaced(good, "2 1 -1", "2 1 1e999"), "K.mtx:4", "\"1e999\"", "within the range"},
-          {replaced(good, "2 1 -1", "2 1 1.0D+00"), "K.mtx:4", "\"1.0D+00\"", "as 1.5 or -2e-3"},
-          {replaced(good, "2 1 -1", "2 1 +-1"), "K.mtx:4", "\"+-1\"", "finite"},
-          {replaced(good, "2 1 -1", "2 1 0x1p3"), "K.mtx:4", "\"0x1p3\"", "finite"},
-          {replaced(good, "2 1 -1", "2 1 1,5"), "K.mtx:4", "\"1,5\"", "finite"},
-          {replaced(good, "2 1 -1", "2 1"), "K.mtx:4", "\"2 1\"", "row, column and value"},
-          {replaced(good, "2 1 -1", "2 1 -1 0"), "K.mtx:4", "\"2 1 -1 0\"", "row, column and value"},
-          {replaced(good, "2 1 -1", "2 1 -1\x1b[31m" + std::string(5000, 'x')), "K.mtx:4", "\"-1\\x1b[31m",
-           "finite"},
-          {replaced(good, "2 1 -1", std::string(100000, '1') + " 1 1"), "K.mtx:4", "\"11111", "from 1 to 3"},
-          {replaced(good, "3 2 -2e-1", "2 1 7"), "K.mtx:6",
+          {good_matrix.substr(0, good_matrix.size() - 1), "K.mtx:7", "\"3 3 1\" without a line's end",
+           "a line's end"},
+          {replaced(good_matrix, "3 3 1\n", "3 3 \n"), "K.mtx:7", "\"3 3 \"", "row, column and value"},
+          {replaced(good_matrix, "2 1 -1", "1 2 -1"), "K.mtx:4", "row 1 and column 2, above",
+           "lower triangle"},
+          {replaced(good_matrix, "2 1 -1", "0 1 -1"), "K.mtx:4", "\"0\" for the row", "from 1 to 3"},
+          {replaced(good_matrix, "2 1 -1", "4 1 -1"), "K.mtx:4", "\"4\" for the row", "from 1 to 3"},
+          {replaced(good_matrix, "2 1 -1", "2 x -1"), "K.mtx:4", "\"x\" for the column", "from 1 to 3"},
+          {replaced(good_matrix, "2 1 -1", "2 1 nan"), "K.mtx:4", "\"nan\" for an entry", "finite"},
+          {replaced(good_matrix, "2 1 -1", "2 1 -inf"), "K.mtx:4", "\"-inf\" for an entry", "finite"},
+          {replaced(good_matrix, "2 1 -1", "2 1 1e999"), "K.mtx:4", "\"1e999\"", "within the range"},
+          {replaced(good_matrix, "2 1 -1", "2 1 1.0D+00"), "K.mtx:4", "\"1.0D+00\"", "as 1.5 or -2e-3"},
+          {replaced(good_matrix, "2 1 -1", "2 1 +-1"), "K.mtx:4", "\"+-1\"", "finite"},
+          {replaced(good_matrix, "2 1 -1", "2 1 0x1p3"), "K.mtx:4", "\"0x1p3\"", "finite"},
+          {replaced(good_matrix, "2 1 -1", "2 1 1,5"), "K.mtx:4", "\"1,5\"", "finite"},
+          {replaced(good_matrix, "2 1 -1", "2 1"), "K.mtx:4", "\"2 1\"", "row, column and value"},
+          {replaced(good_matrix, "2 1 -1", "2 1 -1 0"), "K.mtx:4", "\"2 1 -1 0\"", "row, column and value"},
+          {replaced(good_matrix, "2 1 -1", "2 1 -1\x1b[31m" + std::string(5000, 'x')), "K.mtx:4",
+           "\"-1\\x1b[31m", "finite"},
+          {replaced(good_matrix, "2 1 -1", std::string(100000, '1') + " 1 1"), "K.mtx:4", "\"11111",
+           "from 1 to 3"},
+          {replaced(good_matrix, "3 2 -2e-1", "2 1 7"), "K.mtx:6",
            "the place of row 2 and column 1 again, which line 4 has", "each place once"},
-          {replaced(good, "2 2 4.5", "2 2 -4.5"), "K.mtx:5", "-4.5 on the diagonal of row 2",
+          {replaced(good_matrix, "2 2 4.5", "2 2 -4.5"), "K.mtx:5", "-4.5 on the diagonal of row 2",
            "positive semidefinite"},
-          {replaced(good, "2 2 4.5", "2 2 0"), "K.mtx:4", "-1 in row 2, which has 0 on its diagonal",
+          {replaced(good_matrix, "2 2 4.5", "2 2 0"), "K.mtx:4", "-1 in row 2, which has 0 on its diagonal",
            "positive semidefinite"},
           {header + "2 2 1\n1 1 1\n", "K.mtx", "2 rows and 1 entries", "on the diagonal"},
       },
@@ -214,7 +218,7 @@ TEST_CASE("mutilated files are refused or read whole: no crash, no hang, no half
   random_numbers random(20261121);
   const std::string pieces[] = {"1", "-", "\n",  " ", "e", "nan", "3", "%", "999999999999",
                                 ".", "0", "\t2", "\0"};
-  const std::string files[] = {good, good_vector, sparse_vector, good_job};
+  const std::string files[] = {good_matrix, good_vector, sparse_vector, good_job};
   int accepted = 0;
   int refused = 0;
   for (int trial = 0; trial < 40000; ++trial) {
@@ -265,11 +269,11 @@ TEST_CASE("mutilated files are refused or read whole: no crash, no hang, no half
 }
 
 TEST_CASE("cut anywhere, a file is refused") {
-  for (const std::string& text : {good, good_vector, sparse_vector}) {
+  for (const std::string& text : {good_matrix, good_vector, sparse_vector}) {
     for (std::size_t length = 0; length < text.size(); ++length) {
       const std::string cut = text.substr(0, length);
       INFO(cut);
-      CHECK((text == good ? of_matrix(cut) : of_vector(cut)) != "accepted");
+      CHECK((text == good_matrix ? of_matrix(cut) : of_vector(cut)) != "accepted");
     }
   }
 }

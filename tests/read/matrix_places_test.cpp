@@ -37,12 +37,12 @@ assembled with_labels(std::vector<std::string> labels, std::vector<matrix_entry>
   return a;
 }
 
-const std::string good = "# the frame\n\na 0 0 # foot\nb\t1.5 -2e-3\n";
+const std::string good_places = "# the frame\n\na 0 0 # foot\nb\t1.5 -2e-3\n";
 
 }  // namespace
 
 TEST_CASE("coordinates are read: comments, blank lines, names of any kind, two of them or three") {
-  const auto flat = parse_coordinates(good, "K.xyz");
+  const auto flat = parse_coordinates(good_places, "K.xyz");
   REQUIRE(flat.size() == 2);
   CHECK(flat[0].name == "a");
   CHECK(flat[1].at == place{1.5, -2e-3, 0});
@@ -60,18 +60,18 @@ TEST_CASE(
       {
           {"", "K.xyz: ", "no node", "name x y"},
           {"# only\n\n", "K.xyz: ", "no node", "name x y"},
-          {good + "c 1\n", "K.xyz:5", "\"c 1\"", "name x y"},
-          {good + "c 1 # 2\n", "K.xyz:5", "\"c 1 # 2\"", "name x y"},
-          {good + "c 1 2 3 4\n", "K.xyz:5", "\"c 1 2 3 4\"", "name x y"},
-          {good + "c 1 2 3\n", "K.xyz:5", "3 coordinates for node \"c\"", "2, as the lines before"},
-          {"c 1 2 3\n" + good, "K.xyz:4", "2 coordinates for node \"a\"", "3, as the lines before"},
-          {good + "b 1 2\n", "K.xyz:5", "node \"b\" again, which line 4 has", "each node once"},
-          {good + "c nan 2\n", "K.xyz:5", "\"nan\" for x", "finite"},
-          {good + "c 1 inf\n", "K.xyz:5", "\"inf\" for y", "finite"},
+          {good_places + "c 1\n", "K.xyz:5", "\"c 1\"", "name x y"},
+          {good_places + "c 1 # 2\n", "K.xyz:5", "\"c 1 # 2\"", "name x y"},
+          {good_places + "c 1 2 3 4\n", "K.xyz:5", "\"c 1 2 3 4\"", "name x y"},
+          {good_places + "c 1 2 3\n", "K.xyz:5", "3 coordinates for node \"c\"", "2, as the lines before"},
+          {"c 1 2 3\n" + good_places, "K.xyz:4", "2 coordinates for node \"a\"", "3, as the lines before"},
+          {good_places + "b 1 2\n", "K.xyz:5", "node \"b\" again, which line 4 has", "each node once"},
+          {good_places + "c nan 2\n", "K.xyz:5", "\"nan\" for x", "finite"},
+          {good_places + "c 1 inf\n", "K.xyz:5", "\"inf\" for y", "finite"},
           {"c 1 2 1e999\n", "K.xyz:1", "\"1e999\" for z", "finite"},
-          {good + "c 1 2,0\n", "K.xyz:5", "\"2,0\" for y", "as 1.5"},
-          {good + "c 1 2#\n", "K.xyz:5", "\"2#\" for y", "as 1.5"},
-          {good + "c 1 2", "K.xyz:5", "\"c 1 2\" without a line's end", "a line's end"},
+          {good_places + "c 1 2,0\n", "K.xyz:5", "\"2,0\" for y", "as 1.5"},
+          {good_places + "c 1 2#\n", "K.xyz:5", "\"2#\" for y", "as 1.5"},
+          {good_places + "c 1 2", "K.xyz:5", "\"c 1 2\" without a line's end", "a line's end"},
           {std::string("\x7f"
                        "ELF\x02\0\0\0\n",
                        9),
@@ -79,7 +79,7 @@ TEST_CASE(
           {std::string(200000, 'q') + " 1 2 3 4 5\n", "K.xyz:1", "\"qqq", "name x y"},
       },
       of_coordinates);
-  CHECK(of_coordinates(good) == "accepted");
+  CHECK(of_coordinates(good_places) == "accepted");
 }
 
 TEST_CASE("a mesh or coordinates that are too large are refused before they are parsed, as are folders") {
@@ -193,7 +193,7 @@ TEST_CASE("mutilated coordinates are refused or read whole: no crash, no hang") 
   const std::string pieces[] = {"1", "-", "\n", " ", "e", "nan", "3,", "999999999999", ".", "#", ","};
   int refused = 0;
   for (int trial = 0; trial < 10000; ++trial) {
-    std::string text = good;
+    std::string text = good_places;
     for (int change = random.whole(1, 3); change > 0; --change) {
       const std::size_t at = random.whole(0, static_cast<int>(text.size()));
       if (random.whole(0, 2) == 0) {
@@ -399,13 +399,13 @@ TEST_CASE("every mistake in an input file is refused with its line, what was fou
 
 TEST_CASE("mutilated meshes are refused or read whole: no crash, no hang") {
   random_numbers random(20261122);
-  const std::string good =
+  const std::string good_mesh =
       nodes_text(8) + element_text("C3D8", 8) + "*INCLUDE,INPUT=x\n*ELEMENT,TYPE=S3\n1,2,3\n";
   const std::string pieces[] = {"1", "-", "\n", " ", "e", "nan", "3,", "*", "999999999999",
                                 ".", "#", ",",  "**"};
   int refused = 0;
   for (int trial = 0; trial < 10000; ++trial) {
-    std::string text = good;
+    std::string text = good_mesh;
     for (int change = random.whole(1, 3); change > 0; --change) {
       const std::size_t at = random.whole(0, static_cast<int>(text.size()));
       if (random.whole(0, 2) == 0) {

@@ -14,6 +14,7 @@
 #include "contct/read/problem_file.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/result_json.hpp"
+#include "read/small_matrix.hpp"
 #include "support/beams.hpp"
 #include "support/matrices.hpp"
 #include "support/scratch_folder.hpp"
@@ -131,7 +132,7 @@ void check_same(const run_of_problem& native, const run_of_problem& matrix) {
   }
 }
 
-std::string message_of(const std::string& path) {
+std::string message_of_structure(const std::string& path) {
   try {
     (void)structure_of(read_problem(path));
   } catch (const std::exception& e) {
@@ -140,8 +141,6 @@ std::string message_of(const std::string& path) {
   return "accepted";
 }
 
-const char* const small_matrix =
-    "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 1\n";
 const std::string small_problem =
     "[matrix]\n"                                    // 1
     "stiffness = \"K.mtx\"\n"                       // 2
@@ -157,7 +156,7 @@ const std::string small_problem =
     "[[step]]\n"                                    // 12
     "point = [ { dof = \"c\", value = -3.0 } ]\n";  // 13
 
-std::string with(const std::string& piece, const std::string& mistake) {
+std::string small_with(const std::string& piece, const std::string& mistake) {
   std::string text = small_problem;
   return text.replace(text.find(piece), piece.size(), mistake);
 }
@@ -262,7 +261,7 @@ TEST_CASE("what is given on a matrix is read: springs, lists of dofs, loads from
   (void)here.write("f.mtx", text_of(std::vector<double>{0, 1, -2}));
   const problem p = read_problem(here.write(
       "p.toml",
-      with("dof = \"a\"", "dofs = [\"a\", \"b\"]") +
+      small_with("dof = \"a\"", "dofs = [\"a\", \"b\"]") +
           "[[step]]\nload = \"f.mtx\"\npoint = [ { dof = \"b\", value = 4 } ]\n[[contact]]\ndof = "
           "\"b\"\nsurface = \"above\"\nface = 0\nstiffness = 1\n[[support]]\ndof = \"b\"\nfix = true\n"));
   REQUIRE(p.supports.size() == 3);
@@ -342,73 +341,79 @@ TEST_CASE(
        "exactly one of"},
       {"[matrix]\nstiffness = \"K.mtx\"\n[calculix]\njob = \"x\"\n", "p.toml:3:1: calculix",
        "this beside matrix", "exactly one of"},
-      {with("stiffness = \"K.mtx\"", ""), "p.toml:1:1: matrix.stiffness", "missing", "text"},
-      {with("stiffness = \"K.mtx\"", "stiffness = 3"), "p.toml:2:13: matrix.stiffness", "3", "text"},
-      {with("K.mtx", "none.mtx"), "none.mtx: cannot be read", "No such file", ""},
-      {with("K.mtx", "."), "a directory", "found a directory", "Matrix Market file"},
-      {with("K.mtx", "bad.mtx"), "bad.mtx:3", "\"x\" for an entry", "finite"},
-      {with("K.dof", "two.dof"), "p.toml:3:8: matrix.dofs", "2 labels in", "3, one for each row"},
-      {with("dofs = \"K.dof\"\n", "labels = \"K.dof\"\n"), "p.toml:3:1: matrix.labels", "unknown",
+      {small_with("stiffness = \"K.mtx\"", ""), "p.toml:1:1: matrix.stiffness", "missing", "text"},
+      {small_with("stiffness = \"K.mtx\"", "stiffness = 3"), "p.toml:2:13: matrix.stiffness", "3", "text"},
+      {small_with("K.mtx", "none.mtx"), "none.mtx: cannot be read", "No such file", ""},
+      {small_with("K.mtx", "."), "a directory", "found a directory", "Matrix Market file"},
+      {small_with("K.mtx", "bad.mtx"), "bad.mtx:3", "\"x\" for an entry", "finite"},
+      {small_with("K.dof", "two.dof"), "p.toml:3:8: matrix.dofs", "2 labels in", "3, one for each row"},
+      {small_with("dofs = \"K.dof\"\n", "labels = \"K.dof\"\n"), "p.toml:3:1: matrix.labels", "unknown",
        "stiffness, dofs, coordinates"},
-      {with("[[support]]", "coordinates = \"K.xyz\"\n[[support]]"), "p.toml:4:15: matrix.coordinates",
+      {small_with("[[support]]", "coordinates = \"K.xyz\"\n[[support]]"), "p.toml:4:15: matrix.coordinates",
        "no node in", "before the last dot"},
-      {with("[[support]]", "coordinates = \"bad.xyz\"\n[[support]]"), "bad.xyz:2", "\"nan\" for y", "finite"},
-      {with("[[support]]", "coordinates = \"none.xyz\"\n[[support]]"), "none.xyz: cannot be read",
+      {small_with("[[support]]", "coordinates = \"bad.xyz\"\n[[support]]"), "bad.xyz:2", "\"nan\" for y",
+       "finite"},
+      {small_with("[[support]]", "coordinates = \"none.xyz\"\n[[support]]"), "none.xyz: cannot be read",
        "No such file", ""},
-      {with("[[support]]", "coordinates = 3\n[[support]]"), "p.toml:4:15: matrix.coordinates", "3", "text"},
-      {with("[[support]]", "mesh = \"K.xyz\"\n[[support]]"), "p.toml:4:1: matrix.mesh", "unknown",
+      {small_with("[[support]]", "coordinates = 3\n[[support]]"), "p.toml:4:15: matrix.coordinates", "3",
+       "text"},
+      {small_with("[[support]]", "mesh = \"K.xyz\"\n[[support]]"), "p.toml:4:1: matrix.mesh", "unknown",
        "stiffness, dofs"},
-      {with("[[support]]", "free_motions = 7\n[[support]]"), "p.toml:4:16: matrix.free_motions", "7",
+      {small_with("[[support]]", "free_motions = 7\n[[support]]"), "p.toml:4:16: matrix.free_motions", "7",
        "from 0 to 6"},
-      {with("dof = \"a\"", "dof = \"1\""), "p.toml:5:7: support[1].dof", "\"1\"", "a label of"},
-      {with("dof = \"a\"", "dof = 1"), "p.toml:5:7: support[1].dof", "1", "a label of"},
-      {with("dof = \"a\"", "dofs = []"), "p.toml:5:8: support[1].dofs", "an empty array", "a list of labels"},
-      {with("dof = \"a\"", "dofs = [\"a\", \"x\"]"), "p.toml:5:14: support[1].dofs[2]", "\"x\"",
+      {small_with("dof = \"a\"", "dof = \"1\""), "p.toml:5:7: support[1].dof", "\"1\"", "a label of"},
+      {small_with("dof = \"a\"", "dof = 1"), "p.toml:5:7: support[1].dof", "1", "a label of"},
+      {small_with("dof = \"a\"", "dofs = []"), "p.toml:5:8: support[1].dofs", "an empty array",
+       "a list of labels"},
+      {small_with("dof = \"a\"", "dofs = [\"a\", \"x\"]"), "p.toml:5:14: support[1].dofs[2]", "\"x\"",
        "a label of"},
-      {with("dof = \"a\"", "node = 1"), "p.toml:5:1: support[1].node", "unknown", "dof, dofs, fix, spring"},
-      {with("spring = 2.0", "spring = 2.0\nfix = true"), "p.toml:4:1: support[1]", "both fix and spring",
-       "one of them"},
-      {with("spring = 2.0", ""), "p.toml:4:1: support[1]", "neither fix nor spring", "one of them"},
-      {with("spring = 2.0", "fix = false"), "p.toml:6:7: support[1].fix", "false", "true"},
-      {with("spring = 2.0", "fix = [\"w\"]"), "p.toml:6:7: support[1].fix", "an array of 1", "true"},
-      {with("spring = 2.0", "spring = -2.0"), "p.toml:6:10: support[1].spring", "-2", "greater than 0"},
-      {with("dof = \"c\"\n", "dof = \"d\"\n"), "p.toml:8:7: contact[1].dof", "\"d\"", "a label of"},
-      {with("dof = \"c\"\n", "node = 3\n"), "p.toml:8:1: contact[1].node", "unknown", "dof, surface"},
-      {with("[matrix]\n", "[matrix]\nstorage = \"skyline\"\n"), "p.toml:2:11: matrix.storage", "\"skyline\"",
-       "\"band\", or \"sparse\""},
-      {with("[matrix]\n", "[matrix]\nstorage = 3\n"), "p.toml:2:11: matrix.storage", "3", "\"band\""},
-      {with("face = -0.5", "face = 0.5"), "p.toml:10:8: contact[1].face", "inside", "at most 0"},
-      {with("[[step]]", "[[bed]]\nmodulus = 1\n[[step]]"), "p.toml:12:1: bed", "this with a matrix",
+      {small_with("dof = \"a\"", "node = 1"), "p.toml:5:1: support[1].node", "unknown",
+       "dof, dofs, fix, spring"},
+      {small_with("spring = 2.0", "spring = 2.0\nfix = true"), "p.toml:4:1: support[1]",
+       "both fix and spring", "one of them"},
+      {small_with("spring = 2.0", ""), "p.toml:4:1: support[1]", "neither fix nor spring", "one of them"},
+      {small_with("spring = 2.0", "fix = false"), "p.toml:6:7: support[1].fix", "false", "true"},
+      {small_with("spring = 2.0", "fix = [\"w\"]"), "p.toml:6:7: support[1].fix", "an array of 1", "true"},
+      {small_with("spring = 2.0", "spring = -2.0"), "p.toml:6:10: support[1].spring", "-2", "greater than 0"},
+      {small_with("dof = \"c\"\n", "dof = \"d\"\n"), "p.toml:8:7: contact[1].dof", "\"d\"", "a label of"},
+      {small_with("dof = \"c\"\n", "node = 3\n"), "p.toml:8:1: contact[1].node", "unknown", "dof, surface"},
+      {small_with("[matrix]\n", "[matrix]\nstorage = \"skyline\"\n"), "p.toml:2:11: matrix.storage",
+       "\"skyline\"", "\"band\", or \"sparse\""},
+      {small_with("[matrix]\n", "[matrix]\nstorage = 3\n"), "p.toml:2:11: matrix.storage", "3", "\"band\""},
+      {small_with("face = -0.5", "face = 0.5"), "p.toml:10:8: contact[1].face", "inside", "at most 0"},
+      {small_with("[[step]]", "[[bed]]\nmodulus = 1\n[[step]]"), "p.toml:12:1: bed", "this with a matrix",
        "[[contact]]"},
-      {with("point = [ { dof = \"c\", value = -3.0 } ]", "uniform = 1"), "p.toml:13:1: step[1].uniform",
+      {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "uniform = 1"), "p.toml:13:1: step[1].uniform",
        "unknown", "point, load"},
-      {with("point = [ { dof = \"c\", value = -3.0 } ]", ""), "p.toml:12:1: step[1]", "without loads",
+      {small_with("point = [ { dof = \"c\", value = -3.0 } ]", ""), "p.toml:12:1: step[1]", "without loads",
        "point, load or both"},
-      {with("point = [ { dof = \"c\", value = -3.0 } ]", "load = \"f.mtx\""), "f.mtx:2", "2 rows",
+      {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "load = \"f.mtx\""), "f.mtx:2", "2 rows",
        "3, as the matrix has"},
-      {with("value = -3.0", "value = \"x\""), "p.toml:13:32: step[1].point[1].value", "\"x\"", "finite"},
-      {with("dof = \"c\", value", "dof = \"C\", value"), "p.toml:13:19: step[1].point[1].dof", "\"C\"",
+      {small_with("value = -3.0", "value = \"x\""), "p.toml:13:32: step[1].point[1].value", "\"x\"",
+       "finite"},
+      {small_with("dof = \"c\", value", "dof = \"C\", value"), "p.toml:13:19: step[1].point[1].dof", "\"C\"",
        "a label of"},
-      {with("value = -3.0 }", "value = 1e308 }, { dof = \"a\", value = 1e308 }"), "p.toml:12:1: step[1]",
-       "sum is not finite", "double"},
+      {small_with("value = -3.0 }", "value = 1e308 }, { dof = \"a\", value = 1e308 }"),
+       "p.toml:12:1: step[1]", "sum is not finite", "double"},
   };
   for (const bad_problem& b : all) {
-    const std::string message = message_of(here.write("p.toml", b.text));
+    const std::string message = message_of_structure(here.write("p.toml", b.text));
     INFO(b.text << "\n" << message);
     CHECK_THAT(message, Catch::Matchers::Contains(b.place));
     CHECK_THAT(message, Catch::Matchers::Contains(b.found));
     CHECK_THAT(message, Catch::Matchers::Contains(b.allowed));
     CHECK(message.find('\n') == std::string::npos);
   }
-  CHECK(message_of(here.write("p.toml", small_problem)) == "accepted");
-  CHECK_THAT(message_of(here.write("c.toml", "[calculix]\njob = \"none\"\n[[step]]\nload = \"f.mtx\"\n")),
-             Catch::Matchers::Contains("none.dof: cannot be read"));
+  CHECK(message_of_structure(here.write("p.toml", small_problem)) == "accepted");
+  CHECK_THAT(
+      message_of_structure(here.write("c.toml", "[calculix]\njob = \"none\"\n[[step]]\nload = \"f.mtx\"\n")),
+      Catch::Matchers::Contains("none.dof: cannot be read"));
 }
 
 TEST_CASE("a matrix that is no stiffness is refused where it is factored, with its file and what was found") {
   const scratch_folder here;
   (void)here.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
-  const std::string message = message_of(here.write(
+  const std::string message = message_of_structure(here.write(
       "p.toml", "[matrix]\nstiffness = \"K.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n"));
   CHECK_THAT(message, Catch::Matchers::Contains("K.mtx: the matrix is not positive semidefinite"));
   CHECK_THAT(message, Catch::Matchers::Contains("allowed: none below -1e-10"));

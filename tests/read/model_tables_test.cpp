@@ -13,6 +13,7 @@
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/refusals.hpp"
+#include "read/small_matrix.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace contct::app;
@@ -72,8 +73,6 @@ std::string message_of(const std::string& path) {
   return verdict([&] { (void)read_problem(path); });
 }
 
-const char* const small_matrix =
-    "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 1\n";
 const char* const a_step = "[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
 
 }  // namespace

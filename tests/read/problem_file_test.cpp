@@ -10,7 +10,7 @@ using namespace contct::app;
 
 namespace {
 
-std::string message_of(const std::string& text) {
+std::string message_of_text(const std::string& text) {
   return verdict([&] { (void)parse_problem(text, "pb.toml"); });
 }
 
@@ -51,7 +51,7 @@ TEST_CASE("every kind of bad input is refused with its place, the key, what was 
   REQUIRE(plates.size() >= 50);
   kinds.insert(kinds.end(), plates.begin(), plates.end());
   for (const bad_input& kind : kinds) {
-    const std::string message = message_of(kind.text);
+    const std::string message = message_of_text(kind.text);
     INFO(kind.what << "\n" << message);
     CHECK_THAT(message, Catch::Matchers::StartsWith("pb.toml:" + std::string(kind.place)));
     CHECK_THAT(message, Catch::Matchers::Contains(kind.key));
@@ -148,7 +148,8 @@ TEST_CASE("a pair on a fixed dof is taken with a warning: the listing may toggle
 }
 
 TEST_CASE("text from a file cannot break the message: control characters are written out, length is cut") {
-  const std::string message = message_of(with("\"below\"", "\"" + std::string(5000, 'x') + "\\u001b[31m\""));
+  const std::string message =
+      message_of_text(with("\"below\"", "\"" + std::string(5000, 'x') + "\\u001b[31m\""));
   CHECK(message.size() < 200);
   CHECK(message.find('\033') == std::string::npos);
 }
@@ -156,7 +157,7 @@ TEST_CASE("text from a file cannot break the message: control characters are wri
 TEST_CASE("long text is cut between characters, not inside one") {
   std::string wide = "a";
   for (int i = 0; i < 30; ++i) wide += "\u4e2d";  // three bytes each: 60 is inside the twentieth
-  const std::string message = message_of(with("\"below\"", "\"" + wide + "\""));
+  const std::string message = message_of_text(with("\"below\"", "\"" + wide + "\""));
   CHECK_THAT(message, Catch::Matchers::Contains("\u4e2d...\"; allowed"));
 }
 
@@ -170,7 +171,7 @@ TEST_CASE("hostile files end in a message: binary, deep nesting, nothing at all"
                                     for (int i = 0; i < 300000; ++i) dotted += ".a";
                                     return dotted + " = 1\n";
                                   }()}) {
-    CHECK(message_of(text) != "accepted");
+    CHECK(message_of_text(text) != "accepted");
   }
 }
 
@@ -217,8 +218,8 @@ TEST_CASE("an even plate by its size, D as it is, springs on every dof, nu at bo
   CHECK(it.D == 2.0);
   REQUIRE(p.supports.size() == 3);
   CHECK(p.supports[2].spring == 3.0);
-  CHECK(message_of(plate_with("0.3", "-0.999")) == "accepted");
-  CHECK(message_of(plate_with("0.3", "0")) == "accepted");
+  CHECK(message_of_text(plate_with("0.3", "-0.999")) == "accepted");
+  CHECK(message_of_text(plate_with("0.3", "0")) == "accepted");
 }
 
 TEST_CASE(

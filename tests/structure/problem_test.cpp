@@ -1,8 +1,9 @@
 // One set of verbs for beams and plates.
+#include "contct/structure/problem.hpp"
+
 #include <string>
 
 #include "catch.hpp"
-#include "contct/structure/problem.hpp"
 
 using namespace contct::app;
 

@@ -1,0 +1,26 @@
+// A kernel that answers as a test likes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "contct/kernel/kernel.hpp"
+
+namespace contct::app {
+
+/// A kernel made for a test, of another rule than the listing's unless it says so.
+class made_kernel final : public kernel {
+ public:
+  explicit made_kernel(std::function<void(call<double>&)> answer, std::string rule = "made")
+      : facts_{"made", 8, std::move(rule), "", "", "", false}, answer_(std::move(answer)) {}
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+  void answer(call<double>& c) override { answer_(c); }
+  std::string take_text() override { return {}; }
+
+ private:
+  kernel_facts facts_;
+  std::function<void(call<double>&)> answer_;
+};
+
+}  // namespace contct::app
