@@ -242,7 +242,6 @@ std::string catch_test_of(const found_case& c) {
 #include <vector>
 
 #include "contct/kernel/call_inputs.hpp"
-#include "contct/lab/fuzz.hpp"
 #include "contct/numeric/bits.hpp"
 #include "contct/outside/registry.hpp"
 
