@@ -91,8 +91,12 @@ class branch_counts {
                       [this](branch b, std::size_t, bool outcome, Real, Real) { ++of(b, outcome); });
   }
 
-  [[nodiscard]] std::int64_t& of(branch b, bool outcome) { return counts_[2 * index_of(b) + outcome]; }
-  [[nodiscard]] std::int64_t of(branch b, bool outcome) const { return counts_[2 * index_of(b) + outcome]; }
+  [[nodiscard]] std::int64_t& of(branch b, bool outcome) {
+    return counts_[2 * index_of(b) + (outcome ? 1 : 0)];
+  }
+  [[nodiscard]] std::int64_t of(branch b, bool outcome) const {
+    return counts_[2 * index_of(b) + (outcome ? 1 : 0)];
+  }
   /// The rarest outcome's count: 0 means that some outcome of some IF was never reached.
   [[nodiscard]] std::int64_t rarest() const;
   /// Add the counts of another run.

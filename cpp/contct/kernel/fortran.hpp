@@ -16,14 +16,14 @@ using log_act = void();
 
 /// A compiler's build of the 8-byte listing, and the unit 26 of its run-time library.
 struct compiled_listing {
-  const char* kernel;    ///< name of the kernel
-  const char* compiler;  ///< for people
-  const char* flags;     ///< for people
-  bool text_by_meaning;  ///< its run-time library may write .25 for 0.25
-  call_r8* call;
+  const char* kernel = "";       ///< name of the kernel
+  const char* compiler = "";     ///< for people
+  const char* flags = "";        ///< for people
+  bool text_by_meaning = false;  ///< its run-time library may write .25 for 0.25
+  call_r8* call = nullptr;
   struct {
-    log_open* open;
-    log_act *flush, *rewind, *close;
+    log_open* open = nullptr;
+    log_act *flush = nullptr, *rewind = nullptr, *close = nullptr;
     bool is_open = false;
   } log;  ///< unit 26
 };

@@ -198,7 +198,10 @@ std::string words_of(const atlas_cell& c) {
 /// A band, a line and a point for each cell; `decade` is where a cell stands.
 template <class Decade>
 std::string curve(const panel& p, std::span<const atlas_cell> cells, const look& l, Decade decade) {
-  std::string upper, lower, line, points;
+  std::string upper;
+  std::string lower;
+  std::string line;
+  std::string points;
   for (const atlas_cell& c : cells) {
     const confidence sure = wilson(c.wrong, c.problems);
     const double x = p.x(decade(c));

@@ -242,6 +242,7 @@ std::string catch_test_of(const found_case& c) {
 #include <vector>
 
 #include "contct/kernel/call_inputs.hpp"
+#include "contct/numeric/bits.hpp"
 #include "contct/outside/registry.hpp"
 
 TEST_CASE("{} answers as {} does") {{

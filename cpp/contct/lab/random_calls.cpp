@@ -97,10 +97,13 @@ class drawn_call {
   }
 
   Real from_the_edges() {
-    constexpr Real least = limits::denorm_min(), normal = limits::min(), most = limits::max();
-    constexpr Real infinity = limits::infinity(), nan = limits::quiet_NaN(), gap = constants<Real>::epsgap;
-    constexpr std::array<Real, 12> edges = {0, least, normal / 2, normal,   gap,      0.5,
-                                            1, 3,     most,       infinity, most / 2, nan};
+    constexpr Real least = limits::denorm_min();
+    constexpr Real normal = limits::min();
+    constexpr Real gap = constants<Real>::epsgap;
+    constexpr Real most = limits::max();
+    constexpr Real nan = limits::quiet_NaN();
+    constexpr std::array<Real, 12> edges = {0, least, normal / 2,         normal,   gap, 0.5, 1,
+                                            3, most,  limits::infinity(), most / 2, nan};
     const Real x = edges[random_.whole(0, edges.size() - 1)];
     return random_.chance(0.5) ? x : -x;
   }
