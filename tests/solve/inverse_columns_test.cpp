@@ -7,7 +7,7 @@ using namespace contct::app;
 
 namespace {
 
-constexpr int beam_elements = 30;
+constexpr int length_in_elements = 30;
 
 /// K^-1 e at the pairs by a new factor.
 std::vector<double> column_by_factor(const linear_structure& s, const std::vector<char>& closed, int pair) {
@@ -19,7 +19,7 @@ std::vector<double> column_by_factor(const linear_structure& s, const std::vecto
 }  // namespace
 
 TEST_CASE("columns are those of K with the springs taken in since its factor, alone or in blocks") {
-  const linear_structure s = cantilever_over_stops(beam_elements);
+  const linear_structure s = cantilever_over_stops(length_in_elements);
   std::vector<double> near(s.pairs.size(), 1.0);
   for (const int pair : {3, 29, 12, 13, 20}) near[pair] = 0.5;
   for (const std::vector<double>& last_s : {std::vector<double>{}, near}) {
