@@ -85,7 +85,7 @@ class reference_solver::search {
   }
 
   /// n (w - c) > 0; a pair within `tie` of its face keeps its state.
-  pair_set pressed_at(const numbers& u, long double tie) const {
+  [[nodiscard]] pair_set pressed_at(const numbers& u, long double tie) const {
     pair_set set = set_;
     for (std::size_t i = 0; i < set.size(); ++i) {
       const contact_pair& p = structure_.pairs[i];
@@ -101,7 +101,7 @@ class reference_solver::search {
 
   /// Do the supports and the pairs that press with more than the rounding of the load hold the structure?
   /// Otherwise other places are as good: a structure lying on its faces without load, or balanced.
-  bool holds_firmly() const {
+  [[nodiscard]] bool holds_firmly() const {
     constexpr long double rounding = 1e-12L;
     pair_set firm(set_.size());
     for (std::size_t i = 0; i < firm.size(); ++i) {
@@ -112,7 +112,7 @@ class reference_solver::search {
   }
 
   /// Does no open pair stand in the way of this rigid motion?
-  bool nothing_stops(const numbers& motion) const {
+  [[nodiscard]] bool nothing_stops(const numbers& motion) const {
     const long double rounding = std::max(1e-10, structure_.rigid_rounding);
     long double largest = 0.0L;
     for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node)
@@ -207,7 +207,7 @@ class reference_solver::search {
 
   /// Where E is least along u_ + alpha p, alpha > 0: its slope grows with alpha and bends where a pair
   /// meets its face. Infinite when E falls for ever.
-  long double best_step(const numbers& p) const {
+  [[nodiscard]] long double best_step(const numbers& p) const {
     numbers minus_kp(p.size());
     multiply_minus(structure_.stiffness, p, minus_kp);
     long double slope = -dot(minus_kp, u_) - dot(load_, p);
@@ -241,13 +241,13 @@ class reference_solver::search {
 
   /// E falls for ever along p: there is no equilibrium, unless supports hold the structure or numbers went
   /// out of range.
-  outcome why_endless(const numbers& p) const {
+  [[nodiscard]] outcome why_endless(const numbers& p) const {
     if (structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
     const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
     return finite ? outcome::no_equilibrium : outcome::not_found;
   }
 
-  reference_answer end(outcome how, bool unique) const {
+  [[nodiscard]] reference_answer end(outcome how, bool unique) const {
     reference_answer answer{how, unique, {}, set_, factorisations_};
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       answer.displacement.push_back(static_cast<double>(u_[structure_.row_of(dof)]));

@@ -244,10 +244,10 @@ std::string unit_panel(const panel& p, const atlas& a, bool held) {
   const auto decade = [](const atlas_cell& c) { return std::log10(c.unit); };
   const std::pair<const char*, look> lines[] = {
       {"corrected", as_corrected}, {"fortran-r4", as_printed}, {"fortran", as_8_bytes}};
-  for (const auto& [kernel, l] : lines) {
+  for (const auto& line : lines) {
     std::vector<atlas_cell> cells = over_unit(a, held);
-    std::erase_if(cells, [&kernel](const atlas_cell& c) { return c.kernel != kernel; });
-    if (!cells.empty()) text += curve(p, cells, l, decade);
+    std::erase_if(cells, [&line](const atlas_cell& c) { return c.kernel != line.first; });
+    if (!cells.empty()) text += curve(p, cells, line.second, decade);
   }
   return text;
 }

@@ -93,7 +93,8 @@ double of_support(const problem& p, const measurement::step_record& s, const exp
 double of_pair(const problem& problem, const measurement::step_record& s, const expected_number& e) {
   if (e.pair < 1 || e.pair > static_cast<int>(problem.pairs.size())) return not_there;
   const contact_pair& p = problem.pairs[e.pair - 1];
-  const double w = s.u[p.node * dofs_per_node(problem.geometry)];
+  const int dof = p.node * dofs_per_node(problem.geometry);
+  const double w = s.u[dof];
   const int isep = s.isep[e.pair - 1];
   if (e.quantity == "state") return isep;
   if (e.quantity == "force") return force_of(p, w, isep == in_contact);
