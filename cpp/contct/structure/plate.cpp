@@ -57,14 +57,13 @@ bending_integrals integrate() {
     for (const auto& [t, dt] : gauss_points(3)) {
       const shape_curvatures c = curvatures_of_shapes(2 * s - 1, 2 * t - 1);
       const double area = 4 * ds * dt;
-      for (std::size_t i = 0; i < 12; ++i) {
+      for (std::size_t i = 0; i < 12; ++i)
         for (std::size_t k = 0; k < 12; ++k) {
           sum.xx_xx[i][k] += area * c.xx[i] * c.xx[k];
           sum.yy_yy[i][k] += area * c.yy[i] * c.yy[k];
           sum.xx_yy[i][k] += area * (c.xx[i] * c.yy[k] + c.yy[i] * c.xx[k]) / 2;
           sum.xy_xy[i][k] += area * c.xy[i] * c.xy[k];
         }
-      }
     }
   }
   return sum;

@@ -13,10 +13,7 @@ using element_matrix12 = std::array<element_vector12, 12>;
 
 /// An element of half width a (along x) and half height b.
 struct plate_element {
-  double a;
-  double b;
-  double D;
-  double nu;
+  double a, b, D, nu;
 };
 
 /// The stiffness matrix, exactly integrated, in the plate's dofs.
