@@ -177,10 +177,7 @@ class problem_reader {
     contact_pair p = read_face(t, face_below);
     if (shares_.empty()) shares_ = tributary_shares(problem_.geometry);
     const std::size_t before = problem_.pairs.size();
-    std::vector<int> at(nodes());
-    std::iota(at.begin(), at.end(), 0);
-    if (t.has("nodes")) at = t.numbers("nodes", nodes());
-    for (const int node : at) {
+    for (const int node : t.has("nodes") ? t.numbers("nodes", nodes()) : all_nodes()) {
       if (fixed_in_w(node)) continue;
       p.node = node;
       p.stiffness = modulus * shares_[node];
@@ -191,6 +188,12 @@ class problem_reader {
     }
     if (problem_.pairs.size() == before)
       t.refuse("only nodes that are fixed in w", "at least one node that can deflect");
+  }
+
+  [[nodiscard]] std::vector<int> all_nodes() const {
+    std::vector<int> numbers(nodes());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
   }
 
   [[nodiscard]] load read_step(const table_reader& t) const {
