@@ -181,7 +181,7 @@ class drawing {
     std::vector<double> u(f.size());
     for (int dof = 0; dof < s.dofs(); ++dof) u[s.row_of(dof)] = s.fixed[dof] != 0 ? 0.0 : f[dof];
     solve_with(s.stiffness.band(), u);
-    for (int node = 0; node < node_count(); ++node) w[node] = u[s.row_of(node * stride)];
+    for (std::size_t node = 0; node < w.size(); ++node) w[node] = u[s.row_of(node * stride)];
     return w;
   }
 
