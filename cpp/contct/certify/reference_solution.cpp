@@ -95,7 +95,7 @@ class reference_solver::search {
     return set;
   }
 
-  rigid_rank held_by(const pair_set& set) const {
+  [[nodiscard]] rigid_rank held_by(const pair_set& set) const {
     return structure_.held_by([&set](std::size_t i) { return set[i] != 0; });
   }
 
