@@ -209,7 +209,8 @@ struct spring_law {
   double stiffness;
   double from;  // the shortening at which it begins to press, from the undeformed structure on
   bool both_ways;
-  auto operator<=>(const spring_law&) const = default;
+  // clang-tidy 14 takes the comparison of a bool for a conversion.
+  auto operator<=>(const spring_law&) const = default;  // NOLINT(modernize-use-nullptr,*-bool-conversion)
 };
 
 /// A spring between a node of the structure, from 0, and a node on the ground above or below it.

@@ -161,8 +161,8 @@ void result_json::step_ended(const step_state& s) {
   const load total = loads_.at(s.step, s.fraction);
   const element_results results = results_in_elements(m, total, s.displacement);
   const std::vector<double> reacting = reactions(m, total, problem_.supports, s.displacement);
-  std::vector<double> w;
-  for (int node = 0; node < nodes(m); ++node) w.push_back(deflection_of(problem_, s.displacement, node));
+  std::vector<double> w(nodes(m));
+  for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(problem_, s.displacement, node);
   json members = {{"step", s.step},
                   {"fraction", s.fraction},
                   {"increments", nullptr},

@@ -62,8 +62,6 @@ class page_writer {
  public:
   explicit page_writer(const finished_run& r)
       : run_(r), what_(r.what), loads_(r.what), shown_(choose_parts(r)) {
-    beam_ = std::get_if<beam>(&what_.geometry.kind);
-    plate_ = std::get_if<plate>(&what_.geometry.kind);
     const auto* const a = std::get_if<assembled>(&what_.geometry.kind);
     if (a == nullptr || !a->places.known()) return;
     mesh_ = a;
@@ -325,8 +323,8 @@ class page_writer {
   const problem& what_;
   load_path loads_;
   shown_parts shown_;
-  const beam* beam_ = nullptr;
-  const plate* plate_ = nullptr;
+  const beam* beam_ = std::get_if<beam>(&what_.geometry.kind);
+  const plate* plate_ = std::get_if<plate>(&what_.geometry.kind);
   const assembled* mesh_ = nullptr;    // whose nodes have places
   std::vector<dofs_of_node> of_node_;  // of the mesh
   std::vector<int> axes_;
