@@ -89,12 +89,12 @@ case $other in *OpenBLAS*) ;; *) fail "the other is not OpenBLAS" ;; esac
 # Solves differ in their last digits. Had no path got other numbers, one LAPACK would have served both.
 [ $different -gt 0 ] || fail "every call's numbers are the same under both: it was one LAPACK"
 
-for room in conform structure path check; do
+for room in compare structure path certify lab; do
   said=$(under openblas "$build/tests/contct_${room}_tests" 2>&1)
   [ $? = 0 ] || { fail "contct_${room}_tests fails under OpenBLAS"; echo "$said" | tail -n 40; }
   echo "   contct_${room}_tests under OpenBLAS: $(echo "$said" | grep -a 'assertion' | tail -n 1)"
 done
-LD_LIBRARY_PATH=$openblas ldd "$build/tests/contct_check_tests" | grep -qF "$openblas" || fail "contct_check_tests did not run under OpenBLAS"
+LD_LIBRARY_PATH=$openblas ldd "$build/tests/contct_certify_tests" | grep -qF "$openblas" || fail "contct_certify_tests did not run under OpenBLAS"
 
 [ $wrong = 0 ] || { echo "two LAPACKs: FAILED"; exit 1; }
 echo "two LAPACKs: passed: $problems problems, kernels $kernels, 0 mismatches in $reference_calls and $openblas_calls calls;" \
