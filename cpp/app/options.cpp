@@ -259,7 +259,7 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
   p.add(c, takes::word, "--engine", o.engine, "How the stiffness equations are solved", engines)
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");
-  p.add_quiet(c, o.quiet);
+  option_parser::add_quiet(c, o.quiet);
 }
 
 void declare_new(option_parser& p) {
@@ -313,7 +313,7 @@ void declare_atlas(option_parser& p) {
   p.add_file(c, "--csv", o.csv, "Write the cells to this file (- is standard output)");
   p.add_file(c, "--json", o.json, "Write the cells to this file (- is standard output)");
   p.add_file(c, "--svg", o.svg, "Draw the picture to this file (- is standard output)");
-  p.add_quiet(c, o.quiet);
+  option_parser::add_quiet(c, o.quiet);
 }
 
 void declare_export(option_parser& p) {
