@@ -54,7 +54,9 @@ def slider_moves(name):
     last = len(frames()) - 1
     state = lambda: browser.value("document.getElementById('state').textContent")
     value = lambda: int(browser.value("document.getElementById('slider').value"))
-    check(value() == last, f"{name}: the page opens at the end")
+    largest = browser.value("Math.max(...frames.map(f => Math.abs(f.largest.w)))")
+    check(browser.value("Math.abs(frames[current].largest.w)") == largest, f"{name}: the page opens at the largest deflection")
+    go_to(last)
     browser.value("document.getElementById('slider').focus()")
     said = [state()]
     for key, expected in (("Home", 0), ("ArrowRight", 1), ("ArrowRight", min(2, last)), ("ArrowLeft", min(2, last) - 1), ("End", last)):
@@ -177,7 +179,7 @@ def check_structure(name, step):
     off = browser.value("""(() => {
       const layout = meshLayout(widthOf(byId('picture'))), v = geometry.views[view], f = frames[current];
       const marks = [...document.querySelectorAll('#picture .pair-open, #picture .pair-closed, #picture .pair-face')];
-      return Math.max(...data.pairs.map((p, i) => {
+      return Math.max(...leastLoadedFirst(pairsOf(f).filter((p) => p.at !== null)).map((p, i) => {
         const box = marks[i].getBBox(), n = p.at;
         const u = [0, 0, 0];
         geometry.axes.forEach((a, k) => { u[a] = f.u[n * geometry.axes.length + k] * geometry.unit; });
@@ -252,6 +254,52 @@ def nothing_overlaps(name):
         if width == 360:
             browser.picture(os.path.join(work, f"{name}-narrow.png"))
     quiet(name)
+
+
+# ---- a part of the beam, and the path of another node ----
+
+def can_be_zoomed(name):
+    open_page(name, width=1000)
+    title = lambda: browser.value("document.querySelector('#picture .panel-title').textContent")
+    marks = lambda: browser.value("document.querySelectorAll('#picture .pair-open, #picture .pair-closed, #picture .pair-face').length")
+    whole, all_marks = title(), marks()
+    for button in ("zoom-in", "zoom-in", "right"):
+        browser.value(f"document.getElementById('{button}').click()")
+    check(0 < marks() < all_marks, f"{name}: a part of the beam shows a part of its pairs: {marks()} of {all_marks}")
+    check(title() != whole, f"{name}: the magnification that is drawn follows: {title()}")
+    drawn = browser.value("part")
+    check(abs(drawn[1] - drawn[0] - 0.25) < 1e-9 and abs(drawn[0] - 0.4375) < 1e-9, f"{name}: twice closer, a quarter to the right: {drawn}")
+    found = browser.value(overlaps)
+    check(found == [], f"{name}: zoomed, labels lie on each other: {found[:4]}")
+    browser.value("document.getElementById('whole').click()")
+    check((title(), marks()) == (whole, all_marks), f"{name}: and back")
+    quiet(name)
+
+
+def another_node_can_be_followed(name):
+    open_page(name)
+    result = result_of(name)["steps"][-1]["w"]
+    go_to(len(frames()) - 1)
+    for node in (1, len(result) // 3):
+        browser.value(f"(() => {{ const s = document.getElementById('chart-node'); s.value = '{node}'; s.dispatchEvent(new Event('change')); }})()")
+        check(browser.value("followed.read(frames[current])") == result[node - 1], f"{name}: the path of node {node} ends at its deflection")
+        check(f"node {node}," in browser.value("document.querySelector('#chart svg').getAttribute('aria-label')"), f"{name}: the path of node {node} says so")
+    quiet(name)
+
+
+def most_loaded_pair_is_on_top(name):
+    open_page(name)
+    wrong = browser.value("""frames.flatMap((f, i) => { show(i);
+        const marks = [...document.querySelectorAll('#picture .pair-open, #picture .pair-face, #picture .pair-closed')].map(m => m.classList[0]);
+        const order = marks.map(m => ['pair-open', 'pair-face', 'pair-closed'].indexOf(m));
+        return order.some((o, k) => k > 0 && o < order[k - 1]) ? [i] : []; })""")
+    check(wrong == [], f"{name}: a separated pair is drawn over one in contact in states {wrong}")
+
+
+def axes_have_ticks(name):
+    open_page(name)
+    found = browser.value("[[0, 1], [-0.47, 0.47], [-1e-9, 3e-9], [0, 7e12], [-102, 102], [0.99, 1.01]].map(([a, b]) => ticks(a, b, 4).length)")
+    check(min(found) >= 3 and max(found) <= 7, f"{name}: every axis has three ticks or more: {found}")
 
 
 def looks_differ_in_shape(name):
@@ -405,6 +453,12 @@ try:
     colours("pb05")
     looks_differ_in_shape("pb07")
     looks_differ_in_shape("pp05a")
+    can_be_zoomed("pb05")
+    for problem in ("pb07", "pp03e"):
+        another_node_can_be_followed(problem)
+    for problem in ("pb05", "pp05a", "two-faces"):
+        most_loaded_pair_is_on_top(problem)
+    axes_have_ticks("pb07")
     playing("pb07", False)
     playing("pb07", True)
     nothing_overlaps("free")

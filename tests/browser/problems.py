@@ -16,6 +16,8 @@ above = '[[contact]]\nnode = 5\nsurface = "above"\nface = 0.001\nstiffness = 5.0
 steps = '[[step]]\npoint = [ { node = 9, w = -60.0 } ]\n[[step]]\npoint = [ { node = 9, w = 60.0, theta = 5.0 } ]\n'
 write("alone", 'title = "One kernel"\n' + cantilever + stop + above + steps)
 write("own-ways", cantilever + stop + above + steps)
+# The pair in contact first, so that drawing in file order would hide it behind the separated one.
+write("two-faces", cantilever + stop + stop.replace('"below"', '"above"').replace("-0.004", "0.01") + steps)
 write("no-pairs", cantilever + "[[step]]\nuniform = -3.0\n")
 write("free", 'title = "A free beam & <b>markup</b> \\"quoted\\" </script><script>alert(1)</script> {{data}}"\n'
       "[beam]\nlength = 12.0\nelements = 48\nEI = 1000.0\n[[bed]]\nmodulus = 40.0\nface = 0.0\n"

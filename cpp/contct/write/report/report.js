@@ -65,6 +65,11 @@ function pairOf(frame, i) {
 const lookWords = (p) => (p.look === "f" ? `at its face, ${p.closed ? "in contact" : "separated"}` : looks[p.look]);
 const pairsOf = (frame) => data.pairs.map((_, i) => pairOf(frame, i));
 
+// Several pairs may stand at one node: their marks are drawn one over another, the one that carries most last.
+const drawingOrder = { o: 0, f: 1, c: 2 };
+const leastLoadedFirst = (pairs) =>
+  [...pairs].sort((a, b) => drawingOrder[a.look] - drawingOrder[b.look] || Math.abs(a.force) - Math.abs(b.force));
+
 // ---- SVG ----
 
 const svgSpace = "http://www.w3.org/2000/svg";
@@ -105,13 +110,17 @@ function roundUp(x) {
   return Number(([1, 2, 5, 10].find((d) => d * power >= x * (1 - 1e-12)) * power).toPrecision(3));
 }
 
-// Round numbers from one to the other, at most so many and one.
+// Round numbers from one to the other: at most so many and one, but never fewer than three.
 function ticks(from, to, most) {
-  const list = [];
-  if (!(to > from) || !isFinite(to - from)) return list;
-  const step = roundUp((to - from) / Math.max(1, most));
-  for (let i = Math.ceil(from / step - 1e-9); i * step <= to + step * 1e-9; ++i) list.push(i * step);
-  return list;
+  if (!(to > from) || !isFinite(to - from)) return [];
+  const multiples = (step) => {
+    const list = [];
+    for (let i = Math.ceil(from / step - 1e-9); i * step <= to + step * 1e-9; ++i) list.push(i * step);
+    return list;
+  };
+  let step = roundUp((to - from) / Math.max(1, most));
+  while (multiples(step).length < 3) step = roundDown(0.99 * step);
+  return multiples(step);
 }
 
 function spread(values) {
@@ -146,10 +155,40 @@ function pairMark(look, x, y, r, closed = false) {
   return svg("path", { d: `M${x} ${y - d}L${x + d} ${y}L${x} ${y + d}L${x - d} ${y}Z`, class: closed ? "pair-face in-contact" : "pair-face" });
 }
 
+// A word where no other stands, and inside the picture; otherwise none.
+function wordsInFreePlaces(root, width, height) {
+  const boxes = [];
+  return (x, y, words, kind) => {
+    const half = 4.4 * words.length + 2;
+    const box = [x - half, y - 13, x + half, y + 5];
+    const free = box[0] >= 2 && box[2] <= width - 2 && box[1] >= 24 && box[3] <= height - 4 &&
+      boxes.every((b) => b[0] >= box[2] || b[2] <= box[0] || b[1] >= box[3] || b[3] <= box[1]);
+    if (!free) return false;
+    boxes.push(box);
+    root.append(label(x, y, words, { "text-anchor": "middle", class: `${kind} halo` }));
+    return true;
+  };
+}
+
 // ---- the beam ----
 
 const margin = { left: 74, right: 26 };
 let magnification = null;  // as chosen; null: as fits
+let part = [0, 1];         // of the beam's length that is drawn
+
+// Draw more or less of the beam: its middle stays, but for the beam's ends.
+function zoom(times) {
+  const middle = (part[0] + part[1]) / 2;
+  const length = Math.min(1, Math.max(1e-3, (part[1] - part[0]) * times));
+  move(middle - length / 2 - part[0], length);
+}
+
+function move(by, length = part[1] - part[0]) {
+  const from = Math.min(1 - length, Math.max(0, part[0] + by));
+  part = [from, from + length];
+  for (const id of ["whole", "zoom-out", "left", "right"]) byId(id).disabled = length === 1;
+  draw(frames[current]);
+}
 
 // What the pictures of a beam have in common, once.
 const beam = geometry.kind !== "beam" ? null : (() => {
@@ -239,15 +278,15 @@ function drawFace(p, x, half, Y, top, bottom) {
   return [g, y];
 }
 
-function drawPairs(root, f, X, Y, top, bottom) {
-  const pairs = pairsOf(f);
+function drawPairs(root, f, X, Y, top, bottom, say, [from, to]) {
+  const pairs = pairsOf(f).filter((p) => p.x >= from && p.x <= to);
   if (pairs.length === 0) return;
   const xs = pairs.map((p) => X(p.x)).sort((a, b) => a - b);
   const gaps = xs.slice(1).map((x, i) => x - xs[i]).filter((d) => d > 0.01);
   const room = gaps.length > 0 ? Math.min(...gaps) : 60;
   const half = Math.max(1, Math.min(16, room * 0.36));  // of a face
   const r = Math.max(1.6, Math.min(5, room * 0.3));
-  const numbered = room >= 34 && pairs.length <= 24;
+  const numbered = pairs.length <= 60;
   for (const p of pairs) {
     const x = X(p.x);
     const [face, y] = drawFace(p, x, half, Y, top, bottom);
@@ -262,13 +301,11 @@ function drawPairs(root, f, X, Y, top, bottom) {
     if (numbered) {
       const words = `${p.pair}`;
       const at = start + out * (out > 0 ? 14 : 6);
-      root.append(label(x, at, words, { "text-anchor": "middle", class: "axis-word halo" }));
-      if (p.look === "c" && room >= 60) {
-        root.append(label(x, at + out * 15, rough(p.force), { "text-anchor": "middle", class: "value halo" }));
-      }
+      const force = p.look === "c" && room >= 60 ? rough(p.force) : "";
+      if (say(x, at, words, "axis-word") && force !== "") say(x, at + out * 18, force, "value");
     }
   }
-  for (const p of pairs) {
+  for (const p of leastLoadedFirst(pairs)) {
     const mark = pairMark(p.look, X(p.x), Y(p.w), r, p.closed);
     mark.append(svg("title", {}, `Pair ${p.pair}, node ${p.node}, ${lookWords(p)}: ` +
       (p.closed ? `force ${short(p.force)}` : `gap ${short(p.gap)}`)));
@@ -276,7 +313,7 @@ function drawPairs(root, f, X, Y, top, bottom) {
   }
 }
 
-function drawLoads(root, f, X, Y) {
+function drawLoads(root, f, X, Y, say, [from, to]) {
   const longest = 34;
   if (f.q && beam.spread > 0) {
     const n = f.q.length;
@@ -291,6 +328,7 @@ function drawLoads(root, f, X, Y) {
     root.append(path(tails, "load-line"));
   }
   for (const [x, , dof, value, node] of f.points) {
+    if (x < from || x > to) continue;
     const y = Y(deflectionAt(f, x));
     if (dof === 0 && beam.point > 0) {
       const size = (longest * 1.3 * value) / beam.point;
@@ -298,46 +336,47 @@ function drawLoads(root, f, X, Y) {
       const g = arrow(X(x), start, 0, -size, "load");
       g.append(svg("title", {}, `Load ${short(value)} at node ${node}`));
       if (value !== 0) {
-        root.append(g, label(X(x), start + (size > 0 ? 15 : -6), rough(value),
-          { "text-anchor": X(x) > X(beam.to) - 30 ? "end" : X(x) < X(beam.from) + 30 ? "start" : "middle", class: "value halo" }));
+        root.append(g);
+        say(X(x), start + (size > 0 ? 15 : -6), rough(value), "value");
       }
     } else if (dof === 1 && value !== 0) {
       const turn = value > 0 ? 0 : 1;
       root.append(svg("path", { d: `M${X(x) + 13} ${y + 7}A15 15 0 1 ${turn ? 0 : 0} ${X(x) + 13} ${y - 7}`, class: "load-line", "stroke-width": 2 }),
-        label(X(x) + 17, y - 10, `${rough(value)} ${value > 0 ? "↺" : "↻"}`, { class: "value halo" }));
+        svg("title", {}, `Moment ${short(value)} at node ${node}`));
+      say(X(x), y - 20, `${rough(value)} ${value > 0 ? "↺" : "↻"}`, "value");
     }
   }
 }
 
-function drawBeamAxis(root, X, Y, bottom, width) {
-  for (const x of ticks(beam.from, beam.to, Math.floor(width / 75))) {
+function drawBeamAxis(root, X, bottom, width, [from, to]) {
+  for (const x of ticks(from, to, Math.floor(width / 75))) {
     root.append(line(X(x), bottom, X(x), bottom + 5, "zero"));
     root.append(label(X(x), bottom + 19, rough(x), { "text-anchor": "middle", class: "axis-word" }));
   }
-  root.append(line(X(beam.from), bottom, X(beam.to), bottom, "zero"));
+  root.append(line(X(from), bottom, X(to), bottom, "zero"));
 }
 
 // A strip under the beam with a quantity that may jump at the nodes.
-function drawStrip(root, f, X, top, height, name, title) {
+function drawStrip(root, f, X, top, height, name, title, [from, to]) {
   const values = f[name];
-  const narrow = X(beam.to) - X(beam.from) < 520;
+  const narrow = X(to) - X(from) < 520;
   const [low, high] = strips[name];
   const range = high - low || 1;
   const Y = (v) => top + 24 + ((high - v) / range) * (height - 34);
   for (const v of ticks(low, high, 4)) {
-    if (v !== 0) root.append(line(margin.left, Y(v), X(beam.to), Y(v), "grid"));
+    if (v !== 0) root.append(line(margin.left, Y(v), X(to), Y(v), "grid"));
     root.append(label(margin.left - 16, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
   }
-  root.append(line(margin.left, Y(0), X(beam.to), Y(0), "zero"));
+  root.append(line(margin.left, Y(0), X(to), Y(0), "zero"));
   const points = [];
   geometry.x.forEach((x, i) => {
     if (values.left[i] !== null) points.push([X(x), Y(values.left[i])]);
     if (values.right[i] !== null) points.push([X(x), Y(values.right[i])]);
   });
-  root.append(path([[X(beam.from), Y(0)], ...points, [X(beam.to), Y(0)]], name + "-area", "Z"));
-  root.append(path(points, name));
+  root.append(svg("g", { "clip-path": "url(#part)" },
+    path([[X(beam.from), Y(0)], ...points, [X(beam.to), Y(0)]], name + "-area", "Z"), path(points, name)));
   root.append(label(margin.left, top + 12, title, { class: "panel-title" }));
-  root.append(label(X(beam.to), top + 12, `${narrow ? "" : "largest "}${rough(values.largest)} at node ${values.node}`,
+  root.append(label(X(to), top + 12, `${narrow ? "" : "largest "}${rough(values.largest)} at node ${values.node}`,
     { "text-anchor": "end", class: "value" }));
 }
 
@@ -355,29 +394,38 @@ function drawBeam(f) {
   const [above, below] = [upper ? 92 : 74, lower ? 84 : 52];  // for loads and pairs' forces
   const fitting = fittingMagnification(width, room);
   const factor = magnification || fitting;
-  const scale = (width - margin.left - margin.right) / (beam.to - beam.from);
-  const X = (x) => margin.left + (x - beam.from) * scale;
+  const whole = (width - margin.left - margin.right) / (beam.to - beam.from);  // pixels a length, of all of it
+  const drawn = part.map((share) => beam.from + share * (beam.to - beam.from));
+  const [from, to] = drawn;
+  const scale = (width - margin.left - margin.right) / (to - from);
+  const X = (x) => margin.left + (x - from) * scale;
   const middle = (beam.high + beam.low) / 2;
-  const Y = (w) => above + room / 2 - (w - middle) * factor * scale;
+  const Y = (w) => above + room / 2 - (w - middle) * factor * whole;
   const bottom = above + room + below;
   const strip = 126;
   const wide = width >= 620;
   const height = bottom + 30 + 2 * (strip + 14);
   const root = canvas(holder, width, height, stateWords(f));
-  root.append(label(margin.left, 16, `Deflection, drawn × ${factor.toLocaleString("en", { maximumSignificantDigits: 3 })}`, { class: "panel-title" }));
-  const reach = room / 2 / (factor * scale);
+  const times = (factor * whole) / scale;
+  root.append(label(margin.left, 16, `Deflection, drawn × ${times.toLocaleString("en", { maximumSignificantDigits: 3 })}`, { class: "panel-title" }));
+  const reach = room / 2 / (factor * whole);
   for (const w of ticks(middle - reach, middle + reach, 4)) {
-    root.append(line(margin.left, Y(w), X(beam.to), Y(w), w === 0 ? "zero" : "grid"));
+    root.append(line(margin.left, Y(w), X(to), Y(w), w === 0 ? "zero" : "grid"));
     root.append(label(margin.left - 16, Y(w) + 4, rough(w), { "text-anchor": "end", class: "axis-word" }));
   }
-  root.append(line(X(beam.from), Y(0), X(beam.to), Y(0), "undeformed"));
-  for (const s of data.supports) root.append(drawSupport(s, f, X, Y));
-  root.append(path(deflectedLine(f, X, Y), "beam"));
-  drawLoads(root, f, X, Y);
-  drawPairs(root, f, X, Y, 20, bottom);
-  drawBeamAxis(root, X, Y, bottom, width);
-  drawStrip(root, f, X, bottom + 36, strip, "moment", wide ? "Moment M = EI w″, positive where it sags" : "M");
-  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", wide ? "Shear V = dM/dx: upward force of the left part on the right" : "V");
+  // What is beside the part that is drawn is cut off; at the beam's own ends marks have room.
+  const [left, right] = [part[0] === 0 ? 0 : margin.left, part[1] === 1 ? width : X(to)];
+  const inside = svg("g", { "clip-path": "url(#part)" });
+  root.append(svg("clipPath", { id: "part" }, svg("rect", { x: left, y: 0, width: right - left, height })), inside);
+  const say = wordsInFreePlaces(root, width, bottom);
+  inside.append(line(X(from), Y(0), X(to), Y(0), "undeformed"));
+  for (const s of data.supports) if (s.x >= from && s.x <= to) inside.append(drawSupport(s, f, X, Y));
+  inside.append(path(deflectedLine(f, X, Y), "beam"));
+  drawLoads(inside, f, X, Y, say, drawn);
+  drawPairs(inside, f, X, Y, 20, bottom, say, drawn);
+  drawBeamAxis(root, X, bottom, width, drawn);
+  drawStrip(root, f, X, bottom + 36, strip, "moment", wide ? "Moment M = EI w″, positive where it sags" : "M", drawn);
+  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", wide ? "Shear V = dM/dx: upward force of the left part on the right" : "V", drawn);
   offerMagnifications(fitting);
 }
 
@@ -507,7 +555,7 @@ function drawPlatePairs(root, f, X, Y) {
   const xs = [...new Set(pairs.map((p) => X(p.x)))].sort((a, b) => a - b);
   const room = xs.length > 1 ? Math.min(...xs.slice(1).map((x, i) => x - xs[i])) : 40;
   const most = Math.max(1.6, Math.min(9, room * 0.38));
-  for (const p of pairs) {
+  for (const p of leastLoadedFirst(pairs)) {
     const grown = p.look === "c" && plate.force > 0 ? 0.35 + 0.65 * Math.sqrt(Math.max(0, p.force) / plate.force) : 0.5;
     const [x, y] = [X(p.x), Y(p.y)];
     const r = Math.max(1.5, most * grown);
@@ -639,20 +687,6 @@ function drawMeshSupports(root, spots) {
   }
 }
 
-// A word where no other stands, and inside the picture; otherwise none.
-function wordsInFreePlaces(root, width, height) {
-  const boxes = [];
-  return (x, y, words, kind) => {
-    const half = 4.4 * words.length + 2;
-    const box = [x - half, y - 13, x + half, y + 5];
-    const free = box[0] >= 2 && box[2] <= width - 2 && box[1] >= 24 && box[3] <= height - 4 &&
-      boxes.every((b) => b[0] >= box[2] || b[2] <= box[0] || b[1] >= box[3] || b[3] <= box[1]);
-    if (!free) return;
-    boxes.push(box);
-    root.append(label(x, y, words, { "text-anchor": "middle", class: `${kind} halo` }));
-  };
-}
-
 function drawMeshLoads(root, f, spots, say) {
   for (const [at, direction, , value, name] of f.points) {
     const t = onPage(direction);
@@ -689,7 +723,7 @@ function drawMeshFace(root, p, t, [x, y], pixels) {
 
 function drawMeshPairs(root, f, spots, layout, say) {
   const { right, up } = geometry.views[view];
-  const pairs = pairsOf(f).filter((p) => p.at !== null);
+  const pairs = leastLoadedFirst(pairsOf(f).filter((p) => p.at !== null));
   const r = pairs.length > 60 ? 3.2 : 5;
   for (const p of pairs) {
     const t = onPage(p.direction);
@@ -786,18 +820,43 @@ const byForce = mostTotal - leastTotal > 1e-9 * Math.max(Math.abs(leastTotal), M
 const progress = (f) => (f.step === 0 ? 0 : f.step - 1 + f.fraction);
 const measure = (f) => (byForce ? f.force : progress(f));
 
+// What the path can be drawn of: the node that moves most, and every node, or pair, whose states the page has.
+const paths = (() => {
+  const list = [{ name: String(geometry.watched), read: (f) => f.watched }];
+  const add = (name, read) => { if (String(name) !== list[0].name) list.push({ name: String(name), read }); };
+  if (geometry.kind === "beam") geometry.nodes.forEach((node, i) => add(node, (f) => f.w[i]));
+  else if (geometry.kind === "plate") {
+    geometry.rows.forEach((row, j) => geometry.columns.forEach((column, i) =>
+      add((row - 1) * geometry.all_columns + column, (f) => f.w[j * geometry.columns.length + i])));
+  } else new Map(data.pairs.map((p, i) => [p.node, i])).forEach((i, node) => add(node, (f) => f.at_pairs[i]));
+  return list;
+})();
+let followed = paths[0];
+
+function offerPaths() {
+  const select = byId("chart-node");
+  byId("chart-node-label").textContent = `Path of ${data.place}`;
+  const byNumber = [...paths].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
+  select.replaceChildren(...byNumber.map((p) => element("option", { value: p.name }, p === paths[0] ? `${p.name} (moves most)` : p.name)));
+  select.value = followed.name;
+  select.addEventListener("change", () => {
+    followed = paths.find((p) => p.name === select.value);
+    drawChart(current);
+  });
+}
+
 function drawChart(current) {
   const holder = byId("chart");
   const width = widthOf(holder);
   const height = width < 520 ? 280 : 340;
   const room = { left: 84, right: 28, top: 34, bottom: 54 };
-  const [x0, x1] = padded(spread(frames.map((f) => f.watched)));
+  const [x0, x1] = padded(spread(frames.map(followed.read)));
   const [y0, y1] = padded(spread(frames.map(measure)));
   const X = (v) => room.left + ((v - x0) / (x1 - x0)) * (width - room.left - room.right);
   const Y = (v) => height - room.bottom - ((v - y0) / (y1 - y0)) * (height - room.top - room.bottom);
   const f = frames[current];
   const root = canvas(holder, width, height,
-    `Load against the ${moves} of ${placed(geometry.watched)}, ${frames.length} states; now load ${rough(measure(f))}, ${moves} ${rough(f.watched)}`);
+    `Load against the ${moves} of ${placed(followed.name)}, ${frames.length} states; now load ${rough(measure(f))}, ${moves} ${rough(followed.read(f))}`);
   for (const v of ticks(x0, x1, Math.floor(width / 95))) {
     root.append(line(X(v), room.top, X(v), height - room.bottom, v === 0 ? "zero" : "grid"));
     root.append(label(X(v), height - room.bottom + 18, rough(v), { "text-anchor": "middle", class: "axis-word" }));
@@ -807,11 +866,11 @@ function drawChart(current) {
     root.append(label(room.left - 8, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
   }
   root.append(label(room.left, 18, byForce ? (ofMatrix ? "Sum of the loads" : "Sum of the loads, positive up") : "Steps of load applied", { class: "panel-title" }));
-  root.append(label(width - room.right, height - 12, `${ofMatrix ? moves : "deflection w"} of ${placed(geometry.watched)}`, { "text-anchor": "end", class: "axis-word" }));
-  root.append(line(X(f.watched), Y(measure(f)), X(f.watched), height - room.bottom, "cross"), line(room.left, Y(measure(f)), X(f.watched), Y(measure(f)), "cross"));
-  root.append(path(frames.map((g) => [X(g.watched), Y(measure(g))]), "track"));
-  for (const g of frames) root.append(chartMark(g, X(g.watched), Y(measure(g))));
-  root.append(svg("circle", { cx: X(f.watched), cy: Y(measure(f)), r: 9, class: "here" }));
+  root.append(label(width - room.right, height - 12, `${ofMatrix ? moves : "deflection w"} of ${placed(followed.name)}`, { "text-anchor": "end", class: "axis-word" }));
+  root.append(line(X(followed.read(f)), Y(measure(f)), X(followed.read(f)), height - room.bottom, "cross"), line(room.left, Y(measure(f)), X(followed.read(f)), Y(measure(f)), "cross"));
+  root.append(path(frames.map((g) => [X(followed.read(g)), Y(measure(g))]), "track"));
+  for (const g of frames) root.append(chartMark(g, X(followed.read(g)), Y(measure(g))));
+  root.append(svg("circle", { cx: X(followed.read(f)), cy: Y(measure(f)), r: 9, class: "here" }));
 }
 
 function padded([low, high]) {
@@ -957,7 +1016,7 @@ function showCertificate() {
   const words = byId("certificate-words");
   const say = (text, kind) => words.append(element("p", kind ? { class: kind } : {}, text));
   say("Each step's final state is compared with the minimiser of the structure's energy, which an oracle finds apart: it knows neither the kernels nor the path.");
-  if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.uncertified.length === 0 ? "good" : "bad");
+  if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.certified_whole ? "good" : "bad");
   for (const text of data.uncertified) say(sentence(text));
   const steps = data.certificates;
   if (steps.length === 0) {
@@ -988,7 +1047,7 @@ function showHead() {
   if (data.equal === null) say("One kernel ran; nothing was compared.", "note");
   else if (data.all_calls === 0) say("The kernels were never called; nothing was compared.", "note");
   else say(`${kernels.join(" and ")} ${data.lockstep ? (data.equal ? "are equal to the bit" : "are NOT equal to the bit") : data.equal ? "agree on paths of their own" : "do NOT agree on paths of their own"}: ${data.comparison}.`, data.equal ? "good" : "bad");
-  if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.uncertified.length === 0 ? "good" : "bad");
+  if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.certified_whole ? "good" : "bad");
   byId("facts").textContent = data.facts.join(" · ");
 }
 
@@ -1003,33 +1062,40 @@ function showThinned() {
   byId("thinned").replaceChildren(...list.map((text) => element("li", {}, text)));
 }
 
+// Which looks pairs have in any state.
+const looksSeen = new Set(frames.flatMap((f) => [...f.looks].map((look, i) => (look === "f" && f.closed[i] ? "f in contact" : look))));
+
+function faceMark() {
+  const face = svg("g", {}, line(2, 8, 20, 8, "face-line"));
+  for (let k = 4; k < 20; k += 6) face.append(line(k, 8, k - 4, 14, "hatch"));
+  return face;
+}
+
 function showLegend() {
   const item = (words, ...marks) => {
     const s = svg("svg", { width: 22, height: 18, viewBox: "0 0 22 18", "aria-hidden": "true" }, ...marks);
     return element("li", {}, s, words);
   };
   const list = [];
-  if (data.all_pairs > 0) {
-    list.push(item("closed: pressed", pairMark("c", 11, 9, 5)), item("open: a gap", pairMark("o", 11, 9, 5)),
-      item("at its face, no force", pairMark("f", 11, 9, 5)), item("the same, in contact", pairMark("f", 11, 9, 5, true)));
+  const looked = [["c", "in contact: pressed", "c"], ["o", "separated: a gap", "o"], ["f", "at its face, separated", "f"], ["f in contact", "at its face, in contact, no force", "f"]];
+  for (const [seen, words, look] of looked) {
+    if (looksSeen.has(seen)) list.push(item(words, pairMark(look, 11, 9, 5, seen === "f in contact")));
   }
+  const loaded = frames.some((f) => (f.points || []).some((p) => p[3] !== 0) || (f.q || []).some((q) => q !== 0));
+  const pressed = frames.some((f) => pairsOf(f).some((p) => p.force > 0));
   if (beam) {
-    if (data.all_pairs > 0) {
-      const face = svg("g", {}, line(2, 8, 20, 8, "face-line"));
-      for (let k = 4; k < 20; k += 6) face.append(line(k, 8, k - 4, 14, "hatch"));
-      list.push(item("face, hatched behind", face), item("force of a pair", arrow(11, 17, 0, -15, "force")));
-    }
-    list.push(item("load", arrow(11, 1, 0, 15, "load")), item("undeformed", line(0, 9, 22, 9, "undeformed")));
+    if (data.all_pairs > 0) list.push(item("face, hatched behind", faceMark()));
+    if (pressed) list.push(item("contact force", arrow(11, 17, 0, -15, "force")));
+    if (loaded) list.push(item("load", arrow(11, 1, 0, 15, "load")));
+    list.push(item("undeformed", line(0, 9, 22, 9, "undeformed")));
     byId("picture-words").textContent = "Up is positive. Between two increments every point moves along a straight line. " +
       "Moments M = EI w\u2033 (positive where the beam sags) and shears V = dM/dx (the upward force of the part left of a cut on the part right of it) " +
       "are the elements' values at their ends, joined by straight lines.";
   } else if (mesh) {
-    if (data.all_pairs > 0) {
-      const face = svg("g", {}, line(2, 8, 20, 8, "face-line"));
-      for (let k = 4; k < 20; k += 6) face.append(line(k, 8, k - 4, 14, "hatch"));
-      list.push(item("face, hatched behind", face), item("force of a pair", arrow(11, 17, 0, -15, "force")));
-    }
-    list.push(item("load", arrow(11, 1, 0, 15, "load")), item("undeformed", line(0, 9, 22, 9, "mesh-was")));
+    if (data.all_pairs > 0) list.push(item("face, hatched behind", faceMark()));
+    if (pressed) list.push(item("contact force", arrow(11, 17, 0, -15, "force")));
+    if (loaded) list.push(item("load", arrow(11, 1, 0, 15, "load")));
+    list.push(item("undeformed", line(0, 9, 22, 9, "mesh-was")));
     if (data.supports.length > 0) list.push(item("support of a dof", svg("path", { d: "M11 3l7 12h-14Z", class: "support" })));
     if (geometry.still.length > 0) list.push(item("node without a dof: it stands still", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
     byId("picture-words").textContent = "Edges are drawn straight between their nodes. Between two increments every point moves along a straight line. " +
@@ -1041,8 +1107,14 @@ function showLegend() {
       "the dof that moves most on the path, and the pairs. [matrix] takes coordinates, [calculix] the mesh in CalculiX's input.";
     byId("magnification").parentElement.hidden = true;
   } else {
-    list.push(item("load, down", svg("g", { class: "load" }, svg("circle", { cx: 11, cy: 9, r: 7, "fill-opacity": 0 }), svg("path", { d: "M7 5l8 8m-8 0l8 -8" }))),
-      item("support of w", svg("path", { d: "M11 3l6 11h-12Z", class: "support" })), item("support of a slope", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
+    const down = svg("g", { class: "load" }, svg("circle", { cx: 11, cy: 9, r: 7, "fill-opacity": 0 }), svg("path", { d: "M7 5l8 8m-8 0l8 -8" }));
+    const up = svg("g", { class: "load" }, svg("circle", { cx: 11, cy: 9, r: 7, "fill-opacity": 0 }), svg("circle", { cx: 11, cy: 9, r: 2.5 }));
+    const point = (sign) => frames.some((f) => (f.points || []).some((p) => p[2] === 0 && sign * p[3] > 0));
+    const holds = (w) => data.supports.some((s) => s.dofs.some(([dof]) => dof === "w") === w);
+    if (point(-1)) list.push(item("load, down", down));
+    if (point(1)) list.push(item("load, up", up));
+    if (holds(true)) list.push(item("support of w", svg("path", { d: "M11 3l6 11h-12Z", class: "support" })));
+    if (holds(false)) list.push(item("support of a slope", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
     byId("picture-words").textContent = "The colours are the same in all states: dark is low. Up is positive. A closed pair's square grows with its force; a bar over a pair says that its face stands above.";
     byId("magnification").parentElement.hidden = true;
   }
@@ -1136,6 +1208,18 @@ function startPlaying() {
   timer = setInterval(step, calm.matches ? 1600 : 1100);
 }
 
+// With the mouse or a finger the part that is drawn is moved along the beam.
+function dragTheBeam(holder) {
+  let last = null;
+  holder.addEventListener("pointerdown", (e) => { if (part[1] - part[0] < 1) last = e.clientX; });
+  addEventListener("pointermove", (e) => {
+    if (last === null) return;
+    move(((last - e.clientX) * (part[1] - part[0])) / (holder.clientWidth - margin.left - margin.right));
+    last = e.clientX;
+  });
+  for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => { last = null; });
+}
+
 function listen() {
   const slider = byId("slider");
   slider.max = String(frames.length - 1);
@@ -1149,6 +1233,12 @@ function listen() {
     magnification = e.target.value === "" ? null : Number(e.target.value);
     draw(frames[current]);
   });
+  for (const [id, act] of [["zoom-in", () => zoom(0.5)], ["zoom-out", () => zoom(2)], ["whole", () => zoom(Infinity)],
+    ["left", () => move(-(part[1] - part[0]) / 4)], ["right", () => move((part[1] - part[0]) / 4)]]) {
+    byId(id).addEventListener("click", act);
+  }
+  byId("zooming").hidden = !beam;
+  if (beam) dragTheBeam(byId("picture"));
   let width = innerWidth;
   addEventListener("resize", () => {
     if (innerWidth === width) return;
@@ -1161,6 +1251,7 @@ function listen() {
 
 showHead();
 offerViews();
+offerPaths();
 showLegend();
 showEvents();
 showCalls();
@@ -1168,4 +1259,4 @@ showCertificate();
 showLog();
 showThinned();
 listen();
-show(frames.length - 1);
+show(frames.reduce((best, f, i) => (Math.abs(f.largest.w) > Math.abs(frames[best].largest.w) ? i : best), frames.length - 1));
