@@ -118,7 +118,7 @@ exit_status run_command(const new_options& options) {
   output_file out(file);
   out.write(text);
   out.finish();
-  if (file != "-") fmt::print("{} is written; now: contct run {}\n", file, file);
+  if (file != "-") print_text(fmt::format("{} is written; now: contct run {}\n", file, file));
   return exit_status::solved;
 }
 
@@ -132,10 +132,10 @@ exit_status run_command(const export_options& options) {
   output_file& file = *files["--calculix"];
   file.write(deck.text);
   if (!file.is_standard_output()) {
-    fmt::print("{}: step {} of {}, {} elements, {} nodes, {} pairs\n", options.calculix, deck.step,
-               p.steps.size(), deck.elements, deck.nodes, p.pairs.size());
-    fmt::print("displacements are {:.12e} times the problem's, forces {:.12e} times\n",
-               deck.displacement_scale, deck.force_scale);
+    print_text(fmt::format("{}: step {} of {}, {} elements, {} nodes, {} pairs\n", options.calculix,
+                           deck.step, p.steps.size(), deck.elements, deck.nodes, p.pairs.size()));
+    print_text(fmt::format("displacements are {:.12e} times the problem's, forces {:.12e} times\n",
+                           deck.displacement_scale, deck.force_scale));
   }
   flush_standard_output();
   file.finish();
@@ -154,7 +154,8 @@ exit_status run_command(const atlas_options& options) {
   std::int64_t done = 0;
   for (atlas_cell& c : a.cells) fill(c, options.request, [&] { shown.reached(++done); });
   shown.erase();
-  if (!options.quiet && !takes_standard_output(outputs)) fmt::print("{}", atlas_table(a, look_at_terminal()));
+  if (!options.quiet && !takes_standard_output(outputs))
+    print_text(fmt::format("{}", atlas_table(a, look_at_terminal())));
   flush_standard_output();  // no files when the table is lost
   files.write("--csv", atlas_csv(a));
   files.write("--json", atlas_json(a));
@@ -164,14 +165,16 @@ exit_status run_command(const atlas_options& options) {
 
 /// What is built in.
 exit_status run_command(const kernels_options& /*options*/) {
-  fmt::print("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler");
+  print_text(fmt::format("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler"));
   for (const std::string& name : kernel_names()) {
     const kernel_facts f = facts_of_kernel(name);
-    fmt::print("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language, f.compiler);
+    print_text(fmt::format("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language,
+                           f.compiler));
   }
-  fmt::print("\nfrom outside: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n");
-  fmt::print("listing sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
-             describe(probe_floating_point()));
+  print_text(
+      fmt::format("\nfrom outside: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n"));
+  print_text(fmt::format("listing sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
+                         describe(probe_floating_point())));
   return exit_status::solved;
 }
 

@@ -88,7 +88,7 @@ exit_status nothing_told(const explain_options& o, const increments_wanted& want
 
 void print_comparison(const std::vector<std::string>& kernels, const explained_path& told) {
   const bool equal = told.compared().mismatches == 0;
-  fmt::print("\n");
+  print_text("\n");
   print_wrapped(look_at_terminal(), equal ? paint::good : paint::bad,
                 {fmt::format("{} and {} {} to the bit in the whole run", kernels[0], kernels[1],
                              equal ? "are equal" : "are NOT equal"),

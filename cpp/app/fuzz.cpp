@@ -67,7 +67,7 @@ check_report report_of(const fuzz_result& r, const std::string& missed) {
 
 void print_result(const fuzz_result& r) {
   const terminal t = look_at_terminal();
-  fmt::print("{}\n", command_of(r.request));
+  print_text(fmt::format("{}\n", command_of(r.request)));
   print_wrapped(t, paint::quiet,
                 {fmt::format("{} calls, {} problems, {:.1f} s", r.calls, r.problems, r.seconds),
                  fmt::format("events: {} make, {} break, {} of them stationary", r.events.make,

@@ -1,4 +1,5 @@
 // The contct program.
+#include <csignal>
 #include <cstdio>
 #include <system_error>
 
@@ -14,6 +15,9 @@ exit_status status_of_program(int argc, char** argv) {
     const exit_status status = std::visit([](const auto& options) { return run_command(options); }, asked);
     flush_standard_output();
     return status;
+  } catch (const reader_gone&) {  // "contct run .. | head" ends as any filter does, its files written
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
   } catch (const kernel_failure& e) {
     complain("the leading kernel gave no answer: {}", e.what());
     return exit_status::kernels_differ;
@@ -30,5 +34,6 @@ exit_status status_of_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   contct::app::hold_standard_streams();
+  std::signal(SIGPIPE, SIG_IGN);
   return static_cast<int>(contct::app::status_of_program(argc, argv));
 }

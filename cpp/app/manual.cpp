@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "contct/solve/engine.hpp"
+#include "contct/text/output_file.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/text/terminal.hpp"
 
@@ -259,15 +260,15 @@ std::string fish_completion(const program_description& program) {
 }
 
 exit_status run_command(const manual_options& /*options*/) {
-  fmt::print("{}", manual_page(describe_contct(engine_names())));
+  print_text(fmt::format("{}", manual_page(describe_contct(engine_names()))));
   return exit_status::solved;
 }
 
 exit_status run_command(const completion_options& options) {
   const program_description program = describe_contct(engine_names());
-  fmt::print("{}", options.shell == "bash"  ? bash_completion(program)
-                   : options.shell == "zsh" ? zsh_completion(program)
-                                            : fish_completion(program));
+  print_text(fmt::format("{}", options.shell == "bash"  ? bash_completion(program)
+                               : options.shell == "zsh" ? zsh_completion(program)
+                                                        : fish_completion(program)));
   return exit_status::solved;
 }
 

@@ -61,7 +61,7 @@ void hold_standard_streams() {
 }
 
 void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items) {
-  for (const std::string& line : wrap(items, t.width)) fmt::print("{}\n", painted(t, p, line));
+  for (const std::string& line : wrap(items, t.width)) print_text(fmt::format("{}\n", painted(t, p, line)));
 }
 
 void complain_of(const std::vector<std::string>& lines) {

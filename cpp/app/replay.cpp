@@ -75,7 +75,8 @@ exit_status run_command(const replay_options& options) {
     const std::string text = read_input(file, "trace", 2048);
     for (const std::string& kernel : kernels) {
       check_result r = replay_one(file == "-" ? "standard input" : file, text, kernel, options.report.quiet);
-      if (!silent) fmt::print("{}: {}\n", r.name, painted(t, paints[static_cast<int>(r.what)], r.summary));
+      if (!silent)
+        print_text(fmt::format("{}: {}\n", r.name, painted(t, paints[static_cast<int>(r.what)], r.summary)));
       if (!r.details.empty()) complain("{}: {}", r.name, r.details.substr(0, r.details.size() - 1));
       report.results.push_back(std::move(r));
     }
@@ -85,8 +86,8 @@ exit_status run_command(const replay_options& options) {
     throw std::invalid_argument(
         "nothing was compared: every trace has another precision or rule than the kernel");
   if (!silent)
-    fmt::print("{} passed, {} failed, {} skipped\n", report.count(outcome::passed),
-               report.count(outcome::failed), report.count(outcome::skipped));
+    print_text(fmt::format("{} passed, {} failed, {} skipped\n", report.count(outcome::passed),
+                           report.count(outcome::failed), report.count(outcome::skipped)));
   flush_standard_output();
   files.write(report);
   return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;

@@ -176,19 +176,19 @@ std::string counted(std::size_t n, std::string_view what) {
 void print_heading(const run_setup& run) {
   if (!run.prints) return;
   for (const std::string& line : wrap({run.what.title}, run.screen.width))
-    if (!line.empty()) fmt::print("{}\n", painted(run.screen, paint::strong, line));
+    if (!line.empty()) print_text(fmt::format("{}\n", painted(run.screen, paint::strong, line)));
   const std::vector<std::string> facts = {
       fmt::format("{}, {}, {}", counted(nodes(run.what.geometry), node_name(run.what.geometry)),
                   counted(run.what.pairs.size(), "pair"), counted(run.what.steps.size(), "step")),
       run.kernels.empty() ? "only the end" : fmt::format("kernels {}", joined(run.kernels, ", ")),
       "engine " + run.engine + (run.structure.stiffness.is_band() ? "" : ", sparse")};
-  for (const std::string& line : wrap(facts, run.screen.width)) fmt::print("{}\n", line);
-  fmt::print("\n");
+  for (const std::string& line : wrap(facts, run.screen.width)) print_text(fmt::format("{}\n", line));
+  print_text("\n");
 }
 
 void print_verdict(observed_run& o, paint p, const std::vector<std::string>& items) {
   if (!o.run.prints) return;
-  if (!std::exchange(o.has_verdict, true)) fmt::print("\n");
+  if (!std::exchange(o.has_verdict, true)) print_text("\n");
   print_wrapped(o.run.screen, p, items);
 }
 
@@ -263,14 +263,13 @@ void report_free_run(observed_run& o, const std::string& name, const free_run_di
   }
 }
 
-/// The certificate of the leader's path, for people.
-void report_certificate(observed_run& o) {
-  if (const auto items = certificate_summary(o.judged); !items.empty()) {
-    const bool good = std::ranges::none_of(o.judged.steps(), [](const auto& c) { return c && !c->exact; });
-    print_verdict(o, good ? paint::good : paint::bad, items);
-  }
-  flush_standard_output();  // the table before what is said about it; and no files when it is lost
-  complain_of(certificate_complaints(o.run.what, o.judged, o.early));
+/// What is wrong with the final states of the leader's path, and what to do about it.
+void complain_of_certificate(const observed_run& o) {
+  const std::vector<std::string> complaints = certificate_complaints(o.run.what, o.judged, o.early);
+  complain_of(complaints);
+  if (const std::string remedy = remedy_words(o.run.kernels, o.run.options.file);
+      !complaints.empty() && !remedy.empty())
+    complain("{}", remedy);
 }
 
 /// The report for --junit and --markdown.
@@ -336,17 +335,21 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
 
 /// What every run ends with: certificate, messages, files, exit status.
 exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
-  report_certificate(o);
+  const bool solved = end.status == path_status::solved;
+  print_verdict(o, solved && o.judged.all_exact() ? paint::good : paint::bad,
+                certificate_summary(o.judged, solved));
+  const bool uncertified = o.run.options.strict && !o.judged.all_exact();
+  const exit_status status = !c.equal                ? exit_status::kernels_differ
+                             : solved && uncertified ? exit_status::uncertified
+                                                     : status_of(end.status);
+  if (status != exit_status::bad_input) write_files(o, end, c);  // without numbers no files
+  flush_standard_output();                                       // the table before what is said about it
+  complain_of_certificate(o);
   if (end.status != path_status::solved) {
     complain("{}: {}", o.run.options.file, end_words(o.run.what, end));
   } else if (const std::string w = o.digits.warning(); !w.empty()) {
     complain("warning: {}", w);
   }
-  const bool uncertified = o.run.options.strict && !o.judged.all_exact();
-  const exit_status status = !c.equal                                           ? exit_status::kernels_differ
-                             : end.status == path_status::solved && uncertified ? exit_status::uncertified
-                                                                                : status_of(end.status);
-  if (status != exit_status::bad_input) write_files(o, end, c);  // without numbers no files
   return status;
 }
 

@@ -114,27 +114,27 @@ void print(const terminal& t, const verified_number& n, std::string& said) {
       fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
   if (source != said) {
     for (const std::string& line : wrap({source}, t.width - 4))
-      fmt::print("    {}\n", painted(t, paint::quiet, line));
+      print_text(fmt::format("    {}\n", painted(t, paint::quiet, line)));
     said = std::move(source);
   }
-  fmt::print(row, e.step, quantity_words(e), words_of(e, e.value), words_of(e, n.computed),
-             fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
-             painted(t, p, mark_of(n)));
-  fmt::print("\n");
+  print_text(fmt::format(row, e.step, quantity_words(e), words_of(e, e.value), words_of(e, n.computed),
+                         fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
+                         painted(t, p, mark_of(n))));
+  print_text("\n");
   if (!e.faithful) return;
-  for (const std::string& line : wrap({e.reason}, t.width - 6)) fmt::print("      {}\n", line);
+  for (const std::string& line : wrap({e.reason}, t.width - 6)) print_text(fmt::format("      {}\n", line));
 }
 
 void print(const terminal& t, const verified_case& c) {
   print_wrapped(t, paint::strong, {c.title.empty() ? c.file : c.title});
-  fmt::print("{}: {} of {} calls equal to the bit\n", c.file, c.calls - c.mismatches, c.calls);
-  fmt::print("{}\n",
-             painted(t, paint::quiet,
-                     fmt::format(row, "", "quantity", "expected", "computed", "differ", "allow", "")));
-  if (!c.failure.empty()) fmt::print("  {}\n", painted(t, paint::bad, "FAILED: " + c.failure));
+  print_text(fmt::format("{}: {} of {} calls equal to the bit\n", c.file, c.calls - c.mismatches, c.calls));
+  print_text(fmt::format(
+      "{}\n", painted(t, paint::quiet,
+                      fmt::format(row, "", "quantity", "expected", "computed", "differ", "allow", ""))));
+  if (!c.failure.empty()) print_text(fmt::format("  {}\n", painted(t, paint::bad, "FAILED: " + c.failure)));
   std::string said;
   for (const verified_number& n : c.numbers) print(t, n, said);
-  fmt::print("\n");
+  print_text("\n");
 }
 
 void print(const terminal& t, const totals& all) {
@@ -144,9 +144,9 @@ void print(const terminal& t, const totals& all) {
                 {fmt::format("{} numbers in {} problems", all.numbers, all.cases), joined(kinds, ", "),
                  fmt::format("{} where the 1989 rule differs, as known", all.known),
                  fmt::format("{} failed", all.failed)});
-  fmt::print(
+  print_text(fmt::format(
       "The examples of the paper's reference [1] (Mahmoud, Salamon, Pawlak 1986) are not available\n"
-      "here; none of their numbers is claimed.\n");
+      "here; none of their numbers is claimed.\n"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // JUnit that is well-formed whatever stands in it, Markdown that shows in a table.
 #include "app/outputs.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -85,11 +86,11 @@ TEST_CASE("a result goes through a symbolic link to its target") {
   }
 }
 
-TEST_CASE("standard output that is full or closed is exit 2, with a message, and no file either") {
+TEST_CASE(
+    "standard output that is full or closed is exit 2, with a message, and files are written all the same") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const words& arguments : {words{"run", "pb.toml"},
-                                 {"run", "pb.toml", "--json", "out.json"},
                                  {"run", "pb.toml", "--json", "-"},
                                  {"kernels"},
                                  {"--help"},
@@ -100,6 +101,30 @@ TEST_CASE("standard output that is full or closed is exit 2, with a message, and
       CHECK_THAT(refusal(dir, arguments, {"", {}, false, output}), Contains("standard output: "));
     }
   }
+  for (const char* output : {"/dev/full", "closed"}) {
+    const finished f =
+        contct_program(dir.path(), {"run", "pb.toml", "--json", "out.json"}, {"", {}, false, output});
+    CHECK(f.exit == 2);
+    CHECK_THAT(f.err, Contains("standard output: "));
+    CHECK_THAT(dir.read("out.json"), Contains("\"status\":\"solved\"") || Contains("\"status\": \"solved\""));
+    fs::remove(dir.path() / "out.json");
+  }
+}
+
+TEST_CASE("a table that is cut off by a pipe does not cost the page: contct run .. --html page.html | head") {
+  const scratch_folder dir;
+  std::string text = good_problem;
+  for (int i = 0; i < 2000; ++i) text += "[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n";
+  dir.write("long.toml", text);
+  const std::string here = dir.path().string();
+  const std::string command = "cd '" + here +
+                              "' && '" CONTCT_PROGRAM
+                              "' run long.toml --html page.html --csv table.csv 2>errors | head -1 >table";
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK_THAT(dir.read("table"), Contains("nodes, 1 pair, 2001 steps"));
+  CHECK(dir.read("errors").empty());
+  CHECK_THAT(dir.read("page.html"), Contains("</html>"));
+  CHECK(fs::exists(dir.path() / "table.csv"));
 }
 
 TEST_CASE("a long table that does not fit on a full device is exit 2 too") {
@@ -107,7 +132,7 @@ TEST_CASE("a long table that does not fit on a full device is exit 2 too") {
   std::string text = good_problem;
   for (int i = 0; i < 200; ++i) text += "[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n";
   dir.write("long.toml", text);
-  CHECK_THAT(refusal(dir, {"run", "long.toml", "--json", "out.json"}, {"", {}, false, "/dev/full"}),
+  CHECK_THAT(refusal(dir, {"run", "long.toml"}, {"", {}, false, "/dev/full"}),
              Contains("standard output: ") && Contains("No space left"));
 }
 

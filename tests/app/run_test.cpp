@@ -132,6 +132,23 @@ TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose
   CHECK(result["steps"][0]["fraction"].get<double>() < 1e-9);
 }
 
+TEST_CASE("a run that ends in a mechanism is nowhere called certified, though its first step is") {
+  const scratch_folder dir;
+  const std::string text = freed;
+  const std::string first = "[[step]]\npoint = [ { node = 3, w = -4 } ]\n";
+  dir.write("freed.toml", std::string(text).insert(text.find("[[step]]"), first));
+  const finished f =
+      contct_program(dir.path(), {"run", "freed.toml", "--kernels", "corrected", "--json", "out.json"});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.out, Contains("the run is NOT certified") && Contains("step 1 is certified"));
+  CHECK_THAT(f.out, !Contains("final state is certified"));
+  CHECK_THAT(f.out, Contains("break 1") && Contains("1 of 2 in contact; "));  // and not 2, after that break
+  const auto result = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(result.at("certified") == false);
+  CHECK(result.at("steps").at(0).at("certificate").at("exact") == true);
+}
+
 TEST_CASE("the limit of increments: exit 5, with a result that says so") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
@@ -294,6 +311,8 @@ TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that wa
   CHECK(strict.exit == 3);
   CHECK_THAT(strict.out, Contains("step 4 is NOT certified: the deflections are off by 1.2e-06"));
   CHECK_THAT(strict.err, Contains("increment 4.2 let pair 1 (node 41, below) break contact"));
+  CHECK_THAT(strict.err,
+             Contains("contct run " + pb5 + " --kernels corrected"));  // which is what certifies it
   const auto r = nlohmann::json::parse(dir.read("s.json"));
   CHECK(r["status"] == "solved");
   CHECK(r["steps"][0]["certificate"]["exact"] == true);

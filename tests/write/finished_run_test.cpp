@@ -272,6 +272,13 @@ TEST_CASE("an event's load is told in the words of the problem file") {
   CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.41");
   CHECK(load_path(p).words_at(1, 0.123456, 3).empty());
   CHECK(load_path(mixed).words_at(1, 1.0, 24) == "force -76");
+  // From -60 to 10 the load passes 0 at 6/7, where the sum is nothing but rounding.
+  problem passes = p;
+  passes.steps.push_back(p.steps[0]);
+  passes.steps[1].points[0].value = 10.0;
+  CHECK(load_path(passes).words_at(2, 6.0 / 7, 24) == "w 0 at node 3");
+  CHECK(load_path(passes).resultant_at(2, 6.0 / 7).force == 0.0);
+  CHECK(load_path(passes).words_at(2, 6.0 / 7 + 1e-12, 24) != "w 0 at node 3");
 }
 
 TEST_CASE("a plate's loads are told in its own words") {

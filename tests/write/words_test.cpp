@@ -40,10 +40,25 @@ TEST_CASE("a step is certified, not certified, or without a certificate") {
 
 TEST_CASE("a certified run says how many steps are, and names no complaint") {
   const a_run one(good_problem);
-  CHECK(certificate_summary(one.judged)[0] == "the final state is certified");
+  CHECK(certificate_summary(one.judged, true)[0] == "the final state is certified");
   CHECK(certificate_complaints(one.what, one.judged, one.early).empty());
   const a_run two(std::string(good_problem) + "[[step]]\npoint = [ { node = 3, w = 20.0 } ]\n");
-  CHECK(certificate_summary(two.judged)[0] == "both final states are certified");
+  CHECK(certificate_summary(two.judged, true)[0] == "both final states are certified");
+}
+
+TEST_CASE("a path that ended before its full load is not certified as a whole, whatever its steps are") {
+  const a_run one(good_problem);
+  const std::vector<std::string> items = certificate_summary(one.judged, false);
+  REQUIRE(items.size() == 2);
+  CHECK_THAT(items[0], Contains("the run is NOT certified"));
+  CHECK(items[1] == "step 1 is certified");
+}
+
+TEST_CASE("the remedy for what the 1989 rule does wrong is a command, and other rules have none") {
+  CHECK_THAT(remedy_words({"fortran", "cpp"}, "a/b.toml"),
+             Contains("contct run a/b.toml --kernels corrected"));
+  CHECK(remedy_words({"corrected"}, "a/b.toml").empty());
+  CHECK(remedy_words({}, "a/b.toml").empty());
 }
 
 TEST_CASE("of a state with locked-in forces the summary names the step, the complaint the early toggle") {
@@ -51,7 +66,7 @@ TEST_CASE("of a state with locked-in forces the summary names the step, the comp
   const std::vector<std::string> complaints = certificate_complaints(r.what, r.judged, r.early);
   REQUIRE_FALSE(complaints.empty());
   const std::string step = complaints[0].substr(0, complaints[0].find(" is not certified: "));
-  CHECK_THAT(certificate_summary(r.judged)[0], Contains(step + " is NOT certified: "));
+  CHECK_THAT(certificate_summary(r.judged, true)[0], Contains(step + " is NOT certified: "));
   const early_toggle& first = r.early.all().front();
   CHECK_THAT(complaints[0], Contains("let pair ") && Contains(" contact ") && Contains("away from its face"));
   CHECK(first.distance > 0.0);

@@ -14,6 +14,8 @@
 namespace contct::text {
 namespace {
 
+int why_lost = 0;  // errno, when something first could not be printed
+
 namespace fs = std::filesystem;
 
 /// The file that writing to `path` makes: symbolic links are followed, also to a target that does not exist.
@@ -145,15 +147,24 @@ int output_file::copy_beside(std::string& name) const {
 }
 
 void output_file::fail(int error) const {
+  if (is_standard_output() && error == EPIPE)
+    throw reader_gone("standard output: cannot be written: nobody reads");
   throw output_error((is_standard_output() ? std::string("standard output") : path_) +
                      ": cannot be written: " + std::strerror(error));
+}
+
+void print_text(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && why_lost == 0) why_lost = errno;
 }
 
 void flush_standard_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  const char* const reason = errno != 0 ? std::strerror(errno) : "what was printed before is lost";
-  throw output_error(std::string("standard output: cannot be written: ") + reason);
+  const int error = errno != 0 ? errno : why_lost;
+  const std::string words = std::string("standard output: cannot be written: ") +
+                            (error != 0 ? std::strerror(error) : "what was printed before is lost");
+  if (error == EPIPE) throw reader_gone(words);
+  throw output_error(words);
 }
 
 bool same_file(const std::string& a, const std::string& b) {

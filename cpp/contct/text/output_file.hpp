@@ -66,7 +66,17 @@ class output_file {
   std::FILE* file_ = nullptr;
 };
 
-/// Flush standard output. Throws output_error when anything printed, now or before, could not be written.
+/// Standard output is a pipe that nobody reads any more.
+struct reader_gone : output_error {
+  using output_error::output_error;
+};
+
+/// Print to standard output. That it cannot be printed ends nothing: flush_standard_output tells it, after
+/// the files are written.
+void print_text(std::string_view text);
+
+/// Flush standard output. Throws output_error when anything printed, now or before, could not be written;
+/// reader_gone where it is a pipe without a reader.
 void flush_standard_output();
 
 /// Would writing to one of these paths change what the other names? True for two names of one file, whether

@@ -209,7 +209,7 @@ class increment_printer {
     if (first)
       say(paint::quiet,
           "At the left: lines of the listing, fortran/contct.f. At the right: equations of the paper.");
-    fmt::print("\n");
+    print_text("\n");
     const std::string heading = fmt::format("Step {}, increment {}", i_.what.step, i_.what.number);
     say(paint::strong, heading);
     say(paint::strong, std::string(heading.size(), '-'));
@@ -225,7 +225,7 @@ class increment_printer {
  private:
   void say(paint p, const std::string& words) const {
     for (const std::string& line : wrap({words}, terminal_.width))
-      fmt::print("{}\n", painted(terminal_, p, line));
+      print_text(fmt::format("{}\n", painted(terminal_, p, line)));
   }
 
   /// "  38  s = GAP / d* = 0.25.                 (4)"; where there is room, with the statement behind its
@@ -248,7 +248,7 @@ class increment_printer {
       }
     }
     for (const std::string& line : lines) {
-      fmt::print("{}{}\n", head, loud ? painted(terminal_, paint::bad, line) : line);
+      print_text(fmt::format("{}{}\n", head, loud ? painted(terminal_, paint::bad, line) : line));
       head.assign(head.size(), ' ');
     }
   }
@@ -267,7 +267,7 @@ class increment_printer {
   }
 
   void print_pair(const explained_pair& p) const {
-    fmt::print("\n");
+    print_text("\n");
     say(paint::strong, fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1,
                                    place_words(of_.what.geometry, p.node - 1), surface_name(p.surface),
                                    is_separated(p) ? "separated" : "in contact", kind_of_contact(p)));
@@ -276,7 +276,7 @@ class increment_printer {
   }
 
   void print_winner() const {
-    fmt::print("\n");
+    print_text("\n");
     say(paint::strong, "The smallest s");
     for (const sentence& t : winner_story(i_.call)) say(t);
     if (i_.other != nullptr) say_side_by_side("SMIN", i_.call.smin, i_.other->smin);
@@ -291,7 +291,7 @@ class increment_printer {
     if (i_.call.winner < 0) return;
     for (const explained_pair& p : i_.call.pairs) {
       if (!of_.wants(p)) continue;
-      fmt::print("\n");
+      print_text("\n");
       say(paint::strong, fmt::format("Pair {}: {}", p.pair + 1, name_of(p.why)));
       for (const sentence& t : toggle_story(i_.call, p))
         say(t, t.at.number == 0 && p.why != why_toggled::same_moment);
@@ -303,7 +303,7 @@ class increment_printer {
   }
 
   void print_outcome() const {
-    fmt::print("\n");
+    print_text("\n");
     if (i_.left_undone) {
       say(paint::quiet,
           "What would be left of the load after this event is rounding. The driver, not CONTCT, takes the "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -37,6 +38,15 @@ load_words words_for(const model& m, const load& l, const resultant& r) {
   if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
     return {"uniform ", l.distributed[0].polynomial[0]};
   return {of_matrix ? "sum " : "force ", r.force};
+}
+
+/// x, or 0 where it is nothing but the rounding of numbers of this size.
+double without_rounding(double x, double size) {
+  return std::abs(x) <= 32 * std::numeric_limits<double>::epsilon() * size ? 0.0 : x;
+}
+
+double between(double a, double b, double share) {
+  return without_rounding(a + share * (b - a), std::max(std::abs(a), std::abs(b)));
 }
 
 void insert(std::vector<int>& sorted, int number) {
@@ -197,8 +207,9 @@ load load_path::at(int step, double fraction) const {
 resultant load_path::resultant_at(int step, double fraction) const {
   const resultant& a = totals_[step - 1];
   const resultant& b = totals_[step];
-  resultant r{a.force + fraction * (b.force - a.force), a.moments};
-  for (std::size_t i = 0; i < r.moments.size(); ++i) r.moments[i] += fraction * (b.moments[i] - a.moments[i]);
+  resultant r{between(a.force, b.force, fraction), a.moments};
+  for (std::size_t i = 0; i < r.moments.size(); ++i)
+    r.moments[i] = between(a.moments[i], b.moments[i], fraction);
   return r;
 }
 
@@ -208,8 +219,12 @@ bool load_path::has_many_parts(int step) const {
 }
 
 std::string load_path::words_at(int step, double fraction, int width) const {
-  const load l = has_many_parts(step) ? load{} : at(step, fraction);
-  const load_words w = words_for(problem_.geometry, l, resultant_at(step, fraction));
+  const auto words_of = [&](double share) {
+    const load l = has_many_parts(step) ? load{} : at(step, share);
+    return words_for(problem_.geometry, l, resultant_at(step, share));
+  };
+  load_words w = words_of(fraction);
+  w.value = without_rounding(w.value, std::max(std::abs(words_of(0.0).value), std::abs(words_of(1.0).value)));
   const auto fits = [width](const std::string& text) { return static_cast<int>(text.size()) <= width; };
   for (int digits = 6; digits >= 3; --digits) {
     std::string text = fmt::format("{}{:.{}g}{}", w.before, w.value, digits, w.after);

@@ -221,6 +221,7 @@ void result_json::finish(std::string_view status, const path_end& end, const loc
   if (!free_runs_.empty()) members["free_run"] = nullptr;
   members["lockstep"] = compared == nullptr ? json(nullptr) : lockstep_json(*compared);
   members["status"] = status;
+  members["certified"] = end.status == path_status::solved && judged_.all_exact();
   document_.finish(members, {{"free_run", free_runs_.size(), [this](auto i) -> json {
                                 const auto& [kernel, d, certified] = free_runs_[i];
                                 return {{"kernel", kernel},

@@ -44,6 +44,14 @@ json section_force_json(const element_results& results, std::size_t name, const 
           {"node", most.at + 1}};
 }
 
+/// What is wrong with final states, and what to do about it.
+std::vector<std::string> complaints_of(const finished_run& r) {
+  std::vector<std::string> lines = certificate_complaints(r.what, r.judged, r.early);
+  const std::string remedy = remedy_words(r.kernels, r.file);
+  if (!lines.empty() && !remedy.empty()) lines.push_back(remedy);
+  return lines;
+}
+
 json calls_json(const run_record& record) {
   const auto answer = [](const follower_answer& a) -> json {
     return {a.values, a.mismatches, a.smin_ulps, a.ss_ulps, a.failed ? 1 : 0};
@@ -101,8 +109,9 @@ class page_writer {
                                  [](const auto& c) -> json {
                                    return {{"mark", certificate_mark(c)}, {"numbers", certificate_json(c)}};
                                  })},
-        {"certified", certificate_summary(r.judged)},
-        {"uncertified", certificate_complaints(what_, r.judged, r.early)},
+        {"certified", certificate_summary(r.judged, r.status == "solved")},
+        {"certified_whole", r.status == "solved" && r.judged.all_exact()},
+        {"uncertified", complaints_of(r)},
         {"thinned", shown_.omissions},
         {"frames", list_of(r.kept.frames(), [this](const frame& f) { return frame_of(f); })}};
   }
@@ -306,7 +315,7 @@ class page_writer {
                 {"end", f.step_end},
                 {"rescued", f.from_fallback},
                 {"load", f.step == 0 ? "none" : loads_.words_at(f.step, f.fraction, load_words_width)},
-                {"force", resultant_of(what_.geometry, l).force},
+                {"force", loads_.force_at(f.step, f.fraction)},
                 {"largest", {{"w", most.value}, {"node", named(what_, most.at)}}},
                 {"watched", deflection_of(what_, f, shown_.watched)},
                 {"events", events(f.events)},

@@ -464,8 +464,7 @@ drawn draw_path(const finished_run& r, const shown_parts& shown, double top) {
   span_of w;
   span_of force;
   for (const frame& f : r.kept.frames()) {
-    states.push_back({deflection_of(r.what, f, shown.watched),
-                      resultant_of(r.what.geometry, loads.at(f.step, f.fraction)).force});
+    states.push_back({deflection_of(r.what, f, shown.watched), loads.force_at(f.step, f.fraction)});
     w.take(states.back().x);
     force.take(states.back().y);
   }

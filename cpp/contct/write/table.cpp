@@ -82,9 +82,10 @@ std::string table::agreement() const {
 }
 
 void table::incremented(const increment& i) {
+  last_events_.assign(i.events.begin(), i.events.end());
   if (!std::exchange(headed_, true)) {
     const std::string heading = row("incr", "share", "s", "kernels", "load", "events");
-    fmt::print("{}\n", painted(terminal_, paint::strong, heading));
+    print_text(fmt::format("{}\n", painted(terminal_, paint::strong, heading)));
   }
   std::vector<std::string> events;
   for (const event& e : i.events.first(std::min(i.events.size(), most_events_shown)))
@@ -93,17 +94,22 @@ void table::incremented(const increment& i) {
     events.push_back(fmt::format("{} more in --json", i.events.size() - most_events_shown));
   std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
   if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
-  fmt::print("{}\n", row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
-                         i.snaps ? "snap" : share_words(i.s), agreement(),
-                         loads_.words_at(i.step, i.fraction, load_width_), lines.front()));
-  for (const std::string& more : std::span(lines).subspan(1)) fmt::print("{:{}}{}\n", "", indent_, more);
+  print_text(fmt::format("{}\n", row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
+                                     i.snaps ? "snap" : share_words(i.s), agreement(),
+                                     loads_.words_at(i.step, i.fraction, load_width_), lines.front())));
+  for (const std::string& more : std::span(lines).subspan(1))
+    print_text(fmt::format("{:{}}{}\n", "", indent_, more));
 }
 
 void table::step_ended(const step_state& s) {
   extreme most{0, s.displacement[0]};
   for (int node = 0; node < nodes(problem_.geometry); ++node)
     most.take(node, deflection_of(problem_, s.displacement, node));
-  const auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
+  // Where the path ends at a pair's opening, its status is as it was before, without force.
+  auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
+  for (const event& e : last_events_)
+    if (e.what == change::break_ && s.isep[e.pair] == in_contact) --closed;
+  last_events_.clear();
   std::string label = events_below_ ? "end " : "   end  ";
   const int width = terminal_.width - static_cast<int>(label.size());
   std::vector<std::string> items = {deflection_words(problem_.geometry, most, width),
@@ -112,7 +118,7 @@ void table::step_ended(const step_state& s) {
                                     certificate_mark(judged_.steps().back())};
   if (s.from_fallback) items.emplace_back("ended by the oracle");
   for (const std::string& line : wrap(items, width)) {
-    fmt::print("{}\n", painted(terminal_, paint::quiet, label + line));
+    print_text(fmt::format("{}\n", painted(terminal_, paint::quiet, label + line)));
     label.assign(label.size(), ' ');
   }
 }
@@ -177,7 +183,7 @@ void run_csv::write_pending() {
   std::vector<std::string> events;
   for (const event& e : last_.events) events.push_back(fmt::format("{} {}", change_name(e.what), e.pair + 1));
   const bool called = last_.number > 0;
-  const double force = resultant_of(problem_.geometry, loads_.at(last_.step, last_.fraction)).force;
+  const double force = loads_.force_at(last_.step, last_.fraction);
   increments_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number,
                                 last_.kind, called ? fmt::format("{}", last_.s) : "", last_.fraction, force,
                                 csv_field(fmt::format("{}", fmt::join(events, ", "))), n.closed, n.open,

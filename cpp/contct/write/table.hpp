@@ -41,6 +41,7 @@ class table final : public observer {
   int indent_ = 0;             // of the events
   bool events_below_ = false;  // on a narrow terminal they stand on lines of their own
   bool headed_ = false;
+  std::vector<event> last_events_;  // of the increment before
 };
 
 /// A field of a table in a file: quoted where it has to be.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contct/outside/registry.hpp"
+
 namespace contct::write {
 namespace {
 
@@ -37,7 +39,7 @@ std::string certificate_mark(const std::optional<certificate>& c) {
   return c->exact ? "certified" : "NOT certified";
 }
 
-std::vector<std::string> certificate_summary(const certifier& judged) {
+std::vector<std::string> certificate_summary(const certifier& judged, bool solved) {
   const auto& steps = judged.steps();
   const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->exact; });
   if (bad != steps.end()) {
@@ -52,7 +54,12 @@ std::vector<std::string> certificate_summary(const certifier& judged) {
       worst = std::max(
           {worst, c->displacement_error, c->shape_error, c->equilibrium, c->penetration, c->tension});
   }
-  if (certified == 0) return {};
+  if (!solved) {
+    std::vector<std::string> items = {"the run is NOT certified: its path ended before the full load"};
+    if (certified == 1) items.emplace_back("step 1 is certified");
+    if (certified > 1) items.push_back(fmt::format("steps 1 to {} are certified", certified));
+    return items;
+  }
   const std::string states = certified == 1   ? "the final state is"
                              : certified == 2 ? "both final states are"
                                               : fmt::format("all {} final states are", certified);
@@ -74,6 +81,11 @@ std::vector<std::string> certificate_complaints(const problem& p, const certifie
     ++step;
   }
   return lines;
+}
+
+std::string remedy_words(const std::vector<std::string>& kernels, const std::string& file) {
+  if (kernels.empty() || facts_of_kernel(kernels.front()).rule != "listing") return "";
+  return fmt::format("the corrected rule has no such errors: contct run {} --kernels corrected", file);
 }
 
 }  // namespace contct::write

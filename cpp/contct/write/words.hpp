@@ -46,13 +46,17 @@ constexpr std::string_view end_reason(path_status status) {
 /// A few words for a step: "certified", "NOT certified", or "no certificate".
 [[nodiscard]] std::string certificate_mark(const std::optional<certificate>& c);
 
-/// One line for a whole run, in parts: that it is certified and how closely, or the first step that is
-/// not. Empty when no step came to its end.
-[[nodiscard]] std::vector<std::string> certificate_summary(const certifier& judged);
+/// One line for a whole run, in parts: that it is certified and how closely, or the first step that is not.
+/// A path that is not `solved` is not certified as a whole: the steps that are, are named.
+[[nodiscard]] std::vector<std::string> certificate_summary(const certifier& judged, bool solved);
 
 /// For every step that is not certified a line that says what is wrong, how far off, and which
 /// increment toggled which pair away from its face before.
 [[nodiscard]] std::vector<std::string> certificate_complaints(const problem& p, const certifier& judged,
                                                               const early_toggles& early);
+
+/// What to do about them: the command that follows the problem in `file` by the corrected rule. Empty where
+/// the first of `kernels`, which leads, has another rule than the listing's.
+[[nodiscard]] std::string remedy_words(const std::vector<std::string>& kernels, const std::string& file);
 
 }  // namespace contct::write
