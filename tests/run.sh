@@ -24,9 +24,9 @@ need_core
 need_program
 need "to test" catch2 pkgconf python3 groff-base
 
-# leg NAME: configure and build the preset of that name, quietly unless it fails, and test it.
-leg() {
-  echo "== $1: configuring, building, testing"
+# build NAME: configure and build the preset of that name, quietly unless it fails.
+build() {
+  echo "== $1: configuring, building"
   log=$(mktemp)
   if ! { cmake --preset "$1" -DCONTCT_BUILD_TESTS=ON && cmake --build --preset "$1"; } >"$log" 2>&1; then
     cat "$log"
@@ -35,6 +35,11 @@ leg() {
     exit 1
   fi
   rm -f "$log"
+}
+
+# test_of NAME: test the build of that preset. The last lines are ctest's own summary.
+test_of() {
+  echo "== $1: testing"
   ctest --preset "$1" -j "$(nproc 2>/dev/null || echo 2)" --progress
 }
 
@@ -62,8 +67,11 @@ if [ "$full" = yes ]; then
   echo "== clang-format"
   find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
 fi
-for name in $legs; do leg "$name"; done
-leg release
+for name in $legs; do
+  build "$name"
+  test_of "$name"
+done
+build release
 if [ "$full" = yes ]; then
   echo "== 200,000 random problems under the corrected rule"
   build/release/tests/contct_campaign 200000 2026
@@ -77,6 +85,5 @@ if [ "$full" = yes ]; then
   with_tool "grids read back by VTK" vtk/run.sh build/release
   sh tests/tree/tidy.sh
   [ -z "$skipped" ] || echo "== skipped, because a tool cannot be had: ${skipped#; }"
-  # The last lines are ctest's own summary, of everything that the release build has.
-  ctest --preset release -j "$(nproc 2>/dev/null || echo 2)" --progress
 fi
+test_of release
