@@ -16,8 +16,8 @@ exit_status status_of_program(int argc, char** argv) {
     flush_standard_output();
     return status;
   } catch (const reader_gone&) {  // "contct run .. | head" ends as any filter does, its files written
-    std::signal(SIGPIPE, SIG_DFL);
-    std::raise(SIGPIPE);
+    (void)std::signal(SIGPIPE, SIG_DFL);
+    (void)std::raise(SIGPIPE);
   } catch (const kernel_failure& e) {
     complain("the leading kernel gave no answer: {}", e.what());
     return exit_status::kernels_differ;
@@ -34,6 +34,6 @@ exit_status status_of_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   contct::app::hold_standard_streams();
-  std::signal(SIGPIPE, SIG_IGN);
+  (void)std::signal(SIGPIPE, SIG_IGN);
   return static_cast<int>(contct::app::status_of_program(argc, argv));
 }
