@@ -59,7 +59,7 @@ TEST_CASE("each IF of the listing is counted by its outcome") {
 
 TEST_CASE("an event within EPSMUL by one ULP has the margin of that ULP, and one exactly at it has none") {
   const double edge = 0.5 + 0.5 / 256;
-  for (const auto& [face, ulps] : {std::pair(edge, 0U), {std::nextafter(edge, 0.0), 1U}}) {
+  for (const auto& [face, ulps] : {std::pair(edge, 0UL), {std::nextafter(edge, 0.0), 1UL}}) {
     const auto all = decided(small_call<double>(
         {{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, face, separated, face_above}}));
     // Below 2^-8 numbers are 2^-61 apart; one ULP of an s of 0.5 makes 2^-52 of DIFF.

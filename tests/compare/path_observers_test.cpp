@@ -52,7 +52,7 @@ TEST_CASE("every increment of PB1 is explained, with the second kernel's answer"
   CHECK(all.path.explained() == 6);
   CHECK(all.path.steps() == 4);
   CHECK(all.path.most_increments() == 2);
-  CHECK(all.path.compared().values == 6 * 4);
+  CHECK(all.path.compared().values == 6L * 4);
   CHECK(all.path.compared().mismatches == 0);
   CHECK_FALSE(all.path.first());
   for (const auto& i : all.increments) {
@@ -109,6 +109,6 @@ TEST_CASE("a recorded path is a trace that its kernel answers in the same way") 
   CHECK(h.listing == "a checksum");
   const replay_report r = replay(h, calls, *make_kernel("cpp"));
   CHECK(r.calls == 6);
-  CHECK(r.compared.values == 6 * 4);
+  CHECK(r.compared.values == 6L * 4);
   CHECK(r.compared.mismatches == 0);
 }

@@ -1,0 +1,374 @@
+#include "contct/write/structure_svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contct/text/strings.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::write {
+using namespace svg;
+
+namespace {
+
+/// What has to fit in: the beam, where it was, and the faces that are not too far away.
+span_of reach_of_beam(const structure_picture& s) {
+  span_of w;
+  w.take(0.0);
+  for (const int node : s.shown.nodes) w.take(s.w_of(node));
+  const double largest = std::max(std::abs(w.least), std::abs(w.most));
+  for (const int i : s.shown.pairs) {
+    const double face = s.what.pairs[i].face;
+    if (std::abs(face) <= 2.5 * largest || largest == 0.0) w.take(face);
+  }
+  return w;
+}
+
+/// Faces, `half` of which is so long, hatched on the side away from the beam; one that is too far away stands
+/// at the edge.
+std::string faces_of_beam(const beam& b, const structure_picture& s, double half) {
+  std::string text;
+  for (const int i : s.shown.pairs) {
+    const contact_pair& p = s.what.pairs[i];
+    const double x = s.X(b.x[p.node]);
+    const double y = std::clamp(s.Y(p.face), picture_top + 16, s.bottom - 10);
+    text += line(x - half, y, x + half, y, "surface");
+    for (int k = 0; 6 * k < 2 * half - 1; ++k) {
+      const double at = x - half + 6 * k + 3;
+      text += line(at, y, at - 3 * p.surface, y - 6 * p.surface, "hatch");
+    }
+  }
+  return text;
+}
+
+/// The elements' cubics between the nodes shown, as Bezier curves: the same curves.
+std::string curve_of_beam(const beam& b, const structure_picture& s) {
+  const auto slope = [&s](int node) { return s.at.displacement[2 * node + 1]; };
+  int from = s.shown.nodes.front();
+  std::string d = fmt::format("M{:.2f} {:.2f}", s.X(b.x[from]), s.Y(s.w_of(from)));
+  for (const int to : std::span(s.shown.nodes).subspan(1)) {
+    const double third = (b.x[to] - b.x[from]) / 3;
+    d += fmt::format("C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", s.X(b.x[from] + third),
+                     s.Y(s.w_of(from) + third * slope(from)), s.X(b.x[to] - third),
+                     s.Y(s.w_of(to) - third * slope(to)), s.X(b.x[to]), s.Y(s.w_of(to)));
+    from = to;
+  }
+  return d;
+}
+
+/// A beam from the side; deflections and faces magnified alike, as the heading says.
+drawn draw_beam(const beam& b, structure_picture s) {
+  constexpr double width = page_width - 2 * side;
+  const double left = b.x.front();
+  const double right = b.x.back();
+  s.X = {left, width / (right - left), side};
+  const span_of w = reach_of_beam(s);
+  constexpr double room = 170.0;
+  if (w.most > w.least) s.magnified = round_down(room / (w.range() * s.X.per_unit));
+  s.Y = {w.most, -s.magnified * s.X.per_unit, picture_top + 34};
+  s.bottom = s.Y(w.least) + 44;
+  const double half = std::clamp(width / static_cast<double>(s.shown.pairs.size() + 1) * 0.36, 1.0, 14.0);
+  const auto spot_of = [&](int node) { return spot{s.X(b.x[node]), s.Y(s.w_of(node))}; };
+  std::string supports;
+  for (const support& held : s.what.supports) {
+    if (!s.shown.has_support_at(held.node)) continue;
+    const auto [x, y] = spot_of(held.node);
+    supports += held.dof == 0 ? path(fmt::format("M{:.1f} {:.1f}l8 13h-16z", x, y + 2), "support")
+                              : line(x, y - 13, x, y + 13, "clamp");
+  }
+  return {text_at(side, picture_top, "strong", fmt::format("Final state, deflection × {:.6g}", s.magnified)) +
+              line(s.X(left), s.Y(0), s.X(right), s.Y(0), "undeformed") + faces_of_beam(b, s, half) +
+              path(curve_of_beam(b, s), "beam") + supports +
+              s.marks(std::clamp(half * 0.5, 1.6, 5.0), spot_of) + axis_below(s.X, left, right, s.bottom),
+          s.bottom + 30};
+}
+
+/// Lighter is higher.
+std::string colour_of(double share) {
+  const double stops[3][3] = {{22, 52, 98}, {104, 165, 200}, {250, 244, 228}};
+  const double at = std::clamp(share, 0.0, 1.0) * 2;
+  const int k = std::min(1, static_cast<int>(at));
+  const auto mix = [&](int i) {
+    return static_cast<int>(stops[k][i] + (stops[k + 1][i] - stops[k][i]) * (at - k));
+  };
+  return fmt::format("rgb({},{},{})", mix(0), mix(1), mix(2));
+}
+
+/// What the colours mean.
+template <class Colour>
+std::string legend(double left, const span_of& range, Colour colour) {
+  std::string text;
+  for (int i = 0; i <= 10; ++i) {
+    const double w = range.most - (range.most - range.least) * i / 10;
+    const double top = picture_top + 14 + 20.0 * i;
+    text += rectangle(left, top, 20, 20, fmt::format(R"(fill="{}")", colour(w)));
+    if (i % 5 == 0) text += text_at(left + 28, top + 15, "quiet", fmt::format("{:.4g}", w));
+  }
+  return text;
+}
+
+/// A rectangle between each two columns and rows that are drawn, in the colour of its mean.
+template <class Colour>
+std::string cells_of_plate(const plate& p, const structure_picture& s, Colour colour) {
+  const auto cell = [&](int from, int to, int low, int high) {
+    const auto w_at = [&](int i, int j) { return s.w_of(p.node_at(i, j)); };
+    const double mean = (w_at(from, low) + w_at(to, low) + w_at(to, high) + w_at(from, high)) / 4;
+    const double left = s.X(p.x[from]);
+    const double top = s.Y(p.y[high]);
+    return element(
+        "rect", fmt::format(R"(x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}" stroke="{}")",
+                            left, top, s.X(p.x[to]) - left, s.Y(p.y[low]) - top, colour(mean), colour(mean)));
+  };
+  std::string text;
+  for (std::size_t b = 0; b + 1 < s.shown.rows.size(); ++b) {
+    for (std::size_t a = 0; a + 1 < s.shown.columns.size(); ++a)
+      text += cell(s.shown.columns[a], s.shown.columns[a + 1], s.shown.rows[b], s.shown.rows[b + 1]);
+  }
+  return text;
+}
+
+/// A plate from above.
+drawn draw_plate(const plate& p, structure_picture s) {
+  const double wide = p.x.back() - p.x.front();
+  const double per_unit = std::min((page_width - 330) / wide, 430 / (p.y.back() - p.y.front()));
+  s.X = {p.x.front(), per_unit, side};
+  s.Y = {p.y.back(), -per_unit, picture_top + 14};
+  s.bottom = s.Y(p.y.front());
+  span_of range;
+  for (const int j : s.shown.rows) {
+    for (const int i : s.shown.columns) range.take(s.w_of(p.node_at(i, j)));
+  }
+  const auto colour = [&](double w) { return colour_of((w - range.least) / range.range()); };
+  const auto spot_of = [&](int node) {
+    const place at = place_of_node(s.what.geometry, node);
+    return spot{s.X(at.x), s.Y(at.y)};
+  };
+  const double r = std::clamp(per_unit * wide / p.columns() * 0.25, 1.5, 6.0);
+  return {text_at(side, picture_top, "strong", "Final state from above: deflection w, and the pairs") +
+              cells_of_plate(p, s, colour) + element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
+              legend(s.X(p.x.back()) + 40, range, colour) +
+              axis_below(s.X, p.x.front(), p.x.back(), s.bottom),
+          std::max(s.bottom, picture_top + 260) + 30};
+}
+
+/// A structure from elsewhere in the view that shows most: its edges as they were, faint, and displaced, with
+/// pairs and supports at their nodes.
+class mesh_picture : structure_picture {
+ public:
+  mesh_picture(const placed_nodes& places, const structure_picture& s)
+      : structure_picture(s),
+        places_(places),
+        of_node_(dofs_of_nodes(places)),
+        view_(all_views.at(fitting_view(places))) {
+    fit();
+  }
+
+  [[nodiscard]] drawn whole() const {
+    std::string text =
+        text_at(side, picture_top, "strong",
+                fmt::format("Final state ({}), displacement × {:.6g}", view_.words, magnified));
+    text += path(edges(0.0), "was") + path(edges(magnified), "member");
+    if (shown.edges.empty()) text += points();
+    text += path(crosses(), "thin") + supports();
+    for (const int i : shown.pairs) text += pair(i);
+    return {text, bottom + 24};
+  }
+
+ private:
+  /// Room for the structure as it was, and for all displacements around it.
+  void fit() {
+    constexpr double most_height = 430.0;
+    constexpr double share_of_displacements = 0.12;  // of the picture's size, for the largest of them
+    span_of x;
+    span_of y;
+    for (const int node : shown.nodes) {
+      x.take(view_.x_of(places_.nodes[node].at));
+      y.take(view_.y_of(places_.nodes[node].at));
+    }
+    const double size = std::max({x.most - x.least, y.most - y.least, 0.0});
+    // By the whole path: a structure that came back is drawn where it was.
+    if (shown.reach > 0.0 && size > 0.0) magnified = round_down(share_of_displacements * size / shown.reach);
+    const double room = std::max(magnified * shown.reach, 0.02 * size);
+    for (span_of* s : {&x, &y}) {
+      s->take(s->least - room);
+      s->take(s->most + room);
+    }
+    const double per_unit = std::min((page_width - 2 * side) / x.range(), most_height / y.range());
+    X = {(x.least + x.most) / 2, per_unit, page_width / 2};
+    Y = {y.most, -per_unit, picture_top + 34};
+    bottom = Y(y.least) + 20;
+  }
+
+  /// A node on the page, its displacement magnified so many times.
+  [[nodiscard]] spot displaced(int node, double times) const {
+    const in_space u = reading_at(of_node_[node].along, at);
+    in_space p = places_.nodes[node].at;
+    for (int axis = 0; axis < 3; ++axis) p[axis] += times * u[axis];
+    return {X(view_.x_of(p)), Y(view_.y_of(p))};
+  }
+
+  [[nodiscard]] std::string edges(double times) const {
+    std::string d;
+    for (const int i : shown.edges) {
+      const spot a = displaced(places_.edges[i].from, times);
+      const spot b = displaced(places_.edges[i].to, times);
+      d += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", a.x, a.y, b.x, b.y);
+    }
+    return d;
+  }
+
+  [[nodiscard]] std::string points() const {
+    std::string text;
+    for (const int node : shown.nodes) {
+      const spot s = displaced(node, magnified);
+      text += circle(s.x, s.y, 1.6, R"(class="node")");
+    }
+    return text;
+  }
+
+  /// A cross at each node that has no dof.
+  [[nodiscard]] std::string crosses() const {
+    std::string d;
+    for (const int node : shown.nodes) {
+      if (of_node_[node] != dofs_of_node{}) continue;
+      const spot s = displaced(node, 0.0);
+      d += fmt::format("M{:.1f} {:.1f}l6 6m-6 0l6 -6", s.x - 3, s.y - 3);
+    }
+    return d;
+  }
+
+  /// A length of 1 along the axis of a dof, as the view shows it; {0, 0} for rotations.
+  [[nodiscard]] spot seen(const placed_dof& d) const {
+    if (!d.is_length()) return {0, 0};
+    in_space unit{};
+    unit[d.direction - 1] = 1.0;
+    return {view_.x_of(unit), -view_.y_of(unit)};
+  }
+
+  /// An axis on the page, of length 1; {0, 0} where it points at the eye, and for rotations.
+  [[nodiscard]] spot axis_on_page(const placed_dof& d) const {
+    const spot on_page = seen(d);
+    const double length = std::hypot(on_page.x, on_page.y);
+    return length < 0.1 ? spot{0, 0} : spot{on_page.x / length, on_page.y / length};
+  }
+
+  /// A triangle behind the node in each direction in which it is held, a square where it cannot turn.
+  [[nodiscard]] std::string supports() const {
+    std::string text;
+    for (const support& s : what.supports) {
+      const placed_dof& d = places_.dofs[s.node];
+      if (d.node < 0 || !shown.has_support_at(s.node)) continue;
+      const spot p = displaced(d.node, magnified);
+      const spot t = axis_on_page(d);
+      const std::string shape =
+          t.x == 0 && t.y == 0
+              ? fmt::format("M{:.1f} {:.1f}h9v9h-9z", p.x - 4.5, p.y - 4.5)
+              : fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}z", p.x, p.y, p.x - 12 * t.x - 6 * t.y,
+                            p.y - 12 * t.y + 6 * t.x, p.x - 12 * t.x + 6 * t.y, p.y - 12 * t.y - 6 * t.x);
+      text += path(shape, "support");
+    }
+    return text;
+  }
+
+  /// Its face across its direction, hatched behind, and its mark at the node.
+  [[nodiscard]] std::string pair(int i) const {
+    constexpr double half = 13.0;  // of a face
+    constexpr int hatches = 4;
+    const contact_pair& p = what.pairs[i];
+    const placed_dof& d = places_.dofs[p.node];
+    if (d.node < 0) return "";
+    const spot node = displaced(d.node, magnified);
+    std::string marked = mark_of_pair(what, at, i, node, 5.0);
+    const spot t = axis_on_page(d);
+    if (t.x == 0 && t.y == 0) return marked;
+    // The face is drawn beside the node, along which it has no end; one that is too far away, at the edge.
+    constexpr double far = 90.0;
+    const double scale = magnified * X.per_unit * std::hypot(seen(d).x, seen(d).y);
+    const double away = std::clamp(scale * p.face, -far, far) - scale * w_of(p.node);
+    const spot m{node.x + away * t.x, node.y + away * t.y};
+    std::string text =
+        line(m.x - half * t.y, m.y + half * t.x, m.x + half * t.y, m.y - half * t.x, "surface");
+    for (int hatch = 0; hatch < hatches; ++hatch) {
+      const double k = 2 - half + 6 * hatch;
+      const spot from{m.x + k * t.y, m.y - k * t.x};
+      text += line(from.x, from.y, from.x + p.surface * 6 * t.x - 3 * t.y,
+                   from.y + p.surface * 6 * t.y + 3 * t.x, "hatch");
+    }
+    return text + marked;
+  }
+
+  const placed_nodes& places_;
+  std::vector<dofs_of_node> of_node_;
+  const structure_view& view_;
+};
+
+/// A label fit for a column, cut between characters.
+std::string cut(std::string label) {
+  constexpr std::size_t longest = 26;
+  if (label.size() <= longest) return label;
+  std::size_t end = longest - 3;
+  while (end > 0 && (static_cast<unsigned char>(label[end]) & 0xC0U) == 0x80U) --end;
+  return label.substr(0, end) + "...";
+}
+
+std::string table_row(double y, std::string_view kind, const std::vector<std::string>& cells) {
+  constexpr double columns[] = {side, 130, 330, 500, 620, 740};
+  std::string text;
+  for (std::size_t i = 0; i < cells.size(); ++i) text += text_at(columns[i], y, kind, cells[i]);
+  return text;
+}
+
+/// A structure whose places are not known: its pairs as a table, the dof that moves most first.
+drawn draw_table(const structure_picture& s) {
+  constexpr std::size_t most_rows = 40;
+  constexpr double row_height = 22.0;
+  const auto number = [](double x) { return fmt::format("{:.6g}", x); };
+  const auto label = [&s](int node) { return cut(place_name(s.what.geometry, node)); };
+  double y = picture_top;
+  std::string text = text_at(side, y, "strong", "Final state: no coordinates are known, so this is a table");
+  text += table_row(y += 30, "quiet", {"pair", "dof", "state", "displacement", "gap", "force"});
+  text += table_row(y += row_height, "plain",
+                    {"", label(s.shown.watched), "moves most on the path", number(s.w_of(s.shown.watched))});
+  const std::size_t rows = std::min(most_rows, s.shown.pairs.size());
+  for (std::size_t k = 0; k < rows; ++k) {
+    const int i = s.shown.pairs[k];
+    const pair_reading r = reading_of(s.what, s.at, i);
+    text += table_row(y += row_height, "plain",
+                      {std::to_string(i + 1), label(s.what.pairs[i].node), std::string(look_name(r.look)),
+                       number(r.w), number(r.gap), number(r.force)});
+  }
+  if (rows < s.what.pairs.size())
+    text +=
+        text_at(side, y += row_height, "quiet", fmt::format("and {} pairs more", s.what.pairs.size() - rows));
+  return {text, y + 16};
+}
+
+}  // namespace
+
+std::string mark_of_pair(const problem& p, const frame& f, int pair, const spot& at, double r) {
+  const contact_pair& of = p.pairs[pair];
+  const bool closed = f.closed(pair);
+  const pair_reading now = reading_of(p, f, pair);
+  const std::string words =
+      title(fmt::format("pair {}, {}, face {} at {:.6g}, {}: {} {:.6g}", pair + 1,
+                        place_words(p.geometry, of.node), surface_name(of.surface), of.face,
+                        look_name(now.look), closed ? "force" : "gap", closed ? now.force : now.gap));
+  if (now.look == pair_look::open) return circle(at.x, at.y, r, R"(class="open")", words);
+  if (now.look == pair_look::closed)
+    return rectangle(at.x - r, at.y - r, 2 * r, 2 * r, R"(class="closed")", words);
+  return path(fmt::format("M{:.1f} {:.1f}l{:.1f} {:.1f}l{:.1f} {:.1f}l{:.1f} {:.1f}z", at.x, at.y - 1.3 * r,
+                          1.3 * r, 1.3 * r, -1.3 * r, 1.3 * r, -1.3 * r, -1.3 * r),
+              "face", words);
+}
+
+drawn draw_structure(const structure_picture& s) {
+  const model& m = s.what.geometry;
+  if (const auto* b = std::get_if<beam>(&m.kind)) return draw_beam(*b, s);
+  if (const auto* p = std::get_if<plate>(&m.kind)) return draw_plate(*p, s);
+  const placed_nodes& places = std::get<assembled>(m.kind).places;
+  return places.known() ? mesh_picture(places, s).whole() : draw_table(s);
+}
+
+}  // namespace contct::write
