@@ -255,6 +255,18 @@ struct resultant {
 
 [[nodiscard]] resultant resultant_of(const model& m, const load& l);
 
+/// Pairs that a [[bed]] made: one at each of its nodes, of stiffness modulus * share.
+struct bed {
+  double modulus;             ///< force per length (area) of deflection, positive
+  std::vector<double> share;  ///< tributary length, or area, of each pair
+  std::size_t first_pair;     ///< from 0; the others follow it
+};
+
+/// Labels for people; nothing is converted. Both are empty, or neither.
+struct unit_labels {
+  std::string length, force;
+};
+
 /// What a problem file says. Nodes, elements and pairs count from 0 here, from 1 in the file.
 struct problem {
   std::string title;
@@ -262,6 +274,8 @@ struct problem {
   std::vector<support> supports;
   std::vector<contact_pair> pairs;  ///< all [[contact]] in file order, then the beds'
   std::vector<load> steps;          ///< total load at the end of each step
+  std::vector<bed> beds;            ///< whose pairs are among `pairs`
+  unit_labels units;
   std::vector<std::string> warnings;
 };
 

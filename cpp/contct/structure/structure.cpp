@@ -14,14 +14,20 @@ load mix(const load& before, const load& after, double fraction) {
   if (fraction == 1.0) return after;
   std::map<std::pair<int, int>, double> points;
   std::map<std::vector<int>, std::vector<double>> distributed;
+  std::map<std::pair<int, int>, double> settlements;
   for (const auto& [part, share] : {std::pair(&before, 1.0 - fraction), std::pair(&after, fraction)}) {
     for (const point_load& p : part->points) points[{p.node, p.dof}] += share * p.value;
     for (const distributed_load& d : part->distributed)
       add_polynomial(distributed[d.elements], d.polynomial, share);
+    for (const prescribed_displacement& g : part->settlements)
+      settlements[{g.node, g.dof}] += share * g.value;
   }
   load sum;
   for (const auto& [place, value] : points) sum.points.push_back({place.first, place.second, value});
   for (const auto& [elements, polynomial] : distributed) sum.distributed.push_back({polynomial, elements});
+  for (const auto& [place, value] : settlements)
+    sum.settlements.push_back({place.first, place.second, value});
+  sum.name = after.name;
   return sum;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "contct/structure/rigid_modes.hpp"
@@ -25,10 +26,19 @@ struct distributed_load {
   std::vector<int> elements;       ///< from 0; empty means all
 };
 
+/// What a support moves one dof of one node to.
+struct prescribed_displacement {
+  int node;      ///< from 0
+  int dof;       ///< within the node, from 0; a support fixes it
+  double value;  ///< positive as the dof
+};
+
 /// Everything that acts on the structure at one moment.
 struct load {
   std::vector<point_load> points;
   std::vector<distributed_load> distributed;
+  std::vector<prescribed_displacement> settlements = {};
+  std::string name = {};  ///< of the step that ends with it, for people; may be empty
 };
 
 /// The load at share `fraction` of the way from `before` to `after`, with equal places merged.

@@ -1,0 +1,187 @@
+#include "contct/structure/extremes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace contct::structure {
+namespace {
+
+/// Polynomials, constant first.
+using polynomial = std::vector<double>;
+
+/// p(left + t h) as a polynomial in t, by repeated division by (x - left).
+polynomial shifted(std::span<const double> p, double left, double h) {
+  polynomial c(p.begin(), p.end());
+  double scale = 1.0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    for (std::size_t k = c.size() - 1; k-- > i;) c[k] += left * c[k + 1];
+    c[i] *= scale;
+    scale *= h;
+  }
+  return c;
+}
+
+polynomial derivative(const polynomial& p) {
+  polynomial d;
+  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(static_cast<double>(i) * p[i]);
+  return d;
+}
+
+/// A zero of p between a and b, where it has different signs.
+double zero_between(const polynomial& p, double a, double b) {
+  const bool rises = polynomial_at(p, a) < 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = a + (b - a) / 2;
+    if (middle <= a || middle >= b) break;
+    (polynomial_at(p, middle) < 0.0) == rises ? a = middle : b = middle;
+  }
+  return a;
+}
+
+/// Where p changes its sign between 0 and 1, in order: at most once between neighbouring zeros of its
+/// derivative.
+std::vector<double> zeros_of(const polynomial& p) {
+  if (p.size() < 2) return {};
+  std::vector<double> borders = zeros_of(derivative(p));
+  borders.insert(borders.begin(), 0.0);
+  borders.push_back(1.0);
+  std::vector<double> zeros;
+  for (std::size_t i = 0; i + 1 < borders.size(); ++i)
+    if ((polynomial_at(p, borders[i]) < 0.0) != (polynomial_at(p, borders[i + 1]) < 0.0))
+      zeros.push_back(zero_between(p, borders[i], borders[i + 1]));
+  return zeros;
+}
+
+/// Least and largest coefficient in Bernstein's form: p is between them from 0 to 1.
+std::pair<double, double> hull_of(const polynomial& p) {
+  const std::size_t degree = p.size() - 1;
+  polynomial b = p;  // b_j = sum over i <= j of C(j, i) / C(degree, i) p_i
+  double choose = 1.0;
+  for (std::size_t i = 1; i <= degree; ++i) {
+    choose *= static_cast<double>(degree - i + 1) / static_cast<double>(i);
+    b[i] = p[i] / choose;
+  }
+  for (std::size_t round = 0; round < degree; ++round)
+    for (std::size_t j = degree; j > round; --j) b[j] += b[j - 1];
+  const auto [least, most] = std::minmax_element(b.begin(), b.end());
+  return {*least, *most};
+}
+
+void take(value_range& r, const placed_value& v) {
+  if (v.value < r.least.value) r.least = v;
+  if (v.value > r.most.value) r.most = v;
+}
+
+/// One quantity along a beam.
+class range_along {
+ public:
+  range_along(std::string_view name, const placed_value& first) : range_{name, first, first} {}
+
+  /// An element's own line. Its ends, by `left_value` and `right_value`, are not computed from the
+  /// polynomial.
+  void take_element(const element_line& line, int e, const polynomial& p, double left_value,
+                    double right_value) {
+    take(range_, {left_value, line.left, 0.0, e});
+    take(range_, {right_value, line.left + line.h, 0.0, e + 1});
+    const auto [least, most] = hull_of(p);
+    if (least >= range_.least.value && most <= range_.most.value) return;
+    for (const double t : zeros_of(derivative(p)))
+      take(range_, {polynomial_at(p, t), line.left + t * line.h, 0.0, -1});
+  }
+
+  [[nodiscard]] const value_range& range() const { return range_; }
+
+ private:
+  value_range range_;
+};
+
+std::vector<value_range> ranges(const beam& b, const load& l, std::span<const double> u,
+                                std::span<const int> /*deflecting*/) {
+  const beam_lines lines(b, l, u);
+  const element_line first = lines.at(0);
+  const auto start = [&](double value) { return placed_value{value, b.x.front(), 0.0, 0}; };
+  range_along w("w", start(u[0]));
+  range_along moment("moment", start(first.moment.front()));
+  range_along shear("shear", start(first.shear.front()));
+  const std::vector<element_forces> ends = forces_in_elements(b, l, u);
+  for (int e = 0; e < b.elements(); ++e) {
+    const element_line line = lines.at(e);
+    w.take_element(line, e, line.w, u[2 * e], u[2 * e + 2]);
+    moment.take_element(line, e, line.moment, ends[e].moment[0], ends[e].moment[1]);
+    shear.take_element(line, e, line.shear, ends[e].shear[0], ends[e].shear[1]);
+  }
+  return {w.range(), moment.range(), shear.range()};
+}
+
+std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<const double> u,
+                                std::span<const int> /*deflecting*/) {
+  const auto at = [&](int node, double value) {
+    return placed_value{value, p.x[node % p.columns()], p.y[node / p.columns()], node};
+  };
+  std::vector<value_range> all;
+  value_range& w = all.emplace_back(value_range{"w", at(0, u[0]), at(0, u[0])});
+  for (int node = 1; node < p.nodes(); ++node) take(w, at(node, u[3 * node]));
+  const std::vector<corner_moments> moments = moments_in_elements(p, u);
+  const std::pair<const char*, std::array<double, 4> corner_moments::*> quantities[] = {
+      {"mx", &corner_moments::mx}, {"my", &corner_moments::my}, {"mxy", &corner_moments::mxy}};
+  for (const auto& [name, quantity] : quantities) {
+    const placed_value first = at(0, (moments.front().*quantity)[0]);
+    value_range r{name, first, first};
+    for (int e = 0; e < p.elements(); ++e)
+      for (std::size_t k = 0; k < 4; ++k) take(r, at(p.corners_of(e)[k], (moments[e].*quantity)[k]));
+    all.push_back(r);
+  }
+  return all;
+}
+
+std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::span<const double> u,
+                                std::span<const int> deflecting) {
+  if (deflecting.empty()) return {};
+  const auto at = [&](int dof) { return placed_value{u[dof], 0.0, 0.0, dof}; };
+  value_range w{"w", at(deflecting.front()), at(deflecting.front())};
+  for (const int dof : deflecting) take(w, at(dof));
+  return {w};
+}
+
+}  // namespace
+
+beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u)
+    : beam_(b), u_(u), forces_(forces_in_elements(b, l, u)), q_(b.elements()) {
+  for_each_loaded_element(l, b.elements(), [&](int e, std::span<const double> p) {
+    add_polynomial(q_[e], shifted(p, b.x[e], b.length_of(e)), 1.0);
+  });
+}
+
+element_line beam_lines::at(int e) const {
+  const double h = beam_.length_of(e);
+  const double EI = beam_.EI[e];
+  const polynomial& q = q_[e];
+  const std::size_t size = q.size();
+  element_line line{beam_.x[e], h, polynomial(std::max<std::size_t>(4, size + 4)), {}, {}, {}};
+  line.shear.assign(size + 1, 0.0);
+  line.moment.assign(size + 2, 0.0);
+  line.shear[0] = forces_[e].shear[0];
+  line.moment[0] = forces_[e].moment[0];
+  line.moment[1] = forces_[e].shear[0] * h;
+  for (std::size_t j = 0; j < size; ++j) {  // dV/dx = q, dM/dx = V
+    const auto n = static_cast<double>(j);
+    line.shear[j + 1] = q[j] * h / (n + 1);
+    line.moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
+  }
+  line.w[0] = u_[2 * e];
+  line.w[1] = u_[2 * e + 1] * h;
+  for (std::size_t i = 0; i < line.moment.size(); ++i) {  // EI w'' = M
+    const auto n = static_cast<double>(i);
+    line.w[i + 2] = line.moment[i] * h * h / EI / (n + 1) / (n + 2);
+  }
+  for (double d : derivative(line.w)) line.slope.push_back(d / h);
+  return line;
+}
+
+std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
+                                   std::span<const int> deflecting) {
+  return std::visit([&](const auto& kind) { return ranges(kind, l, u, deflecting); }, m.kind);
+}
+
+}  // namespace contct::structure

@@ -1,0 +1,58 @@
+// What an engineer reads off a whole structure: a beam's exact line between its nodes, and where each
+// quantity is largest and smallest.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "contct/structure/problem.hpp"
+
+namespace contct::structure {
+
+/// An element of a beam, exactly: the solution of EI w_xxxx = q with the displacements of its nodes. Each
+/// quantity is a polynomial in t = (x - left) / h, from 0 to 1, constant first (see polynomial_at).
+struct element_line {
+  double left = 0.0, h = 0.0;
+  std::vector<double> w, slope, moment, shear;
+};
+
+/// The lines of all elements under displacement `u` [dofs] and load `l`.
+class beam_lines {
+ public:
+  /// `b` and `u` must outlive this object.
+  beam_lines(const beam& b, const load& l, std::span<const double> u);
+
+  /// Element `e`, from 0.
+  [[nodiscard]] element_line at(int e) const;
+
+ private:
+  const beam& beam_;
+  std::span<const double> u_;
+  std::vector<element_forces> forces_;
+  std::vector<std::vector<double>> q_;  // of each element, in t; empty: none
+};
+
+/// A value, and where it is: its place along the structure, and its node (from 0) where it is at one.
+struct placed_value {
+  double value = 0.0;
+  double x = 0.0, y = 0.0;
+  int node = -1;
+};
+
+/// The least and the largest value of one quantity.
+struct value_range {
+  std::string_view name;
+  placed_value least, most;
+
+  /// The larger of the two by magnitude.
+  [[nodiscard]] const placed_value& largest() const { return -least.value > most.value ? least : most; }
+};
+
+/// Beams: "w", "moment" and "shear" over the whole length. Plates: "w" at nodes, "mx", "my" and "mxy" at the
+/// corners of elements. A matrix: the displacements of the dofs among `deflecting`, as "w". Of equal values,
+/// the first one's place.
+[[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
+                                                 std::span<const int> deflecting);
+
+}  // namespace contct::structure
