@@ -141,7 +141,7 @@ struct observed_run {
   const run_setup& run;
   lockstep* compared;  // null where nothing is compared
   output_files files{run.outputs};
-  certifier judged{run.structure, loads_of(run.what)};
+  certifier judged{run.structure, loads_of(run.what, run.structure)};
   early_toggles early{};
   digit_watch digits{};
   path_progress shown{run.what.steps.size(), run.options.report.quiet};
@@ -205,7 +205,7 @@ path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
                                          [file](std::string_view text) { file->write(text); }));
   if (run.options.pictures.wants_frames()) {
     const bool forces_by_law = leader.facts().rule != "listing";
-    observers.push_back(&o.frames.emplace(run.structure, loads_of(run.what), forces_by_law));
+    observers.push_back(&o.frames.emplace(run.structure, loads_of(run.what, run.structure), forces_by_law));
     observers.push_back(&o.record.emplace(o.compared));
   }
   if (output_file* const file = o.files["--csv"])
@@ -358,7 +358,7 @@ exit_status final_states(const run_setup& run) {
   observed_run o{run, nullptr};
   print_heading(run);
   const path_end end = find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
-                                         loads_of(run.what), make_observers(o));
+                                         loads_of(run.what, run.structure), make_observers(o));
   o.shown.line.erase();
   print_verdict(o, paint::quiet,
                 {"only the end: the oracle's, judged by equilibrium, penetration and tension",
@@ -386,7 +386,7 @@ exit_status free_run(const run_setup& run) {
   comparison c;
   for (const std::string& name : std::span(run.kernels).subspan(1)) {
     path_record own;
-    certifier judged(run.structure, loads_of(run.what));
+    certifier judged(run.structure, loads_of(run.what, run.structure));
     own.end = follow(run.what, run.structure, engine_for(name, run.options, run.structure),
                      *make_kernel(name), {&judged, &own}, limits_of(run));
     const double bound = free_run_bound(facts_of_kernel(run.kernels.front()), facts_of_kernel(name));

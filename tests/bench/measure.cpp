@@ -67,7 +67,7 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
                          const std::string& engine, int most_events, bool certify) {
   run_of_engine r;
   const std::unique_ptr<contct::app::kernel> leader = contct::app::make_kernel("corrected");
-  const contct::app::load_history loads = contct::app::loads_of(p);
+  const contct::app::load_history loads = contct::app::loads_of(p, s);
   watch w(r);
   contct::app::observer* const observers[] = {&w};
   contct::app::path_limits limits;

@@ -34,11 +34,26 @@ TEST_CASE("a band and its entries alone are one matrix, to the bit") {
       CHECK(minus_product(narrow, x) == minus_product(wide, x));
     };
     compare();
-    std::vector<char> fixed(order);
-    fixed[0] = fixed[11] = fixed[order - 1] = 1;
+    std::vector<double> pivots(order);
+    pivots[0] = pivots[order - 1] = 4.0;
+    pivots[11] = 1.0;
+    std::vector<char> marked(order);
+    marked[11] = 1;
+    for (const stiffness_matrix* k : {&wide, &narrow}) {
+      std::vector<double> unit(order);
+      unit[11] = -1.0;
+      std::vector<long double> column = minus_product(*k, unit);
+      for (const auto& [row, of, value] : k->entries_in(marked)) {
+        CHECK(of == 11);
+        CHECK(row != 11);
+        column[row] -= value;
+      }
+      column[11] -= k->diagonal(11);
+      CHECK(std::count(column.begin(), column.end(), 0.0L) == order);
+    }
     for (stiffness_matrix* k : {&wide, &narrow}) {
       k->add_to_diagonal(5, 2.5);
-      k->fix(fixed);
+      k->fix(pivots);
     }
     compare();
     CHECK(minus_product(narrow, x)[11] == -static_cast<long double>(x[11]));

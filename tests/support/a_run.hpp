@@ -37,9 +37,9 @@ struct a_run {
         structure(structure_of(what)),
         leader(make_kernel("fortran")),
         compared(make_lockstep(leader->facts(), std::vector<std::string>{"cpp"})),
-        kept(structure, loads_of(what), false, limits),
+        kept(structure, loads_of(what, structure), false, limits),
         record(&compared),
-        judged(structure, loads_of(what)) {
+        judged(structure, loads_of(what, structure)) {
     std::vector<observer*> watching = {&compared, &judged, &early, &kept, &record};
     watching.insert(watching.end(), more.begin(), more.end());
     end = follow(what, structure, "refactor", *leader, watching);

@@ -113,7 +113,7 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   std::vector<long double> left(load.size());
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
     u[row(dof)] = s.displacement[dof];
-    left[row(dof)] = load[dof];
+    left[row(dof)] = structure_.in_row(dof, load[dof]);
   }
   structure_.stiffness.subtract_product(std::span<const double>(u), left);
   std::vector<double> stiffness(load.size());  // on the diagonal, springs included
@@ -128,6 +128,7 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
       deepest = std::max(deepest, pressing);
     } else {
       farthest = std::max(farthest, -pressing);
+      if (structure_.fixed[dof] != 0) continue;  // the support takes its force
       left[row(dof)] -=
           static_cast<long double>(p.stiffness) * (static_cast<long double>(s.displacement[dof]) - p.face);
       stiffness[dof] += p.stiffness;
@@ -135,8 +136,8 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   }
   double unbalanced = 0.0;
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
-    const double there = std::abs(static_cast<double>(left[row(dof)])) / std::sqrt(stiffness[dof]);
-    if (structure_.fixed[dof] == 0) unbalanced = std::max(unbalanced, there);
+    unbalanced =
+        std::max(unbalanced, std::abs(static_cast<double>(left[row(dof)])) / std::sqrt(stiffness[dof]));
   }
   c.penetration = share(deepest, largest_length());
   c.tension = share(farthest, largest_length());

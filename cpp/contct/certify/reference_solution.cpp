@@ -45,6 +45,7 @@ class reference_solver::search {
     if (answer.how == outcome::found) return answer;
     // A start that is far from the answer may have spoilt it by rounding.
     start_undeformed();
+    settle();
     answer = from_here();
     if (answer.how != outcome::found) start_undeformed();
     return answer;
@@ -65,7 +66,7 @@ class reference_solver::search {
     resultant_size_ = {};
     for (std::size_t dof = 0; dof < load.size(); ++dof) {
       const bool fixed = structure_.fixed[dof] != 0;
-      load_[structure_.row_of(static_cast<int>(dof))] = fixed ? 0.0L : load[dof];
+      load_[structure_.row_of(static_cast<int>(dof))] = structure_.in_row(dof, load[dof]);
       if (fixed) continue;
       for (std::size_t m = 0; m < resultant_.size(); ++m) {
         resultant_[m] += load[dof] * structure_.rigid_rows[dof][m];
@@ -74,8 +75,17 @@ class reference_solver::search {
     }
     long double whole = 0.0L;
     for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node)
-      whole += std::abs(load_[structure_.row_of(dof)]);
+      if (structure_.fixed[dof] == 0) whole += std::abs(load_[structure_.row_of(dof)]);
     largest_load_ = std::max(largest_load_, whole);
+    settle();
+  }
+
+  /// Prescribed displacements hold from the beginning: no search moves them.
+  void settle() {
+    for (std::size_t dof = 0; dof < structure_.settles.size(); ++dof) {
+      const int row = structure_.row_of(dof);
+      if (structure_.settles[dof] != 0) u_[row] = load_[row] / structure_.stiffness.diagonal(row);
+    }
   }
 
   /// Where the structure is before any load.

@@ -165,7 +165,7 @@ void measurement::step_ended(const step_state& s) {
   steps_.push_back({{s.displacement.begin(), s.displacement.end()},
                     {s.isep.begin(), s.isep.end()},
                     results_in_elements(problem_.geometry, total, s.displacement),
-                    reactions(problem_.geometry, total, problem_.supports, s.displacement)});
+                    reactions(problem_, total, s.displacement, s.isep)});
 }
 
 double measurement::of(const expected_number& e) const {
@@ -198,13 +198,13 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   out.title = p.title;
   const linear_structure s = structure_of(p);
   measurement listing(p);
-  certifier judged(s, loads_of(p));
+  certifier judged(s, loads_of(p, s));
   const auto fortran = make_kernel("fortran");
   const std::string followers[] = {"cpp"};
   lockstep compared = make_lockstep(fortran->facts(), followers);
   const path_end end = follow(p, s, "refactor", *fortran, {&compared, &judged, &listing});
   measurement corrected(p);
-  certifier judged_corrected(s, loads_of(p));
+  certifier judged_corrected(s, loads_of(p, s));
   path_limits limits;
   limits.fallback = fallback_to_reference(s);
   const path_end corrected_end =

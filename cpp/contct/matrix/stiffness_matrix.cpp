@@ -129,14 +129,28 @@ std::vector<double> stiffness_matrix::diagonal_with(std::span<const spring_at> s
   return all;
 }
 
-void stiffness_matrix::fix(std::span<const char> fixed) {
+std::vector<matrix_entry> stiffness_matrix::entries_in(std::span<const char> columns) const {
+  std::vector<matrix_entry> found;
+  each_entry(
+      stored_, [](std::size_t /*i*/, double /*own*/) {},
+      [&](std::size_t row, std::size_t column, double value) {
+        if (value == 0.0) return;
+        const auto r = static_cast<int>(row);
+        const auto c = static_cast<int>(column);
+        if (columns[column] != 0) found.push_back({r, c, value});
+        if (columns[row] != 0) found.push_back({c, r, value});
+      });
+  return found;
+}
+
+void stiffness_matrix::fix(std::span<const double> pivots) {
   each_entry(
       stored_,
-      [fixed](std::size_t i, double& value) {
-        if (fixed[i] != 0) value = 1.0;
+      [pivots](std::size_t i, double& value) {
+        if (pivots[i] > 0.0) value = pivots[i];
       },
-      [fixed](std::size_t row, std::size_t column, double& value) {
-        if (fixed[row] != 0 || fixed[column] != 0) value = 0.0;
+      [pivots](std::size_t row, std::size_t column, double& value) {
+        if (pivots[row] > 0.0 || pivots[column] > 0.0) value = 0.0;
       });
 }
 

@@ -143,8 +143,10 @@ class stiffness_matrix {
 
   /// The diagonal of K with springs [rows].
   [[nodiscard]] std::vector<double> diagonal_with(std::span<const spring_at> springs) const;
-  /// Rows and columns `r` with `fixed[r]` [rows] become those of the identity.
-  void fix(std::span<const char> fixed);
+  /// The entries off the diagonal in the columns that are marked [rows], of both triangles.
+  [[nodiscard]] std::vector<matrix_entry> entries_in(std::span<const char> columns) const;
+  /// Rows and columns `r` with `pivots[r]` > 0 [rows] keep nothing but that on the diagonal.
+  void fix(std::span<const double> pivots);
   /// K becomes D K D, D diagonal: `d` [rows].
   void scale(std::span<const double> d);
 

@@ -32,7 +32,7 @@ struct path_end {
 };
 
 /// Loads along the path: write the total load at the end of `step` (from 1) to `total` [dofs],
-/// which comes zeroed.
+/// which comes zeroed; at dofs that settle, the displacement that is prescribed (add_settlements).
 using load_history = std::function<void(int step, std::span<double> total)>;
 
 /// An equilibrium found without a path.

@@ -1,9 +1,12 @@
 // The path of a structure under load steps that are data, and of a whole problem.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <set>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "contct/path/path.hpp"
@@ -21,24 +24,51 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
   const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
   const load_history total = [&](int step, std::span<double> f) {
     add_consistent_loads(geometry, steps[step - 1], f);
+    add_settlements(s, steps[step - 1], f);
   };
   return follow_path(s, static_cast<int>(steps.size()), total, *solves, leader, observers, limits);
 }
 
-/// The structure that a problem describes.
+/// The structure that a problem describes; the supports that its steps move are built to settle.
 [[nodiscard]] inline linear_structure structure_of(const problem& p) {
-  return build(p.geometry, p.supports, p.pairs);
+  std::vector<support> supports = p.supports;
+  std::set<std::pair<int, int>> settling;
+  for (const load& l : p.steps)
+    for (const prescribed_displacement& g : l.settlements) settling.emplace(g.node, g.dof);
+  for (support& s : supports) s.settles = s.fixed && settling.contains({s.node, s.dof});
+  return build(p.geometry, supports, p.pairs);
 }
 
-/// The load vectors of a problem's steps. `p` must outlive them.
-[[nodiscard]] inline load_history loads_of(const problem& p) {
-  return [&p](int step, std::span<double> f) { add_consistent_loads(p.geometry, p.steps[step - 1], f); };
+/// The load vectors of a problem's steps, as follow_path takes them. `p` and its structure must outlive them.
+[[nodiscard]] inline load_history loads_of(const problem& p, const linear_structure& s) {
+  return [&p, &s](int step, std::span<double> f) {
+    add_consistent_loads(p.geometry, p.steps[step - 1], f);
+    add_settlements(s, p.steps[step - 1], f);
+  };
 }
 
 /// Follow a problem's path on an engine by name. `s` is its structure.
 inline path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
                        const std::vector<observer*>& observers, const path_limits& limits = {}) {
   return follow_steps(p.geometry, s, p.steps, engine, leader, observers, limits);
+}
+
+/// The force (or moment) on the structure by each support of `p`, in their order, under displacement `u`
+/// [dofs] and load `l`, with the pairs in the statuses `isep` [pairs]: what a pair presses with on a fixed
+/// deflection, which a settlement may have moved, is no support's.
+[[nodiscard]] inline std::vector<double> reactions(const problem& p, const load& l, std::span<const double> u,
+                                                   std::span<const int> isep) {
+  std::vector<double> all = reactions(p.geometry, l, p.supports, u);
+  const int stride = dofs_per_node(p.geometry);
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
+    const contact_pair& at = p.pairs[i];
+    const double force = at.surface * force_of(at, u[at.node * stride], isep[i] == in_contact);
+    if (force == 0.0) continue;
+    const auto fixes = [&](const support& s) { return s.fixed && s.dof == 0 && s.node == at.node; };
+    const auto by = std::find_if(p.supports.begin(), p.supports.end(), fixes);
+    if (by != p.supports.end()) all[by - p.supports.begin()] += force;
+  }
+  return all;
 }
 
 }  // namespace contct::path

@@ -22,11 +22,10 @@ namespace contct::solve {
   return list;
 }
 
-/// A load by dofs in the order of the rows of K; 0 at fixed dofs.
+/// A load by dofs as the right-hand side of K (see linear_structure::in_row), by rows.
 [[nodiscard]] inline std::vector<double> in_rows(const linear_structure& s, std::span<const double> load) {
   std::vector<double> b(load.size());
-  for (std::size_t dof = 0; dof < load.size(); ++dof)
-    if (s.fixed[dof] == 0) b[s.row_of(dof)] = load[dof];
+  for (std::size_t dof = 0; dof < load.size(); ++dof) b[s.row_of(dof)] = s.in_row(dof, load[dof]);
   return b;
 }
 
@@ -41,12 +40,13 @@ inline void gather_at_pairs(const linear_structure& s, std::span<const double> u
   for (std::size_t i = 0; i < at_pairs.size(); ++i) at_pairs[i] = u[s.dof_of_pair(i)];
 }
 
-/// A load [dofs] with the pairs' forces [pairs] added where they act.
+/// A load [dofs] with the pairs' forces [pairs] added where they act; a support takes those at a fixed dof.
 [[nodiscard]] inline std::vector<double> with_pair_forces(const linear_structure& s,
                                                           std::span<const double> load,
                                                           std::span<const double> pair_forces) {
   std::vector<double> all(load.begin(), load.end());
-  for (std::size_t i = 0; i < pair_forces.size(); ++i) all[s.dof_of_pair(i)] += pair_forces[i];
+  for (std::size_t i = 0; i < pair_forces.size(); ++i)
+    if (const int dof = s.dof_of_pair(i); s.fixed[dof] == 0) all[dof] += pair_forces[i];
   return all;
 }
 
@@ -85,7 +85,7 @@ class factored_stiffness {
     if (!factor_.factor(springs_)) refuse_ill_conditioned();
   }
 
-  /// Solve K x = x in place for every dof by the factor (dpbtrs); 0 at fixed dofs.
+  /// Solve K x = x in place for every dof by the factor (dpbtrs); as in_rows has it at fixed ones.
   void solve(std::span<double> x) {
     std::vector<double> b = in_rows(structure_, x);
     factor_.solve(b);

@@ -77,23 +77,64 @@ void add_to_band(band_matrix& k, int row, int column, double entry, int element)
   k.add(row, column, entry);
 }
 
+namespace {
+
+/// A power of four near `stiffness`: its root, too, is exact.
+double power_of_four_near(double stiffness) {
+  return stiffness > 0.0 ? std::ldexp(1.0, 2 * static_cast<int>(std::lround(std::log2(stiffness) / 2))) : 1.0;
+}
+
+/// Give fixed dofs rows of their own, and keep what settling ones do to the others.
+void fix(linear_structure& s) {
+  std::vector<double> pivots(s.fixed.size(), 0.0);
+  std::vector<char> settling_rows(s.settles.size(), 0);
+  std::vector<int> dof_of_row(s.fixed.size());
+  for (int dof = 0; dof < s.dofs(); ++dof) {
+    const int row = s.row_of(dof);
+    dof_of_row[row] = dof;
+    if (s.fixed[dof] == 0) continue;
+    const bool settles = !s.settles.empty() && s.settles[dof] != 0;
+    if (settles) settling_rows[row] = 1;
+    pivots[row] = settles ? power_of_four_near(s.stiffness.diagonal(row)) : 1.0;
+  }
+  if (!s.settles.empty())
+    for (const auto& [row, column, value] : s.stiffness.entries_in(settling_rows))
+      if (pivots[row] == 0.0) s.to_settling.push_back({dof_of_row[row], dof_of_row[column], value});
+  s.stiffness.fix(pivots);
+}
+
+}  // namespace
+
 void put_on_supports(linear_structure& s, std::span<const support> supports,
                      std::vector<contact_pair> pairs) {
   s.fixed.assign(s.dofs(), 0);
+  if (std::any_of(supports.begin(), supports.end(), [](const support& p) { return p.settles; }))
+    s.settles.assign(s.dofs(), 0);
   for (const support& p : supports) {
     const int dof = p.node * s.dofs_per_node + p.dof;
     if (p.fixed) {
       s.fixed[dof] = 1;
+      if (p.settles) s.settles[dof] = 1;
     } else {
       s.stiffness.add_to_diagonal(s.row_of(dof), p.spring);
     }
     s.held_by_supports.push_back(s.rigid_rows[dof]);
   }
-  std::vector<char> fixed_rows(s.fixed.size(), 0);
-  for (int dof = 0; dof < s.dofs(); ++dof) fixed_rows[s.row_of(dof)] = s.fixed[dof];
-  s.stiffness.fix(fixed_rows);
+  fix(s);
   s.pairs = std::move(pairs);
   for (std::size_t i = 0; i < s.pairs.size(); ++i) s.held_by_pairs.push_back(s.rigid_rows[s.dof_of_pair(i)]);
+}
+
+void add_settlements(const linear_structure& s, const load& l, std::span<double> f) {
+  for (std::size_t dof = 0; dof < s.settles.size(); ++dof)
+    if (s.settles[dof] != 0) f[dof] = 0.0;
+  for (const prescribed_displacement& g : l.settlements) {
+    const std::size_t dof = g.node * s.dofs_per_node + g.dof;
+    if (s.settles.empty() || s.settles[dof] == 0)
+      throw std::logic_error("dof " + std::to_string(dof + 1) + " was not built to settle");
+    f[dof] = g.value;
+  }
+  for (const auto& [free, settling, value] : s.to_settling) f[free] -= value * f[settling];
 }
 
 std::vector<double> reactions_of(std::span<const support> supports, const load& l, std::span<const double> u,

@@ -91,10 +91,11 @@ struct gauss_point {
 
 /// A permanent support of one dof, working both ways.
 struct support {
-  int node = 0;         ///< from 0
-  int dof = 0;          ///< within the node, from 0
-  bool fixed = true;    ///< held in place; otherwise elastic
-  double spring = 0.0;  ///< stiffness of an elastic support
+  int node = 0;          ///< from 0
+  int dof = 0;           ///< within the node, from 0
+  bool fixed = true;     ///< held in place; otherwise elastic
+  double spring = 0.0;   ///< stiffness of an elastic support
+  bool settles = false;  ///< a fixed one: steps may prescribe its displacement
 };
 
 /// A candidate contact pair: a one-sided spring between a node and a face.
@@ -119,9 +120,12 @@ struct contact_pair {
 /// Any structure: dof d of node i is dof i * dofs_per_node + d, from 0.
 struct linear_structure {
   int dofs_per_node = 0;
-  int deflection = 0;               ///< which dof of a node deflects, from 0 (INDOF - 1)
-  stiffness_matrix stiffness;       ///< with elastic supports; a fixed dof has a row of the identity
-  std::vector<char> fixed;          ///< [dofs] 1 where a support fixes the dof
+  int deflection = 0;          ///< which dof of a node deflects, from 0 (INDOF - 1)
+  stiffness_matrix stiffness;  ///< with elastic supports; a fixed dof has a row of its own: see in_row
+  std::vector<char> fixed;     ///< [dofs] 1 where a support fixes the dof
+  std::vector<char> settles;   ///< [dofs] 1 where that prescribes a displacement; empty: nowhere
+  std::vector<matrix_entry>
+      to_settling;                  ///< K's entries at free dofs (rows) that settling ones (columns) move
   std::vector<contact_pair> pairs;  ///< in the order of their numbers
 
   std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
@@ -141,6 +145,13 @@ struct linear_structure {
   /// The row of the stiffness matrix that belongs to a dof: plates are numbered along their shorter
   /// side there, for the smaller bandwidth.
   [[nodiscard]] int row_of(std::size_t dof) const { return rows.empty() ? static_cast<int>(dof) : rows[dof]; }
+  /// What K u = f has for f in the row of a dof: its load; at a fixed one only what makes u the displacement
+  /// that `load` prescribes there, or 0. The pivot of a settling dof is a power of four near the stiffness
+  /// that it has lost: rows stay of one size, and u comes out to the bit.
+  [[nodiscard]] double in_row(std::size_t dof, double load) const {
+    if (fixed[dof] == 0) return load;
+    return !settles.empty() && settles[dof] != 0 ? stiffness.diagonal(row_of(dof)) * load : 0.0;
+  }
   [[nodiscard]] bool deflects(int dof) const {
     return lengths.empty() ? dof % dofs_per_node == deflection : lengths[dof] != 0;
   }
@@ -167,6 +178,11 @@ struct linear_structure {
 /// Put an assembled structure on its supports and give it its pairs: springs and fixed dofs go into
 /// the stiffness, and what is held is taken from `rigid_rows`.
 void put_on_supports(linear_structure& s, std::span<const support> supports, std::vector<contact_pair> pairs);
+
+/// Complete a load vector [dofs], which has the loads of `l` by now: at settling dofs the displacements g
+/// that `l` prescribes, at free ones -K g. Throws std::logic_error where the support of a settlement was not
+/// built to settle.
+void add_settlements(const linear_structure& s, const load& l, std::span<double> f);
 
 /// Add an entry of an element's stiffness (elements from 0) to `k`. Throws std::invalid_argument, naming the
 /// element (from 1), when it is not a finite number.

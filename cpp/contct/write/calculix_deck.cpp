@@ -270,7 +270,7 @@ class deck_writer {
 
     const linear_structure s = structure_of(problem_);
     std::vector<double> total(s.dofs(), 0.0);
-    loads_of(problem_)(choice_.step, total);
+    loads_of(problem_, s)(choice_.step, total);
     reference_solver finds(s);
     const reference_answer found = finds.solve(total);
     if (found.how != reference_answer::outcome::found)

@@ -16,7 +16,7 @@ namespace {
 
 /// How much there is to write: a list of scattered elements counts by its length.
 std::size_t parts_of(const load& l) {
-  std::size_t parts = l.points.size();
+  std::size_t parts = l.points.size() + l.settlements.size();
   for (const distributed_load& d : l.distributed)
     parts += d.elements.empty() || is_run(d.elements) ? 1 : d.elements.size();
   return parts;
@@ -28,8 +28,22 @@ struct load_words {
   double value;
   std::string after{};
 };
+
+/// Of settlements alone: the only one, or the largest.
+load_words settlement_words(const model& m, const std::vector<prescribed_displacement>& all) {
+  const auto size = [](const prescribed_displacement& g) { return std::abs(g.value); };
+  const prescribed_displacement& g = *std::ranges::max_element(all, {}, size);
+  if (all.size() > 1) return {"settlements to ", g.value};
+  const std::string name =
+      std::holds_alternative<assembled>(m.kind) ? "" : fmt::format("{} ", dof_names(m)[g.dof]);
+  return {"settlement " + name, g.value, " at " + place_words(m, g.node)};
+}
+
 load_words words_for(const model& m, const load& l, const resultant& r) {
   const bool of_matrix = std::holds_alternative<assembled>(m.kind);
+  if (!l.settlements.empty() && l.points.empty() && l.distributed.empty())
+    return settlement_words(m, l.settlements);
+  if (!l.settlements.empty()) return {of_matrix ? "sum " : "force ", r.force};
   if (l.points.size() == 1 && l.distributed.empty()) {
     const point_load& p = l.points[0];
     return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), p.value,

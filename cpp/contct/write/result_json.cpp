@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
+#include "contct/path/solve_problem.hpp"
 
 namespace contct::write {
 namespace {
@@ -136,6 +137,11 @@ json load_json(const model& m, const load_path& loads, int step, double fraction
     put_place(point, m, p.node);
     point[names[p.dof]] = p.value;
   }
+  for (const prescribed_displacement& g : l.settlements) {
+    json& settled = out["settlement"].emplace_back();
+    put_place(settled, m, g.node);
+    settled[names[g.dof]] = g.value;
+  }
   return out;
 }
 
@@ -160,10 +166,12 @@ void result_json::step_ended(const step_state& s) {
   const model& m = problem_.geometry;
   const load total = loads_.at(s.step, s.fraction);
   const element_results results = results_in_elements(m, total, s.displacement);
-  const std::vector<double> reacting = reactions(m, total, problem_.supports, s.displacement);
+  const std::vector<double> reacting = reactions(problem_, total, s.displacement, s.isep);
   std::vector<double> w(nodes(m));
   for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(problem_, s.displacement, node);
+  const std::string& name = problem_.steps[s.step - 1].name;
   json members = {{"step", s.step},
+                  {"name", name.empty() ? json(nullptr) : json(name)},
                   {"fraction", s.fraction},
                   {"increments", nullptr},
                   {"w", w},
