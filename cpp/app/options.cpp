@@ -233,6 +233,16 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
       c->add_flag("--final-only", o.final_only,
                   "No path: the equilibrium under each step's load by the oracle, certified");
   c->add_flag("--strict", o.strict, "Exit 3 when a final state is not certified");
+  c->add_flag("--detail", o.detail,
+              "Print every event, and after each step all pairs, reactions and ends of elements");
+  c->add_flag(
+      "--envelope", o.envelope,
+      "Add to the result of --json the least and largest of everything over all increments, which takes "
+      "a solve for each");
+  p.add(c, takes::number, "--node", o.watched,
+        "The node whose deflection the table of --csv has: its number, \"x = 4.5\" along a beam, or a dof's "
+        "label [the one that deflects most at the ends of steps]")
+      ->type_name("NODE");
   p.add(c, takes::number, "--max-increments", o.max_increments, "Limit of increments in a step")
       ->check(CLI::Range(1, most_increments));
   p.add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
@@ -241,7 +251,7 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   p.add_reports(c, o.report);
   p.add_file(c, "--log", o.log, "Write what the leader writes to unit 26 to this file");
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
-                                "--html", "--svg", "--csv", "--vtu"})
+                                "--html", "--svg", "--csv", "--vtu", "--envelope", "--node"})
     final_only->excludes(c->get_option(of_a_path));
 }
 

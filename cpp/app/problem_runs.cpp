@@ -106,6 +106,25 @@ exit_status status_of(path_status status) {
   return statuses[static_cast<int>(status)];  // in the order of path_status
 }
 
+void passage_watch::step_ended(const step_state& s) {
+  const auto here = deepest_passage(what, loads.at(s.step, s.fraction), s.displacement);
+  if (!here || (worst && here->depth <= worst->depth)) return;
+  worst = here;
+  step = s.step;
+}
+
+std::string passage_watch::warning() const {
+  if (!worst) return "";
+  const contact_pair& left = what.pairs[worst->first];
+  return fmt::format(
+      "step {}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g} "
+      "at x = "
+      "{:.6g}. Contact is modelled at nodes with pairs only: put pairs closer together (nodes of a finer "
+      "mesh: "
+      "element_size)",
+      step, worst->first + 1, worst->second + 1, left.face, worst->depth, worst->x);
+}
+
 void digit_watch::step_ended(const step_state& s) {
   if (digits_left(s.rcond) >= fewest) return;
   fewest = digits_left(s.rcond);

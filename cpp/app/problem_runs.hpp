@@ -7,6 +7,7 @@
 #include "app/outputs.hpp"
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
+#include "contct/write/step_results.hpp"
 
 namespace contct::app {
 
@@ -38,6 +39,22 @@ template <class Comparing>
   return fmt::format("{} calls, {} values compared, {} mismatches", c.calls(), c.compared().values,
                      c.compared().mismatches);
 }
+
+/// Observes a path of a beam and remembers where, at the end of a step, it passes deepest through a face
+/// between pairs.
+struct passage_watch final : observer {
+  /// `p` must outlive this object.
+  explicit passage_watch(const problem& p) : what(p), loads(p) {}
+  void step_ended(const step_state& s) override;
+
+  /// A warning that names the remedy; empty where there is no such place.
+  [[nodiscard]] std::string warning() const;
+
+  const problem& what;
+  load_path loads;
+  std::optional<passage> worst;
+  int step = 0;
+};
 
 /// Observes a path and remembers the step whose answer kept the fewest digits.
 struct digit_watch final : observer {

@@ -91,6 +91,23 @@ std::string engine_for(const std::string& kernel, const run_options& o, const li
   return std::string(quickest_engine(s));
 }
 
+/// The node of --node, from 0: a number from 1, "x = 4.5", or a dof's label. Throws std::invalid_argument.
+int node_named(const model& m, const std::string& name) {
+  for (int node = 0; node < nodes(m); ++node)
+    if (place_name(m, node) == name) return node;
+  std::string allowed = fmt::format("a node from 1 to {}", nodes(m));
+  if (std::holds_alternative<assembled>(m.kind)) allowed = "the label of a dof";
+  if (const auto* b = std::get_if<beam>(&m.kind)) {
+    const std::size_t digits = name.find_first_not_of("x= ");
+    const auto x =
+        digits == std::string::npos || name[0] != 'x' ? std::nullopt : number_in<double>(name.substr(digits));
+    if (const auto at = x ? std::ranges::find(b->x, *x) : b->x.end(); at != b->x.end())
+      return static_cast<int>(at - b->x.begin());
+    allowed += fmt::format(", or x = .. of one, from {} to {}", b->x.front(), b->x.back());
+  }
+  throw std::invalid_argument(fmt::format("--node: found {}; allowed: {}", in_quotes(name), allowed));
+}
+
 /// What is run; complete before any file is opened.
 struct run_setup {
   const run_options& options;
@@ -102,7 +119,26 @@ struct run_setup {
   problem what = {};
   linear_structure structure = {};
   std::string engine = "oracle";  // of the leader's path
+  int watched = 0;                // the node of --csv, from 0
 };
+
+/// In the states in which steps end, by the reference solution.
+int node_that_deflects_most(const run_setup& run) {
+  struct : observer {
+    void step_ended(const step_state& s) override {
+      for (const int node : among) most.take(node, deflection_of(*what, s.displacement, node));
+    }
+    const problem* what = nullptr;
+    std::vector<int> among;
+    extreme most;
+  } ends;
+  ends.what = &run.what;
+  ends.among = deflecting_nodes(run.what);
+  observer* const watching[] = {&ends};
+  (void)find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
+                          loads_of(run.what, run.structure), watching);
+  return ends.most.at;
+}
 
 run_setup set_up(const run_options& o) {
   run_setup run{o};
@@ -115,6 +151,11 @@ run_setup set_up(const run_options& o) {
     run.engine = engine_for(o.kernels.front(), o, run.structure);
   }
   refuse_shared_outputs(run.outputs, {{"the problem", o.file}});
+  if (!o.watched.empty()) {
+    run.watched = node_named(run.what.geometry, o.watched);
+  } else if (!o.pictures.csv.empty()) {
+    run.watched = node_that_deflects_most(run);
+  }
   return run;
 }
 
@@ -144,6 +185,7 @@ struct observed_run {
   certifier judged{run.structure, loads_of(run.what, run.structure)};
   early_toggles early{};
   digit_watch digits{};
+  passage_watch passages{run.what};
   path_progress shown{run.what.steps.size(), run.options.report.quiet};
   std::optional<table> rows = {};
   std::optional<result_json> json = {};
@@ -151,6 +193,7 @@ struct observed_run {
   std::optional<trace_recorder> trace = {};
   std::optional<frame_keeper> frames = {};  // these two for pictures
   std::optional<run_record> record = {};
+  std::optional<envelope> extremes = {};
   std::optional<run_csv> tables = {};
   bool has_verdict = false;
 };
@@ -159,11 +202,12 @@ struct observed_run {
 std::vector<observer*> make_observers(observed_run& o) {
   const run_setup& run = o.run;
   std::vector<observer*> all = {o.compared, &o.judged, &o.early, o.shown.before.get()};
-  if (run.prints) all.push_back(&o.rows.emplace(run.what, o.compared, o.judged, run.screen));
+  if (run.prints)
+    all.push_back(&o.rows.emplace(run.what, o.compared, o.judged, run.screen, run.options.detail));
   if (output_file* const file = o.files["--json"])
     all.push_back(&o.json.emplace(run.what, run.kernels, run.engine, o.judged, *file));
   if (output_file* const file = o.files["--log"]) all.push_back(&o.log.emplace(*file));
-  all.insert(all.end(), {&o.digits, o.shown.behind.get()});
+  all.insert(all.end(), {&o.digits, &o.passages, o.shown.behind.get()});
   std::erase(all, nullptr);
   return all;
 }
@@ -203,13 +247,19 @@ path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
   if (output_file* const file = o.files["--trace"])
     observers.push_back(&o.trace.emplace(header_of_trace(run, leader.facts()),
                                          [file](std::string_view text) { file->write(text); }));
-  if (run.options.pictures.wants_frames()) {
+  if (run.options.envelope) o.extremes.emplace(run.what);
+  output_file* const csv = o.files["--csv"];
+  if (run.options.pictures.wants_frames() || run.options.envelope || csv != nullptr) {
     const bool forces_by_law = leader.facts().rule != "listing";
     observers.push_back(&o.frames.emplace(run.structure, loads_of(run.what, run.structure), forces_by_law));
     observers.push_back(&o.record.emplace(o.compared));
+    if (run.options.envelope) o.frames->show_each_to([&o](const frame& f) { o.extremes->take(f); });
   }
-  if (output_file* const file = o.files["--csv"])
-    observers.push_back(&o.tables.emplace(run.what, o.compared, *file, o.files[csv_pairs]));
+  if (csv != nullptr) {
+    o.frames->solve_each();
+    observers.push_back(
+        &o.tables.emplace(run.what, o.compared, *o.frames, run.watched, *csv, o.files[csv_pairs]));
+  }
   if (recorded != nullptr) observers.push_back(recorded);
   path_end end = follow(run.what, run.structure, run.engine, leader, observers, limits_of(run));
   o.shown.line.erase();
@@ -307,7 +357,7 @@ void write_grids(const output_files& files, const std::string& vtu, const finish
 void write_files(observed_run& o, const path_end& end, const comparison& c) {
   const run_setup& run = o.run;
   const std::string status(c.equal ? status_name(end.status) : "kernels-disagree");
-  if (o.json) o.json->finish(status, end, o.compared);
+  if (o.json) o.json->finish(status, end, o.compared, o.extremes ? &*o.extremes : nullptr);
   for (const char* name : {"--log", "--trace"})
     if (output_file* const file = o.files[name]) file->finish();
   if (o.tables) o.tables->finish();
@@ -350,6 +400,7 @@ exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
   } else if (const std::string w = o.digits.warning(); !w.empty()) {
     complain("warning: {}", w);
   }
+  if (const std::string w = o.passages.warning(); !w.empty()) complain("warning: {}", w);
   return status;
 }
 

@@ -37,7 +37,11 @@ TEST_CASE("the table shows share, s, load, event, node and side, and that the ke
   CHECK(f.err.empty());
   CHECK_THAT(f.out, Contains("1.1  0.25"));
   CHECK_THAT(f.out, Contains("equal    w -15 at node 3  make 1: node 3 below"));
-  CHECK_THAT(f.out, Contains("w = -0.0048372093 at node 3; 1 of 1 in contact"));
+  CHECK_THAT(f.out, Contains("   end  1 of 1 in contact; 14 digits; certified\n"
+                             "        w             -0.00483721       node 3, x = 2\n"
+                             "        moment        -36.2791          node 1, x = 0\n"
+                             "        contact force 41.8605           pair 1, node 3 below\n"
+                             "        reaction      18.1395           node 1\n"));
   CHECK_THAT(f.out,
              Contains("fortran and cpp are equal to the bit; 2 calls, 8 values compared, 0 mismatches"));
   CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // and no fort.26
@@ -70,6 +74,72 @@ TEST_CASE("the table fits its terminal, from 40 columns to 160") {
   }
 }
 
+TEST_CASE("what lets go as soon as a load begins has one row, and a row each on request") {
+  const std::string footing = std::string(CONTCT_ROOT) + "/reference/problems/pb11b-strip-footing-n40.toml";
+  const finished f = contct_program(root, {"run", footing});
+  CHECK_THAT(f.out, Contains("16 pairs break at first") && !Contains("break 41"));
+  const finished detailed = contct_program(root, {"run", footing, "--detail"});
+  CHECK_THAT(detailed.out, Contains("break 41: node 41 below") && !Contains("pairs break"));
+  CHECK_THAT(detailed.out, Contains("25 of 41 in contact") && Contains("      40  shear"));
+}
+
+TEST_CASE("the envelope is in the result where it was asked for, with steps and increments") {
+  const scratch_folder dir;
+  dir.write("pb.toml", good_problem);
+  const std::string pb7 = std::string(CONTCT_ROOT) + "/reference/problems/pb07-three-gap-supports.toml";
+  const auto result_of = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"run", pb7, "--quiet", "--json", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    return nlohmann::json::parse(contct_program(dir.path(), all).out);
+  };
+  CHECK_FALSE(result_of({}).contains("envelope"));
+  const auto r = result_of({"--envelope"});
+  const auto& e = r["envelope"];
+  CHECK(e["states"] == 8);
+  CHECK(e["moment"]["max"]["value"] > r["steps"][2]["extremes"]["moment"]["max"]["value"]);
+  CHECK(e["moment"]["max"]["value"] == Approx(168.493151).epsilon(1e-8));  // where the middle pair opens
+  CHECK(e["moment"]["max"]["x"] == 4.0);
+  CHECK(e["moment"]["max"]["step"] == 4);
+  CHECK(e["moment"]["max"]["increment"] == 1);
+  CHECK(r["steps"][2]["extremes"]["moment"]["max"]["value"] == Approx(167.984829).epsilon(1e-8));
+  CHECK(r["steps"][2]["extremes"]["moment"]["max"]["x"] == Approx(4.299611).epsilon(1e-6));
+  CHECK(e["pairs"][1]["force_max"] == r["steps"][2]["pairs"][1]["force"]);
+  CHECK(e["reactions"][0]["min"]["value"] == Approx(40.0));  // the last step's
+  CHECK(e["reactions"][0]["min"]["step"] == 4);
+  CHECK(e["reactions"][0]["max"]["value"] == r["steps"][2]["reactions"][0]["value"]);
+}
+
+TEST_CASE("a table follows the node that it was given, by number or by x, and refuses others") {
+  const scratch_folder dir;
+  dir.write("pb.toml", good_problem);
+  for (const char* node : {"2", "x = 1", "x=1.0"})
+    CHECK_THAT(contct_program(dir.path(), {"run", "pb.toml", "--quiet", "--csv", "-", "--node", node}).out,
+               Contains(",2,-0.0012500000000000002\r\n") && Contains(",2,-0.00151162790"));
+  CHECK_THAT(contct_program(dir.path(), {"run", "pb.toml", "--quiet", "--csv", "-"}).out,
+             Contains(",3,-0.004000000000000") && Contains(",3,-0.00483720930"));
+  for (const char* node : {"0", "4", "x = 0.5", "x", "three"}) {
+    const finished f = contct_program(dir.path(), {"run", "pb.toml", "--csv", "run.csv", "--node", node});
+    CHECK(f.exit == 2);
+    CHECK_THAT(f.err,
+               Contains("--node: found") && Contains("a node from 1 to 3, or x = .. of one, from 0 to 2"));
+  }
+  CHECK(dir.files() == std::vector<std::string>{"pb.toml"});
+}
+
+TEST_CASE("a beam that passes through a face between its pairs is warned of, with the remedy") {
+  const scratch_folder dir;
+  dir.write(
+      "sags.toml",
+      "[beam]\nlength = 12\nelements = 3\nEI = 1e4\n[[support]]\nnodes = [1, 4]\nfix = [\"w\"]\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e9\n"
+      "[[contact]]\nnode = 3\nsurface = \"below\"\nface = 0\nstiffness = 1e9\n[[step]]\nuniform = -500\n");
+  const finished f = contct_program(dir.path(), {"run", "sags.toml"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.err,
+             Contains("warning: step 1: between pairs 1 and 2 the beam passes through the face at 0") &&
+                 Contains("x = 6") && Contains("element_size"));
+}
+
 TEST_CASE("on a narrow terminal an increment's events stand on lines of their own") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
@@ -78,9 +148,13 @@ TEST_CASE("on a narrow terminal an increment's events stand on lines of their ow
                              "   1.1  0.25       0.25       equal\n"
                              "    make 1: node 3 below\n"
                              "   1.2  1          1          equal\n"
-                             "end w = -0.0048372093 at node 3\n"
-                             "    1 of 1 in contact; 14 digits\n"
-                             "    certified\n"));
+                             "end 1 of 1 in contact; 14 digits\n"
+                             "    certified\n"
+                             "    w -0.00483721, node 3, x = 2\n"
+                             "    moment -36.2791, node 1, x = 0\n"
+                             "    contact force 41.8605, pair 1, node\n"
+                             "    3 below\n"
+                             "    reaction 18.1395, node 1\n"));
 }
 
 TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on a dumb one") {
@@ -252,7 +326,9 @@ TEST_CASE("a plate goes the same ways: lockstep, free run, table and results") {
   const finished lockstep = contct_program(dir.path(), {"run", "plate.toml", "--json", "out.json"});
   CHECK(lockstep.exit == 0);
   CHECK_THAT(lockstep.out, Contains("6 nodes, 1 pair, 1 step") && Contains("make 1: node 6 below") &&
-                               Contains("at node 3; 1 of 1 in contact") && Contains("equal to the bit"));
+                               Contains("1 of 1 in contact") &&
+                               Contains("w             -0.255393         node 3, (1, 0)") &&
+                               Contains("equal to the bit"));
   const auto result = nlohmann::json::parse(dir.read("out.json"));
   CHECK(result["steps"][0]["reactions"][5]["dof"] == "wy");
   CHECK(result["steps"][0]["elements"][1]["mxy"].size() == 4);

@@ -58,8 +58,11 @@ tables tables_of(const std::string& text) {
   output_file increments(folder.at("run.csv")), pairs(folder.at("run.pairs.csv"));
   auto leader = make_kernel("fortran");
   lockstep compared = make_lockstep(leader->facts(), std::vector<std::string>{"cpp"});
-  run_csv csv(p, &compared, increments, &pairs);
-  follow(p, structure_of(p), "refactor", *leader, {&compared, &csv});
+  const linear_structure s = structure_of(p);
+  frame_keeper states(s, loads_of(p, s), false);
+  states.solve_each();
+  run_csv csv(p, &compared, states, 1, increments, &pairs);
+  follow(p, s, "refactor", *leader, {&compared, &states, &csv});
   csv.finish();
   leader.reset();  // unit 26 is there only once
   return {rows_of(folder.read("run.csv")), rows_of(folder.read("run.pairs.csv")), a_run(text).kept.frames()};
@@ -116,17 +119,19 @@ TEST_CASE("the table of increments has their numbers to the last digit, and thei
   const tables t = tables_of(loaded_and_freed);
   REQUIRE(t.increments.size() == t.frames.size());  // a heading, where the frames have the start
   CHECK(t.increments[0] == row{"step", "increment", "kind", "s", "share", "force", "events", "closed", "open",
-                               "at_face", "smin", "kernels"});
+                               "at_face", "smin", "kernels", "node", "w"});
   for (std::size_t i = 1; i < t.increments.size(); ++i) {
     const row& r = t.increments[i];
     INFO("row " << i);
-    REQUIRE(r.size() == 12);
+    REQUIRE(r.size() == 14);
     CHECK(r[0] == std::to_string(t.frames[i].step));
     CHECK(r[1] == std::to_string(t.frames[i].number));
     CHECK(number(r[3]) == t.frames[i].s);
     CHECK(number(r[4]) == t.frames[i].fraction);
     CHECK(number(r[10]) == t.frames[i].s);
     CHECK(r[11] == "equal");
+    CHECK(r[12] == "2");
+    CHECK(number(r[13]) == t.frames[i].displacement[2]);
   }
   CHECK(t.increments[1][6] == "make 1");
   CHECK(number(t.increments[2][5]) == -60.0);
@@ -168,8 +173,11 @@ TEST_CASE("tables of structures from elsewhere name dofs by their labels, with c
     output_file increments(folder.at("mesh.csv"));
     output_file pairs(folder.at("mesh.pairs.csv"));
     auto leader = make_kernel("cpp");
-    run_csv csv(p, nullptr, increments, &pairs);
-    follow(p, structure_of(p), "refactor", *leader, {&csv});
+    const linear_structure s = structure_of(p);
+    frame_keeper states(s, loads_of(p, s), false);
+    states.solve_each();
+    run_csv csv(p, nullptr, states, 0, increments, &pairs);
+    follow(p, s, "refactor", *leader, {&states, &csv});
     csv.finish();
     const std::string table = folder.read("mesh.pairs.csv");
     CHECK_THAT(table, Contains("\r\n1,1,1,6.y,below,contact,") && Contains("\r\n3,3,2,8.x,above,separated,"));

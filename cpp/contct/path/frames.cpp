@@ -59,10 +59,15 @@ void frame_keeper::incremented(const increment& i) {
            .snaps = i.snaps,
            .events = {i.events.begin(), i.events.end()},
            .isep = isep_};
-  if (increments_ % stride_ != 0) return;
+  show_latest();
+  const bool kept = increments_ % stride_ == 0;
+  if (!kept && !solves_each_) return;
   frame f = last_;
   f.displacement = shape(i.fraction);
-  if (!f.displacement.empty()) keep(std::move(f));
+  const bool solved = !f.displacement.empty();
+  if (solves_each_) latest_ = f;
+  unshown_ = solved && solves_each_;
+  if (kept && solved) keep(std::move(f));
 }
 
 void frame_keeper::step_ended(const step_state& s) {
@@ -74,6 +79,9 @@ void frame_keeper::step_ended(const step_state& s) {
   f.fraction = s.fraction;
   f.displacement.assign(s.displacement.begin(), s.displacement.end());
   f.isep.assign(s.isep.begin(), s.isep.end());
+  if (after_increment) unshown_ = false;
+  show_latest();
+  if (visit_) visit_(f);
   if (after_increment && frames_.back().at == f.at && frames_.back().step == f.step) frames_.pop_back();
   keep(std::move(f));
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "contct/path/observer.hpp"
@@ -53,6 +55,17 @@ class frame_keeper final : public observer {
   frame_keeper(const linear_structure& s, load_history total_load, bool forces_by_law,
                const frame_limits& limits = {});
 
+  /// Solve for the state after every increment of the path, kept or not.
+  void solve_each() { solves_each_ = true; }
+  /// The same, and call `visit` with these states and with those in which steps ended. Increments whose state
+  /// cannot be solved for are left out.
+  void show_each_to(std::function<void(const frame&)> visit) {
+    solve_each();
+    visit_ = std::move(visit);
+  }
+  /// The state after the last increment, under solve_each; its displacement is empty where it was not found.
+  [[nodiscard]] const frame& latest() const { return latest_; }
+
   void called(const answered_call& c) override;
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
@@ -76,6 +89,11 @@ class frame_keeper final : public observer {
   void keep(frame f) {
     frames_.push_back(std::move(f));
     if (frames_.size() > most_frames_) thin();
+  }
+
+  /// The path itself tells the state that a step ends in: that one is shown then.
+  void show_latest() {
+    if (std::exchange(unshown_, false) && visit_) visit_(latest_);
   }
 
   void thin();
@@ -108,6 +126,10 @@ class frame_keeper final : public observer {
   std::vector<int> isep_;           // before the last call's toggles, then after them [pairs]
   frame last_;                      // the last increment, without its shape
   std::vector<frame> frames_;
+  std::function<void(const frame&)> visit_;
+  bool solves_each_ = false;
+  frame latest_;
+  bool unshown_ = false;
 };
 
 }  // namespace contct::path

@@ -146,6 +146,16 @@ std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::
 
 }  // namespace
 
+value_range deflections_between(const beam& b, const beam_lines& lines, std::span<const double> u, int first,
+                                int last) {
+  range_along w("w", {u[2 * first], b.x[first], 0.0, first});
+  for (int e = first; e < last; ++e) {
+    const element_line line = lines.at(e);
+    w.take_element(line, e, line.w, u[2 * e], u[2 * e + 2]);
+  }
+  return w.range();
+}
+
 beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u)
     : beam_(b), u_(u), forces_(forces_in_elements(b, l, u)), q_(b.elements()) {
   for_each_loaded_element(l, b.elements(), [&](int e, std::span<const double> p) {

@@ -49,6 +49,10 @@ struct value_range {
   [[nodiscard]] const placed_value& largest() const { return -least.value > most.value ? least : most; }
 };
 
+/// The least and the largest deflection from node `first` to node `last` > `first`, between nodes too.
+[[nodiscard]] value_range deflections_between(const beam& b, const beam_lines& lines,
+                                              std::span<const double> u, int first, int last);
+
 /// Beams: "w", "moment" and "shear" over the whole length. Plates: "w" at nodes, "mx", "my" and "mxy" at the
 /// corners of elements. A matrix: the displacements of the dofs among `deflecting`, as "w". Of equal values,
 /// the first one's place.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/path/solve_problem.hpp"
 
 namespace contct::write {
 namespace {
@@ -34,12 +33,62 @@ json event_json(const problem& p, const event& e) {
   return entry;
 }
 
-json reaction_json(const model& m, const support& at, double value) {
+json reaction_json(const model& m, const support& at) {
   json entry;
   put_place(entry, m, at.node);
   if (!entry.contains("dof")) entry["dof"] = dof_names(m)[at.dof];
-  entry["value"] = value;
   return entry;
+}
+
+json value_json(const model& m, const placed_value& at) {
+  json entry = {{"value", at.value}};
+  if (std::holds_alternative<assembled>(m.kind)) {
+    put_place(entry, m, at.node);
+    entry["x"] = nullptr;  // as far as the structure itself goes
+    return entry;
+  }
+  entry["x"] = at.x;
+  if (std::holds_alternative<plate>(m.kind)) entry["y"] = at.y;
+  return entry;
+}
+
+json extremes_json(const model& m, const std::vector<value_range>& ranges) {
+  json out = json::object();
+  for (const value_range& r : ranges)
+    out[std::string(r.name)] = {{"min", value_json(m, r.least)}, {"max", value_json(m, r.most)}};
+  return out;
+}
+
+void put_time(json& entry, const envelope::when& reached) {
+  entry.update({{"step", reached.step}, {"increment", reached.increment}});
+}
+
+json envelope_json(const problem& p, const envelope& e) {
+  const model& m = p.geometry;
+  const auto bound = [&m](const envelope::bound& b) {
+    json entry = value_json(m, b.at);
+    put_time(entry, b.reached);
+    return entry;
+  };
+  const auto reached = [](double value, const envelope::when& at) {
+    json entry = {{"value", value}};
+    put_time(entry, at);
+    return entry;
+  };
+  json out = {{"states", e.states()}};
+  for (const envelope::range& r : e.ranges())
+    out[std::string(r.name)] = {{"min", bound(r.least)}, {"max", bound(r.most)}};
+  out["pairs"] = list_of(e.pairs(), [i = 0](const envelope::peak& peak) mutable {
+    json entry = {{"pair", ++i}, {"force_max", peak.force}};
+    put_time(entry, peak.reached);
+    return entry;
+  });
+  out["reactions"] = list_of(e.reactions(), [&, i = 0](const envelope::reaction_range& r) mutable {
+    json entry = reaction_json(m, p.supports[i++]);
+    entry.update({{"min", reached(r.least, r.least_reached)}, {"max", reached(r.most, r.most_reached)}});
+    return entry;
+  });
+  return out;
 }
 
 json element_json(const element_results& results, std::size_t e) {
@@ -47,6 +96,11 @@ json element_json(const element_results& results, std::size_t e) {
   for (std::size_t i = 0; i < results.names.size(); ++i)
     entry[std::string(results.names[i])] = results.at(e, i);
   return entry;
+}
+
+json units_json(const unit_labels& units) {
+  if (units.length.empty()) return nullptr;
+  return {{"length", units.length}, {"force", units.force}};
 }
 
 json lockstep_json(const lockstep& compared) {
@@ -159,26 +213,30 @@ result_json::result_json(const problem& p, const std::vector<std::string>& kerne
       judged_(judged),
       loads_(p),
       document_(out,
-                {{"format", "contct-result-1"}, {"title", p.title}, {"kernels", kernels}, {"engine", engine}},
+                {{"format", "contct-result-1"},
+                 {"title", p.title},
+                 {"units", units_json(p.units)},
+                 {"kernels", kernels},
+                 {"engine", engine}},
                 "steps") {}
 
 void result_json::step_ended(const step_state& s) {
   const model& m = problem_.geometry;
-  const load total = loads_.at(s.step, s.fraction);
-  const element_results results = results_in_elements(m, total, s.displacement);
-  const std::vector<double> reacting = reactions(problem_, total, s.displacement, s.isep);
+  const step_results r =
+      results_of(problem_, loads_.at(s.step, s.fraction), s.displacement, s.isep, deflecting_);
   std::vector<double> w(nodes(m));
   for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(problem_, s.displacement, node);
-  const std::string& name = problem_.steps[s.step - 1].name;
   json members = {{"step", s.step},
-                  {"name", name.empty() ? json(nullptr) : json(name)},
+                  {"name", problem_.steps[s.step - 1].name},
                   {"fraction", s.fraction},
                   {"increments", nullptr},
                   {"w", w},
                   {"displacement", s.displacement},
                   {"pairs", nullptr},
                   {"reactions", nullptr},
-                  {"elements", nullptr}};
+                  {"elements", nullptr},
+                  {"extremes", extremes_json(m, r.ranges)},
+                  {"extremes_at", ranges_are_at(m)}};
   if (s.from_fallback) members["ended_by"] = "oracle";
   members.update({{"rcond", s.rcond},
                   {"digits", digits_left(s.rcond)},
@@ -186,9 +244,13 @@ void result_json::step_ended(const step_state& s) {
   document_.add(members,
                 {{"increments", increments_.size(), [this](auto i) { return increment_of(increments_[i]); }},
                  {"pairs", problem_.pairs.size(), [&](auto i) { return pair_in(s, i); }},
-                 {"reactions", reacting.size(),
-                  [&](auto i) { return reaction_json(m, problem_.supports[i], reacting[i]); }},
-                 {"elements", results.elements(), [&](auto i) { return element_json(results, i); }}});
+                 {"reactions", r.reactions.size(),
+                  [&](auto i) {
+                    json entry = reaction_json(m, problem_.supports[i]);
+                    entry["value"] = r.reactions[i];
+                    return entry;
+                  }},
+                 {"elements", r.elements.elements(), [&](auto i) { return element_json(r.elements, i); }}});
   increments_.clear();
 }
 
@@ -215,7 +277,8 @@ json result_json::pair_in(const step_state& s, std::size_t pair) const {
   return entry;
 }
 
-void result_json::finish(std::string_view status, const path_end& end, const lockstep* compared) {
+void result_json::finish(std::string_view status, const path_end& end, const lockstep* compared,
+                         const envelope* all) {
   json members = {{"end",
                    {{"reason", end_reason(end.status)},
                     {"step", end.step},
@@ -229,6 +292,7 @@ void result_json::finish(std::string_view status, const path_end& end, const loc
   if (!free_runs_.empty()) members["free_run"] = nullptr;
   members["lockstep"] = compared == nullptr ? json(nullptr) : lockstep_json(*compared);
   members["status"] = status;
+  if (all != nullptr) members["envelope"] = envelope_json(problem_, *all);
   members["certified"] = end.status == path_status::solved && judged_.all_exact();
   document_.finish(members, {{"free_run", free_runs_.size(), [this](auto i) -> json {
                                 const auto& [kernel, d, certified] = free_runs_[i];

@@ -11,7 +11,7 @@
 
 #include "contct/compare/free_run.hpp"
 #include "contct/text/output_file.hpp"
-#include "contct/write/finished_run.hpp"
+#include "contct/write/step_results.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
@@ -87,7 +87,9 @@ class result_json final : public observer {
   }
 
   /// Close the document. `compared` is null when there was one kernel only.
-  void finish(std::string_view status, const path_end& end, const lockstep* compared);
+  /// `all`: the envelope of the path, where it was asked for.
+  void finish(std::string_view status, const path_end& end, const lockstep* compared,
+              const envelope* all = nullptr);
 
  private:
   [[nodiscard]] nlohmann::ordered_json increment_of(const increment_record& i) const;
@@ -102,6 +104,7 @@ class result_json final : public observer {
   const certifier& judged_;
   load_path loads_;
   json_document document_;
+  std::vector<int> deflecting_ = deflecting_nodes(problem_);
   std::vector<increment_record> increments_;  // of the current step
   std::vector<compared_path> free_runs_;
 };

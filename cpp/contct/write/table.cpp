@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
+#include "contct/write/step_table.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
@@ -18,6 +19,8 @@ constexpr int load_width_at_most = 24;
 constexpr int load_width_at_least = 12;
 constexpr int events_width_at_least = 24;
 constexpr std::size_t most_events_shown = 12;
+/// At no larger share of its load, a step has only begun: structures that rest on their faces let go at once.
+constexpr double first_load = 1e-12;
 
 /// "make 1: node 3 below".
 std::string event_words(const problem& p, change what, int pair) {
@@ -34,18 +37,6 @@ int widest_event(const problem& p) {
   return static_cast<int>(widest);
 }
 
-/// With as many digits, nine at most, as fit.
-std::string deflection_words(const model& m, const extreme& most, int width) {
-  const std::string at = place_words(m, most.at);
-  const char* const name = std::holds_alternative<assembled>(m.kind) ? "u" : "w";
-  std::string text;
-  for (int digits = 9; digits >= 3; --digits) {
-    text = fmt::format("{} = {:.{}g} at {}", name, most.value, digits, at);
-    if (static_cast<int>(text.size()) <= width) break;
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string share_words(double x) {
@@ -57,8 +48,15 @@ std::string share_words(double x) {
   return fmt::format("{:.1g}", x);
 }
 
-table::table(const problem& p, const lockstep* compared, const certifier& judged, const terminal& t)
-    : problem_(p), loads_(p), compared_(compared), judged_(judged), terminal_(t) {
+table::table(const problem& p, const lockstep* compared, const certifier& judged, const terminal& t,
+             bool detail)
+    : problem_(p),
+      loads_(p),
+      compared_(compared),
+      judged_(judged),
+      terminal_(t),
+      deflecting_(deflecting_nodes(p)),
+      detail_(detail) {
   const int room = t.width - fixed_width;
   const int widest = widest_event(p);
   events_below_ = room < widest;
@@ -77,34 +75,60 @@ std::string table::row(std::string_view number, std::string_view share, std::str
 
 std::string table::agreement() const {
   if (compared_ == nullptr) return "one    ";
-  return compared_->last_call_equal() ? painted(terminal_, paint::good, "equal") + "  "
-                                      : painted(terminal_, paint::bad, "DIFFER") + " ";
+  return compared_->last_call_equal() && first_load_.equal ? painted(terminal_, paint::good, "equal") + "  "
+                                                           : painted(terminal_, paint::bad, "DIFFER") + " ";
 }
 
 void table::incremented(const increment& i) {
   last_events_.assign(i.events.begin(), i.events.end());
+  const std::size_t shown = detail_ ? i.events.size() : std::min(i.events.size(), most_events_shown);
+  std::vector<std::string> events;
+  for (const event& e : i.events.first(shown)) events.push_back(event_words(problem_, e.what, e.pair));
+  if (i.events.size() > shown) events.push_back(fmt::format("{} more in --json", i.events.size() - shown));
+  if (i.fraction > first_load || detail_) {
+    flush_first_load();
+    return print_row(i, agreement(), std::move(events));
+  }
+  for (const event& e : i.events) ++(e.what == change::make ? first_load_.makes : first_load_.breaks);
+  first_load_.last = {i.step, i.number, i.s, i.fraction, {}, i.snaps};
+  ++first_load_.increments;
+  first_load_.equal = first_load_.equal && (compared_ == nullptr || compared_->last_call_equal());
+  first_load_.events = std::move(events);
+}
+
+/// One such increment with a few events has a row as any other.
+void table::flush_first_load() {
+  if (first_load_.increments == 0) return;
+  const auto toggled = [](std::size_t n, const char* what) {
+    return n == 0 ? "" : fmt::format("{} pair{} {}{}", n, n == 1 ? "" : "s", what, n == 1 ? "s" : "");
+  };
+  std::vector<std::string> words;
+  for (const std::string& part : {toggled(first_load_.breaks, "break"), toggled(first_load_.makes, "make")})
+    if (!part.empty()) words.push_back(part);
+  if (!words.empty()) words.back() += " at first load";
+  const bool few = first_load_.increments == 1 && first_load_.makes + first_load_.breaks <= 3;
+  const auto said = std::exchange(first_load_, {});
+  first_load_.equal = said.equal;
+  print_row(said.last, agreement(), few ? said.events : words);
+  first_load_.equal = true;
+}
+
+void table::print_row(const increment& i, std::string_view kernels, std::vector<std::string> events) {
   if (!std::exchange(headed_, true)) {
     const std::string heading = row("incr", "share", "s", "kernels", "load", "events");
     print_text(fmt::format("{}\n", painted(terminal_, paint::strong, heading)));
   }
-  std::vector<std::string> events;
-  for (const event& e : i.events.first(std::min(i.events.size(), most_events_shown)))
-    events.push_back(event_words(problem_, e.what, e.pair));
-  if (i.events.size() > most_events_shown)
-    events.push_back(fmt::format("{} more in --json", i.events.size() - most_events_shown));
   std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
   if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
   print_text(fmt::format("{}\n", row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
-                                     i.snaps ? "snap" : share_words(i.s), agreement(),
+                                     i.snaps ? "snap" : share_words(i.s), kernels,
                                      loads_.words_at(i.step, i.fraction, load_width_), lines.front())));
   for (const std::string& more : std::span(lines).subspan(1))
     print_text(fmt::format("{:{}}{}\n", "", indent_, more));
 }
 
 void table::step_ended(const step_state& s) {
-  extreme most{0, s.displacement[0]};
-  for (int node = 0; node < nodes(problem_.geometry); ++node)
-    most.take(node, deflection_of(problem_, s.displacement, node));
+  flush_first_load();
   // Where the path ends at a pair's opening, its status is as it was before, without force.
   auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
   for (const event& e : last_events_)
@@ -112,15 +136,22 @@ void table::step_ended(const step_state& s) {
   last_events_.clear();
   std::string label = events_below_ ? "end " : "   end  ";
   const int width = terminal_.width - static_cast<int>(label.size());
-  std::vector<std::string> items = {deflection_words(problem_.geometry, most, width),
-                                    fmt::format("{} of {} in contact", closed, s.isep.size()),
+  std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.isep.size()),
                                     fmt::format("{} digits", digits_left(s.rcond)),
                                     certificate_mark(judged_.steps().back())};
+  if (const std::string& name = problem_.steps[s.step - 1].name; !name.empty())
+    items.insert(items.begin(), on_one_line(name));
   if (s.from_fallback) items.emplace_back("ended by the oracle");
   for (const std::string& line : wrap(items, width)) {
-    print_text(fmt::format("{}\n", painted(terminal_, paint::quiet, label + line)));
+    print_text(fmt::format("{}\n", label + line));
     label.assign(label.size(), ' ');
   }
+  const step_results r =
+      results_of(problem_, loads_.at(s.step, s.fraction), s.displacement, s.isep, deflecting_);
+  for (const std::string& largest : largest_lines(problem_, r, width))
+    for (const std::string& line : wrap({largest}, width))
+      print_text(fmt::format("{}\n", painted(terminal_, paint::strong, label + line)));
+  if (detail_) print_text(detail_tables(problem_, s, r));
 }
 
 std::string csv_field(std::string_view text) {
@@ -130,15 +161,18 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-run_csv::run_csv(const problem& p, const lockstep* compared, output_file& increments, output_file* pairs)
+run_csv::run_csv(const problem& p, const lockstep* compared, const frame_keeper& states, int watched,
+                 output_file& increments, output_file* pairs)
     : problem_(p),
       loads_(p),
       compared_(compared),
+      states_(states),
+      watched_(watched),
       increments_(increments),
       pairs_(pairs),
       d_(p.pairs.size()),
       d_star_(p.pairs.size()) {
-  increments_.write("step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels\r\n");
+  increments_.write("step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w\r\n");
   if (pairs_ != nullptr) pairs_->write("step,increment,pair,node,surface,state,look,w,gap,force\r\n");
 }
 
@@ -155,8 +189,11 @@ void run_csv::called(const answered_call& c) {
 }
 
 void run_csv::incremented(const increment& i) {
-  last_ = {i.step, i.number, i.snaps ? "snap" : "load", i.s, i.fraction, {i.events.begin(), i.events.end()},
-           d_,     isep_};
+  last_ = {i.step, i.number,   i.snaps ? "snap" : "load",
+           i.s,    i.fraction, {i.events.begin(), i.events.end()},
+           d_,     isep_,      {}};
+  if (const frame& now = states_.latest(); !now.displacement.empty())
+    last_.watched = deflection_of(problem_, now, watched_);
   for (std::size_t p = 0; p < d_.size(); ++p) last_.w[p] += i.s * d_star_[p];
   for (const event& e : i.events) last_.isep[e.pair] = e.what == change::make ? in_contact : separated;
   pending_ = true;
@@ -165,10 +202,11 @@ void run_csv::incremented(const increment& i) {
 void run_csv::step_ended(const step_state& s) {
   if (!pending_ || last_.step != s.step || s.from_fallback) {
     if (pending_) write_pending();
-    last_ = {s.step, 0, s.from_fallback ? "rescue" : "end", 0.0, s.fraction, {}, {}, {}};
+    last_ = {s.step, 0, s.from_fallback ? "rescue" : "end", 0.0, s.fraction, {}, {}, {}, {}};
     agreement_ = "";
   }
   last_.isep.assign(s.isep.begin(), s.isep.end());
+  last_.watched = deflection_of(problem_, s.displacement, watched_);
   last_.w.clear();
   for (const contact_pair& p : problem_.pairs)
     last_.w.push_back(deflection_of(problem_, s.displacement, p.node));
@@ -184,10 +222,12 @@ void run_csv::write_pending() {
   for (const event& e : last_.events) events.push_back(fmt::format("{} {}", change_name(e.what), e.pair + 1));
   const bool called = last_.number > 0;
   const double force = loads_.force_at(last_.step, last_.fraction);
-  increments_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number,
+  increments_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number,
                                 last_.kind, called ? fmt::format("{}", last_.s) : "", last_.fraction, force,
                                 csv_field(fmt::format("{}", fmt::join(events, ", "))), n.closed, n.open,
-                                n.at_face, called ? fmt::format("{}", smin_) : "", agreement_));
+                                n.at_face, called ? fmt::format("{}", smin_) : "", agreement_,
+                                csv_field(place_name(problem_.geometry, watched_)),
+                                last_.watched ? fmt::format("{}", *last_.watched) : ""));
   if (pairs_ == nullptr) return;
   for (std::size_t i = 0; i < last_.w.size(); ++i) {
     const contact_pair& p = problem_.pairs[i];

@@ -7,7 +7,7 @@
 
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/finished_run.hpp"
+#include "contct/write/step_results.hpp"
 
 namespace contct::write {
 
@@ -20,8 +20,8 @@ namespace contct::write {
 class table final : public observer {
  public:
   /// `p` and `judged` must outlive this object, and so must `compared`, which is null for a kernel
-  /// alone.
-  table(const problem& p, const lockstep* compared, const certifier& judged, const terminal& t);
+  /// alone. `detail`: every event, and all numbers of each step's end.
+  table(const problem& p, const lockstep* compared, const certifier& judged, const terminal& t, bool detail);
 
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
@@ -31,6 +31,8 @@ class table final : public observer {
                                 std::string_view kernels, std::string_view load,
                                 std::string_view events) const;
   [[nodiscard]] std::string agreement() const;
+  void print_row(const increment& i, std::string_view kernels, std::vector<std::string> events);
+  void flush_first_load();
 
   const problem& problem_;
   load_path loads_;
@@ -42,6 +44,17 @@ class table final : public observer {
   bool events_below_ = false;  // on a narrow terminal they stand on lines of their own
   bool headed_ = false;
   std::vector<event> last_events_;  // of the increment before
+  std::vector<int> deflecting_;
+  bool detail_;
+
+  /// Increments at which a step's load has only begun: one row for them all.
+  struct {
+    increment last{};
+    int increments = 0;
+    std::size_t makes = 0, breaks = 0;
+    bool equal = true;
+    std::vector<std::string> events;
+  } first_load_;
 };
 
 /// A field of a table in a file: quoted where it has to be.
@@ -53,15 +66,18 @@ class table final : public observer {
 /// The first table has a row an increment: step, increment, kind ("load"; "snap": a rigid motion at constant
 /// load; "end": the step ended without an increment, "rescue": in a state from elsewhere), s, share (of the
 /// step's load), force (sum of the loads), events ("make 1, break 3"), closed, open and at_face (how many
-/// pairs), smin (of the call, as the kernel gave it), kernels ("equal" or "differ"; empty: not compared).
+/// pairs), smin (of the call, as the kernel gave it), kernels ("equal" or "differ"; empty: not compared),
+/// node (the watched one: a number or a label) and w, its deflection.
 ///
 /// The second has a row for each pair in each of these: step, increment, pair, node, surface, state
 /// ("contact", "separated"; a dof's label stands for the node where each dof is one), look ("closed", "open",
 /// "at its face"), w, gap, force.
 class run_csv final : public observer {
  public:
-  /// `compared` and `pairs` may be null; all must outlive this object, which observes behind `compared`.
-  run_csv(const problem& p, const lockstep* compared, output_file& increments, output_file* pairs);
+  /// `compared` and `pairs` may be null; all must outlive this object, which observes behind `compared` and
+  /// `states`. These solve for every increment (frame_keeper::solve_each). `watched`: a node, from 0.
+  run_csv(const problem& p, const lockstep* compared, const frame_keeper& states, int watched,
+          output_file& increments, output_file* pairs);
 
   void called(const answered_call& c) override;
   void incremented(const increment& i) override;
@@ -75,6 +91,8 @@ class run_csv final : public observer {
   const problem& problem_;
   load_path loads_;
   const lockstep* compared_;
+  const frame_keeper& states_;
+  int watched_;
   output_file& increments_;
   output_file* pairs_;
   std::vector<double> d_, d_star_;  // of the last call [pairs]
@@ -89,6 +107,7 @@ class run_csv final : public observer {
     std::vector<event> events;
     std::vector<double> w;  // [pairs]
     std::vector<int> isep;  // [pairs]
+    std::optional<double> watched;
   } last_;
 };
 
