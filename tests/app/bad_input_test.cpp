@@ -5,7 +5,7 @@
 #include "app/process.hpp"
 #include "catch.hpp"
 #include "read/bad_inputs.hpp"
-#include "read/bad_plates.hpp"
+#include "read/bad_places.hpp"
 #include "read/good_problem.hpp"
 
 using namespace contct::app;
@@ -32,8 +32,10 @@ TEST_CASE("every kind of bad problem file: exit 2, one message with its place, n
   const scratch_folder dir;
   auto kinds = bad_inputs();
   const auto plates = bad_plates();
+  const auto places = bad_places();
   kinds.insert(kinds.end(), plates.begin(), plates.end());
-  REQUIRE(kinds.size() >= 110);
+  kinds.insert(kinds.end(), places.begin(), places.end());
+  REQUIRE(kinds.size() >= 170);
   for (const bad_input& kind : kinds) {
     INFO(kind.what);
     dir.write("bad.toml", kind.text);

@@ -11,7 +11,7 @@ namespace contct::app {
 inline std::vector<bad_input> bad_inputs() {
   return {
       {"unknown top-level key", with("[beam]", "titel = \"x\"\n[beam]"), "1:1", "titel", "unknown",
-       "title, beam"},
+       "title, units, beam"},
       {"unknown key in a table", with("stiffness", "stifness"), "11:1", "contact[1].stifness", "unknown",
        "stiffness"},
       {"no structure", "[[step]]\nuniform = 1.0\n", "1:1", "the file", "neither beam nor plate",
@@ -66,7 +66,9 @@ inline std::vector<bad_input> bad_inputs() {
       {"a support that does nothing", with("fix = [\"w\", \"theta\"]\n", ""), "4:1", "support[1]", "neither",
        "at least one"},
       {"fix of an unknown dof", with("\"theta\"", "\"u\""), "6:13", "support[1].fix[2]", "\"u\"", "theta"},
-      {"fix is text", with("[\"w\", \"theta\"]", "\"w\""), "6:7", "support[1].fix", "\"w\"", "array"},
+      {"fix is text of no dof", with("[\"w\", \"theta\"]", "\"u\""), "6:7", "support[1].fix", "\"u\"",
+       "array"},
+      {"fix is a number", with("[\"w\", \"theta\"]", "1"), "6:7", "support[1].fix", "1", "one of \"w\""},
       {"fix twice", with("\"theta\"", "\"w\""), "6:13", "support[1].fix[2]", "\"w\"", "once"},
       {"a spring of no stiffness", with("fix = [\"w\", \"theta\"]", "spring = { w = 0.0 }"), "6:16",
        "support[1].spring.w", "0", "greater than 0"},

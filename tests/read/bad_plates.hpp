@@ -144,7 +144,7 @@ inline std::vector<bad_input> bad_plates() {
       {"pressure on an element that is not there", plate_with("2..2", "2..3"), "16:58",
        "step[1].uniform[2].elements", "2..3", "from 1 to 2"},
       {"a beam's moment", plate_with("wx = 0.25", "theta = 0.25"), "17:33", "step[1].point[1].theta",
-       "unknown", "node, w, wx, wy"},
+       "unknown", "at, w, wx, wy"},
       {"a load without a value", plate_with(", wy = -0.5", ""), "17:46", "step[1].point[2]",
        "without w or wx or wy", "w, wx, wy"},
       {"a moment that is infinite", plate_with("-0.5", "-inf"), "17:63", "step[1].point[2].wy", "-inf",

@@ -376,7 +376,7 @@ TEST_CASE(
       {small_with("spring = 2.0", "fix = [\"w\"]"), "p.toml:6:7: support[1].fix", "an array of 1", "true"},
       {small_with("spring = 2.0", "spring = -2.0"), "p.toml:6:10: support[1].spring", "-2", "greater than 0"},
       {small_with("dof = \"c\"\n", "dof = \"d\"\n"), "p.toml:8:7: contact[1].dof", "\"d\"", "a label of"},
-      {small_with("dof = \"c\"\n", "node = 3\n"), "p.toml:8:1: contact[1].node", "unknown", "dof, surface"},
+      {small_with("dof = \"c\"\n", "node = 3\n"), "p.toml:8:1: contact[1].node", "unknown", "dofs, surface"},
       {small_with("[matrix]\n", "[matrix]\nstorage = \"skyline\"\n"), "p.toml:2:11: matrix.storage",
        "\"skyline\"", "\"band\", or \"sparse\""},
       {small_with("[matrix]\n", "[matrix]\nstorage = 3\n"), "p.toml:2:11: matrix.storage", "3", "\"band\""},
@@ -384,9 +384,9 @@ TEST_CASE(
       {small_with("[[step]]", "[[bed]]\nmodulus = 1\n[[step]]"), "p.toml:12:1: bed", "this with a matrix",
        "[[contact]]"},
       {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "uniform = 1"), "p.toml:13:1: step[1].uniform",
-       "unknown", "point, load"},
+       "unknown", "load, point"},
       {small_with("point = [ { dof = \"c\", value = -3.0 } ]", ""), "p.toml:12:1: step[1]", "without loads",
-       "point, load or both"},
+       "at least one of load, point"},
       {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "load = \"f.mtx\""), "f.mtx:2", "2 rows",
        "3, as the matrix has"},
       {small_with("value = -3.0", "value = \"x\""), "p.toml:13:32: step[1].point[1].value", "\"x\"",
@@ -394,7 +394,7 @@ TEST_CASE(
       {small_with("dof = \"c\", value", "dof = \"C\", value"), "p.toml:13:19: step[1].point[1].dof", "\"C\"",
        "a label of"},
       {small_with("value = -3.0 }", "value = 1e308 }, { dof = \"a\", value = 1e308 }"),
-       "p.toml:12:1: step[1]", "sum is not finite", "double"},
+       "p.toml:12:1: step[1]", "sum or moment is not finite", "double"},
   };
   for (const bad_problem& b : all) {
     const std::string message = message_of_structure(here.write("p.toml", b.text));

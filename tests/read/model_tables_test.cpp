@@ -182,3 +182,18 @@ TEST_CASE("what takes more memory than there is, or than is said, is refused bef
   unsetenv("CONTCT_MEMORY_MIB");
   CHECK(message_of(small) == "accepted");
 }
+
+TEST_CASE("EI in pieces: each reaches from the one before it to its own border") {
+  const auto of = [](const std::string& lines) {
+    return std::get<beam>(
+        parse_problem("[beam]\n" + lines + "[[step]]\nuniform = 1\n", "pb.toml").geometry.kind);
+  };
+  CHECK(of("x = [0, 1, 2, 4]\nEI = [ { to = 2.0, value = 5 }, { to = 4, value = 7 } ]\n").EI ==
+        std::vector<double>{5, 5, 7});
+  CHECK(of("length = 1\nelements = 10\nEI = [ { to = 0.3, value = 5 }, { to = 1, value = 7 } ]\n").EI ==
+        std::vector<double>{5, 5, 5, 7, 7, 7, 7, 7, 7, 7});
+  const beam sized =
+      of("length = 10\nelement_size = 4\nEI = [ { to = 2.5, value = 5 }, { to = 10.0, value = 7 } ]\n");
+  CHECK(sized.x == std::vector<double>{0, 2.5, 6.25, 10});
+  CHECK(sized.EI == std::vector<double>{5, 7, 7});
+}

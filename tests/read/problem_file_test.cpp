@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "contct/kernel/call.hpp"
 #include "read/bad_inputs.hpp"
-#include "read/bad_plates.hpp"
+#include "read/bad_places.hpp"
 #include "read/good_problem.hpp"
 
 using namespace contct::app;
@@ -49,7 +49,10 @@ TEST_CASE("every kind of bad input is refused with its place, the key, what was 
   REQUIRE(kinds.size() >= 60);
   const auto plates = bad_plates();
   REQUIRE(plates.size() >= 50);
+  const auto places = bad_places();
+  REQUIRE(places.size() >= 60);
   kinds.insert(kinds.end(), plates.begin(), plates.end());
+  kinds.insert(kinds.end(), places.begin(), places.end());
   for (const bad_input& kind : kinds) {
     const std::string message = message_of_text(kind.text);
     INFO(kind.what << "\n" << message);
@@ -251,4 +254,87 @@ TEST_CASE("a face below is in contact at 0, open beneath, and inside the structu
              Catch::Matchers::Contains("inside the undeformed"));
   CHECK_THAT(verdict([] { (void)face_in("face = 0\n", "contact"); }),
              Catch::Matchers::Contains("contact[1].surface: found nothing"));
+}
+
+TEST_CASE("units are labels, both or neither") {
+  CHECK(parse_problem(good_problem, "pb.toml").units.length.empty());
+  const problem p =
+      parse_problem("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem), "pb.toml");
+  CHECK(p.units.length == "m");
+  CHECK(p.units.force == "kN");
+}
+
+TEST_CASE("one dof to fix may stand without brackets") {
+  const problem p = parse_problem(with("[\"w\", \"theta\"]", "\"theta\""), "pb.toml");
+  REQUIRE(p.supports.size() == 1);
+  CHECK(p.supports[0].dof == 1);
+}
+
+TEST_CASE(
+    "one table makes a pair at each of its nodes, in their order, with faces and springs of their own") {
+  const auto pairs_of = [](const std::string& lines) {
+    return parse_problem(with("node = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n",
+                              "surface = \"below\"\n" + lines),
+                         "pb.toml")
+        .pairs;
+  };
+  const auto own = pairs_of("x = [2.0, 1.0]\nface = [-0.25, 0]\nstiffness = [3, 4]\n");
+  REQUIRE(own.size() == 2);
+  CHECK((own[0].node == 2 && own[0].face == -0.25 && own[0].stiffness == 3 && !own[0].closed));
+  CHECK((own[1].node == 1 && own[1].face == 0 && own[1].stiffness == 4 && own[1].closed));
+  const auto common = pairs_of("nodes = \"2..3\"\nface = 0\nstiffness = 7\nstate = \"separated\"\n");
+  REQUIRE(common.size() == 2);
+  for (const contact_pair& pair : common) CHECK((pair.face == 0 && pair.stiffness == 7 && !pair.closed));
+}
+
+TEST_CASE("a bed's face: one for all nodes, one for each, fixed or not, or a polynomial in x") {
+  const std::string head =
+      "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[bed]]\nmodulus = 2\n";
+  const auto bed_of = [&](const std::string& lines) {
+    return parse_problem(head + lines + "[[step]]\nuniform = -1\n", "pb.toml");
+  };
+  const problem each = bed_of("face = [9, -0.5, 0]\n");  // that of the fixed node is not looked at
+  REQUIRE(each.pairs.size() == 2);
+  CHECK((each.pairs[0].face == -0.5 && !each.pairs[0].closed));
+  CHECK((each.pairs[1].face == 0 && each.pairs[1].closed));
+  const problem curved = bed_of("face = { polynomial = [-1, 0, -2] }\n");
+  CHECK((curved.pairs[0].face == -3 && curved.pairs[1].face == -19));
+  CHECK(bed_of("face = [-4]\nx = 3\n").pairs.at(0).face == -4);
+}
+
+TEST_CASE("a bed remembers its modulus, its pairs and the share of each") {
+  const problem p = parse_problem(
+      "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[contact]]\nnode = 3\nsurface = "
+      "\"above\"\nface = 1\nstiffness = 1\n[[bed]]\nmodulus = 4\nface = 0\n[[bed]]\nmodulus = 8\nface = "
+      "-1\nnodes = [3]\n[[step]]\nuniform = -1\n",
+      "pb.toml");
+  REQUIRE(p.beds.size() == 2);
+  CHECK(p.beds[0].modulus == 4);
+  CHECK(p.beds[0].first_pair == 1);
+  CHECK(p.beds[0].share == std::vector<double>{1.5, 1});
+  CHECK(p.beds[1].first_pair == 3);
+  CHECK(p.beds[1].share == std::vector<double>{1});
+  CHECK(p.pairs[2].stiffness == 4);
+}
+
+TEST_CASE("a mesh too coarse for its bed is warned of, once a bed, with an element_size that will do") {
+  const auto warnings_of = [](const std::string& mesh, const std::string& beds) {
+    return parse_problem("[beam]\nlength = 8\n" + mesh + "\n" + beds + "[[step]]\nuniform = -1\n", "pb.toml")
+        .warnings;
+  };
+  // (4 EI / modulus)^(1/4) = 2: half of it is 1.
+  const std::string bed = "[[bed]]\nmodulus = 1\nface = 0\n";
+  CHECK(warnings_of("elements = 8\nEI = 4", bed).empty());
+  const auto coarse =
+      warnings_of("elements = 4\nEI = [1e3, 4, 3, 1e3]", bed + "state = \"separated\"\n" + bed);
+  REQUIRE(coarse.size() == 2);
+  CHECK_THAT(coarse[0], Catch::Matchers::StartsWith("pb.toml:5: bed[1]: the mesh is coarse"));
+  CHECK_THAT(coarse[0],
+             Catch::Matchers::Contains("nodes 3 and 4 are 2 apart; allowed: at most half of (4 EI / "
+                                       "modulus)^(1/4), 0.93. element_size = 0.93 in [beam]"));
+  CHECK_THAT(coarse[1], Catch::Matchers::Contains("bed[2]"));
+  CHECK(warnings_of("element_size = 0.93\nEI = 3", bed).empty());
+  // Nodes that are no neighbours on the bed do not count, nor do elements beside it.
+  CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 3]\n").empty());
+  CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 2]\n").size() == 1);
 }

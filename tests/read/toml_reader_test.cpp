@@ -132,3 +132,32 @@ TEST_CASE(
              Contains("a key of over 1000 parts"));
   CHECK(verdict([] { (void)parse_toml("a = \"" + std::string(999, '.') + "\"\n", "f.toml"); }) == "accepted");
 }
+
+TEST_CASE("one number stands for all things, and an array has one for each") {
+  const auto three = [](const table_reader& t) { return t.reals_for("n", any_real, 3, "thing"); };
+  CHECK(value("n = 4", three) == std::vector<double>{4});
+  CHECK(value("n = [1, 2.5, 3]", three) == std::vector<double>{1, 2.5, 3});
+  CHECK(refusal("n = [1, 2.5]", three) ==
+        "f.toml:1:5: n: found an array of 2; allowed: one number, or 3: one for each thing");
+  CHECK_THAT(refusal("n = [1, 2, 3, 4, 5, 6]", three),
+             Contains("found an array of 6 (a number takes a decimal point, 4.0 for 4,0)"));
+  CHECK_THAT(refusal("n = [1.5, 2, 3, 4, 5, 6]", three), !Contains("decimal point"));
+  CHECK_THAT(refusal("n = []", three), Contains("found an empty array"));
+}
+
+TEST_CASE("a decimal comma is recognised in a line that is no TOML, and not where there is none") {
+  const auto nothing = [](const table_reader&) { return 0; };
+  const std::string hint = "(a number takes a decimal point, 4.0 for 4,0)";
+  for (const char* line :
+       {"n = 4,0", "n = -0,004", "n=+12,5 # comment", "n = [ 0,04, 1 ]", "n = { a = 1, w = -60,5 }"}) {
+    INFO(line);
+    CHECK_THAT(refusal("a = 1\n" + std::string(line), nothing), Contains("f.toml:2:") && Contains(hint));
+  }
+  for (const char* line :
+       {"n = [1,2", "n = , 3", "n = 4 5", "n = \"1,5", "n = [1,,2]", ",", "n = 4,", "= 1"}) {
+    INFO(line);
+    CHECK_THAT(refusal("a = 1\n" + std::string(line), nothing), Contains("f.toml:2:") && !Contains(hint));
+  }
+  CHECK_THAT(refusal("n = [4,0]", [](const table_reader& t) { return t.real("n", any_real); }),
+             Contains(hint));
+}

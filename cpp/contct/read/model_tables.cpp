@@ -13,12 +13,12 @@
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/matrix_places.hpp"
+#include "contct/read/mesh.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct::read {
 namespace {
 
-constexpr int most_elements = 2'000'000;
 // Two bands of this size are held: 8 GB together.
 constexpr std::int64_t most_band_entries = 500'000'000;
 constexpr real_range poisson{-1.0, false, "a number greater than -1 and at most 0.5", 0.5};
@@ -42,15 +42,29 @@ std::vector<double> even_coordinates(double length, int elements) {
   return x;
 }
 
-void read_stiffness(const table_reader& t, beam& b) {
-  const std::size_t elements = b.elements();
-  if (!t.required("EI", "a number greater than 0, or one for each element").is_array()) {
-    b.EI.assign(elements, t.real("EI", positive_real));
-    return;
+/// EI piece by piece, each from the end of the one before it to the node at its own.
+void read_pieces(const table_reader& t, beam& b) {
+  int end = 0;
+  for (const table_reader& piece : t.tables("EI")) {
+    piece.allow_only({"to", "value"});
+    const toml::node& to = piece.required("to", "the coordinate at which this piece ends");
+    const int next = nodes_along(b.x).index_of(piece, to, "to");
+    if (next <= end) piece.refuse_key("to", fmt::format("more than {}, where this piece begins", b.x[end]));
+    b.EI.insert(b.EI.end(), next - end, piece.real("value", positive_real));
+    end = next;
   }
-  b.EI = t.reals("EI", positive_real, 1);
-  if (b.EI.size() != elements)
-    t.refuse_key("EI", fmt::format("one number, or {}: one for each element", elements));
+  if (end < b.elements())
+    t.refuse_key("EI", fmt::format("pieces that end at {}", b.x[end]),
+                 fmt::format("a last piece to {}, where the beam ends", b.x.back()));
+}
+
+void read_stiffness(const table_reader& t, beam& b) {
+  if (has_pieces(t)) return read_pieces(t, b);
+  const std::size_t elements = b.elements();
+  if (t.has("element_size") && t.has("EI") && t.required("EI", "").is_array())
+    t.refuse_key("EI", "one number, or pieces { to = .., value = .. }: element_size sets the elements");
+  b.EI = t.reals_for("EI", positive_real, elements, "element");
+  b.EI.resize(elements, b.EI.front());
 }
 
 /// Finite numbers can still make a stiffness that is not.
@@ -68,16 +82,24 @@ void check_elements(const table_reader& t, const beam& b) {
   }
 }
 
-beam read_beam(const table_reader& t) {
-  t.allow_only({"x", "length", "elements", "EI"});
-  beam b;
-  if (t.has("x")) {
-    t.refuse_beside({"length", "elements"}, "x", "either x, or length and elements");
-    b.x = read_coordinates(t, "x", "node");
-  } else {
+/// With element_size, the coordinates that the table gives are some of the nodes'.
+std::vector<double> read_nodes(const table_reader& t, const table_reader& top) {
+  if (t.has("x")) t.refuse_beside({"length", "elements"}, "x", "either x, or length and elements");
+  if (t.has("element_size")) t.refuse_beside({"elements"}, "element_size", "either elements or element_size");
+  if (!t.has("x") && !t.has("element_size")) {
     const double length = t.real("length", positive_real);
-    b.x = even_coordinates(length, t.integer("elements", 1, most_elements));
+    (void)t.required("elements", fmt::format("a whole number from 1 to {}, or element_size", most_elements));
+    return even_coordinates(length, t.integer("elements", 1, most_elements));
   }
+  const std::vector<double> given = t.has("x") ? read_coordinates(t, "x", "node")
+                                               : std::vector<double>{0.0, t.real("length", positive_real)};
+  return t.has("element_size") ? sized_mesh(t, top, given) : given;
+}
+
+beam read_beam(const table_reader& t, const table_reader& top) {
+  t.allow_only({"x", "length", "elements", "element_size", "EI"});
+  beam b;
+  b.x = read_nodes(t, top);
   read_stiffness(t, b);
   check_elements(t, b);
   return b;
@@ -322,7 +344,7 @@ model read_model(const table_reader& top, const std::string& folder) {
     if (kind != nullptr) top.refuse_key(other, fmt::format("this beside {}", kind), allowed);
     kind = other;
   }
-  if (top.has("beam")) return {read_beam(top.table("beam"))};
+  if (top.has("beam")) return {read_beam(top.table("beam"), top)};
   if (top.has("plate")) return {read_plate(top.table("plate"))};
   if (top.has("matrix")) return {read_matrix(top.table("matrix"), folder)};
   if (top.has("calculix")) return {read_calculix(top.table("calculix"), folder)};

@@ -42,6 +42,38 @@ void refuse_endless_keys(std::string_view text, std::string_view file) {
   }
 }
 
+constexpr std::string_view point_not_comma = " (a number takes a decimal point, 4.0 for 4,0)";
+
+/// The words above where an array holds twice as many whole numbers as were `meant`: 4,0 is two of them.
+std::string_view comma_hint(const toml::node& node, std::size_t meant) {
+  const toml::array* const array = node.as_array();
+  const bool twice = array != nullptr && array->size() == 2 * meant && array->is_homogeneous<std::int64_t>();
+  return twice ? point_not_comma : "";
+}
+
+/// Has a line that is no TOML a decimal comma in it? "= 4,0", or "0,05" anywhere: no whole number begins so.
+bool has_decimal_comma(std::string_view line) {
+  const auto digits_from = [line](std::size_t at) {
+    const std::size_t end = line.find_first_not_of("0123456789", at);
+    return (end == std::string_view::npos ? line.size() : end) - std::min(at, line.size());
+  };
+  for (std::size_t at = line.find(','); at != std::string_view::npos; at = line.find(',', at + 1)) {
+    const std::size_t before = line.find_last_not_of("0123456789", at == 0 ? 0 : at - 1);
+    if (before == std::string_view::npos || before + 1 >= at || digits_from(at + 1) == 0) continue;
+    const std::size_t equals = line.find_last_not_of(" \t+-", before);
+    if (equals != std::string_view::npos && line[equals] == '=') return true;
+    if (line[at + 1] == '0' && digits_from(at + 1) > 1) return true;
+  }
+  return false;
+}
+
+/// Line `number` of a text, from 1.
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (; number > 1 && text.find('\n') != std::string_view::npos; --number)
+    text.remove_prefix(text.find('\n') + 1);
+  return text.substr(0, text.find('\n'));
+}
+
 /// The numbers from 1 to `count` that "a..b" or "all" names; none where the text is something else.
 std::pair<int, int> range_in(std::string_view text, int count) {
   if (text == "all") return {1, count};
@@ -73,7 +105,9 @@ toml::table parse_toml(std::string_view text, std::string_view file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& e) {
-    throw input_error(fmt::format("{}: not TOML: {}", position(file, e.source().begin), e.description()));
+    const toml::source_position at = e.source().begin;
+    throw input_error(fmt::format("{}: not TOML: {}{}", position(file, at), e.description(),
+                                  has_decimal_comma(line_of(text, at.line)) ? point_not_comma : ""));
   }
 }
 
@@ -111,7 +145,8 @@ void table_reader::refuse_beside(std::initializer_list<std::string_view> others,
 double table_reader::real_of(const toml::node& node, std::string_view name, const real_range& range) const {
   const auto* const whole = node.as_integer();
   const auto* const real = node.as_floating_point();
-  if (whole == nullptr && real == nullptr) refuse(node, name, found_words(node), range.words);
+  if (whole == nullptr && real == nullptr)
+    refuse(node, name, fmt::format("{}{}", found_words(node), comma_hint(node, 1)), range.words);
   const double value = whole != nullptr ? static_cast<double>(whole->get()) : real->get();
   if (!std::isfinite(value) || !range.holds(value)) refuse(node, name, found_words(node), range.words);
   return value;
@@ -167,6 +202,24 @@ std::vector<double> table_reader::reals(std::string_view key, const real_range& 
     const bool good = real != nullptr && std::isfinite(real->get()) && range.holds(real->get());
     values.push_back(good ? real->get() : real_of(entry, indexed(key, values.size()), range));
   }
+  return values;
+}
+
+std::vector<const toml::node*> table_reader::each_of(std::string_view key, std::string_view allowed) const {
+  if (!required(key, allowed).is_array()) return {&required(key, allowed)};
+  std::vector<const toml::node*> entries;
+  for (const toml::node& entry : array(key, allowed, 1)) entries.push_back(&entry);
+  return entries;
+}
+
+std::vector<double> table_reader::reals_for(std::string_view key, const real_range& range, std::size_t count,
+                                            std::string_view things) const {
+  const toml::node& node = required(key, range.words);
+  if (!node.is_array() || (count == 1 && comma_hint(node, 1) != "")) return {real(key, range)};
+  std::vector<double> values = reals(key, range, 1);
+  if (values.size() != count)
+    refuse_key(key, fmt::format("{}{}", found_words(node), comma_hint(node, count)),
+               count == 1 ? "one number" : fmt::format("one number, or {}: one for each {}", count, things));
   return values;
 }
 

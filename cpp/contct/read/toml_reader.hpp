@@ -30,6 +30,9 @@ inline constexpr real_range positive_real{0.0, false, "a finite number greater t
 /// A value in words: "-5", "\"abc\"", "a table", "an array of 3".
 [[nodiscard]] std::string found_words(const toml::node& node);
 
+/// "key[3]", with the index from 1.
+[[nodiscard]] std::string indexed(std::string_view key, std::size_t from_zero);
+
 /// One table of a TOML file. `where` names the table for people: "contact[2]", "beam", or "" for the file
 /// itself. Every refusal is an input_error with file, line and column. The table and
 /// the file's name must outlive this object.
@@ -59,6 +62,15 @@ class table_reader {
   /// An array of numbers in `range`, at least `least` of them.
   [[nodiscard]] std::vector<double> reals(std::string_view key, const real_range& range,
                                           std::size_t least) const;
+  /// The values behind a key that takes one or a list: an array's entries, at least one, or the value itself.
+  [[nodiscard]] std::vector<const toml::node*> each_of(std::string_view key, std::string_view allowed) const;
+  /// The name of the i-th of these, from 0: "x[2]", or "x" where the value stands alone.
+  [[nodiscard]] std::string name_of(std::string_view key, std::size_t i) const {
+    return required(key, "").is_array() ? indexed(key, i) : std::string(key);
+  }
+  /// One number for all of `count` things, or an array with one for each of these `things`.
+  [[nodiscard]] std::vector<double> reals_for(std::string_view key, const real_range& range,
+                                              std::size_t count, std::string_view things) const;
   /// Which nodes or elements: [1, 3, 5], "2..20" or "all". Numbers from 1 to `count` in the file, each once;
   /// from 0 in the answer, in the order given.
   [[nodiscard]] std::vector<int> numbers(std::string_view key, int count) const;
@@ -71,7 +83,8 @@ class table_reader {
     return has(key) ? tables(key) : std::vector<table_reader>{};
   }
 
-  /// A node under `key` as a whole number or text. `name` is the key, with an index if any.
+  /// A node under `key` as a number, a whole number or text. `name` is the key, with an index if any.
+  [[nodiscard]] double real_of(const toml::node& node, std::string_view name, const real_range& range) const;
   [[nodiscard]] int integer_of(const toml::node& node, std::string_view name, int least, int most) const;
   [[nodiscard]] std::string_view text_of(const toml::node& node, std::string_view name,
                                          std::string_view allowed) const;
@@ -99,16 +112,12 @@ class table_reader {
   [[nodiscard]] std::string place() const;
 
  private:
-  [[nodiscard]] double real_of(const toml::node& node, std::string_view name, const real_range& range) const;
   [[nodiscard]] std::string full_name(std::string_view name) const;
 
   const toml::table* table_;
   std::string where_;
   std::string_view file_;
 };
-
-/// "key[3]", with the index from 1.
-[[nodiscard]] std::string indexed(std::string_view key, std::size_t from_zero);
 
 /// Parse a whole document. Throws input_error with line and column.
 [[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view file);

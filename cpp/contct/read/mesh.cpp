@@ -1,0 +1,112 @@
+#include "contct/read/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contct::read {
+namespace {
+
+/// How far coordinates between these may be apart and still be the same decimal.
+double rounding_of(std::span<const double> among) {
+  return 4 * std::numeric_limits<double>::epsilon() *
+         std::max(std::abs(among.front()), std::abs(among.back()));
+}
+
+/// Every x that the document names outside the beam's own x.
+std::vector<double> named_coordinates(const table_reader& beam, const table_reader& top) {
+  std::vector<double> named;
+  const auto take = [&named](const table_reader& t, const char* key) {
+    if (!t.has(key)) return;
+    const auto entries = t.each_of(key, any_real.words);
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      named.push_back(t.real_of(*entries[i], t.name_of(key, i), any_real));
+  };
+  for (const char* key : {"support", "contact", "bed"})
+    for (const table_reader& t : top.optional_tables(key)) take(t, "x");
+  for (const table_reader& step : top.optional_tables("step"))
+    for (const char* key : {"point", "settlement"})
+      for (const table_reader& t : step.optional_tables(key)) take(t, "x");
+  if (has_pieces(beam))
+    for (const table_reader& piece : beam.tables("EI")) take(piece, "to");
+  return named;
+}
+
+/// `named` and `ends`, rising, each once: those outside the ends are refused where they are read.
+std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector<double> named) {
+  std::erase_if(named, [&ends](double x) {
+    return x < ends.front() || x > ends.back() || find_coordinate(ends, x).has_value();
+  });
+  std::ranges::sort(named);
+  const double same = rounding_of(ends);
+  const auto rest = std::ranges::unique(named, [same](double a, double b) { return b - a <= same; });
+  named.erase(rest.begin(), rest.end());
+  named.insert(named.end(), ends.begin(), ends.end());
+  std::ranges::sort(named);
+  return named;
+}
+
+/// The decimal of 15 digits next to x where it is `same`: what a person would write for a node that the mesh
+/// has put there. 0.2 rather than 0.6 / 3.
+double as_written(double x, double same) {
+  const double decimal = number_in<double>(fmt::format("{:.15g}", x)).value_or(x);
+  return std::abs(decimal - x) <= same ? decimal : x;
+}
+
+}  // namespace
+
+bool has_pieces(const table_reader& beam) {
+  const toml::array* const EI = beam.has("EI") ? beam.required("EI", "").as_array() : nullptr;
+  return EI != nullptr && !EI->empty() && EI->front().is_table();
+}
+
+std::optional<int> find_coordinate(std::span<const double> among, double x) {
+  const auto above = std::ranges::lower_bound(among, x);
+  std::ptrdiff_t nearest = above - among.begin();
+  if (above == among.end() || (nearest > 0 && x - among[nearest - 1] < among[nearest] - x)) --nearest;
+  if (std::abs(among[nearest] - x) > rounding_of(among)) return std::nullopt;
+  return static_cast<int>(nearest);
+}
+
+int coordinate_row::index_of(const table_reader& t, const toml::node& entry, std::string_view name) const {
+  const double x = t.real_of(entry, name, any_real);
+  if (const auto found = find_coordinate(values, x)) return *found;
+  if (x < values.front() || x > values.back())
+    t.refuse(entry, name, fmt::format("{}, which is outside the structure", x),
+             fmt::format("a number from {} to {}", values.front(), values.back()));
+  const std::ptrdiff_t right = std::ranges::lower_bound(values, x) - values.begin();
+  const auto named = [this](std::ptrdiff_t i) {
+    return fmt::format("{:.12g}", values[i]) + (what == "node" ? fmt::format(" (node {})", i + 1) : "");
+  };
+  t.refuse(entry, name, fmt::format("{}, where there is no {}", x, what),
+           fmt::format("the coordinate of a {}; the nearest are {} and {}; {}", what, named(right - 1),
+                       named(right), remedy));
+}
+
+std::vector<double> sized_mesh(const table_reader& t, const table_reader& top,
+                               const std::vector<double>& ends) {
+  const double size = t.real("element_size", positive_real);
+  const std::vector<double> corners = corners_of_mesh(ends, named_coordinates(t, top));
+  // The quotient of a length of 0.9 and a size of 0.3 is rounded to more than 3.
+  const auto elements_between = [&](std::size_t i) {
+    return std::max(1.0, std::ceil((corners[i] - corners[i - 1]) / size - 1e-9));
+  };
+  double elements = 0.0;
+  for (std::size_t i = 1; i < corners.size(); ++i) elements += elements_between(i);
+  if (elements > most_elements)
+    t.refuse_key("element_size", fmt::format("{:g}, which makes {:.0f} elements", size, elements),
+                 fmt::format("a length that makes at most {} elements", most_elements));
+  const double same = rounding_of(ends);
+  std::vector<double> x = {corners.front()};
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const double left = corners[i - 1];
+    const auto count = static_cast<int>(elements_between(i));
+    for (int k = 1; k < count; ++k) x.push_back(as_written(left + (corners[i] - left) * k / count, same));
+    x.push_back(corners[i]);
+  }
+  return x;
+}
+
+}  // namespace contct::read

@@ -1,0 +1,98 @@
+#include "contct/read/places.hpp"
+
+#include <fmt/format.h>
+
+#include <unordered_set>
+
+#include "contct/read/mesh.hpp"
+#include "contct/text/strings.hpp"
+
+namespace contct::read {
+namespace {
+
+constexpr const char* point_words = "[x, y], or a list of such points";
+
+/// What a key takes that names several nodes.
+std::string_view list_words(std::string_view key) {
+  if (key == "at") return point_words;
+  return key == "x" ? "a number, or a list of numbers" : "a list of labels";
+}
+
+/// The grid point [x, y] of a plate.
+int grid_point(const plate& p, const table_reader& t, const toml::node& entry, std::string_view name) {
+  const toml::array* const point = entry.as_array();
+  if (point == nullptr || point->size() != 2) t.refuse(entry, name, found_words(entry), point_words);
+  constexpr std::string_view remedy = "grid lines are set by x and y, or elements, in [plate]";
+  const int i =
+      coordinate_row{p.x, "grid line along x", remedy}.index_of(t, *point->get(0), indexed(name, 0));
+  const int j =
+      coordinate_row{p.y, "grid line along y", remedy}.index_of(t, *point->get(1), indexed(name, 1));
+  return p.node_at(i, j);
+}
+
+}  // namespace
+
+node_places::node_places(const model& m) : structure_(m) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) index_.emplace(*a);
+  if (index_) keys_ = {"dof", "dofs"};
+  if (std::holds_alternative<beam>(m.kind)) keys_ = {"node", "nodes", "x"};
+  if (std::holds_alternative<plate>(m.kind)) keys_ = {"node", "nodes", "at"};
+  for (const char* name : contct::structure::dof_names(m)) dof_names_.emplace_back(name);
+}
+
+std::vector<std::string_view> node_places::keys_with(std::vector<std::string_view> others) const {
+  others.insert(others.begin(), keys_.begin(), keys_.end());
+  return others;
+}
+
+std::string_view node_places::key_in(const table_reader& t) const {
+  std::string_view found;
+  for (const std::string_view key : keys_) {
+    if (!t.has(key)) continue;
+    if (!found.empty())
+      t.refuse_key(found, fmt::format("this beside {}", key), fmt::format("either {} or {}", found, key));
+    found = key;
+  }
+  return found.empty() ? keys_.front() : found;
+}
+
+int node_places::node_at(const table_reader& t, const toml::node& entry, std::string_view name) const {
+  if (const auto* b = std::get_if<beam>(&structure_.kind)) return nodes_along(b->x).index_of(t, entry, name);
+  if (const auto* p = std::get_if<plate>(&structure_.kind)) return grid_point(*p, t, entry, name);
+  const std::optional<int> dof = index_->find(t.text_of(entry, name, index_->allowed()));
+  if (!dof) t.refuse(entry, name, found_words(entry), index_->allowed());
+  return *dof;
+}
+
+std::vector<int> node_places::read(const table_reader& t) const {
+  const std::string_view key = key_in(t);
+  const int count = nodes(structure_);
+  if (key == "nodes") return t.numbers(key, count);
+  const std::string allowed =
+      on_matrix()
+          ? index_->allowed()
+          : fmt::format("a whole number from 1 to {}, or {} or {} in its place", count, keys_[1], keys_[2]);
+  const toml::node& value = t.required(key, allowed);
+  if (key == "node") return {t.integer(key, 1, count) - 1};
+  const toml::array* const point = key == "at" ? value.as_array() : nullptr;
+  if (point != nullptr && !point->empty() && point->front().is_number()) return {node_at(t, value, key)};
+  std::vector<int> list;
+  std::unordered_set<int> seen;
+  for (const toml::node* entry : t.each_of(key, list_words(key))) {
+    const std::string name = t.name_of(key, list.size());
+    list.push_back(node_at(t, *entry, name));
+    if (!seen.insert(list.back()).second)
+      t.refuse(*entry, name, place_words(structure_, list.back()) + ", a second time", "each of them once");
+  }
+  return list;
+}
+
+std::vector<int> node_places::dofs_in(const table_reader& t, std::string_view found) const {
+  std::vector<int> there;
+  for (std::size_t dof = 0; dof < dof_names_.size(); ++dof)
+    if (t.has(dof_names_[dof])) there.push_back(static_cast<int>(dof));
+  if (there.empty()) t.refuse(found, fmt::format("at least one of {}", fmt::join(dof_names_, ", ")));
+  return there;
+}
+
+}  // namespace contct::read

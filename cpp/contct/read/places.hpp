@@ -1,0 +1,49 @@
+// Which nodes a table of a problem file names: by their numbers, by coordinates, or by the labels of a
+// matrix.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "contct/read/matrix_files.hpp"
+#include "contct/read/toml_reader.hpp"
+#include "contct/structure/problem.hpp"
+
+namespace contct::read {
+
+/// Reads the keys that name nodes: node, nodes, and x (beams) or at (plates); dof and dofs on a matrix.
+class node_places {
+ public:
+  /// `m` must outlive this object.
+  explicit node_places(const model& m);
+
+  /// These keys and `others`, for table_reader::allow_only.
+  [[nodiscard]] std::vector<std::string_view> keys_with(std::vector<std::string_view> others) const;
+
+  /// Does a table name nodes?
+  [[nodiscard]] bool named_in(const table_reader& t) const { return t.has(key_in(t)); }
+
+  /// The nodes that a table names, from 0, in its order, each once; at least one.
+  [[nodiscard]] std::vector<int> read(const table_reader& t) const;
+
+  [[nodiscard]] const model& structure() const { return structure_; }
+  [[nodiscard]] bool on_matrix() const { return index_.has_value(); }
+
+  /// The dofs of a node that stand as keys in a table, from 0; refuses a table with none.
+  [[nodiscard]] std::vector<int> dofs_in(const table_reader& t, std::string_view found) const;
+
+  /// The names of a node's dofs.
+  [[nodiscard]] const std::vector<std::string_view>& dof_names() const { return dof_names_; }
+
+ private:
+  [[nodiscard]] std::string_view key_in(const table_reader& t) const;
+  [[nodiscard]] int node_at(const table_reader& t, const toml::node& entry, std::string_view name) const;
+
+  const model& structure_;
+  std::optional<dof_index> index_;           // where the structure is a matrix
+  std::vector<std::string_view> keys_;       // that for a single node first
+  std::vector<std::string_view> dof_names_;  // of a node
+};
+
+}  // namespace contct::read

@@ -1,0 +1,42 @@
+// The [[step]]s of a problem file: loads and settlements.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contct/read/places.hpp"
+
+namespace contct::read {
+
+/// As many coefficients as a polynomial may have.
+inline constexpr std::size_t most_coefficients = 21;
+
+/// The coefficients under the key "polynomial", the constant first: a beam's load, or a face along it, in x
+/// as the nodes have it. Of other structures it is refused; allowed is what is said in `elsewhere`.
+[[nodiscard]] std::vector<double> read_polynomial(const table_reader& t, const model& m,
+                                                  std::string_view elsewhere);
+
+/// Reads one step after the other.
+class step_reader {
+ public:
+  /// Files that a step names are in `folder`. `places` must outlive this object.
+  step_reader(const node_places& places, const std::vector<support>& supports, std::string folder);
+
+  [[nodiscard]] load read(const table_reader& t) const;
+
+ private:
+  enum class hold : char { none, spring, fixed };
+
+  void read_vector(const table_reader& t, load& l) const;
+  void read_uniform(const table_reader& t, load& l) const;
+  [[nodiscard]] distributed_load read_distributed(const table_reader& t) const;
+  void read_points(const table_reader& t, load& l) const;
+  void read_settlements(const table_reader& t, load& l) const;
+  void refuse_unfixed(const table_reader& t, int node, int dof) const;
+
+  const node_places& places_;
+  std::string folder_;
+  std::vector<hold> held_;  // [dofs] by supports
+};
+
+}  // namespace contct::read

@@ -1,0 +1,77 @@
+// Which nodes a table names: by numbers, coordinates, grid points and labels.
+#include "contct/read/places.hpp"
+
+#include "catch.hpp"
+#include "read/refusals.hpp"
+
+using namespace contct::app;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const model a_beam{beam{{0.0, 0.7 * 3 / 7, 0.5, 2.0}, {1, 1, 1}}};
+const model a_plate{plate{{0.0, 0.5, 1.0}, {0.0, 2.0}, 1.0, 0.3}};
+
+model a_matrix() {
+  assembled a;
+  a.stiffness.order = 3;
+  a.labels = {"1.1", "1.2", "top"};
+  return {a};
+}
+
+std::vector<int> nodes_in(const model& m, const std::string& text) {
+  const toml::table document = parse_toml(text, "f.toml");
+  return node_places(m).read(table_reader(document, "", "f.toml"));
+}
+
+std::string refusal(const model& m, const std::string& text) {
+  return verdict([&] { (void)nodes_in(m, text); });
+}
+
+}  // namespace
+
+TEST_CASE("a beam's nodes: a number, a list, a range, an x, or several") {
+  CHECK(nodes_in(a_beam, "node = 2") == std::vector<int>{1});
+  CHECK(nodes_in(a_beam, "nodes = [4, 1]") == std::vector<int>{3, 0});
+  CHECK(nodes_in(a_beam, "nodes = \"2..3\"") == std::vector<int>{1, 2});
+  CHECK(nodes_in(a_beam, "x = 2") == std::vector<int>{3});
+  CHECK(nodes_in(a_beam, "x = [2.0, 0.3, 0]") == std::vector<int>{3, 1, 0});
+}
+
+TEST_CASE("a plate's nodes: a number, a list, a point, or several") {
+  CHECK(nodes_in(a_plate, "nodes = \"all\"").size() == 6);
+  CHECK(nodes_in(a_plate, "at = [0.5, 2]") == std::vector<int>{4});
+  CHECK(nodes_in(a_plate, "at = [[1, 0], [0.0, 2.0]]") == std::vector<int>{2, 3});
+  CHECK_THAT(refusal(a_plate, "at = [[1, 0], [1.0, 0.0]]"), Contains("at[2]: found node 3, a second time"));
+  CHECK_THAT(refusal(a_plate, "at = []"), Contains("at: found an empty array; allowed: [x, y], or a list"));
+  CHECK_THAT(refusal(a_plate, "at = [1, 0, 0]"), Contains("at: found an array of 3; allowed: [x, y]"));
+  CHECK_THAT(refusal(a_plate, "at = [[1, 0], 3]"), Contains("at[2]: found 3; allowed: [x, y]"));
+  CHECK_THAT(refusal(a_plate, "at = [0.7, 0]"),
+             Contains("at[1]: found 0.7, where there is no grid line along x; allowed: the coordinate of a "
+                      "grid line along x; the nearest are 0.5 and 1"));
+}
+
+TEST_CASE("a matrix's dofs: a label, or several, each once") {
+  const model m = a_matrix();
+  CHECK(nodes_in(m, "dof = \"top\"") == std::vector<int>{2});
+  CHECK(nodes_in(m, "dofs = [\"top\", \"1.1\"]") == std::vector<int>{2, 0});
+  CHECK_THAT(refusal(m, "dofs = [\"top\", \"top\"]"), Contains("dofs[2]: found dof top, a second time"));
+  CHECK_THAT(refusal(m, "dof = \"1.3\""), Contains("dof: found \"1.3\"; allowed: a label of"));
+}
+
+TEST_CASE("nodes are named in one way, and what is missing is said with all ways") {
+  CHECK_THAT(refusal(a_beam, "x = 0\nnodes = [1]"),
+             Contains("f.toml:2:9: nodes: found this beside x; allowed: either nodes or x"));
+  CHECK_THAT(refusal(a_beam, ""),
+             Contains("node: found nothing: this key is missing; allowed: a whole number from 1 to 4, or "
+                      "nodes or x in its place"));
+  CHECK_THAT(refusal(a_plate, ""), Contains("or nodes or at in its place"));
+  CHECK_THAT(refusal(a_matrix(), ""), Contains("dof: found nothing: this key is missing; allowed: a label"));
+}
+
+TEST_CASE("an x that is no node is refused with the two nearest and what would make it one") {
+  CHECK_THAT(
+      refusal(a_beam, "x = 0.35"),
+      Contains("x: found 0.35, where there is no node; allowed: the coordinate of a node; the nearest are "
+               "0.3 (node 2) and 0.5 (node 3); element_size in [beam] puts a node at every x"));
+}

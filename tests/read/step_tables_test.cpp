@@ -1,0 +1,80 @@
+// Steps: names, loads by coordinates, and settlements.
+#include "contct/read/step_tables.hpp"
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+#include "read/bad_places.hpp"
+#include "support/scratch_folder.hpp"
+
+using namespace contct::app;
+
+namespace {
+
+load step_of(const std::string& lines) {
+  return parse_problem(step_with(lines), "pb.toml").steps.at(0);
+}
+
+}  // namespace
+
+TEST_CASE("a step may have a name, and is nameless otherwise") {
+  CHECK(step_of("name = \"dead load\"\nuniform = -1\n").name == "dead load");
+  CHECK(step_of("uniform = -1\n").name.empty());
+}
+
+TEST_CASE("point loads at several coordinates are one load at each") {
+  const load l = step_of("point = [ { x = [2.0, 0.0], w = -1, theta = 3 }, { nodes = [2], w = 5 } ]\n");
+  REQUIRE(l.points.size() == 5);
+  CHECK((l.points[1].node == 0 && l.points[1].dof == 0 && l.points[1].value == -1));
+  CHECK((l.points[2].node == 2 && l.points[2].dof == 1 && l.points[2].value == 3));
+  CHECK((l.points[4].node == 1 && l.points[4].value == 5));
+}
+
+TEST_CASE("a step may hold nothing but settlements of fixed dofs") {
+  const load l = step_of("settlement = [ { x = 0, w = -0.01, theta = 0.5 } ]\n");
+  CHECK(l.points.empty());
+  CHECK(l.distributed.empty());
+  REQUIRE(l.settlements.size() == 2);
+  CHECK((l.settlements[0].node == 0 && l.settlements[0].dof == 0 && l.settlements[0].value == -0.01));
+  CHECK((l.settlements[1].dof == 1 && l.settlements[1].value == 0.5));
+}
+
+TEST_CASE("a dof that is fixed and on a spring besides may settle, and so may one in each step") {
+  const problem p = parse_problem(
+      with("fix = [\"w\", \"theta\"]\n", "fix = \"w\"\nspring = { w = 7 }\n") +
+          "[[step]]\nsettlement = [ { node = 1, w = 1 } ]\n[[step]]\nsettlement = [ { node = 1, w = 2 } ]\n",
+      "pb.toml");
+  REQUIRE(p.steps.size() == 3);
+  CHECK(p.steps[0].settlements.empty());
+  CHECK(p.steps[2].settlements.at(0).value == 2);
+}
+
+TEST_CASE("a plate's supports settle at points, in w and in its slopes") {
+  const problem p = parse_problem(
+      plate_with("[[step]]\n",
+                 "[[step]]\nsettlement = [ { at = [[0, 0], [0, 1.0]], w = -1 }, { node = 1, wy = 2 } ]\n"),
+      "pb.toml");
+  const auto& moved = p.steps.at(0).settlements;
+  REQUIRE(moved.size() == 3);
+  CHECK(moved[1].node == 3);
+  CHECK((moved[2].dof == 2 && moved[2].value == 2));
+}
+
+TEST_CASE("dofs of a matrix settle by their labels, where they are fixed") {
+  const scratch_folder here;
+  (void)here.write("K.mtx",
+                   "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n");
+  const auto read = [&](const std::string& settlement) {
+    return read_problem(
+        here.write("p.toml",
+                   "[matrix]\nstiffness = \"K.mtx\"\n[[support]]\ndofs = [\"2\"]\nfix = true\n"
+                   "[[step]]\nname = \"down\"\nsettlement = [ { " +
+                       settlement + ", value = -1.5 } ]\n"));
+  };
+  const problem p = read("dof = \"2\"");
+  CHECK(p.steps.at(0).name == "down");
+  const prescribed_displacement moved = p.steps[0].settlements.at(0);
+  CHECK((moved.node == 1 && moved.dof == 0 && moved.value == -1.5));
+  CHECK_THAT(
+      verdict([&] { (void)read("dof = \"1\""); }),
+      Catch::Matchers::Contains("settlement[1].value: found a settlement of dof 1, which no support holds"));
+}
