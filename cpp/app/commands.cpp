@@ -16,51 +16,58 @@ namespace {
 // Problems to start from, with every key explained.
 
 constexpr const char* new_beam = R"(# A beam over two one-sided supports. Change the numbers, then:
+#     contct check FILE   # what it is, without solving it
 #     contct run FILE
-# Deflections, faces and forces are positive up; use one system of units throughout. Nodes count from 1.
+# Deflections, faces and forces are positive up.
 
 title = "My beam"
 
+[units]                 # labels for what is printed; all numbers must be in these units
+length = "m"
+force  = "kN"
+
 [beam]
-length   = 4.0          # or node coordinates, as many as you like: x = [0.0, 1.0, 2.5]
-elements = 8            # as many elements of equal length: nodes 1 to 9
-EI       = 1.0e4        # bending stiffness, one value or one per element
+length       = 4.0      # or node coordinates: x = [0.0, 1.0, 2.5]
+element_size = 0.5      # a node at every x that this file names, and no element longer than this
+EI           = 1.0e4    # bending stiffness; or pieces: [ { to = 1.5, value = 1.0e4 }, { to = 4.0, value = 2.0e4 } ]
 
 [[support]]             # permanent, and working both ways
-node = 1                # or nodes = [1, 9], "2..4", "all"
-fix  = ["w", "theta"]   # w is the deflection, theta the slope dw/dx
+x   = 0.0               # or several: x = [0.0, 4.0]; or by number from 1: node = 1, nodes = "1..3"
+fix = ["w", "theta"]    # w is the deflection, theta the slope dw/dx
 # spring = { w = 2.0e3 }  # elastic instead of fixed
 
-[[contact]]             # a one-sided support; one block for each, numbered in this order
-node      = 5
-surface   = "below"     # the face stands below the beam; or "above"
-face      = -0.010      # where it stands; 0 touches from the start
-stiffness = 5.0e4       # of its spring; large is hard
-
-[[contact]]
-node      = 9
-surface   = "below"
-face      = -0.030
-stiffness = 5.0e4
+[[contact]]             # one-sided supports, a pair at each x; pairs are numbered in this order
+x         = [2.0, 4.0]
+surface   = "below"     # the faces are below the beam; or "above"
+face      = [-0.010, -0.030]  # where they are; 0 touches from the start. One value for all, or one for each
+stiffness = 5.0e4       # of the pairs' springs; large is hard
 
 # [[bed]]               # a one-sided spring under every node, for ground that cannot pull
 # modulus = 2.0e3       # force per length and deflection
 # face    = -0.050
 
 [[step]]                # loads are totals at the end of the step, reached proportionally from those before
+name    = "load"
 uniform = -8.0          # force per length
-point   = [ { node = 9, w = -20.0 } ]  # w is a force, theta a moment
+point   = [ { x = 4.0, w = -20.0 } ]  # w is a force, theta a moment
+# settlement = [ { x = 0.0, w = -0.005 } ]  # moves a fixed dof: the total at the end of the step
 
-[[step]]                # a second step: the point load is taken off again
+[[step]]                # the point load is taken off again
+name    = "unload"
 uniform = -8.0
 )";
 
 constexpr const char* new_plate =
     R"(# A plate on ground that cannot pull, with a stop above. Change the numbers, then:
+#     contct check FILE   # what it is, without solving it
 #     contct run FILE
-# Deflections, faces and forces are positive up; use one system of units throughout.
+# Deflections, faces and forces are positive up.
 
 title = "My plate"
+
+[units]                 # labels for what is printed; all numbers must be in these units
+length = "m"
+force  = "N"
 
 [plate]
 size      = [2.0, 1.0]  # or the grid lines: x = [0.0, 0.5, 2.0], y = [0.0, 1.0]
@@ -70,25 +77,27 @@ nu        = 0.3
 thickness = 0.01
 
 # [[support]]           # permanent, and working both ways: w, and the slopes wx = dw/dx and wy = dw/dy
-# nodes = [1, 9, 37, 45]
-# fix   = ["w"]
+# at  = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0], [2.0, 1.0]]  # grid points; or nodes = [1, 9, 37, 45]
+# fix = ["w"]
 
 [[bed]]                 # a one-sided spring under every node: the modulus times its share of the area
 modulus = 1.0e6         # force per area and deflection
 face    = 0.0
 
 [[contact]]             # one more pair: the stop
-node      = 45          # the far corner
+at        = [2.0, 1.0]  # the far corner
 surface   = "above"
 face      = 0.001       # above the plate, so at least 0
 stiffness = 1.0e6
 
 [[step]]                # loads are totals at the end of the step, reached proportionally from those before
+name    = "weight"
 uniform = -770.0        # pressure: the plate's own weight
 
 [[step]]
+name    = "corner load"
 uniform = -770.0
-point   = [ { node = 1, w = -4000.0 } ]  # a force at the near corner: the far one lifts off
+point   = [ { at = [0.0, 0.0], w = -4000.0 } ]  # a force at the near corner: the far one lifts off
 )";
 
 const char* problem_of(const std::string& shape) {

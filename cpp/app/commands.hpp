@@ -49,6 +49,11 @@ struct run_options {
   int max_increments = 0;  ///< in a step; 0: the default limit
 };
 
+struct check_options {
+  std::string file, svg;
+  bool quiet = false;
+};
+
 struct explain_options {
   std::string file;
   std::vector<std::string> kernels = {"fortran", "cpp"};
@@ -109,9 +114,9 @@ struct printed_text {
 };
 
 /// What a command line asks for: one command, or a text.
-using command_options = std::variant<printed_text, run_options, explain_options, new_options, verify_options,
-                                     fuzz_options, replay_options, atlas_options, export_options,
-                                     kernels_options, completion_options, manual_options>;
+using command_options = std::variant<printed_text, run_options, check_options, explain_options, new_options,
+                                     verify_options, fuzz_options, replay_options, atlas_options,
+                                     export_options, kernels_options, completion_options, manual_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -179,6 +184,7 @@ enum class exit_status {
 // Each runs one command and returns its exit status. All throw a std::exception whose what() is a message for
 // the user.
 exit_status run_command(const run_options& options);
+exit_status run_command(const check_options& options);
 exit_status run_command(const explain_options& options);
 exit_status run_command(const new_options& options);
 exit_status run_command(const verify_options& options);

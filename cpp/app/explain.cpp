@@ -99,7 +99,7 @@ void print_comparison(const std::vector<std::string>& kernels, const explained_p
 
 exit_status run_command(const explain_options& options) {
   const increments_wanted wanted = wanted_of(options);
-  refuse_unknown_engine(options.engine);
+  refuse_engine_option(options.engine);
   refuse_kernels(options.kernels);
   const problem p = read_with_progress(options.file, options.quiet);
   refuse_beyond("--pair", options.pair, p.pairs.size(), "pair");
@@ -119,8 +119,8 @@ exit_status run_command(const explain_options& options) {
   });
   const linear_structure structure = build_with_progress(p, options.quiet);
   path_progress shown(p.steps.size(), options.quiet);
-  const path_end end =
-      follow(p, structure, options.engine, *leader, {shown.before.get(), &told, shown.behind.get()});
+  const path_end end = follow(p, structure, chosen_engine(options.engine, structure), *leader,
+                              {shown.before.get(), &told, shown.behind.get()});
   shown.line.erase();
 
   const bool anything = end.status != path_status::not_factored && told.explained() > 0;

@@ -25,6 +25,8 @@ constexpr example all_examples[] = {
     {"contct run beam.toml --free-run --kernels corrected,fortran", "where the 1989 rule goes another way"},
     {"contct run beam.toml --final-only", "no path: the end of every step by the oracle, certified"},
     {"contct run beam.toml --html beam.html", "a page to look at, with everything in it"},
+    {"contct check beam.toml", "what a problem is, without solving it"},
+    {"contct check beam.toml --quiet --svg beam.svg", "the structure before any load"},
     {"contct export beam.toml --calculix beam.inp", "the end of the last step, for CalculiX to solve"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
@@ -272,6 +274,14 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
   option_parser::add_quiet(c, o.quiet);
 }
 
+void declare_check(option_parser& p) {
+  const auto [c, o] =
+      p.command<check_options>("check", "Read a problem without solving it, and say what it is");
+  p.add_problem_file(c, o.file);
+  p.add_file(c, "--svg", o.svg, "Draw the structure before any load to this file (- is standard output)");
+  option_parser::add_quiet(c, o.quiet);
+}
+
 void declare_new(option_parser& p) {
   const auto [c, o] = p.command<new_options>("new", "Write a commented problem file to start from");
   p.add(c, takes::word, "SHAPE", o.shape, "beam or plate", {"beam", "plate"})->required();
@@ -379,6 +389,7 @@ std::unique_ptr<option_parser> contct_parser(std::vector<std::string> engines) {
   engines.insert(engines.begin(), "auto");
   p.program.require_subcommand(1);
   declare_run(p, engines);
+  declare_check(p);
   declare_explain(p, engines);
   declare_new(p);
   declare_verify(p);

@@ -1,8 +1,12 @@
 #include "app/problem_runs.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::app {
@@ -59,6 +63,18 @@ std::string mechanism_words(const problem& p, const path_end& end) {
 }
 
 }  // namespace
+
+void refuse_engine_option(const std::string& name) {
+  std::vector<std::string> names = engine_names();
+  names.insert(names.begin(), "auto");
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw std::invalid_argument(fmt::format("--engine: no engine is named \"{}\"{}; allowed: {}", name,
+                                          did_you_mean(name, names), joined(names, ", ")));
+}
+
+std::string chosen_engine(const std::string& name, const linear_structure& s) {
+  return name == "auto" ? std::string(quickest_engine(s)) : name;
+}
 
 problem read_with_progress(const std::string& file, bool quiet) {
   problem p = [&] {

@@ -11,6 +11,17 @@
 
 namespace contct::app {
 
+/// "1 node", "3 nodes".
+[[nodiscard]] inline std::string counted(std::size_t n, std::string_view what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// Throws std::invalid_argument for what --engine does not take: it takes an engine's name, or auto.
+void refuse_engine_option(const std::string& name);
+
+/// The engine that --engine names; for auto the quickest one.
+[[nodiscard]] std::string chosen_engine(const std::string& name, const linear_structure& s);
+
 /// Read a problem and print its warnings. Throws as read_problem does.
 [[nodiscard]] problem read_with_progress(const std::string& file, bool quiet);
 

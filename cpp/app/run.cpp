@@ -75,7 +75,7 @@ void check_grid_coordinates(const problem& p) {
 }
 
 void refuse_bad_options(const run_options& o) {
-  if (!o.engine.empty() && o.engine != "auto") refuse_unknown_engine(o.engine);
+  if (!o.engine.empty()) refuse_engine_option(o.engine);
   for (const std::string& name : o.kernels) {
     if (std::ranges::count(o.kernels, name) > 1)
       throw std::invalid_argument("--kernels: \"" + name + "\" is named twice");
@@ -87,8 +87,7 @@ void refuse_bad_options(const run_options& o) {
 /// 1989, for the 1989 rule; the quickest for others.
 std::string engine_for(const std::string& kernel, const run_options& o, const linear_structure& s) {
   if (o.engine.empty() && facts_of_kernel(kernel).rule == "listing") return "refactor";
-  if (!o.engine.empty() && o.engine != "auto") return o.engine;
-  return std::string(quickest_engine(s));
+  return chosen_engine(o.engine.empty() ? "auto" : o.engine, s);
 }
 
 /// The node of --node, from 0: a number from 1, "x = 4.5", or a dof's label. Throws std::invalid_argument.
@@ -210,11 +209,6 @@ std::vector<observer*> make_observers(observed_run& o) {
   all.insert(all.end(), {&o.digits, &o.passages, o.shown.behind.get()});
   std::erase(all, nullptr);
   return all;
-}
-
-/// "1 node", "3 nodes".
-std::string counted(std::size_t n, std::string_view what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 void print_heading(const run_setup& run) {

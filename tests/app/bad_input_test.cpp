@@ -115,7 +115,7 @@ TEST_CASE("wrong usage: exit 2, and what there is") {
     refused({"run", "good.toml", "--kernels", pair}, "-byte REAL, rule \"listing\") differ in precision");
     refused({"run", "good.toml", "--kernels", pair}, "--free-run");
   }
-  refused({"run", "good.toml", "--engine", "warp"}, "refactor");
+  refused({"run", "good.toml", "--engine", "warp"}, "no engine is named \"warp\"; allowed: auto, refactor, ");
   refused({"run", "good.toml", "--max-increments", "0"}, "--max-increments: Value 0 not in range");
   refused({"run", "good.toml", "--max-increments", "0"}, "1000000000");
   refused({"run", "good.toml", "--max-increments", "many"}, "--max-increments");

@@ -125,7 +125,7 @@ TEST_CASE("numbers outside their range are refused, with the range") {
 
 TEST_CASE("--help and --version are texts, not commands") {
   const auto help = parsed<printed_text>({"--help"}).text;
-  for (const char* command : {"run", "explain", "new", "verify", "fuzz", "replay", "atlas", "export",
+  for (const char* command : {"run", "check", "explain", "new", "verify", "fuzz", "replay", "atlas", "export",
                               "kernels", "completion", "man"})
     CHECK_THAT(help, Contains("\n  " + std::string(command) + " "));
   CHECK_THAT(help, Contains("Examples:\n  contct run beam.toml\n"));
@@ -136,7 +136,7 @@ TEST_CASE("--help and --version are texts, not commands") {
 TEST_CASE("a line that has no meaning is refused with what may have been meant") {
   CHECK_THAT(refusal({"rnu"}),
              StartsWith("\"rnu\" is no command of contct (did you mean \"run\"?); the commands "
-                        "are: run, explain, "));
+                        "are: run, check, explain, "));
   CHECK_THAT(refusal({"--versoin"}),
              StartsWith("\"--versoin\" is no option of contct (did you mean \"--version\"?)"));
   CHECK_THAT(refusal({"walk"}), !Contains("did you mean"));
@@ -169,7 +169,7 @@ TEST_CASE("contct-replay takes what contct replay takes") {
 
 TEST_CASE("every option is described with the kind of argument that it takes") {
   const program_description program = describe_contct(engines);
-  CHECK(program.commands.size() == 11);
+  CHECK(program.commands.size() == 12);
   for (const command_description& c : program.commands) {
     for (const option_description& o : c.options) {
       INFO(c.name << " " << o.name);

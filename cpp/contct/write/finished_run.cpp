@@ -68,8 +68,8 @@ void insert(std::vector<int>& sorted, int number) {
   if (at == sorted.end() || *at != number) sorted.insert(at, number);
 }
 
-void choose_nodes(const beam& b, const finished_run& r, shown_parts& shown) {
-  const auto frames = r.kept.frames().size();
+void choose_nodes(const beam& b, const shown_states& r, shown_parts& shown) {
+  const auto frames = r.frames.size();
   shown.nodes = evenly(b.nodes(), std::max<std::size_t>(100, most_places / frames));
   if (std::ssize(shown.nodes) == b.nodes()) return;
   insert(shown.nodes, shown.watched);
@@ -85,8 +85,8 @@ void choose_nodes(const beam& b, const finished_run& r, shown_parts& shown) {
 }
 
 /// As many lines in either direction as the grid points that all frames may have together allow.
-void choose_lines(const plate& p, const finished_run& r, shown_parts& shown) {
-  const double points = static_cast<double>(most_grid_points) / static_cast<double>(r.kept.frames().size());
+void choose_lines(const plate& p, const shown_states& r, shown_parts& shown) {
+  const double points = static_cast<double>(most_grid_points) / static_cast<double>(r.frames.size());
   const double all = static_cast<double>(p.columns()) * p.rows();
   const double share = std::min(1.0, std::sqrt(points / all));
   const auto some = [&](int lines) { return evenly(lines, std::max(4, static_cast<int>(share * lines))); };
@@ -114,7 +114,7 @@ std::vector<int> edges_by_weight(const placed_nodes& places) {
 }
 
 /// The nodes of what is marked: pairs, supports, and the dof that is watched.
-std::set<int> marked_nodes(const finished_run& r, const placed_nodes& places, const shown_parts& shown) {
+std::set<int> marked_nodes(const shown_states& r, const placed_nodes& places, const shown_parts& shown) {
   std::set<int> marked = {places.dofs[shown.watched].node};
   for (const int i : shown.pairs) marked.insert(places.dofs[r.what.pairs[i].node].node);
   for (const int dof : shown.supports) marked.insert(places.dofs[dof].node);
@@ -123,9 +123,9 @@ std::set<int> marked_nodes(const finished_run& r, const placed_nodes& places, co
 }
 
 /// As many edges as the numbers of all frames together allow; where there are none, nodes.
-void choose_mesh(const placed_nodes& places, const finished_run& r, shown_parts& shown) {
+void choose_mesh(const placed_nodes& places, const shown_states& r, shown_parts& shown) {
   std::set<int> chosen = marked_nodes(r, places, shown);
-  const std::size_t numbers = r.kept.frames().size() * std::max<std::size_t>(1, axes_of(places).size());
+  const std::size_t numbers = r.frames.size() * std::max<std::size_t>(1, axes_of(places).size());
   const std::size_t most = std::max<std::size_t>(300, most_mesh_numbers / numbers);
   for (const int i : edges_by_weight(places)) {
     if (shown.edges.size() == most_edges || chosen.size() + 2 > most) break;
@@ -138,7 +138,7 @@ void choose_mesh(const placed_nodes& places, const finished_run& r, shown_parts&
     for (const int node : evenly(places.nodes.size(), most)) chosen.insert(node);
   shown.nodes.assign(chosen.begin(), chosen.end());
   const std::vector<dofs_of_node> of_node = dofs_of_nodes(places);
-  for (const frame& f : r.kept.frames()) {
+  for (const frame& f : r.frames) {
     for (const int node : shown.nodes) {
       const auto [x, y, z] = reading_at(of_node[node].along, f);
       shown.reach = std::max(shown.reach, std::hypot(x, y, z));
@@ -146,7 +146,7 @@ void choose_mesh(const placed_nodes& places, const finished_run& r, shown_parts&
   }
 }
 
-void add_mesh_omissions(const placed_nodes& places, const finished_run& r, shown_parts& shown) {
+void add_mesh_omissions(const placed_nodes& places, const shown_states& r, shown_parts& shown) {
   const auto is_long = [](const load& l) { return l.points.size() > most_loads; };
   if (std::any_of(r.what.steps.begin(), r.what.steps.end(), is_long))
     shown.omissions.push_back(
@@ -158,10 +158,10 @@ void add_mesh_omissions(const placed_nodes& places, const finished_run& r, shown
         shown.edges.size(), places.edges.size(), shown.nodes.size(), places.nodes.size()));
 }
 
-void choose_pairs(const finished_run& r, shown_parts& shown) {
+void choose_pairs(const shown_states& r, shown_parts& shown) {
   const std::size_t all = r.what.pairs.size();
   const bool on_a_beam = std::holds_alternative<beam>(r.what.geometry.kind);
-  const std::size_t most = std::clamp<std::size_t>(most_pair_states / r.kept.frames().size(), 200,
+  const std::size_t most = std::clamp<std::size_t>(most_pair_states / r.frames.size(), 200,
                                                    on_a_beam ? most_pairs_of_a_beam : most_pairs);
   shown.pairs = evenly(all, most);
   if (shown.pairs.size() == all) return;
@@ -172,7 +172,7 @@ void choose_pairs(const finished_run& r, shown_parts& shown) {
 }
 
 /// The nodes with supports that are drawn.
-void choose_supports(const finished_run& r, shown_parts& shown) {
+void choose_supports(const shown_states& r, shown_parts& shown) {
   std::set<int> nodes;
   for (const support& s : r.what.supports) nodes.insert(s.node);
   const std::vector<int> held(nodes.begin(), nodes.end());
@@ -369,10 +369,10 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-std::string title_of(const finished_run& r) {
-  const bool named = r.what.title.find_first_not_of(" \t\r\n") != std::string::npos;
-  if (named) return on_one_line(r.what.title);
-  return r.file == "-" ? "A problem from standard input" : std::filesystem::path(r.file).filename().string();
+std::string title_of(const problem& p, const std::string& file) {
+  const bool named = p.title.find_first_not_of(" \t\r\n") != std::string::npos;
+  if (named) return on_one_line(p.title);
+  return file == "-" ? "A problem from standard input" : std::filesystem::path(file).filename().string();
 }
 
 std::vector<int> evenly(std::size_t all, std::size_t count) {
@@ -413,11 +413,11 @@ bool shown_parts::has_support_at(int node) const {
   return std::binary_search(supports.begin(), supports.end(), node);
 }
 
-shown_parts choose_parts(const finished_run& r) {
+shown_parts choose_parts(const shown_states& r) {
   shown_parts shown;
   shown.deflecting = deflecting_nodes(r.what);
   extreme most{shown.deflecting.empty() ? 0 : shown.deflecting.front()};
-  for (const frame& f : r.kept.frames()) {
+  for (const frame& f : r.frames) {
     const extreme here = largest_deflection(r.what, f, shown.deflecting);
     most.take(here.at, here.value);
   }
@@ -433,6 +433,11 @@ shown_parts choose_parts(const finished_run& r) {
     }
     shown.omissions.insert(shown.omissions.end(), a->places.said.begin(), a->places.said.end());
   }
+  return shown;
+}
+
+shown_parts choose_parts(const finished_run& r) {
+  shown_parts shown = choose_parts(shown_states{r.what, r.kept.frames()});
   add_count_omissions(r, shown);
   return shown;
 }

@@ -228,6 +228,14 @@ struct shown_parts {
   [[nodiscard]] bool has_support_at(int node) const;
 };
 
+/// States of a problem, at least one.
+struct shown_states {
+  const problem& what;
+  std::span<const frame> frames;
+};
+
+[[nodiscard]] shown_parts choose_parts(const shown_states& r);
+/// With what else of the run is left out.
 [[nodiscard]] shown_parts choose_parts(const finished_run& r);
 
 /// `count` of the numbers from 0 to `all` - 1, evenly, the first and last among them; all where they are
@@ -241,7 +249,10 @@ struct shown_parts {
 [[nodiscard]] std::vector<double> sampled_load(const beam& b, const load& l);
 
 /// A title for people: the problem's, or its file's name.
-[[nodiscard]] std::string title_of(const finished_run& r);
+[[nodiscard]] std::string title_of(const problem& p, const std::string& file);
+[[nodiscard]] inline std::string title_of(const finished_run& r) {
+  return title_of(r.what, r.file);
+}
 
 /// `text` with its line ends replaced by blanks.
 [[nodiscard]] std::string on_one_line(std::string text);

@@ -76,6 +76,9 @@ struct drawn {
 /// that deflects most.
 [[nodiscard]] std::string run_svg(const finished_run& r);
 
+/// The structure alone, as it is before any load. `file` is the problem's, as it was named.
+[[nodiscard]] std::string problem_svg(const problem& p, const std::string& file);
+
 /// Pair `pair` (from 0) of a frame at a point, of size `r`, told in its tooltip: open is a ring, closed a
 /// square, at its face a diamond.
 [[nodiscard]] std::string mark_of_pair(const problem& p, const frame& f, int pair, const svg::spot& at,

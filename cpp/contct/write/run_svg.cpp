@@ -131,16 +131,20 @@ drawn draw_path(const finished_run& r, const shown_parts& shown, double top) {
   return {text + path(track, "track") + marks, bottom + 48};
 }
 
+/// Pairs by their looks, with what their marks are.
+std::string counts_of(const problem& p, const frame& f) {
+  const pair_counts n = count_pairs(p, f);
+  return fmt::format("pairs: {} closed (square), {} open (ring), {} at their faces (diamond)", n.closed,
+                     n.open, n.at_face);
+}
+
 /// How the run ended, and what the marks of pairs mean.
 std::string words_of(const finished_run& r, const shown_parts& shown) {
   const frame& last = r.kept.frames().back();
-  const pair_counts n = count_pairs(r.what, last);
   const extreme most = largest_deflection(r.what, last, shown.deflecting);
-  return fmt::format(
-      "{}: step {}, share {:.6g}; {} {:.6g} at {}; pairs: {} closed (square), {} open (ring), {} at "
-      "their faces (diamond)",
-      r.status, last.step, last.fraction, is_matrix(r) ? "u =" : "w =", most.value,
-      place_words(r.what.geometry, most.at), n.closed, n.open, n.at_face);
+  return fmt::format("{}: step {}, share {:.6g}; {} {:.6g} at {}; {}", r.status, last.step, last.fraction,
+                     is_matrix(r) ? "u =" : "w =", most.value, place_words(r.what.geometry, most.at),
+                     counts_of(r.what, last));
 }
 
 constexpr std::string_view style = R"(
@@ -156,22 +160,36 @@ path { fill: none; } .thin { stroke: #5f5e58; } .grid { stroke: #e4e1d8; } .unde
 .track { stroke: #1d1d1b; stroke-width: 2; stroke-linejoin: round; } .make { fill: #1d1d1b; } .break { fill: #fff; stroke: #1d1d1b; stroke-width: 1.8; } .stop { fill: #b9b6ac; }
 )";
 
+/// A whole picture: a title, a line under it, and parts down to `bottom`.
+std::string document(const std::string& heading, const std::string& words, const std::string& parts,
+                     double bottom) {
+  const std::string size = fmt::format(R"(width="{}" height="{:.0f}")", page_width, bottom);
+  const std::string content = "\n" + title(heading) + "\n" + element("desc", "", markup_text(words)) +
+                              element("style", "", style) + element("rect", size + R"( fill="#fcfbf8")") +
+                              text_at(side, 38, "title", heading) + text_at(side, 62, "quiet", words) + parts;
+  return element("svg",
+                 fmt::format(R"(xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {:.0f}" {} role="img")",
+                             page_width, bottom, size),
+                 content);
+}
+
 }  // namespace
 
 std::string run_svg(const finished_run& r) {
   const shown_parts shown = choose_parts(r);
   const drawn picture = draw_structure({r.what, r.kept.frames().back(), shown});
   const drawn path = draw_path(r, shown, picture.bottom + 20);
-  const std::string words = words_of(r, shown);
-  const std::string size = fmt::format(R"(width="{}" height="{:.0f}")", page_width, path.bottom);
-  const std::string content = "\n" + title(title_of(r)) + "\n" + element("desc", "", markup_text(words)) +
-                              element("style", "", style) + element("rect", size + R"( fill="#fcfbf8")") +
-                              text_at(side, 38, "title", title_of(r)) + text_at(side, 62, "quiet", words) +
-                              picture.text + path.text;
-  return element("svg",
-                 fmt::format(R"(xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {:.0f}" {} role="img")",
-                             page_width, path.bottom, size),
-                 content);
+  return document(title_of(r), words_of(r, shown), picture.text + path.text, path.bottom);
+}
+
+std::string problem_svg(const problem& p, const std::string& file) {
+  frame unloaded;
+  unloaded.displacement.resize(dofs(p.geometry));
+  for (const contact_pair& pair : p.pairs) unloaded.isep.push_back(pair.closed ? in_contact : separated);
+  const shown_parts shown = choose_parts(shown_states{p, {&unloaded, 1}});
+  const drawn picture = draw_structure({p, unloaded, shown, "Without load"});
+  return document(title_of(p, file), "nothing is solved; " + counts_of(p, unloaded), picture.text,
+                  picture.bottom + 10);
 }
 
 }  // namespace contct::write

@@ -78,7 +78,7 @@ drawn draw_beam(const beam& b, structure_picture s) {
     supports += held.dof == 0 ? path(fmt::format("M{:.1f} {:.1f}l8 13h-16z", x, y + 2), "support")
                               : line(x, y - 13, x, y + 13, "clamp");
   }
-  return {text_at(side, picture_top, "strong", fmt::format("Final state, deflection × {:.6g}", s.magnified)) +
+  return {text_at(side, picture_top, "strong", fmt::format("{}, deflection × {:.6g}", s.state, s.magnified)) +
               line(s.X(left), s.Y(0), s.X(right), s.Y(0), "undeformed") + faces_of_beam(b, s, half) +
               path(curve_of_beam(b, s), "beam") + supports +
               s.marks(std::clamp(half * 0.5, 1.6, 5.0), spot_of) + axis_below(s.X, left, right, s.bottom),
@@ -109,9 +109,11 @@ std::string legend(double left, const span_of& range, Colour colour) {
   return text;
 }
 
-/// A rectangle between each two columns and rows that are drawn, in the colour of its mean.
+/// A rectangle between each two columns and rows that are drawn, in the colour of its mean; edges that colour
+/// too, unless they are given one.
 template <class Colour>
-std::string cells_of_plate(const plate& p, const structure_picture& s, Colour colour) {
+std::string cells_of_plate(const plate& p, const structure_picture& s, Colour colour,
+                           const std::string& edges) {
   const auto cell = [&](int from, int to, int low, int high) {
     const auto w_at = [&](int i, int j) { return s.w_of(p.node_at(i, j)); };
     const double mean = (w_at(from, low) + w_at(to, low) + w_at(to, high) + w_at(from, high)) / 4;
@@ -119,7 +121,8 @@ std::string cells_of_plate(const plate& p, const structure_picture& s, Colour co
     const double top = s.Y(p.y[high]);
     return element(
         "rect", fmt::format(R"(x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}" stroke="{}")",
-                            left, top, s.X(p.x[to]) - left, s.Y(p.y[low]) - top, colour(mean), colour(mean)));
+                            left, top, s.X(p.x[to]) - left, s.Y(p.y[low]) - top, colour(mean),
+                            edges.empty() ? colour(mean) : edges));
   };
   std::string text;
   for (std::size_t b = 0; b + 1 < s.shown.rows.size(); ++b) {
@@ -140,15 +143,24 @@ drawn draw_plate(const plate& p, structure_picture s) {
   for (const int j : s.shown.rows) {
     for (const int i : s.shown.columns) range.take(s.w_of(p.node_at(i, j)));
   }
-  const auto colour = [&](double w) { return colour_of((w - range.least) / range.range()); };
+  const bool flat = range.most == range.least;  // without load there is the mesh to see
+  const auto colour = [&](double w) { return colour_of(flat ? 1.0 : (w - range.least) / range.range()); };
   const auto spot_of = [&](int node) {
     const place at = place_of_node(s.what.geometry, node);
     return spot{s.X(at.x), s.Y(at.y)};
   };
   const double r = std::clamp(per_unit * wide / p.columns() * 0.25, 1.5, 6.0);
-  return {text_at(side, picture_top, "strong", "Final state from above: deflection w, and the pairs") +
-              cells_of_plate(p, s, colour) + element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
-              legend(s.X(p.x.back()) + 40, range, colour) +
+  std::string supports;  // of w
+  for (const support& held : s.what.supports) {
+    if (held.dof != 0 || !s.shown.has_support_at(held.node)) continue;
+    const auto [x, y] = spot_of(held.node);
+    supports += path(fmt::format("M{:.1f} {:.1f}l5 9h-10z", x, y), "support");
+  }
+  return {text_at(side, picture_top, "strong",
+                  fmt::format("{} from above: deflection w, and the pairs", s.state)) +
+              cells_of_plate(p, s, colour, flat ? "#c4c0b5" : "") + supports +
+              element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
+              (flat ? "" : legend(s.X(p.x.back()) + 40, range, colour)) +
               axis_below(s.X, p.x.front(), p.x.back(), s.bottom),
           std::max(s.bottom, picture_top + 260) + 30};
 }
@@ -166,9 +178,8 @@ class mesh_picture : structure_picture {
   }
 
   [[nodiscard]] drawn whole() const {
-    std::string text =
-        text_at(side, picture_top, "strong",
-                fmt::format("Final state ({}), displacement × {:.6g}", view_.words, magnified));
+    std::string text = text_at(side, picture_top, "strong",
+                               fmt::format("{} ({}), displacement × {:.6g}", state, view_.words, magnified));
     text += path(edges(0.0), "was") + path(edges(magnified), "member");
     if (shown.edges.empty()) text += points();
     text += path(crosses(), "thin") + supports();
@@ -327,7 +338,8 @@ drawn draw_table(const structure_picture& s) {
   const auto number = [](double x) { return fmt::format("{:.6g}", x); };
   const auto label = [&s](int node) { return cut(place_name(s.what.geometry, node)); };
   double y = picture_top;
-  std::string text = text_at(side, y, "strong", "Final state: no coordinates are known, so this is a table");
+  std::string text =
+      text_at(side, y, "strong", fmt::format("{}: no coordinates are known, so this is a table", s.state));
   text += table_row(y += 30, "quiet", {"pair", "dof", "state", "displacement", "gap", "force"});
   text += table_row(y += row_height, "plain",
                     {"", label(s.shown.watched), "moves most on the path", number(s.w_of(s.shown.watched))});

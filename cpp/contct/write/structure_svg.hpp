@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "contct/write/pictures.hpp"
 
@@ -17,6 +18,7 @@ struct structure_picture {
   const problem& what;
   const frame& at;
   const shown_parts& shown;
+  std::string_view state = "Final state";
   svg::scale X{}, Y{};
   double magnified = 1.0, bottom = 0.0;
 

@@ -1,0 +1,94 @@
+// contct check: a problem read without solving it, and what it is.
+#include <algorithm>
+
+#include "app/problem_runs.hpp"
+#include "contct/text/strings.hpp"
+#include "contct/write/pictures.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::app {
+namespace {
+
+std::string structure_words(const problem& p) {
+  const std::string length = p.units.length.empty() ? "" : " " + p.units.length;
+  if (const auto* b = std::get_if<beam>(&p.geometry.kind))
+    return fmt::format("beam from x = {} to {}{}", b->x.front(), b->x.back(), length);
+  if (const auto* flat = std::get_if<plate>(&p.geometry.kind))
+    return fmt::format("plate from x = {} to {}, y = {} to {}{}", flat->x.front(), flat->x.back(),
+                       flat->y.front(), flat->y.back(), length);
+  return "matrix " + std::get<assembled>(p.geometry.kind).name;
+}
+
+std::string mesh_words(const problem& p) {
+  const int of_elements = elements(p.geometry);
+  return counted(nodes(p.geometry), node_name(p.geometry)) +
+         (of_elements == 0 ? "" : ", " + counted(of_elements, "element"));
+}
+
+std::string support_words(const problem& p) {
+  const auto fixed = static_cast<std::size_t>(std::ranges::count(p.supports, true, &support::fixed));
+  return fmt::format("{} fixed, {}", counted(fixed, "dof"), counted(p.supports.size() - fixed, "spring"));
+}
+
+std::string pair_words(const problem& p) {
+  const auto closed = std::ranges::count(p.pairs, true, &contact_pair::closed);
+  return fmt::format("{}, {} in contact before any load", p.pairs.size(), closed);
+}
+
+std::string bed_words(const problem& p, const bed& b) {
+  const contact_pair& first = p.pairs[b.first_pair];
+  return fmt::format("modulus {}, {}, pairs {} to {}", b.modulus, surface_name(first.surface),
+                     b.first_pair + 1, b.first_pair + b.share.size());
+}
+
+std::string step_words(const load& l) {
+  const std::vector<std::pair<std::size_t, const char*>> parts = {{l.distributed.size(), "distributed load"},
+                                                                  {l.points.size(), "point load"},
+                                                                  {l.settlements.size(), "settlement"}};
+  std::vector<std::string> words;
+  if (!l.name.empty()) words.push_back(in_quotes(l.name));
+  for (const auto& [count, what] : parts)
+    if (count > 0) words.push_back(counted(count, what));
+  return words.empty() ? "no load" : joined(words, ", ");
+}
+
+/// What it is, a fact a line.
+std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
+  std::vector<std::pair<std::string, std::string>> facts;
+  if (!p.title.empty()) facts.emplace_back("title", on_one_line(p.title));
+  facts.emplace_back("structure", structure_words(p));
+  facts.emplace_back("mesh", mesh_words(p));
+  facts.emplace_back("supports", support_words(p));
+  facts.emplace_back("pairs", pair_words(p));
+  for (std::size_t i = 0; i < p.beds.size(); ++i)
+    facts.emplace_back(fmt::format("bed {}", i + 1), bed_words(p, p.beds[i]));
+  for (std::size_t i = 0; i < p.steps.size(); ++i)
+    facts.emplace_back(fmt::format("step {}", i + 1), step_words(p.steps[i]));
+  facts.emplace_back("units", p.units.length.empty() ? "none given" : p.units.length + ", " + p.units.force);
+  facts.emplace_back("warnings", p.warnings.empty() ? "none" : std::to_string(p.warnings.size()));
+  return facts;
+}
+
+}  // namespace
+
+exit_status run_command(const check_options& options) {
+  const std::vector<output_option> outputs = {{"--svg", options.svg}};
+  refuse_shared_outputs(outputs, {{"the problem", options.file}});
+  const problem p = read_with_progress(options.file, options.quiet);
+  const output_files files(outputs);
+  if (!options.quiet && !takes_standard_output(outputs)) {
+    const terminal screen = look_at_terminal();
+    for (const auto& [what, words] : facts_of(p)) {
+      std::string before = fmt::format("{:<11}", what);
+      for (const std::string& line : wrap({words}, screen.width - 11)) {
+        print_text(before + line + "\n");
+        before.assign(11, ' ');
+      }
+    }
+  }
+  flush_standard_output();
+  if (!options.svg.empty()) files.write("--svg", problem_svg(p, options.file));
+  return exit_status::solved;
+}
+
+}  // namespace contct::app

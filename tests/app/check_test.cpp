@@ -1,0 +1,100 @@
+// contct check: what a problem is, without solving it.
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
+#include "support/well_formed.hpp"
+
+using namespace contct::app;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+const std::string by_coordinates =
+    "title = \"Over two stops\"\n[units]\nlength = \"m\"\nforce = \"kN\"\n[beam]\nlength = 10\nelement_size "
+    "= 0.5\n"
+    "EI = 1e3\n[[support]]\nx = [0, 10]\nfix = \"w\"\n[[support]]\nx = 5\nspring = { theta = 2 }\n"
+    "[[contact]]\nx = [2, 3.1]\nsurface = \"below\"\nface = [0, -1]\nstiffness = 5\n[[bed]]\nmodulus = "
+    "4\nface = -1\n"
+    "[[step]]\nname = \"dead load\"\nuniform = -1\n[[step]]\npoint = [ { x = 2, w = 1 } ]\n"
+    "settlement = [ { x = 0, w = -0.1 }, { x = 10, w = -0.1 } ]\n";
+
+}  // namespace
+
+TEST_CASE(
+    "a problem is described without being solved: structure, mesh, supports, pairs, beds, steps, units") {
+  const scratch_folder dir;
+  dir.write("p.toml", by_coordinates);
+  const finished f = contct_program(dir.path(), {"check", "p.toml"});
+  CHECK(f.exit == 0);
+  CHECK(f.err.empty());
+  CHECK(f.out ==
+        "title      Over two stops\n"
+        "structure  beam from x = 0 to 10 m\n"
+        "mesh       22 nodes, 21 elements\n"
+        "supports   2 dofs fixed, 1 spring\n"
+        "pairs      22, 1 in contact before any load\n"
+        "bed 1      modulus 4, below, pairs 3 to 22\n"
+        "step 1     \"dead load\", 1 distributed load\n"
+        "step 2     1 point load, 2 settlements\n"
+        "units      m, kN\n"
+        "warnings   none\n");
+  CHECK(dir.files() == std::vector<std::string>{"p.toml"});
+}
+
+TEST_CASE("plates and matrices are described too, and a step without any load") {
+  const scratch_folder dir;
+  dir.write("plate.toml", good_plate);
+  const finished plate = contct_program(dir.path(), {"check", "plate.toml"});
+  CHECK_THAT(plate.out,
+             StartsWith("structure  plate from x = 0 to 1, y = 0 to 1\nmesh       6 nodes, 2 elements\n") &&
+                 Contains("units      none given\n"));
+  dir.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n");
+  dir.write("zero.mtx", "%%MatrixMarket matrix array real general\n2 1\n0\n0\n");
+  dir.write("m.toml", "[matrix]\nstiffness = \"K.mtx\"\n[[step]]\nload = \"zero.mtx\"\n");
+  const finished matrix = contct_program(dir.path(), {"check", "m.toml"});
+  CHECK(matrix.exit == 0);
+  CHECK_THAT(matrix.out,
+             StartsWith("structure  matrix K.mtx\nmesh       2 dofs\n") && Contains("step 1     no load\n"));
+}
+
+TEST_CASE("warnings go to standard error, and are counted") {
+  const scratch_folder dir;
+  dir.write("p.toml", with("node = 3\nsurface", "node = 1\nsurface"));
+  const finished f = contct_program(dir.path(), {"check", "p.toml"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.err, StartsWith("contct: warning: p.toml:7: contact[1]: node 1 is fixed in w"));
+  CHECK_THAT(f.out, Contains("warnings   1\n"));
+  const finished quiet = contct_program(dir.path(), {"check", "p.toml", "--quiet"});
+  CHECK(quiet.out.empty());
+  CHECK(quiet.err == f.err);
+}
+
+TEST_CASE("what contct run refuses, contct check refuses, and draws nothing") {
+  const scratch_folder dir;
+  dir.write("p.toml", with("5.0e4", "-5.0e4"));
+  const finished f = contct_program(dir.path(), {"check", "p.toml", "--svg", "p.svg"});
+  CHECK(f.exit == 2);
+  CHECK(f.out.empty());
+  CHECK_THAT(f.err, StartsWith("contct: p.toml:11:13: contact[1].stiffness: found -50000"));
+  CHECK(dir.files() == std::vector<std::string>{"p.toml"});
+  CHECK_THAT(contct_program(dir.path(), {"check", "p.toml", "--svg", "p.toml"}).err, Contains("the problem"));
+}
+
+TEST_CASE("the structure before any load is drawn, with a mark for every pair, also to standard output") {
+  const scratch_folder dir;
+  dir.write("p.toml", by_coordinates);
+  dir.write("plate.toml", good_plate);
+  for (const auto& [file, pairs] : {std::pair("p.toml", 22), {"plate.toml", 1}}) {
+    CHECK(contct_program(dir.path(), {"check", file, "--quiet", "--svg", "p.svg"}).exit == 0);
+    const finished piped = contct_program(dir.path(), {"check", file, "--svg", "-"});
+    CHECK(piped.out == dir.read("p.svg"));
+    CHECK(why_not_well_formed(piped.out).empty());
+    CHECK_THAT(piped.out, Contains("Without load") && !Contains("Final state") && !Contains("nan"));
+    CHECK_THAT(piped.out, Contains("<title>pair " + std::to_string(pairs) + ", "));
+    CHECK_THAT(piped.out, Contains("class=\"support\""));
+  }
+}
