@@ -183,6 +183,7 @@ TEST_CASE("what is out of range is exit 2, says what is allowed, and writes noth
   refused({pb7, "--kernels", "cpp,fortran,cpp"}, "found 3; allowed: one or two");
   refused({pb7, "--kernels", "pipe:cat"}, "comes from outside and cannot lead");
   refused({pb7, "--engine", "warp"}, "allowed: auto, refactor, ");
+  CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // which it takes, as contct run does
 }
 
 TEST_CASE("a pair that EPSMUL takes along before it touches is said to be, and how far off it was") {

@@ -41,8 +41,8 @@ std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector
   });
   std::ranges::sort(named);
   const double same = rounding_of(ends);
-  const auto rest = std::ranges::unique(named, [same](double a, double b) { return b - a <= same; });
-  named.erase(rest.begin(), rest.end());
+  named.erase(std::unique(named.begin(), named.end(), [same](double a, double b) { return b - a <= same; }),
+              named.end());
   named.insert(named.end(), ends.begin(), ends.end());
   std::ranges::sort(named);
   return named;

@@ -112,7 +112,7 @@ class problem_reader {
   [[nodiscard]] std::vector<int> read_fix(const table_reader& t) const {
     const auto& names = places_->dof_names();
     const std::string allowed =
-        fmt::format("one of \"{0}\", or an array of \"{0}\", each at most once", fmt::join(names, "\", \""));
+        fmt::format(R"(one of "{0}", or an array of "{0}", each at most once)", fmt::join(names, "\", \""));
     std::vector<int> fixed;
     for (const toml::node* entry : t.each_of("fix", allowed)) {
       const std::string key = t.name_of("fix", fixed.size());
@@ -175,6 +175,7 @@ class problem_reader {
     const std::vector<double> coefficients = read_polynomial(
         face, problem_.geometry, "numbers for face: only along a beam it may be a polynomial");
     std::vector<double> values;
+    values.reserve(at.size());
     for (const int node : at)
       values.push_back(polynomial_at(coefficients, std::get<beam>(problem_.geometry.kind).x[node]));
     if (!std::ranges::all_of(values, [](double c) { return std::isfinite(c); }))
@@ -216,7 +217,7 @@ class problem_reader {
     std::string warning;
     for (int e = 0; e < b.elements(); ++e) {
       if (is_on_bed[e] == 0 || is_on_bed[e + 1] == 0) continue;
-      const double most = std::pow(4 * b.EI[e] / modulus, 0.25) / 2;
+      const double most = std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // never 0
       if (b.length_of(e) <= worst * most) continue;
       worst = b.length_of(e) / most;
       warning = fmt::format(

@@ -215,7 +215,7 @@ std::vector<const toml::node*> table_reader::each_of(std::string_view key, std::
 std::vector<double> table_reader::reals_for(std::string_view key, const real_range& range, std::size_t count,
                                             std::string_view things) const {
   const toml::node& node = required(key, range.words);
-  if (!node.is_array() || (count == 1 && comma_hint(node, 1) != "")) return {real(key, range)};
+  if (!node.is_array() || (count == 1 && !comma_hint(node, 1).empty())) return {real(key, range)};
   std::vector<double> values = reals(key, range, 1);
   if (values.size() != count)
     refuse_key(key, fmt::format("{}{}", found_words(node), comma_hint(node, count)),
