@@ -96,7 +96,7 @@ std::vector<double> sized_mesh(const table_reader& t, const table_reader& top,
   double elements = 0.0;
   for (std::size_t i = 1; i < corners.size(); ++i) elements += elements_between(i);
   if (elements > most_elements)
-    t.refuse_key("element_size", fmt::format("{:g}, which makes {:.0f} elements", size, elements),
+    t.refuse_key("element_size", fmt::format("{:g}, which makes {:.10g} elements", size, elements),
                  fmt::format("a length that makes at most {} elements", most_elements));
   const double same = rounding_of(ends);
   std::vector<double> x = {corners.front()};

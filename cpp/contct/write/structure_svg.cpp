@@ -157,7 +157,7 @@ drawn draw_plate(const plate& p, structure_picture s) {
     supports += path(fmt::format("M{:.1f} {:.1f}l5 9h-10z", x, y), "support");
   }
   return {text_at(side, picture_top, "strong",
-                  fmt::format("{} from above: deflection w, and the pairs", s.state)) +
+                  fmt::format("{} from above: {}the pairs", s.state, flat ? "" : "deflection w, and ")) +
               cells_of_plate(p, s, colour, flat ? "#c4c0b5" : "") + supports +
               element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
               (flat ? "" : legend(s.X(p.x.back()) + 40, range, colour)) +
