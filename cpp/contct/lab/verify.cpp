@@ -10,7 +10,6 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/toml_reader.hpp"
-#include "contct/write/finished_run.hpp"
 
 namespace contct::lab {
 namespace {
@@ -76,16 +75,17 @@ std::vector<way_point> way_through(const model& m, const std::string& along) {
 }
 
 double of_element(const measurement::step_record& s, const expected_number& e, std::size_t quantity) {
-  const bool there = e.element >= 1 && e.element <= static_cast<int>(s.elements.elements()) && e.place >= 1 &&
-                     e.place <= s.elements.places;
-  return there ? s.elements.at(e.element - 1, quantity)[e.place - 1] : not_there;
+  const element_results& elements = s.read.elements;
+  const bool there = e.element >= 1 && e.element <= static_cast<int>(elements.elements()) && e.place >= 1 &&
+                     e.place <= elements.places;
+  return there ? elements.at(e.element - 1, quantity)[e.place - 1] : not_there;
 }
 
 double of_support(const problem& p, const measurement::step_record& s, const expected_number& e) {
   const auto names = dof_names(p.geometry);
   for (std::size_t i = 0; i < p.supports.size(); ++i) {
     const support& at = p.supports[i];
-    if (at.node + 1 == e.node && names[at.dof] == e.dof) return s.reactions[i];
+    if (at.node + 1 == e.node && names[at.dof] == e.dof) return s.read.reactions[i];
   }
   return not_there;
 }
@@ -100,6 +100,19 @@ double of_pair(const problem& problem, const measurement::step_record& s, const 
   if (e.quantity == "force") return force_of(p, w, isep == in_contact);
   if (e.quantity == "gap") return gap_of(p, w, isep == in_contact);
   return not_there;
+}
+
+/// "max moment", "min w", or where that is: "x of max moment".
+double of_extreme(const measurement::step_record& s, std::string_view quantity) {
+  constexpr std::string_view place = "x of ";
+  const bool asks_place = quantity.starts_with(place);
+  if (asks_place) quantity.remove_prefix(place.size());
+  const bool most = quantity.starts_with("max ");
+  if (!most && !quantity.starts_with("min ")) return not_there;
+  const auto r = std::ranges::find(s.read.ranges, quantity.substr(4), &value_range::name);
+  if (r == s.read.ranges.end()) return not_there;
+  const placed_value& at = most ? r->most : r->least;
+  return asks_place ? at.x : at.value;
 }
 
 double of_events(const std::vector<timed_event>& events, const expected_number& e) {
@@ -156,6 +169,7 @@ std::string quantity_words(const expected_number& e) {
   if (e.quantity == "zero") return e.along.empty() ? "w = 0 at x" : fmt::format("w = 0 along {}", e.along);
   if (e.quantity == "reaction") return fmt::format("reaction {}, node {}", e.dof, e.node);
   if (e.pair > 0) return fmt::format("{}, pair {}", e.quantity, e.pair);
+  if (e.node == 0 && e.quantity.find(' ') != std::string::npos) return e.quantity;
   if (e.element > 0) return fmt::format("{}, element {}.{}", e.quantity, e.element, e.place);
   return fmt::format("{}, node {}", e.quantity, e.node);
 }
@@ -164,8 +178,7 @@ void measurement::step_ended(const step_state& s) {
   const load total = load_path(problem_).at(s.step, s.fraction);
   steps_.push_back({{s.displacement.begin(), s.displacement.end()},
                     {s.isep.begin(), s.isep.end()},
-                    results_in_elements(problem_.geometry, total, s.displacement),
-                    reactions(problem_, total, s.displacement, s.isep)});
+                    results_of(problem_, total, s.displacement, s.isep, deflecting_)});
 }
 
 double measurement::of(const expected_number& e) const {
@@ -179,7 +192,8 @@ double measurement::of(const expected_number& e) const {
     return static_cast<double>(std::count(s.isep.begin(), s.isep.end(), in_contact));
   if (e.quantity == "zero") return zero_right_of(problem_.geometry, s.u, e);
   if (e.quantity == "reaction") return of_support(problem_, s, e);
-  if (const auto quantity = place_in(s.elements.names, e.quantity)) return of_element(s, e, *quantity);
+  if (e.quantity.find(' ') != std::string::npos) return of_extreme(s, e.quantity);
+  if (const auto quantity = place_in(s.read.elements.names, e.quantity)) return of_element(s, e, *quantity);
   return of_pair(problem_, s, e);
 }
 

@@ -11,6 +11,7 @@
 #include "contct/compare/free_run.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/structure/problem.hpp"
+#include "contct/write/step_results.hpp"
 
 namespace contct::lab {
 
@@ -59,12 +60,12 @@ class measurement final : public observer {
   struct step_record {
     std::vector<double> u;  ///< D [dofs]
     std::vector<int> isep;
-    element_results elements;
-    std::vector<double> reactions;
+    step_results read;
   };
 
  private:
   const problem& problem_;
+  std::vector<int> deflecting_ = deflecting_nodes(problem_);
   path_record path_;
   std::vector<step_record> steps_;
 };

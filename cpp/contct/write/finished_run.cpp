@@ -33,10 +33,10 @@ struct load_words {
 load_words settlement_words(const model& m, const std::vector<prescribed_displacement>& all) {
   const auto size = [](const prescribed_displacement& g) { return std::abs(g.value); };
   const prescribed_displacement& g = *std::ranges::max_element(all, {}, size);
-  if (all.size() > 1) return {"settlements to ", g.value};
+  if (all.size() > 1) return {"settle ", g.value};
   const std::string name =
       std::holds_alternative<assembled>(m.kind) ? "" : fmt::format("{} ", dof_names(m)[g.dof]);
-  return {"settlement " + name, g.value, " at " + place_words(m, g.node)};
+  return {"settle " + name, g.value, " at " + place_words(m, g.node)};
 }
 
 load_words words_for(const model& m, const load& l, const resultant& r) {
