@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
+#include <ctime>
 #include <mutex>
 #include <stdexcept>
 
@@ -114,6 +115,21 @@ std::string markdown(const check_report& r) {
 std::vector<std::string> common_facts() {
   return {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
           "floating point: " + describe(probe_floating_point())};
+}
+
+std::string utc_now() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
+  const char* const said = std::getenv("SOURCE_DATE_EPOCH");
+  constexpr std::int64_t most = 253'402'300'799;  // the end of the year 9999
+  const auto seconds = said == nullptr ? std::int64_t{std::time(nullptr)} : number_in<std::int64_t>(said);
+  if (!seconds || *seconds < 0 || *seconds > most)
+    throw std::invalid_argument(
+        fmt::format("SOURCE_DATE_EPOCH: found \"{}\"; allowed: seconds since 1970, 0 to {}", said, most));
+  const auto time = static_cast<std::time_t>(*seconds);
+  std::tm utc{};
+  (void)gmtime_r(&time, &utc);
+  return fmt::format("{}-{:02}-{:02} {:02}:{:02} UTC", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+                     utc.tm_hour, utc.tm_min);
 }
 
 std::vector<output_option> with_reports(std::vector<output_option> others, const report_options& options) {

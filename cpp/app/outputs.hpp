@@ -68,6 +68,11 @@ struct check_report {
 /// What every report says of the program: its version, the listing's checksum, the floating-point probe.
 [[nodiscard]] std::vector<std::string> common_facts();
 
+/// "2026-11-22 13:16 UTC": now, or the time that SOURCE_DATE_EPOCH in the environment names in seconds since
+/// 1970, so that the same input gives the same file. Throws std::invalid_argument where that is no such
+/// number.
+[[nodiscard]] std::string utc_now();
+
 /// A file as it was asked for; an empty path is one that was not.
 struct output_option {
   const char* name;  ///< "--json"

@@ -369,7 +369,8 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
                          o.compared != nullptr,
                          c.equal,
                          c.words,
-                         common_facts()};
+                         common_facts(),
+                         utc_now()};
     if (o.files["--html"] != nullptr) o.files.write("--html", run_page(r));
     if (o.files["--svg"] != nullptr) o.files.write("--svg", run_svg(r));
     if (o.files["--vtu"] != nullptr) write_grids(o.files, run.options.pictures.vtu, r);

@@ -184,16 +184,6 @@ TEST_CASE("of many loads the largest are drawn, by falling magnitude") {
   CHECK(largest_loads({{0, 0, 1.0}, {1, 0, -1.0}}).front().node == 0);
 }
 
-TEST_CASE("a distributed load is sampled from end to end, each element with its own") {
-  const beam b{{0.0, 1.0, 2.0}, {1.0, 1.0}};
-  const std::vector<double> q = sampled_load(b, {{}, {{{-1.0}, {}}, {{0.0, 2.0}, {1}}}});
-  REQUIRE(q.size() == load_samples);
-  CHECK(q.front() == -1.0);
-  CHECK(q[11] == -1.0);
-  CHECK(q[12] == 1.0);  // x = 1: -1 + 2 x
-  CHECK(q.back() == 3.0);
-}
-
 TEST_CASE("a flat structure that stays flat is looked at straight on, any other from the front and above") {
   const std::vector<in_space> in_xy = {{0, 0, 1}, {1, 0, 1}, {0, 2, 1}};
   const std::vector<in_space> in_xz = {{0, 5, 1}, {1, 5, 0}, {0, 5, 2}};

@@ -84,6 +84,35 @@ void choose_nodes(const beam& b, const shown_states& r, shown_parts& shown) {
       shown.nodes.size(), b.nodes()));
 }
 
+/// The nodes shown and, where all of them are and few, places inside elements that carry a distributed load:
+/// between others the cubics of the ends' deflections and slopes, and straight moments, are exact.
+void choose_stations(const beam& b, const shown_states& r, shown_parts& shown) {
+  constexpr std::size_t most_inside = 8;
+  constexpr std::size_t enough = 120;
+  shown.loaded = load_pieces(r.what, b);
+  const std::size_t most = most_places / r.frames.size();
+  const std::size_t elements = b.elements();
+  const bool all = std::ssize(shown.nodes) == b.nodes();
+  const std::size_t parts =
+      all ? std::min({most_inside, (enough + elements - 1) / elements, most / elements}) : 1;
+  auto piece = shown.loaded.begin();
+  for (const int node : shown.nodes) {
+    shown.stations.push_back({node, 0.0});
+    while (piece != shown.loaded.end() && piece->last <= node) ++piece;
+    if (piece == shown.loaded.end() || node < piece->first) continue;
+    for (std::size_t k = 1; k < parts; ++k)
+      shown.stations.push_back({node, static_cast<double>(k) / static_cast<double>(parts)});
+  }
+  const std::size_t pieces = shown.loaded.size();
+  if (pieces <= most_load_pieces) return;
+  std::vector<load_piece> some;
+  for (const int i : evenly(pieces, most_load_pieces)) some.push_back(shown.loaded[i]);
+  shown.loaded = std::move(some);
+  shown.omissions.push_back(
+      fmt::format("Distributed loads are drawn on {} of the {} pieces between their jumps, evenly chosen.",
+                  shown.loaded.size(), pieces));
+}
+
 /// As many lines in either direction as the grid points that all frames may have together allow.
 void choose_lines(const plate& p, const shown_states& r, shown_parts& shown) {
   const double points = static_cast<double>(most_grid_points) / static_cast<double>(r.frames.size());
@@ -146,11 +175,7 @@ void choose_mesh(const placed_nodes& places, const shown_states& r, shown_parts&
   }
 }
 
-void add_mesh_omissions(const placed_nodes& places, const shown_states& r, shown_parts& shown) {
-  const auto is_long = [](const load& l) { return l.points.size() > most_loads; };
-  if (std::any_of(r.what.steps.begin(), r.what.steps.end(), is_long))
-    shown.omissions.push_back(
-        fmt::format("Of loads at more dofs than {} the largest so many are drawn.", most_loads));
+void add_mesh_omissions(const placed_nodes& places, shown_parts& shown) {
   if (shown.edges.size() < places.edges.size() || shown.nodes.size() < places.nodes.size())
     shown.omissions.push_back(fmt::format(
         "{} of {} edges and {} of {} nodes are drawn: edges of the fewest elements first, which are the "
@@ -190,10 +215,22 @@ void add_count_omissions(const finished_run& r, shown_parts& shown) {
                     "increments within a step, and ends of steps.",
                     kept.increments(), kept.frames().size(), kept.stride()));
   }
+  const auto loads_of_step = [](const load& l) { return l.points.size(); };
+  const auto loads = std::ranges::max(r.what.steps, {}, loads_of_step).points.size();
+  if (loads > most_loads)
+    shown.omissions.push_back(
+        fmt::format("Of up to {} point loads the {} largest are drawn.", loads, most_loads));
+  const auto events =
+      r.record.increments.empty() ? 0 : std::ranges::max(r.record.increments, {}, [](const auto& i) {
+                                          return i.events.size();
+                                        }).events.size();
   const auto first = [&](const char* what, std::size_t here, std::size_t all) {
     if (here < all)
       shown.omissions.push_back(fmt::format("Of {} {} the first {} are listed.", all, what, here));
   };
+  first("events of an increment", std::min(events, most_events), events);
+  if (!r.record.calls.empty())
+    first("pairs' s in each call", r.record.calls.front().ss.size(), r.what.pairs.size());
   first("increments", r.record.increments.size(), r.record.all_increments);
   first("calls", r.record.calls.size(), r.record.all_calls);
   first("bytes of unit 26", r.record.log.size(), r.record.all_log);
@@ -289,6 +326,17 @@ pair_counts count_pairs(const problem& p, const frame& f) {
   pair_counts n;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) ++n.of(reading_of(p, f, i).look);
   return n;
+}
+
+std::vector<double> bed_pressure(const problem& p, const frame& f) {
+  std::vector<double> at(nodes(p.geometry));
+  for (const bed& b : p.beds) {
+    for (std::size_t i = 0; i < b.share.size(); ++i) {
+      const std::size_t pair = b.first_pair + i;
+      if (b.share[i] > 0.0) at[p.pairs[pair].node] += reading_of(p, f, pair).force / b.share[i];
+    }
+  }
+  return at;
 }
 
 std::string place_name(const model& m, int node) {
@@ -389,24 +437,33 @@ std::vector<point_load> largest_loads(std::vector<point_load> loads) {
   return loads;
 }
 
-std::vector<double> sampled_load(const beam& b, const load& l) {
-  std::vector<double> samples;
-  for (int i = 0; i < load_samples; ++i) {
-    const double x = b.x.front() + (b.x.back() - b.x.front()) * i / (load_samples - 1);
-    const auto right = std::upper_bound(b.x.begin() + 1, b.x.end() - 1, x);
-    const int element = static_cast<int>(right - b.x.begin()) - 1;
-    double q = 0.0;
-    for (const distributed_load& d : l.distributed) {
-      if (!d.elements.empty() && std::ranges::find(d.elements, element) == d.elements.end()) continue;
-      double power = 1.0;
-      for (const double a : d.polynomial) {
-        q += a * power;
-        power *= x;
-      }
-    }
-    samples.push_back(q);
+double station_reader::x(const station& s) const {
+  return s.share == 0.0 ? beam_.x[s.node] : beam_.x[s.node] + s.share * beam_.length_of(s.node);
+}
+
+double station_reader::w(const station& s) const {
+  return s.share == 0.0 ? u_[2 * s.node] : polynomial_at(lines_.at(s.node).w, s.share);
+}
+
+double station_reader::slope(const station& s) const {
+  return s.share == 0.0 ? u_[2 * s.node + 1] : polynomial_at(lines_.at(s.node).slope, s.share);
+}
+
+std::vector<load_piece> load_pieces(const problem& p, const beam& b) {
+  using polynomials = std::vector<std::vector<double>>;  // of each step; empty: none
+  std::vector<polynomials> of_element(b.elements(), polynomials(p.steps.size()));
+  for (std::size_t step = 0; step < p.steps.size(); ++step)
+    for_each_loaded_element(p.steps[step], b.elements(), [&](int e, std::span<const double> part) {
+      add_polynomial(of_element[e][step], part, 1.0);
+    });
+  const polynomials nothing(p.steps.size());
+  std::vector<load_piece> pieces;
+  for (int e = 0; e < b.elements(); ++e) {
+    if (of_element[e] == nothing) continue;
+    const bool goes_on = !pieces.empty() && pieces.back().last == e && of_element[e - 1] == of_element[e];
+    goes_on ? void(++pieces.back().last) : pieces.push_back({e, e + 1});
   }
-  return samples;
+  return pieces;
 }
 
 bool shown_parts::has_support_at(int node) const {
@@ -422,14 +479,17 @@ shown_parts choose_parts(const shown_states& r) {
     most.take(here.at, here.value);
   }
   shown.watched = most.at;
-  if (const auto* b = std::get_if<beam>(&r.what.geometry.kind)) choose_nodes(*b, r, shown);
+  if (const auto* b = std::get_if<beam>(&r.what.geometry.kind)) {
+    choose_nodes(*b, r, shown);
+    choose_stations(*b, r, shown);
+  }
   if (const auto* p = std::get_if<plate>(&r.what.geometry.kind)) choose_lines(*p, r, shown);
   choose_pairs(r, shown);
   choose_supports(r, shown);
   if (const auto* a = std::get_if<assembled>(&r.what.geometry.kind)) {
     if (a->places.known()) {
       choose_mesh(a->places, r, shown);
-      add_mesh_omissions(a->places, r, shown);
+      add_mesh_omissions(a->places, shown);
     }
     shown.omissions.insert(shown.omissions.end(), a->places.said.begin(), a->places.said.end());
   }

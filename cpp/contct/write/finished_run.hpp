@@ -12,6 +12,7 @@
 #include "contct/compare/lockstep.hpp"
 #include "contct/path/frames.hpp"
 #include "contct/path/observer.hpp"
+#include "contct/structure/extremes.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct::write {
@@ -89,6 +90,9 @@ struct pair_counts {
   }
 };
 [[nodiscard]] pair_counts count_pairs(const problem& p, const frame& f);
+
+/// What beds press on the structure by, at each node: force over tributary share [nodes].
+[[nodiscard]] std::vector<double> bed_pressure(const problem& p, const frame& f);
 
 /// A node's name in tables: its number, from 1, or its label where each dof is a node of its own.
 [[nodiscard]] std::string place_name(const model& m, int node);
@@ -198,6 +202,7 @@ struct finished_run {
   bool equal = true;               ///< and they agreed (in lockstep or on paths of their own)
   std::string comparison;          ///< how they did, in words; empty for a kernel alone
   std::vector<std::string> facts;  ///< version, listing, floating point
+  std::string date = {};           ///< of the run, in UTC; may be empty
 };
 
 /// At most so many numbers in all frames together: places along a beam, points of a plate's grid, states of
@@ -207,16 +212,50 @@ inline constexpr std::size_t most_places = 24'000, most_grid_points = 90'000, mo
 /// At most so many in any one frame; events in any one increment.
 inline constexpr std::size_t most_pairs = 1000, most_pairs_of_a_beam = 300, most_supports = 300,
                              most_edges = 20'000, most_loads = 60, most_events = 60;
-/// Places along a beam at which its distributed load is given.
-inline constexpr int load_samples = 25;
+/// Pieces of a beam's distributed load that are drawn.
+inline constexpr std::size_t most_load_pieces = 200;
+
+/// A place along a beam: a share of the element that begins at a node, the node itself where that is 0.
+struct station {
+  int node;
+  double share;
+};
+
+/// Deflection, slope, moment and shear of a beam at stations: exact, as extremes.hpp has them.
+class station_reader {
+ public:
+  /// All arguments must outlive this object.
+  station_reader(const beam& b, const load& l, std::span<const double> u)
+      : beam_(b), u_(u), lines_(b, l, u) {}
+
+  [[nodiscard]] double x(const station& s) const;
+  [[nodiscard]] double w(const station& s) const;
+  [[nodiscard]] double slope(const station& s) const;
+  [[nodiscard]] const beam_lines& lines() const { return lines_; }
+
+ private:
+  const beam& beam_;
+  std::span<const double> u_;
+  beam_lines lines_;
+};
+
+/// Neighbouring elements of a beam, from `first` to before `last`, along which every step's distributed load
+/// is one polynomial.
+struct load_piece {
+  int first, last;
+};
+/// Those that carry any, in order.
+[[nodiscard]] std::vector<load_piece> load_pieces(const problem& p, const beam& b);
 
 /// Which parts of a large run its page and picture show, so that they stay quick to read and to draw: nodes,
 /// grid lines and pairs, all counted from 0, rising.
 struct shown_parts {
-  std::vector<int> nodes;    ///< of a beam, or of a structure from elsewhere whose places are known
-  std::vector<int> edges;    ///< of the latter
-  double reach = 0.0;        ///< of the latter: the largest displacement of these nodes on the path
-  std::vector<int> columns;  ///< grid lines of a plate
+  std::vector<int> nodes;          ///< of a beam, or of a structure from elsewhere whose places are known
+  std::vector<station> stations;   ///< of a beam: these nodes, and places in loaded elements
+  std::vector<load_piece> loaded;  ///< of a beam
+  std::vector<int> edges;          ///< of the latter
+  double reach = 0.0;              ///< of the latter: the largest displacement of these nodes on the path
+  std::vector<int> columns;        ///< grid lines of a plate
   std::vector<int> rows;
   std::vector<int> pairs;
   std::vector<int> supports;    ///< the nodes whose supports are drawn
@@ -244,9 +283,6 @@ struct shown_states {
 
 /// The largest of these loads, at most `most_loads`, by falling magnitude.
 [[nodiscard]] std::vector<point_load> largest_loads(std::vector<point_load> loads);
-
-/// The force per length of `l` at `load_samples` even places from end to end.
-[[nodiscard]] std::vector<double> sampled_load(const beam& b, const load& l);
 
 /// A title for people: the problem's, or its file's name.
 [[nodiscard]] std::string title_of(const problem& p, const std::string& file);

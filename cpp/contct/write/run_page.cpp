@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +11,7 @@
 #include "contct/text/strings.hpp"
 #include "contct/write/pictures.hpp"
 #include "contct/write/result_json.hpp"
+#include "contct/write/run_tables.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
@@ -28,20 +31,28 @@ json named(const problem& p, int node) {
   return node + 1;
 }
 
-/// A quantity just left and just right of each node shown, and the largest of it at any node.
-json section_force_json(const element_results& results, std::size_t name, const std::vector<int>& nodes) {
-  const auto elements = static_cast<int>(results.elements());
-  const auto at = [&](int element, int end) {
-    return element < 0 || element >= elements ? json(nullptr) : json(results.at(element, name)[end]);
-  };
-  extreme most;
-  for (int e = 0; e < elements; ++e) {
-    for (int end = 0; end < 2; ++end) most.take(e + end, results.at(e, name)[end]);
+json extreme_json(const placed_value& v) {
+  return {{"value", v.value}, {"x", v.x}, {"node", v.node < 0 ? json(nullptr) : json(v.node + 1)}};
+}
+
+/// A number for a colour: four digits are enough, and keep the page small.
+json for_colour(double x) {
+  return json::parse(fmt::format("{:.4g}", x));
+}
+
+/// The mean of what the elements at a node have there, for contours [nodes].
+std::vector<double> means_at_nodes(const plate& p, const element_results& results, std::size_t name) {
+  std::vector<double> sum(p.nodes());
+  std::vector<int> count(p.nodes());
+  for (int e = 0; e < p.elements(); ++e) {
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const int node = p.corners_of(e)[corner];
+      sum[node] += results.at(e, name)[corner];
+      ++count[node];
+    }
   }
-  return {{"left", list_of(nodes, [&](int node) { return at(node - 1, 1); })},
-          {"right", list_of(nodes, [&](int node) { return at(node, 0); })},
-          {"largest", most.value},
-          {"node", most.at + 1}};
+  for (std::size_t node = 0; node < sum.size(); ++node) sum[node] /= count[node];
+  return sum;
 }
 
 /// What is wrong with final states, and what to do about it.
@@ -70,6 +81,8 @@ class page_writer {
  public:
   explicit page_writer(const finished_run& r)
       : run_(r), what_(r.what), loads_(r.what), shown_(choose_parts(r)) {
+    input_ = input_tables(what_, shown_.omissions);
+    ends_ = result_tables(r, shown_.deflecting, shown_.omissions);
     const auto* const a = std::get_if<assembled>(&what_.geometry.kind);
     if (a == nullptr || !a->places.known()) return;
     mesh_ = a;
@@ -84,6 +97,9 @@ class page_writer {
     return {
         {"format", "contct-page-1"},
         {"title", title_of(r)},
+        {"file", r.file},
+        {"date", r.date},
+        {"units", units()},
         {"facts", r.facts},
         {"kernels", r.kernels},
         {"engine", r.engine},
@@ -112,6 +128,8 @@ class page_writer {
         {"certified", certificate_summary(r.judged, r.status == "solved")},
         {"certified_whole", r.status == "solved" && r.judged.all_exact()},
         {"uncertified", complaints_of(r)},
+        {"input", input_},
+        {"ends", ends_},
         {"thinned", shown_.omissions},
         {"frames", list_of(r.kept.frames(), [this](const frame& f) { return frame_of(f); })}};
   }
@@ -125,8 +143,7 @@ class page_writer {
     const auto numbered = [](const std::vector<int>& chosen) {
       return list_of(chosen, [](int i) { return i + 1; });
     };
-    if (beam_ != nullptr)
-      out = {{"kind", "beam"}, {"x", lines(beam_->x, shown_.nodes)}, {"nodes", numbered(shown_.nodes)}};
+    if (beam_ != nullptr) out = beam_geometry();
     if (plate_ != nullptr)
       out = {{"kind", "plate"},
              {"x", lines(plate_->x, shown_.columns)},
@@ -137,6 +154,79 @@ class page_writer {
     if (mesh_ != nullptr) out = mesh_geometry();
     out["watched"] = named(what_, shown_.watched);
     return out;
+  }
+
+  /// What goes behind numbers of each kind; nothing where the problem has no units.
+  [[nodiscard]] json units() const {
+    if (what_.units.force.empty()) return json::object();
+    const auto unit = [this](int force, int length) { return unit_words(what_.units, force, length); };
+    const std::string plate_moment = fmt::format("{0} {1}/{1}", what_.units.force, what_.units.length);
+    return {{"w", unit(0, 1)},     {"force", unit(1, 0)},     {"moment", unit(1, 1)},
+            {"shear", unit(1, 0)}, {"mx", plate_moment},      {"my", plate_moment},
+            {"mxy", plate_moment}, {"pressure", unit(1, -2)}, {"per_length", unit(1, -1)}};
+  }
+
+  /// Stations along it, with the numbers of those that are nodes; from where to where a distributed load goes
+  /// without a jump, and at how many places of each such piece frames have it.
+  [[nodiscard]] json beam_geometry() const {
+    const std::vector<double> no_displacement(beam_->dofs());
+    const station_reader at(*beam_, {}, no_displacement);
+    return {{"kind", "beam"},
+            {"x", list_of(shown_.stations, [&](const station& s) { return at.x(s); })},
+            {"nodes",
+             list_of(shown_.stations,
+                     [](const station& s) { return s.share == 0.0 ? json(s.node + 1) : json(nullptr); })},
+            {"loaded", list_of(shown_.loaded,
+                               [this](const load_piece& p) -> json {
+                                 return {beam_->x[p.first], beam_->x[p.last]};
+                               })},
+            {"places", places_of_load()}};
+  }
+
+  /// Two where every load is straight.
+  [[nodiscard]] int places_of_load() const {
+    constexpr int enough_for_curves = 13;
+    for (const load& l : what_.steps)
+      for (const distributed_load& d : l.distributed)
+        if (d.polynomial.size() > 2) return enough_for_curves;
+    return 2;
+  }
+
+  /// The force per length at these places, piece after piece.
+  [[nodiscard]] json spread_load(const load& l) const {
+    std::vector<std::vector<double>> of_element(beam_->elements());
+    for_each_loaded_element(l, beam_->elements(), [&](int e, std::span<const double> part) {
+      add_polynomial(of_element[e], part, 1.0);
+    });
+    json q = json::array();
+    const int places = places_of_load();
+    for (const load_piece& p : shown_.loaded) {
+      const double from = beam_->x[p.first];
+      const double length = beam_->x[p.last] - from;
+      for (int i = 0; i < places; ++i)
+        q.push_back(polynomial_at(of_element[p.first], from + length * i / (places - 1)));
+    }
+    return q;
+  }
+
+  /// A quantity just left and just right of each station, and its least and largest value anywhere.
+  [[nodiscard]] json section_forces(const element_results& results, std::size_t name,
+                                    std::vector<double> element_line::*along, const beam_lines& lines,
+                                    const value_range& range) const {
+    const auto at = [&](int element, int end) {
+      return element < 0 || element >= beam_->elements() ? json(nullptr)
+                                                         : json(results.at(element, name)[end]);
+    };
+    const auto inside = [&](const station& s) { return polynomial_at(lines.at(s.node).*along, s.share); };
+    const auto values = [&](int before, int end) {
+      return list_of(shown_.stations, [&](const station& s) {
+        return s.share == 0.0 ? at(s.node - before, end) : json(inside(s));
+      });
+    };
+    return {{"left", values(1, 1)},
+            {"right", values(0, 0)},
+            {"least", extreme_json(range.least)},
+            {"most", extreme_json(range.most)}};
   }
 
   /// A structure from elsewhere, its nodes numbered as they are shown, from 0: "names" and places of the
@@ -266,31 +356,45 @@ class page_writer {
             {"all_events", i.events.size()}};
   }
 
-  /// The first of them: [x, y, dof, value, node], nodes from 1.
+  /// The largest of them: [x, y, dof, value, node], nodes from 1.
   [[nodiscard]] json point_loads(const load& l) const {
-    return list_of(std::span(l.points).first(std::min(most_loads, l.points.size())),
-                   [this](const point_load& at) -> json {
-                     const place where = place_of_node(what_.geometry, at.node);
-                     return {where.x, where.y, at.dof, at.value, at.node + 1};
-                   });
+    return list_of(largest_loads(l.points), [this](const point_load& at) -> json {
+      const place where = place_of_node(what_.geometry, at.node);
+      return {where.x, where.y, at.dof, at.value, at.node + 1};
+    });
   }
 
-  /// Deflection and slope at the nodes shown, moment and shear, and force per length for arrows.
-  void add_beam_shape(const load& l, const frame& f, json& out) const {
-    out["w"] = list_of(shown_.nodes, [&](int node) { return deflection_of(what_, f, node); });
-    out["slope"] = list_of(shown_.nodes, [&](int node) { return f.displacement[2 * node + 1]; });
+  /// Deflection, slope, moment and shear at stations, and force per length for arrows.
+  void add_beam_shape(const load& l, const frame& f, const std::vector<value_range>& ranges,
+                      json& out) const {
+    const station_reader at(*beam_, l, f.displacement);
+    out["w"] = list_of(shown_.stations, [&](const station& s) { return at.w(s); });
+    out["slope"] = list_of(shown_.stations, [&](const station& s) { return at.slope(s); });
     const element_results results = results_in_elements(what_.geometry, l, f.displacement);
-    for (std::size_t name = 0; name < 2; ++name)
-      out[std::string(results.names[name])] = section_force_json(results, name, shown_.nodes);
-    out["q"] = l.distributed.empty() ? json(nullptr) : json(sampled_load(*beam_, l));
+    for (std::size_t name = 0; name < 2; ++name) {
+      const auto range = std::ranges::find(ranges, results.names[name], &value_range::name);
+      const auto along = results.names[name] == "moment" ? &element_line::moment : &element_line::shear;
+      out[std::string(results.names[name])] = section_forces(results, name, along, at.lines(), *range);
+    }
+    out["q"] = shown_.loaded.empty() ? json(nullptr) : spread_load(l);
   }
 
-  /// Deflections at the crossings of the grid lines shown, row by row.
-  void add_plate_shape(const frame& f, json& out) const {
-    json& w = out["w"] = json::array();
-    for (const int j : shown_.rows) {
-      for (const int i : shown_.columns) w.push_back(deflection_of(what_, f, plate_->node_at(i, j)));
+  /// At the crossings of the grid lines shown, row by row: deflections and, for colours, moments and, where
+  /// there is a bed, its pressure on the plate.
+  void add_plate_shape(const load& l, const frame& f, json& out) const {
+    std::vector<int> crossings;
+    for (const int j : shown_.rows)
+      for (const int i : shown_.columns) crossings.push_back(plate_->node_at(i, j));
+    out["w"] = list_of(crossings, [&](int node) { return deflection_of(what_, f, node); });
+    const element_results results = results_in_elements(what_.geometry, l, f.displacement);
+    for (std::size_t name = 0; name < results.names.size(); ++name) {
+      const std::vector<double> means = means_at_nodes(*plate_, results, name);
+      out[std::string(results.names[name])] =
+          list_of(crossings, [&](int node) { return for_colour(means[node]); });
     }
+    if (what_.beds.empty()) return;
+    const std::vector<double> pressure = bed_pressure(what_, f);
+    out["pressure"] = list_of(crossings, [&](int node) { return for_colour(pressure[node]); });
   }
 
   void add_pairs(const frame& f, json& out) const {
@@ -303,9 +407,30 @@ class page_writer {
     out["counts"] = {n.open, n.closed, n.at_face};
   }
 
+  /// The force on the structure by each support drawn; null where it holds no deflection.
+  [[nodiscard]] json forces_of_supports(const load& l, const frame& f) const {
+    const std::vector<double> all = reactions(what_.geometry, l, what_.supports, f.displacement);
+    std::map<int, json> at;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const support& s = what_.supports[i];
+      if (!shown_.has_support_at(s.node)) continue;
+      json& force = at[s.node];
+      if (s.dof == 0) force = all[i] + (force.is_null() ? 0.0 : force.get<double>());
+    }
+    return list_of(at, [](const auto& of_node) { return of_node.second; });
+  }
+
+  /// The largest deflection: its node, or its place where that is inside an element.
+  [[nodiscard]] json largest_json(const std::vector<value_range>& ranges) const {
+    if (ranges.empty()) return {{"w", 0.0}, {"node", named(what_, shown_.watched)}};
+    const placed_value& v = ranges.front().largest();
+    if (v.node < 0) return {{"w", v.value}, {"node", nullptr}, {"x", v.x}};
+    return {{"w", v.value}, {"node", named(what_, v.node)}};
+  }
+
   [[nodiscard]] json frame_of(const frame& f) const {
     const load l = loads_.at(f.step, f.fraction);
-    const extreme most = largest_deflection(what_, f, shown_.deflecting);
+    const std::vector<value_range> ranges = ranges_of(what_.geometry, l, f.displacement, shown_.deflecting);
     json out = {{"at", f.at},
                 {"step", f.step},
                 {"number", f.number},
@@ -316,13 +441,16 @@ class page_writer {
                 {"rescued", f.from_fallback},
                 {"load", f.step == 0 ? "none" : loads_.words_at(f.step, f.fraction, load_words_width)},
                 {"force", loads_.force_at(f.step, f.fraction)},
-                {"largest", {{"w", most.value}, {"node", named(what_, most.at)}}},
+                {"largest", largest_json(ranges)},
                 {"watched", deflection_of(what_, f, shown_.watched)},
                 {"events", events(f.events)},
                 {"all_events", f.events.size()}};
-    if (beam_ != nullptr) add_beam_shape(l, f, out);
-    if (plate_ != nullptr) add_plate_shape(f, out);
-    if (beam_ != nullptr || plate_ != nullptr) out["points"] = point_loads(l);
+    if (beam_ != nullptr) add_beam_shape(l, f, ranges, out);
+    if (plate_ != nullptr) add_plate_shape(l, f, out);
+    if (beam_ != nullptr || plate_ != nullptr) {
+      out["points"] = point_loads(l);
+      out["reactions"] = forces_of_supports(l, f);
+    }
     add_pairs(f, out);
     if (mesh_ != nullptr) out.update({{"u", mesh_displacements(f)}, {"points", mesh_points(l)}});
     return out;
@@ -337,6 +465,7 @@ class page_writer {
   const assembled* mesh_ = nullptr;    // whose nodes have places
   std::vector<dofs_of_node> of_node_;  // of the mesh
   std::vector<int> axes_;
+  json input_, ends_;        // tables
   std::vector<int> number_;  // of a node on the page; -1: it is not there
 };
 

@@ -43,16 +43,18 @@ std::string faces_of_beam(const beam& b, const structure_picture& s, double half
   return text;
 }
 
-/// The elements' cubics between the nodes shown, as Bezier curves: the same curves.
+/// Cubics between the stations shown, as Bezier curves: the same curves, and exact ones where no load is
+/// distributed between them.
 std::string curve_of_beam(const beam& b, const structure_picture& s) {
-  const auto slope = [&s](int node) { return s.at.displacement[2 * node + 1]; };
-  int from = s.shown.nodes.front();
-  std::string d = fmt::format("M{:.2f} {:.2f}", s.X(b.x[from]), s.Y(s.w_of(from)));
-  for (const int to : std::span(s.shown.nodes).subspan(1)) {
-    const double third = (b.x[to] - b.x[from]) / 3;
-    d += fmt::format("C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", s.X(b.x[from] + third),
-                     s.Y(s.w_of(from) + third * slope(from)), s.X(b.x[to] - third),
-                     s.Y(s.w_of(to) - third * slope(to)), s.X(b.x[to]), s.Y(s.w_of(to)));
+  const load now = load_path(s.what).at(s.at.step, s.at.fraction);
+  const station_reader read(b, now, s.at.displacement);
+  station from = s.shown.stations.front();
+  std::string d = fmt::format("M{:.2f} {:.2f}", s.X(read.x(from)), s.Y(read.w(from)));
+  for (const station& to : std::span(s.shown.stations).subspan(1)) {
+    const double third = (read.x(to) - read.x(from)) / 3;
+    d += fmt::format("C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", s.X(read.x(from) + third),
+                     s.Y(read.w(from) + third * read.slope(from)), s.X(read.x(to) - third),
+                     s.Y(read.w(to) - third * read.slope(to)), s.X(read.x(to)), s.Y(read.w(to)));
     from = to;
   }
   return d;

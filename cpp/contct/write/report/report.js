@@ -1,5 +1,6 @@
 // Draws a run from the JSON beside it. Numbers come from the run; nothing is computed here but where to
-// put them on the page, and gaps and forces of pairs, by the same formulas as the program's.
+// put them on the page, gaps and forces of pairs, by the same formulas as the program's, and the colours
+// between a plate's nodes.
 "use strict";
 
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -13,6 +14,7 @@ const byId = (id) => document.getElementById(id);
 const minus = (text) => text.replace(/-/g, "\u2212");
 // Seven digits for people; the whole number stands in the title and in data-value.
 const short = (x) => (x === null || x === undefined ? "–" : minus(String(Number(x.toPrecision(7)))));
+const five = (x) => minus(String(Number(x.toPrecision(5))));
 const rough = (x) => minus(String(Number(x.toPrecision(4))));
 const counted = (n, what) => `${n.toLocaleString("en")} ${what}${n === 1 ? "" : "s"}`;
 const side = (surface) => (surface > 0 ? "above" : "below");
@@ -24,6 +26,10 @@ const ofMatrix = data.place === "dof";
 // What moves and how it is named: "deflection w of node 3", "displacement of dof 6.y".
 const moves = ofMatrix ? "displacement" : "deflection";
 const placed = (name) => `${data.place} ${name}`;
+// "w [m]"; the name alone where the problem has no units.
+const inUnit = (name, quantity) => name + (data.units[quantity] ? ` [${data.units[quantity]}]` : "");
+// Where a value is: at a node, or between two of a beam's.
+const placeOf = (v) => (v.node === null ? `x = ${rough(v.x)}` : placed(v.node));
 const looks = { o: "open", c: "closed", f: "at its face" };
 
 function element(name, attributes = {}, ...children) {
@@ -42,7 +48,11 @@ function eventWords([pair, node, surface, makes]) {
   return `pair ${pair} ${makes ? "makes" : "breaks"} contact (${placed(node)}, ${side(surface)})`;
 }
 
+// What the page cuts, for its last section.
+const cuts = new Set();
+
 function allEventWords(events, all, most = 8) {
+  if (all > most) cuts.add(`Where more than ${most} events come together, the first ${most} are named and the others counted.`);
   const named = events.slice(0, most).map(eventWords);
   if (all > named.length) named.push(`and ${all - named.length} more`);
   return named.join("; ");
@@ -202,6 +212,7 @@ const beam = geometry.kind !== "beam" ? null : (() => {
     from: geometry.x[0], to: geometry.x[geometry.x.length - 1],
     point: most((f) => f.points.filter((p) => p[2] === 0).map((p) => p[3])),
     spread: most((f) => f.q || []),
+    reaction: most((f) => f.reactions.map((r) => r || 0)),
     force: most((f) => pairsOf(f).map((p) => p.force)),
   };
 })();
@@ -313,19 +324,35 @@ function drawPairs(root, f, X, Y, top, bottom, say, [from, to]) {
   }
 }
 
+// A piece of a distributed load, without a jump: its size above or below the beam, between its own ends.
+function drawSpreadLoad(root, f, [from, to], q, X, Y) {
+  const size = (share) => {
+    const i = Math.min(q.length - 2, Math.floor(share * (q.length - 1)));
+    const between = share * (q.length - 1) - i;
+    return (25 * (q[i] + between * (q[i + 1] - q[i]))) / beam.spread;
+  };
+  const at = (share, away) => {
+    const x = from + share * (to - from);
+    return [X(x), Y(deflectionAt(f, x)) + away];
+  };
+  const arrows = Math.max(1, Math.round((X(to) - X(from)) / 34));
+  const places = Math.max(arrows, q.length - 1);
+  const side = (share) => (size(share) > 0 || (size(share) === 0 && Math.max(...q) > 0) ? 8 : -8);
+  const line = [at(0, side(0))];
+  for (let i = 0; i <= places; ++i) line.push(at(i / places, side(i / places) + size(i / places)));
+  line.push(at(1, side(1)));
+  if (q.some((v) => v !== 0)) root.append(path(line, "load-line"));
+  for (let i = 0; i < arrows; ++i) {
+    const share = (i + 0.5) / arrows;
+    const [x, y] = at(share, side(share));
+    if (Math.abs(size(share)) > 3) root.append(arrow(x, y + size(share), 0, -size(share), "load"));
+  }
+}
+
 function drawLoads(root, f, X, Y, say, [from, to]) {
   const longest = 34;
   if (f.q && beam.spread > 0) {
-    const n = f.q.length;
-    const tails = [];
-    for (let i = 0; i < n; ++i) {
-      const x = beam.from + ((beam.to - beam.from) * i) / (n - 1);
-      const size = (longest * 0.75 * f.q[i]) / beam.spread;
-      const y = Y(deflectionAt(f, x)) + (size > 0 ? 8 : -8);
-      tails.push([X(x), y + size]);
-      if (Math.abs(size) > 3 && (n <= 13 || i % 2 === 0)) root.append(arrow(X(x), y + size, 0, -size, "load"));
-    }
-    root.append(path(tails, "load-line"));
+    geometry.loaded.forEach((piece, i) => drawSpreadLoad(root, f, piece, f.q.slice(i * geometry.places, (i + 1) * geometry.places), X, Y));
   }
   for (const [x, , dof, value, node] of f.points) {
     if (x < from || x > to) continue;
@@ -371,17 +398,26 @@ function drawStrip(root, f, X, top, height, name, title, [from, to]) {
   const points = [];
   geometry.x.forEach((x, i) => {
     if (values.left[i] !== null) points.push([X(x), Y(values.left[i])]);
-    if (values.right[i] !== null) points.push([X(x), Y(values.right[i])]);
+    if (values.right[i] !== null && values.right[i] !== values.left[i]) points.push([X(x), Y(values.right[i])]);
   });
-  root.append(svg("g", { "clip-path": "url(#part)" },
-    path([[X(beam.from), Y(0)], ...points, [X(beam.to), Y(0)]], name + "-area", "Z"), path(points, name)));
+  // The least and the largest value may be between stations.
+  const ends = [values.most, values.least].filter((v) => v).sort((a, b) => Math.abs(b.value) - Math.abs(a.value));
+  for (const v of ends) {
+    const after = points.findIndex(([x]) => x > X(v.x));
+    if (!geometry.x.includes(v.x)) points.splice(after, 0, [X(v.x), Y(v.value)]);
+  }
+  const inside = svg("g", { "clip-path": "url(#part)" },
+    path([[X(beam.from), Y(0)], ...points, [X(beam.to), Y(0)]], name + "-area", "Z"), path(points, name));
+  root.append(inside);
   root.append(label(margin.left, top + 12, title, { class: "panel-title" }));
-  root.append(label(X(to), top + 12, `${narrow ? "" : "largest "}${rough(values.largest)} at node ${values.node}`,
-    { "text-anchor": "end", class: "value" }));
+  const told = ends.filter((v, i) => i === 0 || v.value * ends[0].value < -1e-9 * ends[0].value ** 2);
+  for (const v of told) inside.append(svg("circle", { cx: X(v.x), cy: Y(v.value), r: 3, class: "dot-" + name }));
+  const words = told.slice(0, narrow ? 1 : 2).map((v) => `${five(v.value)} at x = ${five(v.x)}`);
+  root.append(label(X(to), top + 12, words.join("; "), { "text-anchor": "end", class: "value" }));
 }
 
 const strips = geometry.kind !== "beam" ? {} : Object.fromEntries(["moment", "shear"].map((name) => {
-  const [low, high] = spreadOfFrames((f) => [...f[name].left, ...f[name].right, 0]);
+  const [low, high] = spreadOfFrames((f) => [...f[name].left, ...f[name].right, f[name].least.value, f[name].most.value, 0]);
   return [name, [low, high]];
 }));
 
@@ -407,7 +443,7 @@ function drawBeam(f) {
   const height = bottom + 30 + 2 * (strip + 14);
   const root = canvas(holder, width, height, stateWords(f));
   const times = (factor * whole) / scale;
-  root.append(label(margin.left, 16, `Deflection, drawn × ${times.toLocaleString("en", { maximumSignificantDigits: 3 })}`, { class: "panel-title" }));
+  root.append(label(margin.left, 16, `${inUnit("Deflection", "w")}, drawn × ${times.toLocaleString("en", { maximumSignificantDigits: 3 })}`, { class: "panel-title" }));
   const reach = room / 2 / (factor * whole);
   for (const w of ticks(middle - reach, middle + reach, 4)) {
     root.append(line(margin.left, Y(w), X(to), Y(w), w === 0 ? "zero" : "grid"));
@@ -424,8 +460,8 @@ function drawBeam(f) {
   drawLoads(inside, f, X, Y, say, drawn);
   drawPairs(inside, f, X, Y, 20, bottom, say, drawn);
   drawBeamAxis(root, X, bottom, width, drawn);
-  drawStrip(root, f, X, bottom + 36, strip, "moment", wide ? "Moment M = EI w″, positive where it sags" : "M", drawn);
-  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", wide ? "Shear V = dM/dx: upward force of the left part on the right" : "V", drawn);
+  drawStrip(root, f, X, bottom + 36, strip, "moment", inUnit(wide ? "Moment, positive where it sags" : "M", "moment"), drawn);
+  drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", inUnit(wide ? "Shear, of the left part on the right" : "V", "shear"), drawn);
   offerMagnifications(fitting);
 }
 
@@ -824,7 +860,7 @@ const measure = (f) => (byForce ? f.force : progress(f));
 const paths = (() => {
   const list = [{ name: String(geometry.watched), read: (f) => f.watched }];
   const add = (name, read) => { if (String(name) !== list[0].name) list.push({ name: String(name), read }); };
-  if (geometry.kind === "beam") geometry.nodes.forEach((node, i) => add(node, (f) => f.w[i]));
+  if (geometry.kind === "beam") geometry.nodes.forEach((node, i) => { if (node !== null) add(node, (f) => f.w[i]); });
   else if (geometry.kind === "plate") {
     geometry.rows.forEach((row, j) => geometry.columns.forEach((column, i) =>
       add((row - 1) * geometry.all_columns + column, (f) => f.w[j * geometry.columns.length + i])));
@@ -899,7 +935,7 @@ function stateWords(f) {
   const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
   const rescued = f.rescued ? " This state comes from the oracle: the path could not reach it." : "";
   const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} closed, ${open} open, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
-  return `${place}${event}${rescued}${pairs} Largest ${moves} ${short(f.largest.w)} at ${placed(f.largest.node)}.`;
+  return `${place}${event}${rescued}${pairs} Largest ${moves} ${short(f.largest.w)} at ${placeOf(f.largest)}.`;
 }
 
 function showReadings(f) {
@@ -910,7 +946,7 @@ function showReadings(f) {
     read("Share of the step", short(f.fraction), f.fraction),
     read("Scale factor s", f.number === 0 ? "–" : f.snap ? "snap" : short(f.s), f.s),
     read("Load", minus(f.load)),
-    read(`Largest ${ofMatrix ? moves : "w"}, ${placed(f.largest.node)}`, short(f.largest.w), f.largest.w),
+    read(`Largest ${ofMatrix ? moves : "w"}, ${placeOf(f.largest)}`, short(f.largest.w), f.largest.w),
   ];
   if (data.all_pairs > 0) list.push(read("Closed, open, at face", f.counts[1] + ", " + f.counts[0] + ", " + f.counts[2]));
   byId("readings").replaceChildren(...list);
@@ -926,6 +962,9 @@ function head(...names) {
 
 const mostPairRows = 250;
 
+const firstPairs = `The first ${mostPairRows} of ${data.pairs.length} pairs are listed.`;
+if (data.pairs.length > mostPairRows) cuts.add(`Pairs in a state: the first ${mostPairRows} of ${data.pairs.length} are listed.`);
+
 function showPairs(f) {
   const table = byId("pair-table");
   if (data.all_pairs === 0) {
@@ -936,7 +975,7 @@ function showPairs(f) {
   const pairs = pairsOf(f);
   const shown = pairs.slice(0, mostPairRows);
   byId("pairs-words").textContent = `State ${where(f)}. Gaps are those of open pairs; forces press on the structure, and a negative one is tension.` +
-    (shown.length < pairs.length ? ` The first ${shown.length} of the ${pairs.length} that the page holds.` : "");
+    (shown.length < pairs.length ? ` ${firstPairs}` : "");
   table.replaceChildren(head(["Pair"], ofMatrix ? ["Dof", true] : ["Node"], ["Face", true], ["stands at"], ["State", true], ["Gap"], ["Force"]),
     element("tbody", {}, ...shown.map((p) => {
       const r = row(element("th", { scope: "row" }, String(p.pair)), cell(p.node, { "data-value": String(p.node) }), cell(side(p.side)), cell(p.face),
@@ -951,22 +990,51 @@ function showEvents() {
     : `${counted(data.all_increments, "increment")}. Share is how much of the step's load is applied; s is the share of what was left of it.`;
   if (data.all_increments === 0) byId("event-table").parentElement.hidden = true;
   const stops = new Map(frames.map((f, i) => [where(f), i]));
-  byId("event-table").replaceChildren(head(["Increment"], ["Share"], ["s"], ["Load", true], ["Events", true]),
-    element("tbody", {}, ...data.increments.map((i) => {
-      const name = `${i.step}.${i.number}`;
-      const stop = stops.get(name);
-      const heading = element("th", { scope: "row" });
-      if (stop === undefined) heading.append(name);
-      else {
-        const button = element("button", { type: "button", "aria-label": `Show increment ${name}` }, name);
-        button.addEventListener("click", () => { stopPlaying(); show(stop); });
-        heading.append(button);
-      }
-      const r = row(heading, cell(i.fraction), i.snap ? cell("snap") : cell(i.s), cell(minus(i.load)),
-        element("td", { class: "words wrap" }, i.all_events > 0 ? allEventWords(i.events, i.all_events) : "–"));
-      r.dataset.increment = name;
-      return r;
-    })));
+  const table = byId("event-table");
+  table.replaceChildren(head(["Increment"], ["Share"], ["s"], ["Load", true], ["Events", true]));
+  for (let i = 0; i < data.increments.length;) {
+    let next = i + 1;
+    const { step } = data.increments[i];
+    while (next < data.increments.length && data.increments[next].step === step && atNoLoad(data.increments[next])) ++next;
+    const group = data.increments.slice(i, next);
+    const rows = group.map((increment) => eventRow(increment, stops));
+    if (group.length > 1 && atNoLoad(group[0])) table.append(element("tbody", {}, summaryRow(group, rows)));
+    table.append(element("tbody", {}, ...rows));
+    i = next;
+  }
+}
+
+// Where a structure lifts off as soon as it is loaded, or a load's share is rounding: events of one load.
+const atNoLoad = (increment) => increment.fraction <= 1e-9 && increment.all_events > 0;
+
+// One line for many increments, whose own rows are shown on request.
+function summaryRow(group, rows) {
+  const [makes, breaks] = [1, 0].map((kind) => group.flatMap((i) => i.events).filter((e) => e[3] === kind).length);
+  const told = [[breaks, breaks === 1 ? "separates" : "separate"], [makes, makes === 1 ? "makes contact" : "make contact"]]
+    .filter(([n]) => n > 0).map(([n, verb]) => `${counted(n, "pair")} ${verb}`).join(", ");
+  const [first, last] = [group[0], group[group.length - 1]].map((i) => `${i.step}.${i.number}`);
+  const list = element("details", {}, element("summary", {},
+    `${told} at ${first.startsWith("1.") ? "the first load" : `the beginning of step ${group[0].step}`} (increments ${first} to ${last})`));
+  const follow = () => { for (const r of rows) r.hidden = !list.open; };
+  list.addEventListener("toggle", follow);
+  follow();
+  return row(element("td", { colspan: "5", class: "words" }, list));
+}
+
+function eventRow(i, stops) {
+  const name = `${i.step}.${i.number}`;
+  const stop = stops.get(name);
+  const heading = element("th", { scope: "row" });
+  if (stop === undefined) heading.append(name);
+  else {
+    const button = element("button", { type: "button", "aria-label": `Show increment ${name}` }, name);
+    button.addEventListener("click", () => { stopPlaying(); show(stop); });
+    heading.append(button);
+  }
+  const r = row(heading, cell(i.fraction), i.snap ? cell("snap") : cell(i.s), cell(minus(i.load)),
+    element("td", { class: "words wrap" }, i.all_events > 0 ? allEventWords(i.events, i.all_events) : "–"));
+  r.dataset.increment = name;
+  return r;
 }
 
 function markCurrentRow(f) {
@@ -1009,7 +1077,7 @@ function showCalls() {
     for (let i = 0; i < pairs; ++i) cells.push(cell(c.ss[i]));
     return row(...cells);
   })));
-  if (data.all_pairs > pairs) words.textContent += ` The table has s of the first ${pairs} of ${data.all_pairs} pairs; the distances are over all.`;
+  if (data.all_pairs > pairs) words.textContent += ` Distances are over all pairs, s is listed of the first ${pairs} of ${data.all_pairs}.`;
 }
 
 function showCertificate() {
@@ -1035,10 +1103,39 @@ function showCertificate() {
       element("td", {}, c.numbers ? String(c.numbers.digits) : "–")))));
 }
 
+// ---- tables of the input and of the ends of steps, as the run has them ----
+
+function cellOf(value, words) {
+  if (value === null) return element("td", words ? { class: "words" } : {}, "–");
+  if (!Array.isArray(value)) return cell(value);
+  return element("td", {}, ...value.flatMap(([number, at]) => [
+    element("span", { "data-value": String(number), title: String(number) }, short(number)), element("small", {}, at)]));
+}
+
+// Texts are to the left, as their headings are; a step's or a pair's number comes first and heads its row.
+function tableOf({ title, head: names, rows }) {
+  const words = names.map((_, i) => rows.every((r) => r[i] === null || typeof r[i] === "string"));
+  return element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": title },
+    element("table", {}, element("caption", {}, title), head(...names.map((name, i) => [name, words[i]])),
+      element("tbody", {}, ...rows.map(([first, ...rest]) =>
+        row(element("th", { scope: "row", class: "words" }, first), ...rest.map((value, i) => cellOf(value, words[i + 1])))))));
+}
+
+function showTables() {
+  for (const name of ["input", "ends"]) {
+    byId(name === "input" ? "input-tables" : "end-tables").replaceChildren(...data[name].map(tableOf));
+    byId(name).hidden = data[name].length === 0;
+  }
+}
+
 // ---- the head of the page, and what stands still ----
 
 function showHead() {
-  byId("kernels").textContent = `${kernels.join(" and ")}, engine ${data.engine}`;
+  const block = [["Problem file", data.file === "-" ? "standard input" : data.file],
+    ["Units", data.units.force ? `${data.units.length}, ${data.units.force}` : "as in the problem file, which names none"],
+    ["Date of the run", data.date], ["Kernels", `${kernels.join(" and ")}, engine ${data.engine}`], ["Program", data.facts.join(" · ")]];
+  byId("title-block").replaceChildren(...block.filter(([, text]) => text)
+    .map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text))));
   const size = mesh ? [counted(geometry.all_nodes, "node"), counted(geometry.all_edges, "edge"), counted(data.nodes, "dof")]
     : ofMatrix ? [counted(data.nodes, "dof")] : [counted(data.nodes, "node"), counted(data.elements, "element")];
   byId("size").textContent = [...size, counted(data.all_pairs, "pair"), counted(data.all_steps, "load step"), counted(data.all_increments, "increment")].join(", ");
@@ -1048,7 +1145,9 @@ function showHead() {
   else if (data.all_calls === 0) say("The kernels were never called; nothing was compared.", "note");
   else say(`${kernels.join(" and ")} ${data.lockstep ? (data.equal ? "are equal to the bit" : "are NOT equal to the bit") : data.equal ? "agree on paths of their own" : "do NOT agree on paths of their own"}: ${data.comparison}.`, data.equal ? "good" : "bad");
   if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.certified_whole ? "good" : "bad");
-  byId("facts").textContent = data.facts.join(" · ");
+  if (data.certificates.some((c) => c.numbers)) {
+    byId("mesh-words").textContent = "Certified means: these are the numbers of this mesh. How far the mesh is from the structure it stands for is not judged.";
+  }
 }
 
 function showLog() {
@@ -1058,7 +1157,7 @@ function showLog() {
 }
 
 function showThinned() {
-  const list = data.thinned.length > 0 ? data.thinned : [`Nothing: every increment, ${data.place}, pair and call is here.`];
+  const list = data.thinned.length + cuts.size > 0 ? [...data.thinned, ...cuts] : [`Nothing: every increment, ${data.place}, pair and call is here.`];
   byId("thinned").replaceChildren(...list.map((text) => element("li", {}, text)));
 }
 
@@ -1090,7 +1189,7 @@ function showLegend() {
     list.push(item("undeformed", line(0, 9, 22, 9, "undeformed")));
     byId("picture-words").textContent = "Up is positive. Between two increments every point moves along a straight line. " +
       "Moments M = EI w\u2033 (positive where the beam sags) and shears V = dM/dx (the upward force of the part left of a cut on the part right of it) " +
-      "are the elements' values at their ends, joined by straight lines.";
+      "are those of EI w\u2033\u2033 = q between the nodes too; dots are at the largest values.";
   } else if (mesh) {
     if (data.all_pairs > 0) list.push(item("face, hatched behind", faceMark()));
     if (pressed) list.push(item("contact force", arrow(11, 17, 0, -15, "force")));
@@ -1164,7 +1263,7 @@ function between(a, b, share) {
   f.w = mixed(a.w, b.w);
   if (!beam) return f;
   f.slope = mixed(a.slope, b.slope);
-  for (const name of ["moment", "shear"]) f[name] = { ...b[name], left: mixed(a[name].left, b[name].left), right: mixed(a[name].right, b[name].right) };
+  for (const name of ["moment", "shear"]) f[name] = { left: mixed(a[name].left, b[name].left), right: mixed(a[name].right, b[name].right) };
   const zeros = (q) => (q ? q.map(() => 0) : null);
   if (a.q || b.q) f.q = mixed(a.q || zeros(b.q), b.q || zeros(a.q));
   f.points = mixedPoints((o, p) => o[4] === p[4] && o[2] === p[2]);
@@ -1250,6 +1349,7 @@ function listen() {
 }
 
 showHead();
+showTables();
 offerViews();
 offerPaths();
 showLegend();
@@ -1257,6 +1357,6 @@ showEvents();
 showCalls();
 showCertificate();
 showLog();
-showThinned();
 listen();
+showThinned();
 show(frames.reduce((best, f, i) => (Math.abs(f.largest.w) > Math.abs(frames[best].largest.w) ? i : best), frames.length - 1));
