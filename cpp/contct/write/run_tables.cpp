@@ -396,18 +396,27 @@ struct table_of_ends {
   std::vector<std::string> head;
   std::function<json(std::size_t)> cells;  ///< in front of the values
   std::vector<double> end_reading::*values;
+  bool zeros_left_out;
 };
 
-/// The largest of them in rows, by number; the steps in columns, a few in each table.
+/// The largest of them in rows, by number; the steps in columns, a few in each table. Where
+/// `zeros_left_out`, those that are 0 at every end have no row.
 void put_ends(const problem& p, const std::vector<end_reading>& ends, const table_of_ends& of, json& tables,
               std::vector<std::string>& omissions) {
-  const std::size_t all = (ends.front().*of.values).size();
-  std::vector<std::size_t> rows(all);
-  std::iota(rows.begin(), rows.end(), 0);
+  std::vector<double> largest((ends.front().*of.values).size());
+  for (const end_reading& e : ends)
+    for (std::size_t i = 0; i < largest.size(); ++i)
+      largest[i] = std::max(largest[i], std::abs((e.*of.values)[i]));
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < largest.size(); ++i)
+    if (largest[i] > 0.0 || !of.zeros_left_out) rows.push_back(i);
+  const std::size_t zeros = largest.size() - rows.size();
+  const std::string title =
+      zeros == 0 ? of.title
+                 : fmt::format("{}; {} that are 0 at all of these ends have no row", of.title, zeros);
+  if (zeros > 0) omissions.push_back(title + ".");
+  const std::size_t all = rows.size();
   if (all > most_rows) {
-    std::vector<double> largest(all);
-    for (const end_reading& e : ends)
-      for (std::size_t i = 0; i < all; ++i) largest[i] = std::max(largest[i], std::abs((e.*of.values)[i]));
     std::ranges::stable_sort(rows, std::greater{}, [&](std::size_t i) { return largest[i]; });
     rows.resize(most_rows);
     std::ranges::sort(rows);
@@ -416,7 +425,7 @@ void put_ends(const problem& p, const std::vector<end_reading>& ends, const tabl
     const auto some = std::span(ends).subspan(from, std::min(steps_beside, ends.size() - from));
     std::vector<std::string> head = of.head;
     for (const end_reading& e : some) head.push_back("Step " + step_words(p, e.at.step));
-    page_table t(of.title, head);
+    page_table t(title, head);
     json chosen = json::array();
     for (const std::size_t i : rows) {
       json& row = chosen.emplace_back(of.cells(i));
@@ -466,11 +475,11 @@ json result_tables(const finished_run& r, const std::vector<int>& deflecting,
                         {surface_name(p.pairs[i].surface)});
   };
   if (!p.pairs.empty())
-    put_ends(
-        p, ends,
-        {"Contact forces" + in_unit(p.units, 1, 0) + ": 0 where a pair is separated",
-         joined_heads(joined_heads({"Pair"}, place_head(p)), {"Face"}), cells_of_pair, &end_reading::forces},
-        tables, omissions);
+    put_ends(p, ends,
+             {"Contact forces" + in_unit(p.units, 1, 0),
+              joined_heads(joined_heads({"Pair"}, place_head(p)), {"Face"}), cells_of_pair,
+              &end_reading::forces, true},
+             tables, omissions);
   const auto cells_of_support = [&p](std::size_t i) {
     const support& s = p.supports[i];
     const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
@@ -480,7 +489,7 @@ json result_tables(const finished_run& r, const std::vector<int>& deflecting,
   if (!p.supports.empty())
     put_ends(p, ends,
              {"Reactions: what supports exert on the structure", joined_heads(place_head(p), {"What"}),
-              cells_of_support, &end_reading::reactions},
+              cells_of_support, &end_reading::reactions, false},
              tables, omissions);
   return tables;
 }

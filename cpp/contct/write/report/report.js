@@ -112,7 +112,7 @@ function roundDown(x, digits = [1, 2, 5]) {
 
 // On paper pictures have a width of their own, at which their words are as large as the text around.
 let printing = false;
-const widthOf = (holder) => (printing ? 720 : Math.max(320, holder.clientWidth));
+const widthOf = (holder) => (printing ? 940 : Math.max(320, holder.clientWidth));
 
 // 1, 2 or 5 times a power of ten, not below x.
 function roundUp(x) {
@@ -212,7 +212,6 @@ const beam = geometry.kind !== "beam" ? null : (() => {
     from: geometry.x[0], to: geometry.x[geometry.x.length - 1],
     point: most((f) => f.points.filter((p) => p[2] === 0).map((p) => p[3])),
     spread: most((f) => f.q || []),
-    reaction: most((f) => f.reactions.map((r) => r || 0)),
     force: most((f) => pairsOf(f).map((p) => p.force)),
   };
 })();
@@ -251,18 +250,17 @@ function deflectionAt(f, x) {
   return hermite(xs[i], xs[i + 1], f.w[i], f.w[i + 1], f.slope[i], f.slope[i + 1], (x - xs[i]) / (xs[i + 1] - xs[i]));
 }
 
-function drawSupport(s, f, X, Y) {
+function drawSupport(s, f, reaction, X, Y, say) {
   const fixed = s.dofs.some(([dof, spring]) => dof === "w" && spring === null);
   const held = s.dofs.some(([dof]) => dof === "w");
   const turns = s.dofs.some(([dof, spring]) => dof === "theta" && spring === null);
   const [x, y] = [X(s.x), Y(deflectionAt(f, s.x))];
-  const name = `Support at node ${s.node}: ` +
-    s.dofs.map(([dof, spring]) => (spring === null ? `${dof} fixed` : `${dof} on a spring of ${short(spring)}`)).join(", ");
-  const g = svg("g", {}, svg("title", {}, name));
+  const g = svg("g", {}, svg("title", {}, `Support at node ${s.node}: ${supportWords(s)}${reactionWords(reaction)}`));
   if (data.supports.length > 40 && !(fixed && turns)) {  // a crowd: a stroke each
     g.append(line(x, y + 4, x, y + (fixed ? 14 : 9), fixed ? "support" : "thin"));
     return g;
   }
+  if (held && reaction) say(Math.max(x, margin.left + 4), y + 40, rough(reaction), "value reaction-value");
   if (fixed && turns) {
     const out = s.x - beam.from < beam.to - s.x ? -1 : 1;
     g.append(svg("path", { d: `M${x} ${y - 20}V${y + 20}`, class: "support", "stroke-width": 3 }));
@@ -455,10 +453,10 @@ function drawBeam(f) {
   root.append(svg("clipPath", { id: "part" }, svg("rect", { x: left, y: 0, width: right - left, height })), inside);
   const say = wordsInFreePlaces(root, width, bottom);
   inside.append(line(X(from), Y(0), X(to), Y(0), "undeformed"));
-  for (const s of data.supports) if (s.x >= from && s.x <= to) inside.append(drawSupport(s, f, X, Y));
   inside.append(path(deflectedLine(f, X, Y), "beam"));
   drawLoads(inside, f, X, Y, say, drawn);
   drawPairs(inside, f, X, Y, 20, bottom, say, drawn);
+  data.supports.forEach((s, i) => { if (s.x >= from && s.x <= to) inside.append(drawSupport(s, f, f.reactions[i], X, Y, say)); });
   drawBeamAxis(root, X, bottom, width, drawn);
   drawStrip(root, f, X, bottom + 36, strip, "moment", inUnit(wide ? "Moment, positive where it sags" : "M", "moment"), drawn);
   drawStrip(root, f, X, bottom + 36 + strip + 14, strip, "shear", inUnit(wide ? "Shear, of the left part on the right" : "V", "shear"), drawn);
@@ -479,18 +477,24 @@ function offerMagnifications(fitting) {
 
 // ---- the plate ----
 
-const plate = geometry.kind !== "plate" ? null : (() => {
-  const [low, high] = spreadOfFrames((f) => f.w);
-  const step = high > low ? roundDown(((high - low) / 9) * 1.3, [1, 2, 2.5, 5]) : 1;
-  const base = Math.floor(low / step + 1e-9);
-  const bands = Math.max(1, Math.ceil(high / step - 1e-9) - base);
-  const level = (i) => (base + i) * step;
-  return { bands, level, step, force: Math.max(0, ...frames.map((f) => Math.max(0, ...pairsOf(f).map((p) => p.force)))) };
-})();
+const plate = geometry.kind !== "plate" ? null : {
+  force: Math.max(0, ...frames.map((f) => Math.max(0, ...pairsOf(f).map((p) => p.force)))),
+  reaction: Math.max(0, ...frames.map((f) => Math.max(0, ...f.reactions.map((r) => Math.abs(r || 0))))),
+};
+
+// What can be shown of a plate, with levels that are the same in all states. A bed's pressure has kinks.
+const fields = !plate ? [] : [["w", "deflection w"], ["mx", "moment mx"], ["my", "moment my"], ["mxy", "twisting moment mxy"], ["pressure", "foundation pressure"]]
+  .filter(([name]) => name in frames[0]).map(([name, words]) => {
+    const [low, high] = spreadOfFrames((f) => f[name]);
+    const step = high > low ? roundDown(((high - low) / 9) * 1.3, [1, 2, 2.5, 5]) : 1;
+    const base = Math.floor(low / step + 1e-9);
+    return { name, words, step, level: (i) => (base + i) * step, bands: Math.max(1, Math.ceil(high / step - 1e-9) - base), smooth: name !== "pressure" };
+  });
+let field = fields[0];
 
 // From deep blue, the lowest, to pale, the highest; light changes all along, so that grey prints tell too.
 function bandColour(i) {
-  const share = plate.bands > 1 ? i / (plate.bands - 1) : 0.5;
+  const share = field.bands > 1 ? i / (field.bands - 1) : 0.5;
   const stops = [[22, 52, 98], [38, 104, 160], [104, 165, 200], [178, 210, 222], [250, 244, 228]];
   const at = share * (stops.length - 1);
   const k = Math.min(stops.length - 2, Math.floor(at));
@@ -517,11 +521,37 @@ function clipped(corners, least, most) {
   return upper.length < 3 ? [] : half(upper, (v) => v <= most, most);
 }
 
+// A line of values at `parts` times as many places: the cubic with the slopes of parabolas through neighbours.
+function finer(at, values, parts) {
+  const n = at.length;
+  const steep = values.slice(1).map((v, i) => (v - values[i]) / (at[i + 1] - at[i]));
+  const slope = (i) => {
+    if (i === 0 || i === n - 1 || n < 3) return n < 3 ? steep[0] : i === 0 ? 2 * steep[0] - slope(1) : 2 * steep[n - 2] - slope(n - 2);
+    const [before, after] = [at[i] - at[i - 1], at[i + 1] - at[i]];
+    return (steep[i - 1] * after + steep[i] * before) / (before + after);
+  };
+  const slopes = at.map((_, i) => slope(i));
+  const out = [values[0]];
+  for (let i = 0; i + 1 < n; ++i)
+    for (let k = 1; k <= parts; ++k) out.push(hermite(at[i], at[i + 1], values[i], values[i + 1], slopes[i], slopes[i + 1], k / parts));
+  return out;
+}
+
+// The field on a grid that is fine enough for smooth contours, row by row.
+function fineGrid(f) {
+  const { x, y } = geometry;
+  const parts = field.smooth ? Math.max(1, Math.ceil(32 / Math.max(x.length, y.length))) : 1;
+  const along = y.map((_, j) => finer(x, f[field.name].slice(j * x.length, (j + 1) * x.length), parts));
+  const columns = along[0].map((_, i) => finer(y, along.map((r) => r[i]), parts));
+  return { x: finer(x, x, parts), y: finer(y, y, parts), at: (i, j) => columns[i][j] };
+}
+
 function contourPaths(f, X, Y) {
-  const [nx, ny] = [geometry.x.length, geometry.y.length];
-  const bandOf = (w) => Math.max(0, Math.min(plate.bands - 1, Math.floor((w - plate.level(0)) / plate.step)));
-  const paths = Array.from({ length: plate.bands }, () => []);
-  const corner = (i, j) => [X(geometry.x[i]), Y(geometry.y[j]), f.w[j * nx + i]];
+  const grid = fineGrid(f);
+  const [nx, ny] = [grid.x.length, grid.y.length];
+  const bandOf = (w) => Math.max(0, Math.min(field.bands - 1, Math.floor((w - field.level(0)) / field.step)));
+  const paths = Array.from({ length: field.bands }, () => []);
+  const corner = (i, j) => [X(grid.x[i]), Y(grid.y[j]), grid.at(i, j)];
   for (let j = 0; j + 1 < ny; ++j) {
     for (let i = 0; i + 1 < nx; ++i) {
       const [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
@@ -530,8 +560,8 @@ function contourPaths(f, X, Y) {
         const values = triangle.map((p) => p[2]);
         const to = bandOf(Math.max(...values));
         for (let band = bandOf(Math.min(...values)); band <= to; ++band) {
-          const least = band === 0 ? -Infinity : plate.level(band);
-          const most = band === plate.bands - 1 ? Infinity : plate.level(band + 1);
+          const least = band === 0 ? -Infinity : field.level(band);
+          const most = band === field.bands - 1 ? Infinity : field.level(band + 1);
           const part = clipped(triangle, least, most);
           if (part.length > 2) paths[band].push("M" + part.map((p) => `${p[0].toFixed(1)} ${p[1].toFixed(1)}`).join("L") + "Z");
         }
@@ -554,7 +584,7 @@ function drawPlate(f) {
   const X = (x) => left + (x - x0) * scale;
   const Y = (y) => room.top + (y1 - y) * scale;
   const root = canvas(holder, width, height, stateWords(f));
-  root.append(label(left, 18, narrow ? "Deflection w, and the pairs" : "Deflection w from above, and the pairs", { class: "panel-title" }));
+  root.append(label(left, 18, `${sentence(field.words).slice(0, -1)}${narrow ? "" : " from above"}, and the pairs`, { class: "panel-title" }));
   const map = svg("g");
   contourPaths(f, X, Y).forEach((d, i) => {
     if (d.length > 0) map.append(svg("path", { d: d.join(""), fill: bandColour(i), stroke: bandColour(i), "stroke-width": 0.7 }));
@@ -569,21 +599,34 @@ function drawPlate(f) {
   root.append(label(X(x1), Y(y0) + 36, "x", { "text-anchor": "end", class: "axis-word" }), label(X(x0) - 9, Y(y1) - 14, "y", { "text-anchor": "end", class: "axis-word" }));
   const over = svg("g", { class: "on-map" });
   root.append(over);
-  drawPlateSupports(over, X, Y);
+  drawPlateSupports(over, f, X, Y);
   drawPlatePairs(over, f, X, Y);
   drawPlateLoads(over, f, X, Y);
   if (narrow) drawScaleAcross(root, room.left, height - 44, width - room.left - room.right);
   else drawScaleDown(root, X(x1) + 26, room.top + 8, Math.min(300, Y(y0) - Y(y1) - 8));
 }
 
-function drawPlateSupports(root, X, Y) {
-  for (const s of data.supports) {
+const supportWords = (s) => s.dofs.map(([dof, spring]) => (spring === null ? `${dof} fixed` : `${dof} on a spring of ${short(spring)}`)).join(", ");
+const reactionWords = (r) => (r === null || r === undefined ? "" : `; reaction ${short(r)}`);
+
+// With a ring whose area goes with the reaction.
+function drawPlateSupports(root, f, X, Y) {
+  data.supports.forEach((s, i) => {
     const [x, y] = [X(s.x), Y(s.y)];
-    const g = svg("g", {}, svg("title", {}, `Support at node ${s.node}: ${s.dofs.map(([dof, k]) => (k === null ? dof : `${dof} on a spring`)).join(", ")}`));
+    const g = svg("g", {}, svg("title", {}, `Support at node ${s.node}: ${supportWords(s)}${reactionWords(f.reactions[i])}`));
+    const size = plate.reaction > 0 ? 14 * Math.sqrt(Math.abs(f.reactions[i] || 0) / plate.reaction) : 0;
+    if (size > 2) g.append(svg("circle", { cx: x, cy: y, r: size, class: f.reactions[i] > 0 ? "reaction" : "reaction down" }));
     if (s.dofs.some(([dof]) => dof === "w")) g.append(svg("path", { d: `M${x} ${y - 5}l5 9h-10Z`, class: "support" }));
     else g.append(svg("path", { d: `M${x - 3} ${y - 3}l6 6m-6 0l6 -6`, class: "thin" }));
     root.append(g);
-  }
+  });
+}
+
+function offerFields() {
+  const select = byId("field");
+  byId("field-label").hidden = select.hidden = !plate;
+  select.replaceChildren(...fields.map((f) => element("option", { value: f.name }, f.words)));
+  select.addEventListener("change", () => { field = fields.find((f) => f.name === select.value); draw(frames[current]); });
 }
 
 function drawPlatePairs(root, f, X, Y) {
@@ -615,26 +658,26 @@ function drawPlateLoads(root, f, X, Y) {
 }
 
 function drawScaleDown(root, x, y, height) {
-  const bands = plate.bands;
-  root.append(label(x, y - 12, "w", { class: "panel-title" }));
+  const bands = field.bands;
+  root.append(label(x, y - 12, inUnit(field.name === "pressure" ? "p" : field.name, field.name), { class: "panel-title" }));
   for (let i = 0; i < bands; ++i) {
     root.append(svg("rect", { x, y: y + (height * (bands - 1 - i)) / bands, width: 20, height: height / bands + 0.5, fill: bandColour(i) }));
   }
   root.append(svg("rect", { x, y, width: 20, height, fill: "none", class: "zero" }));
   for (let i = 0; i <= bands; i += bands > 12 ? 2 : 1) {
-    root.append(label(x + 28, y + (height * (bands - i)) / bands + 4, rough(plate.level(i)), { class: "axis-word" }));
+    root.append(label(x + 28, y + (height * (bands - i)) / bands + 4, rough(field.level(i)), { class: "axis-word" }));
   }
 }
 
 function drawScaleAcross(root, x, y, width) {
-  const bands = plate.bands;
+  const bands = field.bands;
   for (let i = 0; i < bands; ++i) {
     root.append(svg("rect", { x: x + (width * i) / bands, y, width: width / bands + 0.5, height: 14, fill: bandColour(i) }));
   }
   root.append(svg("rect", { x, y, width, height: 14, fill: "none", class: "zero" }));
-  root.append(label(x, y - 6, "w", { class: "panel-title" }));
+  root.append(label(x, y - 6, inUnit(field.name, field.name), { class: "panel-title" }));
   for (const [i, anchor] of [[0, "start"], [Math.round(bands / 2), "middle"], [bands, "end"]]) {
-    root.append(label(x + (width * i) / bands, y + 30, rough(plate.level(i)), { "text-anchor": anchor, class: "axis-word" }));
+    root.append(label(x + (width * i) / bands, y + 30, rough(field.level(i)), { "text-anchor": anchor, class: "axis-word" }));
   }
 }
 
@@ -985,6 +1028,8 @@ function showPairs(f) {
     })));
 }
 
+const mostPaperRows = 60;
+
 function showEvents() {
   byId("events-words").textContent = data.all_increments === 0 ? "The path has no increment."
     : `${counted(data.all_increments, "increment")}. Share is how much of the step's load is applied; s is the share of what was left of it.`;
@@ -999,7 +1044,7 @@ function showEvents() {
     const group = data.increments.slice(i, next);
     const rows = group.map((increment) => eventRow(increment, stops));
     if (group.length > 1 && atNoLoad(group[0])) table.append(element("tbody", {}, summaryRow(group, rows)));
-    table.append(element("tbody", {}, ...rows));
+    table.append(element("tbody", i >= mostPaperRows ? { class: "late" } : {}, ...rows));
     i = next;
   }
 }
@@ -1115,8 +1160,8 @@ function cellOf(value, words) {
 // Texts are to the left, as their headings are; a step's or a pair's number comes first and heads its row.
 function tableOf({ title, head: names, rows }) {
   const words = names.map((_, i) => rows.every((r) => r[i] === null || typeof r[i] === "string"));
-  return element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": title },
-    element("table", {}, element("caption", {}, title), head(...names.map((name, i) => [name, words[i]])),
+  return element("div", { class: rows.length > 12 ? "scroll" : "scroll whole", tabindex: "0", role: "region", "aria-label": title },
+    element("p", { class: "caption" }, title), element("table", { "aria-label": title }, head(...names.map((name, i) => [name, words[i]])),
       element("tbody", {}, ...rows.map(([first, ...rest]) =>
         row(element("th", { scope: "row", class: "words" }, first), ...rest.map((value, i) => cellOf(value, words[i + 1])))))));
 }
@@ -1187,7 +1232,7 @@ function showLegend() {
     if (pressed) list.push(item("contact force", arrow(11, 17, 0, -15, "force")));
     if (loaded) list.push(item("load", arrow(11, 1, 0, 15, "load")));
     list.push(item("undeformed", line(0, 9, 22, 9, "undeformed")));
-    byId("picture-words").textContent = "Up is positive. Between two increments every point moves along a straight line. " +
+    byId("picture-words").textContent = "Up is positive. Between two increments every point moves along a straight line. Numbers under supports are reactions. " +
       "Moments M = EI w\u2033 (positive where the beam sags) and shears V = dM/dx (the upward force of the part left of a cut on the part right of it) " +
       "are those of EI w\u2033\u2033 = q between the nodes too; dots are at the largest values.";
   } else if (mesh) {
@@ -1213,9 +1258,10 @@ function showLegend() {
     if (point(-1)) list.push(item("load, down", down));
     if (point(1)) list.push(item("load, up", up));
     if (holds(true)) list.push(item("support of w", svg("path", { d: "M11 3l6 11h-12Z", class: "support" })));
+    if (plate.reaction > 0) list.push(item("reaction up, by its area", svg("circle", { cx: 11, cy: 9, r: 7, class: "reaction" })));
     if (holds(false)) list.push(item("support of a slope", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
-    byId("picture-words").textContent = "The colours are the same in all states: dark is low. Up is positive. A closed pair's square grows with its force; a bar over a pair says that its face stands above.";
-    byId("magnification").parentElement.hidden = true;
+    byId("picture-words").textContent = "The colours are the same in all states: dark is low. Up is positive; moments are those of sagging, means of the elements at each node; between nodes colours are interpolated. A closed pair's square grows with its force; a bar over a pair says that its face stands above.";
+    byId("magnification").hidden = byId("magnification-label").hidden = true;
   }
   byId("legend").classList.toggle("on-map", Boolean(plate));
   byId("legend").replaceChildren(...list);
@@ -1260,7 +1306,8 @@ function between(a, b, share) {
     return [p[0], p[1], p[2], value + share * (p[3] - value), p[4]];
   });
   if (mesh) return { ...f, u: mixed(a.u, b.u), points: mixedPoints((o, p) => o[2] === p[2]) };
-  f.w = mixed(a.w, b.w);
+  for (const name of beam ? ["w"] : fields.map((shown) => shown.name)) f[name] = mixed(a[name], b[name]);
+  f.reactions = mixed(a.reactions, b.reactions);
   if (!beam) return f;
   f.slope = mixed(a.slope, b.slope);
   for (const name of ["moment", "shear"]) f[name] = { left: mixed(a[name].left, b[name].left), right: mixed(a[name].right, b[name].right) };
@@ -1319,6 +1366,24 @@ function dragTheBeam(holder) {
   for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => { last = null; });
 }
 
+// On paper the final state, then the ends of the steps before it.
+const mostPaperPictures = 6;
+
+function drawForPaper() {
+  stopPlaying();
+  printing = true;
+  const ends = frames.flatMap((f, i) => (f.end && i < frames.length - 1 && geometry.kind !== "none" ? [i] : []));
+  byId("step-pictures").replaceChildren(...ends.slice(-mostPaperPictures).map((i) => {
+    show(i);
+    return element("figure", {}, element("div", { class: "picture" }, byId("picture").firstChild.cloneNode(true)), element("figcaption", {}, stateWords(frames[i])));
+  }));
+  byId("paper-words").textContent = "Not on paper, but in the page's file: the states between the ends of steps" +
+    (ends.length > mostPaperPictures ? `, pictures of the first ${ends.length - mostPaperPictures} of ${ends.length + 1} ends` : "") +
+    ", the pairs of each state, the kernels' calls and sources, unit 26" +
+    (data.increments.length > mostPaperRows ? `, increments after the first ${mostPaperRows} of ${data.increments.length}` : "") + ".";
+  show(frames.length - 1);
+}
+
 function listen() {
   const slider = byId("slider");
   slider.max = String(frames.length - 1);
@@ -1344,13 +1409,14 @@ function listen() {
     width = innerWidth;
     show(current);
   });
-  addEventListener("beforeprint", () => { stopPlaying(); printing = true; show(frames.length - 1); });
-  addEventListener("afterprint", () => { printing = false; show(current); });
+  addEventListener("beforeprint", drawForPaper);
+  addEventListener("afterprint", () => { printing = false; byId("step-pictures").replaceChildren(); show(current); });
 }
 
 showHead();
 showTables();
 offerViews();
+offerFields();
 offerPaths();
 showLegend();
 showEvents();
