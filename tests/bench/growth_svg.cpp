@@ -13,7 +13,7 @@ constexpr double panel_width = 300.0;
 constexpr double panel_height = 300.0;
 constexpr double left = 62.0;
 constexpr double top = 48.0;
-constexpr double pitch = panel_width + 150.0;
+constexpr double pitch = panel_width + 180.0;
 
 /// Whole decades around what is shown.
 struct decades {
@@ -39,11 +39,19 @@ std::string power(int exponent) {
   return fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{}</tspan>", exponent);
 }
 
+/// What the problems of a family are, for who sees the picture alone.
+std::string words_of(const std::string& family) {
+  if (family == "rail") return "rail: a beam over one-sided springs";
+  if (family == "grid") return "grid: a plate over one-sided springs";
+  if (family == "mat") return "mat: a free plate on a one-sided bed";
+  return family;
+}
+
 std::string frame(const axes& a, const std::string& family) {
   std::string svg = fmt::format(
       "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n"
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#888\"/>\n",
-      a.x0, top - 14, family, a.x0, top, panel_width, panel_height);
+      a.x0, top - 14, words_of(family), a.x0, top, panel_width, panel_height);
   for (int d = a.x.first; d <= a.x.last; ++d) {
     const double x = a.at_x(std::pow(10.0, d));
     svg += fmt::format(
@@ -58,8 +66,12 @@ std::string frame(const axes& a, const std::string& family) {
         "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
         a.x0, y, a.x0 + panel_width, a.x0 - 8, y + 4, power(d));
   }
-  return svg + fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">dofs</text>\n",
-                           a.x0 + panel_width / 2, top + panel_height + 40);
+  const double y = top + panel_height / 2;
+  return svg + fmt::format(
+                   "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">degrees of freedom</text>\n"
+                   "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">"
+                   "milliseconds an event</text>\n",
+                   a.x0 + panel_width / 2, top + panel_height + 40, a.x0 - 44, y);
 }
 
 /// What has not been used yet of `names`, in order of appearance.
@@ -145,7 +157,7 @@ std::string growth_svg(const std::vector<growth_point>& points, const std::strin
       "height=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"12\" role=\"img\">\n"
       "<title>Milliseconds an event against the size of the structure</title>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
-      "<text x=\"{2:.0f}\" y=\"{3:.0f}\">ms an event; {4}</text>\n",
+      "<text x=\"{2:.0f}\" y=\"{3:.0f}\">{4}; slope: the power of the size with which time grows</text>\n",
       width, height, left, height - 10, caption);
   double x0 = left;
   for (const std::string& family : families) {

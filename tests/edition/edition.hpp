@@ -52,5 +52,7 @@ inline const char* const listing_file = "fortran/contct.f";
 [[nodiscard]] std::string markdown_page(const edition& e, const sources& s);
 /// The same as a fragment of HTML, for a page with its own head: one <section class="parallel-edition">.
 [[nodiscard]] std::string html_fragment(const edition& e, const sources& s);
+/// That section as a page of its own.
+[[nodiscard]] std::string html_page(const edition& e, const sources& s);
 
 }  // namespace contct_test

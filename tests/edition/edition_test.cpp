@@ -62,7 +62,7 @@ TEST_CASE("the pages in reference are those that the map and the sources make") 
   const edition e = as_it_is();
   const sources s(root);
   CHECK(text_of(root / "reference/parallel-edition.md") == markdown_page(e, s));
-  CHECK(text_of(root / "reference/parallel-edition.html") == html_fragment(e, s));
+  CHECK(text_of(root / "reference/parallel-edition.html") == html_page(e, s));
 }
 
 TEST_CASE("a map that leaves a statement out is noticed, whichever it is") {
@@ -121,6 +121,14 @@ TEST_CASE("the page changes when the map does, and the HTML is escaped and close
     const std::string name = tag;
     CHECK(count("<" + name + ">") + count("<" + name + " ") == count("</" + name + ">"));
   }
+}
+
+TEST_CASE("the HTML is a page of its own, with its section once") {
+  const std::string page = html_page(as_it_is(), sources(root));
+  CHECK(page.starts_with("<!DOCTYPE html>\n"));
+  CHECK_THAT(page, Contains("<title>CONTCT: the parallel edition</title>") && Contains("name=\"viewport\"") &&
+                       Contains("<style>") && Catch::Matchers::EndsWith("</section>\n</body>\n</html>\n"));
+  CHECK(page.find("<section") == page.rfind("<section"));
 }
 
 TEST_CASE("a map with a key that it does not know is refused") {

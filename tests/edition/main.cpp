@@ -47,7 +47,7 @@ int make_pages(const request& r) {
   for (const std::string& fault : faults) (void)std::fprintf(stderr, "contct_edition: %s\n", fault.c_str());
   if (!faults.empty()) return 1;
   write(r.page, markdown_page(e, s));
-  write(r.html, html_fragment(e, s));
+  write(r.html, html_page(e, s));
   return 0;
 }
 

@@ -110,4 +110,33 @@ std::string html_fragment(const edition& e, const sources& s) {
   return page + "</section>\n";
 }
 
+/// The section, between these, is what the page of a run embeds.
+std::string html_page(const edition& e, const sources& s) {
+  return R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>CONTCT: the parallel edition</title>
+<style>
+body { margin: 0 auto; max-width: 84rem; padding: 1rem clamp(0.8rem, 3vw, 2rem) 3rem; line-height: 1.5;
+  font-family: system-ui, "Helvetica Neue", "Noto Sans", "DejaVu Sans", sans-serif; overflow-wrap: anywhere; }
+p, blockquote { max-width: 46rem; }
+blockquote { margin: 0.3rem 0; padding-left: 0.8rem; border-left: 3px solid gray; }
+h3 { margin: 2rem 0 0.3rem; }
+table { width: 100%; table-layout: fixed; border-collapse: collapse; }
+th, td { vertical-align: top; text-align: left; padding: 0 0.6rem 0 0; }
+pre { overflow-x: auto; margin: 0.2rem 0 0.6rem; padding: 0.5rem; border: 1px solid gray; border-radius: 0.3rem;
+  font-size: 0.8rem; overflow-wrap: normal; }
+@media (max-width: 56rem) { table, tbody, tr, th, td { display: block; padding: 0; } th + th { display: none; } }
+@media print { pre { white-space: pre-wrap; } h3 { break-after: avoid; } }
+</style>
+</head>
+<body>
+<h1>CONTCT: the listing of 1989 and the C++ beside it</h1>
+)" + html_fragment(e, s) +
+         "</body>\n</html>\n";
+}
+
 }  // namespace contct_test

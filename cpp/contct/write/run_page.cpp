@@ -478,6 +478,13 @@ std::string script_text(const json& data) {
   return safe;
 }
 
+/// The one section of the parallel edition, whose file is a page of its own.
+std::string_view edition_section() {
+  constexpr std::string_view last = "</section>\n";
+  const std::size_t from = parallel_edition_html.find("<section");
+  return parallel_edition_html.substr(from, parallel_edition_html.rfind(last) + last.size() - from);
+}
+
 }  // namespace
 
 json page_data(const finished_run& r) {
@@ -488,7 +495,7 @@ json page_data(const finished_run& r) {
 std::string run_page(const finished_run& r) {
   const std::pair<std::string_view, std::string> fillings[] = {
       {"{{title}}", markup_text(title_of(r))},   {"{{style}}", std::string(report_css)},
-      {"{{heading}}", markup_text(title_of(r))}, {"{{edition}}", std::string(parallel_edition_html)},
+      {"{{heading}}", markup_text(title_of(r))}, {"{{edition}}", std::string(edition_section())},
       {"{{data}}", script_text(page_data(r))},   {"{{script}}", std::string(report_js)}};
   std::string_view rest = report_html;
   std::string page;

@@ -334,7 +334,7 @@ function drawSpreadLoad(root, f, [from, to], q, X, Y) {
     return [X(x), Y(deflectionAt(f, x)) + away];
   };
   const arrows = Math.max(1, Math.round((X(to) - X(from)) / 34));
-  const places = Math.max(arrows, q.length - 1);
+  const places = Math.max(q.length - 1, Math.min(80, Math.ceil((X(to) - X(from)) / 10)));  // as the beam bends
   const side = (share) => (size(share) > 0 || (size(share) === 0 && Math.max(...q) > 0) ? 8 : -8);
   const line = [at(0, side(0))];
   for (let i = 0; i <= places; ++i) line.push(at(i / places, side(i / places) + size(i / places)));
