@@ -13,7 +13,7 @@ constexpr double panel_width = 300.0;
 constexpr double panel_height = 300.0;
 constexpr double left = 62.0;
 constexpr double top = 48.0;
-constexpr double pitch = panel_width + 180.0;
+constexpr double pitch = panel_width + 190.0;
 
 /// Whole decades around what is shown.
 struct decades {

@@ -366,6 +366,68 @@ def prints(name):
     quiet(name)
 
 
+# ---- the report ----
+
+def shows_true_maxima(name, state, moment, place):
+    """The moment's line reaches its largest value, which is between two nodes."""
+    open_page(name)
+    go_to(state)
+    reached = browser.value("""(() => {
+      const numbers = document.querySelector('#picture path.moment').getAttribute('d').match(/[\\d.]+/g).map(Number);
+      const ys = numbers.filter((_, i) => i % 2 === 1), dot = document.querySelector('#picture .dot-moment');
+      return [Math.min(...ys) - Number(dot.getAttribute('cy')), numbers[2 * ys.indexOf(Math.min(...ys))] - Number(dot.getAttribute('cx'))];
+    })()""")
+    check(max(map(abs, reached)) < 0.02, f"{name}: the highest point of the moment's line is {reached} pixels from its largest value")
+    words = [w for w in browser.value("[...document.querySelectorAll('#picture text.value')].map(t => t.textContent)") if f"{moment} at x = {place}" in w]
+    check(len(words) == 1, f"{name}: the largest moment is told with its place: {words}")
+    quiet(name)
+
+
+def events_at_no_load_are_one_line(name, words):
+    open_page(name)
+    shown = "[...document.querySelectorAll('#event-table tr[data-increment]')].filter(r => !r.hidden).length"
+    count = len(result_of(name)["steps"][0]["increments"])
+    before = browser.value(shown)
+    check(words in browser.value("document.querySelector('#event-table summary').textContent"), f"{name}: one line says {words}")
+    check(before < 4, f"{name}: {before} of {count} increments have rows at first")
+    browser.value("document.querySelector('#event-table details').open = true; 0")
+    time.sleep(0.3)
+    check(browser.value(shown) == count, f"{name}: all {count} increments have rows on request")
+    quiet(name)
+
+
+def fields_can_be_chosen(name, fields):
+    open_page(name)
+    check(browser.value("[...document.getElementById('field').options].map(o => o.value)") == fields, f"{name}: {fields} can be shown")
+    seen = set()
+    for field in fields:
+        browser.value(f"(() => {{ const s = document.getElementById('field'); s.value = '{field}'; s.dispatchEvent(new Event('change')); }})()")
+        seen.add(browser.value("[...document.querySelectorAll('#picture path[fill^=rgb]')].map(p => p.getAttribute('d').length).join()"))
+        found = browser.value(overlaps)
+        check(found == [], f"{name}, {field}: labels lie on each other: {found[:4]}")
+        browser.picture(os.path.join(work, f"{name}-{field}.png"), whole=False)
+    check(len(seen) == len(fields), f"{name}: {len(fields)} quantities, {len(seen)} pictures")
+    quiet(name)
+
+
+def paper_has_every_end(name, ends):
+    open_page(name)
+    browser.value("dispatchEvent(new Event('beforeprint'))")
+    check(browser.value("document.querySelectorAll('#step-pictures figure').length") == ends - 1, f"{name}: a picture of each end but the last")
+    browser.value("dispatchEvent(new Event('afterprint'))")
+    check(browser.value("document.querySelectorAll('#step-pictures figure').length") == 0, f"{name}: and none on the screen")
+    quiet(name)
+
+
+def edition_is_a_page():
+    for width in (1180, 400):
+        browser.errors.clear()
+        browser.open("reference/parallel-edition.html", width=width)
+        inside = browser.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+        check(inside and browser.value("document.title") == "CONTCT: the parallel edition", f"the parallel edition, {width} wide, is a page")
+    quiet("the parallel edition")
+
+
 # ---- for who cannot see it ----
 
 def can_be_read_aloud(name):
@@ -494,6 +556,11 @@ try:
     colours("pb05")
     looks_differ_in_shape("pb07")
     looks_differ_in_shape("pp05a")
+    shows_true_maxima("pb07", 5, "167.98", "4.2996")
+    events_at_no_load_are_one_line("pp05a", "pairs separate at the first load")
+    fields_can_be_chosen("pp05a", ["w", "mx", "my", "mxy"])
+    paper_has_every_end("pb07", 4)
+    edition_is_a_page()
     can_be_zoomed("pb05")
     for problem in ("pb07", "pp03e"):
         another_node_can_be_followed(problem)

@@ -97,9 +97,11 @@ TEST_CASE("a face above is hatched upwards") {
 TEST_CASE("a plate is drawn with y upwards: a cell, a pair, the legend and the axis in their places") {
   const a_run r(good_plate);
   const std::string svg = run_svg(r.finished());
-  // 1 by 1 at 430 to a unit, its upper left corner at (60, 110); cells are half as wide.
-  CHECK_THAT(svg, Contains("<rect x=\"60.00\" y=\"110.00\" width=\"215.00\" height=\"430.00\" fill="));
-  CHECK_THAT(svg, Contains("<rect x=\"275.00\" y=\"110.00\" width=\"215.00\" height=\"430.00\" fill="));
+  // 1 by 1 at 430 to a unit, its upper left corner at (60, 110); two cells, each in 16 by 16 parts of one
+  // colour.
+  for (const char* corner : {"x=\"60.00\" y=\"110.00\"", "x=\"476.56\" y=\"110.00\"",
+                             "x=\"60.00\" y=\"513.12\"", "x=\"476.56\" y=\"513.12\""})
+    CHECK_THAT(svg, Contains(fmt::format("<rect {} width=\"13.44\" height=\"26.88\" fill=", corner)));
   CHECK_THAT(svg, Contains("M60.0 540.0L60.0 545.0"));
   // The largest deflection is the lightest and on top.
   CHECK_THAT(
@@ -224,4 +226,15 @@ TEST_CASE("an axis has a tick below its place and the number below the tick") {
   const std::string axis = axis_below({0.0, 100.0, 60.0}, 0.0, 1.0, 300.0);
   CHECK(axis.find("M60.0 300.0L60.0 305.0") != std::string::npos);
   CHECK(axis.find("<text x=\"160.0\" y=\"320.0\" class=\"quiet middle\">1</text>") != std::string::npos);
+}
+
+TEST_CASE("the picture of a loaded beam of one element follows its exact line") {
+  const a_run r(
+      "[beam]\nx = [0, 2]\nEI = 1.0\n[[support]]\nnodes = [1, 2]\nfix = [\"w\", \"theta\"]\n"
+      "[[step]]\nuniform = -1.0\n");
+  const std::string svg = run_svg(r.finished());
+  // Both nodes are clamped, so all of its deflection is between them: a curve in several pieces.
+  const std::size_t at = svg.rfind("<path", svg.find("class=\"beam\""));
+  const std::string curve = svg.substr(at, svg.find("/>", at) - at);
+  CHECK(std::count(curve.begin(), curve.end(), 'C') == 8);
 }

@@ -1,4 +1,6 @@
 // Frames for ParaView.
+#include <fmt/format.h>
+
 #include "catch.hpp"
 #include "contct/write/pictures.hpp"
 #include "read/bad_plates.hpp"
@@ -41,4 +43,19 @@ TEST_CASE("grids of structures from elsewhere: points where nodes are, edges, an
   const a_run solid(structure_problem("calculix/", "console", {{"dof       = \"49.3\"", "dof = \"55.1\""}}));
   const std::string bricks = vtu_of_frame(solid.what, solid.kept.frames().back());
   CHECK_THAT(bricks, Contains("NumberOfPoints=\"54\" NumberOfCells=\"114\"") && !Contains("rotation"));
+}
+
+TEST_CASE("points have the reactions of supports and a bed's pressure") {
+  a_run r(good_problem);
+  r.what.beds = {{4.0, {0.5}, 0}};
+  const frame& f = r.kept.frames().back();
+  const std::string vtu = vtu_of_frame(r.what, f);
+  CHECK(why_not_well_formed(vtu).empty());
+  const std::vector<double> at = reactions(r.what.geometry, r.what.steps[0], r.what.supports, f.displacement);
+  CHECK_THAT(vtu, Contains(fmt::format(
+                      "Name=\"reaction\" NumberOfComponents=\"2\" format=\"ascii\">\n{} {} 0 0 0 0\n", at[0],
+                      at[1])));
+  CHECK_THAT(vtu,
+             Contains(fmt::format("Name=\"pressure\" NumberOfComponents=\"1\" format=\"ascii\">\n0 0 {}\n",
+                                  reading_of(r.what, f, 0).force / 0.5)));
 }

@@ -91,24 +91,39 @@ std::string cells_of(const std::vector<std::vector<int>>& elements, const std::v
       array("connectivity", 1, connectivity) + array("offsets", 1, offsets) + array("types", 1, types));
 }
 
-/// Displacements, and rotations where there are any.
-std::string mesh_point_data(const placed_nodes& places, const frame& f) {
+/// The reaction at each dof; 0 where nothing holds it.
+std::vector<double> reactions_at_dofs(const problem& p, const frame& f) {
+  const load now = load_path(p).at(f.step, f.fraction);
+  const std::vector<double> of_support = reactions(p.geometry, now, p.supports, f.displacement);
+  std::vector<double> at(f.displacement.size());
+  for (std::size_t i = 0; i < of_support.size(); ++i)
+    at[p.supports[i].node * dofs_per_node(p.geometry) + p.supports[i].dof] += of_support[i];
+  return at;
+}
+
+/// Displacements and reactions, and rotations where there are any.
+std::string mesh_point_data(const problem& p, const placed_nodes& places, const frame& f) {
+  const frame reacting{.displacement = reactions_at_dofs(p, f)};
   std::vector<double> displacement;
   std::vector<double> rotation;
+  std::vector<double> reaction;
   bool turns = false;
   for (const dofs_of_node& of : dofs_of_nodes(places)) {
     const in_space u = reading_at(of.along, f);
     const in_space r = reading_at(of.about, f);
     displacement.insert(displacement.end(), u.begin(), u.end());
     rotation.insert(rotation.end(), r.begin(), r.end());
+    const in_space force = reading_at(of.along, reacting);
+    reaction.insert(reaction.end(), force.begin(), force.end());
     turns = turns || of.about != dofs_of_node{}.about;
   }
   return section("PointData", R"( Vectors="displacement")",
-                 array("displacement", 3, displacement) + (turns ? array("rotation", 3, rotation) : ""));
+                 array("displacement", 3, displacement) + (turns ? array("rotation", 3, rotation) : "") +
+                     array("reaction", 3, reaction));
 }
 
 std::string point_data(const problem& p, const frame& f) {
-  if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) return mesh_point_data(a->places, f);
+  if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) return mesh_point_data(p, a->places, f);
   const auto names = dof_names(p.geometry);
   std::vector<double> displacement;
   std::vector<std::vector<double>> by_dof(names.size());
@@ -118,6 +133,8 @@ std::string point_data(const problem& p, const frame& f) {
   }
   std::string arrays = array("displacement", 3, displacement);
   for (std::size_t dof = 0; dof < names.size(); ++dof) arrays += array(names[dof], 1, by_dof[dof]);
+  arrays += array("reaction", names.size(), reactions_at_dofs(p, f));
+  if (!p.beds.empty()) arrays += array("pressure", 1, bed_pressure(p, f));
   return section("PointData", R"( Vectors="displacement" Scalars="w")", arrays);
 }
 

@@ -111,25 +111,34 @@ std::string legend(double left, const span_of& range, Colour colour) {
   return text;
 }
 
-/// A rectangle between each two columns and rows that are drawn, in the colour of its mean; edges that colour
-/// too, unless they are given one.
+/// Between each two columns and rows that are drawn, rectangles in the colour of the bilinear interpolation:
+/// more of them on a coarse mesh.
+/// With a colour for `edges`, the mesh itself.
 template <class Colour>
 std::string cells_of_plate(const plate& p, const structure_picture& s, Colour colour,
                            const std::string& edges) {
-  const auto cell = [&](int from, int to, int low, int high) {
-    const auto w_at = [&](int i, int j) { return s.w_of(p.node_at(i, j)); };
-    const double mean = (w_at(from, low) + w_at(to, low) + w_at(to, high) + w_at(from, high)) / 4;
-    const double left = s.X(p.x[from]);
-    const double top = s.Y(p.y[high]);
+  constexpr std::size_t enough = 32;
+  const std::size_t most = std::max(s.shown.columns.size(), s.shown.rows.size()) - 1;
+  const auto parts = edges.empty() ? static_cast<int>((enough + most - 1) / most) : 1;
+  const auto cell = [&](int from, int to, int low, int high, int i, int j) {
+    const double x = (i + 0.5) / parts;
+    const double y = (j + 0.5) / parts;
+    const auto w_at = [&](int column, int row) { return s.w_of(p.node_at(column, row)); };
+    const double w = std::lerp(std::lerp(w_at(from, low), w_at(to, low), x),
+                               std::lerp(w_at(from, high), w_at(to, high), x), y);
+    const double width = (s.X(p.x[to]) - s.X(p.x[from])) / parts;
+    const double height = (s.Y(p.y[low]) - s.Y(p.y[high])) / parts;
     return element(
         "rect", fmt::format(R"(x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}" stroke="{}")",
-                            left, top, s.X(p.x[to]) - left, s.Y(p.y[low]) - top, colour(mean),
-                            edges.empty() ? colour(mean) : edges));
+                            s.X(p.x[from]) + i * width, s.Y(p.y[low]) - (j + 1) * height, width, height,
+                            colour(w), edges.empty() ? colour(w) : edges));
   };
   std::string text;
   for (std::size_t b = 0; b + 1 < s.shown.rows.size(); ++b) {
     for (std::size_t a = 0; a + 1 < s.shown.columns.size(); ++a)
-      text += cell(s.shown.columns[a], s.shown.columns[a + 1], s.shown.rows[b], s.shown.rows[b + 1]);
+      for (int k = 0; k < parts * parts; ++k)
+        text += cell(s.shown.columns[a], s.shown.columns[a + 1], s.shown.rows[b], s.shown.rows[b + 1],
+                     k % parts, k / parts);
   }
   return text;
 }
