@@ -112,6 +112,7 @@ struct run_setup {
   const run_options& options;
   std::vector<output_option> outputs = outputs_of(options);
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+  std::string date = utc_now();
   terminal screen = look_at_terminal();
   bool prints = !options.report.quiet && !takes_standard_output(outputs);  // heading, table and verdicts
   std::vector<std::string> kernels = {};  // the leader first; none under --final-only
@@ -370,7 +371,7 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
                          c.equal,
                          c.words,
                          common_facts(),
-                         utc_now()};
+                         run.date};
     if (o.files["--html"] != nullptr) o.files.write("--html", run_page(r));
     if (o.files["--svg"] != nullptr) o.files.write("--svg", run_svg(r));
     if (o.files["--vtu"] != nullptr) write_grids(o.files, run.options.pictures.vtu, r);

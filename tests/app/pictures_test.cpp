@@ -27,6 +27,15 @@ nlohmann::json data_of(const std::string& page) {
   return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
+/// Of a list over a beam's stations those at its nodes; all of a plate's.
+nlohmann::json at_nodes(const nlohmann::json& list, const nlohmann::json& geometry) {
+  if (geometry["kind"] != "beam") return list;
+  nlohmann::json some = nlohmann::json::array();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!geometry["nodes"][i].is_null()) some.push_back(list[i]);
+  return some;
+}
+
 /// Everything that a run of `text` writes; the page's data.
 nlohmann::json written(const std::string& text, int exit, const words& more = {}) {
   const scratch_folder dir;
@@ -41,6 +50,28 @@ nlohmann::json written(const std::string& text, int exit, const words& more = {}
     CHECK_FALSE(dir.read(name).empty());
   }
   return data_of(dir.read("o.html"));
+}
+
+/// What the tables of steps' ends have of a step, against the result: up to six steps, few supports.
+void check_ends(const nlohmann::json& data, const nlohmann::json& step) {
+  const auto column = step["step"].get<std::size_t>();
+  for (const auto& t : data["ends"]) {
+    const auto title = t["title"].get<std::string>();
+    const auto rows = t["rows"];
+    if (title.starts_with("Largest")) CHECK(rows[column - 1][1] == step["fraction"]);
+    if (title.starts_with("Reactions") && rows.size() == step["reactions"].size()) {
+      const std::size_t before = rows[0].size() - data["certificates"].size();
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        CHECK(rows[i][before + column - 1] == step["reactions"][i]["value"]);
+    }
+    if (title.starts_with("Contact forces")) {
+      const std::size_t before = rows[0].size() - data["certificates"].size();
+      for (const auto& row : rows) {
+        const auto pair = std::stoul(row[0].get<std::string>()) - 1;
+        CHECK(row[before + column - 1] == step["pairs"][pair]["force"]);
+      }
+    }
+  }
 }
 
 const char* const no_pairs =
@@ -75,16 +106,21 @@ TEST_CASE("the page's last state is the result's, number for number, step by ste
       if (!frame["end"].get<bool>()) continue;
       const auto& step = result["steps"][frame["step"].get<std::size_t>() - 1];
       ++ends;
-      CHECK(frame["w"] == step["w"]);
+      const auto& geometry = data["geometry"];
+      CHECK(at_nodes(frame["w"], geometry) == step["w"]);
       REQUIRE(frame["at_pairs"].size() == step["pairs"].size());
       for (std::size_t i = 0; i < step["pairs"].size(); ++i) {
         const auto node = step["pairs"][i]["node"].get<std::size_t>();
         CHECK(frame["at_pairs"][i] == step["w"][node - 1]);
         CHECK((frame["closed"][i] == 1) == (step["pairs"][i]["state"] == "contact"));
       }
-      for (std::size_t e = 0; data["geometry"]["kind"] == "beam" && e < step["elements"].size(); ++e) {
-        CHECK(frame["moment"]["right"][e] == step["elements"][e]["moment"][0]);
-        CHECK(frame["shear"]["left"][e + 1] == step["elements"][e]["shear"][1]);
+      check_ends(data, step);
+      if (geometry["kind"] != "beam") continue;
+      const auto moment = at_nodes(frame["moment"]["right"], geometry);
+      const auto shear = at_nodes(frame["shear"]["left"], geometry);
+      for (std::size_t e = 0; e < step["elements"].size(); ++e) {
+        CHECK(moment[e] == step["elements"][e]["moment"][0]);
+        CHECK(shear[e + 1] == step["elements"][e]["shear"][1]);
       }
     }
     CHECK(ends == result["steps"].size());
@@ -183,5 +219,26 @@ TEST_CASE("a place that cannot be written is found out before anything is solved
     CHECK(f.exit == 2);
     CHECK(f.out.empty());
     CHECK_THAT(f.err, Contains("nowhere/o.vtu: cannot be written"));
+  }
+}
+
+TEST_CASE("the page has the date of the run, or the one that SOURCE_DATE_EPOCH names") {
+  const scratch_folder dir;
+  dir.write("pb.toml", good_problem);
+  process_options o;
+  o.environment = {{"SOURCE_DATE_EPOCH", "86460"}};
+  const words page = run_of({"--html", "o.html"});
+  REQUIRE(contct_program(dir.path(), page, o).exit == 0);
+  const std::string first = dir.read("o.html");
+  CHECK(data_of(first)["date"] == "1970-01-02 00:01 UTC");
+  REQUIRE(contct_program(dir.path(), page, o).exit == 0);
+  CHECK(dir.read("o.html") == first);
+  REQUIRE(contct_program(dir.path(), page).exit == 0);
+  CHECK(data_of(dir.read("o.html"))["date"].get<std::string>().substr(0, 2) == "20");
+  for (const char* const wrong : {"today", "-1", "", "253402300800"}) {
+    o.environment = {{"SOURCE_DATE_EPOCH", wrong}};
+    const finished f = contct_program(dir.path(), page, o);
+    CHECK(f.exit == 2);
+    CHECK_THAT(f.err, Contains("SOURCE_DATE_EPOCH") && Contains("allowed: seconds since 1970"));
   }
 }

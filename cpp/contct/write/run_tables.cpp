@@ -414,8 +414,8 @@ void put_ends(const problem& p, const std::vector<end_reading>& ends, const tabl
   const std::string title =
       zeros == 0 ? of.title
                  : fmt::format("{}; {} that are 0 at all of these ends have no row", of.title, zeros);
-  if (zeros > 0) omissions.push_back(title + ".");
   const std::size_t all = rows.size();
+  if (zeros > 0 && all <= most_rows) omissions.push_back(title + ".");
   if (all > most_rows) {
     std::ranges::stable_sort(rows, std::greater{}, [&](std::size_t i) { return largest[i]; });
     rows.resize(most_rows);

@@ -260,7 +260,11 @@ function drawSupport(s, f, reaction, X, Y, say) {
     g.append(line(x, y + 4, x, y + (fixed ? 14 : 9), fixed ? "support" : "thin"));
     return g;
   }
-  if (held && reaction) say(Math.max(x, margin.left + 4), y + 40, rough(reaction), "value reaction-value");
+  if (held && reaction) {
+    const words = rough(reaction);
+    const half = 4.4 * words.length + 4;  // beside the axis' numbers, inside the picture
+    say(Math.min(Math.max(x, margin.left - 10 + half), X(beam.to) + margin.right - half), y + 40, words, "value reaction-value");
+  }
   if (fixed && turns) {
     const out = s.x - beam.from < beam.to - s.x ? -1 : 1;
     g.append(svg("path", { d: `M${x} ${y - 20}V${y + 20}`, class: "support", "stroke-width": 3 }));
@@ -976,7 +980,7 @@ function stateWords(f) {
   const place = f.step === 0 ? "Before any load."
     : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid motion at constant load; " : ""}load: ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
   const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
-  const rescued = f.rescued ? " This state comes from the oracle: the path could not reach it." : "";
+  const rescued = f.rescued ? " This state is the reference solution: the path could not reach it." : "";
   const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} closed, ${open} open, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
   return `${place}${event}${rescued}${pairs} Largest ${moves} ${short(f.largest.w)} at ${placeOf(f.largest)}.`;
 }
@@ -1005,6 +1009,7 @@ function head(...names) {
 
 const mostPairRows = 250;
 
+if (data.pairs.length > 60) cuts.add(`The numbers of ${data.pairs.length} pairs are not written beside their marks, but shown when the mouse is over them.`);
 const firstPairs = `The first ${mostPairRows} of ${data.pairs.length} pairs are listed.`;
 if (data.pairs.length > mostPairRows) cuts.add(`Pairs in a state: the first ${mostPairRows} of ${data.pairs.length} are listed.`);
 
@@ -1128,7 +1133,7 @@ function showCalls() {
 function showCertificate() {
   const words = byId("certificate-words");
   const say = (text, kind) => words.append(element("p", kind ? { class: kind } : {}, text));
-  say("Each step's final state is compared with the minimiser of the structure's energy, which an oracle finds apart: it knows neither the kernels nor the path.");
+  say("Each step's final state is compared with the minimiser of the structure's energy, the reference solution, which uses neither the kernels nor the path.");
   if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.certified_whole ? "good" : "bad");
   for (const text of data.uncertified) say(sentence(text));
   const steps = data.certificates;
@@ -1138,7 +1143,7 @@ function showCertificate() {
     return;
   }
   const own = steps.filter((c) => c.numbers && !c.numbers.independent).length;
-  if (own > 0) say(`${counted(own, "state")} came from the oracle itself, so comparing the two shows nothing: there equilibrium, penetration and tension are all that is judged.`);
+  if (own > 0) say(`${counted(own, "state")} came from the reference solution itself, so comparing the two shows nothing: there equilibrium, penetration and tension are all that is judged.`);
   const small = (x) => (x === null || x === undefined ? "–" : minus(x === 0 ? "0" : x.toExponential(1)));
   const fields = ["displacement_error", "shape_error", "equilibrium", "penetration", "tension", "tolerance"];
   byId("certificate-table").replaceChildren(
