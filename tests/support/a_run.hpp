@@ -19,6 +19,11 @@ inline const std::string loaded_and_freed =
     "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.001\nstiffness = 1e5\n"
     "[[step]]\npoint = [ { node = 3, w = 60.0 } ]\n";
 
+/// Clamped on the left, on a support on the right: two elements, EI = 100, length 2, q = -8.
+inline const std::string propped_cantilever =
+    "[beam]\nlength = 2.0\nelements = 2\nEI = 100.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+    "[[support]]\nnode = 3\nfix = [\"w\"]\n[[step]]\nuniform = -8.0\n";
+
 /// FORTRAN leading C++ in lockstep, seen by all that pictures are made from.
 struct a_run {
   problem what;

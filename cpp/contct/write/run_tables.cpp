@@ -361,6 +361,20 @@ std::string quantity_head(const problem& p, std::string_view name) {
   return std::string(name) + (u.force.empty() ? "" : fmt::format(" [{0} {1}/{1}]", u.force, u.length));
 }
 
+/// The cells for forces of pairs and supports: none where no pair is pressed.
+json force_cell(const problem& p, const std::vector<double>& forces) {
+  const std::size_t i = largest_of(forces);
+  if (forces[i] == 0.0) return nullptr;
+  const std::string where = fmt::format("pair {}, {}", i + 1, place_words(p.geometry, p.pairs[i].node));
+  return json::array({placed(forces[i], where)});
+}
+json reaction_cell(const problem& p, const std::vector<double>& reacting) {
+  const std::size_t i = largest_of(reacting);
+  const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
+  const std::string dof = of_matrix ? "" : fmt::format("{} at ", dof_names(p.geometry)[p.supports[i].dof]);
+  return json::array({placed(reacting[i], dof + place_words(p.geometry, p.supports[i].node))});
+}
+
 page_table end_table(const finished_run& r, const std::vector<end_reading>& ends) {
   const problem& p = r.what;
   std::vector<std::string> head = {"Step", "Share"};
@@ -372,18 +386,8 @@ page_table end_table(const finished_run& r, const std::vector<end_reading>& ends
   for (const end_reading& e : ends) {
     json row = {step_words(p, e.at.step), e.at.fraction};
     for (const value_range& v : e.ranges) row.push_back(range_cell(p.geometry, v));
-    if (!p.pairs.empty()) {
-      const std::size_t i = largest_of(e.forces);  // the first one where none is pressed
-      const std::string where = fmt::format("pair {}, {}", i + 1, place_words(p.geometry, p.pairs[i].node));
-      row.push_back(e.forces[i] == 0.0 ? json(nullptr) : json::array({placed(e.forces[i], where)}));
-    }
-    if (!p.supports.empty()) {
-      const std::size_t i = largest_of(e.reactions);
-      const support& s = p.supports[i];
-      const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
-      const std::string dof = of_matrix ? "" : fmt::format("{} at ", dof_names(p.geometry)[s.dof]);
-      row.push_back(json::array({placed(e.reactions[i], dof + place_words(p.geometry, s.node))}));
-    }
+    if (!p.pairs.empty()) row.push_back(force_cell(p, e.forces));
+    if (!p.supports.empty()) row.push_back(reaction_cell(p, e.reactions));
     row.push_back(certificate_mark(r.judged.steps()[e.at.step - 1]));
     t.add(std::move(row));
   }
@@ -399,10 +403,13 @@ struct table_of_ends {
   bool zeros_left_out;
 };
 
-/// The largest of them in rows, by number; the steps in columns, a few in each table. Where
-/// `zeros_left_out`, those that are 0 at every end have no row.
-void put_ends(const problem& p, const std::vector<end_reading>& ends, const table_of_ends& of, json& tables,
-              std::vector<std::string>& omissions) {
+/// Which of them have rows, by number, and of how many these are the largest; those that are 0 at every end
+/// are left out where the table says so.
+struct chosen_rows {
+  std::vector<std::size_t> rows;
+  std::size_t all, zeros;
+};
+chosen_rows choose_rows(const std::vector<end_reading>& ends, const table_of_ends& of) {
   std::vector<double> largest((ends.front().*of.values).size());
   for (const end_reading& e : ends)
     for (std::size_t i = 0; i < largest.size(); ++i)
@@ -410,17 +417,23 @@ void put_ends(const problem& p, const std::vector<end_reading>& ends, const tabl
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < largest.size(); ++i)
     if (largest[i] > 0.0 || !of.zeros_left_out) rows.push_back(i);
-  const std::size_t zeros = largest.size() - rows.size();
-  const std::string title =
-      zeros == 0 ? of.title
-                 : fmt::format("{}; {} that are 0 at all of these ends have no row", of.title, zeros);
   const std::size_t all = rows.size();
-  if (zeros > 0 && all <= most_rows) omissions.push_back(title + ".");
   if (all > most_rows) {
     std::ranges::stable_sort(rows, std::greater{}, [&](std::size_t i) { return largest[i]; });
     rows.resize(most_rows);
     std::ranges::sort(rows);
   }
+  return {std::move(rows), all, largest.size() - all};
+}
+
+/// The steps are columns, a few in each table.
+void put_ends(const problem& p, const std::vector<end_reading>& ends, const table_of_ends& of, json& tables,
+              std::vector<std::string>& omissions) {
+  const auto [rows, all, zeros] = choose_rows(ends, of);
+  const std::string title =
+      zeros == 0 ? of.title
+                 : fmt::format("{}; {} that are 0 at all of these ends have no row", of.title, zeros);
+  if (zeros > 0 && all <= most_rows) omissions.push_back(title + ".");
   for (std::size_t from = 0; from < ends.size(); from += steps_beside) {
     const auto some = std::span(ends).subspan(from, std::min(steps_beside, ends.size() - from));
     std::vector<std::string> head = of.head;
