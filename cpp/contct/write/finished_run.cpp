@@ -442,11 +442,11 @@ double station_reader::x(const station& s) const {
 }
 
 double station_reader::w(const station& s) const {
-  return s.share == 0.0 ? u_[2 * s.node] : polynomial_at(lines_.at(s.node).w, s.share);
+  return s.share == 0.0 ? u_[std::size_t{2} * s.node] : polynomial_at(lines_.at(s.node).w, s.share);
 }
 
 double station_reader::slope(const station& s) const {
-  return s.share == 0.0 ? u_[2 * s.node + 1] : polynomial_at(lines_.at(s.node).slope, s.share);
+  return s.share == 0.0 ? u_[std::size_t{2} * s.node + 1] : polynomial_at(lines_.at(s.node).slope, s.share);
 }
 
 std::vector<load_piece> load_pieces(const problem& p, const beam& b) {

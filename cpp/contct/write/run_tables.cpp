@@ -21,8 +21,8 @@ using json = nlohmann::ordered_json;
 /// A table that grows by rows, of which it keeps the first.
 class page_table {
  public:
-  page_table(std::string title, const std::vector<std::string>& head)
-      : title_(std::move(title)), head_(head) {}
+  page_table(std::string title, std::vector<std::string> head)
+      : title_(std::move(title)), head_(std::move(head)) {}
 
   void add(json row) {
     if (all_++ < most_rows) rows_.push_back(std::move(row));
@@ -455,7 +455,7 @@ void put_ends(const problem& p, const std::vector<end_reading>& ends, const tabl
 std::string unit_words(const unit_labels& u, int force, int length) {
   constexpr std::string_view powers[] = {"", "", "²", "³"};
   if (u.length.empty()) return "";
-  const std::string of_length = length == 0 ? "" : u.length + std::string(powers[std::abs(length)]);
+  std::string of_length = length == 0 ? "" : u.length + std::string(powers[std::abs(length)]);
   if (force == 0) return of_length;
   return u.force + (length == 0 ? "" : length > 0 ? " " : "/") + of_length;
 }

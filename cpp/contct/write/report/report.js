@@ -948,8 +948,8 @@ function drawChart(current) {
     root.append(line(room.left, Y(v), width - room.right, Y(v), v === 0 ? "zero" : "grid"));
     root.append(label(room.left - 8, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
   }
-  root.append(label(room.left, 18, byForce ? (ofMatrix ? "Sum of the loads" : "Sum of the loads, positive up") : "Steps of load applied", { class: "panel-title" }));
-  root.append(label(width - room.right, height - 12, `${ofMatrix ? moves : "deflection w"} of ${placed(followed.name)}`, { "text-anchor": "end", class: "axis-word" }));
+  root.append(label(room.left, 18, byForce ? (ofMatrix ? "Sum of the loads" : inUnit("Sum of the loads, positive up", "force")) : "Steps of load applied", { class: "panel-title" }));
+  root.append(label(width - room.right, height - 12, `${ofMatrix ? moves : inUnit("deflection w", "w")} of ${placed(followed.name)}`, { "text-anchor": "end", class: "axis-word" }));
   root.append(line(X(followed.read(f)), Y(measure(f)), X(followed.read(f)), height - room.bottom, "cross"), line(room.left, Y(measure(f)), X(followed.read(f)), Y(measure(f)), "cross"));
   root.append(path(frames.map((g) => [X(followed.read(g)), Y(measure(g))]), "track"));
   for (const g of frames) root.append(chartMark(g, X(followed.read(g)), Y(measure(g))));
@@ -1384,6 +1384,7 @@ function drawForPaper() {
   }));
   byId("paper-words").textContent = "Not on paper, but in the page's file: the states between the ends of steps" +
     (ends.length > mostPaperPictures ? `, pictures of the first ${ends.length - mostPaperPictures} of ${ends.length + 1} ends` : "") +
+    (plate ? `, of the plate all but ${field.words}` : "") +
     ", the pairs of each state, the kernels' calls and sources, unit 26" +
     (data.increments.length > mostPaperRows ? `, increments after the first ${mostPaperRows} of ${data.increments.length}` : "") + ".";
   show(frames.length - 1);
