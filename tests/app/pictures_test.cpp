@@ -57,7 +57,7 @@ void check_ends(const nlohmann::json& data, const nlohmann::json& step) {
   const auto column = step["step"].get<std::size_t>();
   for (const auto& t : data["ends"]) {
     const auto title = t["title"].get<std::string>();
-    const auto rows = t["rows"];
+    const auto& rows = t["rows"];
     if (title.starts_with("Largest")) CHECK(rows[column - 1][1] == step["fraction"]);
     if (title.starts_with("Reactions") && rows.size() == step["reactions"].size()) {
       const std::size_t before = rows[0].size() - data["certificates"].size();
