@@ -371,7 +371,8 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
                          c.equal,
                          c.words,
                          common_facts(),
-                         run.date};
+                         run.date,
+                         o.extremes ? &*o.extremes : nullptr};
     if (o.files["--html"] != nullptr) o.files.write("--html", run_page(r));
     if (o.files["--svg"] != nullptr) o.files.write("--svg", run_svg(r));
     if (o.files["--vtu"] != nullptr) write_grids(o.files, run.options.pictures.vtu, r);

@@ -45,15 +45,15 @@ TEST_CASE("the input is on the page: stiffness by pieces, supports, pairs, beds 
   CHECK(rows_of(input, "Beds") == nlohmann::json({{"2..5", 4, "1 to 4", "below", -0.2, 3.0}}));
   CHECK(rows_of(input, "Loads") ==
         nlohmann::json({{"1, dead load", "per length [kN/m]", "all elements", -0.01},
-                        {"1, dead load", "settlement w [m]", "x = 0, node 1", -0.25}}));
+                        {"1, dead load", "settlement w [m]", "node 1, x = 0", -0.25}}));
   CHECK(data["units"]["moment"] == "kN m");
   CHECK(data["ends"][0]["rows"][0][0] == "1, dead load");
 }
 
 TEST_CASE("long tables have their first rows, say of how many, and are among what the page leaves out") {
   std::string text =
-      "[beam]\nlength = 60.0\nelements = 60\nEI = 1.0\n[[bed]]\nmodulus = 3.0\nface = 0.0\n[[step]]\nuniform "
-      "= -0.01\n";
+      "[beam]\nlength = 60.0\nelements = 60\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = "
+      "\"below\"\nface = 0.0\nstiffness = 3.0\n[[step]]\nuniform = -0.01\n";
   const a_run r(text);
   const nlohmann::json data = page_data(r.finished());
   CHECK(data["input"][1]["title"] == "Candidate pairs (first 40 of 61)");
@@ -76,7 +76,7 @@ TEST_CASE("the table of step ends has the largest values, their places and the v
   CHECK(row[1] == 1.0);
   CHECK(row[2] == nlohmann::json({{ranges[0].least.value, "x = 1.15693"}}));
   CHECK(row[3] ==
-        nlohmann::json({{ranges[1].least.value, "x = 0, node 1"}, {ranges[1].most.value, "x = 1.25"}}));
+        nlohmann::json({{ranges[1].least.value, "node 1, x = 0"}, {ranges[1].most.value, "x = 1.25"}}));
   CHECK(row[5][0][1] == "w at node 1");
   CHECK(row[6] == "certified");
   const std::vector<double> reacting = reactions(r.what.geometry, now, r.what.supports, u);
@@ -106,4 +106,37 @@ TEST_CASE("a unit goes with the powers of force and length") {
   CHECK(unit_words(u, 1, 0) == "kN");
   CHECK(unit_words(u, 0, 1) == "m");
   CHECK(unit_words({}, 1, 1).empty());
+}
+
+TEST_CASE("the page's envelope is that of all increments, each value with its place, step and increment") {
+  a_run r(loaded_and_freed);
+  const nlohmann::json data = page_data(r.finished());
+  REQUIRE(data["envelope"].size() == 3);
+  envelope all(r.what);
+  for (const frame& f : r.kept.frames()) all.take(f);
+  const nlohmann::json& w = data["envelope"][0]["rows"][0];
+  CHECK(w[0] == "w");
+  CHECK(w[1][0][0] == all.ranges()[0].least.at.value);
+  CHECK(w[1][0][1] == "node 3, x = 2; step 1, increment 2");
+  CHECK(w[2][0][0] == all.ranges()[0].most.at.value);
+  CHECK(data["envelope"][1]["rows"][0].back()[0][0] == all.pairs()[0].force);
+  CHECK(data["envelope"][1]["rows"][0].back()[0][1] == "step 1, increment 2");
+  CHECK(data["envelope"][2]["rows"][1].back()[0][0] == all.reactions()[1].most);
+}
+
+TEST_CASE("a path of which not all states are kept says whose envelope the page has") {
+  const auto omissions_of = [](const finished_run& r) {
+    std::string all;
+    for (const auto& words : page_data(r)["thinned"]) all += words.get<std::string>() + "\n";
+    return all;
+  };
+  std::string often = loaded_and_freed;
+  for (int i = 0; i < 4; ++i)
+    often += "[[step]]\npoint = [ { node = 3, w = -60 } ]\n[[step]]\npoint = [ { node = 3, w = 60 } ]\n";
+  const a_run few(often, {}, {.most_frames = 4});
+  envelope all(few.what);
+  for (const frame& f : few.kept.frames()) all.take(f);
+  finished_run with_all = few.finished();
+  with_all.all_increments = &all;
+  CHECK_THAT(omissions_of(with_all), !Catch::Matchers::Contains("The envelope is that of the"));
 }

@@ -187,6 +187,8 @@ class run_record final : public observer {
   bool answers_ = false;  // the last call kept has not led to an increment yet
 };
 
+class envelope;
+
 struct finished_run {
   const problem& what;
   const frame_keeper& kept;
@@ -203,6 +205,8 @@ struct finished_run {
   std::string comparison;          ///< how they did, in words; empty for a kernel alone
   std::vector<std::string> facts;  ///< version, listing, floating point
   std::string date = {};           ///< of the run, in UTC; may be empty
+  const envelope* all_increments =
+      nullptr;  ///< where it was asked for; otherwise that of the kept states is made
 };
 
 /// At most so many numbers in all frames together: places along a beam, points of a plate's grid, states of

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/pictures.hpp"
 #include "contct/write/result_json.hpp"
@@ -83,6 +84,7 @@ class page_writer {
       : run_(r), what_(r.what), loads_(r.what), shown_(choose_parts(r)) {
     input_ = input_tables(what_, shown_.omissions);
     ends_ = result_tables(r, shown_.deflecting, shown_.omissions);
+    envelope_ = envelope_tables(r, shown_.omissions);
     const auto* const a = std::get_if<assembled>(&what_.geometry.kind);
     if (a == nullptr || !a->places.known()) return;
     mesh_ = a;
@@ -130,6 +132,7 @@ class page_writer {
         {"uncertified", complaints_of(r)},
         {"input", input_},
         {"ends", ends_},
+        {"envelope", envelope_},
         {"thinned", shown_.omissions},
         {"frames", list_of(r.kept.frames(), [this](const frame& f) { return frame_of(f); })}};
   }
@@ -409,7 +412,7 @@ class page_writer {
 
   /// The force on the structure by each support drawn; null where it holds no deflection.
   [[nodiscard]] json forces_of_supports(const load& l, const frame& f) const {
-    const std::vector<double> all = reactions(what_.geometry, l, what_.supports, f.displacement);
+    const std::vector<double> all = reactions(what_, l, f.displacement, f.isep);
     std::map<int, json> at;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const support& s = what_.supports[i];
@@ -465,8 +468,8 @@ class page_writer {
   const assembled* mesh_ = nullptr;    // whose nodes have places
   std::vector<dofs_of_node> of_node_;  // of the mesh
   std::vector<int> axes_;
-  json input_, ends_;        // tables
-  std::vector<int> number_;  // of a node on the page; -1: it is not there
+  json input_, ends_, envelope_;  // tables
+  std::vector<int> number_;       // of a node on the page; -1: it is not there
 };
 
 /// As text of an HTML script element, where only "<" can begin anything: whatever its strings hold, none of

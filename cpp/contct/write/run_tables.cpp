@@ -10,7 +10,6 @@
 #include <numeric>
 #include <utility>
 
-#include "contct/structure/extremes.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
@@ -92,15 +91,6 @@ std::vector<std::string> joined_heads(std::vector<std::string> head, const std::
 json joined_cells(json row, const json& more) {
   row.insert(row.end(), more.begin(), more.end());
   return row;
-}
-
-/// "x = 4.3", "(0.5, 1)", "dof 6.y": the place of a value, with its node where it is at one.
-std::string place_words_of(const model& m, const placed_value& v) {
-  if (std::holds_alternative<assembled>(m.kind)) return place_words(m, v.node);
-  std::string words = std::holds_alternative<plate>(m.kind) ? fmt::format("({:.6g}, {:.6g})", v.x, v.y)
-                                                            : fmt::format("x = {:.6g}", v.x);
-  if (v.node >= 0) words += fmt::format(", node {}", v.node + 1);
-  return words;
 }
 
 // ---- what was given ----
@@ -294,7 +284,7 @@ void add_loads(const problem& p, std::size_t step, page_table& t) {
   const auto at = [&](int node) {
     if (std::holds_alternative<assembled>(p.geometry.kind)) return place_words(p.geometry, node);
     const place where = place_of_node(p.geometry, node);
-    return place_words_of(p.geometry, {0.0, where.x, where.y, node});
+    return place_words(p.geometry, {0.0, where.x, where.y, node});
   };
   for (const distributed_load& d : l.distributed)
     add(spread, element_words(d.elements), polynomial_cell(d.polynomial));
@@ -311,9 +301,9 @@ void add_loads(const problem& p, std::size_t step, page_table& t) {
 /// What is read of a step's end.
 struct end_reading {
   const frame& at;
-  std::vector<value_range> ranges;
-  std::vector<double> reactions;  ///< [supports]
-  std::vector<double> forces;     ///< [pairs]
+  step_results read;
+  std::vector<double> reactions = {};  ///< [supports]
+  std::vector<double> forces = {};     ///< [pairs]
 };
 
 std::vector<end_reading> read_ends(const finished_run& r, const std::vector<int>& deflecting) {
@@ -322,11 +312,9 @@ std::vector<end_reading> read_ends(const finished_run& r, const std::vector<int>
   for (const frame& f : r.kept.frames()) {
     if (!f.step_end || ends.size() == most_table_steps) continue;
     const load now = loads.at(f.step, f.fraction);
-    end_reading e{f,
-                  ranges_of(r.what.geometry, now, f.displacement, deflecting),
-                  reactions(r.what.geometry, now, r.what.supports, f.displacement),
-                  {}};
-    for (std::size_t i = 0; i < r.what.pairs.size(); ++i) e.forces.push_back(reading_of(r.what, f, i).force);
+    end_reading e{f, results_of(r.what, now, f.displacement, f.isep, deflecting)};
+    for (const pair_reading& pair : e.read.pairs) e.forces.push_back(pair.force);
+    e.reactions = e.read.reactions;
     ends.push_back(std::move(e));
   }
   return ends;
@@ -341,10 +329,10 @@ json placed(double value, std::string where) {
 json range_cell(const model& m, const value_range& v) {
   const placed_value& first = v.largest();
   json cell = json::array();
-  cell.push_back(placed(first.value, place_words_of(m, first)));
+  cell.push_back(placed(first.value, place_words(m, first)));
   const placed_value& second = &first == &v.most ? v.least : v.most;
   if (second.value * first.value < -1e-9 * first.value * first.value)
-    cell.push_back(placed(second.value, place_words_of(m, second)));
+    cell.push_back(placed(second.value, place_words(m, second)));
   return cell;
 }
 
@@ -378,14 +366,14 @@ json reaction_cell(const problem& p, const std::vector<double>& reacting) {
 page_table end_table(const finished_run& r, const std::vector<end_reading>& ends) {
   const problem& p = r.what;
   std::vector<std::string> head = {"Step", "Share"};
-  for (const value_range& v : ends.front().ranges) head.push_back(quantity_head(p, v.name));
+  for (const value_range& v : ends.front().read.ranges) head.push_back(quantity_head(p, v.name));
   if (!p.pairs.empty()) head.push_back("Contact force" + in_unit(p.units, 1, 0));
   if (!p.supports.empty()) head.emplace_back("Reaction");
   head.emplace_back("Certificate");
   page_table t("Largest values at the end of each step", head);
   for (const end_reading& e : ends) {
     json row = {step_words(p, e.at.step), e.at.fraction};
-    for (const value_range& v : e.ranges) row.push_back(range_cell(p.geometry, v));
+    for (const value_range& v : e.read.ranges) row.push_back(range_cell(p.geometry, v));
     if (!p.pairs.empty()) row.push_back(force_cell(p, e.forces));
     if (!p.supports.empty()) row.push_back(reaction_cell(p, e.reactions));
     row.push_back(certificate_mark(r.judged.steps()[e.at.step - 1]));
@@ -450,15 +438,25 @@ void put_ends(const problem& p, const std::vector<end_reading>& ends, const tabl
   }
 }
 
-}  // namespace
-
-std::string unit_words(const unit_labels& u, int force, int length) {
-  constexpr std::string_view powers[] = {"", "", "²", "³"};
-  if (u.length.empty()) return "";
-  std::string of_length = length == 0 ? "" : u.length + std::string(powers[std::abs(length)]);
-  if (force == 0) return of_length;
-  return u.force + (length == 0 ? "" : length > 0 ? " " : "/") + of_length;
+/// What a support holds, with the unit of its reaction.
+std::string support_words(const problem& p, const support& s) {
+  const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
+  return of_matrix ? "" : dof_names(p.geometry)[s.dof] + force_unit(p, s.dof);
 }
+
+std::string time_words(const envelope::when& reached) {
+  return fmt::format("step {}, increment {}", reached.step, reached.increment);
+}
+
+json timed_cell(double value, const envelope::when& reached) {
+  return json::array({placed(value, time_words(reached))});
+}
+
+json bound_cell(const model& m, const envelope::bound& b) {
+  return json::array({placed(b.at.value, place_words(m, b.at) + "; " + time_words(b.reached))});
+}
+
+}  // namespace
 
 json input_tables(const problem& p, std::vector<std::string>& omissions) {
   json tables = json::array();
@@ -470,6 +468,44 @@ json input_tables(const problem& p, std::vector<std::string>& omissions) {
   page_table loads("Loads and settlements: totals at the ends of steps", {"Step", "What", "Where", "Value"});
   for (std::size_t step = 0; step < p.steps.size(); ++step) add_loads(p, step, loads);
   loads.put_into(tables, omissions);
+  return tables;
+}
+
+json envelope_tables(const finished_run& r, std::vector<std::string>& omissions) {
+  const problem& p = r.what;
+  envelope of_kept(p);
+  if (r.all_increments == nullptr) {
+    for (const frame& f : r.kept.frames()) of_kept.take(f);
+    if (std::ssize(r.kept.frames()) < r.kept.increments() + 1)
+      omissions.push_back(fmt::format(
+          "The envelope is that of the {} states on this page; --envelope makes it of all increments.",
+          r.kept.frames().size() - 1));
+  }
+  const envelope& all = r.all_increments != nullptr ? *r.all_increments : of_kept;
+  json tables = json::array();
+  page_table quantities("Least and largest of all increments", {"Quantity", "Least", "Largest"});
+  for (const envelope::range& v : all.ranges())
+    quantities.add(
+        {quantity_head(p, v.name), bound_cell(p.geometry, v.least), bound_cell(p.geometry, v.most)});
+  quantities.put_into(tables, omissions);
+  page_table forces("Largest contact force of each pair" + in_unit(p.units, 1, 0),
+                    joined_heads(joined_heads({"Pair"}, place_head(p)), {"Face", "Largest"}));
+  for (std::size_t i = 0; i < all.pairs().size(); ++i) {
+    const contact_pair& at = p.pairs[i];
+    forces.add(
+        joined_cells(joined_cells({std::to_string(i + 1)}, place_cells(p, at.node)),
+                     {surface_name(at.surface), timed_cell(all.pairs()[i].force, all.pairs()[i].reached)}));
+  }
+  forces.put_into(tables, omissions);
+  page_table reacting("Reactions: what supports exert on the structure",
+                      joined_heads(place_head(p), {"What", "Least", "Largest"}));
+  for (std::size_t i = 0; i < all.reactions().size(); ++i) {
+    const envelope::reaction_range& v = all.reactions()[i];
+    reacting.add(joined_cells(place_cells(p, p.supports[i].node),
+                              {support_words(p, p.supports[i]), timed_cell(v.least, v.least_reached),
+                               timed_cell(v.most, v.most_reached)}));
+  }
+  reacting.put_into(tables, omissions);
   return tables;
 }
 
@@ -495,9 +531,7 @@ json result_tables(const finished_run& r, const std::vector<int>& deflecting,
              tables, omissions);
   const auto cells_of_support = [&p](std::size_t i) {
     const support& s = p.supports[i];
-    const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
-    return joined_cells(place_cells(p, s.node),
-                        {of_matrix ? "" : dof_names(p.geometry)[s.dof] + force_unit(p, s.dof)});
+    return joined_cells(place_cells(p, s.node), json::array({support_words(p, s)}));
   };
   if (!p.supports.empty())
     put_ends(p, ends,

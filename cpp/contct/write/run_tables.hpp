@@ -5,16 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "contct/write/finished_run.hpp"
+#include "contct/write/step_results.hpp"
 
 namespace contct::write {
 
 /// At most so many rows in a table; steps in all tables, and beside each other in one.
 inline constexpr std::size_t most_rows = 40, most_table_steps = 24, steps_beside = 6;
-
-/// The unit of a quantity that goes with these powers of force (0 or 1) and length: "kN/m". Empty where the
-/// problem has no units.
-[[nodiscard]] std::string unit_words(const unit_labels& u, int force, int length);
 
 /// Structure, supports, pairs, beds, loads and settlements as the problem has them. A table is
 /// { "title", "head", "rows" }; a cell is a number, a text, null, or a list of [number, where it is]. What a
@@ -25,5 +21,9 @@ inline constexpr std::size_t most_rows = 40, most_table_steps = 24, steps_beside
 /// the reactions.
 [[nodiscard]] nlohmann::ordered_json result_tables(const finished_run& r, const std::vector<int>& deflecting,
                                                    std::vector<std::string>& omissions);
+
+/// The least and the largest of everything on the path, in tables of the same form.
+[[nodiscard]] nlohmann::ordered_json envelope_tables(const finished_run& r,
+                                                     std::vector<std::string>& omissions);
 
 }  // namespace contct::write

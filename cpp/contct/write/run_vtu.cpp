@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/pictures.hpp"
 
@@ -94,7 +95,7 @@ std::string cells_of(const std::vector<std::vector<int>>& elements, const std::v
 /// The reaction at each dof; 0 where nothing holds it.
 std::vector<double> reactions_at_dofs(const problem& p, const frame& f) {
   const load now = load_path(p).at(f.step, f.fraction);
-  const std::vector<double> of_support = reactions(p.geometry, now, p.supports, f.displacement);
+  const std::vector<double> of_support = reactions(p, now, f.displacement, f.isep);
   std::vector<double> at(f.displacement.size());
   for (std::size_t i = 0; i < of_support.size(); ++i)
     at[p.supports[i].node * dofs_per_node(p.geometry) + p.supports[i].dof] += of_support[i];

@@ -84,12 +84,19 @@ std::string place_words(const model& m, const placed_value& at) {
 }
 
 std::string unit_words(const problem& p, std::string_view quantity) {
-  const auto& [length, force] = p.units;
-  if (length.empty() || std::holds_alternative<assembled>(p.geometry.kind)) return "";
-  if (quantity == "w") return " " + length;
-  if (quantity == "moment") return fmt::format(" {} {}", force, length);
-  if (quantity == "theta" || quantity == "wx" || quantity == "wy") return "";
-  return " " + force;  // shears and forces; moments per length of a plate
+  if (p.units.length.empty() || std::holds_alternative<assembled>(p.geometry.kind)) return "";
+  const bool is_slope = quantity == "theta" || quantity == "wx" || quantity == "wy";
+  if (is_slope) return "";
+  // Moments per length of a plate are forces.
+  return " " + unit_words(p.units, quantity == "w" ? 0 : 1, quantity == "w" || quantity == "moment" ? 1 : 0);
+}
+
+std::string unit_words(const unit_labels& u, int force, int length) {
+  constexpr std::string_view powers[] = {"", "", "²", "³"};
+  if (u.length.empty()) return "";
+  std::string of_length = length == 0 ? "" : u.length + std::string(powers[std::abs(length)]);
+  if (force == 0) return of_length;
+  return u.force + (length == 0 ? "" : length > 0 ? " " : "/") + of_length;
 }
 
 void envelope::take(const frame& f) {

@@ -46,6 +46,10 @@ struct passage {
 /// A place in words: "node 9, x = 4", "x = 4.31", "node 9, (1, 0.5)" or "dof 185.3".
 [[nodiscard]] std::string place_words(const model& m, const placed_value& at);
 
+/// The unit of a quantity that goes with these powers of force (0 or 1) and length: "kN/m". Empty where the
+/// problem has no units.
+[[nodiscard]] std::string unit_words(const unit_labels& u, int force, int length);
+
 /// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", ..; empty where
 /// the problem names no units.
 [[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity);

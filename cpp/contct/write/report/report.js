@@ -1172,8 +1172,8 @@ function tableOf({ title, head: names, rows }) {
 }
 
 function showTables() {
-  for (const name of ["input", "ends"]) {
-    byId(name === "input" ? "input-tables" : "end-tables").replaceChildren(...data[name].map(tableOf));
+  for (const name of ["input", "ends", "envelope"]) {
+    byId(name === "ends" ? "end-tables" : `${name}-tables`).replaceChildren(...data[name].map(tableOf));
     byId(name).hidden = data[name].length === 0;
   }
 }
