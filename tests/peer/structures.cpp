@@ -150,6 +150,40 @@ void check_mesh(const places& p, verdicts& v) {
           fmt::format("{}, 4 elements for each: {}", s.name, words_of(d[2])));
 }
 
+/// Supports that settle, with a stop that is reached on the way, and a load in one of the steps.
+const char* const settling_beam = R"(
+[beam]
+length = 8.0
+elements = 8
+EI = 1.0e4
+[[support]]
+x = 0.0
+fix = ["w", "theta"]
+[[support]]
+x = 8.0
+fix = "w"
+[[contact]]
+x = 4.0
+surface = "below"
+face = -0.004
+stiffness = 5e3
+[[step]]
+settlement = [ { x = 8.0, w = -0.03 }, { x = 0.0, theta = 0.001 } ]
+[[step]]
+uniform = -5.0
+settlement = [ { x = 8.0, w = -0.01 }, { x = 0.0, w = 0.002 } ]
+)";
+
+void check_settlements(const places& p, verdicts& v) {
+  write_text(p.work + "/settling.toml", settling_beam);
+  check_every_step(p, v, solve(p, "settling beam", p.work + "/settling.toml"), 2);
+  const solved_problem line = solve_reference(p, "pp06-plate-over-settling-line");
+  for (const int step : {1, 2}) {
+    const difference d = compare_answers(p, line, {step, 4, 500});
+    v.check(within(d, 4e-3, 2e-2), fmt::format("{} step {}: {}", line.name, step, words_of(d)));
+  }
+}
+
 /// Plates: contct's mesh and CalculiX's are refined together.
 void check_plates(const places& p, verdicts& v) {
   std::vector<solved_problem> meshes;
@@ -197,6 +231,7 @@ void check_structures(const places& p, verdicts& v) {
   check_shear(p, v, gaps, 3);
   check_mesh(p, v);
   check_plates(p, v);
+  check_settlements(p, v);
   check_faults(p, v, gaps);
 }
 

@@ -131,3 +131,30 @@ TEST_CASE("a plate's nodes that are fixed in w alone are points: between them it
   for (const auto& f : m.fixed) held += f.direction == 3 ? 1 : 0;
   CHECK(held == 3);
 }
+
+TEST_CASE("A support that settles is moved in the step, a slope against CalculiX's axis") {
+  const std::string settles =
+      beam_text + "[[step]]\nsettlement = [ { node = 1, w = -0.002, theta = 0.5 } ]\n";
+  const calculix_deck deck = deck_of(settles, {.step = 3});
+  const auto lines = lines_of(deck.text);
+  const auto step = std::find(lines.begin(), lines.end(), "*STATIC");
+  REQUIRE(lines.end() - step > 4);
+  CHECK(step[2] == "*BOUNDARY");
+  CHECK(step[3] == fmt::format("1,3,3,{:.12e}", -0.002 * deck.displacement_scale));
+  CHECK(step[4] == fmt::format("1,5,5,{:.12e}", -0.5 * deck.displacement_scale));
+  CHECK(step[5] == "*CLOAD");
+  CHECK_THAT(deck_of(settles, {.step = 2}).text, !Contains("1,3,3,"));
+}
+
+TEST_CASE("Between nodes of an edge that settles, a plate's edge follows the cubic of its ends") {
+  const problem p =
+      parse_problem(plate_text + "settlement = [ { node = 4, w = -0.1, wy = 0.2, wx = 0.3 } ]\n", "p.toml");
+  const calculix_mesh m = calculix_mesh_of(p, 1, 0);
+  int middle = -1;
+  for (std::size_t i = 6; i < m.nodes.size(); ++i)
+    if (m.nodes[i].x == 0.0 && m.nodes[i].y == 0.5) middle = static_cast<int>(i);
+  REQUIRE(middle > 0);
+  CHECK(m.settled.at({middle, 3}) == Approx(-0.1 / 2 - 0.2 / 8));
+  CHECK(m.settled.at({middle, 4}) == Approx(1.5 * -0.1 - 0.2 / 4));
+  CHECK(m.settled.at({middle, 5}) == Approx(-0.15));
+}

@@ -37,6 +37,10 @@ std::set<std::pair<int, int>> take_over_nodes(const problem& p, const load& l, c
     const turned_dof t = turned[at.dof];
     m.forces[{at.node, t.direction}] += t.sign * at.value;
   }
+  for (const prescribed_displacement& g : l.settlements) {
+    const turned_dof t = turned[g.dof];
+    m.settled[{g.node, t.direction}] = t.sign * g.value;
+  }
   return fixed;
 }
 
@@ -115,18 +119,38 @@ fine_grid grid_of(const plate& own, int step, calculix_mesh& m) {
   return grid;
 }
 
+/// A node between two of the problem's, at t from 0 to 1 on a line of length h.
+struct node_between {
+  int one, other;
+  int along;  ///< the slope along the line: 1 or 2
+  int node;
+  double t, h;
+};
+
 /// What is fixed at a node on the line between two of the problem's nodes follows from both. In an ACM
-/// rectangle the deflection there is a cubic, the slope across it linear: the first is zero where both ends
+/// rectangle the deflection there is a cubic, the slope across it linear: the first is given where both ends
 /// have w and the slope along the line fixed, the second where both have it fixed.
-void fix_between(const std::set<std::pair<int, int>>& fixed, int one, int other, int along, int node,
-                 calculix_mesh& m) {
-  const auto both = [&](int dof) { return fixed.contains({one, dof}) && fixed.contains({other, dof}); };
-  const int across = 3 - along;
+void fix_between(const std::set<std::pair<int, int>>& fixed, const node_between& n, calculix_mesh& m) {
+  const auto both = [&](int dof) { return fixed.contains({n.one, dof}) && fixed.contains({n.other, dof}); };
+  const auto given = [&](int node, int dof) {
+    const auto at = m.settled.find({node, turned[dof].direction});
+    return at == m.settled.end() ? 0.0 : turned[dof].sign * at->second;
+  };
+  const auto fix = [&](int dof, double value) {
+    m.fixed.push_back({n.node, turned[dof].direction});
+    if (value != 0.0) m.settled[{n.node, turned[dof].direction}] = turned[dof].sign * value;
+  };
+  const auto [one, other, along, node, t, h] = n;
   if (both(0) && both(along)) {
-    m.fixed.push_back({node, turned[0].direction});
-    m.fixed.push_back({node, turned[along].direction});
+    const double rise = given(other, 0) - given(one, 0);
+    const double left = given(one, along) * h;
+    const double right = given(other, along) * h;
+    const double square = 3 * rise - 2 * left - right;
+    const double cube = left + right - 2 * rise;
+    fix(0, given(one, 0) + t * (left + t * (square + t * cube)));
+    fix(along, (left + t * (2 * square + 3 * t * cube)) / h);
   }
-  if (both(across)) m.fixed.push_back({node, turned[across].direction});
+  if (both(3 - along)) fix(3 - along, std::lerp(given(one, 3 - along), given(other, 3 - along), t));
 }
 
 calculix_mesh mesh_of(const plate& own, const problem& p, int refine, const load& l) {
@@ -138,8 +162,14 @@ calculix_mesh mesh_of(const plate& own, const problem& p, int refine, const load
       const int here = own.node_at(a / grid.step, b / grid.step);
       const bool on_column = a % grid.step == 0;
       const bool on_row = b % grid.step == 0;
-      if (on_row && !on_column) fix_between(fixed, here, here + 1, 1, grid.at(a, b), m);
-      if (on_column && !on_row) fix_between(fixed, here, here + own.columns(), 2, grid.at(a, b), m);
+      const auto share = [&](int lines) { return static_cast<double>(lines % grid.step) / grid.step; };
+      const int i = a / grid.step;
+      const int j = b / grid.step;
+      if (on_row && !on_column)
+        fix_between(fixed, {here, here + 1, 1, grid.at(a, b), share(a), own.x[i + 1] - own.x[i]}, m);
+      if (on_column && !on_row)
+        fix_between(fixed, {here, here + own.columns(), 2, grid.at(a, b), share(b), own.y[j + 1] - own.y[j]},
+                    m);
     }
   }
   // Nothing pulls it in its plane; these only keep it from floating there.
@@ -391,8 +421,11 @@ class deck_writer {
         R"(** One increment. The usual criterion is enough: on springs of straight pieces Newton's method ends.
 *STEP,NLGEOM
 *STATIC
-1.,1.
-*CLOAD)");
+1.,1.)");
+    if (!mesh_.settled.empty()) line("*BOUNDARY");
+    for (const auto& [at, value] : mesh_.settled)
+      line("{0},{1},{1},{2}", at.first + 1, at.second, field(value * scale_));
+    line("*CLOAD");
     for (const auto& [at, value] : mesh_.forces) {
       if (value != 0.0) line("{},{},{}", at.first + 1, at.second, field(value * force_scale()));
     }

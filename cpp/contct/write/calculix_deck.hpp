@@ -46,7 +46,8 @@ struct calculix_mesh {
   std::vector<std::vector<int>> elements;  ///< 3 nodes along a line, or 4 corners and 4 middles
   std::vector<int> origins;                ///< [elements] the problem's element that each is part of
   std::vector<fixed_dof> fixed;            ///< by the supports, and what holds the structure in its plane
-  std::map<std::pair<int, int>, double> forces;  ///< by node and direction
+  std::map<std::pair<int, int>, double> forces;   ///< by node and direction
+  std::map<std::pair<int, int>, double> settled;  ///< what supports are moved by, likewise
 };
 
 /// The problem's structure with `refine` by `refine` elements for each of its own, under the total load of
