@@ -161,7 +161,8 @@ TEST_CASE("what is commented out in a new problem may be put in") {
     const scratch_folder dir;
     std::string text = contct_program(dir.path(), {"new", shape, "-"}).out;
     int put_in = 0;
-    for (const char* piece : {"# [[", "# spring", "# nodes", "# at", "# fix", "# modulus", "# face"}) {
+    for (const char* piece :
+         {"# [[", "# spring", "# nodes", "# at", "# fix", "# modulus", "# face", "# settlement"}) {
       for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at)) {
         text.erase(at, 2);
         ++put_in;

@@ -161,8 +161,9 @@ class problem_reader {
       problem_.pairs.back().stiffness = stiffness[stiffness.size() == 1 ? 0 : i];
       if (fixed_in_w(at[i]))
         problem_.warnings.push_back(fmt::format(
-            "{}: {} is fixed{}; the pair cannot change the answer, but the listing may toggle it", t.place(),
-            place_words(problem_.geometry, at[i]), places_->on_matrix() ? "" : " in w"));
+            "{}: {} is fixed{}; the pair cannot change the deflections, and its support takes its force, but "
+            "the listing may toggle it",
+            t.place(), place_words(problem_.geometry, at[i]), places_->on_matrix() ? "" : " in w"));
     }
   }
 
