@@ -383,8 +383,9 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
 /// What every run ends with: certificate, messages, files, exit status.
 exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
   const bool solved = end.status == path_status::solved;
-  print_verdict(o, solved && o.judged.all_exact() ? paint::good : paint::bad,
-                certificate_summary(o.judged, solved));
+  std::vector<std::string> summary = certificate_summary(o.judged, solved);
+  if (solved && o.judged.all_exact()) summary.front() += " for this mesh";
+  print_verdict(o, solved && o.judged.all_exact() ? paint::good : paint::bad, summary);
   const bool uncertified = o.run.options.strict && !o.judged.all_exact();
   const exit_status status = !c.equal                ? exit_status::kernels_differ
                              : solved && uncertified ? exit_status::uncertified

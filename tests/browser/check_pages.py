@@ -35,6 +35,8 @@ def open_page(name, **how):
 
 
 def quiet(name):
+    for word in ("undefined", "[object") if name == "the parallel edition" else ("undefined", "[object", "NaN"):
+        check(word not in browser.value("document.body.innerText"), f"{name}: nothing on the page is {word}")
     check(browser.errors == [], f"{name}: the console is silent: {browser.errors}")
 
 
@@ -45,6 +47,22 @@ def go_to(state):
 
 def frames():
     return browser.value("frames.map(f => ({step: f.step, number: f.number, end: f.end}))")
+
+
+# ---- units, and the envelope that was asked for ----
+
+def has_envelope(name):
+    open_page(name)
+    check("m, kN" in browser.value("document.getElementById('title-block').innerText"), f"{name}: the units are named")
+    check("it sinks" in browser.value("document.getElementById('end-tables').innerText"), f"{name}: a step has its name")
+    shown = [float(v) for v in browser.value("[...document.querySelectorAll('#envelope-tables [data-value]')].map(e => e.dataset.value)")]
+    envelope = result_of(name)["envelope"]
+    known = {v[bound]["value"] for v in envelope.values() if isinstance(v, dict) for bound in ("min", "max")}
+    known |= {p["force_max"] for p in envelope["pairs"]}
+    known |= {r[bound]["value"] for r in envelope["reactions"] for bound in ("min", "max")}
+    check(known <= set(shown), f"{name}: the page has every number of the envelope: {known - set(shown)}")
+    check(len(known) >= 10, f"{name}: {len(known)} numbers were compared")
+    quiet(name)
 
 
 # ---- the slider, by mouse and by keyboard ----
@@ -559,12 +577,13 @@ try:
     looks_differ_in_shape("pp05a")
     shows_true_maxima("pb07", 5, "167.98", "4.2996")
     events_at_no_load_are_one_line("pp05a", "pairs separate at the first load")
-    fields_can_be_chosen("pp05a", ["w", "mx", "my", "mxy"])
+    fields_can_be_chosen("pp05a", ["w", "mx", "my", "mxy", "pressure"])
     paper_has_every_end("pb07", 4)
     edition_is_a_page()
     can_be_zoomed("pb05")
     for problem in ("pb07", "pp03e"):
         another_node_can_be_followed(problem)
+    has_envelope("settling")
     for problem in ("pb05", "pp05a", "two-faces"):
         most_loaded_pair_is_on_top(problem)
     axes_have_ticks("pb07")

@@ -18,6 +18,9 @@ write("alone", 'title = "One kernel"\n' + cantilever + stop + above + steps)
 write("own-ways", cantilever + stop + above + steps)
 # The pair in contact first, so that drawing in file order would hide it behind the separated one.
 write("two-faces", cantilever + stop + stop.replace('"below"', '"above"').replace("-0.004", "0.01") + steps)
+write("settling", '[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 8\nelement_size = 1\nEI = 1e4\n[[support]]\nx = [0, 8]\nfix = "w"\n'
+      '[[contact]]\nx = [3, 5]\nsurface = "below"\nface = -0.004\nstiffness = 5e3\n[[step]]\nname = "it sinks"\n'
+      'uniform = -2\nsettlement = [ { x = 8, w = -0.03 } ]\n[[step]]\nuniform = -1\n')
 write("no-pairs", cantilever + "[[step]]\nuniform = -3.0\n")
 write("free", 'title = "A free beam & <b>markup</b> \\"quoted\\" </script><script>alert(1)</script> {{data}}"\n'
       "[beam]\nlength = 12.0\nelements = 48\nEI = 1000.0\n[[bed]]\nmodulus = 40.0\nface = 0.0\n"

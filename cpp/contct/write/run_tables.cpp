@@ -346,7 +346,8 @@ std::string quantity_head(const problem& p, std::string_view name) {
   if (name == "w") return "w" + in_unit(u, 0, 1);
   if (name == "moment") return "Moment" + in_unit(u, 1, 1);
   if (name == "shear") return "Shear" + in_unit(u, 1, 0);
-  return std::string(name) + (u.force.empty() ? "" : fmt::format(" [{0} {1}/{1}]", u.force, u.length));
+  const std::string unit = unit_words(p, name);
+  return std::string(name) + (unit.empty() ? "" : fmt::format(" [{}]", unit.substr(1)));
 }
 
 /// The cells for forces of pairs and supports: none where no pair is pressed.

@@ -87,7 +87,8 @@ std::string unit_words(const problem& p, std::string_view quantity) {
   if (p.units.length.empty() || std::holds_alternative<assembled>(p.geometry.kind)) return "";
   const bool is_slope = quantity == "theta" || quantity == "wx" || quantity == "wy";
   if (is_slope) return "";
-  // Moments per length of a plate are forces.
+  if (quantity == "mx" || quantity == "my" || quantity == "mxy")
+    return fmt::format(" {0} {1}/{1}", p.units.force, p.units.length);
   return " " + unit_words(p.units, quantity == "w" ? 0 : 1, quantity == "w" || quantity == "moment" ? 1 : 0);
 }
 

@@ -63,7 +63,7 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
   const std::string states = certified == 1   ? "the final state is"
                              : certified == 2 ? "both final states are"
                                               : fmt::format("all {} final states are", certified);
-  std::vector<std::string> items = {states + " certified for this mesh"};
+  std::vector<std::string> items = {states + " certified"};
   if (independent > 0) items.push_back("the oracle agrees to " + digits_words(worst));
   if (independent < certified)
     items.push_back(fmt::format("{} taken from the oracle, by equilibrium, penetration and tension alone",

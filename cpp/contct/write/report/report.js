@@ -1182,7 +1182,7 @@ function showTables() {
 
 function showHead() {
   const block = [["Problem file", data.file === "-" ? "standard input" : data.file],
-    ["Units", data.units.force ? `${data.units.length}, ${data.units.force}` : "as in the problem file, which names none"],
+    ["Units", data.units.force ? `${data.units.w}, ${data.units.force}` : "as in the problem file, which names none"],
     ["Date of the run", data.date], ["Kernels", `${kernels.join(" and ")}, engine ${data.engine}`], ["Program", data.facts.join(" · ")]];
   byId("title-block").replaceChildren(...block.filter(([, text]) => text)
     .map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text))));
