@@ -34,12 +34,16 @@ using namespace path;
 namespace contct::certify {
 using namespace path;
 }
+namespace contct::exact {
+using namespace path;
+}
 namespace contct::read {
 using namespace structure;
 }
 namespace contct::write {
 using namespace compare;
 using namespace certify;
+using namespace exact;
 }  // namespace contct::write
 namespace contct::lab {
 using namespace write;

@@ -1,0 +1,53 @@
+// A problem in rational numbers: the decimals of its file as they are written.
+#pragma once
+
+#include <vector>
+
+#include "contct/exact/lifted_solver.hpp"
+#include "contct/exact/rational.hpp"
+#include "contct/structure/problem.hpp"
+
+namespace contct::exact {
+
+/// A candidate contact pair.
+struct exact_pair {
+  int dof;
+  int surface;  ///< n: face_above (+1) or face_below (-1)
+  rational face, stiffness;
+  bool closed;  ///< in contact at the start
+};
+
+/// A permanent support.
+struct exact_support {
+  int dof;
+  bool fixed;
+  rational spring;
+};
+
+/// What acts at the end of a step.
+struct exact_step {
+  vector load;        ///< total [dofs]
+  vector settlement;  ///< where fixed dofs are moved to; 0 at all others [dofs]
+};
+
+struct exact_problem {
+  sparse_rows stiffness;    ///< with elastic supports, and with the rows of fixed dofs
+  std::vector<char> fixed;  ///< [dofs]
+  std::vector<int> place;   ///< of each dof in a narrow band
+  std::vector<exact_support> supports;
+  std::vector<exact_pair> pairs;
+  std::vector<exact_step> steps;
+  /// Weights of the squares of displacements by which rigid motions are measured, at dofs that hold all of
+  /// them: those that the load does not drive keep what they have, and it drives others the steepest way. Of
+  /// beams and plates w at the ends or corners, as the corrected rule in doubles.
+  std::vector<added_spring> ground;
+
+  [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
+};
+
+/// `values` gives the numbers whose doubles do not say what they are. Coordinates that divide a length
+/// evenly, as `length` and `elements` in a file do, are taken for exact parts of it. The stiffness of a bed's
+/// pair is its modulus times an exact share of the structure.
+[[nodiscard]] exact_problem exact_problem_of(const problem& p, const exact_values& values = {});
+
+}  // namespace contct::exact

@@ -1,0 +1,336 @@
+#include "contct/exact/lifted_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace contct::exact {
+namespace {
+
+/// The largest primes below 2^61, for a matrix that is singular modulo one of them by chance.
+constexpr std::uint64_t two_to_61 = std::uint64_t{1} << 61U;
+constexpr std::array<std::uint64_t, 6> primes = {two_to_61 - 1,   two_to_61 - 31,  two_to_61 - 45,
+                                                 two_to_61 - 229, two_to_61 - 259, two_to_61 - 283};
+
+// What the innermost loops do, by GMP's functions for single words where there are such.
+
+std::uint64_t residue_of(const integer& x, std::uint64_t p) {
+#ifdef CONTCT_HAS_GMP
+  if constexpr (sizeof(unsigned long) == sizeof p) return mpz_fdiv_ui(x.backend().data(), p);
+#endif
+  integer r = x % p;
+  if (r < 0) r += p;
+  return r.convert_to<std::uint64_t>();
+}
+
+/// r -= a x.
+void subtract_product(integer& r, const integer& a, std::uint64_t x) {
+#ifdef CONTCT_HAS_GMP
+  if constexpr (sizeof(unsigned long) == sizeof x) {
+    mpz_submul_ui(r.backend().data(), a.backend().data(), x);
+    return;
+  }
+#endif
+  r -= a * x;
+}
+
+/// x /= p, a multiple of it.
+void divide_exactly(integer& x, std::uint64_t p) {
+#ifdef CONTCT_HAS_GMP
+  if constexpr (sizeof(unsigned long) == sizeof p) {
+    mpz_divexact_ui(x.backend().data(), x.backend().data(), p);
+    return;
+  }
+#endif
+  x /= p;
+}
+
+integer least_multiple(const integer& a, const integer& b) {
+  return boost::multiprecision::lcm(a, b);
+}
+
+/// numerator/denominator = y modulo m, both at most `bound`; false where there is none. Euclid's algorithm,
+/// stopped halfway (Wang 1981).
+bool fraction_of(const integer& y, const integer& m, const integer& bound, integer& denominator) {
+  integer r0 = m;
+  integer r1 = y;
+  integer t0 = 0;
+  integer t1 = 1;
+  while (r1 > bound) {
+    const integer quotient = r0 / r1;
+    integer next = r0 - quotient * r1;
+    r0 = std::move(r1);
+    r1 = std::move(next);
+    next = t0 - quotient * t1;
+    t0 = std::move(t1);
+    t1 = std::move(next);
+  }
+  denominator = abs(t1);
+  return denominator <= bound;
+}
+
+std::vector<int> inverse_of(std::span<const int> places) {
+  std::vector<int> inverse(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    inverse[static_cast<std::size_t>(places[i])] = static_cast<int>(i);
+  return inverse;
+}
+
+}  // namespace
+
+lifted_solver::field::field(std::uint64_t prime) : p_(prime) {
+  std::uint64_t inverse = p_;  // of p modulo 2^3, then 2^6, ..
+  for (int bits = 3; bits < 64; bits *= 2) inverse *= 2 - p_ * inverse;
+  negative_inverse_ = 0 - inverse;
+  for (int doubled = 0; doubled < 128; ++doubled) square_ = square_ * 2 % p_;
+}
+
+std::uint64_t lifted_solver::field::inverse(std::uint64_t a) const {
+  std::uint64_t power = in(1);  // a^(p - 2), by Fermat
+  for (std::uint64_t e = p_ - 2; e != 0; e >>= 1U) {
+    if ((e & 1U) != 0) power = times(power, a);
+    a = times(a, a);
+  }
+  return power;
+}
+
+bool lifted_solver::field::take(const rational& x, std::uint64_t& residue) const {
+  const std::uint64_t bottom = residue_of(denominator(x), p_);
+  if (bottom == 0) return false;
+  residue = in(residue_of(numerator(x), p_));
+  if (bottom != 1) residue = times(residue, inverse(in(bottom)));
+  return true;
+}
+
+/// The digits of one solution, in the prime.
+class lifted_solver::lifting {
+ public:
+  lifting(const lifted_solver& of, const vector& b) : of_(of), rows_(b.size()), rest_(b.size()) {
+    const field& f = of_.field_;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (!of_.is_unknown(i)) continue;
+      rows_[i] = of_.whole_[i];
+      const integer more = denominator(b[i] * rational(rows_[i].scale));
+      rows_[i].scale *= more;
+      if (more != 1)
+        for (auto& [column, entry] : rows_[i].entries) entry *= more;
+      rest_[i] = numerator(b[i] * rational(rows_[i].scale));
+    }
+    right_ = rest_;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      const std::uint64_t scale = of_.is_unknown(i) ? residue_of(rows_[i].scale, f.prime()) : 1;
+      if (scale == 0) throw std::runtime_error("a denominator is a multiple of 2^61 - 1 or its like");
+      unscale_.push_back(scale == 1 ? f.in(1) : f.inverse(f.in(scale)));
+    }
+    sum_.resize(b.size());
+  }
+
+  vector solution() {
+    vector x;
+    for (std::size_t wanted = 4;; wanted += wanted / 2) {
+      while (digits_.size() < wanted) next_digits();
+      gather();
+      if (reconstruct(x)) return x;
+      if (wanted * 61 > 2 * most_bits)
+        throw too_long("numerators of more than " + std::to_string(most_bits) + " bits");
+    }
+  }
+
+ private:
+  /// x mod p of the rest, and then the rest becomes (rest - A x) / p.
+  void next_digits() {
+    const field& f = of_.field_;
+    std::vector<std::uint64_t> x(rest_.size(), 0);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (of_.is_unknown(i)) x[i] = f.times(f.in(residue_of(rest_[i], f.prime())), unscale_[i]);
+    of_.solve_modulo(x);
+    for (std::uint64_t& digit : x) digit = f.out(digit);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      for (const auto& [column, entry] : rows_[i].entries)
+        subtract_product(rest_[i], entry, x[static_cast<std::size_t>(column)]);
+      if (rest_[i] != 0) divide_exactly(rest_[i], f.prime());
+    }
+    digits_.push_back(std::move(x));
+  }
+
+  /// All digits so far as numbers.
+  void gather() {
+    const integer p = of_.field_.prime();
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      integer more = 0;
+      for (std::size_t k = digits_.size(); k-- > gathered_;) more = more * p + digits_[k][i];
+      sum_[i] += more * modulus_;
+    }
+    modulus_ *= boost::multiprecision::pow(p, static_cast<unsigned>(digits_.size() - gathered_));
+    gathered_ = digits_.size();
+  }
+
+  /// The number nearest to 0 that is `y` modulo p^k.
+  [[nodiscard]] integer nearest(const integer& y) const {
+    integer r = y % modulus_;
+    if (r * 2 > modulus_) r -= modulus_;
+    return r;
+  }
+
+  /// The x = n / d of which these are the digits, with one denominator for all; false where there is none
+  /// yet.
+  bool reconstruct(vector& x) const {
+    const integer bound = integer(1) << static_cast<unsigned>(msb(modulus_) / 2 - 1);
+    integer denominator = 1;
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      const integer y = nearest(sum_[i] * denominator);
+      if (abs(y) <= bound) continue;
+      integer factor;
+      if (!fraction_of(y < 0 ? integer(y + modulus_) : y, modulus_, bound, factor)) return false;
+      denominator *= factor;
+      if (denominator > bound) return false;
+    }
+    std::vector<integer> numerators;
+    for (const integer& digits : sum_) numerators.push_back(nearest(digits * denominator));
+    if (!solves(numerators, denominator)) return false;
+    x.clear();
+    for (const integer& n : numerators) x.emplace_back(n, denominator);
+    return true;
+  }
+
+  [[nodiscard]] bool solves(const std::vector<integer>& numerators, const integer& denominator) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      integer sum = right_[i] * denominator;
+      for (const auto& [column, entry] : rows_[i].entries)
+        sum -= entry * numerators[static_cast<std::size_t>(column)];
+      if (sum != 0) return false;
+    }
+    return true;
+  }
+
+  const lifted_solver& of_;
+  std::vector<whole_row> rows_;         // with b whole too
+  std::vector<integer> rest_, right_;   // of b; b
+  std::vector<std::uint64_t> unscale_;  // 1 / scale
+  std::vector<std::vector<std::uint64_t>> digits_;
+  std::vector<integer> sum_;  // of the digits gathered
+  std::size_t gathered_ = 0;
+  integer modulus_ = 1;  // the prime to their number
+};
+
+lifted_solver::lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place)
+    : k_(k),
+      fixed_(fixed),
+      place_(place),
+      dof_at_(inverse_of(place)),
+      spring_(k.size()),
+      field_(primes[0]),
+      free_(k.size(), 0) {
+  for (std::size_t i = 0; i < k.size(); ++i)
+    for (const auto& [j, entry] : k[i])
+      band_ =
+          std::max(band_, static_cast<std::size_t>(std::abs(place[i] - place[static_cast<std::size_t>(j)])));
+}
+
+void lifted_solver::factor(std::vector<added_spring> springs) {
+  std::fill(spring_.begin(), spring_.end(), rational(0));
+  for (const added_spring& s : springs) spring_[static_cast<std::size_t>(s.dof)] += s.stiffness;
+  for (const std::uint64_t prime : primes)
+    if (factor_modulo(prime) && find_free_motions()) return;
+  throw std::runtime_error("the stiffness matrix is indefinite: no structure has it");
+}
+
+rational lifted_solver::entry(std::size_t row, int column, const rational& k) const {
+  return static_cast<int>(row) == column ? rational(k + spring_[row]) : k;
+}
+
+/// False where the matrix modulo this prime is not what it is.
+bool lifted_solver::factor_modulo(std::uint64_t prime) {
+  const std::size_t n = k_.size();
+  const std::size_t width = band_ + 1;
+  field_ = field(prime);
+  factor_.assign(n * width, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (const auto& [j, k] : k_[i]) {
+      const auto column = static_cast<std::size_t>(j);
+      if (place_[i] < place_[column] || fixed_[i] != 0 || fixed_[column] != 0) continue;
+      const auto at = static_cast<std::size_t>(place_[column]);
+      if (!field_.take(entry(i, j, k), factor_[at * width + static_cast<std::size_t>(place_[i]) - at]))
+        return false;
+    }
+  }
+  inverse_.assign(n, 0);
+  std::fill(free_.begin(), free_.end(), 0);
+  for (std::size_t j = 0; j < n; ++j) {
+    std::uint64_t* const column = &factor_[j * width];
+    const auto dof = static_cast<std::size_t>(dof_at_[j]);
+    if (fixed_[dof] != 0) continue;
+    if (column[0] == 0) {  // of a semidefinite matrix, the whole column is 0
+      if (std::any_of(column, column + width, [](std::uint64_t x) { return x != 0; })) return false;
+      free_[dof] = 1;
+      continue;
+    }
+    inverse_[j] = field_.inverse(column[0]);
+    for (std::size_t a = 1; a < width && j + a < n; ++a) {
+      const std::uint64_t l = field_.times(column[a], inverse_[j]);
+      if (l == 0) continue;
+      std::uint64_t* const target = &factor_[(j + a) * width];
+      for (std::size_t b = a; b < width && j + b < n; ++b)
+        target[b - a] = field_.minus(target[b - a], field_.times(l, column[b]));
+    }
+    for (std::size_t a = 1; a < width; ++a) column[a] = field_.times(column[a], inverse_[j]);
+  }
+  whole_.assign(n, {});
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_unknown(i)) whole_[i] = whole(i);
+  return true;
+}
+
+lifted_solver::whole_row lifted_solver::whole(std::size_t dof) const {
+  whole_row row{{}, 1};
+  for (const auto& [j, k] : k_[dof])
+    if (is_unknown(static_cast<std::size_t>(j)))
+      row.scale = least_multiple(row.scale, denominator(entry(dof, j, k)));
+  for (const auto& [j, k] : k_[dof])
+    if (is_unknown(static_cast<std::size_t>(j)) && entry(dof, j, k) != 0)
+      row.entries.emplace_back(j, numerator(rational(entry(dof, j, k) * rational(row.scale))));
+  return row;
+}
+
+/// Forward, diagonal and back, in the places of the band.
+void lifted_solver::solve_modulo(std::vector<std::uint64_t>& x) const {
+  const std::size_t n = x.size();
+  const std::size_t width = band_ + 1;
+  std::vector<std::uint64_t> y(n);
+  for (std::size_t j = 0; j < n; ++j) y[j] = x[static_cast<std::size_t>(dof_at_[j])];
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t a = 1; a < width && j + a < n && y[j] != 0; ++a)
+      y[j + a] = field_.minus(y[j + a], field_.times(factor_[j * width + a], y[j]));
+  for (std::size_t j = 0; j < n; ++j) y[j] = field_.times(y[j], inverse_[j]);
+  for (std::size_t j = n; j-- > 0;)
+    for (std::size_t a = 1; a < width && j + a < n; ++a)
+      y[j] = field_.minus(y[j], field_.times(factor_[j * width + a], y[j + a]));
+  for (std::size_t j = 0; j < n; ++j) x[static_cast<std::size_t>(dof_at_[j])] = y[j];
+}
+
+/// One for each dof without a pivot, which it moves by 1. False where one of them is not free after all.
+bool lifted_solver::find_free_motions() {
+  free_motions_.clear();
+  for (std::size_t j = 0; j < free_.size(); ++j) {
+    if (free_[j] == 0) continue;
+    vector b(free_.size());
+    for (const auto& [row, k] : k_[j]) b[static_cast<std::size_t>(row)] = -entry(j, row, k);
+    vector motion = lifting(*this, b).solution();
+    motion[j] = 1;
+    for (std::size_t row = 0; row < free_.size(); ++row) {
+      if (free_[row] == 0) continue;
+      rational force;
+      for (const auto& [column, k] : k_[row])
+        force += entry(row, column, k) * motion[static_cast<std::size_t>(column)];
+      if (force != 0) return false;
+    }
+    free_motions_.push_back(std::move(motion));
+  }
+  return true;
+}
+
+vector lifted_solver::solve(const vector& b) const {
+  return lifting(*this, b).solution();
+}
+
+}  // namespace contct::exact

@@ -1,0 +1,99 @@
+// Solves sparse symmetric equations exactly: one factorisation modulo a prime, then digit by digit in that
+// prime (Dixon 1982). No number is longer than it has to be.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "contct/exact/rational.hpp"
+
+namespace contct::exact {
+
+using vector = std::vector<rational>;
+
+/// All entries of a symmetric matrix, row by row.
+using sparse_rows = std::vector<std::map<int, rational>>;
+
+/// What is added to the diagonal at a dof.
+struct added_spring {
+  int dof;
+  rational stiffness;
+};
+
+/// Factors K + springs, positive semidefinite, on the dofs that are not fixed, and solves with it.
+class lifted_solver {
+ public:
+  /// `place`: the row of each dof in the factor, for a narrow band. All arguments must outlive this object.
+  lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place);
+
+  /// Throws too_long, and std::runtime_error where the matrix is indefinite.
+  void factor(std::vector<added_spring> springs);
+
+  /// A basis of the motions that K + springs leaves free [motions][dofs]: exact, so their number is.
+  [[nodiscard]] const std::vector<vector>& free_motions() const { return free_motions_; }
+
+  /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With free
+  /// motions b must do no work on them, and one of the solutions is given. Throws too_long.
+  [[nodiscard]] vector solve(const vector& b) const;
+
+  /// The longest that numerators may become.
+  static constexpr std::size_t most_bits = std::size_t{1} << 19;
+
+ private:
+  /// Arithmetic modulo a prime below 2^61, on numbers times 2^64 (Montgomery 1985).
+  class field {
+   public:
+    explicit field(std::uint64_t prime);
+    [[nodiscard]] std::uint64_t prime() const { return p_; }
+    [[nodiscard]] std::uint64_t in(std::uint64_t x) const { return times(x, square_); }
+    [[nodiscard]] std::uint64_t out(std::uint64_t x) const { return times(x, 1); }
+    [[nodiscard]] std::uint64_t minus(std::uint64_t a, std::uint64_t b) const {
+      return a >= b ? a - b : a + p_ - b;
+    }
+    [[nodiscard]] std::uint64_t times(std::uint64_t a, std::uint64_t b) const {
+      const wide t = static_cast<wide>(a) * b;
+      const std::uint64_t m = static_cast<std::uint64_t>(t) * negative_inverse_;
+      const auto r = static_cast<std::uint64_t>((t + static_cast<wide>(m) * p_) >> 64U);
+      return r >= p_ ? r - p_ : r;
+    }
+    [[nodiscard]] std::uint64_t inverse(std::uint64_t a) const;
+    /// Of any number; false where its denominator is a multiple of the prime.
+    bool take(const rational& x, std::uint64_t& residue) const;
+
+   private:
+    __extension__ using wide = unsigned __int128;
+    std::uint64_t p_, negative_inverse_ = 1, square_ = 1;
+  };
+
+  /// A row of the equations, times the least number that makes it whole.
+  struct whole_row {
+    std::vector<std::pair<int, integer>> entries;
+    integer scale;
+  };
+
+  bool factor_modulo(std::uint64_t prime);
+  bool find_free_motions();
+  [[nodiscard]] bool is_unknown(std::size_t dof) const { return fixed_[dof] == 0 && free_[dof] == 0; }
+  [[nodiscard]] whole_row whole(std::size_t dof) const;
+  void solve_modulo(std::vector<std::uint64_t>& x) const;
+  [[nodiscard]] rational entry(std::size_t row, int column, const rational& k) const;
+  class lifting;
+
+  const sparse_rows& k_;
+  std::span<const char> fixed_;
+  std::span<const int> place_;
+  std::vector<int> dof_at_;             // the inverse of place_
+  std::size_t band_ = 0;                // subdiagonals
+  vector spring_;                       // on the diagonal [dofs]
+  field field_;                         // of the last factorisation
+  std::vector<std::uint64_t> factor_;   // L and D of L D L' modulo the prime, as a band
+  std::vector<std::uint64_t> inverse_;  // of D; 0 where the pivot is none
+  std::vector<char> free_;              // dofs without a pivot
+  std::vector<whole_row> whole_;        // [dofs]; empty where not unknown
+  std::vector<vector> free_motions_;
+};
+
+}  // namespace contct::exact

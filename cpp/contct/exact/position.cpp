@@ -1,0 +1,102 @@
+#include "contct/exact/position.hpp"
+
+#include <set>
+#include <utility>
+
+namespace contct::exact {
+
+position::position(const exact_problem& p)
+    : problem(p),
+      u(p.dofs()),
+      solver_(p.stiffness, p.fixed, p.place),
+      before_{vector(p.dofs()), vector(p.dofs())} {
+  for (const exact_pair& c : p.pairs) closed.push_back(c.closed ? 1 : 0);
+}
+
+void position::begin_step(std::size_t number) {
+  if (number > 0) before_ = problem.steps[number - 1];
+  step = number;
+  fraction = 0;
+  const exact_step& after = problem.steps[number];
+  increment_ = after.load;
+  settlement_ = after.settlement;
+  for (std::size_t dof = 0; dof < u.size(); ++dof) {
+    increment_[dof] -= before_.load[dof];
+    settlement_[dof] -= before_.settlement[dof];
+  }
+  increment_ = less_settled(std::move(increment_), settlement_);
+}
+
+vector position::less_settled(vector b, const vector& settled) const {
+  for (std::size_t dof = 0; dof < b.size(); ++dof) {
+    if (problem.fixed[dof] != 0) b[dof] = 0;
+    if (settled[dof] == 0) continue;
+    for (const auto& [row, k] : problem.stiffness[dof])
+      if (problem.fixed[static_cast<std::size_t>(row)] == 0)
+        b[static_cast<std::size_t>(row)] -= k * settled[dof];
+  }
+  return b;
+}
+
+void position::factor() {
+  std::vector<added_spring> springs;
+  for (std::size_t i = 0; i < closed.size(); ++i)
+    if (closed[i] != 0) springs.push_back({problem.pairs[i].dof, problem.pairs[i].stiffness});
+  solver_.factor(std::move(springs));
+}
+
+vector position::moved(const vector& b, const vector& settled) const {
+  vector moves = solver_.solve(b);
+  for (std::size_t dof = 0; dof < moves.size(); ++dof)
+    if (settled[dof] != 0) moves[dof] = settled[dof];
+  return moves;
+}
+
+vector position::at_start_of_step() const {
+  vector b = before_.load;
+  for (std::size_t i = 0; i < closed.size(); ++i) {
+    const exact_pair& c = problem.pairs[i];
+    if (closed[i] != 0) b[static_cast<std::size_t>(c.dof)] += c.stiffness * c.face;
+  }
+  return moved(less_settled(std::move(b), before_.settlement), before_.settlement);
+}
+
+std::vector<event> position::events_since(const std::vector<char>& before) const {
+  std::vector<event> events;
+  for (std::size_t i = 0; i < closed.size(); ++i)
+    if (closed[i] != before[i])
+      events.push_back({static_cast<int>(i), closed[i] != 0 ? change::make : change::break_});
+  return events;
+}
+
+/// Of a fixed dof: K u less the load and the forces of pairs there. A dof fixed twice gives it to the first.
+vector position::reactions(const vector& forces) const {
+  const exact_step& after = problem.steps[step];
+  std::set<int> reacted;
+  vector values;
+  for (const exact_support& s : problem.supports) {
+    const auto dof = static_cast<std::size_t>(s.dof);
+    rational value = -s.spring * u[dof];
+    if (s.fixed && reacted.insert(s.dof).second) {
+      for (const auto& [column, k] : problem.stiffness[dof]) value += k * u[static_cast<std::size_t>(column)];
+      value -= before_.load[dof] + fraction * (after.load[dof] - before_.load[dof]) + forces[dof];
+    }
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+exact_step_end position::end(std::vector<exact_increment> increments, bool pairs_react) const {
+  exact_step_end e{std::move(increments), fraction, u, closed, {}, {}, {}};
+  vector at_dofs(u.size());
+  for (std::size_t i = 0; i < closed.size(); ++i) {
+    const exact_pair& c = problem.pairs[i];
+    e.gap.push_back(closed[i] != 0 ? rational(0) : gap(i));
+    e.force.push_back(closed[i] != 0 ? rational(-c.stiffness * gap(i)) : rational(0));
+    if (pairs_react) at_dofs[static_cast<std::size_t>(c.dof)] -= c.surface * e.force.back();
+  }
+  e.reactions = reactions(at_dofs);
+  return e;
+}
+
+}  // namespace contct::exact

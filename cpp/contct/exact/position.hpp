@@ -1,0 +1,70 @@
+// Where an exact path stands, and the equations that both rules solve there.
+#pragma once
+
+#include <vector>
+
+#include "contct/exact/path.hpp"
+
+namespace contct::exact {
+
+/// Step, share of its load, displacements and statuses.
+class position {
+ public:
+  /// `p` must outlive this object.
+  explicit position(const exact_problem& p);
+
+  void begin_step(std::size_t number);  ///< from 0
+
+  /// Factor K with the springs of the pairs in contact.
+  void factor();
+  [[nodiscard]] const lifted_solver& solver() const { return solver_; }
+
+  /// R of the step at the dofs that are not fixed: the load's increment, and what settlements add to it.
+  [[nodiscard]] const vector& increment() const { return increment_; }
+  /// u with (K + springs) u = b, for a `b` at the dofs that are not fixed, and the others moved to `settled`.
+  [[nodiscard]] vector moved(const vector& b, const vector& settled) const;
+  /// The response to the step's whole load.
+  [[nodiscard]] vector response() const { return moved(increment_, settlement_); }
+  /// How fixed dofs move in the step.
+  [[nodiscard]] const vector& settlement() const { return settlement_; }
+  /// Where the springs of the pairs in contact hold the structure under the load at the start of the step.
+  [[nodiscard]] vector at_start_of_step() const;
+
+  [[nodiscard]] rational gap(std::size_t pair) const {
+    const exact_pair& c = problem.pairs[pair];
+    return c.surface * (c.face - u[static_cast<std::size_t>(c.dof)]);
+  }
+  /// n times what `v` does at a pair: positive towards its face.
+  [[nodiscard]] rational approach(std::size_t pair, const vector& v) const {
+    const exact_pair& c = problem.pairs[pair];
+    return c.surface * v[static_cast<std::size_t>(c.dof)];
+  }
+
+  /// The events that lead from `before` to the statuses now, in order of pairs.
+  [[nodiscard]] std::vector<event> events_since(const std::vector<char>& before) const;
+
+  /// All of this position. `pairs_react`: a pair in contact at a fixed dof takes its part of the reaction.
+  [[nodiscard]] exact_step_end end(std::vector<exact_increment> increments, bool pairs_react) const;
+
+  const exact_problem& problem;
+  std::size_t step = 0;      ///< from 0
+  rational fraction;         ///< of its load
+  vector u;                  ///< displacements [dofs]
+  std::vector<char> closed;  ///< [pairs]
+
+ private:
+  [[nodiscard]] vector reactions(const vector& forces) const;
+  /// b less what K makes of fixed dofs that are moved to `settled`.
+  [[nodiscard]] vector less_settled(vector b, const vector& settled) const;
+
+  lifted_solver solver_;
+  vector increment_, settlement_;
+  exact_step before_;  // what acted at the end of the step before
+};
+
+/// Increments that a step may take.
+[[nodiscard]] inline std::size_t most_exact_increments(const exact_problem& p) {
+  return 1000 + 50 * p.pairs.size();
+}
+
+}  // namespace contct::exact

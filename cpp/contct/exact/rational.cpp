@@ -1,0 +1,115 @@
+#include "contct/exact/rational.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace contct::exact {
+namespace {
+
+integer power_of(unsigned base, unsigned exponent) {
+  return boost::multiprecision::pow(integer(base), exponent);
+}
+
+std::size_t bits_of(const integer& n) {
+  return n == 0 ? 0 : boost::multiprecision::msb(abs(n)) + 1;
+}
+
+/// 10^exponent.
+rational ten_to(int exponent) {
+  const integer power = power_of(10, static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? rational(integer(1), power) : rational(power);
+}
+
+/// The exponent of the leading digit of x > 0: 10^e <= x < 10^(e + 1).
+int leading_exponent(const rational& x) {
+  const auto top = static_cast<double>(bits_of(numerator(x)));
+  const auto bottom = static_cast<double>(bits_of(denominator(x)));
+  int e = static_cast<int>(std::floor((top - bottom) * std::log10(2.0)));
+  while (ten_to(e) > x) --e;
+  while (ten_to(e + 1) <= x) ++e;
+  return e;
+}
+
+/// "123" with exponent -1 is 0.123: as a decimal where that is short, otherwise with an exponent.
+std::string decimal_words(std::string digits, int exponent) {
+  while (digits.size() > 1 && digits.back() == '0') digits.pop_back();
+  const int count = static_cast<int>(digits.size());
+  if (exponent < -5 || exponent > 20) {
+    if (count > 1) digits.insert(1, ".");
+    return digits + "e" + std::to_string(exponent);
+  }
+  if (exponent < 0) return "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+  if (count <= exponent + 1) return digits + std::string(static_cast<std::size_t>(exponent + 1 - count), '0');
+  return digits.insert(static_cast<std::size_t>(exponent) + 1, ".");
+}
+
+}  // namespace
+
+rational decimal_of(double x) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
+  const std::string_view written(text.data(), static_cast<std::size_t>(end.ptr - text.data()));
+  const std::size_t e = written.find('e');
+  std::string digits(written.substr(0, e));
+  int exponent = 0;
+  const char* const first = written.data() + e + (written[e + 1] == '+' ? 2 : 1);
+  std::from_chars(first, end.ptr, exponent);
+  if (const std::size_t point = digits.find('.'); point != std::string::npos) {
+    exponent -= static_cast<int>(digits.size() - point - 1);
+    digits.erase(point, 1);
+  }
+  return rational(integer(digits)) * ten_to(exponent);
+}
+
+rational binary_value(double x) {
+  int exponent = 0;
+  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+  exponent -= 53;
+  const integer power = power_of(2, static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? rational(integer(mantissa), power) : rational(integer(integer(mantissa) * power));
+}
+
+double rounded(const rational& x) {
+  // By the first 62 or 63 bits of the quotient: Boost's own conversion overflows where both parts do.
+  integer top = abs(numerator(x));
+  integer bottom = denominator(x);
+  if (top == 0) return 0.0;
+  const int shift = 62 + static_cast<int>(bits_of(bottom)) - static_cast<int>(bits_of(top));
+  if (shift > 0) top <<= static_cast<unsigned>(shift);
+  if (shift < 0) bottom <<= static_cast<unsigned>(-shift);
+  const double size =
+      std::ldexp(static_cast<double>(integer(top / bottom).convert_to<std::uint64_t>()), -shift);
+  return x < 0 ? -size : size;
+}
+
+std::string fraction_words(const rational& x) {
+  return denominator(x) == 1 ? numerator(x).str() : numerator(x).str() + "/" + denominator(x).str();
+}
+
+std::string short_words(const rational& x, int digits) {
+  constexpr double digits_of_bit = 0.30103;
+  const auto bits = static_cast<double>(bits_of(numerator(x)) + bits_of(denominator(x)));
+  if (bits * digits_of_bit <= digits + 2) {  // a digit more than that, and the fraction is too long
+    std::string words = fraction_words(x);
+    const auto counted = static_cast<int>(words.size()) - (x < 0 ? 1 : 0) - (denominator(x) == 1 ? 0 : 1);
+    if (counted <= digits) return words;
+  }
+  const rational size = abs(x);
+  int exponent = leading_exponent(size);
+  const rational scaled = size * ten_to(digits - 1 - exponent) + rational(1, 2);
+  std::string shown = integer(numerator(scaled) / denominator(scaled)).str();
+  if (static_cast<int>(shown.size()) > digits) {  // rounded up to a power of 10
+    shown.pop_back();
+    ++exponent;
+  }
+  return (x < 0 ? "-" : "") + decimal_words(shown, exponent);
+}
+
+std::size_t bits_of(const rational& x) {
+  return std::max(bits_of(numerator(x)), bits_of(denominator(x)));
+}
+
+}  // namespace contct::exact

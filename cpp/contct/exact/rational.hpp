@@ -1,0 +1,65 @@
+// Exact numbers, by GMP where it is found; decimals in and out.
+#pragma once
+
+#ifdef CONTCT_HAS_GMP
+#include <boost/multiprecision/gmp.hpp>
+#else
+#include <boost/multiprecision/cpp_int.hpp>
+#endif
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "contct/rooms.hpp"
+
+namespace contct::exact {
+
+#ifdef CONTCT_HAS_GMP
+using integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+using rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
+#else
+using integer =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+using rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
+#endif
+
+/// A number that has become too long to go on with.
+struct too_long : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The shortest decimal that reads as `x`: 0.1 is 1/10. This is the literal itself, where that has at most 15
+/// digits. `x` is finite.
+[[nodiscard]] rational decimal_of(double x);
+
+/// Exact values of doubles whose shortest decimal is not the number meant.
+struct exact_values {
+  std::map<double, rational> meant;
+
+  [[nodiscard]] rational of(double x) const {
+    const auto found = meant.find(x);
+    return found == meant.end() ? decimal_of(x) : found->second;
+  }
+};
+
+/// The exact value of a double, bit for bit.
+[[nodiscard]] rational binary_value(double x);
+
+/// The nearest double, or one beside it.
+[[nodiscard]] double rounded(const rational& x);
+
+/// "p/q" in lowest terms, or "p".
+[[nodiscard]] std::string fraction_words(const rational& x);
+
+/// The fraction where its numerator and denominator have at most `digits` digits together; otherwise `digits`
+/// significant digits, rounded half away from 0: "0.078947368421", "-1.25e-07".
+[[nodiscard]] std::string short_words(const rational& x, int digits);
+
+/// Bits of the numerator or the denominator, whichever has more.
+[[nodiscard]] std::size_t bits_of(const rational& x);
+
+}  // namespace contct::exact

@@ -1,0 +1,272 @@
+// The curve of equilibria, piece by piece: the complementarity problem of the pairs at their faces decides
+// its direction, and the first pair to reach its face, or to come away from it, ends the piece.
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "contct/exact/position.hpp"
+
+namespace contct::exact {
+namespace {
+
+rational dot(const vector& a, const vector& b) {
+  rational sum;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i] != 0 && b[i] != 0) sum += a[i] * b[i];
+  return sum;
+}
+
+/// sum += share * part.
+void add(vector& sum, const vector& part, const rational& share) {
+  if (share == 0) return;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (part[i] != 0) sum[i] += share * part[i];
+}
+
+bool is_zero(const vector& v) {
+  return std::all_of(v.begin(), v.end(), [](const rational& x) { return x == 0; });
+}
+
+/// x with A x = b, for the few equations of the free motions; A is positive definite.
+vector solve_small(std::vector<vector> a, vector b) {
+  const std::size_t n = b.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = j + 1; i < n; ++i) {
+      const rational l = a[i][j] / a[j][j];
+      for (std::size_t k = j; k < n; ++k) a[i][k] -= l * a[j][k];
+      b[i] -= l * b[j];
+    }
+  }
+  for (std::size_t j = n; j-- > 0;) {
+    for (std::size_t k = j + 1; k < n; ++k) b[j] -= a[j][k] * b[k];
+    b[j] /= a[j][j];
+  }
+  return b;
+}
+
+/// The response of the structure to the step's load on a ground of stiffness epsilon M, for epsilon to 0:
+///     terms[0] / epsilon + terms[1] + epsilon terms[2] + ..
+/// With the free motions Z of K, terms[0] = Z (Z'MZ)^-1 Z'R, and each later one has K y = what is left of the
+/// order before, and Z'M y = 0.
+class soft_ground {
+ public:
+  explicit soft_ground(const position& at) : at_(at), z_(at.solver().free_motions()) {
+    for (const vector& motion : z_) {
+      mz_.push_back(weighed(motion));
+      zmz_.emplace_back();
+      for (const vector& other : z_) zmz_.back().push_back(dot(mz_.back(), other));
+    }
+  }
+
+  [[nodiscard]] std::vector<vector> response(std::size_t terms) const {
+    std::vector<vector> y = {vector(at_.u.size())};
+    if (!z_.empty()) {
+      vector work;
+      for (const vector& motion : z_) work.push_back(dot(motion, at_.increment()));
+      y[0] = combined(solve_small(zmz_, work));
+    }
+    vector rest = at_.increment();
+    vector settled = at_.settlement();
+    while (y.size() < terms) {
+      add(rest, weighed(y.back()), -1);
+      y.push_back(without_free_part(at_.moved(rest, settled)));
+      std::fill(rest.begin(), rest.end(), rational(0));
+      std::fill(settled.begin(), settled.end(), rational(0));
+    }
+    return y;
+  }
+
+ private:
+  /// M v.
+  [[nodiscard]] vector weighed(const vector& v) const {
+    vector mv(v.size());
+    for (const added_spring& g : at_.problem.ground) {
+      const auto dof = static_cast<std::size_t>(g.dof);
+      mv[dof] += g.stiffness * v[dof];
+    }
+    return mv;
+  }
+
+  [[nodiscard]] vector combined(const vector& amounts) const {
+    vector sum(at_.u.size());
+    for (std::size_t m = 0; m < z_.size(); ++m) add(sum, z_[m], amounts[m]);
+    return sum;
+  }
+
+  [[nodiscard]] vector without_free_part(vector v) const {
+    if (z_.empty()) return v;
+    vector parts;
+    for (const vector& motion : mz_) parts.push_back(dot(motion, v));
+    add(v, combined(solve_small(zmz_, parts)), -1);
+    return v;
+  }
+
+  const position& at_;
+  const std::vector<vector>& z_;
+  std::vector<vector> mz_, zmz_;
+};
+
+class true_path {
+ public:
+  true_path(const exact_problem& p, const exact_progress& tell) : at_(p), tell_(tell) {}
+
+  exact_path follow() {
+    for (std::size_t step = 0; step < at_.problem.steps.size() && path_.status == path_status::solved;
+         ++step) {
+      at_.begin_step(step);
+      increments_.clear();
+      path_.status = follow_step();
+      path_.steps.push_back(at_.end(std::move(increments_), true));
+    }
+    return std::move(path_);
+  }
+
+ private:
+  path_status follow_step() {
+    while (increments_.size() < most_exact_increments(at_.problem)) {
+      if (tell_)
+        tell_(static_cast<int>(at_.step) + 1, static_cast<int>(increments_.size()) + 1, at_.fraction);
+      const std::vector<char> before = at_.closed;
+      settle_statuses();
+      const bool driven = !is_zero(response_[0]);
+      if (std::vector<event> events = at_.events_since(before); !events.empty() || driven)
+        increments_.push_back({at_.fraction, std::move(events), driven});
+      if (driven) {
+        if (!snap()) return path_status::mechanism;
+      } else if (!advance()) {
+        increments_.push_back({at_.fraction, {}, false});
+        return path_status::solved;
+      }
+    }
+    fill_in();
+    return path_status::iteration_limit;
+  }
+
+  /// Which of the pairs at their faces are in contact from here on: those statuses for which the response
+  /// moves every separated pair away from its face, and every pair in contact into it. All wrong ones are
+  /// toggled at once as long as their number falls (Judice and Pires 1994); otherwise the one of least index,
+  /// which visits no set of statuses twice (Murty 1974).
+  void settle_statuses() {
+    std::vector<std::size_t> at_face;
+    for (std::size_t i = 0; i < at_.closed.size(); ++i)
+      if (at_.gap(i) == 0) at_face.push_back(i);
+    std::size_t fewest = at_face.size() + 1;
+    int patience = 3;
+    std::set<std::vector<char>> seen;
+    for (std::size_t terms = 2;;) {
+      respond(terms);
+      std::vector<std::size_t> wrong;
+      for (const std::size_t i : at_face)
+        if (moves(i) == (at_.closed[i] != 0 ? -1 : 1)) wrong.push_back(i);
+      if (wrong.empty()) return;
+      if (wrong.size() < fewest) {
+        fewest = wrong.size();
+        patience = 3;
+        seen.clear();
+      } else if (patience > 0) {
+        --patience;
+      } else if (!seen.insert(at_.closed).second) {  // pairs that the terms so far do not move decide it
+        seen.clear();
+        terms += 2;
+        if (terms > most_terms) throw std::runtime_error("the pairs at their faces could not be decided");
+      }
+      if (patience == 0) wrong.resize(1);
+      for (const std::size_t i : wrong) at_.closed[i] = at_.closed[i] != 0 ? 0 : 1;
+    }
+  }
+
+  void respond(std::size_t terms) {
+    at_.factor();
+    response_ = soft_ground(at_).response(terms);
+  }
+
+  /// 1: towards its face; -1: away from it; 0: it rests. The first term that moves the pair counts.
+  [[nodiscard]] int moves(std::size_t pair) const {
+    for (const vector& term : response_)
+      if (const rational towards = at_.approach(pair, term); towards != 0) return towards > 0 ? 1 : -1;
+    return 0;
+  }
+
+  /// Along the free motion that the load drives, to the first face. False where none stands in its way.
+  bool snap() {
+    fill_in();
+    const vector& motion = response_[0];
+    std::optional<rational> way;
+    for (std::size_t i = 0; i < at_.closed.size(); ++i) {
+      const rational towards = at_.approach(i, motion);
+      if (at_.closed[i] != 0 || towards <= 0) continue;
+      const rational reach = at_.gap(i) / towards;
+      if (!way || reach < *way) way = reach;
+    }
+    if (!way) {
+      prove(motion);
+      return false;
+    }
+    add(at_.u, motion, *way);
+    return true;
+  }
+
+  void prove(const vector& motion) {
+    rational largest;
+    for (const rational& x : motion) largest = std::max(largest, rational(abs(x)));
+    mechanism_proof proof{vector(motion.size()), 0};
+    add(proof.motion, motion, 1 / largest);
+    proof.work = dot(proof.motion, at_.problem.steps[at_.step].load);
+    path_.mechanism = std::move(proof);
+  }
+
+  /// The load grows to the first event, or to the end of the step: then false.
+  bool advance() {
+    if (!at_.solver().free_motions().empty()) fill_in();
+    const vector& rate = response_[1];
+    std::optional<rational> way;
+    for (std::size_t i = 0; i < at_.closed.size(); ++i) {
+      const rational towards = at_.closed[i] != 0 ? rational(-at_.approach(i, rate)) : at_.approach(i, rate);
+      if (towards <= 0) continue;
+      const rational reach = abs(at_.gap(i)) / towards;
+      if (!way || reach < *way) way = reach;
+    }
+    const rational left = 1 - at_.fraction;
+    const bool goes_on = way && *way < left;
+    move_on(goes_on ? *way : left);
+    if (!goes_on) fill_in();
+    return goes_on;
+  }
+
+  /// By the springs' own law where they hold the structure, so that no number grows with the path behind it;
+  /// until all of u is asked for, at the pairs alone.
+  void move_on(const rational& way) {
+    at_.fraction += way;
+    if (!at_.solver().free_motions().empty()) {
+      add(at_.u, response_[1], way);
+      return;
+    }
+    line_start_ = at_.at_start_of_step();
+    line_rate_ = std::move(response_[1]);
+    for (const exact_pair& c : at_.problem.pairs) put_on_line(static_cast<std::size_t>(c.dof));
+  }
+
+  void put_on_line(std::size_t dof) { at_.u[dof] = line_start_[dof] + at_.fraction * line_rate_[dof]; }
+
+  /// All of u.
+  void fill_in() {
+    for (std::size_t dof = 0; dof < line_start_.size(); ++dof) put_on_line(dof);
+    line_start_.clear();
+  }
+
+  static constexpr std::size_t most_terms = 12;
+  position at_;
+  const exact_progress& tell_;
+  exact_path path_;
+  std::vector<exact_increment> increments_;
+  std::vector<vector> response_;
+  vector line_start_, line_rate_;  // u at the start of the step on this piece, and how it grows with the load
+};
+
+}  // namespace
+
+exact_path follow_true_path(const exact_problem& p, const exact_progress& tell) {
+  return true_path(p, tell).follow();
+}
+
+}  // namespace contct::exact

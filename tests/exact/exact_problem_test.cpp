@@ -1,0 +1,87 @@
+// What becomes of a problem file's decimals.
+#include "contct/exact/exact_problem.hpp"
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+
+using namespace contct::exact;
+using contct::read::parse_problem;
+
+namespace {
+
+exact_problem of(const std::string& text, const exact_values& values = {}) {
+  return exact_problem_of(parse_problem(text, "problem.toml"), values);
+}
+
+const std::string clamped = "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
+const std::string unloaded = "[[step]]\nuniform = 0\n";
+
+}  // namespace
+
+TEST_CASE("a length divided evenly gives exact thirds") {
+  const exact_problem e = of("[beam]\nlength = 1\nelements = 3\nEI = 0.1\n" + clamped + unloaded);
+  CHECK(e.stiffness[2].at(0) == -12 * rational(1, 10) * 27);
+  CHECK(e.stiffness[2].at(2) == 24 * rational(1, 10) * 27);
+  CHECK(e.stiffness[3].at(2) == 0);
+}
+
+TEST_CASE("coordinates that are written one by one are what is written") {
+  const exact_problem e = of("[beam]\nx = [0, 0.3333, 1]\nEI = 1\n" + clamped + unloaded);
+  const rational h(3333, 10000);
+  CHECK(e.stiffness[1].at(0) == 6 / (h * h));
+}
+
+TEST_CASE("a value handed in replaces the decimal of its double") {
+  const std::string text = "[beam]\nx = [0, 1]\nEI = 0.3333333333333333\n" + clamped + unloaded;
+  const exact_values values{{{0.3333333333333333, rational(1, 3)}}};
+  CHECK(of(text).stiffness[0].at(0) ==
+        12 * rational(integer("3333333333333333"), integer("10000000000000000")));
+  CHECK(of(text, values).stiffness[0].at(0) == 4);
+}
+
+TEST_CASE("a bed's pairs have its modulus times exact shares of the length") {
+  const exact_problem e = of("[beam]\nlength = 1\nelements = 3\nEI = 1\n" + clamped +
+                             "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.1\nstiffness = 0.7\n"
+                             "[[bed]]\nmodulus = 0.3\nface = 0\n" +
+                             unloaded);
+  REQUIRE(e.pairs.size() == 4);
+  CHECK(e.pairs[0].stiffness == rational(7, 10));
+  CHECK(e.pairs[1].stiffness == rational(1, 10));
+  CHECK(e.pairs[3].stiffness == rational(1, 20));
+}
+
+TEST_CASE("a bed under a plate has exact shares of its area") {
+  const exact_problem e =
+      of("[plate]\nsize = [1, 1]\nelements = [3, 1]\nD = 1\nnu = 0.3\n"
+         "[[bed]]\nmodulus = 1\nface = 0\n" +
+         unloaded);
+  CHECK(e.pairs[0].stiffness == rational(1, 12));
+  CHECK(e.pairs[1].stiffness == rational(1, 6));
+}
+
+TEST_CASE("elastic supports join the stiffness, fixed ones do not") {
+  const exact_problem e = of("[beam]\nx = [0, 1]\nEI = 1\n" + clamped +
+                             "[[support]]\nnode = 2\nspring = { theta = 0.2 }\n" + unloaded);
+  CHECK(e.stiffness[3].at(3) == rational(42, 10));
+  CHECK(e.fixed == std::vector<char>{1, 1, 0, 0});
+  CHECK(e.supports[2].spring == rational(1, 5));
+}
+
+TEST_CASE("loads at one place add up as decimals") {
+  const exact_problem e = of("[beam]\nx = [0, 1]\nEI = 1\n" + clamped +
+                             "[[step]]\npoint = [ { node = 2, w = 0.1 }, { node = 2, w = 0.2 }, "
+                             "{ node = 2, w = -0.3 } ]\n");
+  CHECK(e.steps[0].load[2] == 0);
+}
+
+TEST_CASE("pressure on a plate is consistent, and a settlement moves a fixed dof") {
+  contct::structure::problem p = parse_problem(
+      "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0.3\n[[support]]\nnode = 1\nfix = [\"w\"]\n"
+      "[[step]]\nuniform = 0.6\n",
+      "problem.toml");
+  p.steps[0].settlements = {{0, 0, -0.01}};
+  const exact_problem e = exact_problem_of(p);
+  CHECK(e.steps[0].load[0] == rational(15, 100));
+  CHECK(e.steps[0].load[1] == rational(1, 40));
+  CHECK(e.steps[0].settlement[0] == rational(-1, 100));
+}

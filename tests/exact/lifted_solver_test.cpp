@@ -1,0 +1,101 @@
+// Exact solutions, one prime digit after the other.
+#include "contct/exact/lifted_solver.hpp"
+
+#include <numeric>
+
+#include "catch.hpp"
+#include "contct/numeric/random.hpp"
+
+using namespace contct::exact;
+
+namespace {
+
+std::vector<int> in_order(std::size_t n) {
+  std::vector<int> places(n);
+  std::iota(places.begin(), places.end(), 0);
+  return places;
+}
+
+/// (K + springs) x.
+vector product(const sparse_rows& k, const std::vector<added_spring>& springs, const vector& x) {
+  vector y(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (const auto& [j, entry] : k[i]) y[i] += entry * x[static_cast<std::size_t>(j)];
+  for (const added_spring& s : springs)
+    y[static_cast<std::size_t>(s.dof)] += s.stiffness * x[static_cast<std::size_t>(s.dof)];
+  return y;
+}
+
+/// A chain of springs of stiffness 1/3 + i, held nowhere.
+sparse_rows chain(std::size_t n) {
+  sparse_rows k(n);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const rational stiffness = rational(1, 3) + static_cast<int>(i);
+    const auto a = static_cast<int>(i);
+    k[i][a] += stiffness;
+    k[i + 1][a + 1] += stiffness;
+    k[i][a + 1] -= stiffness;
+    k[i + 1][a] -= stiffness;
+  }
+  return k;
+}
+
+}  // namespace
+
+TEST_CASE("a held chain is solved exactly, in any order of its places") {
+  const sparse_rows k = chain(7);
+  const std::vector<char> fixed(7, 0);
+  const std::vector<added_spring> springs = {{0, rational(1, 7)}, {4, rational(22, 7)}};
+  vector b(7);
+  b[2] = rational(5, 11);
+  b[6] = -3;
+  for (const std::vector<int>& places : {in_order(7), std::vector<int>{6, 5, 4, 3, 2, 1, 0}}) {
+    lifted_solver solver(k, fixed, places);
+    solver.factor(springs);
+    CHECK(solver.free_motions().empty());
+    CHECK(product(k, springs, solver.solve(b)) == b);
+  }
+}
+
+TEST_CASE("dofs that are fixed stay where they are") {
+  const sparse_rows k = chain(3);
+  const std::vector<char> fixed = {1, 0, 0};
+  const std::vector<int> places = in_order(3);
+  lifted_solver solver(k, fixed, places);
+  solver.factor({});
+  CHECK(solver.solve({0, 0, 1}) == vector{0, 3, rational(3) + rational(3, 4)});
+}
+
+TEST_CASE("the free motion of a chain that nothing holds is found, and loads without work on it are solved") {
+  const sparse_rows k = chain(5);
+  const std::vector<char> fixed(5, 0);
+  const std::vector<int> places = in_order(5);
+  lifted_solver solver(k, fixed, places);
+  solver.factor({});
+  REQUIRE(solver.free_motions().size() == 1);
+  CHECK(solver.free_motions()[0] == vector{1, 1, 1, 1, 1});
+  const vector b = {1, 0, rational(-1, 2), 0, rational(-1, 2)};
+  CHECK(product(k, {}, solver.solve(b)) == b);
+}
+
+TEST_CASE("a stiffness that is 0 modulo the first prime is solved with another") {
+  sparse_rows k(2);
+  k[0] = {{0, rational(integer((std::uint64_t{1} << 61U) - 1))}};
+  k[1] = {{1, rational(2)}};
+  const std::vector<char> fixed(2, 0);
+  const std::vector<int> places = in_order(2);
+  lifted_solver solver(k, fixed, places);
+  solver.factor({});
+  CHECK(solver.free_motions().empty());
+  CHECK(solver.solve({1, 1}) == vector{rational(integer(1), integer("2305843009213693951")), rational(1, 2)});
+}
+
+TEST_CASE("an indefinite matrix with a zero on its diagonal is refused") {
+  sparse_rows k(2);
+  k[0] = {{0, rational(0)}, {1, rational(1)}};
+  k[1] = {{0, rational(1)}, {1, rational(0)}};
+  const std::vector<char> fixed(2, 0);
+  const std::vector<int> places = in_order(2);
+  lifted_solver solver(k, fixed, places);
+  CHECK_THROWS_WITH(solver.factor({}), Catch::Matchers::Contains("indefinite"));
+}

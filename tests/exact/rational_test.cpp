@@ -1,0 +1,52 @@
+// Decimals in and out of exact numbers.
+#include "contct/exact/rational.hpp"
+
+#include <limits>
+
+#include "catch.hpp"
+
+using namespace contct::exact;
+
+TEST_CASE("a double becomes the shortest decimal that reads as it") {
+  CHECK(decimal_of(0.1) == rational(1, 10));
+  CHECK(decimal_of(-2.5e-7) == rational(-1, 4000000));
+  CHECK(decimal_of(1200.0) == 1200);
+  CHECK(decimal_of(0.0) == 0);
+  CHECK(decimal_of(10.92) == rational(273, 25));
+  CHECK(decimal_of(1e308) == rational(boost::multiprecision::pow(integer(10), 308U)));
+  CHECK(decimal_of(5e-324) == rational(integer(5), boost::multiprecision::pow(integer(10), 324U)));
+}
+
+TEST_CASE("a double whose decimal is not the number meant takes the value handed in") {
+  const exact_values values{{{1.0 / 3.0, rational(1, 3)}}};
+  CHECK(values.of(1.0 / 3.0) == rational(1, 3));
+  CHECK(values.of(0.25) == rational(1, 4));
+}
+
+TEST_CASE("the binary value of a double is exact") {
+  CHECK(binary_value(0.75) == rational(3, 4));
+  CHECK(binary_value(0.1) == rational(integer("3602879701896397"), integer("36028797018963968")));
+  CHECK(binary_value(-8.0) == -8);
+  CHECK(binary_value(std::numeric_limits<double>::denorm_min()) * rational(integer(1) << 1074U) == 1);
+}
+
+TEST_CASE("a rational is rounded to a double, however long it is") {
+  CHECK(rounded(rational(1, 3)) == 1.0 / 3.0);
+  CHECK(rounded(rational(-1, 10)) == -0.1);
+  CHECK(rounded(0) == 0.0);
+  const integer huge = boost::multiprecision::pow(integer(10), 5000U);
+  CHECK(rounded(rational(integer(huge + 1), integer(huge * 4))) == 0.25);
+}
+
+TEST_CASE("fractions are written while they are short, decimals beyond") {
+  CHECK(fraction_words(rational(-208, 58875)) == "-208/58875");
+  CHECK(fraction_words(7) == "7");
+  CHECK(short_words(rational(-208, 58875), 8) == "-208/58875");
+  CHECK(short_words(rational(-208, 58875), 7) == "-0.003532909");
+  CHECK(short_words(rational(2, 3), 1) == "0.7");
+  CHECK(short_words(rational(999999, 1000), 3) == "1000");
+  CHECK(short_words(rational(123456789, 1000), 5) == "123460");
+  CHECK(short_words(rational(integer(1), integer("30000000000")), 4) == "3.333e-11");
+  CHECK(short_words(rational(integer(100), integer("1000000000007")), 6) == "1e-10");
+  CHECK(short_words(0, 1) == "0");
+}

@@ -1,0 +1,206 @@
+// Paths without rounding, against fractions that were computed by hand or published.
+#include <algorithm>
+
+#include "catch.hpp"
+#include "contct/exact/path.hpp"
+#include "contct/read/problem_file.hpp"
+#include "exact/equilibrium.hpp"
+
+using namespace contct::exact;
+using contct::kernels::change;
+using contct::read::parse_problem;
+using contct::read::read_problem;
+
+namespace {
+
+exact_path followed(const std::string& text) {
+  return follow_true_path(exact_problem_of(parse_problem(text, "problem.toml")));
+}
+
+exact_path reference(const std::string& name) {
+  return follow_true_path(exact_problem_of(read_problem(CONTCT_REFERENCE "/problems/" + name + ".toml")));
+}
+
+/// "1/10: +1; 1:", a step's increments.
+std::string told(const exact_step_end& s) {
+  std::string words;
+  for (const exact_increment& i : s.increments) {
+    words += (words.empty() ? "" : "; ") + fraction_words(i.fraction) + ":";
+    for (const auto& e : i.events)
+      words += (e.what == change::make ? " +" : " -") + std::to_string(e.pair + 1);
+    if (i.snaps) words += " snap";
+  }
+  return words;
+}
+
+/// A node's dof at the end of a step; all from 0.
+rational at(const exact_path& path, std::size_t step, std::size_t dof) {
+  return path.steps.at(step).displacement.at(dof);
+}
+
+std::string pair(int node, const std::string& surface, const std::string& face, const std::string& k) {
+  return "[[contact]]\nnode = " + std::to_string(node) + "\nsurface = \"" + surface + "\"\nface = " + face +
+         "\nstiffness = " + k + "\n";
+}
+
+const std::string cantilever =
+    "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
+const std::string free_beam = "[beam]\nx = [0, 1, 2]\nEI = 1\n";
+
+}  // namespace
+
+TEST_CASE("the cantilever over a stop makes and breaks at a tenth and three tenths") {
+  const exact_path path = reference("pb01-cantilever-tip-stop");
+  REQUIRE(path.steps.size() == 4);
+  CHECK(told(path.steps[0]) == "1:");
+  CHECK(told(path.steps[1]) == "1/10: +1; 1:");
+  CHECK(told(path.steps[3]) == "3/10: -1; 1:");
+  CHECK(at(path, 1, 4) == rational(-26, 5375));
+  CHECK(path.steps[1].force[0] == 50000 * (rational(26, 5375) - rational(4, 1000)));
+}
+
+TEST_CASE("the two outer stops of three are reached at exactly 3/38 of the step") {
+  const exact_path path = reference("pb07-three-gap-supports");
+  CHECK(told(path.steps[1]) == "3/38: +1 +3; 1:");
+  CHECK(told(path.steps[3]) == "231/730: -2; 84/95: -1 -3; 1:");
+}
+
+TEST_CASE("a nearly rigid plate on springs has the published -208/58875 and 176/153075 but for its bending") {
+  contct::structure::problem p =
+      read_problem(CONTCT_REFERENCE "/problems/pb09b-plate-on-springs-ei-4e8.toml");
+  for (double& EI : std::get<contct::structure::beam>(p.geometry.kind).EI) EI = 1e40;
+  const exact_path path = follow_true_path(exact_problem_of(p));
+  const rational tiny(integer(1), boost::multiprecision::pow(integer(10), 36U));
+  CHECK(abs(at(path, 0, 0) - rational(-208, 58875)) < tiny);
+  CHECK(abs(at(path, 0, 32) - rational(176, 153075)) < tiny);
+  CHECK(std::count(path.steps[0].closed.begin(), path.steps[0].closed.end(), 1) == 13);
+}
+
+TEST_CASE("an event exactly at full load belongs to the next step") {
+  const std::string stop = cantilever + pair(2, "below", "-1", "3");
+  const std::string step = "[[step]]\npoint = [ { node = 2, w = ";
+  const exact_path path =
+      followed(stop + step + "-3 } ]\n" + step + "-6 } ]\n" + step + "-3 } ]\n" + step + "0 } ]\n");
+  CHECK(told(path.steps[0]) == "1:");
+  CHECK(told(path.steps[1]) == "0: +1; 1:");
+  CHECK(told(path.steps[2]) == "1:");
+  CHECK(told(path.steps[3]) == "0: -1; 1:");
+  CHECK(at(path, 1, 2) == rational(-3, 2));
+}
+
+TEST_CASE("pairs at their faces are decided together, as their complementarity problem says") {
+  // Both springs start closed: the load over node 2 presses the one there and lifts the end.
+  const exact_path path = followed("[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n" +
+                                   pair(2, "below", "0", "1e6") + pair(3, "below", "0", "1e6") +
+                                   "[[step]]\npoint = [ { node = 1, theta = -1 } ]\n");
+  CHECK(told(path.steps[0]) == "0: -2; 1:");
+}
+
+TEST_CASE("a free beam falls onto its faces at constant load, one after the other") {
+  const exact_path path = followed(free_beam + pair(1, "below", "-1", "2") + pair(3, "below", "-2", "2") +
+                                   "[[step]]\npoint = [ { node = 2, w = -4 } ]\n");
+  CHECK(path.status == contct::path::path_status::solved);
+  CHECK(told(path.steps[0]) == "0: snap; 0: +1 snap; 0: +2; 1:");
+  CHECK(at(path, 0, 0) == -2);
+  CHECK(at(path, 0, 4) == -3);
+  CHECK(at(path, 0, 2) == rational(-5, 2) - 4 * rational(8, 48));
+}
+
+TEST_CASE("a mechanism is proved by a free motion on which the load does work") {
+  const exact_path path =
+      followed(free_beam + pair(1, "below", "0", "1") + pair(2, "below", "0", "1") +
+               "[[step]]\npoint = [ { node = 2, w = -1 }, { node = 2, theta = -4e-13 } ]\n");
+  REQUIRE(path.status == contct::path::path_status::mechanism);
+  REQUIRE(path.mechanism);
+  CHECK(path.steps[0].fraction == 0);
+  // It turns about the pair at the middle.
+  CHECK(path.mechanism->motion == vector{1, -1, 0, -1, -1, -1});
+  CHECK(path.mechanism->work == rational(4, 10000000000000));
+}
+
+TEST_CASE("a step that takes away the last contact ends in a mechanism at that share") {
+  const exact_path path =
+      followed(free_beam + pair(1, "below", "0", "1") + pair(3, "below", "0", "1") +
+               "[[step]]\npoint = [ { node = 2, w = -2 } ]\n[[step]]\npoint = [ { node = 2, w = 3 } ]\n");
+  REQUIRE(path.status == contct::path::path_status::mechanism);
+  CHECK(path.steps[1].fraction == rational(2, 5));
+  CHECK(path.mechanism->motion == vector{1, 0, 1, 0, 1, 0});
+  CHECK(path.mechanism->work == 3);
+}
+
+TEST_CASE("a free motion that the load does not drive stays where it is") {
+  const exact_path path = followed(free_beam + pair(2, "below", "0", "1") +
+                                   "[[step]]\npoint = [ { node = 1, w = -1 }, { node = 3, w = -1 } ]\n");
+  REQUIRE(path.status == contct::path::path_status::solved);
+  CHECK(at(path, 0, 2) == -2);
+  CHECK(at(path, 0, 0) == at(path, 0, 4));
+}
+
+TEST_CASE("a settlement of a support is reached exactly, and moves the rest as the beam's stiffness says") {
+  contct::structure::problem p = parse_problem(
+      "[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = "
+      "3\n"
+      "fix = [\"w\"]\n" +
+          pair(2, "below", "-0.1", "6") + "[[step]]\nuniform = 0\n",
+      "problem.toml");
+  p.steps[0].settlements = {{2, 0, -1.6}};
+  const exact_problem e = exact_problem_of(p);
+  const exact_path path = follow_true_path(e);
+  // Without the pair w2 = 5/16 of the settlement: the face is reached at 1/5 of it.
+  CHECK(told(path.steps[0]) == "1/5: +1; 1:");
+  CHECK(at(path, 0, 4) == rational(-8, 5));
+  CHECK(wrong_with(e, e.steps[0], path.steps[0]).empty());
+  CHECK(path.steps[0].reactions[2] < 0);
+}
+
+TEST_CASE("an elastic support and pairs on both sides of a node follow the load to and fro") {
+  const std::string text =
+      "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = 2\n"
+      "spring = { w = 1 }\n" +
+      pair(2, "below", "-0.5", "4") + pair(2, "above", "0.25", "4") +
+      "[[step]]\npoint = [ { node = 2, w = -4 } ]\n[[step]]\npoint = [ { node = 2, w = 3 } ]\n";
+  const exact_path path = followed(text);
+  // 4 w = load between the faces, 8 (w - face) beyond.
+  CHECK(told(path.steps[0]) == "1/2: +1; 1:");
+  CHECK(told(path.steps[1]) == "2/7: -1; 5/7: +2; 1:");
+  CHECK(at(path, 0, 2) == rational(-3, 4));
+  CHECK(at(path, 1, 2) == rational(1, 2));
+  CHECK(path.steps[1].reactions[2] == rational(-1, 2));
+}
+
+TEST_CASE("every reference beam ends its steps in exact equilibrium") {
+  int steps = 0;
+  for (const char* name :
+       {"pb02-beam-over-cantilever", "pb03a-point-load-on-bed-l4", "pb04c-end-loads-on-bed-long",
+        "pb05-cantilever-over-flat-obstacle", "pb06-settled-middle-support", "pb08b-heavy-beam-up-4",
+        "pb10-cantilever-gapped-spring", "pb11a-strip-footing-n20"}) {
+    INFO(name);
+    const exact_problem e =
+        exact_problem_of(read_problem(std::string(CONTCT_REFERENCE "/problems/") + name + ".toml"));
+    const exact_path path = follow_true_path(e);
+    REQUIRE(path.steps.size() == e.steps.size());
+    for (std::size_t step = 0; step < e.steps.size(); ++step, ++steps)
+      CHECK(wrong_with(e, e.steps[step], path.steps[step]).empty());
+  }
+  CHECK(steps == 18);
+}
+
+TEST_CASE("reference plates end their steps in exact equilibrium") {
+  for (const char* name : {"pp02a-settled-column-n4", "pp03d-corners-and-settled-stop-n4"}) {
+    INFO(name);
+    const exact_problem e =
+        exact_problem_of(read_problem(std::string(CONTCT_REFERENCE "/problems/") + name + ".toml"));
+    const exact_path path = follow_true_path(e);
+    REQUIRE(path.steps.size() == e.steps.size());
+    for (std::size_t step = 0; step < e.steps.size(); ++step)
+      CHECK(wrong_with(e, e.steps[step], path.steps[step]).empty());
+  }
+}
+
+TEST_CASE("numbers of absurd size are solved like any other") {
+  const exact_path path =
+      followed("[beam]\nx = [0, 1]\nEI = 1e-300\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n" +
+               pair(2, "below", "-1e-300", "1e300") + "[[step]]\npoint = [ { node = 2, w = -1e308 } ]\n");
+  CHECK(path.status == contct::path::path_status::solved);
+  CHECK(bits_of(path.steps[0].displacement[2]) > 1000);
+}
