@@ -64,6 +64,15 @@ struct explain_options {
   bool quiet = false;
 };
 
+struct exact_options {
+  std::string file;
+  std::string rule = "corrected";         ///< or "1989"
+  std::vector<std::string> kernels = {};  ///< compared with it
+  int digits = 20;
+  std::string json;
+  bool quiet = false;
+};
+
 struct new_options {
   std::string shape, file;
 };
@@ -114,8 +123,8 @@ struct printed_text {
 };
 
 /// What a command line asks for: one command, or a text.
-using command_options = std::variant<printed_text, run_options, check_options, explain_options, new_options,
-                                     verify_options, fuzz_options, replay_options, atlas_options,
+using command_options = std::variant<printed_text, run_options, check_options, explain_options, exact_options,
+                                     new_options, verify_options, fuzz_options, replay_options, atlas_options,
                                      export_options, kernels_options, completion_options, manual_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
@@ -186,6 +195,7 @@ enum class exit_status {
 exit_status run_command(const run_options& options);
 exit_status run_command(const check_options& options);
 exit_status run_command(const explain_options& options);
+exit_status run_command(const exact_options& options);
 exit_status run_command(const new_options& options);
 exit_status run_command(const verify_options& options);
 exit_status run_command(const fuzz_options& options);

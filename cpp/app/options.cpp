@@ -31,6 +31,9 @@ constexpr example all_examples[] = {
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
     {"contct explain beam.toml --quiet --json why.json", "the same for a program"},
+    {"contct exact beam.toml", "the path without rounding, in fractions"},
+    {"contct exact beam.toml --kernels fortran,corrected", "how many of their digits are right"},
+    {"contct exact beam.toml --rule 1989 --digits 30", "the 1989 rule, were arithmetic exact"},
     {"contct verify", "every reference problem against its numbers"},
     {"contct verify --quiet --junit verify.xml", "for a CI system"},
     {"contct fuzz --calls 20000 --seed 7", "FORTRAN against C++ on random calls"},
@@ -282,6 +285,23 @@ void declare_check(option_parser& p) {
   option_parser::add_quiet(c, o.quiet);
 }
 
+void declare_exact(option_parser& p) {
+  const auto [c, o] = p.command<exact_options>(
+      "exact", "The path in rational arithmetic, and how many digits of each kernel are right");
+  p.add_problem_file(c, o.file);
+  const std::vector<std::string> rules = {"corrected", "1989"};
+  p.add(c, takes::word, "--rule", o.rule, "Whose decisions: corrected is the true path", rules)
+      ->check(CLI::IsMember(rules))
+      ->capture_default_str();
+  p.add_kernels(c, "--kernels", o.kernels, "Kernels whose own paths are compared with it");
+  p.add(c, takes::number, "--digits", o.digits,
+        "Fractions of more digits than that are printed as decimals with so many")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  p.add_file(c, "--json", o.json, "Write every number as a fraction to this file (- is standard output)");
+  option_parser::add_quiet(c, o.quiet);
+}
+
 void declare_new(option_parser& p) {
   const auto [c, o] = p.command<new_options>("new", "Write a commented problem file to start from");
   p.add(c, takes::word, "SHAPE", o.shape, "beam or plate", {"beam", "plate"})->required();
@@ -391,6 +411,7 @@ std::unique_ptr<option_parser> contct_parser(std::vector<std::string> engines) {
   declare_run(p, engines);
   declare_check(p);
   declare_explain(p, engines);
+  declare_exact(p);
   declare_new(p);
   declare_verify(p);
   declare_fuzz(p);

@@ -125,8 +125,8 @@ TEST_CASE("numbers outside their range are refused, with the range") {
 
 TEST_CASE("--help and --version are texts, not commands") {
   const auto help = parsed<printed_text>({"--help"}).text;
-  for (const char* command : {"run", "check", "explain", "new", "verify", "fuzz", "replay", "atlas", "export",
-                              "kernels", "completion", "man"})
+  for (const char* command : {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "atlas",
+                              "export", "kernels", "completion", "man"})
     CHECK_THAT(help, Contains("\n  " + std::string(command) + " "));
   CHECK_THAT(help, Contains("Examples:\n  contct run beam.toml\n"));
   CHECK_THAT(parsed<printed_text>({"run", "--help"}).text, Contains("--max-increments"));

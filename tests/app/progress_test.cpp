@@ -22,6 +22,7 @@ struct long_work {
 std::vector<long_work> long_works() {
   return {{"run", {"run", "plate.toml"}, "step 2 of 2, increment "},
           {"explain", {"explain", "plate.toml", "--json", "/dev/null"}, "step 2 of 2, increment "},
+          {"exact", {"exact", "plate.toml"}, "step 2 of 2, increment "},
           {"verify", {"verify", "--reference", CONTCT_ROOT "/reference"}, " problems"},
           {"atlas", {"atlas", "--problems", "1"}, " problems"},
           {"fuzz", {"fuzz", "--calls", "2000"}, " % of "},

@@ -1,0 +1,165 @@
+#include "contct/exact/kernel_digits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+namespace contct::exact {
+namespace {
+
+constexpr double all_digits = 16.0;
+
+double digits_of(double relative_error) {
+  return relative_error > 0.0 ? std::clamp(-std::log10(relative_error), 0.0, all_digits) : all_digits;
+}
+
+double digits_of(const rational& error, const rational& largest) {
+  if (error == 0) return all_digits;
+  return largest == 0 ? 0.0 : digits_of(rounded(error / largest));
+}
+
+/// The structure's longest side; 1 for a matrix, which has one kind of dof.
+double length_of(const structure::model& m) {
+  if (const auto* b = std::get_if<structure::beam>(&m.kind)) return b->x.back() - b->x.front();
+  const auto* p = std::get_if<structure::plate>(&m.kind);
+  return p == nullptr ? 1.0 : std::max(p->x.back() - p->x.front(), p->y.back() - p->y.front());
+}
+
+bool same_event(const event& a, const event& b) {
+  return a.pair == b.pair && a.what == b.what;
+}
+
+}  // namespace
+
+digit_counter::digit_counter(const structure::problem& p, const exact_path& exactly)
+    : problem_(p), exactly_(exactly), largest_(dofs_per_node(p.geometry)), error_(largest_.size()) {
+  for (const exact_step_end& s : exactly.steps) {
+    for (std::size_t dof = 0; dof < s.displacement.size(); ++dof) {
+      rational& largest = largest_[dof % largest_.size()];
+      largest = std::max(largest, rational(abs(s.displacement[dof])));
+    }
+    for (const rational& force : s.force) largest_force_ = std::max(largest_force_, rational(abs(force)));
+  }
+  // Slopes that vanish by symmetry have no size of their own.
+  const rational least = largest_[0] / binary_value(length_of(p.geometry));
+  for (std::size_t kind = 1; kind < largest_.size(); ++kind) largest_[kind] = std::max(largest_[kind], least);
+}
+
+void digit_counter::incremented(const path::increment& i) {
+  for (const event& e : i.events) events_.push_back({i.step - 1 + i.fraction, e});
+}
+
+void digit_counter::step_ended(const path::step_state& s) {
+  const auto step = static_cast<std::size_t>(s.step - 1);
+  if (s.fraction != 1.0 || step >= exactly_.steps.size() || exactly_.steps[step].fraction != 1) return;
+  ++steps_;
+  const exact_step_end& exactly = exactly_.steps[step];
+  for (std::size_t dof = 0; dof < s.displacement.size(); ++dof) {
+    rational& error = error_[dof % error_.size()];
+    error = std::max(error, rational(abs(binary_value(s.displacement[dof]) - exactly.displacement[dof])));
+  }
+  for (std::size_t i = 0; i < problem_.pairs.size(); ++i) {
+    const structure::contact_pair& c = problem_.pairs[i];
+    const double w = s.displacement[static_cast<std::size_t>(c.node) * error_.size()];
+    const double force = force_of(c, w, s.isep[i] == in_contact);
+    force_error_ = std::max(force_error_, rational(abs(binary_value(force) - exactly.force[i])));
+  }
+}
+
+/// Without pairs that toggle and toggle back at one place, and without open questions.
+digit_counter::event_list digit_counter::decided(const event_list& events, double tie) const {
+  event_list kept;
+  for (const placed_event& e : events) {
+    if (is_open_question(e, tie)) continue;
+    const auto before = std::find_if(kept.rbegin(), kept.rend(),
+                                     [&e](const placed_event& k) { return k.what.pair == e.what.pair; });
+    if (before != kept.rend() && e.place - before->place < tie) {
+      kept.erase(std::next(before).base());
+    } else {
+      kept.push_back(e);
+    }
+  }
+  return kept;
+}
+
+/// Does the event happen at the end of a step, where its pair exactly stands at its face, without force? It
+/// may then be of that step or of the next one, or not be at all. So may what is toggled where a mechanism is
+/// found.
+bool digit_counter::is_open_question(const placed_event& e, double tie) const {
+  const std::size_t last = exactly_.steps.size() - 1;
+  const double reached = static_cast<double>(last) + rounded(exactly_.steps[last].fraction);
+  if (exactly_.status == path_status::mechanism && e.place > reached - tie) return true;
+  const double end = std::round(e.place);
+  if (std::abs(e.place - end) > tie || end < 1.0 || end > static_cast<double>(exactly_.steps.size()))
+    return false;
+  const exact_step_end& s = exactly_.steps[static_cast<std::size_t>(end) - 1];
+  const auto pair = static_cast<std::size_t>(e.what.pair);
+  return s.fraction == 1 && s.gap[pair] == 0 && s.force[pair] == 0;
+}
+
+digit_counter::event_list digit_counter::exact_events() const {
+  event_list events;
+  for (std::size_t step = 0; step < exactly_.steps.size(); ++step)
+    for (const exact_increment& i : exactly_.steps[step].increments)
+      for (const event& e : i.events) events.push_back({static_cast<double>(step) + rounded(i.fraction), e});
+  return events;
+}
+
+std::string digit_counter::words(const placed_event& e) const {
+  const double step = std::floor(e.place);
+  char share[32];
+  (void)std::snprintf(share, sizeof share, "%.9g", e.place - step);
+  return "pair " + std::to_string(e.what.pair + 1) + (e.what.what == change::make ? " makes" : " breaks") +
+         " in step " + std::to_string(static_cast<int>(step) + 1) + " at share " + share;
+}
+
+/// Events in their order; those of a tie in any order.
+void digit_counter::compare_events(kernel_digits& r, double tie) const {
+  const event_list exactly = decided(exact_events(), tie);
+  const event_list seen = decided(events_, tie);
+  double error = 0.0;
+  for (std::size_t first = 0; first < std::max(exactly.size(), seen.size());) {
+    std::size_t end = first + 1;
+    while (end < exactly.size() && exactly[end].place - exactly[first].place < tie) ++end;
+    for (std::size_t i = first; i < end; ++i) {
+      if (i >= exactly.size()) {
+        r.first_difference = words(seen[i]) + ", which no exact event does";
+      } else if (const auto same =
+                     std::find_if(seen.begin() + static_cast<std::ptrdiff_t>(std::min(first, seen.size())),
+                                  seen.begin() + static_cast<std::ptrdiff_t>(std::min(end, seen.size())),
+                                  [&](const placed_event& e) { return same_event(e.what, exactly[i].what); });
+                 same != seen.begin() + static_cast<std::ptrdiff_t>(std::min(end, seen.size()))) {
+        error = std::max(error, std::abs(same->place - exactly[i].place));
+        continue;
+      } else {
+        r.first_difference = "exactly, " + words(exactly[i]) + "; here " +
+                             (first < seen.size() ? words(seen[first]) : "nothing more happens");
+      }
+      r.same_events = false;
+      r.event_digits = digits_of(error);
+      return;
+    }
+    first = end;
+  }
+  r.event_digits = digits_of(error);
+}
+
+kernel_digits digit_counter::result(const std::string& name, path_status ended, double tie) const {
+  kernel_digits r;
+  r.name = name;
+  compare_events(r, tie);
+  if (r.same_events && (ended != exactly_.status)) {
+    r.same_events = false;
+    r.first_difference = exactly_.status == path_status::solved
+                             ? "the path ends early, exactly it does not"
+                             : "the path ends otherwise than the exact one";
+  }
+  for (std::size_t kind = 0; kind < error_.size(); ++kind)
+    r.digits = std::min(r.digits, digits_of(error_[kind], largest_[kind]));
+  r.force_digits = digits_of(force_error_, largest_force_);
+  return r;
+}
+
+}  // namespace contct::exact

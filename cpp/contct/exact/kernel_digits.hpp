@@ -1,0 +1,59 @@
+// How far a kernel's own path is from the exact one: its events, and how many digits are right.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contct/exact/path.hpp"
+#include "contct/path/observer.hpp"
+
+namespace contct::exact {
+
+/// What a kernel's path came to, beside the exact one.
+struct kernel_digits {
+  std::string name;
+  bool same_events = true;
+  std::string first_difference;  ///< of events or ends, for people; empty where there is none
+  /// Correct digits, 0 to 16, of the worst displacement, share of an event and force, at the ends of the
+  /// steps that both paths reached. Errors are relative to the largest of their kind on the path (a slope's
+  /// at least to the largest deflection over the structure's length). Shares are those of events that are the
+  /// same.
+  double digits = 16.0, event_digits = 16.0, force_digits = 16.0;
+};
+
+/// Observes a kernel's path.
+class digit_counter final : public path::observer {
+ public:
+  /// Both must outlive this object.
+  digit_counter(const structure::problem& p, const exact_path& exactly);
+
+  void incremented(const path::increment& i) override;
+  void step_ended(const path::step_state& s) override;
+
+  /// `tie`: events whose shares differ by less may come in any order.
+  [[nodiscard]] kernel_digits result(const std::string& name, path_status ended, double tie) const;
+
+ private:
+  /// An event on the whole path, at step number (from 0) + share.
+  struct placed_event {
+    double place;
+    event what;
+  };
+  using event_list = std::vector<placed_event>;
+
+  [[nodiscard]] bool is_open_question(const placed_event& e, double tie) const;
+  [[nodiscard]] event_list decided(const event_list& events, double tie) const;
+  [[nodiscard]] event_list exact_events() const;
+  void compare_events(kernel_digits& r, double tie) const;
+  [[nodiscard]] std::string words(const placed_event& e) const;
+
+  const structure::problem& problem_;
+  const exact_path& exactly_;
+  event_list events_;
+  std::size_t steps_ = 0;          // that reached their load
+  std::vector<rational> largest_;  // of each kind of dof
+  std::vector<rational> error_;    // likewise
+  rational largest_force_, force_error_;
+};
+
+}  // namespace contct::exact

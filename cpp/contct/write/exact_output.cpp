@@ -1,0 +1,199 @@
+#include "contct/write/exact_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "contct/text/strings.hpp"
+#include "contct/write/result_json.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::write {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json fractions(const vector& numbers) {
+  return list_of(numbers, [](const rational& x) { return fraction_words(x); });
+}
+
+std::string_view name_of(path_status status) {
+  return status_name(status);
+}
+
+json increment_json(const problem& p, const exact_increment& i, std::size_t number) {
+  json entry = {
+      {"increment", number + 1}, {"fraction", fraction_words(i.fraction)}, {"events", json::array()}};
+  for (const event& e : i.events) {
+    const contact_pair& at = p.pairs[static_cast<std::size_t>(e.pair)];
+    json& shown = entry["events"].emplace_back(json{{"pair", e.pair + 1}});
+    put_place(shown, p.geometry, at.node);
+    shown.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
+  }
+  if (i.snaps) entry["snap"] = true;
+  return entry;
+}
+
+json pair_json(const problem& p, const exact_step_end& s, std::size_t pair) {
+  json entry = {{"pair", pair + 1}};
+  put_place(entry, p.geometry, p.pairs[pair].node);
+  entry.update({{"surface", surface_name(p.pairs[pair].surface)},
+                {"state", state_name(s.closed[pair] != 0 ? in_contact : separated)},
+                {"gap", fraction_words(s.gap[pair])},
+                {"force", fraction_words(s.force[pair])}});
+  return entry;
+}
+
+json reaction_json(const problem& p, const exact_step_end& s, std::size_t support) {
+  json entry;
+  put_place(entry, p.geometry, p.supports[support].node);
+  if (!entry.contains("dof"))
+    entry["dof"] = dof_names(p.geometry)[static_cast<std::size_t>(p.supports[support].dof)];
+  entry["value"] = fraction_words(s.reactions[support]);
+  return entry;
+}
+
+json kernel_json(const kernel_digits& k) {
+  json entry = {{"name", k.name}, {"same_events", k.same_events}, {"first_difference", nullptr}};
+  if (!k.first_difference.empty()) entry["first_difference"] = k.first_difference;
+  entry.update({{"digits", k.digits}, {"event_digits", k.event_digits}, {"force_digits", k.force_digits}});
+  return entry;
+}
+
+/// Prints one path.
+class exact_printer {
+ public:
+  exact_printer(const exact_result& r, int digits, const terminal& t)
+      : r_(r), digits_(digits), terminal_(t) {}
+
+  std::string text() {
+    for (const std::string& line : wrap({printable(r_.what.title, 1000)}, terminal_.width))
+      if (!line.empty()) out_ += painted(terminal_, paint::strong, line) + "\n";
+    for (std::size_t step = 0; step < r_.path.steps.size(); ++step) print_step(step);
+    if (r_.path.mechanism) print_mechanism(*r_.path.mechanism);
+    if (!r_.kernels.empty()) out_ += "\n";
+    for (const kernel_digits& k : r_.kernels) print_kernel(k);
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] std::string number(const rational& x) const { return short_words(x, digits_); }
+
+  /// The sum of the loads on deflections at a share of a step.
+  [[nodiscard]] rational load_at(std::size_t step, const rational& fraction) const {
+    const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
+    rational sum;
+    for (std::size_t dof = 0; dof < r_.exactly.dofs(); dof += per_node) {
+      const rational before = step == 0 ? rational(0) : r_.exactly.steps[step - 1].load[dof];
+      sum += before + fraction * (r_.exactly.steps[step].load[dof] - before);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] std::string pair_words(std::size_t pair) const {
+    const contact_pair& at = r_.what.pairs[pair];
+    return fmt::format("pair {} ({}, {})", pair + 1, place_words(r_.what.geometry, at.node),
+                       surface_name(at.surface));
+  }
+
+  void print_step(std::size_t step) {
+    const exact_step_end& s = r_.path.steps[step];
+    const std::string& name = r_.what.steps[step].name;
+    const std::string title = fmt::format("step {}{}", step + 1, name.empty() ? "" : ", " + printable(name));
+    out_ += fmt::format("{}{}\n", out_.empty() ? "" : "\n", painted(terminal_, paint::strong, title));
+    for (const exact_increment& i : s.increments) {
+      std::vector<std::string> events;
+      for (const event& e : i.events)
+        events.push_back(pair_words(static_cast<std::size_t>(e.pair)) +
+                         (e.what == change::make ? " makes" : " breaks"));
+      if (i.snaps) events.emplace_back("the structure moves rigidly at constant load");
+      out_ += fmt::format("  share {}, load {}{}{}\n", number(i.fraction), number(load_at(step, i.fraction)),
+                          events.empty() ? "" : ": ", joined(events, ", "));
+    }
+    print_end(s);
+  }
+
+  void print_end(const exact_step_end& s) {
+    std::size_t largest = 0;
+    const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
+    for (std::size_t dof = 0; dof < s.displacement.size(); dof += per_node)
+      if (abs(s.displacement[dof]) > abs(s.displacement[largest])) largest = dof;
+    out_ += fmt::format("  largest w {} at {}\n", number(s.displacement[largest]),
+                        place_words(r_.what.geometry, static_cast<int>(largest / per_node)));
+    if (s.closed.size() > most_rows) {
+      out_ += fmt::format("  {} of {} pairs in contact\n", std::count(s.closed.begin(), s.closed.end(), 1),
+                          s.closed.size());
+      return;
+    }
+    for (std::size_t i = 0; i < s.closed.size(); ++i) {
+      const rational& w = s.displacement[static_cast<std::size_t>(r_.exactly.pairs[i].dof)];
+      out_ += fmt::format("  {}: w {}, {}\n", pair_words(i), number(w),
+                          s.closed[i] != 0 ? "force " + number(s.force[i]) : "gap " + number(s.gap[i]));
+    }
+  }
+
+  /// The free motion by the deflections of its nodes.
+  void print_mechanism(const mechanism_proof& proof) {
+    out_ += fmt::format(
+        "\n{}: supports and pairs in contact leave this motion free, no other pair stands in its way, and "
+        "the step's full load does work {} on it.\n  w",
+        painted(terminal_, paint::bad, "no equilibrium"), number(proof.work));
+    const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
+    for (std::size_t dof = 0; dof < proof.motion.size() && dof < most_rows * per_node; dof += per_node)
+      out_ += (dof == 0 ? " " : ", ") + number(proof.motion[dof]);
+    out_ += proof.motion.size() > most_rows * per_node ? ", ..\n" : "\n";
+  }
+
+  void print_kernel(const kernel_digits& k) {
+    out_ +=
+        fmt::format("{}: {:.1f} digits of displacements, {:.1f} of forces, {:.1f} of the events' shares; ",
+                    k.name, k.digits, k.force_digits, k.event_digits);
+    out_ += k.same_events ? "the same events\n"
+                          : painted(terminal_, paint::bad, "other events") + ": " + k.first_difference + "\n";
+  }
+
+  static constexpr std::size_t most_rows = 24;
+  const exact_result& r_;
+  int digits_;
+  const terminal& terminal_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string exact_text(const exact_result& r, int digits, const terminal& t) {
+  return exact_printer(r, digits, t).text();
+}
+
+void write_exact_json(const exact_result& r, output_file& out) {
+  json_document document(
+      out, {{"format", "contct-exact-1"}, {"title", r.what.title}, {"status", name_of(r.path.status)}},
+      "steps");
+  for (std::size_t step = 0; step < r.path.steps.size(); ++step) {
+    const exact_step_end& s = r.path.steps[step];
+    vector w;
+    const auto per_node = static_cast<std::size_t>(dofs_per_node(r.what.geometry));
+    for (std::size_t dof = 0; dof < s.displacement.size(); dof += per_node) w.push_back(s.displacement[dof]);
+    const json members = {{"step", step + 1},
+                          {"name", r.what.steps[step].name},
+                          {"fraction", fraction_words(s.fraction)},
+                          {"increments", nullptr},
+                          {"displacement", fractions(s.displacement)},
+                          {"w", fractions(w)},
+                          {"pairs", nullptr},
+                          {"reactions", nullptr}};
+    document.add(members,
+                 {{"increments", s.increments.size(),
+                   [&](auto i) { return increment_json(r.what, s.increments[i], i); }},
+                  {"pairs", s.closed.size(), [&](auto i) { return pair_json(r.what, s, i); }},
+                  {"reactions", s.reactions.size(), [&](auto i) { return reaction_json(r.what, s, i); }}});
+  }
+  json members = {{"kernels", list_of(r.kernels, kernel_json)}};
+  if (r.path.mechanism)
+    members["mechanism"] = {{"motion", fractions(r.path.mechanism->motion)},
+                            {"work", fraction_words(r.path.mechanism->work)}};
+  document.finish(members);
+}
+
+}  // namespace contct::write

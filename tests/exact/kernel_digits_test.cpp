@@ -1,0 +1,106 @@
+// How many digits of a path are right.
+#include "contct/exact/kernel_digits.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+
+using namespace contct::exact;
+using Catch::Matchers::Contains;
+using contct::kernels::change;
+using contct::kernels::event;
+using contct::path::path_status;
+
+namespace {
+
+/// A cantilever that reaches its stop at a third of the load, and leaves it in the next step.
+struct stop_run {
+  contct::structure::problem what = contct::read::parse_problem(
+      "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\n"
+      "surface = \"below\"\nface = -1\nstiffness = 3\n[[step]]\npoint = [ { node = 2, w = -9 } ]\n"
+      "[[step]]\npoint = [ { node = 2, w = 0 } ]\n",
+      "problem.toml");
+  exact_path exactly = follow_true_path(exact_problem_of(what));
+
+  /// A path with this error in its first event's share and in the first step's deflection.
+  [[nodiscard]] kernel_digits with(double share_error, double w_error, change first = change::make,
+                                   path_status ended = path_status::solved) const {
+    digit_counter counter(what, exactly);
+    const std::vector<event> makes = {{0, first}};
+    const std::vector<event> breaks = {{0, change::break_}};
+    const std::vector<int> closed = {contct::kernels::in_contact};
+    const std::vector<int> open = {contct::kernels::separated};
+    counter.incremented({1, 1, 0.0, 1.0 / 3.0 + share_error, makes});
+    counter.step_ended({1, 1.0, std::vector<double>{0, 0, -2 + w_error, -3}, closed, 1.0});
+    counter.incremented({2, 1, 0.0, 2.0 / 3.0, breaks});
+    counter.step_ended({2, 1.0, std::vector<double>{0, 0, 0, 0}, open, 1.0});
+    return counter.result("k", ended, 1e-9);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a path that is right to the last bit has 16 digits") {
+  const kernel_digits r = stop_run().with(0.0, 0.0);
+  CHECK(r.same_events);
+  CHECK(r.first_difference.empty());
+  CHECK(r.digits == 16.0);
+  CHECK(r.force_digits == 16.0);
+  CHECK(r.event_digits > 15.5);
+}
+
+TEST_CASE("digits are lost in displacements, forces and shares each on their own") {
+  const kernel_digits r = stop_run().with(1e-7, 2e-6);
+  CHECK(r.same_events);
+  CHECK(r.digits == Approx(6.0));
+  CHECK(r.force_digits == Approx(-std::log10(3 * 2e-6 / 3)));
+  CHECK(r.event_digits == Approx(7.0));
+}
+
+TEST_CASE("the first event that differs is told with both") {
+  const kernel_digits r = stop_run().with(0.0, 0.0, change::break_);
+  CHECK_FALSE(r.same_events);
+  CHECK(r.first_difference ==
+        "exactly, pair 1 makes in step 1 at share 0.333333333; here pair 1 breaks in step 1 at share "
+        "0.333333333");
+}
+
+TEST_CASE("a path that ends early has not the same events") {
+  const kernel_digits r = stop_run().with(0.0, 0.0, change::make, path_status::mechanism);
+  CHECK_FALSE(r.same_events);
+  CHECK_THAT(r.first_difference, Contains("ends early"));
+}
+
+TEST_CASE("events that one path does not have are told") {
+  const stop_run run;
+  const kernel_digits nothing = digit_counter(run.what, run.exactly).result("k", path_status::solved, 1e-9);
+  CHECK_THAT(nothing.first_difference, Contains("pair 1 makes") && Contains("nothing more happens"));
+  digit_counter counter(run.what, run.exactly);
+  const std::vector<event> makes = {{0, change::make}};
+  const std::vector<event> breaks = {{0, change::break_}};
+  counter.incremented({1, 1, 0.0, 1.0 / 3.0, makes});
+  counter.incremented({2, 1, 0.0, 2.0 / 3.0, breaks});
+  counter.incremented({2, 2, 0.0, 0.75, makes});
+  CHECK_THAT(counter.result("k", path_status::solved, 1e-9).first_difference,
+             Contains("pair 1 makes in step 2 at share 0.75") && Contains("no exact event"));
+}
+
+TEST_CASE(
+    "toggling to and fro at one place is no event, nor is the end of a step where a pair just touches") {
+  const stop_run run;
+  digit_counter counter(run.what, run.exactly);
+  const std::vector<event> makes = {{0, change::make}};
+  const std::vector<event> breaks = {{0, change::break_}};
+  for (const auto& e : {makes, breaks, makes}) counter.incremented({1, 1, 0.0, 1.0 / 3.0, e});
+  counter.incremented({2, 1, 0.0, 2.0 / 3.0, breaks});
+  CHECK(counter.result("k", path_status::solved, 1e-9).same_events);
+
+  contct::structure::problem touches = run.what;
+  touches.steps.resize(1);
+  touches.steps[0].points[0].value = -3;
+  const exact_path exactly = follow_true_path(exact_problem_of(touches));
+  digit_counter early(touches, exactly);
+  early.incremented({1, 1, 0.0, 1.0 - 1e-15, makes});
+  CHECK(early.result("k", path_status::solved, 1e-9).same_events);
+}
