@@ -58,6 +58,10 @@ TEST_CASE("digits are lost in displacements, forces and shares each on their own
   CHECK(r.event_digits == Approx(7.0));
 }
 
+TEST_CASE("an error as large as the number leaves no digit") {
+  CHECK(stop_run().with(0.0, 5.0).digits == 0.0);
+}
+
 TEST_CASE("the first event that differs is told with both") {
   const kernel_digits r = stop_run().with(0.0, 0.0, change::break_);
   CHECK_FALSE(r.same_events);

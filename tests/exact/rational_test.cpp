@@ -47,6 +47,9 @@ TEST_CASE("fractions are written while they are short, decimals beyond") {
   CHECK(short_words(rational(999999, 1000), 3) == "1000");
   CHECK(short_words(rational(123456789, 1000), 5) == "123460");
   CHECK(short_words(rational(integer(1), integer("30000000000")), 4) == "3.333e-11");
-  CHECK(short_words(rational(integer(100), integer("1000000000007")), 6) == "1e-10");
+  CHECK(short_words(rational(integer(100), integer("1000000000007")), 6) == "1.00000e-10");
+  CHECK(short_words(rational(1000000001, 10), 4) == "100000000");
+  CHECK(short_words(rational(integer("-100000000000001"), integer("1000000000000")), 6) == "-100.000");
+  CHECK(short_words(rational(integer(1), integer("1000000000000000000000")), 5) == "1e-21");
   CHECK(short_words(0, 1) == "0");
 }

@@ -168,6 +168,39 @@ TEST_CASE("an elastic support and pairs on both sides of a node follow the load 
   CHECK(path.steps[1].reactions[2] == rational(-1, 2));
 }
 
+TEST_CASE("a stiff pair has its force to the last digit") {
+  const exact_path path =
+      followed("[beam]\nx = [0, 0.7, 1.3, 2]\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n" +
+               pair(3, "below", "-0.0037", "1e16") + "[[step]]\npoint = [ { node = 4, w = -60 } ]\n");
+  CHECK(told(path.steps[0]) == "3700/7943: +1; 1:");
+  CHECK(short_words(path.steps[0].force[0], 8) == "57.938097");
+}
+
+TEST_CASE("a stiff beam that falls from a height has the forces of its load") {
+  const exact_path path =
+      followed("[beam]\nx = [0, 0.7, 1.3, 2]\nEI = 1e14\n" + pair(1, "below", "-100", "1e14") +
+               pair(4, "below", "-100", "1e14") + "[[step]]\npoint = [ { node = 2, w = -1000 } ]\n");
+  CHECK(path.steps[0].force == vector{650, 350});
+}
+
+TEST_CASE("what is left after a load a million million times as large is not lost") {
+  const exact_path path =
+      followed("[beam]\nx = [0, 1, 2, 3, 4]\nEI = 1e6\n" + pair(1, "below", "0", "1e6") +
+               pair(3, "below", "0", "1e6") + pair(5, "below", "-0.001", "1e6") +
+               "[[step]]\npoint = [ { node = 2, w = -1e12 } ]\n[[step]]\npoint = [ { node = 4, w = -1 } ]\n");
+  REQUIRE(path.status == contct::path::path_status::solved);
+  CHECK(path.steps[1].force == vector{0, rational(1, 2), rational(1, 2)});
+}
+
+TEST_CASE("loads that nearly cancel leave their small sum") {
+  const exact_path path =
+      followed("[beam]\nx = [0, 1, 2, 3, 4]\nEI = 1e13\n" + pair(1, "below", "-0.5", "1e3") +
+               pair(5, "below", "-0.5", "1e3") +
+               "[[step]]\npoint = [ { node = 1, w = -1 }, { node = 2, w = 3e12 }, { node = 3, w = -6e12 }, "
+               "{ node = 4, w = 3e12 }, { node = 5, w = -1 } ]\n");
+  CHECK(path.steps[0].force == vector{1, 1});
+}
+
 TEST_CASE("every reference beam ends its steps in exact equilibrium") {
   int steps = 0;
   for (const char* name :

@@ -12,7 +12,8 @@ namespace {
 constexpr double all_digits = 16.0;
 
 double digits_of(double relative_error) {
-  return relative_error > 0.0 ? std::clamp(-std::log10(relative_error), 0.0, all_digits) : all_digits;
+  if (relative_error >= 1.0) return 0.0;
+  return relative_error > 0.0 ? std::min(-std::log10(relative_error), all_digits) : all_digits;
 }
 
 double digits_of(const rational& error, const rational& largest) {

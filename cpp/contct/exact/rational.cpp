@@ -35,7 +35,6 @@ int leading_exponent(const rational& x) {
 
 /// "123" with exponent -1 is 0.123: as a decimal where that is short, otherwise with an exponent.
 std::string decimal_words(std::string digits, int exponent) {
-  while (digits.size() > 1 && digits.back() == '0') digits.pop_back();
   const int count = static_cast<int>(digits.size());
   if (exponent < -5 || exponent > 20) {
     if (count > 1) digits.insert(1, ".");
@@ -99,12 +98,15 @@ std::string short_words(const rational& x, int digits) {
   }
   const rational size = abs(x);
   int exponent = leading_exponent(size);
-  const rational scaled = size * ten_to(digits - 1 - exponent) + rational(1, 2);
-  std::string shown = integer(numerator(scaled) / denominator(scaled)).str();
+  const rational scaled = size * ten_to(digits - 1 - exponent);
+  const rational raised = scaled + rational(1, 2);
+  std::string shown = integer(numerator(raised) / denominator(raised)).str();
   if (static_cast<int>(shown.size()) > digits) {  // rounded up to a power of 10
     shown.pop_back();
     ++exponent;
   }
+  const bool all = denominator(scaled) == 1;  // then zeros at the end say nothing
+  while (all && shown.size() > 1 && shown.back() == '0') shown.pop_back();
   return (x < 0 ? "-" : "") + decimal_words(shown, exponent);
 }
 

@@ -56,7 +56,8 @@ struct exact_values {
 [[nodiscard]] std::string fraction_words(const rational& x);
 
 /// The fraction where its numerator and denominator have at most `digits` digits together; otherwise `digits`
-/// significant digits, rounded half away from 0: "0.078947368421", "-1.25e-07".
+/// significant digits, rounded half away from 0: "0.078947368421", "-1.25e-07". Zeros at the end are left out
+/// only where that is all of the number.
 [[nodiscard]] std::string short_words(const rational& x, int digits);
 
 /// Bits of the numerator or the denominator, whichever has more.
