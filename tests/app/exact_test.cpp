@@ -86,7 +86,7 @@ TEST_CASE("a matrix with a free motion that the load drives is a mechanism") {
   dir.write(
       "p.toml",
       "[matrix]\nstiffness = \"k.mtx\"\nfree_motions = 1\n[[contact]]\ndof = \"1\"\nsurface = \"below\"\n"
-      "face = 0\nstiffness = 1\n[[step]]\npoint = [ { dof = \"1\", value = -3 } ]\n");
+      "face = 0\nstiffness = 1\n[[step]]\npoint = [ { dof = \"1\", value = 3 } ]\n");
   const finished f = contct_program(dir.path(), {"exact", "p.toml"});
   CHECK(f.exit == 4);
   CHECK_THAT(f.out, Contains("no equilibrium"));

@@ -1,4 +1,6 @@
 // The listing's decisions where arithmetic is exact.
+#include <algorithm>
+
 #include "catch.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/read/problem_file.hpp"
@@ -67,6 +69,38 @@ TEST_CASE("a gap below EPSGAP is stationary, whatever the unit of length") {
   // Made where it is not yet, at 0 but for DELTA / d*: the true path makes it at 1/20.
   REQUIRE(path.steps[0].increments.size() == 2);
   CHECK(path.steps[0].increments[0].fraction < rational(1, 1000000));
+}
+
+TEST_CASE("where the 1989 code goes wrong, its rule does, as reference/DIVERGENCES.md says") {
+  struct divergence {
+    const char* name;
+    double error;  // of w at the ends of steps that the rule reaches, relative to the largest
+    bool ends_early;
+  };
+  for (const auto& [name, error, ends_early] :
+       {divergence{"near-tie", 0.03, false}, divergence{"small-unit", 0.769, false},
+        divergence{"stiff-stop", 2.0, false}, divergence{"single-precision", 0.0, false},
+        divergence{"event-at-full-load", 1.92e-18, false}, divergence{"mark-toggled", 0.0, false},
+        divergence{"locked-in-forces", 0.00247, true}, divergence{"standstill", 0.0, true}}) {
+    INFO(name);
+    const std::string file = CONTCT_REFERENCE "/problems/divergences/" + std::string(name) + ".toml";
+    const exact_problem e = exact_problem_of(contct::read::read_problem(file));
+    const exact_path truly = follow_true_path(e);
+    const exact_path listed_path = follow_1989_path(e);
+    CHECK(truly.status == contct::path::path_status::solved);
+    CHECK((listed_path.status == contct::path::path_status::mechanism) == ends_early);
+    rational largest;
+    rational worst;
+    for (std::size_t step = 0; step < listed_path.steps.size(); ++step) {
+      for (std::size_t dof = 0; dof < e.dofs(); dof += 2) {
+        const rational& w = truly.steps[step].displacement[dof];
+        largest = std::max(largest, rational(abs(w)));
+        if (listed_path.steps[step].fraction == 1)
+          worst = std::max(worst, rational(abs(w - listed_path.steps[step].displacement[dof])));
+      }
+    }
+    CHECK(rounded(worst / largest) == Approx(error).epsilon(0.01));
+  }
 }
 
 TEST_CASE("a structure that no closed pair holds is a mechanism for the 1989 driver") {

@@ -43,9 +43,15 @@ digit_counter::digit_counter(const structure::problem& p, const exact_path& exac
     }
     for (const rational& force : s.force) largest_force_ = std::max(largest_force_, rational(abs(force)));
   }
-  // Slopes that vanish by symmetry have no size of their own.
-  const rational least = largest_[0] / binary_value(length_of(p.geometry));
-  for (std::size_t kind = 1; kind < largest_.size(); ++kind) largest_[kind] = std::max(largest_[kind], least);
+  // What vanishes by symmetry has no size of its own.
+  const rational length = binary_value(length_of(p.geometry));
+  const rational slope_of_w = largest_[0] / length;
+  for (std::size_t kind = 1; kind < largest_.size(); ++kind)
+    largest_[kind] = std::max(largest_[kind], slope_of_w);
+  const rational slope = *std::max_element(largest_.begin() + (largest_.size() > 1 ? 1 : 0), largest_.end());
+  if (largest_[0] == 0) largest_[0] = slope * length;
+  for (std::size_t kind = 1; kind < largest_.size(); ++kind)
+    if (largest_[kind] == 0) largest_[kind] = slope;
 }
 
 void digit_counter::incremented(const path::increment& i) {
@@ -108,7 +114,7 @@ digit_counter::event_list digit_counter::exact_events() const {
   return events;
 }
 
-std::string digit_counter::words(const placed_event& e) const {
+std::string digit_counter::words(const placed_event& e) {
   const double step = std::floor(e.place);
   char share[32];
   (void)std::snprintf(share, sizeof share, "%.9g", e.place - step);

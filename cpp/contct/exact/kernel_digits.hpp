@@ -45,7 +45,7 @@ class digit_counter final : public path::observer {
   [[nodiscard]] event_list decided(const event_list& events, double tie) const;
   [[nodiscard]] event_list exact_events() const;
   void compare_events(kernel_digits& r, double tie) const;
-  [[nodiscard]] std::string words(const placed_event& e) const;
+  [[nodiscard]] static std::string words(const placed_event& e);
 
   const structure::problem& problem_;
   const exact_path& exactly_;

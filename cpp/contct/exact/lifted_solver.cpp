@@ -177,8 +177,8 @@ class lifted_solver::lifting {
   bool reconstruct(vector& x) const {
     const integer bound = integer(1) << static_cast<unsigned>(msb(modulus_) / 2 - 1);
     integer denominator = 1;
-    for (std::size_t i = 0; i < sum_.size(); ++i) {
-      const integer y = nearest(sum_[i] * denominator);
+    for (const integer& digits : sum_) {
+      const integer y = nearest(digits * denominator);
       if (abs(y) <= bound) continue;
       integer factor;
       if (!fraction_of(y < 0 ? integer(y + modulus_) : y, modulus_, bound, factor)) return false;
@@ -227,7 +227,7 @@ lifted_solver::lifted_solver(const sparse_rows& k, std::span<const char> fixed, 
           std::max(band_, static_cast<std::size_t>(std::abs(place[i] - place[static_cast<std::size_t>(j)])));
 }
 
-void lifted_solver::factor(std::vector<added_spring> springs) {
+void lifted_solver::factor(const std::vector<added_spring>& springs) {
   std::fill(spring_.begin(), spring_.end(), rational(0));
   for (const added_spring& s : springs) spring_[static_cast<std::size_t>(s.dof)] += s.stiffness;
   for (const std::uint64_t prime : primes)

@@ -30,7 +30,7 @@ class lifted_solver {
   lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place);
 
   /// Throws too_long, and std::runtime_error where the matrix is indefinite.
-  void factor(std::vector<added_spring> springs);
+  void factor(const std::vector<added_spring>& springs);
 
   /// A basis of the motions that K + springs leaves free [motions][dofs]: exact, so their number is.
   [[nodiscard]] const std::vector<vector>& free_motions() const { return free_motions_; }

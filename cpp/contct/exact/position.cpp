@@ -42,7 +42,7 @@ void position::factor() {
   std::vector<added_spring> springs;
   for (std::size_t i = 0; i < closed.size(); ++i)
     if (closed[i] != 0) springs.push_back({problem.pairs[i].dof, problem.pairs[i].stiffness});
-  solver_.factor(std::move(springs));
+  solver_.factor(springs);
 }
 
 vector position::moved(const vector& b, const vector& settled) const {
