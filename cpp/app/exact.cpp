@@ -23,6 +23,16 @@ kernel_digits digits_of_kernel(const std::string& name, const problem& p, const 
   return counter.result(name, end.status, rounding[leader->facts().real_bytes == 4 ? 1 : 0]);
 }
 
+/// A problem that would take more than a machine has is refused before it is converted.
+void refuse_too_large(const problem& p, const std::string& file) {
+  constexpr int most_dofs = 50'000;
+  if (dofs(p.geometry) > most_dofs)
+    throw std::invalid_argument(fmt::format(
+        "{}: found {} dofs; allowed: at most {} in exact arithmetic, whose numbers grow with them. "
+        "Fewer elements would do",
+        file, dofs(p.geometry), most_dofs));
+}
+
 exact_path follow_exactly(const exact_problem& p, const exact_options& o) {
   progress shown(static_cast<std::int64_t>(p.steps.size()), "steps", o.quiet);
   const exact_progress tell = [&](int step, int increment, const rational& fraction) {
@@ -48,6 +58,9 @@ exit_status run_command(const exact_options& options) {
   const std::vector<output_option> outputs = {{"--json", options.json}};
   refuse_shared_outputs(outputs, {{"the problem", options.file}});
   const problem p = read_with_progress(options.file, options.quiet);
+  refuse_too_large(p, options.file);
+  // The equations that are solved here do not show whether a matrix is indefinite: its structure is refused.
+  if (std::holds_alternative<assembled>(p.geometry.kind)) (void)build_with_progress(p, options.quiet);
   const output_files files(outputs);
   const exact_problem exactly = exact_problem_of(p);
   const exact_path path = follow_exactly(exactly, options);

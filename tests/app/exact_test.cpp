@@ -91,3 +91,27 @@ TEST_CASE("a matrix with a free motion that the load drives is a mechanism") {
   CHECK(f.exit == 4);
   CHECK_THAT(f.out, Contains("no equilibrium"));
 }
+
+TEST_CASE("an indefinite matrix and a structure that is too large are refused") {
+  const scratch_folder dir;
+  dir.write("k.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
+  dir.write("indefinite.toml",
+            "[matrix]\nstiffness = \"k.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 3 } ]\n");
+  const finished indefinite = contct_program(dir.path(), {"exact", "indefinite.toml"});
+  CHECK(indefinite.exit == 2);
+  CHECK_THAT(indefinite.err, Contains("not positive semidefinite"));
+  const finished large = exactly("[beam]\nlength = 1\nelements = 30000\nEI = 1\n[[step]]\nuniform = 1\n");
+  CHECK(large.exit == 2);
+  CHECK_THAT(large.err, Contains("found 60002 dofs; allowed: at most 50000"));
+}
+
+TEST_CASE("numbers of absurd size are solved like others") {
+  const finished f = exactly(
+      "[beam]\nx = [0, 1]\nEI = 1e-300\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = "
+      "2\n"
+      "surface = \"below\"\nface = -1e-300\nstiffness = 1e308\n[[step]]\npoint = [ { node = 2, w = -1e308 } "
+      "]\n",
+      {"--digits", "6"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("pair 1 (node 2, below) makes") && Contains("w -1.00000, force 1.00000e308"));
+}

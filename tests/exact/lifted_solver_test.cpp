@@ -99,3 +99,19 @@ TEST_CASE("an indefinite matrix with a zero on its diagonal is refused") {
   lifted_solver solver(k, fixed, places);
   CHECK_THROWS_WITH(solver.factor({}), Catch::Matchers::Contains("indefinite"));
 }
+
+TEST_CASE("numbers that become too long are refused with the figure") {
+  sparse_rows k = chain(30);
+  for (std::size_t i = 0; i < k.size(); ++i)
+    k[i][static_cast<int>(i)] += rational(1, 1000003 + 2 * static_cast<int>(i));
+  const std::vector<char> fixed(30, 0);
+  const std::vector<int> places = in_order(30);
+  vector b(30);
+  b[0] = 1;
+  lifted_solver solver(k, fixed, places);
+  solver.factor({});
+  CHECK(bits_of(solver.solve(b)[29]) > 600);
+  lifted_solver limited(k, fixed, places, 500);
+  limited.factor({});
+  CHECK_THROWS_WITH(limited.solve(b), Catch::Matchers::Contains("more than 500 bits"));
+}

@@ -128,11 +128,11 @@ class lifted_solver::lifting {
   vector solution() {
     vector x;
     for (std::size_t wanted = 4;; wanted += wanted / 2) {
-      while (digits_.size() < wanted) next_digits();
+      while (gathered_ + digits_.size() < wanted) next_digits();
       gather();
       if (reconstruct(x)) return x;
-      if (wanted * 61 > 2 * most_bits)
-        throw too_long("numerators of more than " + std::to_string(most_bits) + " bits");
+      if (wanted * 61 > 2 * of_.longest_)
+        throw too_long("numerators of more than " + std::to_string(of_.longest_) + " bits");
     }
   }
 
@@ -158,11 +158,12 @@ class lifted_solver::lifting {
     const integer p = of_.field_.prime();
     for (std::size_t i = 0; i < sum_.size(); ++i) {
       integer more = 0;
-      for (std::size_t k = digits_.size(); k-- > gathered_;) more = more * p + digits_[k][i];
+      for (std::size_t k = digits_.size(); k-- > 0;) more = more * p + digits_[k][i];
       sum_[i] += more * modulus_;
     }
-    modulus_ *= boost::multiprecision::pow(p, static_cast<unsigned>(digits_.size() - gathered_));
-    gathered_ = digits_.size();
+    modulus_ *= boost::multiprecision::pow(p, static_cast<unsigned>(digits_.size()));
+    gathered_ += digits_.size();
+    digits_.clear();
   }
 
   /// The number nearest to 0 that is `y` modulo p^k.
@@ -204,19 +205,21 @@ class lifted_solver::lifting {
   }
 
   const lifted_solver& of_;
-  std::vector<whole_row> rows_;         // with b whole too
-  std::vector<integer> rest_, right_;   // of b; b
-  std::vector<std::uint64_t> unscale_;  // 1 / scale
-  std::vector<std::vector<std::uint64_t>> digits_;
-  std::vector<integer> sum_;  // of the digits gathered
+  std::vector<whole_row> rows_;                     // with b whole too
+  std::vector<integer> rest_, right_;               // of b; b
+  std::vector<std::uint64_t> unscale_;              // 1 / scale
+  std::vector<std::vector<std::uint64_t>> digits_;  // since the last gathering
+  std::vector<integer> sum_;                        // of the digits gathered
   std::size_t gathered_ = 0;
   integer modulus_ = 1;  // the prime to their number
 };
 
-lifted_solver::lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place)
+lifted_solver::lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place,
+                             std::size_t longest)
     : k_(k),
       fixed_(fixed),
       place_(place),
+      longest_(longest),
       dof_at_(inverse_of(place)),
       spring_(k.size()),
       field_(primes[0]),

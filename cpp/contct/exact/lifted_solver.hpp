@@ -26,8 +26,12 @@ struct added_spring {
 /// Factors K + springs, positive semidefinite, on the dofs that are not fixed, and solves with it.
 class lifted_solver {
  public:
+  /// The longest that numerators and denominators may become.
+  static constexpr std::size_t most_bits = std::size_t{1} << 19;
+
   /// `place`: the row of each dof in the factor, for a narrow band. All arguments must outlive this object.
-  lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place);
+  lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place,
+                std::size_t longest = most_bits);
 
   /// Throws too_long, and std::runtime_error where the matrix is indefinite.
   void factor(const std::vector<added_spring>& springs);
@@ -38,9 +42,6 @@ class lifted_solver {
   /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With free
   /// motions b must do no work on them, and one of the solutions is given. Throws too_long.
   [[nodiscard]] vector solve(const vector& b) const;
-
-  /// The longest that numerators may become.
-  static constexpr std::size_t most_bits = std::size_t{1} << 19;
 
  private:
   /// Arithmetic modulo a prime below 2^61, on numbers times 2^64 (Montgomery 1985).
@@ -85,6 +86,7 @@ class lifted_solver {
   const sparse_rows& k_;
   std::span<const char> fixed_;
   std::span<const int> place_;
+  std::size_t longest_;
   std::vector<int> dof_at_;             // the inverse of place_
   std::size_t band_ = 0;                // subdiagonals
   vector spring_;                       // on the diagonal [dofs]
