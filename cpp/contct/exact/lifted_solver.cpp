@@ -153,15 +153,31 @@ class lifted_solver::lifting {
     digits_.push_back(std::move(x));
   }
 
-  /// All digits so far as numbers.
-  void gather() {
-    const integer p = of_.field_.prime();
-    for (std::size_t i = 0; i < sum_.size(); ++i) {
-      integer more = 0;
-      for (std::size_t k = digits_.size(); k-- > 0;) more = more * p + digits_[k][i];
-      sum_[i] += more * modulus_;
+  /// The number of which digits [from, to) of `dof` are the digits, by halves: long products are cheaper than
+  /// many short ones.
+  integer number(std::size_t dof, std::size_t from, std::size_t to) {
+    constexpr std::size_t few = 16;
+    integer n = 0;
+    if (to - from <= few) {
+      const integer p = of_.field_.prime();
+      for (std::size_t k = to; k-- > from;) n = n * p + digits_[k][dof];
+      return n;
     }
-    modulus_ *= boost::multiprecision::pow(p, static_cast<unsigned>(digits_.size()));
+    const std::size_t middle = from + (to - from) / 2;
+    return number(dof, from, middle) + number(dof, middle, to) * power(middle - from);
+  }
+
+  const integer& power(std::size_t exponent) {
+    integer& known = powers_[exponent];
+    if (known == 0)
+      known = boost::multiprecision::pow(integer(of_.field_.prime()), static_cast<unsigned>(exponent));
+    return known;
+  }
+
+  /// Add the digits since the last time to the numbers.
+  void gather() {
+    for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += number(i, 0, digits_.size()) * modulus_;
+    modulus_ *= power(digits_.size());
     gathered_ += digits_.size();
     digits_.clear();
   }
@@ -210,6 +226,7 @@ class lifted_solver::lifting {
   std::vector<std::uint64_t> unscale_;              // 1 / scale
   std::vector<std::vector<std::uint64_t>> digits_;  // since the last gathering
   std::vector<integer> sum_;                        // of the digits gathered
+  std::map<std::size_t, integer> powers_;           // of the prime
   std::size_t gathered_ = 0;
   integer modulus_ = 1;  // the prime to their number
 };
