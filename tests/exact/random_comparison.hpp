@@ -55,7 +55,7 @@ inline void compare_one(std::uint64_t number, const lab::random_problem& drawn, 
   const structure::linear_structure s = structure_of(p);
   const auto leader = outside::make_kernel("corrected");
   digit_counter counter(p, exactly);
-  certify::certifier judged(s, loads_of(p));
+  certify::certifier judged(s, loads_of(p, s));
   const path::path_end end =
       path::follow(p, s, "refactor", *leader, {&judged, &counter}, {0, certify::fallback_to_reference(s)});
   const kernel_digits r = counter.result("corrected", end.status, 1e-9);
