@@ -71,7 +71,7 @@ TEST_CASE("a binary file is refused at its first byte that is no text") {
 
 TEST_CASE("a file of 50 MB is refused by its size, however well it begins") {
   const scratch_folder dir;
-  dir.write("huge.toml", std::string(good_problem) + "# " + std::string(50'000'000, 'x'));
+  dir.write("huge.toml", std::string(good_problem).append("# ").append(50'000'000, 'x'));
   CHECK_THAT(refusal(dir, "huge.toml"), Contains("32 MiB or more"));
 }
 

@@ -38,8 +38,7 @@ void says(const std::string& text, const std::string& number, double measured) {
   const std::size_t exponent = number.find('e');
   const std::size_t point = number.find('.');
   const std::string digits = number.substr(0, exponent);
-  double unit =
-      exponent == std::string::npos ? 1.0 : std::pow(10.0, std::atoi(number.c_str() + exponent + 1));
+  double unit = exponent == std::string::npos ? 1.0 : std::pow(10.0, std::stoi(number.substr(exponent + 1)));
   if (point != std::string::npos) unit *= std::pow(10.0, -static_cast<double>(digits.size() - point - 1));
   CHECK(std::abs(std::strtod(number.c_str(), nullptr) - measured) <= 0.51 * unit);
 }

@@ -33,7 +33,7 @@ TEST_CASE("a beam of 100,000 nodes is read, solved and written in under 200 MB")
   INFO(f.out << f.err);
   CHECK(f.exit == 0);
 #if !defined(__SANITIZE_ADDRESS__)
-  CHECK(f.peak_kib < 200 * 1000);
+  CHECK(f.peak_kib < 200'000);
 #endif
   const std::string text = dir.read("long.json");
   const auto result = nlohmann::json::parse(text);

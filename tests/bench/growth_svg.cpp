@@ -29,7 +29,7 @@ struct decades {
 };
 
 struct axes {
-  double x0;
+  double x0 = 0.0;
   decades x, y;
   [[nodiscard]] double at_x(double dofs) const { return x0 + panel_width * x.share(dofs); }
   [[nodiscard]] double at_y(double ms) const { return top + panel_height * (1.0 - y.share(ms)); }

@@ -51,7 +51,7 @@ lockstep with_fault(std::function<void(call<double>&, std::string&)> fault) {
 TEST_CASE("FORTRAN and C++ follow PB1 in lockstep, and everything is counted") {
   const lockstep compared = in_lockstep_with(make_kernel("cpp"));
   CHECK(compared.calls() == 6);
-  CHECK(compared.compared().values == 6 * 4);  // SMIN, SS, ISEP, text
+  CHECK(compared.compared().values == 6L * 4);  // SMIN, SS, ISEP, text
   CHECK(compared.compared().mismatches == 0);
   CHECK_FALSE(compared.first());
   CHECK(compared.last_call_equal());
@@ -107,7 +107,7 @@ TEST_CASE("the last call is equal only when no follower's answer to it differs")
     CHECK(compared.last_answers()[place].mismatches == 1);
     CHECK(compared.last_answers()[1 - place].mismatches == 0);
     CHECK(compared.followers()[1 - place].compared.mismatches == 0);
-    CHECK(compared.compared().values == 2 * 6 * 4);
+    CHECK(compared.compared().values == 2L * 6 * 4);
   }
 }
 

@@ -67,7 +67,7 @@ void check_listing(const edition& e, const std::vector<std::string>& listing,
   }
   for (std::size_t i = 0; i < listing.size(); ++i) {
     const int line = static_cast<int>(i) + 1;
-    if (!is_comment(listing[i]) && times.count(line) == 0)
+    if (!is_comment(listing[i]) && !times.contains(line))
       faults.push_back(std::string(listing_file) + ", line " + std::to_string(line) +
                        ": is left out: " + bare(listing[i]));
   }

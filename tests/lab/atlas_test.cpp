@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "catch.hpp"
+#include "contct/numeric/bits.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/outside/registry.hpp"
 
@@ -41,9 +41,8 @@ struct answer {
   std::vector<int> isep;
 
   bool operator==(const answer& other) const {
-    return isep == other.isep && std::memcmp(&smin, &other.smin, sizeof smin) == 0 &&
-           std::equal(ss.begin(), ss.end(), other.ss.begin(),
-                      [](const double& a, const double& b) { return std::memcmp(&a, &b, sizeof a) == 0; });
+    return isep == other.isep && same_bits(smin, other.smin) &&
+           std::equal(ss.begin(), ss.end(), other.ss.begin(), same_bits<double>);
   }
 };
 
@@ -127,7 +126,7 @@ TEST_CASE("Wilson's interval has the published values, and a width at 0 and at a
 
 TEST_CASE("the cells cover every unit, every EPSMUL and both precisions, held and free, once") {
   const std::vector<atlas_cell> cells = atlas_cells();
-  CHECK(cells.size() == 2 * (13 * 3 + 2 * 7));
+  CHECK(cells.size() == 2U * (13 * 3 + 2 * 7));
   for (const bool held : {true, false}) {
     const auto count = [&](auto wanted) {
       return std::count_if(cells.begin(), cells.end(),

@@ -18,16 +18,16 @@ fuzz_result shard(int number, equality_level highest) {
   fuzz_result r;
   r.request.shard = number;
   r.request.shards = 2;
-  r.calls = 100 * number;
+  r.calls = 100L * number;
   r.problems = number;
   r.seconds = 0.5;
   r.events = {1, 2, 3};
   r.branches.of(branch::no_events, true) += 7;
   fuzz_follower& f = r.followers.emplace_back();
   f.name = "cpp";
-  f.compared = {1000 * number, number - 1};
+  f.compared = {1000L * number, number - 1};
   f.highest = highest;
-  f.most_ulps = 5U * static_cast<unsigned>(number);
+  f.most_ulps = 5UL * static_cast<unsigned>(number);
   if (number == 2) r.followers[0].mismatch_reports = {"call 3: cpp differs"};
   return r;
 }

@@ -238,3 +238,19 @@ TEST_CASE("the picture of a loaded beam of one element follows its exact line") 
   const std::string curve = svg.substr(at, svg.find("/>", at) - at);
   CHECK(std::count(curve.begin(), curve.end(), 'C') == 8);
 }
+
+TEST_CASE("The picture of a plate has maps of its moments and of a bed's pressure, and rings for reactions") {
+  const a_run on_bed(
+      "[units]\nlength = \"m\"\nforce = \"kN\"\n[plate]\nsize = [2, 1]\nelements = [4, 2]\nD = 5\nnu = 0.3\n"
+      "[[support]]\nat = [0, 0]\nfix = \"w\"\n[[bed]]\nmodulus = 100\nface = 0\n[[step]]\npoint = [ { at = "
+      "[2, 1], w = "
+      "-3 } ]\n");
+  const std::string svg = run_svg(on_bed.finished());
+  CHECK(why_not_well_formed(svg).empty());
+  for (const char* name :
+       {">mx kN m/m<", ">my kN m/m<", ">mxy kN m/m<", ">pressure of the bed kN/m²<", "rings: reactions"})
+    CHECK_THAT(svg, Contains(name));
+  CHECK_THAT(svg, Contains("class=\"reaction\""));
+  const a_run beam(loaded_and_freed);
+  CHECK_THAT(run_svg(beam.finished()), !Contains("reaction\""));
+}

@@ -41,21 +41,6 @@ json for_colour(double x) {
   return json::parse(fmt::format("{:.4g}", x));
 }
 
-/// The mean of what the elements at a node have there, for contours [nodes].
-std::vector<double> means_at_nodes(const plate& p, const element_results& results, std::size_t name) {
-  std::vector<double> sum(p.nodes());
-  std::vector<int> count(p.nodes());
-  for (int e = 0; e < p.elements(); ++e) {
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const int node = p.corners_of(e)[corner];
-      sum[node] += results.at(e, name)[corner];
-      ++count[node];
-    }
-  }
-  for (std::size_t node = 0; node < sum.size(); ++node) sum[node] /= count[node];
-  return sum;
-}
-
 /// What is wrong with final states, and what to do about it.
 std::vector<std::string> complaints_of(const finished_run& r) {
   std::vector<std::string> lines = certificate_complaints(r.what, r.judged, r.early);

@@ -155,6 +155,7 @@ path { fill: none; } .thin { stroke: #5f5e58; } .grid { stroke: #e4e1d8; } .unde
 .beam { stroke: #1d1d1b; stroke-width: 3.5; stroke-linejoin: round; } .support { stroke: #1d1d1b; stroke-width: 1.5; fill: #fff; } .clamp { stroke: #1d1d1b; stroke-width: 4; }
 .surface { stroke: #1d1d1b; stroke-width: 2; } .hatch { stroke: #5f5e58; }
 .open { fill: #fff; stroke: #6b6a64; stroke-width: 1.8; } .closed { fill: #0b61a4; stroke: #fff; } .face { fill: #fff; stroke: #a85b00; stroke-width: 2.2; }
+.reaction { fill: none; stroke: #a85b00; stroke-width: 1.6; }
 .map .closed { fill: #17181a; }
 .was { stroke: #c4c0b5; } .member { stroke: #1d1d1b; stroke-width: 1.6; } .node { fill: #1d1d1b; } .force { stroke: #0b61a4; stroke-width: 2; }
 .track { stroke: #1d1d1b; stroke-width: 2; stroke-linejoin: round; } .make { fill: #1d1d1b; } .break { fill: #fff; stroke: #1d1d1b; stroke-width: 1.8; } .stop { fill: #b9b6ac; }

@@ -71,6 +71,20 @@ std::optional<passage> deepest_passage(const problem& p, const load& l, std::spa
   return worst;
 }
 
+std::vector<double> means_at_nodes(const plate& p, const element_results& results, std::size_t name) {
+  std::vector<double> sum(p.nodes());
+  std::vector<int> count(p.nodes());
+  for (int e = 0; e < p.elements(); ++e) {
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const int node = p.corners_of(e)[corner];
+      sum[node] += results.at(e, name)[corner];
+      ++count[node];
+    }
+  }
+  for (std::size_t node = 0; node < sum.size(); ++node) sum[node] /= count[node];
+  return sum;
+}
+
 std::string_view ranges_are_at(const model& m) {
   constexpr std::string_view places[] = {"the whole length", "nodes and corners of elements", "dofs"};
   return places[m.kind.index()];

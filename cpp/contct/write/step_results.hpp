@@ -40,6 +40,10 @@ struct passage {
 [[nodiscard]] std::optional<passage> deepest_passage(const problem& p, const load& l,
                                                      std::span<const double> u);
 
+/// The mean of what the elements at a node have there, for contours [nodes].
+[[nodiscard]] std::vector<double> means_at_nodes(const plate& p, const element_results& results,
+                                                 std::size_t name);
+
 /// Where ranges_of looks: "the whole length", "nodes and corners of elements" or "dofs".
 [[nodiscard]] std::string_view ranges_are_at(const model& m);
 

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
+#include "contct/write/step_results.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
@@ -100,30 +103,29 @@ std::string colour_of(double share) {
 
 /// What the colours mean.
 template <class Colour>
-std::string legend(double left, const span_of& range, Colour colour) {
+std::string legend(double left, double from, const span_of& range, Colour colour) {
   std::string text;
   for (int i = 0; i <= 10; ++i) {
     const double w = range.most - (range.most - range.least) * i / 10;
-    const double top = picture_top + 14 + 20.0 * i;
+    const double top = from + 20.0 * i;
     text += rectangle(left, top, 20, 20, fmt::format(R"(fill="{}")", colour(w)));
     if (i % 5 == 0) text += text_at(left + 28, top + 15, "quiet", fmt::format("{:.4g}", w));
   }
   return text;
 }
 
-/// Between each two columns and rows that are drawn, rectangles in the colour of the bilinear interpolation:
-/// more of them on a coarse mesh.
-/// With a colour for `edges`, the mesh itself.
+/// Between each two columns and rows that are drawn, rectangles in the colour of the bilinear interpolation
+/// of `values` [nodes]: on a coarse mesh so many that there are `enough` along a side. With a colour for
+/// `edges`, the mesh itself.
 template <class Colour>
-std::string cells_of_plate(const plate& p, const structure_picture& s, Colour colour,
-                           const std::string& edges) {
-  constexpr std::size_t enough = 32;
+std::string cells_of_plate(const plate& p, const structure_picture& s, const std::vector<double>& values,
+                           std::size_t enough, Colour colour, const std::string& edges) {
   const std::size_t most = std::max(s.shown.columns.size(), s.shown.rows.size()) - 1;
   const auto parts = edges.empty() ? static_cast<int>((enough + most - 1) / most) : 1;
   const auto cell = [&](int from, int to, int low, int high, int i, int j) {
     const double x = (i + 0.5) / parts;
     const double y = (j + 0.5) / parts;
-    const auto w_at = [&](int column, int row) { return s.w_of(p.node_at(column, row)); };
+    const auto w_at = [&](int column, int row) { return values[p.node_at(column, row)]; };
     const double w = std::lerp(std::lerp(w_at(from, low), w_at(to, low), x),
                                std::lerp(w_at(from, high), w_at(to, high), x), y);
     const double width = (s.X(p.x[to]) - s.X(p.x[from])) / parts;
@@ -141,6 +143,81 @@ std::string cells_of_plate(const plate& p, const structure_picture& s, Colour co
                      k % parts, k / parts);
   }
   return text;
+}
+
+/// A quantity of a plate, small: what it is called, in what unit, and its values [nodes].
+struct plate_map {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// Moments at nodes, the means of the elements there, and the pressure of beds.
+std::vector<plate_map> maps_of(const plate& p, const structure_picture& s) {
+  const problem& what = s.what;
+  std::vector<plate_map> maps;
+  const element_results r = results_in_elements(what.geometry, {}, s.at.displacement);
+  for (std::size_t i = 0; i < r.names.size(); ++i)
+    maps.push_back({std::string(r.names[i]) + unit_words(what, r.names[i]), means_at_nodes(p, r, i)});
+  if (!what.beds.empty())
+    maps.push_back({"pressure of the bed " + unit_words(what.units, 1, -2), bed_pressure(what, s.at)});
+  return maps;
+}
+
+/// Two beside each other, below the picture.
+drawn draw_maps(const plate& p, const structure_picture& s, double top) {
+  constexpr double room = (page_width - 2 * side) / 2 - 130;
+  constexpr std::size_t enough = 24;
+  const double wide = p.x.back() - p.x.front();
+  const double high = p.y.back() - p.y.front();
+  const double per_unit = std::min(room / wide, 240 / high);
+  const double height = std::max(per_unit * high, 230.0) + 56;
+  std::string text;
+  double bottom = top;
+  int number = 0;
+  for (const plate_map& map : maps_of(p, s)) {
+    structure_picture small = s;
+    const double left = number % 2 == 0 ? side : page_width / 2;
+    const double from = top + height * (number / 2) + 24;
+    small.X = {p.x.front(), per_unit, left};
+    small.Y = {p.y.back(), -per_unit, from};
+    span_of range;
+    for (const double value : map.values) range.take(value);
+    const auto colour = [&](double v) {
+      return colour_of(range.most == range.least ? 1.0 : (v - range.least) / range.range());
+    };
+    text += text_at(left, from - 10, "strong", map.name) +
+            cells_of_plate(p, small, map.values, enough, colour, "") +
+            legend(small.X(p.x.back()) + 20, from, range, colour);
+    bottom = from + height - 24;
+    ++number;
+  }
+  return {text, bottom};
+}
+
+/// A ring at each support of w, whose area is its reaction: dashed where it pulls down. With what the largest
+/// is.
+template <class Spot>
+drawn rings_of_reactions(const structure_picture& s, Spot spot_of) {
+  constexpr double largest_ring = 11.0;
+  std::map<int, double> at;
+  const load now = load_path(s.what).at(s.at.step, s.at.fraction);
+  const std::vector<double> all = reactions(s.what, now, s.at.displacement, s.at.isep);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const support& held = s.what.supports[i]; held.dof == 0 && s.shown.has_support_at(held.node))
+      at[held.node] += all[i];
+  double most = 0.0;
+  for (const auto& [node, force] : at) most = std::max(most, std::abs(force));
+  if (most == 0.0) return {};
+  drawn rings{"", most};
+  for (const auto& [node, force] : at) {
+    const double r = largest_ring * std::sqrt(std::abs(force) / most);
+    const auto [x, y] = spot_of(node);
+    rings.text += element("circle",
+                          fmt::format(R"(cx="{:.1f}" cy="{:.1f}" r="{:.1f}" class="reaction"{})", x, y, r,
+                                      force < 0 ? R"( stroke-dasharray="2 2")" : ""),
+                          title(fmt::format("reaction {:.6g}{}", force, unit_words(s.what, "force"))));
+  }
+  return rings;
 }
 
 /// A plate from above.
@@ -167,13 +244,22 @@ drawn draw_plate(const plate& p, structure_picture s) {
     const auto [x, y] = spot_of(held.node);
     supports += path(fmt::format("M{:.1f} {:.1f}l5 9h-10z", x, y), "support");
   }
-  return {text_at(side, picture_top, "strong",
-                  fmt::format("{} from above: {}the pairs", s.state, flat ? "" : "deflection w, and ")) +
-              cells_of_plate(p, s, colour, flat ? "#c4c0b5" : "") + supports +
-              element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
-              (flat ? "" : legend(s.X(p.x.back()) + 40, range, colour)) +
-              axis_below(s.X, p.x.front(), p.x.back(), s.bottom),
-          std::max(s.bottom, picture_top + 260) + 30};
+  std::vector<double> w;
+  for (int node = 0; node < p.nodes(); ++node) w.push_back(s.w_of(node));
+  const double below = std::max(s.bottom, picture_top + 260) + 30;
+  const auto [rings, largest] = rings_of_reactions(s, spot_of);
+  const std::string said = rings.empty() ? ""
+                                         : fmt::format("; rings: reactions, the largest {:.4g}{}", largest,
+                                                       unit_words(s.what, "force"));
+  const drawn maps = flat ? drawn{"", below} : draw_maps(p, s, below + 10);
+  return {
+      text_at(side, picture_top, "strong",
+              fmt::format("{} from above: {}the pairs{}", s.state, flat ? "" : "deflection w, and ", said)) +
+          cells_of_plate(p, s, w, 32, colour, flat ? "#c4c0b5" : "") + supports + rings +
+          element("g", R"(class="map")", "\n" + s.marks(r, spot_of)) +
+          (flat ? "" : legend(s.X(p.x.back()) + 40, picture_top + 14, range, colour)) +
+          axis_below(s.X, p.x.front(), p.x.back(), s.bottom) + maps.text,
+      maps.bottom};
 }
 
 /// A structure from elsewhere in the view that shows most: its edges as they were, faint, and displaced, with
