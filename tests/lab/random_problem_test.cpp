@@ -178,7 +178,7 @@ TEST_CASE("random problems are well formed") {
     for (const contact_pair& c : p.pairs) {
       CHECK((c.node >= 0 && c.node < count));
       // Where no other node is drawn it is the middle one, fixed or not.
-      CHECK((fixed.count(c.node) == 0 || c.node == count / 2));
+      CHECK((!fixed.contains(c.node) || c.node == count / 2));
       CHECK((c.surface == face_above || c.surface == face_below));
       CHECK(c.stiffness > 0.0);
       CHECK(c.surface * c.face >= 0.0);  // no face stands inside the structure
@@ -250,7 +250,8 @@ TEST_CASE("random problems are loaded anew, unloaded, reversed, and by a share o
       reversed += i > 0 && is_reversed(p.steps[i - 1], l) ? 1 : 0;
       spread += l.distributed.empty() ? 0 : 1;
       upwards += !l.distributed.empty() && l.distributed[0].polynomial[0] > 0.0 ? 1 : 0;
-      moments += std::any_of(l.points.begin(), l.points.end(), [](const point_load& f) { return f.dof > 0; });
+      if (std::any_of(l.points.begin(), l.points.end(), [](const point_load& f) { return f.dof > 0; }))
+        ++moments;
     }
   }
   CHECK(counts.size() == 5);

@@ -50,7 +50,7 @@ TEST_CASE("what one pair of one call shows is shrunk to one pair with round numb
 TEST_CASE("what needs a call before it keeps just that one") {
   const still_differs differs = [](const call_sequence& c) {
     int many = 0;
-    for (std::size_t i = 0; i + 1 < c.size(); ++i) many += c[i].pairs() >= 3;
+    for (std::size_t i = 0; i + 1 < c.size(); ++i) many += c[i].pairs() >= 3 ? 1 : 0;
     return many >= 1 && approaches(c.back());
   };
   const call_sequence small = shrink(some_calls(30), differs);

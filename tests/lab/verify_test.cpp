@@ -23,7 +23,7 @@ path_end run(const problem& p, measurement& m) {
   const auto leader = make_kernel("fortran");
   const std::vector<std::string> followers = {"cpp"};
   lockstep compared = make_lockstep(leader->facts(), followers);
-  const path_end end = follow(p, structure_of(p), "refactor", *leader, {&compared, &m});
+  path_end end = follow(p, structure_of(p), "refactor", *leader, {&compared, &m});
   CHECK(compared.calls() > 0);
   CHECK(compared.compared().mismatches == 0);
   return end;

@@ -38,7 +38,7 @@ TEST_CASE("every erratum undone shows what errata.toml says") {
     for (const undo& u : e.undos) {
       INFO("erratum " << e.number << ", undo: " << u.name);
       const outcome seen = carry_out(u, source);
-      CHECK(objection(u, seen) == "");
+      CHECK(objection(u, seen).empty());
       SUCCEED(in_words(seen));  // shown with -s
     }
   }
@@ -57,13 +57,13 @@ TEST_CASE("what errata.toml says was compiled is in the listing, and what the OC
   for (const erratum& e : errata()) {
     std::string undone;
     for (const undo& u : e.undos) undone += in_one_line(edited(source, u.replace)) + '\n';
-    for (const std::string& text : e.compiled) {
-      INFO("erratum " << e.number << ", compiled: " << text);
-      CHECK(occurs(text, in_one_line(source)));
+    for (const std::string& part : e.compiled) {
+      INFO("erratum " << e.number << ", compiled: " << part);
+      CHECK(occurs(part, in_one_line(source)));
     }
-    for (const std::string& text : e.ocr) {
-      INFO("erratum " << e.number << ", ocr: " << text);
-      CHECK(occurs(text, undone));
+    for (const std::string& part : e.ocr) {
+      INFO("erratum " << e.number << ", ocr: " << part);
+      CHECK(occurs(part, undone));
     }
   }
 }
@@ -140,7 +140,7 @@ TEST_CASE("the right outcome in the wrong place is not accepted") {
   const undo u{"toggle", {{"ISEP(I) = 1\n", "ISEP(I) = 7\n"}}, {}, other_numbers, "one pair breaks",
                "ISEP(1)"};
   const outcome seen = carry_out(u, listing());
-  CHECK(objection(u, seen) == "");
+  CHECK(objection(u, seen).empty());
   CHECK_FALSE(objection(u, {seen.what, seen.call, "SMIN"}).empty());
   CHECK_FALSE(objection(u, {seen.what, "no pairs", seen.field}).empty());
 }
@@ -148,5 +148,5 @@ TEST_CASE("the right outcome in the wrong place is not accepted") {
 TEST_CASE("a copy that never returns is an outcome") {
   const undo u{
       "endless", {{"SMIN = 1.0\n", "SMIN = 1.0\n    5 GOTO 5\n"}}, {}, dies, "one pair at node 1 makes", ""};
-  CHECK(objection(u, carry_out(u, listing())) == "");
+  CHECK(objection(u, carry_out(u, listing())).empty());
 }

@@ -74,9 +74,9 @@ void print_answer(const battery_call& call, const arguments& a) {
 
 int run(const char* library) {
   void* const handle = dlopen(library, RTLD_NOW);
-  const auto contct = handle ? reinterpret_cast<subroutine>(dlsym(handle, "contct_")) : nullptr;
-  const auto dof = handle ? static_cast<common_dof*>(dlsym(handle, "dof_")) : nullptr;
-  if (!contct || !dof) {
+  auto* const contct = handle != nullptr ? reinterpret_cast<subroutine>(dlsym(handle, "contct_")) : nullptr;
+  auto* const dof = handle != nullptr ? static_cast<common_dof*>(dlsym(handle, "dof_")) : nullptr;
+  if (contct == nullptr || dof == nullptr) {
     std::fprintf(stderr, "no CONTCT with its COMMON /DOF/ in %s\n", library);
     return 1;
   }

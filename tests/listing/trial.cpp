@@ -76,9 +76,10 @@ behaviour try_out(const std::string& source, const std::vector<std::string>& opt
 bool checksum_refuses(const std::string& source) {
   const scratch_folder folder;
   write_file(folder.path() / "copy.f", source);
-  const child_end check = run_child(
-      {CONTCT_CMAKE, "-DLISTING=copy.f", "-DCHECKSUM=" CONTCT_LISTING_CHECKSUM, "-P", CONTCT_CHECKSUM_SCRIPT},
-      folder.path());
+  const child_end check =
+      run_child({CONTCT_CMAKE, "-DLISTING=copy.f", std::string("-DCHECKSUM=") + CONTCT_LISTING_CHECKSUM, "-P",
+                 CONTCT_CHECKSUM_SCRIPT},
+                folder.path());
   return !check.well() && check.err.find("The listing has been edited") != std::string::npos;
 }
 

@@ -79,7 +79,7 @@ std::vector<mutant> read_mutants(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   const toml::table all = toml::parse_file(file.string());
   const toml::array* const tables = all["mutant"].as_array();
-  if (!tables || all.size() != 1 || !tables->is_array_of_tables())
+  if (tables == nullptr || all.size() != 1 || !tables->is_array_of_tables())
     refuse(name, "[[mutant]] tables are wanted, and nothing else");
   std::vector<mutant> mutants;
   std::set<std::string> ids;

@@ -127,7 +127,7 @@ TEST_CASE("a long path is thinned evenly, and its start and its latest state sta
 
 TEST_CASE("frames of many dofs are fewer, for the memory's sake") {
   const stopped_beam b({-10.0, -0.3, -10.0, -0.3});
-  frame_keeper kept(b.structure, b.loads(), false, {100, 18 * 5});
+  frame_keeper kept(b.structure, b.loads(), false, {100, 90});
   REQUIRE(b.run("cpp", kept).status == path_status::solved);
   CHECK(kept.increments() == 12);
   CHECK(kept.frames().size() <= 5);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -81,7 +80,8 @@ std::string matrix_deck_of(const block& b) {
 std::string peer_deck_of(const block& b, double load) {
   const auto where = [&](int node) {
     const int column = (node - 1) / (b.nz + 1);
-    return std::array{b.length * (column / (b.ny + 1)) / b.nx, b.width * (column % (b.ny + 1)) / b.ny,
+    const int along = column / (b.ny + 1);
+    return std::array{b.length * along / b.nx, b.width * (column % (b.ny + 1)) / b.ny,
                       b.height * ((node - 1) % (b.nz + 1)) / b.nz};
   };
   std::string text = mesh_of(b, youngs * unit_of_force);
@@ -117,12 +117,9 @@ std::string problem_of(const block& b) {
 /// The labels of a matrix's dofs, in its order.
 std::vector<std::pair<int, int>> labels_in(const std::string& path) {
   std::vector<std::pair<int, int>> labels;
-  int node = 0;
-  int direction = 0;
-  const std::string text = read_text(path);
-  for (const char* at = text.c_str(); std::sscanf(at, "%d.%d", &node, &direction) == 2;
-       at = std::strchr(at, '\n') + 1)
-    labels.emplace_back(node, direction);
+  std::istringstream lines(read_text(path));
+  char dot = 0;
+  for (int node = 0, direction = 0; lines >> node >> dot >> direction;) labels.emplace_back(node, direction);
   return labels;
 }
 

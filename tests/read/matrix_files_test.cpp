@@ -216,8 +216,8 @@ TEST_CASE("every mistake in CalculiX's matrix is refused with its line, what was
 
 TEST_CASE("mutilated files are refused or read whole: no crash, no hang, no half") {
   random_numbers random(20261121);
-  const std::string pieces[] = {"1", "-", "\n",  " ", "e", "nan", "3", "%", "999999999999",
-                                ".", "0", "\t2", "\0"};
+  const std::string pieces[] = {
+      "1", "-", "\n", " ", "e", "nan", "3", "%", "999999999999", ".", "0", "\t2", std::string(1, '\0')};
   const std::string files[] = {good_matrix, good_vector, sparse_vector, good_job};
   int accepted = 0;
   int refused = 0;

@@ -189,7 +189,7 @@ TEST_CASE("a hundred thousand nodes, written out, are read") {
 
 TEST_CASE("the good plate is accepted: grid, stiffness from E, nu and thickness, loads on every dof") {
   const problem p = parse_problem(good_plate, "pb.toml");
-  const plate& it = std::get<plate>(p.geometry.kind);
+  const auto& it = std::get<plate>(p.geometry.kind);
   CHECK(it.x == std::vector<double>{0, 0.5, 1});
   CHECK(it.y == std::vector<double>{0, 1});
   CHECK(it.D == Approx(1.0).epsilon(1e-15));
@@ -215,7 +215,7 @@ TEST_CASE("an even plate by its size, D as it is, springs on every dof, nu at bo
       "[plate]\nsize = [3, 1]\nelements = [3, 2]\nD = 2\nnu = 0.5\n[[support]]\nnode = 12\n"
       "spring = { w = 1, wx = 2, wy = 3 }\n[[step]]\nuniform = 0\n",
       "pb.toml");
-  const plate& it = std::get<plate>(p.geometry.kind);
+  const auto& it = std::get<plate>(p.geometry.kind);
   CHECK(it.x == std::vector<double>{0, 1, 2, 3});
   CHECK(it.y == std::vector<double>{0, 0.5, 1});
   CHECK(it.D == 2.0);

@@ -71,7 +71,9 @@ inline sparse_matrix braced(const std::vector<std::array<double, 3>>& points, do
 /// Eight corners of a box.
 inline std::vector<std::array<double, 3>> box_at(double x) {
   std::vector<std::array<double, 3>> points;
-  for (int i = 0; i < 8; ++i) points.push_back({x + i % 2, 0.9 * (i / 2 % 2), 1.3 * (i / 4)});
+  for (const double z : {0.0, 1.3})
+    for (const double y : {0.0, 0.9})
+      for (const double along : {0.0, 1.0}) points.push_back({x + along, y, z});
   return points;
 }
 
