@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
+#include <vector>
 
 #include "catch.hpp"
 #include "contct/write/pictures.hpp"
@@ -16,6 +17,22 @@
 using namespace contct::app;
 using Catch::Matchers::Contains;
 using namespace contct::write::svg;
+
+namespace {
+
+/// The first numbers in `text` from `at` on.
+std::vector<double> numbers_from(const std::string& text, std::size_t at, std::size_t count) {
+  std::vector<double> numbers;
+  while (numbers.size() < count && (at = text.find_first_of("-.0123456789", at)) != std::string::npos) {
+    std::size_t length = 0;
+    numbers.push_back(std::stod(text.substr(at, 30), &length));
+    at += length;
+  }
+  REQUIRE(numbers.size() == count);
+  return numbers;
+}
+
+}  // namespace
 
 TEST_CASE("the picture is well-formed, whatever the title, and has a mark for every pair") {
   for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
@@ -86,12 +103,9 @@ TEST_CASE("a face above is hatched upwards") {
   text.replace(text.find("-0.004"), 6, "0.004");
   text.replace(text.find("-60.0"), 5, "60.0");
   const std::string svg = run_svg(a_run(text).finished());
-  double x[2];
-  double y[2];
-  const std::size_t at = svg.rfind("d=\"", svg.find("class=\"hatch\""));
-  REQUIRE(std::sscanf(svg.c_str() + at, "d=\"M%lf %lfL%lf %lf", &x[0], &y[0], &x[1], &y[1]) == 4);
-  CHECK(x[1] == x[0] - 3);
-  CHECK(y[1] == y[0] - 6);
+  const std::vector<double> hatch = numbers_from(svg, svg.rfind("d=\"", svg.find("class=\"hatch\"")), 4);
+  CHECK(hatch[2] == hatch[0] - 3);
+  CHECK(hatch[3] == hatch[1] - 6);
 }
 
 TEST_CASE("a plate is drawn with y upwards: a cell, a pair, the legend and the axis in their places") {
@@ -158,27 +172,22 @@ TEST_CASE("the frame's picture has its corner where it is, and is drawn where it
     return svg.substr(from, to - from);
   };
   CHECK(path_of("member") == path_of("was"));
-  double x[2], y[2];
-  REQUIRE(std::sscanf(path_of("was").c_str(), "M%lf %lfL%lf %lf", &x[0], &y[0], &x[1], &y[1]) == 4);
-  CHECK(x[0] == x[1]);      // the left column
-  CHECK(y[0] > y[1] + 50);  // goes up
+  const std::vector<double> column = numbers_from(path_of("was"), 0, 4);
+  CHECK(column[0] == column[2]);      // the left column
+  CHECK(column[1] > column[3] + 50);  // goes up
   CHECK_THAT(svg, Contains("displacement × 200<"));
 }
 
 TEST_CASE("the frame stands in the middle of the page, its supports below its feet") {
   const std::string svg = run_svg(a_run(portal_frame()).finished());
-  double x[2];
-  double y[3];
   // The feet, 4 m apart: clamped, each with a triangle left of it (x), one below it (y) and a square.
   const std::size_t foot = svg.find("<path d=\"M", svg.find("class=\"support\""));
-  REQUIRE(std::sscanf(svg.c_str() + foot, "<path d=\"M%lf %lfL%lf %lfL%*f %lf", &x[0], &y[0], &x[1], &y[1],
-                      &y[2]) == 5);
-  CHECK(y[1] == Approx(y[0] + 12));
-  CHECK(y[2] == Approx(y[0] + 12));
+  const std::vector<double> triangle = numbers_from(svg, foot, 6);
+  CHECK(triangle[3] == Approx(triangle[1] + 12));
+  CHECK(triangle[5] == Approx(triangle[1] + 12));
   const std::size_t last = svg.rfind("d=\"M", svg.rfind("class=\"support\""));
-  double right = 0.0;
-  REQUIRE(std::sscanf(svg.c_str() + last, "d=\"M%lf", &right) == 1);
-  CHECK((x[0] + right + 4.5) / 2 == Approx(450.0).margin(0.11));
+  const double right = numbers_from(svg, last, 1)[0];
+  CHECK((triangle[0] + right + 4.5) / 2 == Approx(450.0).margin(0.11));
 }
 
 TEST_CASE("without coordinates pairs are rows of a table, 22 apart, below the dof that moves most") {

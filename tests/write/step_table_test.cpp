@@ -22,15 +22,17 @@ struct end_of_good_problem {
 
 TEST_CASE("The largest of each quantity has a line with its place and its unit") {
   end_of_good_problem e;
-  const std::vector<std::string> lines = largest_lines(e.run.what, e.read, 72);
+  sizes_so_far sizes;
+  const std::vector<std::string> lines = largest_lines(e.run.what, e.read, 72, sizes);
   CHECK(lines == std::vector<std::string>{"w             -0.00483721       node 3, x = 2",
                                           "moment        -36.2791          node 1, x = 0",
                                           "contact force 41.8605           pair 1, node 3 below",
                                           "reaction      18.1395           node 1"});
   problem with_units = e.run.what;
   with_units.units = {"m", "kN"};
-  CHECK(largest_lines(with_units, e.read, 72).at(1) == "moment        -36.2791 kN m     node 1, x = 0");
-  CHECK(largest_lines(with_units, e.read, 40).at(1) == "moment -36.2791 kN m, node 1, x = 0");
+  CHECK(largest_lines(with_units, e.read, 72, sizes).at(1) ==
+        "moment        -36.2791 kN m     node 1, x = 0");
+  CHECK(largest_lines(with_units, e.read, 40, sizes).at(1) == "moment -36.2791 kN m, node 1, x = 0");
 }
 
 TEST_CASE("The detailed tables have every pair, reaction and end of an element, within 80 columns") {
@@ -43,4 +45,13 @@ TEST_CASE("The detailed tables have every pair, reaction and end of an element, 
   CHECK_THAT(text, Contains("       2  shear") && Contains("          moment"));
   for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
     CHECK(end - at <= 80);
+}
+
+TEST_CASE("What is nothing but the rounding of larger numbers before it is printed as 0, without a place") {
+  end_of_good_problem e;
+  sizes_so_far sizes{{"w", 0.0}, {"moment", 1e15}, {"reaction", 1e10}};
+  CHECK(largest_lines(e.run.what, e.read, 72, sizes) ==
+        std::vector<std::string>{"w             -0.00483721       node 3, x = 2", "moment        0",
+                                 "contact force 41.8605           pair 1, node 3 below",
+                                 "reaction      18.1395           node 1"});
 }

@@ -50,9 +50,9 @@ struct free_run_difference {
 /// The bound between kernels: 1e-9 for one precision and rule, 1e-4 for different ones.
 [[nodiscard]] double free_run_bound(const kernel_facts& leader, const kernel_facts& other);
 
-/// Compare two recorded paths of one problem. Each of a node's `dofs_per_node` kinds of dof is
-/// measured against its own largest on the whole path: deflections and rotations have different
-/// units, and an unloaded step has no size of its own.
+/// Compare two recorded paths of one problem. Deflections, the first of a node's
+/// `dofs_per_node` dofs, are measured against the largest of them on the whole path, rotations against the
+/// largest of those: they have different units, and an unloaded step has no size of its own.
 [[nodiscard]] free_run_difference compare_paths(const path_record& leader, const path_record& other,
                                                 double bound, int dofs_per_node);
 

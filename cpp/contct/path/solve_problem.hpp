@@ -1,7 +1,6 @@
 // The path of a structure under load steps that are data, and of a whole problem.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <set>
 #include <span>
@@ -59,14 +58,14 @@ inline path_end follow(const problem& p, const linear_structure& s, std::string_
 [[nodiscard]] inline std::vector<double> reactions(const problem& p, const load& l, std::span<const double> u,
                                                    std::span<const int> isep) {
   std::vector<double> all = reactions(p.geometry, l, p.supports, u);
-  const int stride = dofs_per_node(p.geometry);
+  const std::size_t stride = dofs_per_node(p.geometry);
+  std::vector<int> held_by(nodes(p.geometry), -1);  // the first support that fixes a node's deflection
+  for (int i = static_cast<int>(p.supports.size()) - 1; i >= 0; --i)
+    if (p.supports[i].fixed && p.supports[i].dof == 0) held_by[p.supports[i].node] = i;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const contact_pair& at = p.pairs[i];
     const double force = at.surface * force_of(at, u[at.node * stride], isep[i] == in_contact);
-    if (force == 0.0) continue;
-    const auto fixes = [&](const support& s) { return s.fixed && s.dof == 0 && s.node == at.node; };
-    const auto by = std::find_if(p.supports.begin(), p.supports.end(), fixes);
-    if (by != p.supports.end()) all[by - p.supports.begin()] += force;
+    if (held_by[at.node] >= 0 && force != 0.0) all[held_by[at.node]] += force;
   }
   return all;
 }

@@ -73,6 +73,11 @@ void take(value_range& r, const placed_value& v) {
   if (v.value > r.most.value) r.most = v;
 }
 
+/// The deflection of a beam's node.
+double w_at(std::span<const double> u, std::size_t node) {
+  return u[beam::dofs_per_node * node];
+}
+
 /// One quantity along a beam.
 class range_along {
  public:
@@ -107,7 +112,7 @@ std::vector<value_range> ranges(const beam& b, const load& l, std::span<const do
   const std::vector<element_forces> ends = forces_in_elements(b, l, u);
   for (int e = 0; e < b.elements(); ++e) {
     const element_line line = lines.at(e);
-    w.take_element(line, e, line.w, u[2 * e], u[2 * e + 2]);
+    w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
     moment.take_element(line, e, line.moment, ends[e].moment[0], ends[e].moment[1]);
     shear.take_element(line, e, line.shear, ends[e].shear[0], ends[e].shear[1]);
   }
@@ -121,7 +126,8 @@ std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<con
   };
   std::vector<value_range> all;
   value_range& w = all.emplace_back(value_range{"w", at(0, u[0]), at(0, u[0])});
-  for (int node = 1; node < p.nodes(); ++node) take(w, at(node, u[3 * node]));
+  for (int node = 1; node < p.nodes(); ++node)
+    take(w, at(node, u[static_cast<std::size_t>(node) * plate::dofs_per_node]));
   const std::vector<corner_moments> moments = moments_in_elements(p, u);
   const std::pair<const char*, std::array<double, 4> corner_moments::*> quantities[] = {
       {"mx", &corner_moments::mx}, {"my", &corner_moments::my}, {"mxy", &corner_moments::mxy}};
@@ -148,10 +154,10 @@ std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::
 
 value_range deflections_between(const beam& b, const beam_lines& lines, std::span<const double> u, int first,
                                 int last) {
-  range_along w("w", {u[2 * first], b.x[first], 0.0, first});
+  range_along w("w", {w_at(u, first), b.x[first], 0.0, first});
   for (int e = first; e < last; ++e) {
     const element_line line = lines.at(e);
-    w.take_element(line, e, line.w, u[2 * e], u[2 * e + 2]);
+    w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
   }
   return w.range();
 }
@@ -179,8 +185,8 @@ element_line beam_lines::at(int e) const {
     line.shear[j + 1] = q[j] * h / (n + 1);
     line.moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
   }
-  line.w[0] = u_[2 * e];
-  line.w[1] = u_[2 * e + 1] * h;
+  line.w[0] = w_at(u_, e);
+  line.w[1] = u_[2 * static_cast<std::size_t>(e) + 1] * h;
   for (std::size_t i = 0; i < line.moment.size(); ++i) {  // EI w'' = M
     const auto n = static_cast<double>(i);
     line.w[i + 2] = line.moment[i] * h * h / EI / (n + 1) / (n + 2);

@@ -61,12 +61,14 @@ std::optional<passage> deepest_passage(const problem& p, const load& l, std::spa
     if (left.surface != right.surface || left.face != right.face || left.node == right.node) continue;
     const value_range w = deflections_between(*b, lines, u, left.node, right.node);
     const placed_value& outmost = left.surface == face_above ? w.most : w.least;
-    const double at_pairs = std::max({0.0, beyond(left, u[2 * left.node]), beyond(right, u[2 * right.node])});
+    const double at_pairs = std::max(
+        {0.0, beyond(left, deflection_of(p, u, left.node)), beyond(right, deflection_of(p, u, right.node))});
     const double depth = beyond(left, outmost.value) - at_pairs;
     if (depth > worst.depth) worst = {depth, outmost.x, order[i], order[i + 1]};
   }
   double largest = 0.0;
-  for (int node = 0; node < b->nodes(); ++node) largest = std::max(largest, std::abs(u[2 * node]));
+  for (int node = 0; node < b->nodes(); ++node)
+    largest = std::max(largest, std::abs(deflection_of(p, u, node)));
   if (!(worst.depth > worth_a_word * largest)) return {};
   return worst;
 }

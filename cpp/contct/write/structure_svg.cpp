@@ -177,7 +177,8 @@ drawn draw_maps(const plate& p, const structure_picture& s, double top) {
   for (const plate_map& map : maps_of(p, s)) {
     structure_picture small = s;
     const double left = number % 2 == 0 ? side : page_width / 2;
-    const double from = top + height * (number / 2) + 24;
+    const int row = number / 2;
+    const double from = top + height * row + 24;
     small.X = {p.x.front(), per_unit, left};
     small.Y = {p.y.back(), -per_unit, from};
     span_of range;
@@ -245,6 +246,7 @@ drawn draw_plate(const plate& p, structure_picture s) {
     supports += path(fmt::format("M{:.1f} {:.1f}l5 9h-10z", x, y), "support");
   }
   std::vector<double> w;
+  w.reserve(p.nodes());
   for (int node = 0; node < p.nodes(); ++node) w.push_back(s.w_of(node));
   const double below = std::max(s.bottom, picture_top + 260) + 30;
   const auto [rings, largest] = rings_of_reactions(s, spot_of);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/write/step_table.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
@@ -148,7 +147,7 @@ void table::step_ended(const step_state& s) {
   }
   const step_results r =
       results_of(problem_, loads_.at(s.step, s.fraction), s.displacement, s.isep, deflecting_);
-  for (const std::string& largest : largest_lines(problem_, r, width))
+  for (const std::string& largest : largest_lines(problem_, r, width, sizes_))
     for (const std::string& line : wrap({largest}, width))
       print_text(fmt::format("{}\n", painted(terminal_, paint::strong, label + line)));
   if (detail_) print_text(detail_tables(problem_, s, r));

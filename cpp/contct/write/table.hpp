@@ -7,7 +7,7 @@
 
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/step_results.hpp"
+#include "contct/write/step_table.hpp"
 
 namespace contct::write {
 
@@ -45,6 +45,7 @@ class table final : public observer {
   bool headed_ = false;
   std::vector<event> last_events_;  // of the increment before
   std::vector<int> deflecting_;
+  sizes_so_far sizes_;
   bool detail_;
 
   /// Increments at which a step's load has only begun: one row for them all.
