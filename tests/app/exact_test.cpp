@@ -11,7 +11,7 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-const std::string pb7 = "reference/problems/pb07-three-gap-supports.toml";
+const std::string three_gaps = "reference/problems/pb07-three-gap-supports.toml";
 
 const std::string cantilever =
     "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
@@ -27,7 +27,8 @@ finished exactly(const std::string& problem, const std::vector<std::string>& mor
 }  // namespace
 
 TEST_CASE("the tie of the three gap supports is printed as the fraction that it is") {
-  const finished f = contct_program(root, {"exact", pb7, "--kernels", "fortran,cpp,fortran-r4,corrected"});
+  const finished f =
+      contct_program(root, {"exact", three_gaps, "--kernels", "fortran,cpp,fortran-r4,corrected"});
   CHECK(f.exit == 0);
   CHECK(f.err.empty());
   CHECK_THAT(f.out, StartsWith("PB7") &&
@@ -37,7 +38,7 @@ TEST_CASE("the tie of the three gap supports is printed as the fraction that it 
 }
 
 TEST_CASE("the document is written beside the text, and alone where it takes standard output") {
-  const finished f = contct_program(root, {"exact", pb7, "--json", "-"});
+  const finished f = contct_program(root, {"exact", three_gaps, "--json", "-"});
   CHECK(f.exit == 0);
   const auto document = nlohmann::json::parse(f.out);
   CHECK(document["format"] == "contct-exact-1");
@@ -71,11 +72,11 @@ TEST_CASE("--digits says how long a fraction may be") {
 }
 
 TEST_CASE("--quiet prints nothing, and what cannot be is refused with exit 2") {
-  const finished quiet = contct_program(root, {"exact", pb7, "--quiet"});
+  const finished quiet = contct_program(root, {"exact", three_gaps, "--quiet"});
   CHECK(quiet.exit == 0);
   CHECK(quiet.out.empty());
-  CHECK(contct_program(root, {"exact", pb7, "--rule", "1990"}).exit == 2);
-  const finished unknown = contct_program(root, {"exact", pb7, "--kernels", "nobody"});
+  CHECK(contct_program(root, {"exact", three_gaps, "--rule", "1990"}).exit == 2);
+  const finished unknown = contct_program(root, {"exact", three_gaps, "--kernels", "nobody"});
   CHECK(unknown.exit == 2);
   CHECK_THAT(unknown.err, Contains("nobody"));
 }

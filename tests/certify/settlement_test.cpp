@@ -1,12 +1,12 @@
 // Supports that settle: what every textbook has for continuous beams, on every engine, with contact and
 // without.
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/lab/random_problem.hpp"
+#include "contct/numeric/random.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
@@ -79,7 +79,7 @@ TEST_CASE("Supports that settle alike move the beam without bending it") {
   problem p = two_spans();
   p.steps = {{{}, {}, {{0, 0, -0.5}, {4, 0, -0.5}, {8, 0, -0.5}}}};
   const solved_path path = follow_certified(p);
-  for (int node = 0; node < 9; ++node) CHECK(path.u(1)[2 * node] == Approx(-0.5).epsilon(1e-12));
+  for (std::size_t node = 0; node < 9; ++node) CHECK(path.u(1)[2 * node] == Approx(-0.5).epsilon(1e-12));
   for (const double r : reactions_at_end(p, path, 1)) CHECK(std::abs(r) < 1e-9);
 }
 
@@ -199,8 +199,7 @@ TEST_CASE(
     "too") {
   random_problem_kind kind;
   kind.free_share = 0.0;
-  std::mt19937_64 random(15);
-  std::uniform_real_distribution<double> share(-2.0, 2.0);
+  random_numbers random(15);
   int settled = 0;
   int steps = 0;
   int events = 0;
@@ -220,8 +219,8 @@ TEST_CASE(
       largest = std::max(largest, std::abs(answer.displacement[dof]));
     for (load& l : p.steps)
       for (const support& s : p.supports)
-        if (s.fixed && s.dof == 0 && random() % 3 == 0) {
-          l.settlements.push_back({s.node, 0, share(random) * largest});
+        if (s.fixed && s.dof == 0 && random.chance(1.0 / 3)) {
+          l.settlements.push_back({s.node, 0, (4 * random.unit() - 2) * largest});
           ++settled;
         }
     INFO("problem " << number);

@@ -14,8 +14,7 @@ exact_path listed(const std::string& text) {
   return follow_1989_path(exact_problem_of(parse_problem(text, "problem.toml")));
 }
 
-const std::string cantilever =
-    "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
+const std::string one_span = "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
 
 std::string stop(int node, const std::string& face, const std::string& k) {
   return "[[contact]]\nnode = " + std::to_string(node) + "\nsurface = \"below\"\nface = " + face +
@@ -26,7 +25,7 @@ std::string stop(int node, const std::string& face, const std::string& k) {
 
 TEST_CASE("a single stop is made exactly at its face by the 1989 rule too") {
   const exact_path path =
-      listed(cantilever + stop(2, "-1", "3") + "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
+      listed(one_span + stop(2, "-1", "3") + "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
   REQUIRE(path.steps[0].increments.size() == 2);
   CHECK(path.steps[0].increments[0].fraction == rational(1, 3));
   CHECK(path.steps[0].displacement[2] == -2);
@@ -34,7 +33,7 @@ TEST_CASE("a single stop is made exactly at its face by the 1989 rule too") {
 
 TEST_CASE("a pair within EPSMUL of the first is made before it touches, and its error stays in the sum") {
   // Two stops at one node: 1 is reached at a third, 1.001 within 1/256 of that.
-  const exact_path path = listed(cantilever + stop(2, "-1", "3") + stop(2, "-1.001", "6") +
+  const exact_path path = listed(one_span + stop(2, "-1", "3") + stop(2, "-1.001", "6") +
                                  "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
   // At -1.001 it breaks, for a pair in contact has an event wherever it meets its face, and is made again.
   REQUIRE(path.steps[0].increments.size() == 4);
@@ -46,14 +45,14 @@ TEST_CASE("a pair within EPSMUL of the first is made before it touches, and its 
 }
 
 TEST_CASE("a pair 1/256 behind the first is not made with it") {
-  const exact_path path = listed(cantilever + stop(2, "-1", "3") + stop(2, "-1.00390625", "6") +
+  const exact_path path = listed(one_span + stop(2, "-1", "3") + stop(2, "-1.00390625", "6") +
                                  "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
   CHECK(path.steps[0].increments[0].events.size() == 1);
 }
 
 TEST_CASE("a stationary pair takes DELTA of the residual load with it") {
   const exact_path path =
-      listed(cantilever + stop(2, "0", "3") + "[[step]]\npoint = [ { node = 2, w = 6 } ]\n");
+      listed(one_span + stop(2, "0", "3") + "[[step]]\npoint = [ { node = 2, w = 6 } ]\n");
   REQUIRE(path.steps[0].increments.size() == 2);
   // d* = 6 / (3 + 3) = 1, so s = 1E-20.
   CHECK(path.steps[0].increments[0].fraction ==
@@ -65,7 +64,7 @@ TEST_CASE("a stationary pair takes DELTA of the residual load with it") {
 
 TEST_CASE("a gap below EPSGAP is stationary, whatever the unit of length") {
   const exact_path path =
-      listed(cantilever + stop(2, "-1e-11", "3") + "[[step]]\npoint = [ { node = 2, w = -6e-10 } ]\n");
+      listed(one_span + stop(2, "-1e-11", "3") + "[[step]]\npoint = [ { node = 2, w = -6e-10 } ]\n");
   // Made where it is not yet, at 0 but for DELTA / d*: the true path makes it at 1/20.
   REQUIRE(path.steps[0].increments.size() == 2);
   CHECK(path.steps[0].increments[0].fraction < rational(1, 1000000));

@@ -14,19 +14,19 @@ using contct::app::scratch_folder;
 
 namespace {
 
-using json = nlohmann::ordered_json;
+using exact_json = nlohmann::ordered_json;
 
 struct followed_exactly {
   explicit followed_exactly(const problem& p)
       : what(p), exactly(exact_problem_of(p)), path(follow_true_path(exactly)) {}
 
   [[nodiscard]] exact_result result() const { return {what, exactly, path, kernels}; }
-  [[nodiscard]] json document() const {
+  [[nodiscard]] exact_json document() const {
     const scratch_folder dir;
     const std::string file = (dir.path() / "exact.json").string();
     output_file out(file);
     write_exact_json(result(), out);
-    return json::parse(contct::text::read_input(file));
+    return exact_json::parse(contct::text::read_input(file));
   }
 
   problem what;
@@ -70,31 +70,32 @@ TEST_CASE("a kernel has a line with its digits and the first event that differs"
              Contains("\nfortran: 15.4 digits of displacements, 14.0 of forces, 15.1 of the events' shares; "
                       "the same events\n"));
   CHECK_THAT(text, Contains("other events: exactly, so; here otherwise\n"));
-  const json kernels = run.document()["kernels"];
-  CHECK(kernels[0] == json{{"name", "fortran"},
-                           {"same_events", true},
-                           {"first_difference", nullptr},
-                           {"digits", 15.4},
-                           {"event_digits", 15.1},
-                           {"force_digits", 14.0}});
+  const exact_json kernels = run.document()["kernels"];
+  CHECK(kernels[0] == exact_json{{"name", "fortran"},
+                                 {"same_events", true},
+                                 {"first_difference", nullptr},
+                                 {"digits", 15.4},
+                                 {"event_digits", 15.1},
+                                 {"force_digits", 14.0}});
   CHECK(kernels[1]["first_difference"] == "exactly, so; here otherwise");
 }
 
 TEST_CASE("the document has every number as a fraction") {
-  const json d = followed_exactly(reference("pb01-cantilever-tip-stop")).document();
+  const exact_json d = followed_exactly(reference("pb01-cantilever-tip-stop")).document();
   CHECK(d["format"] == "contct-exact-1");
   CHECK(d["status"] == "solved");
-  const json& step = d["steps"][1];
+  const exact_json& step = d["steps"][1];
   CHECK(step["step"] == 2);
-  CHECK(step["increments"][0] == json::parse(R"({"increment": 1, "fraction": "1/10",
+  CHECK(step["increments"][0] == exact_json::parse(R"({"increment": 1, "fraction": "1/10",
                         "events": [{"pair": 1, "node": 3, "surface": "below", "change": "make"}]})"));
-  CHECK(step["increments"][1] == json::parse(R"({"increment": 2, "fraction": "1", "events": []})"));
+  CHECK(step["increments"][1] == exact_json::parse(R"({"increment": 2, "fraction": "1", "events": []})"));
   CHECK(step["displacement"] ==
-        json::parse(R"(["0", "0", "-13/8600", "-117/43000", "-26/5375", "-39/10750"])"));
-  CHECK(step["w"] == json::parse(R"(["0", "-13/8600", "-26/5375"])"));
-  CHECK(step["pairs"][0] == json::parse(R"({"pair": 1, "node": 3, "surface": "below", "state": "contact",
+        exact_json::parse(R"(["0", "0", "-13/8600", "-117/43000", "-26/5375", "-39/10750"])"));
+  CHECK(step["w"] == exact_json::parse(R"(["0", "-13/8600", "-26/5375"])"));
+  CHECK(step["pairs"][0] ==
+        exact_json::parse(R"({"pair": 1, "node": 3, "surface": "below", "state": "contact",
                                             "gap": "0", "force": "1800/43"})"));
-  CHECK(step["reactions"][1] == json::parse(R"({"node": 1, "dof": "theta", "value": "1560/43"})"));
+  CHECK(step["reactions"][1] == exact_json::parse(R"({"node": 1, "dof": "theta", "value": "1560/43"})"));
   CHECK(d["kernels"].empty());
   CHECK_FALSE(d.contains("mechanism"));
 }
@@ -105,10 +106,10 @@ TEST_CASE("a mechanism is told with the motion and the work that prove it") {
              Contains("share 0, load 0: the structure moves rigidly at constant load\n") &&
                  Contains("\nno equilibrium: ") &&
                  Contains("the step's full load does work 1 on it.\n  w 0, -1/2, -1\n"));
-  const json d = run.document();
+  const exact_json d = run.document();
   CHECK(d["status"] == "mechanism");
   CHECK(d["steps"][0]["fraction"] == "0");
   CHECK(d["steps"][0]["increments"][0]["snap"] == true);
-  CHECK(d["mechanism"]["motion"] == json::parse(R"(["0", "-1/2", "-1/2", "-1/2", "-1", "-1/2"])"));
+  CHECK(d["mechanism"]["motion"] == exact_json::parse(R"(["0", "-1/2", "-1/2", "-1/2", "-1", "-1/2"])"));
   CHECK(d["mechanism"]["work"] == "1");
 }

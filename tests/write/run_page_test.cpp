@@ -179,7 +179,7 @@ TEST_CASE(
   const nlohmann::json page = page_data(r.finished());
   const auto& g = page["geometry"];
   CHECK(g["names"].size() == 54);
-  CHECK(g["edges"].size() == 2U * 111);
+  CHECK(g["edges"].size() == 222);
   CHECK(g["still"] == std::vector<int>{0, 1, 2, 3, 4, 5});
   CHECK(g["view"] == 3);
   CHECK(g["watched"] == "51.3");

@@ -8,11 +8,11 @@ namespace contct::structure {
 namespace {
 
 /// Polynomials, constant first.
-using polynomial = std::vector<double>;
+using poly = std::vector<double>;
 
 /// p(left + t h) as a polynomial in t, by repeated division by (x - left).
-polynomial shifted(std::span<const double> p, double left, double h) {
-  polynomial c(p.begin(), p.end());
+poly shifted(std::span<const double> p, double left, double h) {
+  poly c(p.begin(), p.end());
   double scale = 1.0;
   for (std::size_t i = 0; i < c.size(); ++i) {
     for (std::size_t k = c.size() - 1; k-- > i;) c[k] += left * c[k + 1];
@@ -22,14 +22,14 @@ polynomial shifted(std::span<const double> p, double left, double h) {
   return c;
 }
 
-polynomial derivative(const polynomial& p) {
-  polynomial d;
+poly derivative(const poly& p) {
+  poly d;
   for (std::size_t i = 1; i < p.size(); ++i) d.push_back(static_cast<double>(i) * p[i]);
   return d;
 }
 
 /// A zero of p between a and b, where it has different signs.
-double zero_between(const polynomial& p, double a, double b) {
+double zero_between(const poly& p, double a, double b) {
   const bool rises = polynomial_at(p, a) < 0.0;
   for (int i = 0; i < 200; ++i) {
     const double middle = a + (b - a) / 2;
@@ -41,7 +41,7 @@ double zero_between(const polynomial& p, double a, double b) {
 
 /// Where p changes its sign between 0 and 1, in order: at most once between neighbouring zeros of its
 /// derivative.
-std::vector<double> zeros_of(const polynomial& p) {
+std::vector<double> zeros_of(const poly& p) {
   if (p.size() < 2) return {};
   std::vector<double> borders = zeros_of(derivative(p));
   borders.insert(borders.begin(), 0.0);
@@ -54,9 +54,9 @@ std::vector<double> zeros_of(const polynomial& p) {
 }
 
 /// Least and largest coefficient in Bernstein's form: p is between them from 0 to 1.
-std::pair<double, double> hull_of(const polynomial& p) {
+std::pair<double, double> hull_of(const poly& p) {
   const std::size_t degree = p.size() - 1;
-  polynomial b = p;  // b_j = sum over i <= j of C(j, i) / C(degree, i) p_i
+  poly b = p;  // b_j = sum over i <= j of C(j, i) / C(degree, i) p_i
   double choose = 1.0;
   for (std::size_t i = 1; i <= degree; ++i) {
     choose *= static_cast<double>(degree - i + 1) / static_cast<double>(i);
@@ -85,8 +85,7 @@ class range_along {
 
   /// An element's own line. Its ends, by `left_value` and `right_value`, are not computed from the
   /// polynomial.
-  void take_element(const element_line& line, int e, const polynomial& p, double left_value,
-                    double right_value) {
+  void take_element(const element_line& line, int e, const poly& p, double left_value, double right_value) {
     take(range_, {left_value, line.left, 0.0, e});
     take(range_, {right_value, line.left + line.h, 0.0, e + 1});
     const auto [least, most] = hull_of(p);
@@ -172,9 +171,9 @@ beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u)
 element_line beam_lines::at(int e) const {
   const double h = beam_.length_of(e);
   const double EI = beam_.EI[e];
-  const polynomial& q = q_[e];
+  const poly& q = q_[e];
   const std::size_t size = q.size();
-  element_line line{beam_.x[e], h, polynomial(std::max<std::size_t>(4, size + 4)), {}, {}, {}};
+  element_line line{beam_.x[e], h, poly(std::max<std::size_t>(4, size + 4)), {}, {}, {}};
   line.shear.assign(size + 1, 0.0);
   line.moment.assign(size + 2, 0.0);
   line.shear[0] = forces_[e].shear[0];

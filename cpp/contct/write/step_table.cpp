@@ -27,11 +27,6 @@ std::string pair_place(const problem& p, std::size_t pair) {
   return fmt::format("pair {}, {} {}", pair + 1, place_words(p.geometry, at.node), surface_name(at.surface));
 }
 
-/// A number in at most 12 columns.
-std::string number(double x) {
-  return fmt::format("{:.6g}", x);
-}
-
 }  // namespace
 
 std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
@@ -43,7 +38,7 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
     double& size = sizes[std::string(name)];
     size = std::max(size, std::abs(value));
     const bool is_none = std::abs(value) <= rounding * size;
-    const std::string with_unit = number(is_none ? 0.0 : value) + unit_words(p, quantity);
+    const std::string with_unit = fmt::format("{:.6g}", is_none ? 0.0 : value) + unit_words(p, quantity);
     std::string line = fmt::format("{:<14}{:<18}{}", name, with_unit, is_none ? "" : at);
     line.erase(line.find_last_not_of(' ') + 1);
     if (static_cast<int>(line.size()) > width) line = fmt::format("{} {}, {}", name, with_unit, at);

@@ -86,7 +86,7 @@ void table::incremented(const increment& i) {
   if (i.events.size() > shown) events.push_back(fmt::format("{} more in --json", i.events.size() - shown));
   if (i.fraction > first_load || detail_) {
     flush_first_load();
-    return print_row(i, agreement(), std::move(events));
+    return print_row(i, agreement(), events);
   }
   for (const event& e : i.events) ++(e.what == change::make ? first_load_.makes : first_load_.breaks);
   first_load_.last = {i.step, i.number, i.s, i.fraction, {}, i.snaps};
@@ -112,7 +112,7 @@ void table::flush_first_load() {
   first_load_.equal = true;
 }
 
-void table::print_row(const increment& i, std::string_view kernels, std::vector<std::string> events) {
+void table::print_row(const increment& i, std::string_view kernels, const std::vector<std::string>& events) {
   if (!std::exchange(headed_, true)) {
     const std::string heading = row("incr", "share", "s", "kernels", "load", "events");
     print_text(fmt::format("{}\n", painted(terminal_, paint::strong, heading)));

@@ -31,7 +31,7 @@ class table final : public observer {
                                 std::string_view kernels, std::string_view load,
                                 std::string_view events) const;
   [[nodiscard]] std::string agreement() const;
-  void print_row(const increment& i, std::string_view kernels, std::vector<std::string> events);
+  void print_row(const increment& i, std::string_view kernels, const std::vector<std::string>& events);
   void flush_first_load();
 
   const problem& problem_;
