@@ -65,13 +65,13 @@ TEST_CASE("the 1989 rule is followed where --rule asks for it") {
              Contains("share 1/3, load -3: pair 1 (node 2, below) makes, pair 2 (node 2, below) makes\n"));
 }
 
-TEST_CASE("--digits says how long a fraction may be") {
+TEST_CASE("the option --digits says how long a fraction may be") {
   const std::string third = cantilever + "[[step]]\npoint = [ { node = 2, w = -1 } ]\n";
   CHECK_THAT(exactly(third).out, Contains("largest w -1/3 at node 2"));
   CHECK_THAT(exactly(third, {"--digits", "1"}).out, Contains("largest w -0.3 at node 2"));
 }
 
-TEST_CASE("--quiet prints nothing, and what cannot be is refused with exit 2") {
+TEST_CASE("exact --quiet prints nothing, and what cannot be is refused with exit 2") {
   const finished quiet = contct_program(root, {"exact", three_gaps, "--quiet"});
   CHECK(quiet.exit == 0);
   CHECK(quiet.out.empty());
