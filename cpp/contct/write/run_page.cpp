@@ -10,6 +10,7 @@
 
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
+#include "contct/write/input_tables.hpp"
 #include "contct/write/pictures.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/run_tables.hpp"

@@ -2,6 +2,7 @@
 // envelope.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,6 +44,11 @@ struct passage {
 /// The mean of what the elements at a node have there, for contours [nodes].
 [[nodiscard]] std::vector<double> means_at_nodes(const plate& p, const element_results& results,
                                                  std::size_t name);
+
+/// Beside a quantity of this size, the value is printed as 0.
+[[nodiscard]] inline bool is_rounding(double value, double size) {
+  return std::abs(value) <= 1e-12 * size;
+}
 
 /// Where ranges_of looks: "the whole length", "nodes and corners of elements" or "dofs".
 [[nodiscard]] std::string_view ranges_are_at(const model& m);

@@ -31,13 +31,12 @@ std::string pair_place(const problem& p, std::size_t pair) {
 
 std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
                                        sizes_so_far& sizes) {
-  constexpr double rounding = 1e-12;
   std::vector<std::string> lines;
   const auto add = [&](std::string_view name, double value, std::string_view quantity,
                        const std::string& at) {
     double& size = sizes[std::string(name)];
     size = std::max(size, std::abs(value));
-    const bool is_none = std::abs(value) <= rounding * size;
+    const bool is_none = is_rounding(value, size);
     const std::string with_unit = fmt::format("{:.6g}", is_none ? 0.0 : value) + unit_words(p, quantity);
     std::string line = fmt::format("{:<14}{:<18}{}", name, with_unit, is_none ? "" : at);
     line.erase(line.find_last_not_of(' ') + 1);

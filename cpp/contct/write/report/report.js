@@ -1158,8 +1158,9 @@ function showCertificate() {
 function cellOf(value, words) {
   if (value === null) return element("td", words ? { class: "words" } : {}, "–");
   if (!Array.isArray(value)) return cell(value);
-  return element("td", {}, ...value.flatMap(([number, at]) => [
-    element("span", { "data-value": String(number), title: String(number) }, short(number)), element("small", {}, at)]));
+  return element("td", {}, ...value.flatMap(([number, at, rounding]) => [
+    element("span", { "data-value": String(number), title: String(number) }, rounding ? "0" : short(number)),
+    ...(at && !rounding ? [element("small", {}, at)] : [])]));
 }
 
 // Texts are to the left, as their headings are; a step's or a pair's number comes first and heads its row.
