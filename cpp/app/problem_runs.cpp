@@ -142,7 +142,7 @@ std::string passage_watch::warning() const {
 }
 
 void digit_watch::step_ended(const step_state& s) {
-  if (digits_left(s.rcond) >= fewest) return;
+  if (s.numbers != nullptr || digits_left(s.rcond) >= fewest) return;  // refined states keep their digits
   fewest = digits_left(s.rcond);
   step = s.step;
   rcond = s.rcond;

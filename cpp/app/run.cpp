@@ -182,7 +182,7 @@ struct observed_run {
   const run_setup& run;
   lockstep* compared;  // null where nothing is compared
   output_files files{run.outputs};
-  certifier judged{run.structure, loads_of(run.what, run.structure)};
+  certifier judged{run.what, run.structure};
   early_toggles early{};
   digit_watch digits{};
   passage_watch passages{run.what};
@@ -231,8 +231,8 @@ void print_verdict(observed_run& o, paint p, const std::vector<std::string>& ite
   print_wrapped(o.run.screen, p, items);
 }
 
-path_limits limits_of(const run_setup& run) {
-  return {run.options.max_increments, fallback_to_reference(run.structure)};
+path_limits limits_of(const run_setup& run, certifier& judged) {
+  return {run.options.max_increments, fallback_to_reference(run.structure), judged.refiner()};
 }
 
 /// The leader's path, observed by all that was asked for, and by `recorded` where that is not null.
@@ -256,7 +256,7 @@ path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
         &o.tables.emplace(run.what, o.compared, *o.frames, run.watched, *csv, o.files[csv_pairs]));
   }
   if (recorded != nullptr) observers.push_back(recorded);
-  path_end end = follow(run.what, run.structure, run.engine, leader, observers, limits_of(run));
+  path_end end = follow(run.what, run.structure, run.engine, leader, observers, limits_of(run, o.judged));
   o.shown.line.erase();
   return end;
 }
@@ -406,12 +406,13 @@ exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
 exit_status final_states(const run_setup& run) {
   observed_run o{run, nullptr};
   print_heading(run);
-  const path_end end = find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
-                                         loads_of(run.what, run.structure), make_observers(o));
+  const path_end end =
+      find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
+                        loads_of(run.what, run.structure), make_observers(o), o.judged.refiner());
   o.shown.line.erase();
-  print_verdict(o, paint::quiet,
-                {"only the end: the oracle's, judged by equilibrium, penetration and tension",
-                 fmt::format("{} factorisations", end.work.factors)});
+  print_verdict(
+      o, paint::quiet,
+      {"only the end of every step, without a path", fmt::format("{} factorisations", end.work.factors)});
   return finish(o, end, {});
 }
 
@@ -435,9 +436,9 @@ exit_status free_run(const run_setup& run) {
   comparison c;
   for (const std::string& name : std::span(run.kernels).subspan(1)) {
     path_record own;
-    certifier judged(run.structure, loads_of(run.what, run.structure));
+    certifier judged(run.what, run.structure);
     own.end = follow(run.what, run.structure, engine_for(name, run.options, run.structure),
-                     *make_kernel(name), {&judged, &own}, limits_of(run));
+                     *make_kernel(name), {&judged, &own}, limits_of(run, judged));
     const double bound = free_run_bound(facts_of_kernel(run.kernels.front()), facts_of_kernel(name));
     const free_run_difference d = compare_paths(leader, own, bound, run.structure.dofs_per_node);
     if (o.json) o.json->add_free_run(name, d, judged.all_exact());

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "contct/path/solve_problem.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 
 namespace contct::certify {
@@ -35,6 +36,42 @@ std::string worst_of(const certificate& c) {
   return "";
 }
 
+/// The size of each kind of number in a state: forces, reactions and shears are of one kind, and moments are
+/// measured by them too.
+by_quantity sizes_of(const error_bounds& b, double span) {
+  by_quantity sizes = b.size;
+  double force = 0.0;
+  for (const quantity q : {quantity::force, quantity::reaction, quantity::shear})
+    force = std::max(force, b.size[q].value_or(0.0));
+  for (const quantity q : {quantity::force, quantity::reaction, quantity::shear}) sizes[q] = force;
+  sizes[quantity::moment] = std::max(b.size[quantity::moment].value_or(0.0), force * span);
+  return sizes;
+}
+
+/// The worst of the bounds that are larger than allowed, in words.
+std::string worst_bound(const certificate& c) {
+  constexpr const char* words[] = {"a deflection", "a slope",  "a contact force",
+                                   "a reaction",   "a moment", "a shear force"};
+  double worst = 1.0;
+  std::string said;
+  for (std::size_t q = 0; q < c.error.all.size(); ++q) {
+    const double error = c.error.all[q].value_or(0.0);
+    const double allowed = c.allowed.all[q].value_or(0.0);
+    if (error <= worst * allowed || error == 0.0) continue;
+    worst = allowed > 0.0 ? error / allowed : std::numeric_limits<double>::max();
+    char text[120];
+    (void)std::snprintf(text, sizeof text, "%s may be off by %.2g", words[q], error);
+    if (allowed > 0.0) {
+      char of[60];
+      (void)std::snprintf(of, sizeof of, ", %.2g of the largest", error / allowed * certified_share);
+      said = std::string(text) + of;
+    } else {
+      said = text;
+    }
+  }
+  return said;
+}
+
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
 /// rest, their springs take no force.
 std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) {
@@ -45,6 +82,13 @@ std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) 
 
 }  // namespace
 
+int digits_of(const certificate& c) {
+  constexpr int most = 15;
+  if (!c.proved) return digits_left(c.rcond);
+  if (!(c.shape_error < 1.0)) return 0;
+  return c.shape_error > 0.0 ? std::min(most, static_cast<int>(-std::log10(c.shape_error))) : most;
+}
+
 certifier::certifier(const linear_structure& s, load_history total_load)
     : structure_(s), total_load_(std::move(total_load)), reference_(s) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
@@ -52,6 +96,18 @@ certifier::certifier(const linear_structure& s, load_history total_load)
     const std::size_t at = dof;
     if (deflects(at) && s.fixed[at] == 0) largest_scale_ = std::max(largest_scale_, scale_[at]);
   }
+}
+
+certifier::certifier(const problem& p, const linear_structure& s) : certifier(s, loads_of(p, s)) {
+  problem_ = &p;
+  prover_ = std::make_unique<error_prover>(p, s);
+}
+
+state_refiner certifier::refiner() {
+  if (!prover_) return nullptr;
+  return [this](int step, std::span<double> displacement, std::span<int> isep) {
+    return prover_->refine(step, displacement, isep);
+  };
 }
 
 void certifier::step_ended(const step_state& s) {
@@ -71,11 +127,63 @@ certificate certifier::judge(const step_state& s) {
   }
   std::vector<double> load(s.displacement.size(), 0.0);
   total_load_(s.step, load);
-  const reference_answer answer = reference_.solve(load);
-  remember_sizes(s.displacement);
-  remember_sizes(answer.displacement);
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
+  remember_sizes(s.displacement);
+  if (prover_) prove(s, c);
+  if (c.proved) {
+    measure_state(s, load, c);
+    return c;
+  }
+  const std::string unproved = std::exchange(c.problem, "");
+  compare(s, load, c);
+  if (prover_ && c.problem.empty()) c.problem = unproved;
+  c.exact = c.problem.empty();
+  return c;
+}
+
+/// What a kind of number may be off by: a share of its size here, or, where that cannot be told from 0, of
+/// what it was on the path.
+by_quantity certifier::allowed(const error_bounds& b) {
+  by_quantity sizes = sizes_of(b, prover_->span());
+  by_quantity share;
+  for (std::size_t q = 0; q < sizes.all.size(); ++q) {
+    std::optional<double>& largest = largest_.all[q];
+    if (sizes.all[q]) largest = std::max(largest.value_or(0.0), *sizes.all[q]);
+    if (!b.error.all[q]) continue;
+    const double size = sizes.all[q].value_or(0.0);
+    const bool is_none =
+        b.unloaded || (static_cast<quantity>(q) == quantity::slope && size <= *b.error.all[q]);
+    share.all[q] = certified_share * (is_none ? largest.value_or(0.0) : size);
+  }
+  return share;
+}
+
+void certifier::prove(const step_state& s, certificate& c) {
+  const error_bounds b = prover_->bound(handed_out_at(*problem_, s));
+  c.tolerance = certified_share;
+  c.unique = b.unique;
+  if (!b.not_proved.empty()) {
+    c.problem = "nothing is proved: " + b.not_proved;
+    return;
+  }
+  c.proved = true;
+  c.error = b.error;
+  c.allowed = allowed(b);
+  const auto share_of = [&c](std::size_t q) {
+    const double error = c.error.all[q].value_or(0.0);
+    return error == 0.0 ? 0.0 : certified_share * error / c.allowed.all[q].value_or(0.0);
+  };
+  c.displacement_error = share_of(static_cast<std::size_t>(quantity::w));
+  for (std::size_t q = 0; q < c.error.all.size(); ++q) c.shape_error = std::max(c.shape_error, share_of(q));
+  c.problem = worst_bound(c);
+  c.exact = c.problem.empty();
+}
+
+/// With the reference solution, where nothing is proved.
+void certifier::compare(const step_state& s, std::span<const double> load, certificate& c) {
+  const reference_answer answer = reference_.solve(load);
+  remember_sizes(answer.displacement);
   c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
                          certificate_never_above);
   c.unique = answer.unique;
@@ -88,9 +196,7 @@ certificate certifier::judge(const step_state& s) {
   } else {
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
-    c.exact = c.problem.empty();
   }
-  return c;
 }
 
 void certifier::remember_sizes(std::span<const double> displacement) {
@@ -165,7 +271,7 @@ fallback_solver fallback_to_reference(const linear_structure& s) {
 }
 
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
-                           std::span<observer* const> observers) {
+                           std::span<observer* const> observers, const state_refiner& refine) {
   reference_solver finds(s);
   factored_stiffness stiffness(s);
   std::vector<double> total(s.dofs());
@@ -181,14 +287,14 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
     for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);
     const double rcond = stiffness.reciprocal_condition(holding(s, found.pressed));
     ++end.work.factors;
-    for (observer* o : observers)
-      o->step_ended({.step = step,
-                     .fraction = 1.0,
-                     .displacement = found.displacement,
-                     .isep = status,
-                     .rcond = rcond,
-                     .from_fallback = false,
-                     .from_reference = true});
+    tell_end({.step = step,
+              .fraction = 1.0,
+              .displacement = found.displacement,
+              .isep = status,
+              .rcond = rcond,
+              .from_fallback = false,
+              .from_reference = true},
+             refine, observers);
     end.step = step;
   }
   return end;

@@ -6,11 +6,13 @@
 // (structure/rigid_modes) with them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "contct/certify/error_bounds.hpp"
 #include "contct/certify/reference_solution.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
@@ -21,14 +23,19 @@ namespace contct::certify {
 inline constexpr double certificate_factor = 1024.0;
 inline constexpr double certificate_never_above = 1e-6;
 
+/// Certified means: every proved bound on an error is at most this share of the size of its kind in this
+/// state.
+inline constexpr double certified_share = 1e-6;
+
 /// What is known about the state that a step ended in. Lengths are relative to the largest
 /// deflection that the path has seen, so that a state of no load has a measure too; and where slopes
 /// count for more, relative to what these come to as deflections, so that a structure whose deflections
 /// are rounding is not measured by rounding.
 struct certificate {
   bool exact = false;               ///< within the tolerance in every respect
-  double displacement_error = 0.0;  ///< of any deflection, against the oracle
-  double shape_error = 0.0;  ///< of any dof, each scaled by the root of its stiffness, against the largest
+  double displacement_error = 0.0;  ///< of any deflection: as proved, or against the oracle
+  double shape_error = 0.0;  ///< of any number, against the size of its kind, as proved; or of any dof,
+                             ///< scaled by the root of its stiffness, against the oracle
   double equilibrium = 0.0;  ///< load left over by K D and the pairs' forces, scaled likewise
   double penetration = 0.0;  ///< of open pairs
   double tension = 0.0;      ///< how far the springs of closed pairs are stretched
@@ -39,8 +46,15 @@ struct certificate {
   bool independent = true;
   bool unique = true;      ///< false: other states are as good, so D is not compared
   bool unfounded = false;  ///< there is no equilibrium at all
+  bool proved = false;     ///< by bounds: the two that follow
+  by_quantity error;       ///< absolute bounds on the errors of all numbers of a kind
+  by_quantity allowed;     ///< what they may reach: certified_share of the size of that kind
   std::string problem;     ///< what is wrong, in words; empty when exact
 };
+
+/// Whole decimal digits that every number of a state has: as proved, or else as the condition leaves them
+/// (digits_left). At most 15.
+[[nodiscard]] int digits_of(const certificate& c);
 
 /// Observes a path and certifies the end of every step that was solved.
 class certifier final : public observer {
@@ -48,7 +62,13 @@ class certifier final : public observer {
   /// `s` and what `total_load` refers to must outlive this object.
   certifier(const linear_structure& s, load_history total_load);
 
+  /// Of a problem: every step is judged by proved bounds. `p` and `s` must outlive this object.
+  certifier(const problem& p, const linear_structure& s);
+
   void step_ended(const step_state& s) override;
+
+  /// What betters the ends of steps before they are told, of a problem's path. This object must outlive it.
+  [[nodiscard]] state_refiner refiner();
 
   /// One for each step ended so far; none for a step that did not reach its load.
   [[nodiscard]] const std::vector<std::optional<certificate>>& steps() const { return steps_; }
@@ -56,6 +76,9 @@ class certifier final : public observer {
 
  private:
   [[nodiscard]] certificate judge(const step_state& s);
+  void prove(const step_state& s, certificate& c);
+  [[nodiscard]] by_quantity allowed(const error_bounds& b);
+  void compare(const step_state& s, std::span<const double> load, certificate& c);
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
   void compare_with(const reference_answer& a, const step_state& s, certificate& c) const;
   void remember_sizes(std::span<const double> displacement);
@@ -65,6 +88,9 @@ class certifier final : public observer {
   const linear_structure& structure_;
   load_history total_load_;
   reference_solver reference_;
+  const problem* problem_ = nullptr;
+  std::unique_ptr<error_prover> prover_;
+  by_quantity largest_;                // of each kind, so far
   std::vector<double> scale_;          // roots of the stiffness at each dof [dofs]
   double largest_scale_ = 0.0;         // of a deflection that is not fixed
   double largest_deflection_ = 0.0;    // of path and oracle, so far
@@ -84,6 +110,6 @@ class certifier final : public observer {
 /// Ends as `mechanism` at the first step whose load nothing carries, and as `not_factored` where no
 /// answer is found in double precision; that step is not told.
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
-                           std::span<observer* const> observers);
+                           std::span<observer* const> observers, const state_refiner& refine = nullptr);
 
 }  // namespace contct::certify

@@ -1,130 +1,27 @@
 #include "contct/exact/elements.hpp"
 
+#include "contct/structure/element_formulas.hpp"
+
 namespace contct::exact {
-namespace {
 
-struct corner {
-  int xi, eta;
-};
-constexpr std::array<corner, 4> corners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-
-/// Second derivatives of the twelve shape functions by xi and eta (structure/plate.cpp has their formulas).
-struct shape_curvatures {
-  vector12 xx, yy, xy;
-};
-
-shape_curvatures curvatures_at(const rational& xi, const rational& eta) {
-  shape_curvatures c;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const int xi_k = corners[k].xi;
-    const int eta_k = corners[k].eta;
-    const rational u = xi * xi_k;
-    const rational v = eta * eta_k;
-    const std::size_t w = 3 * k;
-    c.xx[w] = -3 * u * (1 + v) / 4;
-    c.yy[w] = -3 * v * (1 + u) / 4;
-    c.xy[w] = xi_k * eta_k * (4 - 3 * u * u - 3 * v * v) / 8;
-    c.xx[w + 1] = xi_k * (3 * u + 1) * (1 + v) / 4;
-    c.xy[w + 1] = eta_k * (3 * u - 1) * (u + 1) / 8;
-    c.yy[w + 2] = eta_k * (3 * v + 1) * (1 + u) / 4;
-    c.xy[w + 2] = xi_k * (3 * v - 1) * (v + 1) / 8;
-  }
-  return c;
-}
-
-using matrix12 = std::array<vector12, 12>;
-
-/// Integrals over the square from -1 to 1 of w_xx w_xx, w_yy w_yy, (w_xx w_yy + w_yy w_xx) / 2 and w_xy w_xy.
-struct bending_integrals {
-  matrix12 xx_xx, yy_yy, xx_yy, xy_xy;
-};
-
-/// By Boole's rule, whose places and weights are rational: exact for degree 5, and these are of degree 4.
-bending_integrals integrate() {
-  const std::array<int, 5> weights = {7, 32, 12, 32, 7};  // each / 45
-  bending_integrals sum;
-  for (int s = 0; s < 5; ++s) {
-    for (int t = 0; t < 5; ++t) {
-      const shape_curvatures c = curvatures_at(rational(s - 2, 2), rational(t - 2, 2));
-      const rational area(weights[static_cast<std::size_t>(s)] * weights[static_cast<std::size_t>(t)],
-                          45 * 45);
-      for (std::size_t i = 0; i < 12; ++i) {
-        for (std::size_t k = 0; k < 12; ++k) {
-          sum.xx_xx[i][k] += area * c.xx[i] * c.xx[k];
-          sum.yy_yy[i][k] += area * c.yy[i] * c.yy[k];
-          sum.xx_yy[i][k] += area * (c.xx[i] * c.yy[k] + c.yy[i] * c.xx[k]) / 2;
-          sum.xy_xy[i][k] += area * c.xy[i] * c.xy[k];
-        }
-      }
-    }
-  }
-  return sum;
-}
-
-/// q(left + t h) as a polynomial in t, by Horner's rule.
-vector in_element(std::span<const rational> polynomial, const rational& left, const rational& h) {
-  vector q;
-  for (std::size_t i = polynomial.size(); i-- > 0;) {  // q = q (left + t h) + a_i
-    q.emplace_back(0);
-    for (std::size_t k = q.size(); k-- > 1;) q[k] = q[k] * left + q[k - 1] * h;
-    q[0] = q[0] * left + polynomial[i];
-  }
-  return q;
-}
-
-}  // namespace
+namespace formulas = structure::formulas;
 
 std::array<std::array<rational, 4>, 4> beam_stiffness(const rational& EI, const rational& h) {
-  const rational c = EI / (h * h * h);
-  const rational k = 12 * c;
-  const rational m = 6 * c * h;
-  const rational near = 4 * c * h * h;
-  const rational far = near / 2;
-  return {{{k, m, -k, m}, {m, near, -m, far}, {-k, -m, k, -m}, {m, far, -m, near}}};
+  return formulas::beam_stiffness(EI, h);
 }
 
 std::array<rational, 4> beam_load(std::span<const rational> polynomial, const rational& left,
                                   const rational& h) {
-  const vector q = in_element(polynomial, left, h);
-  std::array<rational, 4> f;
-  for (std::size_t m = 0; m < q.size(); ++m) {
-    // The integral of t^m times 1 - 3 t^2 + 2 t^3, t - 2 t^2 + t^3, 3 t^2 - 2 t^3 and t^3 - t^2.
-    const auto power = [m](int n) { return rational(1, static_cast<int>(m) + n + 1); };
-    f[0] += q[m] * h * (power(0) - 3 * power(2) + 2 * power(3));
-    f[1] += q[m] * h * h * (power(1) - 2 * power(2) + power(3));
-    f[2] += q[m] * h * (3 * power(2) - 2 * power(3));
-    f[3] += q[m] * h * h * (power(3) - power(2));
-  }
-  return f;
+  return formulas::beam_load(polynomial, left, h);
 }
 
 std::array<vector12, 12> plate_stiffness(const rational& a, const rational& b, const rational& D,
                                          const rational& nu) {
-  static const bending_integrals integral = integrate();
-  const rational xx = D * b / (a * a * a);
-  const rational yy = D * a / (b * b * b);
-  const rational both = 2 * D * nu / (a * b);
-  const rational twist = 2 * D * (1 - nu) / (a * b);
-  matrix12 k;
-  for (std::size_t i = 0; i < 12; ++i) {
-    for (std::size_t j = 0; j < 12; ++j) {
-      const auto scale = [&](std::size_t dof) { return dof % 3 == 0 ? rational(1) : dof % 3 == 1 ? a : b; };
-      k[i][j] = (xx * integral.xx_xx[i][j] + yy * integral.yy_yy[i][j] + both * integral.xx_yy[i][j] +
-                 twist * integral.xy_xy[i][j]) *
-                scale(i) * scale(j);
-    }
-  }
-  return k;
+  return formulas::plate_stiffness(a, b, D, nu);
 }
 
 vector12 plate_unit_load(const rational& a, const rational& b) {
-  vector12 f;
-  for (std::size_t k = 0; k < 4; ++k) {
-    f[3 * k] = a * b;
-    f[3 * k + 1] = -corners[k].xi * a * a * b / 3;
-    f[3 * k + 2] = -corners[k].eta * b * b * a / 3;
-  }
-  return f;
+  return formulas::plate_unit_load(a, b);
 }
 
 }  // namespace contct::exact

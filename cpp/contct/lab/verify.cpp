@@ -97,7 +97,7 @@ double of_pair(const problem& problem, const measurement::step_record& s, const 
   const double w = s.u[dof];
   const int isep = s.isep[e.pair - 1];
   if (e.quantity == "state") return isep;
-  if (e.quantity == "force") return force_of(p, w, isep == in_contact);
+  if (e.quantity == "force") return s.read.pairs[e.pair - 1].force;
   if (e.quantity == "gap") return gap_of(p, w, isep == in_contact);
   return not_there;
 }
@@ -178,7 +178,7 @@ void measurement::step_ended(const step_state& s) {
   const load total = load_path(problem_).at(s.step, s.fraction);
   steps_.push_back({{s.displacement.begin(), s.displacement.end()},
                     {s.isep.begin(), s.isep.end()},
-                    results_of(problem_, total, s.displacement, s.isep, deflecting_)});
+                    results_of(problem_, total, s, deflecting_)});
 }
 
 double measurement::of(const expected_number& e) const {
@@ -212,15 +212,16 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   out.title = p.title;
   const linear_structure s = structure_of(p);
   measurement listing(p);
-  certifier judged(s, loads_of(p, s));
+  certifier judged(p, s);
   const auto fortran = make_kernel("fortran");
   const std::string followers[] = {"cpp"};
   lockstep compared = make_lockstep(fortran->facts(), followers);
   const path_end end = follow(p, s, "refactor", *fortran, {&compared, &judged, &listing});
   measurement corrected(p);
-  certifier judged_corrected(s, loads_of(p, s));
+  certifier judged_corrected(p, s);
   path_limits limits;
   limits.fallback = fallback_to_reference(s);
+  limits.refine = judged_corrected.refiner();
   const path_end corrected_end =
       follow(p, s, "refactor", *make_kernel("corrected"), {&judged_corrected, &corrected}, limits);
 

@@ -79,6 +79,7 @@ void frame_keeper::step_ended(const step_state& s) {
   f.fraction = s.fraction;
   f.displacement.assign(s.displacement.begin(), s.displacement.end());
   f.isep.assign(s.isep.begin(), s.isep.end());
+  if (s.numbers != nullptr) f.numbers = *s.numbers;
   if (after_increment) unshown_ = false;
   show_latest();
   if (visit_) visit_(f);

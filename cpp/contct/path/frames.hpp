@@ -30,8 +30,9 @@ struct frame {
   bool step_end = false;       ///< the state that the step ended in, exactly
   bool from_fallback = false;  ///< that came from elsewhere
   std::vector<event> events = {};
-  std::vector<double> displacement = {};  ///< [dofs]
-  std::vector<int> isep = {};             ///< [pairs]
+  std::vector<double> displacement = {};    ///< [dofs]
+  std::vector<int> isep = {};               ///< [pairs]
+  std::optional<end_numbers> numbers = {};  ///< of the end of a step
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
 };

@@ -1,8 +1,11 @@
 // What one may see of a path while it is followed.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "contct/kernel/call.hpp"
 
@@ -25,6 +28,13 @@ struct increment {
   bool snaps = false;             ///< a rigid motion to the next face, at constant load
 };
 
+/// Numbers of the end of a step that are more accurate than what its displacements, rounded to doubles, give.
+struct end_numbers {
+  std::vector<double> pair_forces;     ///< as force_of has them [pairs]
+  std::vector<double> reactions;       ///< as reactions(p, ..) has them [supports]
+  std::vector<double> element_values;  ///< as element_results has them
+};
+
 /// Where a step ended, or where the path stopped.
 struct step_state {
   int step;                              ///< from 1
@@ -34,6 +44,7 @@ struct step_state {
   double rcond;                          ///< of the equilibrated stiffness; 0 when it has no factor
   bool from_fallback = false;            ///< the path could not reach it
   bool from_reference = false;  ///< it is the reference solution's own: a fallback's, or a final state's
+  const end_numbers* numbers = nullptr;  ///< null: there are none
 };
 
 /// Watches a path. The path does not depend on what an observer does.
@@ -44,5 +55,13 @@ class observer {
   virtual void incremented(const increment& /*i*/) {}
   virtual void step_ended(const step_state& /*s*/) {}
 };
+
+/// Betters the displacements [dofs] and statuses [pairs] of the end of a step, from 1, which reached its
+/// load. Nothing: they are as they were.
+using state_refiner =
+    std::function<std::optional<end_numbers>(int step, std::span<double> displacement, std::span<int> isep)>;
+
+/// Tell the end of a step; where it reached its load, as `refine` betters it.
+void tell_end(step_state end, const state_refiner& refine, std::span<observer* const> observers);
 
 }  // namespace contct::path

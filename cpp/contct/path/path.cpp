@@ -19,7 +19,9 @@ class path {
       : increments_allowed_(increments_allowed(limits, s.pairs.size())),
         now_(s, engine, observers, leader.facts().rule == "listing"),
         cycles_(s.pairs.size()),
-        policy_(make_policy(now_, leader, cycles_, limits.fallback)) {}
+        policy_(make_policy(now_, leader, cycles_, limits.fallback)) {
+    if (leader.facts().rule != "listing") now_.refine = limits.refine;
+  }
 
   /// The paper's loop, for one load step.
   path_end follow_step(int step, const load_history& total_load) {

@@ -45,8 +45,10 @@ struct equilibrium_state {
 using fallback_solver = std::function<std::optional<equilibrium_state>(std::span<const double> load)>;
 
 struct path_limits {
-  int increments_per_step = 0;         ///< 0: 1000, and 50 for each pair
-  fallback_solver fallback = nullptr;  ///< used only when the leader's rule is not the listing's
+  int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
+  // Used only when the leader's rule is not the listing's:
+  fallback_solver fallback = nullptr;
+  state_refiner refine = nullptr;
 };
 
 /// Most increments of a step that anybody may ask for.

@@ -57,6 +57,7 @@ struct path_state {
 
   const linear_structure& structure;
   stiffness_engine& engine;
+  state_refiner refine = nullptr;        ///< see path_limits
   int step = 0;                          ///< from 1
   std::vector<double> total;             ///< load at the end of the step [dofs]
   std::vector<double> increment;         ///< total less the previous step's [dofs]
@@ -181,9 +182,8 @@ struct path_state {
     for (observer* o : observers_) o->incremented({step, number, s_min, fraction(), events, rigid});
   }
 
-  void tell_end(const step_state& end) const {
-    for (observer* o : observers_) o->step_ended(end);
-  }
+  /// The same of the end of a step, refined where it reached its load.
+  void tell_end(const step_state& end) const { contct::path::tell_end(end, refine, observers_); }
 
  private:
   /// Thousands of pairs, and one or two events: whole stretches are the same.

@@ -145,7 +145,11 @@ class stabilized_policy final : public path_policy {
 
   [[nodiscard]] double reciprocal_condition() override {
     add_holding_springs();
-    const double rcond = now_.engine.reciprocal_condition();
+    double rcond = 0.0;
+    try {
+      rcond = now_.engine.reciprocal_condition();
+    } catch (const no_factor&) {  // the state is known all the same: the fallback found it
+    }
     remove_holding_springs();
     return rcond;
   }

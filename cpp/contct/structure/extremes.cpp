@@ -101,25 +101,25 @@ class range_along {
 };
 
 std::vector<value_range> ranges(const beam& b, const load& l, std::span<const double> u,
-                                std::span<const int> /*deflecting*/) {
-  const beam_lines lines(b, l, u);
+                                std::span<const int> /*deflecting*/, std::span<const double> element_values) {
+  const beam_lines lines(b, l, u, element_values);
   const element_line first = lines.at(0);
   const auto start = [&](double value) { return placed_value{value, b.x.front(), 0.0, 0}; };
   range_along w("w", start(u[0]));
   range_along moment("moment", start(first.moment.front()));
   range_along shear("shear", start(first.shear.front()));
-  const std::vector<element_forces> ends = forces_in_elements(b, l, u);
   for (int e = 0; e < b.elements(); ++e) {
     const element_line line = lines.at(e);
+    const element_forces& ends = lines.ends(e);
     w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
-    moment.take_element(line, e, line.moment, ends[e].moment[0], ends[e].moment[1]);
-    shear.take_element(line, e, line.shear, ends[e].shear[0], ends[e].shear[1]);
+    moment.take_element(line, e, line.moment, ends.moment[0], ends.moment[1]);
+    shear.take_element(line, e, line.shear, ends.shear[0], ends.shear[1]);
   }
   return {w.range(), moment.range(), shear.range()};
 }
 
 std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<const double> u,
-                                std::span<const int> /*deflecting*/) {
+                                std::span<const int> /*deflecting*/, std::span<const double> element_values) {
   const auto at = [&](int node, double value) {
     return placed_value{value, p.x[node % p.columns()], p.y[node / p.columns()], node};
   };
@@ -127,21 +127,20 @@ std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<con
   value_range& w = all.emplace_back(value_range{"w", at(0, u[0]), at(0, u[0])});
   for (int node = 1; node < p.nodes(); ++node)
     take(w, at(node, u[static_cast<std::size_t>(node) * plate::dofs_per_node]));
-  const std::vector<corner_moments> moments = moments_in_elements(p, u);
-  const std::pair<const char*, std::array<double, 4> corner_moments::*> quantities[] = {
-      {"mx", &corner_moments::mx}, {"my", &corner_moments::my}, {"mxy", &corner_moments::mxy}};
-  for (const auto& [name, quantity] : quantities) {
-    const placed_value first = at(0, (moments.front().*quantity)[0]);
-    value_range r{name, first, first};
+  element_results moments = results_in_elements(model{p}, {}, u);
+  if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
+  for (std::size_t name = 0; name < moments.names.size(); ++name) {
+    const placed_value first = at(0, moments.at(0, name)[0]);
+    value_range r{moments.names[name], first, first};
     for (int e = 0; e < p.elements(); ++e)
-      for (std::size_t k = 0; k < 4; ++k) take(r, at(p.corners_of(e)[k], (moments[e].*quantity)[k]));
+      for (std::size_t k = 0; k < 4; ++k) take(r, at(p.corners_of(e)[k], moments.at(e, name)[k]));
     all.push_back(r);
   }
   return all;
 }
 
 std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::span<const double> u,
-                                std::span<const int> deflecting) {
+                                std::span<const int> deflecting, std::span<const double> /*element_values*/) {
   if (deflecting.empty()) return {};
   const auto at = [&](int dof) { return placed_value{u[dof], 0.0, 0.0, dof}; };
   value_range w{"w", at(deflecting.front()), at(deflecting.front())};
@@ -161,8 +160,13 @@ value_range deflections_between(const beam& b, const beam_lines& lines, std::spa
   return w.range();
 }
 
-beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u)
+beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
+                       std::span<const double> element_values)
     : beam_(b), u_(u), forces_(forces_in_elements(b, l, u)), q_(b.elements()) {
+  for (std::size_t e = 0; e < forces_.size() && !element_values.empty(); ++e) {
+    const auto v = element_values.subspan(4 * e, 4);
+    forces_[e] = {{v[0], v[1]}, {v[2], v[3]}};
+  }
   for_each_loaded_element(l, b.elements(), [&](int e, std::span<const double> p) {
     add_polynomial(q_[e], shifted(p, b.x[e], b.length_of(e)), 1.0);
   });
@@ -195,8 +199,8 @@ element_line beam_lines::at(int e) const {
 }
 
 std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
-                                   std::span<const int> deflecting) {
-  return std::visit([&](const auto& kind) { return ranges(kind, l, u, deflecting); }, m.kind);
+                                   std::span<const int> deflecting, std::span<const double> element_values) {
+  return std::visit([&](const auto& kind) { return ranges(kind, l, u, deflecting, element_values); }, m.kind);
 }
 
 }  // namespace contct::structure

@@ -20,11 +20,14 @@ struct element_line {
 /// The lines of all elements under displacement `u` [dofs] and load `l`.
 class beam_lines {
  public:
-  /// `b` and `u` must outlive this object.
-  beam_lines(const beam& b, const load& l, std::span<const double> u);
+  /// `b` and `u` must outlive this object. `element_values`: those of the ends of elements, as
+  /// element_results has them, where they are known better than from `u`.
+  beam_lines(const beam& b, const load& l, std::span<const double> u,
+             std::span<const double> element_values = {});
 
   /// Element `e`, from 0.
   [[nodiscard]] element_line at(int e) const;
+  [[nodiscard]] const element_forces& ends(std::size_t e) const { return forces_[e]; }
 
  private:
   const beam& beam_;
@@ -55,8 +58,9 @@ struct value_range {
 
 /// Beams: "w", "moment" and "shear" over the whole length. Plates: "w" at nodes, "mx", "my" and "mxy" at the
 /// corners of elements. A matrix: the displacements of the dofs among `deflecting`, as "w". Of equal values,
-/// the first one's place.
+/// the first one's place. `element_values`: see beam_lines.
 [[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
-                                                 std::span<const int> deflecting);
+                                                 std::span<const int> deflecting,
+                                                 std::span<const double> element_values = {});
 
 }  // namespace contct::structure

@@ -11,6 +11,8 @@
 #include <set>
 #include <utility>
 
+#include "contct/path/solve_problem.hpp"
+
 namespace contct::write {
 namespace {
 
@@ -295,7 +297,19 @@ pair_reading reading_of(const contact_pair& p, double w, bool closed) {
 
 pair_reading reading_of(const problem& p, const frame& f, std::size_t pair) {
   const contact_pair& at = p.pairs[pair];
-  return reading_of(at, deflection_of(p, f, at.node), f.closed(pair));
+  pair_reading r = reading_of(at, deflection_of(p, f, at.node), f.closed(pair));
+  if (f.numbers) r.force = f.numbers->pair_forces[pair];
+  return r;
+}
+
+std::vector<double> reactions_in(const problem& p, const load& l, const frame& f) {
+  return f.numbers ? f.numbers->reactions : reactions(p, l, f.displacement, f.isep);
+}
+
+element_results elements_in(const problem& p, const load& l, const frame& f) {
+  element_results r = results_in_elements(p.geometry, l, f.displacement);
+  if (f.numbers) r.values = f.numbers->element_values;
+  return r;
 }
 
 void extreme::take(int other_at, double other) {

@@ -62,6 +62,10 @@ struct pair_reading {
 };
 /// At deflection `w`.
 [[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
+/// Reactions and what is read off the elements, in a frame under load `l`.
+[[nodiscard]] std::vector<double> reactions_in(const problem& p, const load& l, const frame& f);
+[[nodiscard]] element_results elements_in(const problem& p, const load& l, const frame& f);
+
 /// Pair `pair`, from 0, in a frame.
 [[nodiscard]] pair_reading reading_of(const problem& p, const frame& f, std::size_t pair);
 
@@ -229,8 +233,9 @@ struct station {
 class station_reader {
  public:
   /// All arguments must outlive this object.
-  station_reader(const beam& b, const load& l, std::span<const double> u)
-      : beam_(b), u_(u), lines_(b, l, u) {}
+  station_reader(const beam& b, const load& l, std::span<const double> u,
+                 std::span<const double> element_values = {})
+      : beam_(b), u_(u), lines_(b, l, u, element_values) {}
 
   [[nodiscard]] double x(const station& s) const;
   [[nodiscard]] double w(const station& s) const;

@@ -162,9 +162,26 @@ json certificate_json(const std::optional<certificate>& c) {
               {"shape_error", c->shape_error},
               {"unique", c->unique},
               {"independent", c->independent},
-              {"digits", digits_left(c->rcond)}};
+              {"digits", digits_of(*c)}};
   if (!c->unique) out["displacement_error"] = out["shape_error"] = nullptr;
   if (!c->problem.empty()) out["problem"] = c->problem;
+  return out;
+}
+
+json error_json(const problem& p, const std::optional<certificate>& c) {
+  const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);
+  const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
+  json out = json::object();
+  const auto put = [&](quantity q, bool is_there) {
+    const std::optional<double> bound = c && c->proved ? c->error[q] : std::nullopt;
+    if (is_there) out[quantity_names[static_cast<std::size_t>(q)]] = bound ? json(*bound) : json(nullptr);
+  };
+  put(quantity::w, true);
+  put(quantity::slope, !of_matrix);
+  put(quantity::force, !p.pairs.empty());
+  put(quantity::reaction, !p.supports.empty());
+  put(quantity::moment, !of_matrix);
+  put(quantity::shear, of_beam);
   return out;
 }
 
@@ -222,8 +239,7 @@ result_json::result_json(const problem& p, const std::vector<std::string>& kerne
 
 void result_json::step_ended(const step_state& s) {
   const model& m = problem_.geometry;
-  const step_results r =
-      results_of(problem_, loads_.at(s.step, s.fraction), s.displacement, s.isep, deflecting_);
+  const step_results r = results_of(problem_, loads_.at(s.step, s.fraction), s, deflecting_);
   std::vector<double> w(nodes(m));
   for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(problem_, s.displacement, node);
   json members = {{"step", s.step},
@@ -238,12 +254,14 @@ void result_json::step_ended(const step_state& s) {
                   {"extremes", extremes_json(m, r.ranges)},
                   {"extremes_at", ranges_are_at(m)}};
   if (s.from_fallback) members["ended_by"] = "oracle";
+  const std::optional<certificate>& judged = judged_.steps().back();
   members.update({{"rcond", s.rcond},
-                  {"digits", digits_left(s.rcond)},
-                  {"certificate", certificate_json(judged_.steps().back())}});
+                  {"digits", judged ? digits_of(*judged) : digits_left(s.rcond)},
+                  {"error", error_json(problem_, judged)},
+                  {"certificate", certificate_json(judged)}});
   document_.add(members,
                 {{"increments", increments_.size(), [this](auto i) { return increment_of(increments_[i]); }},
-                 {"pairs", problem_.pairs.size(), [&](auto i) { return pair_in(s, i); }},
+                 {"pairs", problem_.pairs.size(), [&](auto i) { return pair_in(s, i, r.pairs[i]); }},
                  {"reactions", r.reactions.size(),
                   [&](auto i) {
                     json entry = reaction_json(m, problem_.supports[i]);
@@ -264,10 +282,8 @@ json result_json::increment_of(const increment_record& i) const {
   return entry;
 }
 
-json result_json::pair_in(const step_state& s, std::size_t pair) const {
+json result_json::pair_in(const step_state& s, std::size_t pair, const pair_reading& r) const {
   const contact_pair& p = problem_.pairs[pair];
-  const double w = deflection_of(problem_, s.displacement, p.node);
-  const pair_reading r = reading_of(p, w, s.isep[pair] == in_contact);
   json entry = {{"pair", pair + 1}};
   put_place(entry, problem_.geometry, p.node);
   entry.update({{"surface", surface_name(p.surface)},

@@ -54,6 +54,9 @@ class json_document {
   std::string_view before_;  // the next element
 };
 
+/// { "w", .. }: the proved bounds on the errors of a step's numbers; null where nothing is proved.
+[[nodiscard]] nlohmann::ordered_json error_json(const problem& p, const std::optional<certificate>& c);
+
 /// A step's certificate as result files have it; null where there is none.
 [[nodiscard]] nlohmann::ordered_json certificate_json(const std::optional<certificate>& c);
 
@@ -93,7 +96,8 @@ class result_json final : public observer {
 
  private:
   [[nodiscard]] nlohmann::ordered_json increment_of(const increment_record& i) const;
-  [[nodiscard]] nlohmann::ordered_json pair_in(const step_state& s, std::size_t pair) const;
+  [[nodiscard]] nlohmann::ordered_json pair_in(const step_state& s, std::size_t pair,
+                                               const pair_reading& r) const;
 
   struct compared_path {
     std::string kernel;

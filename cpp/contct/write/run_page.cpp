@@ -356,10 +356,10 @@ class page_writer {
   /// Deflection, slope, moment and shear at stations, and force per length for arrows.
   void add_beam_shape(const load& l, const frame& f, const std::vector<value_range>& ranges,
                       json& out) const {
-    const station_reader at(*beam_, l, f.displacement);
+    const element_results results = elements_in(what_, l, f);
+    const station_reader at(*beam_, l, f.displacement, results.values);
     out["w"] = list_of(shown_.stations, [&](const station& s) { return at.w(s); });
     out["slope"] = list_of(shown_.stations, [&](const station& s) { return at.slope(s); });
-    const element_results results = results_in_elements(what_.geometry, l, f.displacement);
     for (std::size_t name = 0; name < 2; ++name) {
       const auto range = std::ranges::find(ranges, results.names[name], &value_range::name);
       const auto along = results.names[name] == "moment" ? &element_line::moment : &element_line::shear;
@@ -375,7 +375,7 @@ class page_writer {
     for (const int j : shown_.rows)
       for (const int i : shown_.columns) crossings.push_back(plate_->node_at(i, j));
     out["w"] = list_of(crossings, [&](int node) { return deflection_of(what_, f, node); });
-    const element_results results = results_in_elements(what_.geometry, l, f.displacement);
+    const element_results results = elements_in(what_, l, f);
     for (std::size_t name = 0; name < results.names.size(); ++name) {
       const std::vector<double> means = means_at_nodes(*plate_, results, name);
       out[std::string(results.names[name])] =
@@ -398,7 +398,7 @@ class page_writer {
 
   /// The force on the structure by each support drawn; null where it holds no deflection.
   [[nodiscard]] json forces_of_supports(const load& l, const frame& f) const {
-    const std::vector<double> all = reactions(what_, l, f.displacement, f.isep);
+    const std::vector<double> all = reactions_in(what_, l, f);
     std::map<int, json> at;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const support& s = what_.supports[i];
@@ -419,7 +419,8 @@ class page_writer {
 
   [[nodiscard]] json frame_of(const frame& f) const {
     const load l = loads_.at(f.step, f.fraction);
-    const std::vector<value_range> ranges = ranges_of(what_.geometry, l, f.displacement, shown_.deflecting);
+    const std::vector<value_range> ranges =
+        ranges_of(what_.geometry, l, f.displacement, shown_.deflecting, elements_in(what_, l, f).values);
     json out = {{"at", f.at},
                 {"step", f.step},
                 {"number", f.number},

@@ -30,7 +30,7 @@ std::vector<end_reading> read_ends(const finished_run& r, const std::vector<int>
   for (const frame& f : r.kept.frames()) {
     if (!f.step_end || ends.size() == most_table_steps) continue;
     const load now = loads.at(f.step, f.fraction);
-    end_reading e{f, results_of(r.what, now, f.displacement, f.isep, deflecting)};
+    end_reading e{f, results_of(r.what, now, f, deflecting)};
     for (const pair_reading& pair : e.read.pairs) e.forces.push_back(pair.force);
     e.reactions = e.read.reactions;
     ends.push_back(std::move(e));

@@ -95,7 +95,7 @@ std::string cells_of(const std::vector<std::vector<int>>& elements, const std::v
 /// The reaction at each dof; 0 where nothing holds it.
 std::vector<double> reactions_at_dofs(const problem& p, const frame& f) {
   const load now = load_path(p).at(f.step, f.fraction);
-  const std::vector<double> of_support = reactions(p, now, f.displacement, f.isep);
+  const std::vector<double> of_support = reactions_in(p, now, f);
   std::vector<double> at(f.displacement.size());
   for (std::size_t i = 0; i < of_support.size(); ++i)
     at[p.supports[i].node * dofs_per_node(p.geometry) + p.supports[i].dof] += of_support[i];
@@ -154,7 +154,7 @@ std::string cell_data(const problem& p, const frame& f, std::size_t elements,
                        column("face", 0.0, &placed_pair::face) + column("gap", 0.0, &placed_pair::gap) +
                        column("force", 0.0, &placed_pair::force);
   const load now = load_path(p).at(f.step, f.fraction);
-  const element_results results = results_in_elements(p.geometry, now, f.displacement);
+  const element_results results = elements_in(p, now, f);
   for (std::size_t name = 0; name < results.names.size(); ++name) {
     std::vector<double> values;
     for (std::size_t e = 0; e < elements; ++e) {

@@ -34,13 +34,15 @@ std::optional<std::size_t> step_results::hardest_support(const problem& p) const
 }
 
 step_results results_of(const problem& p, const load& l, std::span<const double> u, std::span<const int> isep,
-                        std::span<const int> deflecting) {
-  step_results r{ranges_of(p.geometry, l, u, deflecting),
-                 results_in_elements(p.geometry, l, u),
-                 reactions(p, l, u, isep),
-                 {}};
-  for (std::size_t i = 0; i < p.pairs.size(); ++i)
+                        std::span<const int> deflecting, const end_numbers* numbers) {
+  step_results r{{}, results_in_elements(p.geometry, l, u), {}, {}};
+  if (numbers != nullptr) r.elements.values = numbers->element_values;
+  r.ranges = ranges_of(p.geometry, l, u, deflecting, r.elements.values);
+  r.reactions = numbers != nullptr ? numbers->reactions : reactions(p, l, u, isep);
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     r.pairs.push_back(reading_of(p.pairs[i], deflection_of(p, u, p.pairs[i].node), isep[i] == in_contact));
+    if (numbers != nullptr) r.pairs.back().force = numbers->pair_forces[i];
+  }
   return r;
 }
 
@@ -118,8 +120,7 @@ std::string unit_words(const unit_labels& u, int force, int length) {
 
 void envelope::take(const frame& f) {
   if (f.step == 0) return;
-  const step_results r =
-      results_of(problem_, loads_.at(f.step, f.fraction), f.displacement, f.isep, deflecting_);
+  const step_results r = results_of(problem_, loads_.at(f.step, f.fraction), f, deflecting_);
   const when now{f.step, f.number};
   if (states_++ == 0) {
     for (const value_range& v : r.ranges) ranges_.push_back({v.name, {v.least, now}, {v.most, now}});

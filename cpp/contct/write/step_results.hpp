@@ -27,8 +27,19 @@ struct step_results {
 };
 
 /// Of displacement `u` [dofs] and statuses `isep` [pairs] under load `l`. `deflecting`: see deflecting_nodes.
+/// `numbers`: what is known better than from `u`; null: nothing.
 [[nodiscard]] step_results results_of(const problem& p, const load& l, std::span<const double> u,
-                                      std::span<const int> isep, std::span<const int> deflecting);
+                                      std::span<const int> isep, std::span<const int> deflecting,
+                                      const end_numbers* numbers = nullptr);
+/// Of the end of a step, and of a frame.
+[[nodiscard]] inline step_results results_of(const problem& p, const load& l, const step_state& s,
+                                             std::span<const int> deflecting) {
+  return results_of(p, l, s.displacement, s.isep, deflecting, s.numbers);
+}
+[[nodiscard]] inline step_results results_of(const problem& p, const load& l, const frame& f,
+                                             std::span<const int> deflecting) {
+  return results_of(p, l, f.displacement, f.isep, deflecting, f.numbers ? &*f.numbers : nullptr);
+}
 
 /// A beam that passes through a face between two neighbouring pairs that have it: contact there is not in the
 /// model.

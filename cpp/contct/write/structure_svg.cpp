@@ -50,7 +50,7 @@ std::string faces_of_beam(const beam& b, const structure_picture& s, double half
 /// distributed between them.
 std::string curve_of_beam(const beam& b, const structure_picture& s) {
   const load now = load_path(s.what).at(s.at.step, s.at.fraction);
-  const station_reader read(b, now, s.at.displacement);
+  const station_reader read(b, now, s.at.displacement, elements_in(s.what, now, s.at).values);
   station from = s.shown.stations.front();
   std::string d = fmt::format("M{:.2f} {:.2f}", s.X(read.x(from)), s.Y(read.w(from)));
   for (const station& to : std::span(s.shown.stations).subspan(1)) {
@@ -155,7 +155,7 @@ struct plate_map {
 std::vector<plate_map> maps_of(const plate& p, const structure_picture& s) {
   const problem& what = s.what;
   std::vector<plate_map> maps;
-  const element_results r = results_in_elements(what.geometry, {}, s.at.displacement);
+  const element_results r = elements_in(what, {}, s.at);
   for (std::size_t i = 0; i < r.names.size(); ++i)
     maps.push_back({std::string(r.names[i]) + unit_words(what, r.names[i]), means_at_nodes(p, r, i)});
   if (!what.beds.empty())

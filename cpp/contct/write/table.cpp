@@ -136,8 +136,8 @@ void table::step_ended(const step_state& s) {
   std::string label = events_below_ ? "end " : "   end  ";
   const int width = terminal_.width - static_cast<int>(label.size());
   std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.isep.size()),
-                                    fmt::format("{} digits", digits_left(s.rcond)),
                                     certificate_mark(judged_.steps().back())};
+  items.insert(items.begin() + 1, digits_words(judged_.steps().back(), s.rcond));
   if (const std::string& name = problem_.steps[s.step - 1].name; !name.empty())
     items.insert(items.begin(), on_one_line(name));
   if (s.from_fallback) items.emplace_back("ended by the oracle");
@@ -145,8 +145,7 @@ void table::step_ended(const step_state& s) {
     print_text(fmt::format("{}\n", label + line));
     label.assign(label.size(), ' ');
   }
-  const step_results r =
-      results_of(problem_, loads_.at(s.step, s.fraction), s.displacement, s.isep, deflecting_);
+  const step_results r = results_of(problem_, loads_.at(s.step, s.fraction), s, deflecting_);
   for (const std::string& largest : largest_lines(problem_, r, width, sizes_))
     for (const std::string& line : wrap({largest}, width))
       print_text(fmt::format("{}\n", painted(terminal_, paint::strong, label + line)));

@@ -39,6 +39,12 @@ std::string certificate_mark(const std::optional<certificate>& c) {
   return c->exact ? "certified" : "NOT certified";
 }
 
+std::string digits_words(const std::optional<certificate>& c, double rcond) {
+  constexpr int enough = 10;
+  const int digits = c ? digits_of(*c) : digits_left(rcond);
+  return digits >= enough ? fmt::format("{}+ digits", enough) : fmt::format("{} digits", digits);
+}
+
 std::vector<std::string> certificate_summary(const certifier& judged, bool solved) {
   const auto& steps = judged.steps();
   const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->exact; });
@@ -47,10 +53,12 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
             fmt::format("allowed: {:.1e}", (*bad)->tolerance)};
   }
   double worst = 0.0;
+  const auto proved = std::ranges::count_if(steps, [](const auto& c) { return c && c->proved; });
   const auto certified = std::ranges::count_if(steps, [](const auto& c) { return c.has_value(); });
-  const auto independent = std::ranges::count_if(steps, [](const auto& c) { return c && c->independent; });
+  const auto independent =
+      std::ranges::count_if(steps, [](const auto& c) { return c && !c->proved && c->independent; });
   for (const auto& c : steps) {
-    if (c && c->independent)
+    if (c && (c->proved || c->independent))
       worst = std::max(
           {worst, c->displacement_error, c->shape_error, c->equilibrium, c->penetration, c->tension});
   }
@@ -64,10 +72,14 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
                              : certified == 2 ? "both final states are"
                                               : fmt::format("all {} final states are", certified);
   std::vector<std::string> items = {states + " certified"};
+  if (proved == certified) {
+    items.push_back("proved: " + digits_words(worst) + " of every number");
+    return items;
+  }
   if (independent > 0) items.push_back("the oracle agrees to " + digits_words(worst));
-  if (independent < certified)
+  if (independent + proved < certified)
     items.push_back(fmt::format("{} taken from the oracle, by equilibrium, penetration and tension alone",
-                                certified - independent));
+                                certified - independent - proved));
   return items;
 }
 

@@ -1,0 +1,369 @@
+#include "contct/certify/error_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "contct/path/solve_problem.hpp"
+
+namespace contct::certify {
+namespace {
+
+/// Sums of doubles are off by less than this share of their magnitudes.
+constexpr double of_sums = 0x1p-30;
+
+std::vector<int> rows_of(const linear_structure& s) {
+  std::vector<int> rows(s.dofs());
+  for (std::size_t dof = 0; dof < rows.size(); ++dof) rows[dof] = s.row_of(dof);
+  return rows;
+}
+
+}  // namespace
+
+void by_quantity::take(quantity q, double value) {
+  std::optional<double>& largest = (*this)[q];
+  largest = std::max(largest.value_or(0.0), value);
+}
+
+handed_out handed_out_at(const problem& p, const step_state& s) {
+  if (s.numbers != nullptr)
+    return {s.step, s.displacement, s.numbers->pair_forces, s.numbers->reactions, s.numbers->element_values};
+  const load& now = p.steps[s.step - 1];
+  handed_out h{s.step,
+               s.displacement,
+               {},
+               reactions(p, now, s.displacement, s.isep),
+               results_in_elements(p.geometry, now, s.displacement).values};
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
+    const double w = s.displacement[static_cast<std::size_t>(p.pairs[i].node) * dofs_per_node(p.geometry)];
+    h.pair_forces.push_back(force_of(p.pairs[i], w, s.isep[i] == in_contact));
+  }
+  return h;
+}
+
+error_prover::error_prover(const problem& p, const linear_structure& s)
+    : problem_(p),
+      can_factor_(s.stiffness.is_band()),
+      true_(can_factor_ ? true_system_of(p) : true_system{}),
+      stiffness_(true_, rows_of(s), can_factor_ ? s.stiffness.band().subdiagonals() : 0) {}
+
+double_double error_prover::depth(std::size_t pair, std::span<const double_double> u) const {
+  const true_pair& p = true_.pairs[pair];
+  return (u[p.dof] - p.face) * p.surface;
+}
+
+/// The load less K u and what pairs beyond their faces press with, whatever their statuses.
+error_prover::residual error_prover::residual_of(std::span<const double_double> u,
+                                                 const true_loads& l) const {
+  const std::size_t n = true_.dofs();
+  residual r{long_vector(n), std::vector<double>(n), long_vector(n)};
+  for (std::size_t dof = 0; dof < n; ++dof) {
+    double_double sum = -l.force[dof];
+    double size = l.size[dof];
+    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
+      const int column = true_.k.columns[at];
+      sum += true_.k.values[at] * u[column];
+      size += true_.root[dof] * true_.root[column] * std::abs(u[column].hi);
+    }
+    r.needed[dof] = sum;
+    r.slack[dof] = size;
+  }
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+    const true_pair& p = true_.pairs[i];
+    const double_double deep = depth(i, u);
+    const double size = p.stiffness.hi * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
+    if (deep.hi > -true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi))) r.slack[p.dof] += size;
+    if (deep.hi > 0.0) r.needed[p.dof] += p.stiffness * deep * p.surface;
+  }
+  for (std::size_t dof = 0; dof < n; ++dof) {
+    r.slack[dof] = 2 * true_rounding * r.slack[dof] + 0x1p-1000;
+    if (true_.fixed[dof] == 0) r.force[dof] = -r.needed[dof];
+  }
+  return r;
+}
+
+/// rho: the norm of the residual in K_A^-1, from above. z is about K_A^-1 r, e = r - K_A z, and
+/// rho^2 = r'z + z'e + e' K_A^-1 e.
+std::optional<double> error_prover::norm_of(const residual& r, double mu) const {
+  const std::size_t n = true_.dofs();
+  long_vector z(n);
+  std::vector<double> e(n);
+  long_vector left = r.force;
+  long_vector product;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t dof = 0; dof < n; ++dof) e[dof] = left[dof].hi;
+    stiffness_.solve(e);
+    for (std::size_t dof = 0; dof < n; ++dof) z[dof] += e[dof];
+    product = stiffness_.times(z);
+    for (std::size_t dof = 0; dof < n; ++dof)
+      left[dof] = true_.fixed[dof] != 0 ? double_double(0.0) : r.force[dof] - product[dof];
+  }
+  double_double work;
+  double slack = 0.0;
+  double rest = 0.0;
+  for (std::size_t dof = 0; dof < n; ++dof) {
+    if (true_.fixed[dof] != 0) continue;
+    work += z[dof] * (r.force[dof] + left[dof]);
+    double size = 0.0;
+    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at)
+      size += true_.root[dof] * true_.root[true_.k.columns[at]] * std::abs(z[true_.k.columns[at]].hi);
+    const double root = 1.0 / stiffness_.scale(dof);
+    size += root * root * std::abs(z[dof].hi) * 2;  // the springs of A
+    const double off = r.slack[dof] + 2 * true_rounding * size;
+    slack += 2 * std::abs(z[dof].hi) * off;
+    const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
+    rest += scaled * scaled;
+  }
+  const double square = (std::max(work.hi, 0.0) + slack + rest / mu) * (1 + of_sums);
+  if (!std::isfinite(square)) return std::nullopt;
+  return std::sqrt(square) * (1 + of_sums);
+}
+
+std::vector<int> error_prover::pressed(std::span<const double_double> u) const {
+  std::vector<int> pairs;
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i)
+    if (true_.fixed[true_.pairs[i].dof] == 0 && depth(i, u).hi > 0.0) pairs.push_back(static_cast<int>(i));
+  return pairs;
+}
+
+/// Factor K_A; is it definite for certain?
+bool error_prover::proves(const std::vector<int>& closed) {
+  if (factored_ != closed) {
+    factored_ = closed;
+    mu_ = stiffness_.factor(closed) ? stiffness_.least_eigenvalue() : 0.0;
+    inverse_root_mu_ = (1 + of_sums) / std::sqrt(mu_);
+  }
+  return mu_ > 0.0;
+}
+
+/// A: at first all pairs beyond their faces; those that are not so for certain leave it again.
+bool error_prover::find_closed(std::span<const double_double> u, const residual& r, error_bounds& b) {
+  b.closed = pressed(u);
+  for (int tries = 0; tries < 3; ++tries) {
+    if (!proves(b.closed)) {
+      b.not_proved = "the stiffness is too ill-conditioned, or nothing certain holds the structure";
+      return false;
+    }
+    const std::optional<double> rho = norm_of(r, mu_);
+    if (!rho) {
+      b.not_proved = "the numbers are too large or too small";
+      return false;
+    }
+    const std::size_t before = b.closed.size();
+    std::erase_if(b.closed, [&](int i) {
+      const true_pair& p = true_.pairs[i];
+      const double moved = std::min(reach(p.dof), (1 + of_sums) / std::sqrt(p.stiffness.hi)) * *rho;
+      const double doubt = 2 * true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
+      return !(depth(i, u).hi * (1 - of_sums) - doubt > moved);
+    });
+    if (b.closed.size() == before) {
+      b.rho = *rho;
+      return true;
+    }
+  }
+  b.not_proved = "which pairs are in contact is not certain";
+  return false;
+}
+
+void error_prover::bound_displacements(const handed_out& state, std::span<const double_double> u,
+                                       error_bounds& b) const {
+  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
+    const quantity q = true_.deflects[dof] != 0 ? quantity::w : quantity::slope;
+    const double told = std::abs((double_double(state.displacement[dof]) - u[dof]).hi);
+    const double moved = true_.fixed[dof] != 0 ? true_rounding * std::abs(u[dof].hi) : reach(dof) * b.rho;
+    b.error.take(q, (told + moved) * (1 + of_sums));
+    b.size.take(q, std::abs(state.displacement[dof]));
+  }
+}
+
+void error_prover::bound_forces(const handed_out& state, std::span<const double_double> u,
+                                error_bounds& b) const {
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+    const true_pair& p = true_.pairs[i];
+    const double_double deep = depth(i, u);
+    const double_double force = deep.hi > 0.0 ? p.stiffness * deep : double_double(0.0);
+    const double told = std::abs((double_double(state.pair_forces[i]) - force).hi);
+    const double doubt = 2 * true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
+    const double root = std::sqrt(p.stiffness.hi) * (1 + of_sums);
+    const bool held = true_.fixed[p.dof] != 0;
+    const bool open = deep.hi < -(held ? 0.0 : reach(p.dof) * b.rho * (1 + of_sums)) - doubt;  // for certain
+    const double moved = held || open ? 0.0 : std::min(root, p.stiffness.hi * reach(p.dof)) * b.rho;
+    const double noise = open ? 0.0 : p.stiffness.hi * doubt;
+    b.error.take(quantity::force, (told + noise + moved) * (1 + of_sums));
+    b.size.take(quantity::force, std::abs(state.pair_forces[i]));
+  }
+}
+
+/// A dof that is fixed twice gives its reaction to the first support.
+std::vector<error_prover::true_reaction> error_prover::reactions_at(std::span<const double_double> u,
+                                                                    const residual& r) const {
+  const int per_node = dofs_per_node(problem_.geometry);
+  std::vector<char> taken(true_.dofs(), 0);
+  std::vector<true_reaction> all;
+  for (const support& s : problem_.supports) {
+    const std::size_t dof = static_cast<std::size_t>(s.node) * per_node + s.dof;
+    true_reaction& force = all.emplace_back();
+    if (!s.fixed && true_.fixed[dof] == 0) {
+      force.force = -(decimal_of(s.spring) * u[dof]);
+      force.slack = true_rounding * std::abs(force.force.hi);
+      force.per_rho = std::min(std::sqrt(s.spring) * (1 + of_sums), s.spring * reach(dof));
+    } else if (s.fixed && taken[dof] == 0) {
+      taken[dof] = 1;
+      force = {r.needed[dof], r.slack[dof], true_.root[dof]};
+    }
+  }
+  return all;
+}
+
+void error_prover::bound_reactions(const handed_out& state, const residual& r,
+                                   std::span<const double_double> u, error_bounds& b) const {
+  const std::vector<true_reaction> all = reactions_at(u, r);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const quantity q = problem_.supports[i].dof == 0 ? quantity::reaction : quantity::moment;
+    const double told = std::abs((double_double(state.reactions[i]) - all[i].force).hi);
+    b.error.take(q, (told + all[i].slack + all[i].per_rho * b.rho) * (1 + of_sums));
+    b.size.take(q, std::abs(state.reactions[i]));
+  }
+}
+
+void error_prover::bound_element_values(const handed_out& state, std::span<const double_double> u,
+                                        error_bounds& b) const {
+  if (state.element_values.empty()) return;
+  const std::vector<element_value> all = true_.element_values(state.step, u);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const quantity q = all[i].moment ? quantity::moment : quantity::shear;
+    const double told = std::abs((double_double(state.element_values[i]) - all[i].value).hi);
+    const double noise = 64 * true_rounding * all[i].size;
+    b.error.take(q, (told + noise + all[i].energy * b.rho) * (1 + of_sums));
+    b.size.take(q, std::abs(state.element_values[i]));
+  }
+}
+
+bool error_prover::is_unloaded(const true_loads& l) const {
+  const auto none = [](const double_double& x) { return x == 0.0; };
+  return std::ranges::all_of(l.size, [](double x) { return x == 0.0; }) &&
+         std::ranges::all_of(l.settlement, none) &&
+         std::ranges::all_of(true_.pairs, [](const true_pair& p) { return p.face.hi * p.surface >= 0.0; });
+}
+
+/// All forces are 0 then, and where the supports hold the structure all displacements.
+void error_prover::bound_unloaded(const handed_out& state, error_bounds& b) {
+  b.unloaded = true;
+  b.unique = proves({});
+  b.rho = 0.0;
+  const auto take = [&b](quantity q, double value) { b.error.take(q, std::abs(value)); };
+  for (std::size_t dof = 0; dof < true_.dofs() && b.unique; ++dof)
+    take(true_.deflects[dof] != 0 ? quantity::w : quantity::slope, state.displacement[dof]);
+  for (const double force : state.pair_forces) take(quantity::force, force);
+  for (std::size_t i = 0; i < problem_.supports.size(); ++i)
+    take(problem_.supports[i].dof == 0 ? quantity::reaction : quantity::moment, state.reactions[i]);
+  if (state.element_values.empty()) return;
+  const std::vector<element_value> kinds = true_.element_values(state.step, long_vector(true_.dofs()));
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    take(kinds[i].moment ? quantity::moment : quantity::shear, state.element_values[i]);
+}
+
+long_vector error_prover::long_displacement(int step, std::span<const double> displacement,
+                                            const true_loads& l) const {
+  const auto same = [](const double_double& a, double b) { return a.hi == b; };
+  if (step == refined_step_ && std::ranges::equal(refined_, displacement, same)) return refined_;
+  long_vector u(true_.dofs());
+  for (std::size_t dof = 0; dof < u.size(); ++dof)
+    u[dof] = true_.fixed[dof] != 0 ? l.settlement[dof] : double_double(displacement[dof]);
+  return u;
+}
+
+/// u += K_A^-1 r until that no longer makes r smaller. False where K_A is not definite for certain.
+bool error_prover::correct(const true_loads& l, long_vector& u) {
+  constexpr int most = 20;
+  constexpr int settled = 3;  // corrections after which the pairs pressed no longer change
+  long_vector best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most; ++i) {
+    if (!proves(pressed(u))) break;
+    const residual r = residual_of(u, l);
+    std::vector<double> correction(u.size());
+    for (std::size_t dof = 0; dof < u.size(); ++dof) correction[dof] = r.force[dof].hi;
+    stiffness_.solve(correction);
+    double square = 0.0;  // of the residual's norm
+    for (std::size_t dof = 0; dof < u.size(); ++dof) square += r.force[dof].hi * correction[dof];
+    if (!(square < least) && i > settled) break;
+    if (square < least) best = u;
+    least = std::min(least, square);
+    if (!(square > 0.0)) break;
+    for (std::size_t dof = 0; dof < u.size(); ++dof)
+      if (true_.fixed[dof] == 0) u[dof] += correction[dof];
+  }
+  if (best.empty()) return false;
+  u = std::move(best);
+  return true;
+}
+
+/// A pair whose force, or lack of it, cannot be rounding has the status that goes with it.
+void error_prover::settle_statuses(std::span<const double_double> u, const true_loads& l,
+                                   std::span<int> isep) const {
+  double largest = 0.0;
+  for (const double_double& f : l.force) largest = std::max(largest, std::abs(f.hi));
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i)
+    largest = std::max(largest, true_.pairs[i].stiffness.hi * depth(i, u).hi);
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+    const double force = true_.pairs[i].stiffness.hi * depth(i, u).hi;
+    if (std::abs(force) > 1e-12 * largest) isep[i] = force > 0.0 ? in_contact : separated;
+  }
+}
+
+end_numbers error_prover::numbers_of(int step, std::span<const double_double> u, const true_loads& l,
+                                     std::span<const int> isep) const {
+  end_numbers n;
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+    const double_double deep = depth(i, u);
+    const bool presses = isep[i] == in_contact && deep.hi > 0.0;
+    n.pair_forces.push_back(presses ? (true_.pairs[i].stiffness * deep).hi : 0.0);
+  }
+  for (const true_reaction& r : reactions_at(u, residual_of(u, l))) n.reactions.push_back(r.force.hi);
+  for (const element_value& v : true_.element_values(step, u)) n.element_values.push_back(v.value.hi);
+  return n;
+}
+
+std::optional<end_numbers> error_prover::refine(int step, std::span<double> displacement,
+                                                std::span<int> isep) {
+  if (!can_factor_) return std::nullopt;
+  const true_loads l = true_.loads(step);
+  long_vector u = long_displacement(step, displacement, l);
+  if (is_unloaded(l) && proves({})) {
+    std::fill(u.begin(), u.end(), 0.0);
+  } else if (!correct(l, u)) {
+    return std::nullopt;
+  }
+  refined_step_ = step;
+  refined_ = u;
+  for (std::size_t dof = 0; dof < displacement.size(); ++dof) displacement[dof] = u[dof].hi;
+  settle_statuses(u, l, isep);
+  return numbers_of(step, u, l, isep);
+}
+
+error_bounds error_prover::bound(const handed_out& state) {
+  error_bounds b;
+  if (!can_factor_) {
+    b.not_proved = "the stiffness is not stored as a band, and only a band's factor is checked";
+    return b;
+  }
+  const true_loads l = true_.loads(state.step);
+  if (is_unloaded(l)) {
+    bound_unloaded(state, b);
+    b.size = b.error;
+    return b;
+  }
+  const long_vector u = long_displacement(state.step, state.displacement, l);
+  const residual r = residual_of(u, l);
+  if (!find_closed(u, r, b)) return b;
+  for (std::size_t dof = 0; dof < u.size(); ++dof)
+    b.size.take(true_.deflects[dof] != 0 ? quantity::force : quantity::moment, std::abs(l.force[dof].hi));
+  bound_displacements(state, u, b);
+  bound_forces(state, u, b);
+  bound_reactions(state, r, u, b);
+  bound_element_values(state, u, b);
+  return b;
+}
+
+}  // namespace contct::certify

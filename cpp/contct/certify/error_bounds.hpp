@@ -1,0 +1,117 @@
+// How far a state can be from the equilibrium, proved from the state alone (reference/certificate.md).
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contct/certify/scaled_stiffness.hpp"
+#include "contct/path/observer.hpp"
+
+namespace contct::certify {
+
+/// The kinds of numbers that a state has.
+enum class quantity { w, slope, force, reaction, moment, shear };
+inline constexpr std::array<const char*, 6> quantity_names = {"w",        "slope",  "force",
+                                                              "reaction", "moment", "shear"};
+
+/// A number for each kind; none where the structure has no such quantity.
+struct by_quantity {
+  std::array<std::optional<double>, 6> all;
+  [[nodiscard]] std::optional<double>& operator[](quantity q) { return all[static_cast<std::size_t>(q)]; }
+  [[nodiscard]] const std::optional<double>& operator[](quantity q) const {
+    return all[static_cast<std::size_t>(q)];
+  }
+  /// The larger of the two.
+  void take(quantity q, double value);
+};
+
+/// What was handed out for a state.
+struct handed_out {
+  int step;                              ///< from 1
+  std::span<const double> displacement;  ///< [dofs]
+  std::vector<double> pair_forces;       ///< [pairs] positive where pressed
+  std::vector<double> reactions;         ///< [supports of the problem]
+  std::vector<double> element_values;    ///< as element_results has them
+};
+
+/// The numbers that a run gives for the end of a step.
+[[nodiscard]] handed_out handed_out_at(const problem& p, const step_state& s);
+
+struct error_bounds {
+  /// The largest error that any number of a kind can have. Infinite: none is proved.
+  by_quantity error;
+  by_quantity size;  ///< the largest number of a kind; of forces, loads and reactions count too
+  /// Nothing acts, and no pair is beyond its face in the state of no displacement: that is the equilibrium.
+  bool unloaded = false;
+  bool unique = true;      ///< false, where nothing acts: the structure may stand elsewhere as well
+  std::string not_proved;  ///< why there is no bound, in words; empty where there is
+  double rho = std::numeric_limits<double>::infinity();  ///< in the norm of K_A
+  std::vector<int> closed;  ///< A: the pairs that are certainly in contact, from 0
+};
+
+/// Bounds errors of states of a problem.
+class error_prover {
+ public:
+  /// Both must outlive this object.
+  error_prover(const problem& p, const linear_structure& s);
+
+  [[nodiscard]] error_bounds bound(const handed_out& state);
+
+  /// A state_refiner: corrections with this residual, as long as each makes it smaller. Nothing where nothing
+  /// certain holds the structure. What is left over from doubles is kept for `bound`.
+  [[nodiscard]] std::optional<end_numbers> refine(int step, std::span<double> displacement,
+                                                  std::span<int> isep);
+  [[nodiscard]] double span() const { return true_.span; }
+
+ private:
+  struct residual {
+    long_vector force;          // what is left of the load, 0 at fixed dofs [dofs]
+    std::vector<double> slack;  // how far off that may be [dofs]
+    long_vector needed;         // K u less the loads, at every dof [dofs]
+  };
+  /// How deep a pair is beyond its face under `u`.
+  [[nodiscard]] double_double depth(std::size_t pair, std::span<const double_double> u) const;
+  [[nodiscard]] residual residual_of(std::span<const double_double> u, const true_loads& l) const;
+  /// `displacement`, with settlements as they are prescribed; of the state refined last with what doubles
+  /// leave over.
+  [[nodiscard]] long_vector long_displacement(int step, std::span<const double> displacement,
+                                              const true_loads& l) const;
+  [[nodiscard]] bool correct(const true_loads& l, long_vector& u);
+  void settle_statuses(std::span<const double_double> u, const true_loads& l, std::span<int> isep) const;
+  [[nodiscard]] end_numbers numbers_of(int step, std::span<const double_double> u, const true_loads& l,
+                                       std::span<const int> isep) const;
+  [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
+  [[nodiscard]] bool is_unloaded(const true_loads& l) const;
+  void bound_unloaded(const handed_out& state, error_bounds& b);
+  [[nodiscard]] bool proves(const std::vector<int>& closed);
+  [[nodiscard]] std::optional<double> norm_of(const residual& r, double mu) const;
+  bool find_closed(std::span<const double_double> u, const residual& r, error_bounds& b);
+  [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
+  void bound_displacements(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
+  void bound_forces(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
+  /// The force of each support, how far off it may be, and by how much of rho.
+  struct true_reaction {
+    double_double force;
+    double slack = 0.0, per_rho = 0.0;
+  };
+  [[nodiscard]] std::vector<true_reaction> reactions_at(std::span<const double_double> u,
+                                                        const residual& r) const;
+  void bound_reactions(const handed_out& state, const residual& r, std::span<const double_double> u,
+                       error_bounds& b) const;
+  void bound_element_values(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
+
+  const problem& problem_;
+  bool can_factor_;
+  true_system true_;  // empty where it cannot be factored
+  scaled_stiffness stiffness_;
+  std::optional<std::vector<int>> factored_;  // the pairs in the last factor
+  double mu_ = 0.0, inverse_root_mu_ = 0.0;
+  int refined_step_ = 0;
+  long_vector refined_;
+};
+
+}  // namespace contct::certify

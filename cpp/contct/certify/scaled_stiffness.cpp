@@ -1,0 +1,179 @@
+#include "contct/certify/scaled_stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "contct/matrix/cholesky.hpp"
+
+namespace contct::certify {
+namespace {
+
+using matrix::band_matrix;
+
+/// The power of two whose square brings a positive `x` between 1/8 and 1.
+double root_scale(double x) {
+  int exponent = 0;
+  (void)std::frexp(x, &exponent);
+  return std::ldexp(1.0, -((exponent + (exponent > 0 ? 1 : 0)) / 2));
+}
+
+/// L by rows: row i has its columns i - b to i.
+std::vector<double> by_rows(const band_matrix& l) {
+  const int n = l.order();
+  const int b = l.subdiagonals();
+  std::vector<double> rows(static_cast<std::size_t>(n) * (b + 1), 0.0);
+  for (int column = 0; column < n; ++column)
+    for (int row = column; row <= std::min(n - 1, column + b); ++row)
+      rows[static_cast<std::size_t>(row) * (b + 1) + (column - row + b)] = l.at(row, column);
+  return rows;
+}
+
+/// In doubles: four sums, so that they can go on beside each other. Off by at most (count + 3) 2^-53 of the
+/// sum of magnitudes.
+double_double quick_product(const double* x, const double* y, int count) {
+  double sum[4] = {0.0, 0.0, 0.0, 0.0};
+  int k = 0;
+  for (; k + 4 <= count; k += 4)
+    for (int lane = 0; lane < 4; ++lane) sum[lane] += x[k + lane] * y[k + lane];
+  for (; k < count; ++k) sum[0] += x[k] * y[k];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+double_double long_product(const double* x, const double* y, int count) {
+  double_double sum;
+  for (int k = 0; k < count; ++k) sum += exact_product(x[k], y[k]);
+  return sum;
+}
+
+}  // namespace
+
+scaled_stiffness::scaled_stiffness(const true_system& t, std::vector<int> row_of, int subdiagonals)
+    : true_(t), row_of_(std::move(row_of)), dof_at_(row_of_.size()), subdiagonals_(subdiagonals) {
+  for (std::size_t dof = 0; dof < row_of_.size(); ++dof) dof_at_[row_of_[dof]] = static_cast<int>(dof);
+}
+
+band_matrix scaled_stiffness::shifted(double shift) const {
+  band_matrix band(static_cast<int>(true_.dofs()), subdiagonals_);
+  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
+    const int row = row_of_[dof];
+    if (true_.fixed[dof] != 0) {
+      band.at(row, row) = 1.0 - shift;
+      continue;
+    }
+    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
+      const int column = true_.k.columns[at];
+      if (true_.fixed[column] != 0 || row_of_[column] > row) continue;
+      double_double entry = true_.k.values[at];
+      if (column == static_cast<int>(dof)) entry += springs_[dof];
+      entry = entry * (scale_[dof] * scale_[column]);
+      if (column == static_cast<int>(dof)) entry -= shift;
+      band.at(row, row_of_[column]) = entry.hi;
+    }
+  }
+  return band;
+}
+
+bool scaled_stiffness::factor(std::span<const int> pairs) {
+  springs_.assign(true_.dofs(), 0.0);
+  for (const int i : pairs) springs_[true_.pairs[i].dof] += true_.pairs[i].stiffness;
+  scale_.assign(true_.dofs(), 1.0);
+  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
+    if (true_.fixed[dof] == 0) scale_[dof] = root_scale(true_.root[dof] * true_.root[dof] + springs_[dof].hi);
+  }
+  factor_ = shifted(0.0);
+  return matrix::factor(factor_);
+}
+
+void scaled_stiffness::solve(std::span<double> b) const {
+  std::vector<double> x(b.size());
+  for (std::size_t dof = 0; dof < b.size(); ++dof)
+    x[row_of_[dof]] = true_.fixed[dof] != 0 ? 0.0 : b[dof] * scale_[dof];
+  matrix::solve_with(factor_, x);
+  for (std::size_t dof = 0; dof < b.size(); ++dof) b[dof] = x[row_of_[dof]] * scale_[dof];
+}
+
+long_vector scaled_stiffness::times(std::span<const double_double> x) const {
+  long_vector y(x.size());
+  for (std::size_t dof = 0; dof < x.size(); ++dof) {
+    double_double sum = springs_[dof] * x[dof];
+    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at)
+      sum += true_.k.values[at] * x[true_.k.columns[at]];
+    y[dof] = sum;
+  }
+  return y;
+}
+
+/// By inverse iteration: never too small, and near enough after a few.
+double scaled_stiffness::least_estimate() const {
+  const std::size_t n = true_.dofs();
+  std::vector<double> x(n);
+  for (std::size_t row = 0; row < n; ++row)
+    x[row] = true_.fixed[dof_at_[row]] != 0 ? 0.0 : 1.0 + 0.5 * std::sin(2.3 * static_cast<double>(row));
+  double estimate = 1.0;
+  for (int i = 0; i < 4; ++i) {
+    const double norm = std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0));
+    if (!(norm > 0.0)) return 1.0;
+    for (double& part : x) part /= norm;
+    const std::vector<double> before = x;
+    matrix::solve_with(factor_, x);
+    estimate = 1.0 / std::inner_product(x.begin(), x.end(), before.begin(), 0.0);
+  }
+  return std::min(estimate, 1.0);
+}
+
+/// An upper bound on the largest row sum of |S K_A S - shift I - L L'|, so on its norm.
+double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double shift) const {
+  const int n = factor.order();
+  const int b = factor.subdiagonals();
+  const std::vector<double> l = by_rows(factor);
+  const bool narrow = b <= 16;
+  // Of a product of two rows, whose magnitudes add up to at most 1.1 (their squares are the diagonal's), and
+  // of an entry of K_A.
+  const double rounding = 2.0 * (narrow ? (b + 4) * 0x1p-98 : (b + 4) * 0x1p-52) + true_rounding;
+  std::vector<double> sums(n, (2 * b + 1) * rounding);
+  std::vector<double_double> row(b + 1);
+  for (int i = 0; i < n; ++i) {
+    std::fill(row.begin(), row.end(), 0.0);
+    const std::size_t dof = dof_at_[i];
+    if (true_.fixed[dof] != 0) {
+      row[b] = 1.0;
+    } else {
+      for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
+        const int column = true_.k.columns[at];
+        const int j = row_of_[column];
+        if (true_.fixed[column] == 0 && j <= i)
+          row[j - i + b] = true_.k.values[at] * (scale_[dof] * scale_[column]);
+      }
+      row[b] += springs_[dof] * (scale_[dof] * scale_[dof]);
+    }
+    row[b] -= shift;
+    for (int j = std::max(0, i - b); j <= i; ++j) {
+      const int first = std::max(0, i - b);
+      const int count = j - first + 1;
+      const double* const of_i = &l[static_cast<std::size_t>(i) * (b + 1) + (first - i + b)];
+      const double* const of_j = &l[static_cast<std::size_t>(j) * (b + 1) + (first - j + b)];
+      const double_double product =
+          narrow ? long_product(of_i, of_j, count) : quick_product(of_i, of_j, count);
+      const double error = std::abs((row[j - i + b] - product).hi);
+      sums[i] += error;
+      if (j != i) sums[j] += error;
+    }
+  }
+  const double largest = *std::max_element(sums.begin(), sums.end());
+  return largest * (1 + 0x1p-30);
+}
+
+double scaled_stiffness::least_eigenvalue() {
+  double shift = least_estimate() / 2;
+  for (int tries = 0; tries < 3 && shift > 0.0; ++tries, shift /= 16) {
+    band_matrix l = shifted(shift);
+    if (!matrix::factor(l)) continue;
+    const double mu = (shift - largest_row_of_error(l, shift)) * (1 - 0x1p-50);
+    if (mu > 0.0) return mu;  // NaN is not
+  }
+  return 0.0;
+}
+
+}  // namespace contct::certify

@@ -1,0 +1,47 @@
+// K_A, the stiffness with the springs of some pairs: its factor in doubles, and a proof of its least
+// eigenvalue (reference/certificate.md).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contct/certify/true_system.hpp"
+#include "contct/matrix/stiffness_matrix.hpp"
+
+namespace contct::certify {
+
+/// S K_A S, with powers of two in S such that the diagonal is between 1/8 and 1. Rows of fixed dofs are those
+/// of the unit matrix.
+class scaled_stiffness {
+ public:
+  /// `row_of`: the row of each dof in a band of `subdiagonals`. `t` must outlive this object.
+  scaled_stiffness(const true_system& t, std::vector<int> row_of, int subdiagonals);
+
+  /// Take the springs of these pairs, from 0, into K_A, and factor it. False where a pivot is not positive.
+  [[nodiscard]] bool factor(std::span<const int> pairs);
+
+  /// mu with S K_A S >= mu I; 0 where none can be proved. Takes a factorisation or more, and four solves.
+  [[nodiscard]] double least_eigenvalue();
+
+  /// K_A^-1 b in doubles, for b [dofs] that is 0 at fixed ones.
+  void solve(std::span<double> b) const;
+
+  /// K_A x.
+  [[nodiscard]] long_vector times(std::span<const double_double> x) const;
+
+  [[nodiscard]] double scale(std::size_t dof) const { return scale_[dof]; }
+
+ private:
+  [[nodiscard]] matrix::band_matrix shifted(double shift) const;
+  [[nodiscard]] double least_estimate() const;
+  [[nodiscard]] double largest_row_of_error(const matrix::band_matrix& factor, double shift) const;
+
+  const true_system& true_;
+  std::vector<int> row_of_, dof_at_;
+  int subdiagonals_;
+  long_vector springs_;        // [dofs] of the pairs taken in
+  std::vector<double> scale_;  // S [dofs]
+  matrix::band_matrix factor_;
+};
+
+}  // namespace contct::certify

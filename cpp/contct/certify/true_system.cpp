@@ -1,0 +1,351 @@
+#include "contct/certify/true_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "contct/structure/element_formulas.hpp"
+
+namespace contct::certify {
+namespace {
+
+namespace formulas = structure::formulas;
+
+/// x[i] = length i / n, where that gives these doubles; otherwise the decimals of all.
+long_vector coordinates(std::span<const double> x) {
+  const auto n = static_cast<int>(x.size()) - 1;
+  for (const double length :
+       {x.back(), std::nextafter(x.back(), 0.0), std::nextafter(x.back(), 2 * x.back())}) {
+    bool even = length > 0.0;
+    for (int i = 0; i <= n && even; ++i) even = x[i] == length * i / n;
+    if (!even) continue;
+    long_vector parts;
+    for (int i = 0; i <= n; ++i) parts.push_back(decimal_of(length) * i / n);
+    return parts;
+  }
+  long_vector exactly;
+  for (const double at : x) exactly.push_back(decimal_of(at));
+  return exactly;
+}
+
+long_vector tributary(const long_vector& x) {
+  long_vector lengths(x.size());
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const double_double half = (x[i + 1] - x[i]) / 2;
+    lengths[i] += half;
+    lengths[i + 1] += half;
+  }
+  return lengths;
+}
+
+/// Collects entries row by row.
+using sparse_rows = std::vector<std::map<int, double_double>>;
+
+template <class Matrix, class Dofs>
+void add_element(sparse_rows& k, const Matrix& element, const Dofs& dofs) {
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    for (std::size_t j = 0; j < dofs.size(); ++j) k[dofs[i]][dofs[j]] += element[i][j];
+}
+
+/// A structure of one kind: what the conversion of a problem asks of it.
+class true_beam {
+ public:
+  explicit true_beam(const beam& b) : beam_(b), x_(coordinates(b.x)) {
+    for (std::size_t e = 0; e + 1 < x_.size(); ++e) h_.push_back(x_[e + 1] - x_[e]);
+    for (const double EI : b.EI) EI_.push_back(decimal_of(EI));
+  }
+
+  void assemble(sparse_rows& k) const {
+    for (std::size_t e = 0; e < h_.size(); ++e)
+      add_element(k, formulas::beam_stiffness(EI_[e], h_[e]), dofs_of(e));
+  }
+
+  void add_distributed(const load& l, true_loads& f) const {
+    for_each_loaded_element(l, beam_.elements(), [&](int e, std::span<const double> polynomial) {
+      const element_loads work = load_on(e, polynomial);
+      for (std::size_t i = 0; i < 4; ++i) {
+        f.force[2 * e + i] += work.force[i];
+        f.size[2 * e + i] += work.size * (i % 2 == 0 ? 1.0 : h_[e].hi);
+      }
+    });
+  }
+
+  /// From the rotations relative to the chord: the rigid motion of an element may be large.
+  [[nodiscard]] std::vector<element_value> values(const load& l, std::span<const double_double> u) const {
+    std::vector<element_value> all;
+    for (std::size_t e = 0; e < h_.size(); ++e) {
+      const double_double stiffness = 2 * EI_[e] / h_[e];
+      const double_double chord = (u[2 * e + 2] - u[2 * e]) / h_[e];
+      const double_double left = u[2 * e + 1] - chord;
+      const double_double right = u[2 * e + 3] - chord;
+      const double_double m1 = stiffness * (2 * left + right);
+      const double_double m2 = stiffness * (left + 2 * right);
+      const double_double v = (m1 + m2) / h_[e];
+      const double m =
+          3 * stiffness.hi * (std::abs(u[2 * e + 1].hi) + std::abs(u[2 * e + 3].hi) + 2 * std::abs(chord.hi));
+      const double of_shear = std::sqrt(6 * stiffness.hi) / h_[e].hi;
+      const double of_moment = std::sqrt(2 * stiffness.hi);
+      const double q = 2 * m / h_[e].hi;
+      all.insert(all.end(), {{v, q, of_shear, false},
+                             {v, q, of_shear, false},
+                             {-m1, m, of_moment, true},
+                             {m2, m, of_moment, true}});
+    }
+    for_each_loaded_element(l, beam_.elements(), [&](int e, std::span<const double> polynomial) {
+      const element_loads work = load_on(e, polynomial);
+      const std::array<double_double, 4> added = {-work.force[0], work.force[2], work.force[1],
+                                                  -work.force[3]};
+      for (std::size_t i = 0; i < 4; ++i) {
+        all[4 * e + i].value += added[i];
+        all[4 * e + i].size += work.size * (i < 2 ? 1.0 : h_[e].hi);
+      }
+    });
+    return all;
+  }
+
+  [[nodiscard]] long_vector shares() const { return tributary(x_); }
+  [[nodiscard]] double span() const { return beam_.x.back() - beam_.x.front(); }
+
+ private:
+  struct element_loads {
+    std::array<double_double, 4> force;
+    double size;
+  };
+  [[nodiscard]] element_loads load_on(std::size_t e, std::span<const double> polynomial) const {
+    long_vector q;
+    double size = 0.0;
+    const double reach = std::max(std::abs(x_[e].hi), std::abs(x_[e + 1].hi));
+    for (std::size_t i = 0; i < polynomial.size(); ++i) {
+      q.push_back(decimal_of(polynomial[i]));
+      size += std::abs(polynomial[i]) * std::pow(2 * reach, static_cast<double>(i)) * h_[e].hi;
+    }
+    return {formulas::beam_load<double_double>(q, x_[e], h_[e]), size};
+  }
+
+  static std::array<int, 4> dofs_of(std::size_t e) {
+    const int first = 2 * static_cast<int>(e);
+    return {first, first + 1, first + 2, first + 3};
+  }
+
+  const beam& beam_;
+  long_vector x_, h_, EI_;
+};
+
+class true_plate {
+ public:
+  explicit true_plate(const plate& p)
+      : plate_(p), x_(coordinates(p.x)), y_(coordinates(p.y)), D_(decimal_of(p.D)), nu_(decimal_of(p.nu)) {}
+
+  void assemble(sparse_rows& k) const {
+    std::optional<halves> last;
+    std::array<std::array<double_double, 12>, 12> matrix;
+    for (int e = 0; e < plate_.elements(); ++e) {
+      const halves size = halves_of(e);
+      if (!last || !(last->a == size.a && last->b == size.b))
+        matrix = formulas::plate_stiffness(size.a, size.b, D_, nu_);
+      last = size;
+      add_element(k, matrix, dofs_of(e));
+    }
+  }
+
+  void add_distributed(const load& l, true_loads& f) const {
+    for_each_loaded_element(l, plate_.elements(), [&](int e, std::span<const double> polynomial) {
+      const halves size = halves_of(e);
+      const auto unit = formulas::plate_unit_load(size.a, size.b);
+      const std::array<int, 12> dofs = dofs_of(e);
+      for (std::size_t i = 0; i < 12; ++i) {
+        const double_double part = decimal_of(polynomial[0]) * unit[i];
+        f.force[dofs[i]] += part;
+        f.size[dofs[i]] += std::abs(part.hi);
+      }
+    });
+  }
+
+  /// Moments at the corners: w_xx and w_yy are bilinear and w_xy has five terms, so a corner's value is at
+  /// most 4 and sqrt(17) times its root mean square over the element, which the energy bounds.
+  [[nodiscard]] std::vector<element_value> values(const load& /*l*/, std::span<const double_double> u) const {
+    std::vector<element_value> all;
+    for (int e = 0; e < plate_.elements(); ++e) {
+      const halves size = halves_of(e);
+      const std::array<int, 12> dofs = dofs_of(e);
+      const double area = 4 * size.a.hi * size.b.hi;
+      const double bends = 4 * std::sqrt(D_.hi / area);
+      const double twists = std::sqrt(17 * D_.hi * (1 - nu_.hi) / (2 * area));
+      const auto at = curvatures(size, dofs, u);
+      const double_double twice = (1 - nu_) * D_;
+      for (const auto& c : at)
+        all.push_back({D_ * (c.xx + nu_ * c.yy), D_.hi * (c.xx_size + c.yy_size), bends, true});
+      for (const auto& c : at)
+        all.push_back({D_ * (c.yy + nu_ * c.xx), D_.hi * (c.xx_size + c.yy_size), bends, true});
+      for (const auto& c : at) all.push_back({twice * c.xy, 2 * D_.hi * c.xy_size, twists, true});
+    }
+    return all;
+  }
+
+  [[nodiscard]] long_vector shares() const {
+    long_vector areas;
+    for (const double_double& height : tributary(y_))
+      for (const double_double& width : tributary(x_)) areas.push_back(width * height);
+    return areas;
+  }
+  [[nodiscard]] double span() const {
+    return std::max(plate_.x.back() - plate_.x.front(), plate_.y.back() - plate_.y.front());
+  }
+
+ private:
+  struct halves {
+    double_double a, b;
+  };
+  struct curvature {
+    double_double xx, yy, xy;
+    double xx_size = 0.0, yy_size = 0.0, xy_size = 0.0;
+  };
+
+  [[nodiscard]] std::array<curvature, 4> curvatures(const halves& size, const std::array<int, 12>& dofs,
+                                                    std::span<const double_double> u) const {
+    std::array<curvature, 4> all;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto c =
+          formulas::curvatures_at<double_double>(formulas::corners[k].xi, formulas::corners[k].eta);
+      for (std::size_t i = 0; i < 12; ++i) {
+        const double_double scaled = i % 3 == 0 ? u[dofs[i]] : u[dofs[i]] * (i % 3 == 1 ? size.a : size.b);
+        const auto add = [&](double_double& sum, double& magnitude, const double_double& part) {
+          sum += part;
+          magnitude += std::abs(part.hi);
+        };
+        add(all[k].xx, all[k].xx_size, c.xx[i] * scaled / (size.a * size.a));
+        add(all[k].yy, all[k].yy_size, c.yy[i] * scaled / (size.b * size.b));
+        add(all[k].xy, all[k].xy_size, c.xy[i] * scaled / (size.a * size.b));
+      }
+    }
+    return all;
+  }
+
+  [[nodiscard]] halves halves_of(int element) const {
+    const int i = element % (plate_.columns() - 1);
+    const int j = element / (plate_.columns() - 1);
+    return {(x_[i + 1] - x_[i]) / 2, (y_[j + 1] - y_[j]) / 2};
+  }
+
+  [[nodiscard]] std::array<int, 12> dofs_of(int element) const {
+    std::array<int, 12> dofs{};
+    std::size_t next = 0;
+    for (const int node : plate_.corners_of(element))
+      for (int d = 0; d < 3; ++d) dofs[next++] = 3 * node + d;
+    return dofs;
+  }
+
+  const plate& plate_;
+  long_vector x_, y_;
+  double_double D_, nu_;
+};
+
+class true_matrix {
+ public:
+  explicit true_matrix(const assembled& a) : assembled_(a) {}
+
+  void assemble(sparse_rows& k) const {
+    for (const matrix_entry& m : assembled_.stiffness.entries) {
+      const double_double value = decimal_of(m.value);
+      k[m.row][m.column] += value;
+      if (m.row != m.column) k[m.column][m.row] += value;
+    }
+  }
+  void add_distributed(const load& /*l*/, true_loads& /*f*/) const {}
+  [[nodiscard]] std::vector<element_value> values(const load& /*l*/,
+                                                  std::span<const double_double> /*u*/) const {
+    return {};
+  }
+  [[nodiscard]] long_vector shares() const { return long_vector(assembled_.stiffness.order); }
+  [[nodiscard]] static double span() { return 0.0; }
+
+ private:
+  const assembled& assembled_;
+};
+
+true_beam truly(const beam& b) {
+  return true_beam(b);
+}
+true_plate truly(const plate& p) {
+  return true_plate(p);
+}
+true_matrix truly(const assembled& a) {
+  return true_matrix(a);
+}
+
+long_matrix packed(const sparse_rows& rows) {
+  long_matrix k;
+  for (const auto& row : rows) {
+    for (const auto& [column, value] : row) {
+      k.columns.push_back(column);
+      k.values.push_back(value);
+    }
+    k.starts.push_back(k.columns.size());
+  }
+  return k;
+}
+
+template <class Kind>
+void add_pairs(const problem& p, const Kind& kind, true_system& t) {
+  for (const contact_pair& c : p.pairs)
+    t.pairs.push_back(
+        {c.node * dofs_per_node(p.geometry), c.surface, decimal_of(c.face), decimal_of(c.stiffness)});
+  if (p.beds.empty()) return;
+  const long_vector shares = kind.shares();
+  for (const bed& b : p.beds)
+    for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
+      t.pairs[i].stiffness = decimal_of(b.modulus) * shares[p.pairs[i].node];
+}
+
+template <class Kind>
+true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
+  const std::size_t n = dofs(p.geometry);
+  const int per_node = dofs_per_node(p.geometry);
+  true_loads f{long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
+  const load& l = p.steps[step - 1];
+  for (const point_load& q : l.points) {
+    f.force[q.node * per_node + q.dof] += decimal_of(q.value);
+    f.size[q.node * per_node + q.dof] += std::abs(q.value);
+  }
+  kind.add_distributed(l, f);
+  for (const prescribed_displacement& g : l.settlements)
+    f.settlement[g.node * per_node + g.dof] += decimal_of(g.value);
+  return f;
+}
+
+template <class Kind>
+void fill(const problem& p, const Kind& kind, true_system& t) {
+  const std::size_t n = dofs(p.geometry);
+  const int per_node = dofs_per_node(p.geometry);
+  sparse_rows rows(n);
+  for (std::size_t dof = 0; dof < n; ++dof) rows[dof][static_cast<int>(dof)] = 0.0;
+  kind.assemble(rows);
+  t.fixed.assign(n, 0);
+  for (const support& s : p.supports) {
+    const int dof = s.node * per_node + s.dof;
+    if (s.fixed) t.fixed[dof] = 1;
+    if (!s.fixed) rows[dof][dof] += decimal_of(s.spring);
+  }
+  for (std::size_t dof = 0; dof < n; ++dof) {
+    t.root.push_back(std::sqrt(rows[dof][static_cast<int>(dof)].hi) * (1 + 0x1p-50));
+    t.deflects.push_back(static_cast<int>(dof) % per_node == 0 ? 1 : 0);
+  }
+  t.k = packed(rows);
+  t.span = kind.span();
+  add_pairs(p, kind, t);
+  t.loads = [&p, kind](int step) { return loads_of_step(p, kind, step); };
+  t.element_values = [&p, kind](int step, std::span<const double_double> u) {
+    return kind.values(p.steps[step - 1], u);
+  };
+}
+
+}  // namespace
+
+true_system true_system_of(const problem& p) {
+  true_system t;
+  std::visit([&](const auto& geometry) { fill(p, truly(geometry), t); }, p.geometry.kind);
+  return t;
+}
+
+}  // namespace contct::certify

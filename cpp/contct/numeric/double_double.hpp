@@ -1,0 +1,120 @@
+// Numbers of about 32 digits: the sum of two doubles (T. J. Dekker 1971). No operation is exact, but those
+// named so; all others are off by at most 2^-100 of their result.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "contct/rooms.hpp"
+
+namespace contct::numeric {
+
+/// hi + lo, where hi is that sum rounded to a double.
+struct double_double {
+  double hi = 0.0, lo = 0.0;
+
+  constexpr double_double() = default;
+  constexpr double_double(double x) : hi(x) {}  // NOLINT(google-explicit-constructor): numbers mix
+  constexpr double_double(int x) : hi(x) {}     // NOLINT(google-explicit-constructor)
+  constexpr double_double(double h, double l) : hi(h), lo(l) {}
+
+  friend double_double operator-(const double_double& a) { return {-a.hi, -a.lo}; }
+};
+
+/// a + b, exactly.
+[[nodiscard]] inline double_double exact_sum(double a, double b) {
+  const double sum = a + b;
+  const double of_b = sum - a;
+  return {sum, (a - (sum - of_b)) + (b - of_b)};
+}
+
+/// a * b, exactly, unless it is below the smallest doubles.
+[[nodiscard]] inline double_double exact_product(double a, double b) {
+  const double product = a * b;
+  return {product, std::fma(a, b, -product)};
+}
+
+/// The same sum, of which |hi| is at least |lo| already.
+[[nodiscard]] inline double_double renormalized(double hi, double lo) {
+  const double sum = hi + lo;
+  return {sum, lo - (sum - hi)};
+}
+
+[[nodiscard]] inline double_double operator+(const double_double& a, const double_double& b) {
+  const double_double high = exact_sum(a.hi, b.hi);
+  const double_double low = exact_sum(a.lo, b.lo);
+  const double_double some = renormalized(high.hi, high.lo + low.hi);
+  return renormalized(some.hi, some.lo + low.lo);
+}
+[[nodiscard]] inline double_double operator-(const double_double& a, const double_double& b) {
+  return a + (-b);
+}
+[[nodiscard]] inline double_double operator*(const double_double& a, const double_double& b) {
+  const double_double p = exact_product(a.hi, b.hi);
+  return renormalized(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+[[nodiscard]] inline double_double operator/(const double_double& a, const double_double& b) {
+  const double first = a.hi / b.hi;
+  const double_double left = a - b * first;
+  const double second = left.hi / b.hi;
+  const double third = (left - b * second).hi / b.hi;
+  const double_double some = renormalized(first, second);
+  return some + third;
+}
+inline double_double& operator+=(double_double& a, const double_double& b) {
+  return a = a + b;
+}
+inline double_double& operator-=(double_double& a, const double_double& b) {
+  return a = a - b;
+}
+inline double_double& operator*=(double_double& a, const double_double& b) {
+  return a = a * b;
+}
+
+[[nodiscard]] inline double_double abs(const double_double& a) {
+  return a.hi < 0.0 ? -a : a;
+}
+[[nodiscard]] inline bool operator<(const double_double& a, const double_double& b) {
+  return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
+}
+[[nodiscard]] inline bool operator==(const double_double& a, const double_double& b) {
+  return a.hi == b.hi && a.lo == b.lo;
+}
+
+/// 10^n.
+[[nodiscard]] inline double_double power_of_ten(int n) {
+  double_double power = 1.0;
+  double_double square = 10.0;
+  for (int left = n < 0 ? -n : n; left > 0; left /= 2) {
+    if (left % 2 != 0) power *= square;
+    if (left > 1) square *= square;
+  }
+  return n < 0 ? double_double(1.0) / power : power;
+}
+
+/// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it.
+[[nodiscard]] inline double_double decimal_of(double x) {
+  if (x == std::trunc(x) && std::abs(x) < 0x1p53) return x;
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::scientific).ptr;
+  std::int64_t digits = 0;
+  int places = 0;
+  bool behind_point = false;
+  const char* at = text;
+  for (; *at != 'e'; ++at) {
+    if (*at == '.') behind_point = true;
+    if (*at < '0' || *at > '9') continue;
+    digits = 10 * digits + (*at - '0');
+    places += behind_point ? 1 : 0;
+  }
+  int exponent = 0;
+  (void)std::from_chars(at + (at[1] == '+' ? 2 : 1), end, exponent);
+  const auto high = static_cast<double>(digits);  // up to 17 digits: two doubles
+  const double_double whole{high, static_cast<double>(digits - static_cast<std::int64_t>(high))};
+  const int power = exponent - places;
+  const double_double size = power < 0 ? whole / power_of_ten(-power) : whole * power_of_ten(power);
+  return x < 0.0 ? -size : size;
+}
+
+}  // namespace contct::numeric

@@ -1,0 +1,280 @@
+// Proved bounds: against exact answers, and with faults put in.
+#include "contct/certify/error_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "contct/certify/certificate.hpp"
+#include "contct/read/problem_file.hpp"
+#include "exact/random_comparison.hpp"
+#include "support/beams.hpp"
+
+using namespace contct::app;
+using namespace contct::certify;
+
+namespace {
+
+/// The end of a step, as it was told and as it is.
+struct told_end {
+  handed_out numbers;
+  std::vector<double> displacement;
+  error_bounds bounds;
+};
+
+/// Observes a path, and bounds the errors of its ends.
+struct prover_of_path final : observer {
+  prover_of_path(const problem& p, const linear_structure& s) : what(p), prover(p, s) {}
+
+  void step_ended(const step_state& s) override {
+    if (s.fraction != 1.0) return;
+    told_end& end = ends.emplace_back();
+    end.displacement.assign(s.displacement.begin(), s.displacement.end());
+    end.numbers = handed_out_at(what, s);
+    end.bounds = prover.bound(end.numbers);
+    end.numbers.displacement = {};
+  }
+
+  const problem& what;
+  error_prover prover;
+  std::vector<told_end> ends;
+};
+
+double off(double told, const exact::rational& true_value) {
+  return std::abs(exact::rounded(exact::binary_value(told) - true_value));
+}
+
+/// The largest error of each kind in a told end.
+by_quantity errors_of(const problem& p, const exact::exact_step_end& truly, const told_end& told) {
+  by_quantity worst;
+  const int per_node = dofs_per_node(p.geometry);
+  for (std::size_t dof = 0; dof < told.displacement.size(); ++dof)
+    worst.take(static_cast<int>(dof) % per_node == 0 ? quantity::w : quantity::slope,
+               off(told.displacement[dof], truly.displacement[dof]));
+  for (std::size_t i = 0; i < p.pairs.size(); ++i)
+    worst.take(quantity::force, off(told.numbers.pair_forces[i], truly.force[i]));
+  for (std::size_t i = 0; i < p.supports.size(); ++i)
+    worst.take(p.supports[i].dof == 0 ? quantity::reaction : quantity::moment,
+               off(told.numbers.reactions[i], truly.reactions[i]));
+  long_vector u;
+  for (const exact::rational& x : truly.displacement) {
+    const double high = exact::rounded(x);
+    u.push_back({high, exact::rounded(x - exact::binary_value(high))});
+  }
+  const std::vector<element_value> values = true_system_of(p).element_values(told.numbers.step, u);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    worst.take(values[i].moment ? quantity::moment : quantity::shear,
+               std::abs((double_double(told.numbers.element_values[i]) - values[i].value).hi));
+  return worst;
+}
+
+/// Every error is within its bound; how many were compared.
+int check_bounds(const by_quantity& errors, const by_quantity& bounds) {
+  int compared = 0;
+  for (std::size_t q = 0; q < errors.all.size(); ++q) {
+    if (!errors.all[q] || !bounds.all[q]) continue;
+    CAPTURE(quantity_names[q]);
+    CHECK(*errors.all[q] <= *bounds.all[q]);
+    ++compared;
+  }
+  return compared;
+}
+
+/// Is every bound at most so large, relative to its kind?
+bool certified(const error_bounds& b) {
+  if (!b.not_proved.empty()) return false;
+  double force = 0.0;
+  for (const quantity q : {quantity::force, quantity::reaction, quantity::shear})
+    force = std::max(force, b.size[q].value_or(0.0));
+  for (const quantity q : {quantity::force, quantity::reaction, quantity::shear})
+    if (b.error[q].value_or(0.0) > certified_share * force) return false;
+  return b.error[quantity::w].value_or(0.0) <= certified_share * b.size[quantity::w].value_or(0.0);
+}
+
+const std::string beam_over_stop =
+    "[beam]\nx = [0, 0.7, 1.3, 2]\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+    "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.0037\nstiffness = 1e5\n"
+    "[[step]]\npoint = [ { node = 4, w = -60 } ]\n";
+
+/// The one step of a problem, told by a refined path.
+struct one_end {
+  explicit one_end(const std::string& text, bool refined = true)
+      : what(parse_problem(text, "b.toml")), structure(structure_of(what)), watch(what, structure) {
+    path_limits limits;
+    if (refined)
+      limits.refine = [this](int step, std::span<double> u, std::span<int> isep) {
+        return watch.prover.refine(step, u, isep);
+      };
+    (void)follow(what, structure, "refactor", *make_kernel("corrected"), {&watch}, limits);
+    truly = exact::follow_true_path(exact::exact_problem_of(what)).steps.back();
+    end = watch.ends.back();
+    end.numbers.displacement = end.displacement;
+  }
+  /// Bounds for numbers with a fault in them.
+  error_bounds again() { return watch.prover.bound(end.numbers); }
+
+  problem what;
+  linear_structure structure;
+  prover_of_path watch;
+  exact::exact_step_end truly;
+  told_end end;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "bounds hold against exact paths of 200 random problems, refined and not, and refined ones are "
+    "certified") {
+  int steps = 0;
+  int compared = 0;
+  int proved = 0;
+  for (std::uint64_t number = 0; number < 200; ++number) {
+    const lab::random_problem drawn = lab::make_random_problem(17, number, {.most_elements = 8});
+    const problem p = exact::as_problem(drawn);
+    const exact::exact_path truly = exact::follow_true_path(exact::exact_problem_of(p));
+    const linear_structure s = structure_of(p);
+    for (const bool refined : {true, false}) {
+      prover_of_path watch(p, s);
+      path_limits limits{0, fallback_to_reference(s), nullptr};
+      if (refined)
+        limits.refine = [&](int step, std::span<double> u, std::span<int> isep) {
+          return watch.prover.refine(step, u, isep);
+        };
+      (void)follow(p, s, "refactor", *make_kernel("corrected"), {&watch}, limits);
+      for (std::size_t i = 0; i < std::min(watch.ends.size(), truly.steps.size()); ++i) {
+        if (truly.steps[i].fraction != 1) continue;
+        CAPTURE(number, i, refined, watch.ends[i].bounds.not_proved);
+        ++steps;
+        if (!watch.ends[i].bounds.not_proved.empty()) continue;
+        proved += refined ? 1 : 0;
+        compared += check_bounds(errors_of(p, truly.steps[i], watch.ends[i]), watch.ends[i].bounds.error);
+      }
+    }
+  }
+  CHECK(steps > 500);
+  CHECK(compared > 2000);
+  CHECK(2 * proved > steps * 95 / 100);
+}
+
+TEST_CASE("whatever is wrong with the numbers, the bounds hold or the step is not certified") {
+  one_end e(beam_over_stop);
+  REQUIRE(certified(e.again()));
+  CHECK(check_bounds(errors_of(e.what, e.truly, e.end), e.again().error) == 6);
+  const handed_out right = e.end.numbers;
+  const auto check = [&](bool still_certified) {
+    e.end.numbers.displacement = e.end.displacement;
+    const error_bounds b = e.again();
+    check_bounds(errors_of(e.what, e.truly, e.end), b.error);
+    CHECK(certified(b) == still_certified);
+  };
+  SECTION("a force is off by a part in 1e9") {
+    e.end.numbers.pair_forces[0] *= 1 + 1e-9;
+    check(true);
+  }
+  SECTION("a force is off by a part in 1e5") {
+    e.end.numbers.pair_forces[0] *= 1 + 1e-5;
+    check(false);
+  }
+  SECTION("a pair's status is flipped, so that its force is missing") {
+    e.end.numbers.pair_forces[0] = 0.0;
+    check(false);
+  }
+  SECTION("a reaction has the other sign") {
+    e.end.numbers.reactions[0] = -right.reactions[0];
+    check(false);
+  }
+  SECTION("a moment is off") {
+    e.end.numbers.element_values[2] *= 1 + 1e-3;
+    check(false);
+  }
+  SECTION("a displacement is off by a part in 1e9") {
+    e.end.displacement[6] *= 1 + 1e-9;
+    check(true);
+  }
+  SECTION("a displacement is off by a part in 1e4") {
+    e.end.displacement[6] *= 1 + 1e-4;
+    check(false);
+  }
+}
+
+TEST_CASE("a state of a structure whose stiffness is off by 1e-9 is told from the true one by its bounds") {
+  one_end wrong(std::string(beam_over_stop).replace(beam_over_stop.find("1e4"), 3, "1.000000001e4"));
+  const one_end right(beam_over_stop);
+  error_prover prover(right.what, right.structure);
+  const error_bounds b = prover.bound(wrong.end.numbers);
+  check_bounds(errors_of(right.what, right.truly, wrong.end), b.error);
+  CHECK(*b.error[quantity::w] >= 1e-10 * *b.size[quantity::w]);
+}
+
+TEST_CASE(
+    "a pair of stiffness 1e16 has its force to the last digits, though its displacement has none of them") {
+  one_end e(std::string(beam_over_stop).replace(beam_over_stop.find("1e5"), 3, "1e16"));
+  CHECK(e.end.numbers.pair_forces[0] == Approx(57.9381).epsilon(1e-6));
+  CHECK(off(e.end.numbers.pair_forces[0], e.truly.force[0]) < 1e-13);
+  CHECK(*e.end.bounds.error[quantity::force] < 1e-12);
+  const one_end rounded(std::string(beam_over_stop).replace(beam_over_stop.find("1e5"), 3, "1e16"), false);
+  CHECK(off(rounded.end.numbers.pair_forces[0], rounded.truly.force[0]) > 1e-4);
+  CHECK(*rounded.end.bounds.error[quantity::force] >=
+        off(rounded.end.numbers.pair_forces[0], rounded.truly.force[0]));
+}
+
+TEST_CASE("dropped from 100 lengths, a stiff beam has forces that carry its load") {
+  const one_end e(
+      "[beam]\nx = [0, 0.7, 1.3, 2]\nEI = 1e14\n[[contact]]\nnodes = [1, 4]\nsurface = \"below\"\nface = "
+      "-100\n"
+      "stiffness = 1e14\n[[step]]\npoint = [ { node = 2, w = -1000 } ]\n");
+  CHECK(e.end.numbers.pair_forces[0] == Approx(650.0).epsilon(1e-12));
+  CHECK(e.end.numbers.pair_forces[1] == Approx(350.0).epsilon(1e-12));
+  CHECK(certified(e.end.bounds));
+}
+
+TEST_CASE("a beam at x = 1e8 has the moments of one at 0") {
+  const one_end e(
+      "[beam]\nx = [100000000, 100000000.1, 100000000.2]\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", "
+      "\"theta\"]\n"
+      "[[step]]\npoint = [ { node = 3, w = -1 } ]\n");
+  CHECK(e.end.numbers.element_values[2] == Approx(-0.2).epsilon(1e-15));
+  CHECK(e.end.displacement[4] == Approx(-0.008 / 3e4).epsilon(1e-15));
+  CHECK(certified(e.end.bounds));
+}
+
+TEST_CASE(
+    "unloaded, a held structure is at 0: what it is off by is known, and where it only lies, its forces "
+    "are") {
+  const std::string freed =
+      "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
+      "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n[[step]]\nuniform = -10\n"
+      "[[step]]\nuniform = 0\n";
+  const problem p = parse_problem(freed, "b.toml");
+  const linear_structure s = structure_of(p);
+  prover_of_path listing(p, s);
+  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&listing});
+  REQUIRE(listing.ends.size() == 2);
+  CHECK(listing.ends[1].bounds.unloaded);
+  CHECK(listing.ends[1].bounds.unique);
+  CHECK(*listing.ends[1].bounds.error[quantity::w] == std::abs(listing.ends[1].displacement[4]));
+
+  const problem lying = parse_problem(
+      "[beam]\nlength = 1\nelements = 1\nEI = 1e4\n[[bed]]\nmodulus = 10\nface = 0\n[[step]]\nuniform = 0\n",
+      "b.toml");
+  const linear_structure of_lying = structure_of(lying);
+  error_prover prover(lying, of_lying);
+  const std::vector<double> anywhere = {1.0, 0.0, 1.0, 0.0};
+  const error_bounds b = prover.bound({1, anywhere, {0.0, 0.0}, {}, {0.0, 0.0, 0.0, 0.0}});
+  CHECK_FALSE(b.unique);
+  CHECK_FALSE(b.error[quantity::w]);
+  CHECK(*b.error[quantity::force] == 0.0);
+}
+
+TEST_CASE("what nothing holds for certain is not proved, and says so") {
+  const problem p = parse_problem(
+      "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = "
+      "0\nstiffness = 1e6\n"
+      "[[step]]\npoint = [ { node = 2, w = -1, theta = -4e-13 } ]\n",
+      "b.toml");
+  const linear_structure s = structure_of(p);
+  prover_of_path watch(p, s);
+  (void)follow(p, s, "refactor", *make_kernel("corrected"), {&watch});
+  REQUIRE(watch.ends.size() == 1);
+  CHECK_FALSE(watch.ends[0].bounds.not_proved.empty());
+}

@@ -1,0 +1,86 @@
+// The factor of a stiffness, and a proof of its least eigenvalue.
+#include "contct/certify/scaled_stiffness.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+
+using namespace contct::app;
+using namespace contct::certify;
+
+namespace {
+
+/// A chain of n springs of stiffness 1, held at both ends, with `more` at each node: eigenvalues
+/// more + 4 sin^2(j pi / 2 (n + 1)).
+true_system chain(int n, double more = 0.0) {
+  true_system t;
+  for (int i = 0; i < n; ++i) {
+    for (const int j : {i - 1, i, i + 1}) {
+      if (j < 0 || j >= n) continue;
+      t.k.columns.push_back(j);
+      t.k.values.push_back(i == j ? 2.0 + more : -1.0);
+    }
+    t.k.starts.push_back(t.k.columns.size());
+    t.root.push_back(std::sqrt(2.0 + more) * (1 + 1e-15));
+  }
+  t.fixed.assign(n, 0);
+  t.deflects.assign(n, 1);
+  return t;
+}
+
+std::vector<int> in_order(int n) {
+  std::vector<int> rows(n);
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("the least eigenvalue of a chain is bounded from below, and by no less than a hundredth of it") {
+  for (const int n : {1, 2, 10, 1000, 30000}) {
+    const true_system t = chain(n);
+    scaled_stiffness k(t, in_order(n), 1);
+    REQUIRE(k.factor({}));
+    const double scaled = k.scale(0) * k.scale(0);
+    const double least = scaled * 4 * std::pow(std::sin(std::acos(-1.0) / 2 / (n + 1)), 2);
+    const double mu = k.least_eigenvalue();
+    CAPTURE(n, mu, least);
+    CHECK(mu <= least);
+    CHECK(mu >= least / 100);
+  }
+}
+
+TEST_CASE("what is not definite has no bound, however little it is short of it") {
+  for (const double less : {-1e-3, -1e-9, -1e-14}) {
+    const int n = 20;
+    const double least = 4 * std::pow(std::sin(std::acos(-1.0) / 2 / (n + 1)), 2);
+    const true_system t = chain(n, -least + less);
+    scaled_stiffness k(t, in_order(n), 1);
+    CAPTURE(less);
+    CHECK((!k.factor({}) || k.least_eigenvalue() == 0.0));
+  }
+}
+
+TEST_CASE("springs of pairs hold what supports do not, and a wide band is bounded too") {
+  const problem p = parse_problem(
+      "[plate]\nsize = [1.0, 1.0]\nelements = [8, 8]\nD = 2.0\nnu = 0.3\n[[bed]]\nmodulus = 3.0\nface = 0.0\n"
+      "[[step]]\nuniform = -1.0\n",
+      "p.toml");
+  const linear_structure s = structure_of(p);
+  const true_system t = true_system_of(p);
+  std::vector<int> rows;
+  for (int dof = 0; dof < s.dofs(); ++dof) rows.push_back(s.row_of(dof));
+  scaled_stiffness k(t, rows, s.stiffness.band().subdiagonals());
+  CHECK((!k.factor({}) || k.least_eigenvalue() == 0.0));
+  std::vector<int> all(p.pairs.size());
+  std::iota(all.begin(), all.end(), 0);
+  REQUIRE(k.factor(all));
+  CHECK(k.least_eigenvalue() > 1e-8);
+
+  std::vector<double> b(t.dofs(), 1.0);
+  k.solve(b);
+  const long_vector x(b.begin(), b.end());
+  for (const double_double& back : k.times(x)) CHECK(back.hi == Approx(1.0).margin(1e-6));
+}
