@@ -2,8 +2,8 @@
 # Installs what is missing, builds, and passes all tests: sh tests/run.sh [--full] [LEG]...
 # LEG: another preset that is built and tested first: core (without the program), asan and asan-core (sanitizers),
 # checked (gfortran's run-time checks), debug. --full has all of these but asan-core, which asan contains, and adds what
-# takes longer: the whole campaign of random problems, the mutants of both kernels, a second LAPACK, CalculiX, other
-# processors, the page in a browser, grids read back by VTK, formatting and clang-tidy.
+# takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels,
+# a second LAPACK, CalculiX, other processors, the page in a browser, grids read back by VTK, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -76,6 +76,8 @@ build release
 if [ "$full" = yes ]; then
   echo "== 200,000 random problems under the corrected rule"
   build/release/tests/contct_campaign 200000 2026
+  echo "== 20,000 random problems and their certificates against the exact path"
+  build/release/tests/contct_referee 20000 2026
   echo "== mutants of both kernels"
   build/release/tests/contct_mutants
   echo "== two LAPACKs"

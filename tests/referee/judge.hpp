@@ -1,0 +1,77 @@
+// What a run says of a problem, judged by its exact path.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contct/exact/exact_problem.hpp"
+#include "contct/exact/path.hpp"
+#include "contct/structure/problem.hpp"
+
+namespace contct::referee {
+
+/// How a run solves: `contct run --kernels corrected`, the same with `--engine refactor`, `--final-only`, and
+/// `--kernels cpp --engine refactor`. Of the last one only certified numbers and digits are judged: its path
+/// and its end are the 1989 rule's.
+enum class way { default_engine, refactor, final_only, listing };
+inline constexpr int ways = 3;  ///< of the corrected rule
+[[nodiscard]] std::string_view name_of(way w);
+
+/// What can be wrong with a run. `outside`: a number of a certified step is further off than the tolerance of
+/// its certificate, measured as that does: deflections and slopes by the largest that the path has seen, pair
+/// forces and reactions by the largest of the path. `beyond`: it is off by more than 1e-6 of the largest of
+/// its kind in its own state; a state of no load is measured by the largest of the path.
+enum class fault {
+  outside_deflection,
+  outside_slope,
+  outside_force,
+  outside_reaction,
+  beyond_deflection,
+  beyond_slope,
+  beyond_force,
+  beyond_reaction,
+  digits,           ///< a step claims at least half a digit more than its worst number has
+  false_solution,   ///< solved where there is no equilibrium
+  false_mechanism,  ///< no equilibrium found where there is one
+  refused,          ///< exit 2, though there is an equilibrium or a mechanism
+  other_end,        ///< a cycle, the limit of increments, or a mechanism in another step
+  other_events,     ///< in another order than exactly, ties aside
+  fallback,         ///< the path could not reach the end of a step: its state is the reference solution's
+};
+inline constexpr int faults = 15;
+[[nodiscard]] std::string_view name_of(fault f);
+
+/// A problem and its exact path.
+struct exact_answer {
+  explicit exact_answer(const structure::problem& p);
+
+  exact::exact_problem problem;
+  exact::exact_path path;
+  /// [steps] Does the state at the end of a step have the only displacements that are in equilibrium?
+  std::vector<char> unique;
+};
+
+/// One thing that is wrong.
+struct finding {
+  fault what;
+  double
+      amount;  ///< error over tolerance; of `beyond` the relative error; of `digits` those that are not there
+  std::string words;
+};
+
+/// What was wrong with one run, and how much was looked at.
+struct judgement {
+  int steps = 0;           ///< that reached their load on both paths
+  int certified = 0;       ///< of these
+  long values = 0;         ///< compared with exact ones
+  bool mechanism = false;  ///< rightly
+  std::vector<finding> findings;
+};
+
+/// Solve `p` and judge what is said. Where equilibria differ by a rigid motion, forces and reactions alone
+/// are compared.
+[[nodiscard]] judgement judge(const structure::problem& p, const exact_answer& exactly, way how);
+
+}  // namespace contct::referee
