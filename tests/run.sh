@@ -3,7 +3,8 @@
 # LEG: another preset that is built and tested first: core (without the program), asan and asan-core (sanitizers),
 # checked (gfortran's run-time checks), debug. --full has all of these but asan-core, which asan contains, and adds what
 # takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels,
-# a second LAPACK, CalculiX, other processors, the page in a browser, grids read back by VTK, formatting and clang-tidy.
+# the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors, the page in a browser, grids
+# read back by VTK, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -80,6 +81,8 @@ if [ "$full" = yes ]; then
   build/release/tests/contct_referee 20000 2026
   echo "== mutants of both kernels"
   build/release/tests/contct_mutants
+  echo "== exact numbers of verification.toml"
+  python3 tests/lab/write_exact.py build/release/contct reference --check --least 645
   echo "== two LAPACKs"
   sh tests/two_lapacks/run.sh build/release
   with_tool "CalculiX as a peer" peer/run.sh build/release

@@ -46,6 +46,10 @@ json json_of(const verified_number& n) {
               {"source", e.source},       {"expected", e.value},           {"computed", n.computed},
               {"corrected", n.corrected}, {"difference", n.difference()},  {"tolerance", e.tolerance},
               {"because", e.because},     {"certified", n.certified},      {"passed", n.passed}};
+  if (!e.exact.empty()) out["exact"] = e.exact;
+  if (!e.relation.empty()) out["relation"] = e.relation;
+  if (!e.printed.empty()) out[e.cut ? "cut" : "printed"] = e.printed;
+  if (!n.apart.empty()) out["apart"] = n.apart;
   if (e.faithful) {
     out["faithful"] = *e.faithful;
     out["reason"] = e.reason;
@@ -67,10 +71,45 @@ json json_of(const verified_case& c) {
           {"checks", std::move(numbers)}};
 }
 
+/// How the table's numbers stand to the exact ones.
+struct exact_totals {
+  int numbers = 0, comparisons = 0, states = 0, rounded = 0, of_other_models = 0, inexact = 0, printed = 0;
+  std::vector<std::string> cut;  // where, and what is printed
+
+  void add(const std::string& file, const verified_number& n) {
+    const expected_number& e = n.expected;
+    comparisons += n.exact_comparisons;
+    numbers += e.exact.empty() ? 0 : 1;
+    if (e.quantity == "state") {
+      ++states;
+      return;
+    }
+    rounded += e.relation.empty() ? 1 : 0;
+    of_other_models += e.relation == "other model" ? 1 : 0;
+    inexact += e.relation == "inexact" ? 1 : 0;
+    printed += e.printed.empty() ? 0 : 1;
+    if (e.cut)
+      cut.push_back(fmt::format("{}, step {}, {}: {}, exactly {}", file, e.step, quantity_words(e), e.printed,
+                                e.exact));
+  }
+};
+
+json json_of(const exact_totals& x) {
+  return {{"numbers", x.numbers},
+          {"comparisons", x.comparisons},
+          {"states", x.states},
+          {"rounded", x.rounded},
+          {"other_models", x.of_other_models},
+          {"inexact", x.inexact},
+          {"printed", x.printed},
+          {"cut", x.cut}};
+}
+
 /// What came of all cases so far.
 struct totals {
   int cases = 0, numbers = 0, failed = 0, known = 0;
   std::map<std::string, int> by_kind;
+  exact_totals exactly;
 
   void add(const verified_case& c) {
     ++cases;
@@ -78,6 +117,7 @@ struct totals {
     for (const verified_number& n : c.numbers) {
       ++numbers;
       ++by_kind[n.expected.kind];
+      exactly.add(c.file, n);
       known += n.expected.faithful ? 1 : 0;
       failed += n.passed ? 0 : 1;
     }
@@ -91,6 +131,7 @@ check_result result_of(const verified_case& c) {
     if (n.passed) continue;
     r.details += fmt::format("step {}, {}: expected {:.17g}, computed {:.17g}\n", n.expected.step,
                              quantity_words(n.expected), n.expected.value, n.computed);
+    if (!n.apart.empty()) r.details += n.apart + "\n";
   }
   if (!r.details.empty()) r.what = outcome::failed;
   r.summary = fmt::format("{} numbers, {} of {} calls equal to the bit", c.numbers.size(),
@@ -121,6 +162,9 @@ void print(const terminal& t, const verified_number& n, std::string& said) {
                          fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
                          painted(t, p, mark_of(n))));
   print_text("\n");
+  if (!n.apart.empty()) print_text(fmt::format("   {}\n", painted(t, paint::bad, n.apart)));
+  if (!e.exact.empty() && e.quantity != "state" && e.exact != e.written)
+    print_text(fmt::format("   {}\n", painted(t, paint::quiet, "exactly " + e.exact)));
   if (!e.faithful) return;
   for (const std::string& line : wrap({e.reason}, t.width - 6)) print_text(fmt::format("      {}\n", line));
 }
@@ -135,6 +179,20 @@ void print(const terminal& t, const verified_case& c) {
   std::string said;
   for (const verified_number& n : c.numbers) print(t, n, said);
   print_text("\n");
+}
+
+void print(const terminal& t, const exact_totals& x) {
+  print_wrapped(
+      t, paint::quiet,
+      {fmt::format("{} exact numbers, compared {} times with what kernels found", x.numbers, x.comparisons),
+       fmt::format("the numbers above are {} times these rounded to their digits", x.rounded),
+       fmt::format("{} times states", x.states),
+       fmt::format("{} times of another model, within its tolerance", x.of_other_models),
+       fmt::format("{} times inexact in the last digits", x.inexact)});
+  print_wrapped(t, paint::quiet,
+                {fmt::format("{} are printed with fewer digits elsewhere", x.printed),
+                 fmt::format("{} of these were cut, not rounded", x.cut.size())});
+  for (const std::string& where : x.cut) print_text(fmt::format("  {}\n", where));
 }
 
 void print(const terminal& t, const totals& all) {
@@ -172,6 +230,7 @@ exit_status run_command(const verify_options& options) {
     report.results.push_back(result_of(verified));
     judged.push_back(json_of(verified));
   }
+  if (!silent) print(t, all.exactly);
   if (!silent) print(t, all);
   flush_standard_output();
   const json document = {
@@ -180,6 +239,7 @@ exit_status run_command(const verify_options& options) {
       {"failed", all.failed},
       {"known_differences", all.known},
       {"kinds", all.by_kind},
+      {"exact", json_of(all.exactly)},
       {"not_claimed", "the examples of the paper's reference [1], which are not available"},
       {"cases", judged}};
   files.write("--json", document.dump(1) + "\n");

@@ -9,6 +9,7 @@
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 
 namespace fs = std::filesystem;
 
@@ -26,6 +27,19 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
   CHECK(v["kinds"]["published"].get<int>() >= 11);
   CHECK(v["kinds"]["closed form"].get<int>() >= 200);
   CHECK(v["known_differences"] == 6);
+  CHECK(v["exact"]["numbers"] == v["numbers"]);
+  CHECK(v["exact"]["comparisons"].get<int>() >= 1200);
+  CHECK(v["exact"]["rounded"].get<int>() >= 454);
+  CHECK(v["exact"]["states"].get<int>() >= 77);
+  CHECK(v["exact"]["other_models"] == 111);
+  CHECK(v["exact"]["inexact"] == 3);
+  CHECK(v["exact"]["printed"].get<int>() >= 117);
+  REQUIRE(v["exact"]["cut"].size() == 2);
+  CHECK_THAT(v["exact"]["cut"][0],
+             StartsWith("pp04a-") && Contains(": -0.0020169449, exactly -0.00201694498736"));
+  CHECK_THAT(v["exact"]["cut"][1],
+             StartsWith("pp05b-") && Contains(": 0.0105685088, exactly 0.010568508877"));
+  CHECK_THAT(f.out, Contains("2 of these were cut, not rounded\n  pp04a-"));
   int uncertified = 0;
   int calls = 0;
   for (const auto& c : v["cases"]) {
@@ -34,6 +48,7 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
     for (const auto& check : c["checks"]) {
       CHECK(check["passed"] == true);
       CHECK_FALSE(check["source"].get<std::string>().empty());
+      CHECK_FALSE(check["exact"].get<std::string>().empty());
       uncertified += check["certified"] == true ? 0 : 1;
     }
   }
@@ -43,22 +58,47 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
   CHECK(uncertified < 40);
 }
 
-TEST_CASE("verify fails, with exit 1, on one wrong number in five hundred") {
-  const scratch_folder dir;
+namespace {
+
+/// contct verify with one text of the table replaced.
+finished verify_with(const scratch_folder& dir, const std::string& right, const std::string& wrong) {
   const fs::path reference = fs::path(CONTCT_ROOT) / "reference";
   fs::create_directory(dir.path() / "reference");
   fs::copy(reference / "problems", dir.path() / "reference/problems", fs::copy_options::recursive);
   std::stringstream table;
   table << std::ifstream(reference / "verification.toml").rdbuf();
   std::string text = table.str();
-  const auto at = text.find("-0.00266666667");
+  const auto at = text.find(right);
   REQUIRE(at != std::string::npos);
-  text.replace(at, 14, "-0.00266666697");
+  text.replace(at, right.size(), wrong);
   std::ofstream(dir.path() / "reference/verification.toml") << text;
-  const finished f = contct_program(dir.path(), {"verify", "--reference", "reference"});
+  return contct_program(dir.path(), {"verify", "--reference", "reference"});
+}
+
+}  // namespace
+
+TEST_CASE("verify fails, with exit 1, on one wrong number in five hundred") {
+  const scratch_folder dir;
+  const finished f = verify_with(dir, "-0.00266666667", "-0.00266666697");
   CHECK(f.exit == 1);
   CHECK_THAT(f.out, Contains("FAILED"));
   CHECK_THAT(f.out, Contains("1 failed"));
+}
+
+TEST_CASE("verify fails on an exact number of which the sixth digit is wrong") {
+  const scratch_folder dir;
+  const finished f = verify_with(dir, "\"-0.00201694498736213", "\"-0.00201695498736213");
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("1 failed"));
+  CHECK_THAT(f.out, Contains("exactly -0.00201695498736213"));
+}
+
+TEST_CASE("verify fails on a printed number that was cut, where the table says that it was rounded") {
+  const scratch_folder dir;
+  const finished f = verify_with(dir, "cut       = \"0.0105685088\"", "printed   = \"0.0105685088\"");
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("1 failed"));
+  CHECK_THAT(f.out, Contains("printed 0.0105685088 is cut, not rounded"));
 }
 
 TEST_CASE("verify says what it misses when there is no table") {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "contct/read/problem_file.hpp"
 
 using namespace contct::app;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -102,6 +104,127 @@ TEST_CASE("the headline: SSNL130's rigid plate on springs, as exact fractions") 
   CHECK(agrees(m.of(end), 176.0 / 153075, 1e-6));
 }
 
+namespace {
+
+/// A number of one third, exactly known.
+expected_number third() {
+  expected_number e;
+  e.quantity = "w";
+  e.value = 0.333333;
+  e.written = "0.333333";
+  e.tolerance = 1e-5;
+  e.exact = "1/3";
+  return e;
+}
+
+/// What read_verification says of a table of one check with these lines.
+std::string refusal_of(const std::string& lines) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "contct_verify_test.toml";
+  std::ofstream(file) << "[[case]]\nfile = \"f\"\n[[case.check]]\nstep = 1\nquantity = \"w\"\nnode = 1\n" +
+                             lines +
+                             "kind = \"recomputed\"\ntolerance = 1e-3\nbecause = \"b\"\nsource = \"s\"\n";
+  std::string said;
+  try {
+    const auto cases = read_verification(file.string());
+    said = cases.at(0).checks.at(0).written;
+  } catch (const input_error& e) {
+    said = e.what();
+  }
+  std::filesystem::remove(file);
+  return said;
+}
+
+}  // namespace
+
+TEST_CASE("a number must have its exact one, and its digits are those that are written") {
+  CHECK(refusal_of("value = 0.50 # two digits\nexact = \"1/2\"\n") == "0.50");
+  CHECK_THAT(refusal_of("value = 0.5\n"), Contains("exact"));
+  CHECK_THAT(refusal_of("value = 0x10\nexact = \"16\"\n"), Contains("value: found"));
+  CHECK_THAT(refusal_of("value = 0x10\nexact = \"16\"\n"), Contains("value: found"));
+  CHECK_THAT(refusal_of("value = 0.5\nexact = \"1/0\"\n"), Contains("allowed: a decimal, or a fraction"));
+  CHECK_THAT(refusal_of("value = 0.5\nexact = \"1/2\"\nprinted = \"half\"\n"),
+             Contains(":9:") && Contains("printed"));
+  CHECK_THAT(refusal_of("value = 0.5\nexact = \"1/2\"\nprinted = \"0.5\"\ncut = \"0.4\"\n"),
+             Contains("either printed or cut"));
+  CHECK_THAT(refusal_of("value = 0.5\nexact = \"1/2\"\nrelation = \"near\"\n"), Contains("other model"));
+}
+
+TEST_CASE("what is computed lies as near to the exact number as is allowed") {
+  const expected_number e = third();
+  CHECK(exact_disagreement(e, 1.0 / 3 + 1e-9, 1e-8).empty());
+  CHECK_THAT(exact_disagreement(e, 1.0 / 3 + 1e-7, 1e-8), Contains("exactly 1/3; allowed: 1e-08 apart"));
+  CHECK_THAT(exact_disagreement(e, std::nan(""), 1e-8), Contains("computed nan"));
+  // Without a certificate's measure, the table's tolerance holds.
+  CHECK(exact_disagreement(e, 0.333334, 0.0).empty());
+  CHECK_THAT(exact_disagreement(e, 0.33334, 0.0), Contains("allowed: 3e-06 apart"));
+}
+
+TEST_CASE("a value of the table is the exact number rounded, or says why not and is within its tolerance") {
+  expected_number e = third();
+  const auto said = [&] { return exact_disagreement(e, 1.0 / 3, 1e-8); };
+  e.exact = "0.3333336";
+  CHECK_THAT(exact_disagreement(e, 0.3333336, 1e-8), Contains("0.333333 is not exactly 0.3333336, rounded"));
+  e.relation = "other model";
+  CHECK(exact_disagreement(e, 0.3333336, 1e-8).empty());
+  e.exact = "1/3";
+  CHECK_THAT(said(), Contains("0.333333 is exactly 1/3, rounded"));
+  e.value = 0.333;
+  e.written = "0.333";
+  CHECK_THAT(said(), Contains("allowed: 1e-05 of 0.333"));
+}
+
+TEST_CASE("what was printed elsewhere is the exact number rounded, or cut where the table says so") {
+  expected_number e = third();
+  e.exact = "2/3";
+  e.value = 0.666667;
+  e.written = "0.666667";
+  const auto said = [&](const char* printed, bool cut) {
+    e.printed = printed;
+    e.cut = cut;
+    return exact_disagreement(e, 2.0 / 3, 1e-8);
+  };
+  CHECK(said("0.667", false).empty());
+  CHECK(said("0.666", true).empty());
+  CHECK_THAT(said("0.666", false), Contains("printed 0.666 is cut, not rounded: exactly 2/3"));
+  CHECK_THAT(said("0.667", true), Contains("printed 0.667 is rounded, not cut"));
+  CHECK(said("0.66", true).empty());
+  CHECK_THAT(said("0.65", true), Contains("neither rounded nor cut"));
+}
+
+TEST_CASE("exact states are compared by name, and a number without an exact one with nothing") {
+  expected_number e;
+  e.quantity = "state";
+  e.value = in_contact;
+  e.exact = "contact";
+  CHECK(exact_disagreement(e, in_contact, 0.0).empty());
+  e.exact = "separated";
+  CHECK(exact_disagreement(e, in_contact, 0.0) == "the exact state is separated");
+  expected_number unknown = third();
+  unknown.exact.clear();
+  CHECK(exact_disagreement(unknown, 7.0, 1e-8).empty());
+}
+
+TEST_CASE("errors are measured by the largest number of their kind on the path") {
+  const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
+  measurement m(p);
+  run(p, m);
+  const auto size = [&](const char* quantity, const char* dof = "") {
+    expected_number e;
+    e.quantity = quantity;
+    e.dof = dof;
+    return m.size_of(e);
+  };
+  CHECK(size("w") == Approx(0.016 / 3));
+  CHECK(size("gap") == size("min w"));
+  CHECK(size("theta") == Approx(0.004));
+  CHECK(size("force") == Approx(41.8604651));
+  CHECK(size("shear") == size("reaction", "w"));
+  CHECK(size("max moment") == Approx(40.0));
+  CHECK(size("reaction", "theta") == size("moment"));
+  CHECK(size("event") == 1.0);
+  for (const char* other : {"events", "contacts", "zero", "x of max moment"}) CHECK(size(other) == 0.0);
+}
+
 TEST_CASE("a wrong number in the table would be noticed") {
   const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
   measurement m(p);
@@ -185,9 +308,32 @@ TEST_CASE("verifying a problem judges each number on FORTRAN's path and on the c
   REQUIRE(c.numbers.size() == 3);
   CHECK(c.numbers[0].passed);
   CHECK(c.numbers[0].certified);
+  CHECK(c.numbers[0].exact_comparisons == 0);
   CHECK_FALSE(c.numbers[1].passed);
   CHECK_FALSE(c.numbers[2].passed);
   CHECK_FALSE(c.passed());
+}
+
+TEST_CASE("verifying a problem compares both paths with the exact number, as closely as they are certified") {
+  const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
+  expected_number tip;
+  tip.step = 2;
+  tip.quantity = "w";
+  tip.node = 3;
+  tip.value = -0.00483720930;
+  tip.written = "-0.00483720930";
+  tip.exact = "-26/5375";
+  tip.tolerance = 2e-9;
+  expected_number wrong = tip;
+  wrong.tolerance = 1.0;  // so that the certificate alone is close
+  wrong.exact = "-27/5375";
+  wrong.relation = "other model";
+  const verified_case c = verify_case({"a file", {tip, wrong}}, p);
+  REQUIRE(c.numbers.size() == 2);
+  CHECK(c.numbers[0].passed);
+  CHECK(c.numbers[0].exact_comparisons == 2);
+  CHECK_FALSE(c.numbers[1].passed);
+  CHECK_THAT(c.numbers[1].apart, Contains("exactly -27/5375; allowed: "));
 }
 
 TEST_CASE("extremes are named by bound and quantity, and one that the structure does not have is not there") {

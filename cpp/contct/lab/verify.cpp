@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "contct/compare/lockstep.hpp"
+#include "contct/lab/printed_number.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/toml_reader.hpp"
@@ -17,9 +18,53 @@ namespace {
 constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
 constexpr int any_number = 1'000'000'000;
 
-expected_number read_check(const table_reader& t) {
-  t.allow_only({"step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from",
-                "along", "value", "kind", "tolerance", "because", "source", "faithful", "reason"});
+using text_lines = std::vector<std::string_view>;
+
+text_lines lines_of(std::string_view text) {
+  text_lines lines;
+  for (std::size_t end = 0; end != std::string_view::npos;
+       text.remove_prefix(std::min(end + 1, text.size()))) {
+    end = text.find('\n');
+    lines.push_back(text.substr(0, end));
+  }
+  return lines;
+}
+
+/// A number of the file as it is written there: zeros at the end tell how many digits are meant.
+std::string written_number(const toml::node& number, const text_lines& lines) {
+  const toml::source_position at = number.source().begin;
+  const std::string_view rest = lines.at(at.line - 1).substr(at.column - 1);
+  return std::string(rest.substr(0, rest.find_first_of(" \t\r#,}")));
+}
+
+/// The exact number, and how those that are printed stand to it.
+void read_exact(const table_reader& t, const text_lines& lines, expected_number& e) {
+  e.exact = t.text("exact");
+  if (t.has("relation")) {
+    (void)t.choice("relation", {"other model", "inexact"});
+    e.relation = t.text("relation");
+  }
+  for (const char* key : {"printed", "cut"})
+    if (t.has(key)) e.printed = t.text(key);
+  e.cut = t.has("cut");
+  if (e.cut && t.has("printed")) t.refuse_key("printed", "either printed or cut");
+  if (e.quantity == "state") return;
+  e.written = written_number(t.required("value", "a number"), lines);
+  const std::pair<const char*, std::string> numbers[] = {
+      {"value", e.written}, {"exact", e.exact}, {e.cut ? "cut" : "printed", e.printed}};
+  for (const auto& [key, words] : numbers) {
+    try {
+      if (!words.empty()) (void)number_written(words);
+    } catch (const std::invalid_argument&) {
+      t.refuse_key(key, "a decimal, or a fraction \"p/q\"");
+    }
+  }
+}
+
+expected_number read_check(const table_reader& t, const text_lines& lines) {
+  t.allow_only({"step",   "quantity", "node",    "pair",      "element",  "end",   "corner",   "dof",
+                "change", "from",     "along",   "value",     "kind",     "exact", "relation", "printed",
+                "cut",    "source",   "because", "tolerance", "faithful", "reason"});
   expected_number e;
   e.step = t.integer("step", 1, any_number);
   e.quantity = t.text("quantity");
@@ -46,6 +91,7 @@ expected_number read_check(const table_reader& t) {
     e.faithful = t.real("faithful", any_real);
     e.reason = t.text("reason");
   }
+  read_exact(t, lines, e);
   return e;
 }
 
@@ -139,6 +185,23 @@ double zero_right_of(const model& m, const std::vector<double>& u, const expecte
   return not_there;
 }
 
+enum class kind_of_number { deflection, slope, force, moment, other };
+
+/// What an error of this number is measured by.
+kind_of_number kind_of(const expected_number& e) {
+  std::string_view q = e.quantity;
+  if (q.starts_with("max ") || q.starts_with("min ")) q.remove_prefix(4);
+  if (q == "w" || q == "gap") return kind_of_number::deflection;
+  if (q == "theta" || q == "wx" || q == "wy") return kind_of_number::slope;
+  if (q == "force" || q == "shear" || (q == "reaction" && e.dof == "w")) return kind_of_number::force;
+  if (q == "moment" || q == "mx" || q == "my" || q == "mxy" || q == "reaction") return kind_of_number::moment;
+  return kind_of_number::other;
+}
+
+std::string_view words_of(printing p) {
+  return p == printing::rounded ? "rounded" : p == printing::cut ? "cut" : "neither rounded nor cut";
+}
+
 /// The place of `name` among `names`; none where it is not there.
 template <class Names>
 std::optional<std::size_t> place_in(const Names& names, const std::string& name) {
@@ -146,17 +209,26 @@ std::optional<std::size_t> place_in(const Names& names, const std::string& name)
   return at == names.end() ? std::nullopt : std::optional<std::size_t>(at - names.begin());
 }
 
+/// The certificate of a step, from 1; null where there is none.
+const certificate* of_step(const certifier& judged, int step) {
+  const auto& steps = judged.steps();
+  const auto at = static_cast<std::size_t>(step - 1);
+  return at < steps.size() && steps[at] ? &*steps[at] : nullptr;
+}
+
 }  // namespace
 
 std::vector<verification_case> read_verification(const std::string& path) {
-  const toml::table document = parse_toml(read_input(path), path);
+  const std::string text = read_input(path);
+  const text_lines lines = lines_of(text);
+  const toml::table document = parse_toml(text, path);
   const table_reader top(document, "", path);
   top.allow_only({"case"});
   std::vector<verification_case> cases;
   for (const table_reader& t : top.tables("case")) {
     t.allow_only({"file", "check"});
     verification_case c{t.text("file"), {}};
-    for (const table_reader& check : t.tables("check")) c.checks.push_back(read_check(check));
+    for (const table_reader& check : t.tables("check")) c.checks.push_back(read_check(check, lines));
     cases.push_back(std::move(c));
   }
   return cases;
@@ -197,6 +269,49 @@ double measurement::of(const expected_number& e) const {
   return of_pair(problem_, s, e);
 }
 
+double measurement::size_of(const expected_number& e) const {
+  if (e.quantity == "event") return 1.0;
+  const kind_of_number kind = kind_of(e);
+  double size = 0.0;
+  const auto take = [&](double x) { size = std::max(size, std::abs(x)); };
+  const std::size_t stride = dof_names(problem_.geometry).size();
+  for (const step_record& s : steps_) {
+    for (std::size_t dof = 0; dof < s.u.size(); ++dof)
+      if (kind == (dof % stride == 0 ? kind_of_number::deflection : kind_of_number::slope)) take(s.u[dof]);
+    for (const value_range& r : s.read.ranges)
+      if (r.name != "w" && kind == (r.name == "shear" ? kind_of_number::force : kind_of_number::moment))
+        take(r.largest().value);
+    if (kind != kind_of_number::force) continue;
+    for (const pair_reading& p : s.read.pairs) take(p.force);
+    for (std::size_t i = 0; i < s.read.reactions.size(); ++i)
+      if (problem_.supports[i].dof == 0) take(s.read.reactions[i]);
+  }
+  return size;
+}
+
+std::string exact_disagreement(const expected_number& e, double computed, double allowed) {
+  if (e.exact.empty()) return {};
+  if (e.quantity == "state")
+    return e.exact == (e.value == in_contact ? "contact" : "separated") ? ""
+                                                                        : "the exact state is " + e.exact;
+  const rational exactly = number_written(e.exact);
+  const double nearest = exact::rounded(exactly);
+  if (allowed == 0.0) allowed = e.tolerance * (nearest == 0.0 ? 1.0 : std::abs(nearest));
+  if (!(std::abs(computed - nearest) <= allowed))
+    return fmt::format("computed {:.17g}, exactly {}; allowed: {:.0e} apart", computed, e.exact, allowed);
+  if (!agrees(nearest, e.value, e.tolerance))
+    return fmt::format("exactly {}; allowed: {:.0e} of {}", e.exact, e.tolerance, e.written);
+  const bool is_rounded = printing_of(e.written, exactly) == printing::rounded;
+  if (is_rounded != e.relation.empty())
+    return fmt::format("{} is {}exactly {}, rounded", e.written, is_rounded ? "" : "not ", e.exact);
+  if (e.printed.empty()) return {};
+  const printing found = printing_of(e.printed, exactly);
+  const printing said = e.cut ? printing::cut : printing::rounded;
+  if (found == said) return {};
+  return fmt::format("printed {} is {}, not {}: exactly {}", e.printed, words_of(found), words_of(said),
+                     e.exact);
+}
+
 bool agrees(double measured, double value, double tolerance) {
   return std::abs(measured - value) <= tolerance * (value == 0.0 ? 1.0 : std::abs(value));
 }
@@ -205,6 +320,33 @@ bool verified_case::passed() const {
   return failure.empty() && !numbers.empty() &&
          std::all_of(numbers.begin(), numbers.end(), [](const verified_number& n) { return n.passed; });
 }
+
+namespace {
+
+/// A path's numbers, and its certificates.
+struct followed_path {
+  const measurement& measured;
+  const certifier& judged;
+};
+
+verified_number judged_number(const expected_number& e, const followed_path& listing,
+                              const followed_path& corrected) {
+  verified_number n{e, listing.measured.of(e), corrected.measured.of(e), false, false, "", 0};
+  const certificate* const of_listing = of_step(listing.judged, e.step);
+  n.certified = of_listing != nullptr && of_listing->exact;
+  const auto compare = [&](double found, const followed_path& path, const certificate* c) {
+    if (e.exact.empty() || c == nullptr || !n.apart.empty()) return;
+    n.apart = exact_disagreement(e, found, c->tolerance * path.measured.size_of(e));
+    ++n.exact_comparisons;
+  };
+  compare(n.corrected, corrected, of_step(corrected.judged, e.step));
+  if (n.certified && !e.faithful) compare(n.computed, listing, of_listing);
+  n.passed = n.apart.empty() && agrees(n.computed, e.faithful.value_or(e.value), e.tolerance) &&
+             agrees(n.corrected, e.value, e.tolerance);
+  return n;
+}
+
+}  // namespace
 
 verified_case verify_case(const verification_case& c, const problem& p) {
   verified_case out;
@@ -233,14 +375,8 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   if (end.status != path_status::solved) out.failure = "FORTRAN's path does not reach its end";
   if (corrected_end.status != path_status::solved) out.failure = "the corrected path does not reach its end";
   if (!judged_corrected.all_exact()) out.failure = "the corrected kernel is not certified";
-  for (const expected_number& e : c.checks) {
-    verified_number n{e, listing.of(e), corrected.of(e), false, false};
-    const auto step = static_cast<std::size_t>(e.step - 1);
-    n.certified = step < out.certificates.size() && out.certificates[step] && out.certificates[step]->exact;
-    n.passed = agrees(n.computed, e.faithful.value_or(e.value), e.tolerance) &&
-               agrees(n.corrected, e.value, e.tolerance);
-    out.numbers.push_back(std::move(n));
-  }
+  for (const expected_number& e : c.checks)
+    out.numbers.push_back(judged_number(e, {listing, judged}, {corrected, judged_corrected}));
   return out;
 }
 

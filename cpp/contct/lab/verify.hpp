@@ -29,6 +29,11 @@ struct expected_number {
   double tolerance = 0.0;          ///< relative; absolute for a value of 0
   std::optional<double> faithful;  ///< what the 1989 rule gives instead
   std::string reason;              ///< why it does
+  std::string exact;     ///< the exact number, see number_written; of a state, its name; empty: not known
+  std::string written;   ///< `value` with the digits that the file has
+  std::string printed;   ///< the same number elsewhere, with fewer digits; empty: nowhere
+  bool cut = false;      ///< `printed` is the exact number without its further digits, not rounded
+  std::string relation;  ///< why `value` is not the exact number rounded: "other model", "inexact"; or empty
 };
 
 /// One problem file and its numbers.
@@ -56,6 +61,11 @@ class measurement final : public observer {
   /// The quantity as this run has it; NaN when the run did not get there.
   [[nodiscard]] double of(const expected_number& e) const;
 
+  /// The largest of its kind on the path, which errors are relative to: of deflections and gaps, slopes,
+  /// forces and shears, or moments. Of shares of a load it is 1; of places and counts, which no certificate
+  /// is about, 0.
+  [[nodiscard]] double size_of(const expected_number& e) const;
+
   /// What is measured of a step, at its end.
   struct step_record {
     std::vector<double> u;  ///< D [dofs]
@@ -73,13 +83,22 @@ class measurement final : public observer {
 /// Is `measured` within the tolerance of `value`?
 [[nodiscard]] bool agrees(double measured, double value, double tolerance);
 
+/// What of one number does not agree with the exact one, in words; empty when all does, or when the exact
+/// number is not known. `computed` lies within `allowed` of it, or within the table's own tolerance where
+/// that is 0. What the table has as value is the exact number rounded to its digits, unless it says why not;
+/// then it is within its tolerance of it. What is printed elsewhere is the exact number rounded, or cut, as
+/// the table says.
+[[nodiscard]] std::string exact_disagreement(const expected_number& e, double computed, double allowed);
+
 /// One number of the table, and what came out.
 struct verified_number {
   expected_number expected;
-  double computed = 0.0;   ///< by FORTRAN, leading C++
-  double corrected = 0.0;  ///< by the corrected kernel
-  bool certified = false;  ///< the state of its step, on FORTRAN's path
-  bool passed = false;     ///< see verify_case
+  double computed = 0.0;      ///< by FORTRAN, leading C++
+  double corrected = 0.0;     ///< by the corrected kernel
+  bool certified = false;     ///< the state of its step, on FORTRAN's path
+  bool passed = false;        ///< see verify_case
+  std::string apart;          ///< see exact_disagreement
+  int exact_comparisons = 0;  ///< of `computed` and `corrected` with the exact number
 
   /// Of `computed` from the expected value; absolute where that is 0.
   [[nodiscard]] double difference() const {
@@ -101,8 +120,9 @@ struct verified_case {
 
 /// Run a problem twice, with FORTRAN leading C++ in lockstep and with the corrected kernel, and look at
 /// each number: the corrected kernel must give its value, and so must FORTRAN unless the table says
-/// what the 1989 rule gives instead. Not a bit may differ between FORTRAN and C++, and the corrected
-/// kernel's states must be certified.
+/// what the 1989 rule gives instead. Where they are certified, both must have the exact number as closely as
+/// their certificates allow, which the table's numbers must agree with, too (see exact_disagreement). Not a
+/// bit may differ between FORTRAN and C++, and the corrected kernel's states must be certified.
 [[nodiscard]] verified_case verify_case(const verification_case& c, const problem& p);
 
 }  // namespace contct::lab

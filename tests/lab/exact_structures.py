@@ -1,0 +1,246 @@
+"""What a beam or a plate has between its nodes, in fractions: lines of elements, their extremes, moments.
+
+Written from the differential equations and not after the program's C++, which it is compared with. Polynomials are lists,
+constant first; a number that is not rational is a Fraction within 1e-60 of it, relative to its size.
+"""
+from fractions import Fraction
+from math import comb, isqrt
+
+
+def decimal(text):
+    """The number that `contct exact` takes this literal for: the shortest decimal that reads as its double."""
+    return Fraction(repr(float(text)))
+
+
+def grid(table, key, which=None):
+    """Coordinates of nodes: given, or equal parts of a length."""
+    if key in table:
+        return [Fraction(x) for x in table[key]]
+    length, parts = (table["length"], table["elements"]) if which is None else (table["size"][which], table["elements"][which])
+    return [Fraction(length) * i / parts for i in range(parts + 1)]
+
+
+def at(p, x):
+    value = Fraction(0)
+    for c in reversed(p):
+        value = value * x + c
+    return value
+
+
+def derivative(p):
+    return [i * c for i, c in enumerate(p)][1:]
+
+
+def shifted(p, left):
+    """p(left + t) as a polynomial in t."""
+    return [sum(c * comb(i, k) * left ** (i - k) for i, c in enumerate(p) if i >= k) for k in range(len(p))]
+
+
+def stripped(p):
+    while p and p[-1] == 0:
+        p = p[:-1]
+    return p
+
+
+def rounded(x, digits=150):
+    """x to so many digits, where it has more: what follows need not carry thousands of them."""
+    size = max(len(str(x.numerator)), len(str(x.denominator)))
+    if size <= 2 * digits or x == 0:
+        return x
+    scale = 10 ** (digits + len(str(x.denominator)) - len(str(x.numerator)))
+    return Fraction(round(x * scale), scale)
+
+
+def root_of_square(x):
+    """The root of x >= 0: exact where it is rational."""
+    n, d = isqrt(x.numerator), isqrt(x.denominator)
+    if n * n == x.numerator and d * d == x.denominator:
+        return Fraction(n, d)
+    scale = 10**80
+    return Fraction(isqrt(x.numerator * scale**2 // x.denominator), scale)
+
+
+def zeros_inside(p, h):
+    """Where p changes its sign between 0 and h: between neighbouring zeros of its derivative at most once."""
+    p = stripped(p)
+    if len(p) < 2:
+        return []
+    if len(p) == 2:
+        zero = -p[0] / p[1]
+        return [zero] if 0 < zero < h else []
+    p = [rounded(c) for c in p]
+    borders = [Fraction(0), *zeros_inside(derivative(p), h), h]
+    zeros = []
+    for low, high in zip(borders, borders[1:]):
+        sign = at(p, low) < 0
+        if sign == (at(p, high) < 0):
+            continue
+        for _ in range(210):
+            middle = (low + high) / 2
+            if at(p, middle) == 0:
+                low = high = middle
+                break
+            if (at(p, middle) < 0) == sign:
+                low = middle
+            else:
+                high = middle
+        zeros.append((low + high) / 2)
+    return zeros
+
+
+def hull(p, h):
+    """Bounds of p from 0 to h: the least and largest coefficient in Bernstein's form."""
+    n = max(len(p) - 1, 1)
+    scaled = [c * h**i for i, c in enumerate(p)]
+    b = [sum(Fraction(comb(j, i), comb(n, i)) * c for i, c in enumerate(scaled[: j + 1])) for j in range(n + 1)]
+    return min(b), max(b)
+
+
+class Beam:
+    """A beam's problem: x [nodes], EI [elements], and q of each step, one polynomial in x for all elements."""
+
+    dofs = ("w", "theta")
+
+    def __init__(self, problem):
+        table = problem["beam"]
+        self.x = grid(table, "x")
+        elements = len(self.x) - 1
+        EI = table["EI"]
+        self.EI = [Fraction(v) for v in EI] if isinstance(EI, list) else [Fraction(EI)] * elements
+        self.q = [load_of(step.get("uniform", 0)) for step in problem["step"]]
+
+    def nodes(self):
+        return len(self.x)
+
+    def way(self, along):
+        """Places along the beam, and their nodes."""
+        return [(x, node) for node, x in enumerate(self.x)]
+
+    def line(self, u, step, e):
+        """w, moment and shear in element e as polynomials in x - left: EI w'''' = q, with the ends' displacements."""
+        h = self.x[e + 1] - self.x[e]
+        load = [c / self.EI[e] for c in shifted(self.q[step], self.x[e])]
+        w = [Fraction(0)] * 4 + [c / ((i + 1) * (i + 2) * (i + 3) * (i + 4)) for i, c in enumerate(load)]
+        w0, slope0, w1, slope1 = u[2 * e : 2 * e + 4]
+        w[:2] = w0, slope0
+        missing, turn = w1 - at(w, h), slope1 - at(derivative(w), h)
+        w[2] = (3 * missing - turn * h) / h**2
+        w[3] = (turn * h - 2 * missing) / h**3
+        moment = [self.EI[e] * c for c in derivative(derivative(w))]
+        return {"w": w, "moment": moment, "shear": derivative(moment)}
+
+    def place(self, u, step, quantity, element, end):
+        h = self.x[element] - self.x[element - 1]
+        return at(self.line(u, step, element - 1)[quantity], h if end == "right" else Fraction(0))
+
+    def extreme(self, u, step, quantity, most):
+        """The largest (or least) value, and the x of all places where it is."""
+        sign = 1 if most else -1
+        best, places = None, []
+        for e in range(len(self.x) - 1):
+            h = self.x[e + 1] - self.x[e]
+            p = [sign * c for c in self.line(u, step, e)[quantity]]
+            candidates = [Fraction(0), h]
+            if best is None or hull(p, h)[1] >= max(best, at(p, Fraction(0)), at(p, h)):
+                candidates += zeros_inside(derivative(p), h)
+            for t in candidates:
+                value = at(p, t)
+                tied = best is not None and abs(value - best) <= abs(best) * Fraction(1, 10**60)
+                if best is None or (value > best and not tied):
+                    best, places = value, []
+                if tied or value == best:
+                    places.append(self.x[e] + t)
+        return sign * best, places
+
+
+def load_of(uniform):
+    """The one polynomial of a step's distributed load; what these problems do not have is refused."""
+    if not isinstance(uniform, list):
+        return [Fraction(uniform)]
+    if len(uniform) != 1 or set(uniform[0]) != {"polynomial"}:
+        raise ValueError(f"uniform: found {uniform}, allowed: a number or one polynomial over all elements")
+    return [Fraction(c) for c in uniform[0]["polynomial"]]
+
+
+class Plate:
+    """A plate's problem: x, y [grid lines], D, nu."""
+
+    dofs = ("w", "wx", "wy")
+    # Of the element's w: x^i y^j.
+    monomials = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3), (3, 1), (1, 3))
+
+    def __init__(self, problem):
+        table = problem["plate"]
+        self.x, self.y = grid(table, "x", 0), grid(table, "y", 1)
+        self.D, self.nu = Fraction(table["D"]), Fraction(table["nu"])
+
+    def nodes(self):
+        return len(self.x) * len(self.y)
+
+    def way(self, along):
+        if along != "diagonal":
+            return [(x - self.x[0], node) for node, x in enumerate(self.x)]
+        columns = len(self.x)
+        return [(root_of_square((x - self.x[0]) ** 2 + (y - self.y[0]) ** 2), i * columns + i)
+                for i, (x, y) in enumerate(zip(self.x, self.y))]
+
+    @staticmethod
+    def term(monomial, x, y, dx, dy):
+        """The derivative of x^i y^j, dx times by x and dy times by y."""
+        (i, j), factor = monomial, 1
+        if i < dx or j < dy:
+            return Fraction(0)
+        for k in range(dx):
+            factor *= i - k
+        for k in range(dy):
+            factor *= j - k
+        return factor * x ** (i - dx) * y ** (j - dy)
+
+    def corners(self, e):
+        """Grid points of element e, counter-clockwise from the lower left."""
+        i, j = e % (len(self.x) - 1), e // (len(self.x) - 1)
+        return [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+
+    def element(self, u, e):
+        """Coefficients of the monomials, in coordinates from the element's lower left corner, and its sides."""
+        corners = self.corners(e)
+        a = self.x[corners[1][0]] - self.x[corners[0][0]]
+        b = self.y[corners[3][1]] - self.y[corners[0][1]]
+        known = [u[3 * (j * len(self.x) + i) + d] for i, j in corners for d in range(3)]
+        rows = [[self.term(m, x, y, *d) for m in self.monomials]
+                for x, y in ((0, 0), (a, 0), (a, b), (0, b)) for d in ((0, 0), (1, 0), (0, 1))]
+        return solved(rows, known), a, b
+
+    def moments(self, u, e, corner):
+        coefficients, a, b = self.element(u, e)
+        x, y = ((0, 0), (a, 0), (a, b), (0, b))[corner - 1]
+        xx, yy, xy = (sum(c * self.term(m, Fraction(x), Fraction(y), *d) for m, c in zip(self.monomials, coefficients))
+                      for d in ((2, 0), (0, 2), (1, 1)))
+        return {"mx": self.D * (xx + self.nu * yy), "my": self.D * (yy + self.nu * xx), "mxy": self.D * (1 - self.nu) * xy}
+
+    def place(self, u, step, quantity, element, corner):
+        return self.moments(u, element - 1, corner)[quantity]
+
+    def extreme(self, u, step, quantity, most):
+        """The largest (or least) value, w at nodes, moments at corners of elements; and the x of all places where it is."""
+        if quantity == "w":
+            found = [(w, self.x[node % len(self.x)]) for node, w in enumerate(u[::3])]
+        else:
+            elements = range((len(self.x) - 1) * (len(self.y) - 1))
+            found = [(self.moments(u, e, corner)[quantity], self.x[self.corners(e)[corner - 1][0]])
+                     for e in elements for corner in range(1, 5)]
+        best = (max if most else min)(value for value, _ in found)
+        return best, [x for value, x in found if value == best]
+
+
+def solved(rows, right):
+    """The solution of a square system, by elimination."""
+    rows = [[Fraction(v) for v in row] + [r] for row, r in zip(rows, right)]
+    for k in range(len(rows)):
+        pivot = next(i for i in range(k, len(rows)) if rows[i][k] != 0)
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [v / rows[k][k] for v in rows[k]]
+        for i, row in enumerate(rows):
+            if i != k and row[k] != 0:
+                rows[i] = [v - row[k] * p for v, p in zip(row, rows[k])]
+    return [row[-1] for row in rows]

@@ -1,0 +1,167 @@
+"""Writes the exact numbers into reference/verification.toml, or compares those that stand there:
+
+    python3 tests/lab/write_exact.py CONTCT reference            writes
+    python3 tests/lab/write_exact.py CONTCT reference --check --least 645 [--most-nodes N]
+
+CONTCT is the program. `contct exact --json` has the displacements, forces and shares of every path as fractions; moments,
+shears, extremes and changes of sign come from exact_structures.py. Each number becomes the fraction where its numerator
+and denominator have at most 40 digits together, otherwise 40 significant digits, the last one rounded.
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import tomllib
+from fractions import Fraction
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+from exact_structures import Beam, Plate, decimal
+
+DIGITS = 40
+
+
+def words(x):
+    """The fraction where it is short, otherwise its first 40 digits, rounded."""
+    if len(str(abs(x.numerator))) + len(str(x.denominator)) <= DIGITS:
+        return str(x)
+    exponent = len(str(abs(x.numerator))) - len(str(x.denominator))
+    if abs(x) < Fraction(10) ** exponent:
+        exponent -= 1
+    digits = str(int(abs(x) * Fraction(10) ** (DIGITS - 1 - exponent) + Fraction(1, 2)))
+    if len(digits) > DIGITS:
+        exponent, digits = exponent + 1, digits[:-1]
+    sign = "-" if x < 0 else ""
+    if exponent < -5 or exponent >= DIGITS:
+        return f"{sign}{digits[0]}.{digits[1:]}e{exponent}"
+    if exponent < 0:
+        return f"{sign}0.{'0' * (-exponent - 1)}{digits}"
+    return f"{sign}{digits[:exponent + 1]}.{digits[exponent + 1:]}".rstrip(".")
+
+
+def zero_right_of(way, w, start):
+    """Where w, linear between the nodes, changes its sign nearest to the right of `start`, measured from there."""
+    for (s, node), (beyond, following) in zip(way, way[1:]):
+        left, right = w[node], w[following]
+        if s >= start and left * right <= 0 and left != right:
+            return s + (beyond - s) * left / (left - right) - start
+    raise ValueError("w does not change its sign")
+
+
+class ExactPath:
+    """The exact path of one problem."""
+
+    def __init__(self, program, file):
+        with open(file, "rb") as f:
+            problem = tomllib.load(f, parse_float=decimal)
+        self.structure = Beam(problem) if "beam" in problem else Plate(problem)
+        self.program, self.file = program, file
+        self.steps = None
+
+    def follow(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "exact.json")
+            subprocess.run([self.program, "exact", self.file, "--quiet", "--json", out], check=True, stderr=subprocess.PIPE)
+            with open(out) as f:
+                result = json.load(f)
+        if result["status"] != "solved":
+            raise ValueError(f"{self.file}: found status {result['status']}, allowed: solved")
+        self.steps = result["steps"]
+        for step in self.steps:
+            step["displacement"] = [Fraction(x) for x in step["displacement"]]
+
+    def of(self, check):
+        """The exact value of what a [[case.check]] asks for: a Fraction, or a state."""
+        step, quantity = self.steps[check["step"] - 1], check["quantity"]
+        u, names = step["displacement"], self.structure.dofs
+        if quantity in names:
+            return u[(check["node"] - 1) * len(names) + names.index(quantity)]
+        if quantity in ("force", "gap"):
+            return Fraction(step["pairs"][check["pair"] - 1][quantity])
+        if quantity == "state":
+            return step["pairs"][check["pair"] - 1]["state"]
+        if quantity == "contacts":
+            return Fraction(sum(pair["state"] == "contact" for pair in step["pairs"]))
+        events = [(Fraction(i["fraction"]), event) for i in step["increments"] for event in i["events"]]
+        if quantity == "events":
+            return Fraction(len(events))
+        if quantity == "event":
+            return next(share for share, event in events
+                        if (event["pair"], event["change"]) == (check["pair"], check["change"]))
+        if quantity == "reaction":
+            return next(Fraction(r["value"]) for r in step["reactions"] if (r["node"], r["dof"]) == (check["node"], check["dof"]))
+        number = check["step"] - 1
+        if quantity == "zero":
+            way = self.structure.way(check.get("along"))
+            return zero_right_of(way, u[:: len(names)], Fraction(check["from"]))
+        if " " in quantity:
+            *place, bound, what = quantity.split(" ")
+            value, places = self.structure.extreme(u, number, what, bound == "max")
+            # Where a symmetric structure has two such places, the table may name either.
+            return min(places, key=lambda x: abs(x - check["value"])) if place else value
+        return self.structure.place(u, number, quantity, check["element"], check.get("end", check.get("corner")))
+
+
+def exact_words(path, check):
+    found = path.of(check)
+    return found if isinstance(found, str) else words(found)
+
+
+def with_exact(text, found):
+    """The table with a line "exact" behind each "value"; `found` has the words of all checks, in order."""
+    lines, values = [], iter(found)
+    for line in text.splitlines():
+        if line.startswith("exact "):
+            continue
+        lines.append(line)
+        if line.startswith("value "):
+            lines.append(f'exact     = "{next(values)}"')
+    return "\n".join(lines) + "\n"
+
+
+def compare(case, check, found):
+    """Whether the table has the number; says where not."""
+    if check.get("exact") == found:
+        return True
+    place = ", ".join(f"{k} {check[k]}" for k in ("step", "quantity", "node", "pair", "element", "dof") if k in check)
+    print(f"{case['file']}: {place}: exact: found {check.get('exact')}, allowed: {found}")
+    return False
+
+
+def main():
+    sys.set_int_max_str_digits(0)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("reference", type=Path)
+    parser.add_argument("--check", action="store_true", help="compare and write nothing")
+    parser.add_argument("--most-nodes", type=int, help="with --check: leave larger problems out")
+    parser.add_argument("--least", type=int, default=1, help="numbers that must have been compared")
+    options = parser.parse_args()
+    if options.most_nodes and not options.check:
+        parser.error("--most-nodes: found without --check; a table is written whole")
+    table = options.reference / "verification.toml"
+    text = table.read_text()
+    found, problems, wrong = [], 0, 0
+    for case in tomllib.loads(text, parse_float=decimal)["case"]:
+        path = ExactPath(options.program, str(options.reference / "problems" / case["file"]))
+        if options.most_nodes and path.structure.nodes() > options.most_nodes:
+            continue
+        path.follow()
+        problems += 1
+        for check in case["check"]:
+            found.append(exact_words(path, check))
+            wrong += options.check and not compare(case, check, found[-1])
+    if not options.check:
+        unfinished = table.with_suffix(".unfinished")
+        unfinished.write_text(with_exact(text, found))
+        unfinished.replace(table)
+    print(f"{len(found)} exact numbers of {problems} problems, {wrong} of them not in the table")
+    if len(found) < options.least:
+        print(f"found {len(found)} numbers, allowed: {options.least} or more")
+    return 1 if wrong or len(found) < options.least else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
