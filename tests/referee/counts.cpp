@@ -105,7 +105,7 @@ void referee_counts::add(std::uint64_t number, const judged_problem& p) {
   }
 }
 
-referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs) {
+referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs, const judgement_sink& tell) {
   constexpr std::uint64_t stretch = 1000;  // of problems whose judgements are kept before they are added
   referee_counts counts;
   std::exception_ptr failure;
@@ -128,7 +128,10 @@ referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs) {
       work();
     }
     if (failure) std::rethrow_exception(failure);
-    for (std::size_t i = 0; i < judged.size(); ++i) counts.add(first + i, judged[i]);
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+      counts.add(first + i, judged[i]);
+      if (tell) tell(first + i, judged[i]);
+    }
   }
   return counts;
 }
@@ -168,7 +171,7 @@ std::string ceilings_text(const referee_counts& c, std::uint64_t count, std::uin
   text += "\n";
   for (const auto& [kind, k] : c.by_kind) {
     text += fmt::format("{:<20}{:>9}{:>10}", kind, k.problems, k.values - k.values / 100);
-    for (const long n : k.wrong) text += fmt::format("{:>11}", n == 0 ? 0 : n + std::max(2L, n / 10));
+    for (const long n : k.wrong) text += fmt::format("{:>11}", n == 0 ? 0 : n + std::max(3L, n / 4));
     text += "\n";
   }
   return text;

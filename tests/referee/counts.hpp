@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <optional>
@@ -53,8 +54,12 @@ struct referee_counts {
   void add(std::uint64_t number, const judged_problem& p);
 };
 
+/// Told every judgement, in order of numbers.
+using judgement_sink = std::function<void(std::uint64_t number, const judged_problem& p)>;
+
 /// Judge problems 0 to `count` - 1 on `jobs` threads; the counts do not depend on `jobs`.
-[[nodiscard]] referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs);
+[[nodiscard]] referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs,
+                                        const judgement_sink& tell = {});
 
 /// The table: a row a kind, then the ways.
 [[nodiscard]] std::string table_of(const referee_counts& c);
@@ -72,7 +77,7 @@ using ceilings = std::map<std::string, ceiling>;  // by kind
 [[nodiscard]] ceilings read_ceilings(std::istream& file, std::uint64_t count, std::uint64_t seed);
 
 /// Such a block for what was counted. Another LAPACK rounds otherwise, and a count moves with that: so a
-/// ceiling is a tenth above the count, at least 2, and a floor a hundredth below; what is 0 has to stay so.
+/// ceiling is a quarter above the count, at least 3, and a floor a hundredth below; what is 0 has to stay so.
 [[nodiscard]] std::string ceilings_text(const referee_counts& c, std::uint64_t count, std::uint64_t seed);
 
 /// A line for each count above its ceiling and each below its floor, for each kind that one has and the other

@@ -27,10 +27,10 @@ TEST_CASE("a count above its ceiling, and one below its floor, is a breach") {
   REQUIRE(allowed.size() == 1);
   CHECK(breaches(c, allowed).empty());
 
-  drops.wrong[static_cast<std::size_t>(fault::outside_force)] = 5;
-  CHECK(breaches(c, allowed).empty());
   drops.wrong[static_cast<std::size_t>(fault::outside_force)] = 6;
-  CHECK(breaches(c, allowed) == std::vector<std::string>{"drops: out-force: found 6; allowed: at most 5"});
+  CHECK(breaches(c, allowed).empty());
+  drops.wrong[static_cast<std::size_t>(fault::outside_force)] = 7;
+  CHECK(breaches(c, allowed) == std::vector<std::string>{"drops: out-force: found 7; allowed: at most 6"});
   drops.values = 98;
   CHECK(breaches(c, allowed).size() == 2);
   CHECK(breaches(c, allowed)[0] == "drops: values compared: found 98; allowed: at least 99");

@@ -56,7 +56,8 @@ double span_of(const structure::model& m) {
 }
 
 /// The largest of each kind in an exact state. What is 0 by symmetry has no size of its own: slopes are
-/// measured at least by the largest deflection over the span, moments at least by the largest force times it.
+/// measured at least by the largest deflection over the span, moments at least by the largest force times it,
+/// and deflections and forces that are all 0 by the largest slope times it and the largest moment over it.
 struct sizes {
   double deflection = 0.0, slope = 0.0, force = 0.0, moment = 0.0;
 
@@ -72,7 +73,9 @@ struct sizes {
     for (std::size_t i = 0; i < e.supports.size(); ++i)
       take(p.supports[i].dof == 0 ? force : moment, state.reactions[i]);
     slope = std::max(slope, deflection / span);
+    if (deflection == 0.0) deflection = slope * span;
     moment = std::max(moment, force * span);
+    if (force == 0.0) force = moment / span;
   }
 
   void include(const sizes& s) {

@@ -1,10 +1,11 @@
 // The exact path as referee of the corrected rule and its certificate:
-//     contct_referee COUNT SEED [--jobs N] [--ceilings FILE] [--examples]
+//     contct_referee COUNT SEED [--jobs N] [--ceilings FILE] [--list] [--examples]
 //     contct_referee --only NUMBER SEED
 //     contct_referee --file PROBLEM.toml
 // Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails where a
-// count is above its ceiling or too little was compared. --examples prints those problems as files;
-// --only prints one problem and all that is wrong with it, --file does so for a problem file.
+// count is above its ceiling or too little was compared. --list prints everything that is wrong, --examples
+// the worst problems as files; --only prints one problem and all that is wrong with it, --file does so for a
+// problem file.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -26,18 +27,18 @@ namespace {
 
 struct options {
   std::uint64_t count = 0, seed = 0, only = 0;
-  bool only_one = false, examples = false;
+  bool only_one = false, list = false, examples = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string problem_file = {};
   std::string ceilings_file = CONTCT_REFEREE_CEILINGS;
 };
 
 [[noreturn]] void refuse(std::string_view found) {
-  fmt::print(
-      stderr,
-      "contct_referee: found {}; allowed: COUNT SEED [--jobs N] [--ceilings FILE] [--examples], or --only "
-      "NUMBER SEED, or --file PROBLEM\n",
-      found);
+  fmt::print(stderr,
+             "contct_referee: found {}; allowed: COUNT SEED [--jobs N] [--ceilings FILE] [--list] "
+             "[--examples], or --only "
+             "NUMBER SEED, or --file PROBLEM\n",
+             found);
   std::exit(2);
 }
 
@@ -56,6 +57,8 @@ options options_of(int argc, char** argv) {
     const auto value = [&] { return ++i < argc ? std::string_view(argv[i]) : (refuse(a), a); };
     if (a == "--examples") {
       o.examples = true;
+    } else if (a == "--list") {
+      o.list = true;
     } else if (a == "--ceilings") {
       o.ceilings_file = value();
     } else if (a == "--file") {
@@ -105,12 +108,21 @@ void print_worst(const options& o, const referee_counts& counts) {
   }
 }
 
+/// Everything that is wrong with a problem, a line each.
+void print_findings(std::uint64_t number, const judged_problem& p) {
+  for (std::size_t w = 0; w < ways; ++w)
+    for (const finding& f : p.judgements[w].findings)
+      fmt::print("{} {} {} {} {:.2e}: {}\n", number, p.kind, name_of(static_cast<way>(w)), name_of(f.what),
+                 f.amount, f.words);
+}
+
 int judge_all(const options& o) {
   std::ifstream file(o.ceilings_file);
   if (!file) refuse("no file " + o.ceilings_file);
   const ceilings allowed = read_ceilings(file, o.count, o.seed);
   const auto started = std::chrono::steady_clock::now();
-  const referee_counts counts = judge_many(o.count, o.seed, o.jobs);
+  const referee_counts counts =
+      judge_many(o.count, o.seed, o.jobs, o.list ? print_findings : judgement_sink{});
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
   fmt::print("{} problems, seed {}, {:.1f} s\n{}", o.count, o.seed, taken.count(), table_of(counts));
   print_worst(o, counts);
