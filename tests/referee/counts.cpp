@@ -105,7 +105,8 @@ void referee_counts::add(std::uint64_t number, const judged_problem& p) {
   }
 }
 
-referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs, const judgement_sink& tell) {
+referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs, const judgement_sink& tell,
+                          const std::string& only_kind) {
   constexpr std::uint64_t stretch = 1000;  // of problems whose judgements are kept before they are added
   referee_counts counts;
   std::exception_ptr failure;
@@ -116,7 +117,8 @@ referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs, con
     const auto work = [&] {
       try {
         for (std::size_t i = next++; i < judged.size(); i = next++)
-          judged[i] = judge_all_ways(draw(seed, first + i));
+          if (const drawn_problem d = draw(seed, first + i); only_kind.empty() || d.kind == only_kind)
+            judged[i] = judge_all_ways(d);
       } catch (...) {
         const std::lock_guard lock(failing);
         failure = std::current_exception();
@@ -129,6 +131,7 @@ referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs, con
     }
     if (failure) std::rethrow_exception(failure);
     for (std::size_t i = 0; i < judged.size(); ++i) {
+      if (judged[i].kind.empty()) continue;  // not of the kind that was asked for
       counts.add(first + i, judged[i]);
       if (tell) tell(first + i, judged[i]);
     }

@@ -57,9 +57,10 @@ struct referee_counts {
 /// Told every judgement, in order of numbers.
 using judgement_sink = std::function<void(std::uint64_t number, const judged_problem& p)>;
 
-/// Judge problems 0 to `count` - 1 on `jobs` threads; the counts do not depend on `jobs`.
+/// Judge problems 0 to `count` - 1, or those of one kind among them, on `jobs` threads; the counts do not
+/// depend on `jobs`.
 [[nodiscard]] referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs,
-                                        const judgement_sink& tell = {});
+                                        const judgement_sink& tell = {}, const std::string& only_kind = {});
 
 /// The table: a row a kind, then the ways.
 [[nodiscard]] std::string table_of(const referee_counts& c);

@@ -149,21 +149,36 @@ class hard_drawing {
     if (random_.chance(0.3)) step({{node_between(), 0, -force(random_.whole(-3, 1))}});
   }
 
+  /// The small load moves its pairs by about their gaps: by 10^(small - k).
   void small_after_large() {
-    make_beam(random_.whole(2, 5));
+    make_beam(random_.whole(3, 6));
+    if (random_.chance(0.5)) return large_between_two_pairs();
     const bool held = random_.chance(0.4);
     if (held) hold();
     const int small = random_.whole(-4, 0);
-    const int k = random_.whole(0, 6);
-    const auto gap = [&] { return random_.chance(0.6) ? 0.0 : length(small - random_.whole(0, 3)); };
+    const int k = random_.whole(-1, 3);
+    const auto gap = [&] { return random_.chance(0.5) ? 0.0 : length(small - k + random_.whole(-1, 3)); };
     const auto of_pair = [&] { return stiffness(k); };
     if (held)
-      pairs(0.7, face_below, gap, of_pair);
+      pairs(0.8, face_below, gap, of_pair);
     else
       pairs_below(gap, of_pair);
     step({{node_between(), 0, -force(small + random_.whole(4, 12))}});
     step({{node_between(), 0, -force(small)}});
     if (random_.chance(0.5)) step({{node_between(), 0, -force(small)}});
+  }
+
+  /// The large load presses two pairs, at no gaps; the small one stands beyond them, and turns the beam onto
+  /// a third: the first one comes off at the very end of the step.
+  void large_between_two_pairs() {
+    const int small = random_.whole(-4, 0);
+    const int k = random_.whole(-1, 3);
+    pair(0, face_below, 0.0, stiffness(k));
+    pair(2, face_below, 0.0, stiffness(k));
+    const double gap = length(small - k + random_.whole(-1, 3));
+    pair(last(), face_below, gap, stiffness(k));
+    step({{1, 0, -force(small + random_.whole(4, 12))}});
+    step({{last() == 3 ? 3 : last() - 1, 0, -force(small)}});
   }
 
   void cancelling_loads() {

@@ -1,5 +1,5 @@
 // The exact path as referee of the corrected rule and its certificate:
-//     contct_referee COUNT SEED [--jobs N] [--ceilings FILE] [--list] [--examples]
+//     contct_referee COUNT SEED [--jobs N] [--kind KIND] [--ceilings FILE] [--list] [--examples]
 //     contct_referee --only NUMBER SEED
 //     contct_referee --file PROBLEM.toml
 // Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails where a
@@ -29,16 +29,17 @@ struct options {
   std::uint64_t count = 0, seed = 0, only = 0;
   bool only_one = false, list = false, examples = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  std::string problem_file = {};
+  std::string problem_file = {}, kind = {};
   std::string ceilings_file = CONTCT_REFEREE_CEILINGS;
 };
 
 [[noreturn]] void refuse(std::string_view found) {
-  fmt::print(stderr,
-             "contct_referee: found {}; allowed: COUNT SEED [--jobs N] [--ceilings FILE] [--list] "
-             "[--examples], or --only "
-             "NUMBER SEED, or --file PROBLEM\n",
-             found);
+  fmt::print(
+      stderr,
+      "contct_referee: found {}; allowed: COUNT SEED [--jobs N] [--kind KIND] [--ceilings FILE] [--list] "
+      "[--examples], or --only "
+      "NUMBER SEED, or --file PROBLEM\n",
+      found);
   std::exit(2);
 }
 
@@ -61,6 +62,8 @@ options options_of(int argc, char** argv) {
       o.list = true;
     } else if (a == "--ceilings") {
       o.ceilings_file = value();
+    } else if (a == "--kind") {
+      o.kind = value();
     } else if (a == "--file") {
       o.problem_file = value();
     } else if (a == "--jobs") {
@@ -119,10 +122,11 @@ void print_findings(std::uint64_t number, const judged_problem& p) {
 int judge_all(const options& o) {
   std::ifstream file(o.ceilings_file);
   if (!file) refuse("no file " + o.ceilings_file);
-  const ceilings allowed = read_ceilings(file, o.count, o.seed);
+  ceilings allowed = read_ceilings(file, o.count, o.seed);
+  if (!o.kind.empty()) std::erase_if(allowed, [&o](const auto& row) { return row.first != o.kind; });
   const auto started = std::chrono::steady_clock::now();
   const referee_counts counts =
-      judge_many(o.count, o.seed, o.jobs, o.list ? print_findings : judgement_sink{});
+      judge_many(o.count, o.seed, o.jobs, o.list ? print_findings : judgement_sink{}, o.kind);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
   fmt::print("{} problems, seed {}, {:.1f} s\n{}", o.count, o.seed, taken.count(), table_of(counts));
   print_worst(o, counts);
