@@ -42,7 +42,7 @@ TEST_CASE("a count above its ceiling, and one below its floor, is a breach") {
   CHECK(breaches(c, {}) == std::vector<std::string>{"drops: found no ceilings for this kind"});
 }
 
-TEST_CASE("ceilings are those of one count and seed; a row that is cut short is refused") {
+TEST_CASE("ceilings are those of one count and seed, and a row that is cut short is refused") {
   const std::string row = "drops 1 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 7\n";
   std::istringstream two("[10 1]\n" + row + "[20 1]\n" + row + "pairs-alone" + row.substr(5));
   CHECK(read_ceilings(two, 20, 1).size() == 2);
