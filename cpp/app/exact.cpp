@@ -25,12 +25,11 @@ kernel_digits digits_of_kernel(const std::string& name, const problem& p, const 
 
 /// A problem that would take more than a machine has is refused before it is converted.
 void refuse_too_large(const problem& p, const std::string& file) {
-  constexpr int most_dofs = 50'000;
-  if (dofs(p.geometry) > most_dofs)
+  if (dofs(p.geometry) > most_exact_dofs)
     throw std::invalid_argument(fmt::format(
         "{}: found {} dofs; allowed: at most {} in exact arithmetic, whose numbers grow with them. "
         "Fewer elements would do",
-        file, dofs(p.geometry), most_dofs));
+        file, dofs(p.geometry), most_exact_dofs));
 }
 
 exact_path follow_exactly(const exact_problem& p, const exact_options& o) {

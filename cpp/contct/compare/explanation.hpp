@@ -14,6 +14,7 @@
 #include "contct/compare/branches.hpp"
 #include "contct/compare/compare.hpp"
 #include "contct/kernel/call.hpp"
+#include "contct/kernel/way_to_s.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct::compare {
@@ -49,14 +50,6 @@ inline constexpr std::array all = {gap,       if_no_response, no_response,  if_s
                                    break_};
 
 }  // namespace listing
-
-/// Which branch of the DO 10 loop gave a pair its s.
-enum class way_to_s {
-  no_response,       ///< d* = 0: s is 1, the mark for "no event"
-  stationary,        ///< at its face, and the load keeps it as it is: s is 1, the same mark
-  stationary_event,  ///< at its face, and the load changes it: eq. 12
-  moving,            ///< advancing or receding: eq. 4
-};
 
 /// Why a pair was toggled.
 enum class why_toggled {

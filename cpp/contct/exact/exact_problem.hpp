@@ -9,6 +9,9 @@
 
 namespace contct::exact {
 
+/// More dofs than this would take more than a machine has: their numbers grow with them.
+inline constexpr int most_exact_dofs = 50'000;
+
 /// A candidate contact pair.
 struct exact_pair {
   int dof;

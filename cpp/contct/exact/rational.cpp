@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -20,6 +21,12 @@ std::size_t bits_of(const integer& n) {
 /// 10^exponent.
 rational ten_to(int exponent) {
   const integer power = power_of(10, static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? rational(integer(1), power) : rational(power);
+}
+
+/// 2^exponent.
+rational two_to(int exponent) {
+  const integer power = power_of(2, static_cast<unsigned>(std::abs(exponent)));
   return exponent < 0 ? rational(integer(1), power) : rational(power);
 }
 
@@ -82,6 +89,18 @@ double rounded(const rational& x) {
   const double size =
       std::ldexp(static_cast<double>(integer(top / bottom).convert_to<std::uint64_t>()), -shift);
   return x < 0 ? -size : size;
+}
+
+double error_in_ulps(double x, const rational& exactly, int real_bytes) {
+  const int digits = real_bytes == 4 ? FLT_MANT_DIG : DBL_MANT_DIG;
+  int exponent = real_bytes == 4 ? FLT_MIN_EXP : DBL_MIN_EXP;  // 2^(exponent - 1) <= |exactly| < 2^exponent
+  if (exactly != 0) {
+    const rational size = abs(exactly);
+    int found = static_cast<int>(bits_of(numerator(size))) - static_cast<int>(bits_of(denominator(size)));
+    if (size >= two_to(found)) ++found;
+    exponent = std::max(exponent, found);
+  }
+  return rounded((binary_value(x) - exactly) / two_to(exponent - digits));
 }
 
 std::string fraction_words(const rational& x) {

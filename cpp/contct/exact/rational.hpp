@@ -52,6 +52,10 @@ struct exact_values {
 /// The nearest double, or one beside it.
 [[nodiscard]] double rounded(const rational& x);
 
+/// x less what it should be, in units in the last place of the number `exactly` among those of `real_bytes`
+/// (4 or 8): within 0.5 either way, it is the nearest one. `x` is finite.
+[[nodiscard]] double error_in_ulps(double x, const rational& exactly, int real_bytes);
+
 /// "p/q" in lowest terms, or "p".
 [[nodiscard]] std::string fraction_words(const rational& x);
 
