@@ -60,6 +60,7 @@ struct explain_options {
   std::string engine = "refactor";
   std::string increment;  ///< "3", or "2.3" with its step
   std::optional<int> step, pair;
+  bool exact = false;  ///< with the exact numbers
   std::string json;
   bool quiet = false;
 };

@@ -1,15 +1,15 @@
 // contct explain: what the listing did in each increment of a run, for each pair, and why.
-#include "contct/write/explain.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
 #include "contct/compare/explanation.hpp"
+#include "contct/exact/exact_problem.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/write/explain_exact.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::app {
@@ -95,6 +95,28 @@ void print_comparison(const std::vector<std::string>& kernels, const explained_p
                  counts_of(told)});
 }
 
+/// The exact path, for as far as it is wanted, and what is told of it.
+class exact_companion {
+ public:
+  exact_companion(const problem& p, const increments_wanted& wanted) {
+    if (dofs(p.geometry) > most_exact_dofs) {
+      told.emplace(nullptr, fmt::format("found {} dofs; allowed: at most {} in exact arithmetic",
+                                        dofs(p.geometry), most_exact_dofs));
+      return;
+    }
+    problem_.emplace(exact_problem_of(p));
+    path.emplace(*problem_,
+                 wanted.step == 0 ? std::optional<path_place>() : path_place{wanted.step, wanted.increment});
+    told.emplace(&*path);
+  }
+
+  std::optional<exact_beside> path;
+  std::optional<exact_addition> told;
+
+ private:
+  std::optional<exact_problem> problem_;
+};
+
 }  // namespace
 
 exit_status run_command(const explain_options& options) {
@@ -113,14 +135,19 @@ exit_status run_command(const explain_options& options) {
   std::optional<explain_json> json;
   if (!options.quiet && !takes_standard_output(outputs)) text.emplace(of, look_at_terminal());
   if (output_file* const file = files["--json"]) json.emplace(of, *file);
+  std::optional<exact_companion> exactly;
   explained_path told(leader->facts(), second_kernel(options.kernels), wanted, [&](const auto& i) {
-    if (text) text->print(i);
-    if (json) json->write(i);
+    if (exactly) exactly->told->begin(i);
+    const explain_addition* const more = exactly ? &*exactly->told : nullptr;
+    if (text) text->print(i, more);
+    if (json) json->write(i, more);
   });
   const linear_structure structure = build_with_progress(p, options.quiet);
+  if (options.exact) exactly.emplace(p, wanted);
   path_progress shown(p.steps.size(), options.quiet);
-  const path_end end = follow(p, structure, chosen_engine(options.engine, structure), *leader,
-                              {shown.before.get(), &told, shown.behind.get()});
+  std::vector<observer*> watching = {shown.before.get(), &told, shown.behind.get()};
+  if (exactly && exactly->path) watching.insert(watching.begin(), &*exactly->path);
+  const path_end end = follow(p, structure, chosen_engine(options.engine, structure), *leader, watching);
   shown.line.erase();
 
   const bool anything = end.status != path_status::not_factored && told.explained() > 0;

@@ -30,6 +30,7 @@ constexpr example all_examples[] = {
     {"contct export beam.toml --calculix beam.inp", "the end of the last step, for CalculiX to solve"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
+    {"contct explain beam.toml --exact --increment 1.1", "how far its numbers are from the exact ones"},
     {"contct explain beam.toml --quiet --json why.json", "the same for a program"},
     {"contct exact beam.toml", "the path without rounding, in fractions"},
     {"contct exact beam.toml --kernels fortran,corrected", "how many of their digits are right"},
@@ -271,6 +272,9 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
   p.add(c, takes::number, "--pair", o.pair, "Only this pair, from 1");
   p.add_kernels(c, "--kernels", o.kernels, "The kernels to put side by side, the first one leads")
       ->capture_default_str();
+  c->add_flag("--exact", o.exact,
+              "With the s that exact arithmetic gives, from the numbers of each call and on the exact path of "
+              "the 1989 rule, and the error of each kernel's in ULP");
   p.add(c, takes::word, "--engine", o.engine, "How the stiffness equations are solved", engines)
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");

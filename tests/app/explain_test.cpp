@@ -1,5 +1,6 @@
 // contct explain: what a student at a terminal reads, and what a program gets.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -342,4 +343,105 @@ TEST_CASE("an event so near to full load that only rounding is left is told, and
     }
   }
   CHECK(undone >= 1);
+}
+
+TEST_CASE("with --exact every s stands beside the exact one, and PB7's tie is seen") {
+  const finished f = explained({pb7, "--exact", "--increment", "2.1"}, "140");
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("s exactly, from the numbers of this call: 0.0789473684207") &&
+                        Contains("s on the exact path: 3/38; fortran and cpp ") &&
+                        Contains("A tie: there pairs 1 and 3 have exactly this s.") &&
+                        Contains("Exactly, pairs 1 and 3 are toggled, as here.") &&
+                        Contains("The exact path has the same events. It has reached the share 3/38 of the"));
+  const finished without = explained({pb7, "--increment", "2.1"}, "140");
+  CHECK_THAT(without.out, !Contains("exactly, from") && !Contains("exact path"));
+}
+
+TEST_CASE("no s of PB1 to PB11 is off by more than 2 ULP for its call's numbers, in either precision") {
+  int compared = 0;
+  for (const char* name :
+       {"pb01-cantilever-tip-stop", "pb03c-point-load-on-bed-l6-fine", "pb05-cantilever-over-flat-obstacle",
+        "pb07-three-gap-supports", "pb08d-heavy-beam-down-50", "pb11a-strip-footing-n20"}) {
+    for (const char* kernels : {"fortran,cpp", "fortran-r4,cpp-r4"}) {
+      const finished f = explained({"reference/problems/" + std::string(name) + ".toml", "--exact", "--quiet",
+                                    "--kernels", kernels, "--json", "-"});
+      REQUIRE(f.exit == 0);
+      const json all = json::parse(f.out);
+      for (const json& i : all["increments"]) {
+        for (const json& p : i["pairs"]) {
+          INFO(name << ' ' << kernels << ' ' << p.dump());
+          CHECK(p["exact"]["kind"] == p["kind"]);
+          for (const json& off : p["exact"]["ulps_off"]) {
+            CHECK(std::abs(off.get<double>()) <
+                  2.0);  // a difference and a quotient, or a quotient and a product
+            ++compared;
+          }
+        }
+      }
+    }
+  }
+  CHECK(compared > 10'000);
+}
+
+TEST_CASE("where the exact path has other events it is said, and its numbers end there") {
+  const std::string file = "reference/problems/divergences/single-precision.toml";
+  const finished f = explained({file, "--exact", "--kernels", "fortran-r4,cpp-r4", "--json", "-"});
+  CHECK(f.exit == 0);
+  const json all = json::parse(f.out)["increments"];
+  REQUIRE(all.size() == 4);
+  CHECK_FALSE(all[1]["exact_path"].contains("parted"));
+  CHECK(all[2]["exact_path"]["parted"] == json({{"step", 2}, {"increment", 1}}));
+  CHECK(all[2]["pairs"][0]["exact_path"]["kind"] == "receding");
+  CHECK(all[2]["pairs"][0]["kind"] == "stationary");
+  CHECK(all[3]["pairs"][0]["exact_path"].is_null());
+  const finished text = explained({file, "--exact", "--kernels", "fortran-r4,cpp-r4", "--step", "2"}, "200");
+  CHECK_THAT(
+      text.out,
+      Contains(
+          "The exact path has other events, at share 1 of the step's load: none; here: pair 1 breaks.") &&
+          Contains("by another branch: there the pair is receding") &&
+          Contains("The exact path has had other events since 2.1"));
+}
+
+TEST_CASE("--exact is refused where explain is, and a trace is no problem") {
+  const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
+  const auto refused = [](std::vector<std::string> arguments, const char* words) {
+    arguments.insert(arguments.end(), {"--exact", "--json", "/dev/null"});
+    const finished f = explained(arguments);
+    INFO(f.err);
+    CHECK(f.exit == 2);
+    CHECK(f.out.empty());
+    CHECK_THAT(f.err, Contains(words));
+  };
+  refused({pb7, "--kernels", "fortran-r4," + plugin}, "differ in precision");
+  refused({pb7, "--kernels", plugin}, "comes from outside and cannot lead");
+  refused({pb7, "--kernels", "corrected"}, "follows another rule");
+  refused({"reference/traces/ties.trace"}, "ties.trace");
+}
+
+TEST_CASE("a second kernel that rounds otherwise has an error of its own beside the exact s") {
+  const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
+  const finished f = explained({pb7, "--exact", "--quiet", "--kernels", "fortran," + plugin, "--json", "-"});
+  CHECK(f.exit == 1);
+  const json all = json::parse(f.out);
+  int apart = 0;
+  for (const json& i : all["increments"])
+    for (const json& p : i["pairs"])
+      apart += p["exact"]["ulps_off"]["fortran"] != p["exact"]["ulps_off"][plugin] ? 1 : 0;
+  CHECK(apart > 0);
+}
+
+TEST_CASE("a structure too large for exact arithmetic keeps the exact s of its calls") {
+  const scratch_folder dir;
+  dir.write(
+      "long.toml",
+      "[beam]\nlength = 100\nelements = 25001\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+      "[[support]]\nnode = 25002\nfix = [\"w\"]\n[[contact]]\nnode = 12000\nsurface = \"below\"\nface = "
+      "-1\nstiffness = 10\n[[step]]\nuniform = -1\n");
+  const finished f = contct_program(dir.path(), {"explain", "long.toml", "--exact", "--json", "-"});
+  INFO(f.err);
+  CHECK(f.exit == 0);
+  const json first = json::parse(f.out)["increments"][0];
+  CHECK(first["exact_path"]["stopped"] == "found 50004 dofs; allowed: at most 50000 in exact arithmetic");
+  CHECK(first["pairs"][0]["exact"]["ulps_off"].size() == 2);
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contct/compare/explanation.hpp"
 #include "contct/outside/registry.hpp"
@@ -10,11 +11,14 @@
 
 namespace contct::app {
 
-/// FORTRAN with C++ beside it; `sink` is given each increment. Returns the path, which has the totals.
-inline explained_path explain_run(const problem& p, explained_path::sink sink) {
+/// FORTRAN with C++ beside it; `sink` is given each increment, after `first`, where there is one, has seen
+/// it. Returns the path, which has the totals.
+inline explained_path explain_run(const problem& p, explained_path::sink sink, observer* first = nullptr) {
   const auto leader = make_kernel("fortran");
   explained_path path(leader->facts(), make_kernel("cpp"), {}, std::move(sink));
-  follow(p, structure_of(p), "refactor", *leader, {&path});
+  std::vector<observer*> watching = {&path};
+  if (first != nullptr) watching.insert(watching.begin(), first);
+  follow(p, structure_of(p), "refactor", *leader, watching);
   return path;
 }
 

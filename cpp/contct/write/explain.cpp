@@ -169,9 +169,7 @@ std::vector<sentence> toggle_story(const explained_call& c, const explained_pair
 }
 
 std::string_view kind_of_contact(const explained_pair& p) {
-  if (p.way == way_to_s::no_response) return "no response";
-  if (p.way != way_to_s::moving) return "stationary";
-  return is_separated(p) ? "advancing" : "receding";
+  return kind_name(p.way, is_separated(p));
 }
 
 std::string_view name_of(why_toggled why) {
@@ -184,6 +182,12 @@ std::string_view name_of(why_toggled why) {
 std::uint64_t ulps_apart(double first, double second, int real_bytes) {
   return real_bytes == 4 ? ulps_between(static_cast<float>(first), static_cast<float>(second))
                          : ulps_between(first, second);
+}
+
+std::string_view kind_name(way_to_s way, bool is_separated) {
+  if (way == way_to_s::no_response) return "no response";
+  if (way != way_to_s::moving) return "stationary";
+  return is_separated ? "advancing" : "receding";
 }
 
 std::string side_by_side_words(std::string_view first_name, double first, std::string_view second_name,
@@ -201,8 +205,9 @@ namespace {
 /// Prints one increment.
 class increment_printer {
  public:
-  increment_printer(const explained_kernels& of, const terminal& t, const explained_increment& i)
-      : of_(of), terminal_(t), i_(i) {}
+  increment_printer(const explained_kernels& of, const terminal& t, const explained_increment& i,
+                    const explain_addition* more)
+      : of_(of), terminal_(t), i_(i), more_(more) {}
 
   void print(bool first) const {
     if (first && !of_.what.title.empty()) say(paint::strong, of_.what.title);
@@ -258,6 +263,10 @@ class increment_printer {
     say({no_line, fmt::format("{}: {}", what, words)}, words.find("equal to the bit") == std::string::npos);
   }
 
+  void say(const explain_addition::remarks& remarks) const {
+    for (const added_remark& r : remarks) say({no_line, r.words}, r.loud);
+  }
+
   void print_load() const {
     constexpr int room = 24;
     const std::string now = of_.loads.words_at(i_.what.step, i_.fraction_before, room);
@@ -273,6 +282,7 @@ class increment_printer {
                                    is_separated(p) ? "separated" : "in contact", kind_of_contact(p)));
     for (const sentence& t : scale_factor_story(p)) say(t);
     if (i_.other != nullptr) say_side_by_side("s", p.s, i_.other->ss[p.pair]);
+    if (more_ != nullptr) say(more_->of_s(of_, i_, p));
   }
 
   void print_winner() const {
@@ -280,6 +290,7 @@ class increment_printer {
     say(paint::strong, "The smallest s");
     for (const sentence& t : winner_story(i_.call)) say(t);
     if (i_.other != nullptr) say_side_by_side("SMIN", i_.call.smin, i_.other->smin);
+    if (more_ != nullptr) say(more_->of_smin(of_, i_));
     if (!i_.call.narrowest) return;
     constexpr std::uint64_t close = 1'000'000;
     say({no_line, i_.call.narrowest->ulps <= close
@@ -317,6 +328,9 @@ class increment_printer {
                       "the step's load is applied by now.",
                       share_words(i_.what.s), share_words(i_.what.fraction)));
     }
+    if (more_ != nullptr) {
+      for (const added_remark& r : more_->of_end(of_, i_)) say(r.loud ? paint::bad : paint::quiet, r.words);
+    }
     if (i_.apart && i_.other == nullptr)
       say(paint::bad, fmt::format("{} gave no answer: {}", of_.names[1], i_.apart->follower));
     if (i_.apart && i_.apart->field == "text")
@@ -327,6 +341,7 @@ class increment_printer {
   const explained_kernels& of_;
   const terminal& terminal_;
   const explained_increment& i_;
+  const explain_addition* more_;
 };
 
 json story_json(const std::vector<sentence>& story) {
@@ -360,7 +375,8 @@ json both_json(const explained_kernels& of, double first, const double* second) 
   return out;
 }
 
-json pair_json(const explained_kernels& of, const explained_increment& i, const explained_pair& p) {
+json pair_json(const explained_kernels& of, const explained_increment& i, const explain_addition* more,
+               const explained_pair& p) {
   json out = {{"pair", p.pair + 1}};
   put_place(out, of.what.geometry, p.node - 1);
   out.update({{"surface", surface_name(p.surface)},
@@ -379,6 +395,7 @@ json pair_json(const explained_kernels& of, const explained_increment& i, const 
   out["branches"] = branches_json(p);
   out["bits"] = both_json(of, p.s, i.other == nullptr ? nullptr : &i.other->ss[p.pair]);
   if (i.other != nullptr) out["isep"] = {{of.names[0], p.isep_after}, {of.names[1], i.other->isep[p.pair]}};
+  if (more != nullptr) more->put_pair(out, of, i, p);
   std::vector<sentence> story = scale_factor_story(p);
   if (i.call.winner >= 0) std::ranges::move(toggle_story(i.call, p), std::back_inserter(story));
   out["story"] = story_json(story);
@@ -402,8 +419,8 @@ json narrowest_json(const std::optional<decision>& d) {
 
 }  // namespace
 
-void explain_text::print(const explained_increment& i) {
-  increment_printer(of_, terminal_, i).print(!std::exchange(begun_, true));
+void explain_text::print(const explained_increment& i, const explain_addition* more) {
+  increment_printer(of_, terminal_, i, more).print(!std::exchange(begun_, true));
 }
 
 explain_json::explain_json(explained_kernels of, output_file& out)
@@ -415,7 +432,7 @@ explain_json::explain_json(explained_kernels of, output_file& out)
                  {"real_bytes", of_.real_bytes}},
                 "increments") {}
 
-void explain_json::write(const explained_increment& i) {
+void explain_json::write(const explained_increment& i, const explain_addition* more) {
   json out = {{"step", i.what.step},
               {"increment", i.what.number},
               {"fraction_before", i.fraction_before},
@@ -432,10 +449,11 @@ void explain_json::write(const explained_increment& i) {
                     {"index", i.apart->index},
                     {of_.names[0], i.apart->leader},
                     {of_.names[1], i.apart->follower}};
+  if (more != nullptr) more->put_increment(out, of_, i);
   out["pairs"] = nullptr;
   const bool all = of_.pair == 0;
   document_.add(out, {{"pairs", all ? i.call.pairs.size() : 1, [&](std::size_t k) {
-                         return pair_json(of_, i, i.call.pairs[all ? k : of_.pair - 1]);
+                         return pair_json(of_, i, more, i.call.pairs[all ? k : of_.pair - 1]);
                        }}});
 }
 

@@ -32,13 +32,48 @@ struct explained_kernels {
   [[nodiscard]] bool wants(const explained_pair& p) const { return pair == 0 || pair == p.pair + 1; }
 };
 
+/// "advancing", "receding", "stationary" or "no response".
+[[nodiscard]] std::string_view kind_name(way_to_s way, bool is_separated);
+
+/// A sentence that is added to an explanation; a loud one is in the colour of what is wrong.
+struct added_remark {
+  std::string words;
+  bool loud = false;
+};
+
+/// What else is told of each increment. The exact numbers are one: explain_exact.hpp, which what is installed
+/// does not need.
+class explain_addition {
+ public:
+  using remarks = std::vector<added_remark>;
+
+  explain_addition() = default;
+  explain_addition(const explain_addition&) = delete;
+  explain_addition& operator=(const explain_addition&) = delete;
+  virtual ~explain_addition() = default;
+
+  /// Called before all others, once for each increment.
+  virtual void begin(const explained_increment& i) = 0;
+  /// Of one pair's s, of SMIN, and of the increment's end.
+  [[nodiscard]] virtual remarks of_s(const explained_kernels& of, const explained_increment& i,
+                                     const explained_pair& p) const = 0;
+  [[nodiscard]] virtual remarks of_smin(const explained_kernels& of, const explained_increment& i) const = 0;
+  [[nodiscard]] virtual remarks of_end(const explained_kernels& of, const explained_increment& i) const = 0;
+  /// Add members to those of an increment, and to those of a pair.
+  virtual void put_increment(nlohmann::ordered_json& out, const explained_kernels& of,
+                             const explained_increment& i) const = 0;
+  virtual void put_pair(nlohmann::ordered_json& out, const explained_kernels& of,
+                        const explained_increment& i, const explained_pair& p) const = 0;
+};
+
 /// Prints increments, one at a time: the lines of the listing in the left margin, the paper's equations at
 /// the right.
 class explain_text {
  public:
   explain_text(explained_kernels of, const terminal& t) : of_(std::move(of)), terminal_(t) {}
 
-  void print(const explained_increment& i);
+  /// `more`: what else is told of it; null: nothing.
+  void print(const explained_increment& i, const explain_addition* more = nullptr);
 
  private:
   explained_kernels of_;
@@ -53,7 +88,8 @@ class explain_json {
   /// `out` must outlive this object.
   explain_json(explained_kernels of, output_file& out);
 
-  void write(const explained_increment& i);
+  /// `more` as explain_text::print has it.
+  void write(const explained_increment& i, const explain_addition* more = nullptr);
 
   /// Close the document.
   void finish(std::string_view status, const explained_path& path);
