@@ -1,16 +1,17 @@
 #!/bin/sh
-# check.sh EXERCISE FILE: says whether FILE is an answer to exercise a, b or c of reference/course/exercises.md.
-# A FILE that ends in .sed edits reference/kernels/contct_kernel.c into one.
+# check.sh EXERCISE FILE: says whether FILE is an answer to exercise a, b, c or d of reference/course/exercises.md.
+# A FILE that ends in .sed edits reference/kernels/contct_kernel.c into one; for d, the problem PB7.
 # From the project's root, after the release build. Exit status: 0 right, 1 wrong, 2 it could not be judged.
 set -u
 contct=build/release/contct
-usage() { echo "usage: sh reference/course/exercises/check.sh a|b|c FILE, from the project's root" >&2; exit 2; }
+usage() { echo "usage: sh reference/course/exercises/check.sh a|b|c|d FILE, from the project's root" >&2; exit 2; }
 right() { echo "right: $*"; exit 0; }
 wrong() { echo "wrong: $*"; exit 1; }
 
 [ $# = 2 ] || usage
 file=$2
 original=reference/kernels/contct_kernel.c
+[ "$1" != d ] || original=reference/problems/pb07-three-gap-supports.toml
 [ -x "$contct" ] || { echo "check.sh: found no $contct; build it: cmake --preset release && cmake --build --preset release" >&2; exit 2; }
 [ -r "$file" ] || { echo "check.sh: cannot read $file" >&2; exit 2; }
 scratch=$(mktemp -d) || exit 2
@@ -19,7 +20,7 @@ trap 'rm -rf "$scratch"' EXIT
 case $file in
   *.sed)
     sed -f "$file" $original >"$scratch/edited.c" || wrong "it does not edit $original"
-    file=$scratch/edited.c ;;
+    file=$scratch/edited.c ;;  # a problem, too, whatever its name
 esac
 
 # What contct calls the kernel in $file: a shared library from C or Fortran, a command otherwise.
@@ -54,6 +55,14 @@ hunt() {
 
 # A kernel but for the one line that exercise (a) has broken.
 but_for_that_line() { sed "$(grep -n 'epsmul) isep' $original | cut -d : -f 1)d" "$1"; }
+
+# The problem in $file with the face at node 13 at $1.
+with_face() { sed "/^node *= 13\$/,/^face/ s/^face.*/face      = $1/" "$file"; }
+
+# Does the listing without rounding take pairs 1 and 3 together in the first increment of step 2? The share where it does.
+taken_together() {
+  with_face "$1" | "$contct" exact - --rule 1989 2>/dev/null | sed -n '/^step 2/{n;s/^  share \([^,]*\),.*pair 1 .* makes, pair 3 .* makes$/\1/p;}'
+}
 
 case $1 in
   a)
@@ -90,6 +99,19 @@ case $1 in
     grep '^      TAKEN ALONG: it is closed before it touches' "$scratch/explained" | head -n 1 | grep . ||
       wrong "it goes wrong in another way: no pair is closed before it touches"
     right "a pair is toggled too early, and only the corrected rule is certified"
+    ;;
+  d)
+    face=$(sed -n '/^node *= 13$/,/^face/ s/^face *= *//p' "$file")
+    with_face -0.006 >"$scratch/theirs"
+    cmp -s "$scratch/theirs" $original || wrong "another line is changed"
+    awk -v f="$face" 'BEGIN { exit !(f ~ /^-0\.[0-9]+$/ && f <= -0.006) }' ||
+      wrong "the face at node 13: found $face; allowed: a decimal, -0.006 or lower"
+    share=$(taken_together "$face")
+    [ -z "$share" ] || wrong "pairs 1 and 3 are still toggled together, at share $share"
+    higher=$(awk -v f="$face" 'BEGIN { printf "%.9f", f + 1e-8 }')
+    share=$(taken_together "$higher")
+    [ -n "$share" ] || wrong "the face is too low: at $higher they are toggled apart, too"
+    right "at $face they are toggled apart, at $higher still together, at share $share"
     ;;
   *) usage ;;
 esac
