@@ -272,9 +272,10 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
   p.add(c, takes::number, "--pair", o.pair, "Only this pair, from 1");
   p.add_kernels(c, "--kernels", o.kernels, "The kernels to put side by side, the first one leads")
       ->capture_default_str();
-  c->add_flag("--exact", o.exact,
-              "With the s that exact arithmetic gives, from the numbers of each call and on the exact path of "
-              "the 1989 rule, and the error of each kernel's in ULP");
+  c->add_flag(
+      "--exact", o.exact,
+      "With the s that exact arithmetic gives, from the numbers of each call and on the exact path of "
+      "the 1989 rule, and the error of each kernel's in ULP");
   p.add(c, takes::word, "--engine", o.engine, "How the stiffness equations are solved", engines)
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");

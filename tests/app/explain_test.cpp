@@ -403,7 +403,7 @@ TEST_CASE("where the exact path has other events it is said, and its numbers end
           Contains("The exact path has had other events since 2.1"));
 }
 
-TEST_CASE("--exact is refused where explain is, and a trace is no problem") {
+TEST_CASE("exact numbers are refused where an explanation is, and a trace is no problem") {
   const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
   const auto refused = [](std::vector<std::string> arguments, const char* words) {
     arguments.insert(arguments.end(), {"--exact", "--json", "/dev/null"});
