@@ -82,7 +82,7 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
   r.counts = solves->counts();
   r.whole = end.status == contct::app::path_status::solved;
   if (!certify || !r.whole) return r;
-  contct::app::certifier judge(s, loads);
+  contct::app::certifier judge(p, s);
   judge.step_ended(w.last_state());
   r.certified = judge.all_exact();
   return r;

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "catch.hpp"
-#include "contct/read/problem_file.hpp"
+#include "contct/path/solve_problem.hpp"
 
 using namespace contct::app;
 using namespace contct::certify;
@@ -64,10 +64,13 @@ TEST_CASE("what is not definite has no bound, however little it is short of it")
 }
 
 TEST_CASE("springs of pairs hold what supports do not, and a wide band is bounded too") {
-  const problem p = parse_problem(
-      "[plate]\nsize = [1.0, 1.0]\nelements = [8, 8]\nD = 2.0\nnu = 0.3\n[[bed]]\nmodulus = 3.0\nface = 0.0\n"
-      "[[step]]\nuniform = -1.0\n",
-      "p.toml");
+  problem p;
+  std::vector<double> lines(9);
+  for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = static_cast<double>(i) / 8;
+  p.geometry = {plate{lines, lines, 2.0, 0.3}};
+  for (int node = 0; node < nodes(p.geometry); ++node)
+    p.pairs.push_back({node, face_below, 0.0, 0.03, false});
+  p.steps = {{}};
   const linear_structure s = structure_of(p);
   const true_system t = true_system_of(p);
   std::vector<int> rows;

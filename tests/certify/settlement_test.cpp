@@ -39,9 +39,9 @@ struct solved_path {
 solved_path follow_certified(const problem& p, const std::string& engine = "refactor",
                              const std::string& kernel = "fortran") {
   const linear_structure s = structure_of(p);
-  certifier judged(s, loads_of(p, s));
+  certifier judged(p, s);
   solved_path path;
-  path.end = follow(p, s, engine, *make_kernel(kernel), {&judged, &path.seen});
+  path.end = follow(p, s, engine, *make_kernel(kernel), {&judged, &path.seen}, {.refine = judged.refiner()});
   path.certificates = judged.steps();
   for (const auto& c : path.certificates) CHECK(c.value().exact);
   return path;
@@ -179,7 +179,7 @@ TEST_CASE("The reference solution finds the same without a path, and tells a sup
   CHECK(find_final_states(s, 1, loads_of(p, s), observers).status == path_status::solved);
   for (std::size_t dof = 0; dof < path.u(1).size(); ++dof)
     CHECK(ends.steps.at(0).u[dof] == Approx(path.u(1)[dof]).epsilon(1e-10).margin(1e-15));
-  certifier judged(s, loads_of(p, s));
+  certifier judged(p, s);
   std::vector<double> u = path.u(1);
   u[8] *= 1 + 1e-5;
   judged.step_ended({1, 1.0, u, path.seen.steps[0].isep, 1e-3});

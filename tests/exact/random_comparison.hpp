@@ -15,15 +15,7 @@
 
 namespace contct::exact {
 
-/// The problem that the laboratory drew, as a file would have it.
-inline structure::problem as_problem(const lab::random_problem& r) {
-  structure::problem p;
-  p.geometry = r.geometry;
-  p.supports = r.supports;
-  p.pairs = r.pairs;
-  p.steps = r.steps;
-  return p;
-}
+using lab::as_problem;
 
 struct comparison_counts {
   int problems = 0;          ///< followed exactly
@@ -55,9 +47,9 @@ inline void compare_one(std::uint64_t number, const lab::random_problem& drawn, 
   const structure::linear_structure s = structure_of(p);
   const auto leader = outside::make_kernel("corrected");
   digit_counter counter(p, exactly);
-  certify::certifier judged(s, loads_of(p, s));
-  const path::path_end end =
-      path::follow(p, s, "refactor", *leader, {&judged, &counter}, {0, certify::fallback_to_reference(s)});
+  certify::certifier judged(p, s);
+  const path::path_end end = path::follow(p, s, "refactor", *leader, {&judged, &counter},
+                                          {0, certify::fallback_to_reference(s), judged.refiner()});
   const kernel_digits r = counter.result("corrected", end.status, 1e-9);
   ++counts.problems;
   counts.steps += static_cast<int>(judged.steps().size());

@@ -87,7 +87,7 @@ run_of_problem run(const problem& p) {
   const auto leader = make_kernel("fortran");
   const std::vector<std::string> others = {"cpp"};
   lockstep compared = make_lockstep(leader->facts(), others);
-  certifier judged(s, loads_of(p, s));
+  certifier judged(p, s);
   r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen});
   r.calls = compared.calls();
   r.mismatches = compared.compared().mismatches;
@@ -301,7 +301,7 @@ TEST_CASE("a result on a matrix names dofs by their labels, and its w is its dis
   const problem p = read_problem((reference / "structures" / "frame.toml").string());
   const scratch_folder here;
   const linear_structure s = structure_of(p);
-  certifier judged(s, loads_of(p, s));
+  certifier judged(p, s);
   output_file file((here.path() / "r.json").string());
   result_json json(p, {"fortran"}, "refactor", judged, file);
   const path_end end = follow(p, s, "refactor", *make_kernel("fortran"), {&judged, &json});

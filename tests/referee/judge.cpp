@@ -10,7 +10,6 @@
 
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/kernel_digits.hpp"
-#include "contct/matrix/cholesky.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 
@@ -30,16 +29,22 @@ struct kept_state {
   int step;
   std::vector<double> displacement;
   std::vector<int> isep;
-  double rcond;
+  handed_out numbers;  ///< forces and reactions
 };
 
 struct state_keeper final : observer {
+  explicit state_keeper(const problem& p) : what(p) {}
+
   void step_ended(const step_state& s) override {
     lost = lost || s.from_fallback;
-    states.push_back(
-        {s.step, {s.displacement.begin(), s.displacement.end()}, {s.isep.begin(), s.isep.end()}, s.rcond});
+    states.push_back({s.step,
+                      {s.displacement.begin(), s.displacement.end()},
+                      {s.isep.begin(), s.isep.end()},
+                      handed_out_at(what, s)});
+    states.back().numbers.displacement = {};
   }
 
+  const problem& what;
   std::vector<kept_state> states;
   bool lost = false;
 };
@@ -97,8 +102,8 @@ double share(double error, double size) {
 /// Compares the states of one run with the exact ones.
 class comparing {
  public:
-  comparing(const problem& p, const linear_structure& s, const exact_answer& exactly, judgement& j)
-      : p_(p), s_(s), exactly_(exactly), result_(j) {}
+  comparing(const problem& p, const exact_answer& exactly, judgement& j)
+      : p_(p), exactly_(exactly), result_(j) {}
 
   void compare(const kept_state& k, const certificate& c) {
     const auto step = static_cast<std::size_t>(k.step - 1);
@@ -111,7 +116,6 @@ class comparing {
     worst_ = 0.0;
     ++result_.steps;
     result_.certified += c.exact ? 1 : 0;
-    measure_as_certificate(k);
     if (exactly_.unique[step] != 0) compare_displacements();
     compare_forces();
     compare_reactions();
@@ -119,79 +123,65 @@ class comparing {
   }
 
  private:
-  /// The lengths that the certificate measures by: see its header.
-  void measure_as_certificate(const kept_state& k) {
-    double stiffest = 0.0;
-    for (std::size_t dof = 0; dof < k.displacement.size(); ++dof) {
-      const double size = std::max(std::abs(k.displacement[dof]), size_of(state_->displacement[dof]));
-      largest_scaled_ = std::max(largest_scaled_, scale(dof) * size);
-      if (!s_.deflects(static_cast<int>(dof))) continue;
-      largest_deflection_ = std::max(largest_deflection_, size);
-      if (s_.fixed[dof] == 0) stiffest = std::max(stiffest, scale(dof));
-    }
-    largest_length_ =
-        stiffest == 0.0 ? largest_deflection_ : std::max(largest_deflection_, largest_scaled_ / stiffest);
-  }
-  [[nodiscard]] double scale(std::size_t dof) const {
-    return std::sqrt(s_.stiffness.diagonal(s_.row_of(dof)));
-  }
-
   void compare_displacements() {
     const std::size_t stride = dofs_per_node(p_.geometry);
     for (std::size_t dof = 0; dof < kept_->displacement.size(); ++dof) {
       const bool deflects = dof % stride == 0;
       number(deflects ? number_kind::deflection : number_kind::slope, kept_->displacement[dof],
              state_->displacement[dof], deflects ? here_.deflection : here_.slope,
-             deflects ? seen_.deflection : seen_.slope,
-             deflects ? largest_length_ : largest_scaled_ / scale(dof), dof / stride);
+             deflects ? seen_.deflection : seen_.slope, dof / stride);
     }
   }
 
   void compare_forces() {
-    const std::size_t stride = dofs_per_node(p_.geometry);
-    for (std::size_t i = 0; i < p_.pairs.size(); ++i) {
-      const double w = kept_->displacement[static_cast<std::size_t>(p_.pairs[i].node) * stride];
-      number(number_kind::force, force_of(p_.pairs[i], w, kept_->isep[i] == in_contact), state_->force[i],
-             here_.force, seen_.force, seen_.force, i);
-    }
+    for (std::size_t i = 0; i < p_.pairs.size(); ++i)
+      number(number_kind::force, kept_->numbers.pair_forces[i], state_->force[i], here_.force, seen_.force,
+             i);
   }
 
   void compare_reactions() {
-    const auto step = static_cast<std::size_t>(kept_->step - 1);
-    const std::vector<double> all = path::reactions(p_, p_.steps[step], kept_->displacement, kept_->isep);
+    const std::vector<double>& all = kept_->numbers.reactions;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const bool is_force = p_.supports[i].dof == 0;
       const double of_path = is_force ? seen_.force : seen_.moment;
       number(number_kind::reaction, all[i], state_->reactions[i], is_force ? here_.force : here_.moment,
-             of_path, of_path, i);
+             of_path, i);
     }
   }
 
-  /// `size`: of its kind in this state, or, where that is nothing, `path_size`; `measure`: what the
-  /// certificate's tolerance is a share of; `at`: node, pair or support, from 0.
+  /// What is proved of a kind: moments of supports are among the moments.
+  [[nodiscard]] double bound_of(number_kind kind, std::size_t at) const {
+    const bool of_moment = kind == number_kind::reaction && p_.supports[at].dof != 0;
+    constexpr quantity quantities[] = {quantity::w, quantity::slope, quantity::force, quantity::reaction};
+    const quantity q = of_moment ? quantity::moment : quantities[static_cast<int>(kind)];
+    return judged_->error[q].value_or(std::numeric_limits<double>::infinity());
+  }
+
+  /// `size`: of its kind in this state, or, where that is nothing, `path_size`; `at`: node, pair or support,
+  /// from 0.
   void number(number_kind kind, double given, const rational& exactly, double size, double path_size,
-              double measure, std::size_t at) {
+              std::size_t at) {
     constexpr double promised = 1e-6;
     ++result_.values;
     const double error = std::isfinite(given) ? size_of(binary_value(given) - exactly)
                                               : std::numeric_limits<double>::infinity();
     const double relative = share(error, size > 0.0 ? size : path_size);
     worst_ = std::max(worst_, relative);
-    if (!judged_->exact) return;
+    if (!judged_->proved) return;
     const auto report = [&](int first, double amount) {
       const auto what = static_cast<fault>(first + static_cast<int>(kind));
       result_.findings.push_back({what, amount,
                                   fmt::format("step {}, number {}: {:.17g}; exactly {}", kept_->step, at + 1,
                                               given, short_words(exactly, 20))});
     };
-    if (error > judged_->tolerance * measure)
-      report(static_cast<int>(fault::outside_deflection), share(error, judged_->tolerance * measure));
-    if (relative > promised) report(static_cast<int>(fault::beyond_deflection), relative);
+    const double bound = bound_of(kind, at);
+    if (error > bound) report(static_cast<int>(fault::outside_deflection), share(error, bound));
+    if (judged_->exact && relative > promised) report(static_cast<int>(fault::beyond_deflection), relative);
   }
 
   void compare_digits() {
     constexpr double all_digits = 16.0;
-    const int claimed = digits_left(kept_->rcond);
+    const int claimed = digits_of(*judged_);
     const double there = worst_ >= 1.0  ? 0.0
                          : worst_ > 0.0 ? std::min(-std::log10(worst_), all_digits)
                                         : all_digits;
@@ -202,7 +192,6 @@ class comparing {
   }
 
   const problem& p_;
-  const linear_structure& s_;
   const exact_answer& exactly_;
   judgement& result_;
   const exact_step_end* state_ = nullptr;  // of the step that is compared, as are those below
@@ -210,16 +199,16 @@ class comparing {
   const certificate* judged_ = nullptr;
   sizes here_, seen_;
   double worst_ = 0.0;
-  double largest_deflection_ = 0.0, largest_scaled_ = 0.0, largest_length_ = 0.0;
 };
 
-path_end solve(const problem& p, const linear_structure& s, way how,
-               const std::vector<observer*>& observers) {
+path_end solve(const problem& p, const linear_structure& s, way how, const std::vector<observer*>& observers,
+               certifier& judged) {
   if (how == way::final_only)
-    return find_final_states(s, static_cast<int>(p.steps.size()), loads_of(p, s), observers);
+    return find_final_states(s, static_cast<int>(p.steps.size()), loads_of(p, s), observers,
+                             judged.refiner());
   const auto leader = outside::make_kernel(how == way::listing ? "cpp" : "corrected");
   const std::string engine(how == way::default_engine ? quickest_engine(s) : "refactor");
-  return path::follow(p, s, engine, *leader, observers, {0, fallback_to_reference(s)});
+  return path::follow(p, s, engine, *leader, observers, {0, fallback_to_reference(s), judged.refiner()});
 }
 
 /// What is wrong with how it ended; nothing where that is right.
@@ -272,17 +261,17 @@ judgement judge(const structure::problem& p, const exact_answer& exactly, way ho
     j.findings.push_back({fault::refused, 1.0, e.what()});
     return j;
   }
-  state_keeper kept;
+  state_keeper kept(p);
   digit_counter counter(p, exactly.path);
-  certifier judged(*built, loads_of(p, *built));
+  certifier judged(p, *built);
   path_end end;
   try {
-    end = solve(p, *built, how, {&kept, &counter, &judged});
+    end = solve(p, *built, how, {&kept, &counter, &judged}, judged);
   } catch (const no_factor& e) {
     j.findings.push_back({fault::refused, 1.0, e.what()});
     return j;
   }
-  comparing compared(p, *built, exactly, j);
+  comparing compared(p, exactly, j);
   for (std::size_t i = 0; i < kept.states.size(); ++i)
     if (judged.steps()[i]) compared.compare(kept.states[i], *judged.steps()[i]);
   if (how == way::listing) return j;

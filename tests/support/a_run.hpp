@@ -44,7 +44,7 @@ struct a_run {
         compared(make_lockstep(leader->facts(), std::vector<std::string>{"cpp"})),
         kept(structure, loads_of(what, structure), false, limits),
         record(&compared),
-        judged(structure, loads_of(what, structure)) {
+        judged(what, structure) {
     std::vector<observer*> watching = {&compared, &judged, &early, &kept, &record};
     watching.insert(watching.end(), more.begin(), more.end());
     end = follow(what, structure, "refactor", *leader, watching);

@@ -40,17 +40,18 @@ struct followed {
   }
 };
 
-/// Follow `p` under the corrected rule, with the oracle's help where the path cannot go on.
-inline followed follow(const random_problem& p) {
+/// Follow `p` under the corrected rule, with the oracle's help where the path cannot go on; its ends refined
+/// or not.
+inline followed follow(const random_problem& p, bool refined = true) {
   const linear_structure s = build(p.geometry, p.supports, p.pairs);
-  certifier certifies(s, [&p](int step, std::span<double> f) {
-    add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
-  });
+  const problem what = lab::as_problem(p);
+  certifier certifies(what, s);
   followed f;
   f.stride = static_cast<std::size_t>(s.dofs_per_node);
   observer* const observers[] = {&f.seen, &certifies};
   path_limits limits;
   limits.fallback = fallback_to_reference(s);
+  if (refined) limits.refine = certifies.refiner();
   f.end = follow_steps(p.geometry, s, p.steps, "refactor", *make_kernel("corrected"), observers, limits);
   f.certificates = certifies.steps();
   return f;

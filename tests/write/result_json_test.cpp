@@ -37,7 +37,7 @@ nlohmann::json result_of(const std::string& text) {
   const scratch_folder folder;
   output_file out(folder.at("result.json"));
   const linear_structure s = structure_of(p);
-  certifier judged(s, loads_of(p, s));
+  certifier judged(p, s);
   result_json json(p, {"fortran", "cpp"}, "refactor", judged, out);
   const path_end end = follow(p, s, "refactor", *leader, {&compared, &judged, &json});
   json.finish(status_name(end.status), end, &compared);

@@ -36,16 +36,30 @@ std::string worst_of(const certificate& c) {
   return "";
 }
 
+constexpr quantity force_kinds[] = {quantity::force, quantity::reaction, quantity::shear};
+
 /// The size of each kind of number in a state: forces, reactions and shears are of one kind, and moments are
 /// measured by them too.
 by_quantity sizes_of(const error_bounds& b, double span) {
   by_quantity sizes = b.size;
   double force = 0.0;
-  for (const quantity q : {quantity::force, quantity::reaction, quantity::shear})
-    force = std::max(force, b.size[q].value_or(0.0));
-  for (const quantity q : {quantity::force, quantity::reaction, quantity::shear}) sizes[q] = force;
+  for (const quantity q : force_kinds) force = std::max(force, b.size[q].value_or(0.0));
+  for (const quantity q : force_kinds) sizes[q] = force;
   sizes[quantity::moment] = std::max(b.size[quantity::moment].value_or(0.0), force * span);
   return sizes;
+}
+
+/// What measures kinds of which all numbers may be 0: slopes by deflections, forces by moments, and both by
+/// what it takes to move a settling dof alone.
+by_quantity sizes_beside(const error_bounds& b, const by_quantity& sizes, double span) {
+  by_quantity beside;
+  const double force = b.beside[quantity::force].value_or(0.0);
+  const double moment = std::max(b.beside[quantity::moment].value_or(0.0), force * span);
+  if (span > 0.0) beside[quantity::slope] = sizes[quantity::w].value_or(0.0) / span;
+  for (const quantity q : force_kinds)
+    beside[q] = span > 0.0 ? std::max(sizes[quantity::moment].value_or(0.0), moment) / span : force;
+  beside[quantity::moment] = moment;
+  return beside;
 }
 
 /// The worst of the bounds that are larger than allowed, in words.
@@ -84,8 +98,8 @@ std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) 
 
 int digits_of(const certificate& c) {
   constexpr int most = 15;
-  if (!c.proved) return digits_left(c.rcond);
-  if (!(c.shape_error < 1.0)) return 0;
+  if (!c.proof_tried) return digits_left(c.rcond);
+  if (!c.proved || !(c.shape_error < 1.0)) return 0;
   return c.shape_error > 0.0 ? std::min(most, static_cast<int>(-std::log10(c.shape_error))) : most;
 }
 
@@ -100,7 +114,7 @@ certifier::certifier(const linear_structure& s, load_history total_load)
 
 certifier::certifier(const problem& p, const linear_structure& s) : certifier(s, loads_of(p, s)) {
   problem_ = &p;
-  prover_ = std::make_unique<error_prover>(p, s);
+  if (s.stiffness.is_band()) prover_ = std::make_unique<error_prover>(p, s);
 }
 
 state_refiner certifier::refiner() {
@@ -145,22 +159,25 @@ certificate certifier::judge(const step_state& s) {
 /// What a kind of number may be off by: a share of its size here, or, where that cannot be told from 0, of
 /// what it was on the path.
 by_quantity certifier::allowed(const error_bounds& b) {
-  by_quantity sizes = sizes_of(b, prover_->span());
+  const by_quantity sizes = sizes_of(b, prover_->span());
+  const by_quantity beside = sizes_beside(b, sizes, prover_->span());
   by_quantity share;
   for (std::size_t q = 0; q < sizes.all.size(); ++q) {
     std::optional<double>& largest = largest_.all[q];
     if (sizes.all[q]) largest = std::max(largest.value_or(0.0), *sizes.all[q]);
     if (!b.error.all[q]) continue;
-    const double size = sizes.all[q].value_or(0.0);
-    const bool is_none =
-        b.unloaded || (static_cast<quantity>(q) == quantity::slope && size <= *b.error.all[q]);
-    share.all[q] = certified_share * (is_none ? largest.value_or(0.0) : size);
+    double size = sizes.all[q].value_or(0.0);
+    const bool untold = b.size.all[q].value_or(0.0) <= *b.error.all[q];  // from 0
+    const bool is_none = b.unloaded || (untold && static_cast<quantity>(q) != quantity::w);
+    if (is_none) size = std::max({size, largest.value_or(0.0), beside.all[q].value_or(0.0)});
+    share.all[q] = certified_share * size;
   }
   return share;
 }
 
 void certifier::prove(const step_state& s, certificate& c) {
   const error_bounds b = prover_->bound(handed_out_at(*problem_, s));
+  c.proof_tried = true;
   c.tolerance = certified_share;
   c.unique = b.unique;
   if (!b.not_proved.empty()) {

@@ -44,16 +44,17 @@ struct certificate {
   /// False: the state is the reference solution's own, so that comparing the two shows nothing. What is left
   /// then is equilibrium, penetration and tension.
   bool independent = true;
-  bool unique = true;      ///< false: other states are as good, so D is not compared
-  bool unfounded = false;  ///< there is no equilibrium at all
-  bool proved = false;     ///< by bounds: the two that follow
-  by_quantity error;       ///< absolute bounds on the errors of all numbers of a kind
-  by_quantity allowed;     ///< what they may reach: certified_share of the size of that kind
-  std::string problem;     ///< what is wrong, in words; empty when exact
+  bool unique = true;        ///< false: other states are as good, so D is not compared
+  bool unfounded = false;    ///< there is no equilibrium at all
+  bool proof_tried = false;  ///< of a problem's states
+  bool proved = false;       ///< by bounds: the two that follow
+  by_quantity error;         ///< absolute bounds on the errors of all numbers of a kind
+  by_quantity allowed;       ///< what they may reach: certified_share of the size of that kind
+  std::string problem;       ///< what is wrong, in words; empty when exact
 };
 
-/// Whole decimal digits that every number of a state has: as proved, or else as the condition leaves them
-/// (digits_left). At most 15.
+/// Whole decimal digits that every number of a state has, as proved: 0 where nothing is; where no proof was
+/// tried, as the condition leaves them (digits_left). At most 15.
 [[nodiscard]] int digits_of(const certificate& c);
 
 /// Observes a path and certifies the end of every step that was solved.
@@ -62,7 +63,8 @@ class certifier final : public observer {
   /// `s` and what `total_load` refers to must outlive this object.
   certifier(const linear_structure& s, load_history total_load);
 
-  /// Of a problem: every step is judged by proved bounds. `p` and `s` must outlive this object.
+  /// Of a problem: every step is judged by proved bounds, where its stiffness is stored as a band; otherwise
+  /// as above. `p` and `s` must outlive this object.
   certifier(const problem& p, const linear_structure& s);
 
   void step_ended(const step_state& s) override;

@@ -76,7 +76,7 @@ error_prover::residual error_prover::residual_of(std::span<const double_double> 
     if (deep.hi > 0.0) r.needed[p.dof] += p.stiffness * deep * p.surface;
   }
   for (std::size_t dof = 0; dof < n; ++dof) {
-    r.slack[dof] = 2 * true_rounding * r.slack[dof] + 0x1p-1000;
+    if (r.slack[dof] > 0.0) r.slack[dof] = 2 * true_rounding * r.slack[dof] + 0x1p-1000;  // of underflow
     if (true_.fixed[dof] == 0) r.force[dof] = -r.needed[dof];
   }
   return r;
@@ -342,6 +342,15 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   return numbers_of(step, u, l, isep);
 }
 
+/// Nodal loads are sizes; so is, where nothing else acts, what it takes to move one settling dof alone.
+void error_prover::measure(const true_loads& l, error_bounds& b) const {
+  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
+    const quantity q = true_.deflects[dof] != 0 ? quantity::force : quantity::moment;
+    b.size.take(q, std::abs(l.force[dof].hi));
+    b.beside.take(q, true_.root[dof] * true_.root[dof] * std::abs(l.settlement[dof].hi));
+  }
+}
+
 error_bounds error_prover::bound(const handed_out& state) {
   error_bounds b;
   if (!can_factor_) {
@@ -357,8 +366,7 @@ error_bounds error_prover::bound(const handed_out& state) {
   const long_vector u = long_displacement(state.step, state.displacement, l);
   const residual r = residual_of(u, l);
   if (!find_closed(u, r, b)) return b;
-  for (std::size_t dof = 0; dof < u.size(); ++dof)
-    b.size.take(true_.deflects[dof] != 0 ? quantity::force : quantity::moment, std::abs(l.force[dof].hi));
+  measure(l, b);
   bound_displacements(state, u, b);
   bound_forces(state, u, b);
   bound_reactions(state, r, u, b);

@@ -44,7 +44,8 @@ struct handed_out {
 struct error_bounds {
   /// The largest error that any number of a kind can have. Infinite: none is proved.
   by_quantity error;
-  by_quantity size;  ///< the largest number of a kind; of forces, loads and reactions count too
+  by_quantity size;    ///< the largest number of a kind; of forces, loads and reactions count too
+  by_quantity beside;  ///< what a kind whose numbers are all 0 is measured by: see reference/certificate.md
   /// Nothing acts, and no pair is beyond its face in the state of no displacement: that is the equilibrium.
   bool unloaded = false;
   bool unique = true;      ///< false, where nothing acts: the structure may stand elsewhere as well
@@ -85,6 +86,7 @@ class error_prover {
   [[nodiscard]] end_numbers numbers_of(int step, std::span<const double_double> u, const true_loads& l,
                                        std::span<const int> isep) const;
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
+  void measure(const true_loads& l, error_bounds& b) const;
   [[nodiscard]] bool is_unloaded(const true_loads& l) const;
   void bound_unloaded(const handed_out& state, error_bounds& b);
   [[nodiscard]] bool proves(const std::vector<int>& closed);

@@ -12,29 +12,35 @@ namespace {
 
 namespace formulas = structure::formulas;
 
+/// The points of a line, and the intervals between them, which are not differences of rounded points.
+struct line {
+  long_vector x, h;
+};
+
 /// x[i] = length i / n, where that gives these doubles; otherwise the decimals of all.
-long_vector coordinates(std::span<const double> x) {
+line line_of(std::span<const double> x) {
   const auto n = static_cast<int>(x.size()) - 1;
+  line exactly;
   for (const double length :
        {x.back(), std::nextafter(x.back(), 0.0), std::nextafter(x.back(), 2 * x.back())}) {
     bool even = length > 0.0;
     for (int i = 0; i <= n && even; ++i) even = x[i] == length * i / n;
     if (!even) continue;
-    long_vector parts;
-    for (int i = 0; i <= n; ++i) parts.push_back(decimal_of(length) * i / n);
-    return parts;
+    for (int i = 0; i <= n; ++i) exactly.x.push_back(decimal_of(length) * i / n);
+    exactly.h.assign(n, decimal_of(length) / n);
+    return exactly;
   }
-  long_vector exactly;
-  for (const double at : x) exactly.push_back(decimal_of(at));
+  for (const double at : x) exactly.x.push_back(decimal_of(at));
+  for (int i = 0; i < n; ++i) exactly.h.push_back(decimal_difference(x[i + 1], x[i]));
   return exactly;
 }
 
-long_vector tributary(const long_vector& x) {
-  long_vector lengths(x.size());
-  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    const double_double half = (x[i + 1] - x[i]) / 2;
-    lengths[i] += half;
-    lengths[i + 1] += half;
+/// Half of each interval beside a point.
+long_vector tributary(const line& l) {
+  long_vector lengths(l.x.size());
+  for (std::size_t i = 0; i < l.h.size(); ++i) {
+    lengths[i] += l.h[i] / 2;
+    lengths[i + 1] += l.h[i] / 2;
   }
   return lengths;
 }
@@ -51,14 +57,13 @@ void add_element(sparse_rows& k, const Matrix& element, const Dofs& dofs) {
 /// A structure of one kind: what the conversion of a problem asks of it.
 class true_beam {
  public:
-  explicit true_beam(const beam& b) : beam_(b), x_(coordinates(b.x)) {
-    for (std::size_t e = 0; e + 1 < x_.size(); ++e) h_.push_back(x_[e + 1] - x_[e]);
+  explicit true_beam(const beam& b) : beam_(b), line_(line_of(b.x)) {
     for (const double EI : b.EI) EI_.push_back(decimal_of(EI));
   }
 
   void assemble(sparse_rows& k) const {
-    for (std::size_t e = 0; e < h_.size(); ++e)
-      add_element(k, formulas::beam_stiffness(EI_[e], h_[e]), dofs_of(e));
+    for (std::size_t e = 0; e < line_.h.size(); ++e)
+      add_element(k, formulas::beam_stiffness(EI_[e], line_.h[e]), dofs_of(e));
   }
 
   void add_distributed(const load& l, true_loads& f) const {
@@ -66,7 +71,7 @@ class true_beam {
       const element_loads work = load_on(e, polynomial);
       for (std::size_t i = 0; i < 4; ++i) {
         f.force[2 * e + i] += work.force[i];
-        f.size[2 * e + i] += work.size * (i % 2 == 0 ? 1.0 : h_[e].hi);
+        f.size[2 * e + i] += work.size * (i % 2 == 0 ? 1.0 : line_.h[e].hi);
       }
     });
   }
@@ -74,19 +79,19 @@ class true_beam {
   /// From the rotations relative to the chord: the rigid motion of an element may be large.
   [[nodiscard]] std::vector<element_value> values(const load& l, std::span<const double_double> u) const {
     std::vector<element_value> all;
-    for (std::size_t e = 0; e < h_.size(); ++e) {
-      const double_double stiffness = 2 * EI_[e] / h_[e];
-      const double_double chord = (u[2 * e + 2] - u[2 * e]) / h_[e];
+    for (std::size_t e = 0; e < line_.h.size(); ++e) {
+      const double_double stiffness = 2 * EI_[e] / line_.h[e];
+      const double_double chord = (u[2 * e + 2] - u[2 * e]) / line_.h[e];
       const double_double left = u[2 * e + 1] - chord;
       const double_double right = u[2 * e + 3] - chord;
       const double_double m1 = stiffness * (2 * left + right);
       const double_double m2 = stiffness * (left + 2 * right);
-      const double_double v = (m1 + m2) / h_[e];
+      const double_double v = (m1 + m2) / line_.h[e];
       const double m =
           3 * stiffness.hi * (std::abs(u[2 * e + 1].hi) + std::abs(u[2 * e + 3].hi) + 2 * std::abs(chord.hi));
-      const double of_shear = std::sqrt(6 * stiffness.hi) / h_[e].hi;
+      const double of_shear = std::sqrt(6 * stiffness.hi) / line_.h[e].hi;
       const double of_moment = std::sqrt(2 * stiffness.hi);
-      const double q = 2 * m / h_[e].hi;
+      const double q = 2 * m / line_.h[e].hi;
       all.insert(all.end(), {{v, q, of_shear, false},
                              {v, q, of_shear, false},
                              {-m1, m, of_moment, true},
@@ -98,13 +103,13 @@ class true_beam {
                                                   -work.force[3]};
       for (std::size_t i = 0; i < 4; ++i) {
         all[4 * e + i].value += added[i];
-        all[4 * e + i].size += work.size * (i < 2 ? 1.0 : h_[e].hi);
+        all[4 * e + i].size += work.size * (i < 2 ? 1.0 : line_.h[e].hi);
       }
     });
     return all;
   }
 
-  [[nodiscard]] long_vector shares() const { return tributary(x_); }
+  [[nodiscard]] long_vector shares() const { return tributary(line_); }
   [[nodiscard]] double span() const { return beam_.x.back() - beam_.x.front(); }
 
  private:
@@ -115,12 +120,12 @@ class true_beam {
   [[nodiscard]] element_loads load_on(std::size_t e, std::span<const double> polynomial) const {
     long_vector q;
     double size = 0.0;
-    const double reach = std::max(std::abs(x_[e].hi), std::abs(x_[e + 1].hi));
+    const double reach = std::max(std::abs(line_.x[e].hi), std::abs(line_.x[e + 1].hi));
     for (std::size_t i = 0; i < polynomial.size(); ++i) {
       q.push_back(decimal_of(polynomial[i]));
-      size += std::abs(polynomial[i]) * std::pow(2 * reach, static_cast<double>(i)) * h_[e].hi;
+      size += std::abs(polynomial[i]) * std::pow(2 * reach, static_cast<double>(i)) * line_.h[e].hi;
     }
-    return {formulas::beam_load<double_double>(q, x_[e], h_[e]), size};
+    return {formulas::beam_load<double_double>(q, line_.x[e], line_.h[e]), size};
   }
 
   static std::array<int, 4> dofs_of(std::size_t e) {
@@ -129,13 +134,14 @@ class true_beam {
   }
 
   const beam& beam_;
-  long_vector x_, h_, EI_;
+  line line_;
+  long_vector EI_;
 };
 
 class true_plate {
  public:
   explicit true_plate(const plate& p)
-      : plate_(p), x_(coordinates(p.x)), y_(coordinates(p.y)), D_(decimal_of(p.D)), nu_(decimal_of(p.nu)) {}
+      : plate_(p), x_(line_of(p.x)), y_(line_of(p.y)), D_(decimal_of(p.D)), nu_(decimal_of(p.nu)) {}
 
   void assemble(sparse_rows& k) const {
     std::optional<halves> last;
@@ -225,7 +231,7 @@ class true_plate {
   [[nodiscard]] halves halves_of(int element) const {
     const int i = element % (plate_.columns() - 1);
     const int j = element / (plate_.columns() - 1);
-    return {(x_[i + 1] - x_[i]) / 2, (y_[j + 1] - y_[j]) / 2};
+    return {x_.h[i] / 2, y_.h[j] / 2};
   }
 
   [[nodiscard]] std::array<int, 12> dofs_of(int element) const {
@@ -237,7 +243,7 @@ class true_plate {
   }
 
   const plate& plate_;
-  long_vector x_, y_;
+  line x_, y_;
   double_double D_, nu_;
 };
 

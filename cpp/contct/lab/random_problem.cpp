@@ -268,6 +268,15 @@ verdict judge(const path_end& end, const certifier& judged, const load_history& 
 
 }  // namespace
 
+problem as_problem(const random_problem& r) {
+  problem p;
+  p.geometry = r.geometry;
+  p.supports = r.supports;
+  p.pairs = r.pairs;
+  p.steps = r.steps;
+  return p;
+}
+
 random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
                                    const random_problem_kind& kind) {
   return drawing(seed, number, kind).draw();
@@ -292,10 +301,12 @@ problem_result try_structure(const random_problem& p, const linear_structure& s,
   };
   problem_result t;
   increment_counter counted;
-  certifier judged(s, total);
+  const problem what = as_problem(p);
+  certifier judged(what, s);
   watching.insert(watching.end(), {&counted, &judged});
   path_limits limits;
   limits.fallback = fallback_to_reference(s);
+  limits.refine = judged.refiner();
   const path_end end = follow_steps(p.geometry, s, p.steps, engine, leader, watching, limits);
   for (const auto& c : judged.steps())
     if (c) t.add(*c);

@@ -37,6 +37,9 @@ struct random_problem {
   double unit = 1.0;  ///< the unit of length
 };
 
+/// As a file would have it.
+[[nodiscard]] problem as_problem(const random_problem& r);
+
 /// Problem `number` of `seed`.
 [[nodiscard]] random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
                                                  const random_problem_kind& kind = {});

@@ -93,28 +93,61 @@ inline double_double& operator*=(double_double& a, const double_double& b) {
   return n < 0 ? double_double(1.0) / power : power;
 }
 
-/// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it.
-[[nodiscard]] inline double_double decimal_of(double x) {
-  if (x == std::trunc(x) && std::abs(x) < 0x1p53) return x;
+/// The shortest decimal that reads as a finite number: digits times 10^power, at most 17 digits.
+struct decimal {
+  std::int64_t digits = 0;
+  int power = 0;
+};
+
+[[nodiscard]] inline decimal shortest_decimal(double x) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::scientific).ptr;
-  std::int64_t digits = 0;
-  int places = 0;
+  decimal d;
   bool behind_point = false;
   const char* at = text;
   for (; *at != 'e'; ++at) {
     if (*at == '.') behind_point = true;
     if (*at < '0' || *at > '9') continue;
-    digits = 10 * digits + (*at - '0');
-    places += behind_point ? 1 : 0;
+    d.digits = 10 * d.digits + (*at - '0');
+    d.power -= behind_point ? 1 : 0;
   }
   int exponent = 0;
   (void)std::from_chars(at + (at[1] == '+' ? 2 : 1), end, exponent);
-  const auto high = static_cast<double>(digits);  // up to 17 digits: two doubles
-  const double_double whole{high, static_cast<double>(digits - static_cast<std::int64_t>(high))};
-  const int power = exponent - places;
-  const double_double size = power < 0 ? whole / power_of_ten(-power) : whole * power_of_ten(power);
-  return x < 0.0 ? -size : size;
+  d.power += exponent;
+  if (x < 0.0) d.digits = -d.digits;
+  return d;
+}
+
+__extension__ using wide_integer = __int128;
+
+/// `digits` times 10^power; `digits` of up to 38 digits.
+[[nodiscard]] inline double_double scaled_by_ten(wide_integer digits, int power) {
+  const auto high = static_cast<double>(digits);
+  const double_double whole =
+      renormalized(high, static_cast<double>(digits - static_cast<wide_integer>(high)));
+  return power < 0 ? whole / power_of_ten(-power) : whole * power_of_ten(power);
+}
+
+/// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it.
+[[nodiscard]] inline double_double decimal_of(double x) {
+  if (x == std::trunc(x) && std::abs(x) < 0x1p53) return x;
+  const decimal d = shortest_decimal(x);
+  return scaled_by_ten(d.digits, d.power);
+}
+
+/// The difference of two such decimals to 2^-94 of itself, however near they are to each other.
+[[nodiscard]] inline double_double decimal_difference(double a, double b) {
+  const decimal x = shortest_decimal(a);
+  const decimal y = shortest_decimal(b);
+  constexpr int most = 20;  // powers of ten that fit beside 17 digits: further apart, nothing cancels
+  if (x.digits == 0 || y.digits == 0 || std::abs(x.power - y.power) > most)
+    return decimal_of(a) - decimal_of(b);
+  const int power = x.power < y.power ? x.power : y.power;
+  wide_integer left = x.digits;
+  wide_integer right = y.digits;
+  for (int i = power; i < x.power; ++i) left *= 10;
+  for (int i = power; i < y.power; ++i) right *= 10;
+  return scaled_by_ten(left - right, power);
 }
 
 }  // namespace contct::numeric

@@ -17,10 +17,13 @@ std::string digits_words(double error) {
   return digits >= enough ? fmt::format("{} digits or more", enough) : fmt::format("{} digits", digits);
 }
 
-/// The toggle farthest from its face, up to the end of a step, in words; nothing when all were at theirs.
-std::string worst_until(int step, const problem& p, const early_toggles& early) {
+/// The toggle farthest from its face, up to the end of a step, in words; nothing when all were at theirs, but
+/// for the rounding of the step's deflections.
+std::string worst_until(int step, const certificate& c, const problem& p, const early_toggles& early) {
+  const double deflection = c.allowed[quantity::w].value_or(0.0) / certified_share;
   const early_toggle* worst = nullptr;
   for (const early_toggle& t : early.all()) {
+    if (t.distance <= 1e-13 * deflection) continue;
     if (t.step <= step && (worst == nullptr || t.share > worst->share)) worst = &t;
   }
   if (worst == nullptr) return "";
@@ -89,7 +92,7 @@ std::vector<std::string> certificate_complaints(const problem& p, const certifie
   for (int step = 1; const auto& c : judged.steps()) {
     if (c && !c->exact)
       lines.push_back(fmt::format("step {} is not certified: {}; allowed: {:.1e}{}", step, c->problem,
-                                  c->tolerance, worst_until(step, p, early)));
+                                  c->tolerance, worst_until(step, *c, p, early)));
     ++step;
   }
   return lines;

@@ -6,10 +6,10 @@
 #include "catch.hpp"
 #include "contct/exact/exact_problem.hpp"
 #include "contct/read/problem_file.hpp"
-#include "read/bad_plates.hpp"
 
 using namespace contct::app;
 using namespace contct::certify;
+namespace exact = contct::exact;
 
 namespace {
 
@@ -62,7 +62,7 @@ TEST_CASE(
       "\"above\"\n"
       "face = 0.1\nstiffness = 1.1e9\n[[bed]]\nmodulus = 0.3\nface = -0.2\n[[step]]\nuniform = -0.7\n"
       "point = [ { node = 2, w = -0.1, theta = 0.2 }, { node = 2, w = 0.3 } ]\n"
-      "[[step]]\nload = [ { polynomial = [0.1, -0.3, 0.7], elements = [2, 3] } ]\n"
+      "[[step]]\nuniform = [ { polynomial = [0.1, -0.3, 0.7], elements = [2, 3] } ]\n"
       "settlement = [ { node = 1, w = -0.01 } ]\n",
       "b.toml");
   CHECK(compare(p) > 100);
@@ -77,8 +77,9 @@ TEST_CASE("a plate's equations are those in rational numbers, elements of every 
 }
 
 TEST_CASE("equal parts of a length are exact parts: thirds, not what doubles make of them") {
-  const true_system t = true_system_of(
-      parse_problem("[beam]\nlength = 1.0\nelements = 3\nEI = 1.0\n[[step]]\nuniform = -1.0\n", "b.toml"));
+  const problem p =
+      parse_problem("[beam]\nlength = 1.0\nelements = 3\nEI = 1.0\n[[step]]\nuniform = -1.0\n", "b.toml");
+  const true_system t = true_system_of(p);
   CHECK(off(t.k.values[0], exact::rational(12 * 27)) <= 0x1p-90 * 324);
   CHECK(off(t.loads(1).force[0], exact::rational(-1, 6)) <= 0x1p-90);
 }
@@ -89,8 +90,8 @@ TEST_CASE(
       parse_problem("[beam]\nx = [100000000, 100000000.1]\nEI = 3.0\n[[step]]\nuniform = 0.0\n", "b.toml");
   const true_system t = true_system_of(p);
   // w = 1e6 + 1e3 s + s^2 over s = 0 to 1/10
-  const long_vector u = {1e6, 1e3, double_double(1e6) + 100 + decimal_of(0.01),
-                         double_double(1e3) + decimal_of(0.2)};
+  const long_vector u = {1e6, 1e3, double_double(1e6) + 100 + contct::numeric::decimal_of(0.01),
+                         double_double(1e3) + contct::numeric::decimal_of(0.2)};
   const std::vector<element_value> v = t.element_values(1, u);
   REQUIRE(v.size() == 4);
   CHECK(off(v[0].value, 0) <= 64 * true_rounding * v[0].size);

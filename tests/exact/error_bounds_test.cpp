@@ -12,6 +12,8 @@
 
 using namespace contct::app;
 using namespace contct::certify;
+namespace exact = contct::exact;
+namespace lab = contct::lab;
 
 namespace {
 
@@ -88,6 +90,7 @@ bool certified(const error_bounds& b) {
     force = std::max(force, b.size[q].value_or(0.0));
   for (const quantity q : {quantity::force, quantity::reaction, quantity::shear})
     if (b.error[q].value_or(0.0) > certified_share * force) return false;
+  if (b.error[quantity::moment].value_or(0.0) > certified_share * 2 * force) return false;  // a span of 2
   return b.error[quantity::w].value_or(0.0) <= certified_share * b.size[quantity::w].value_or(0.0);
 }
 
@@ -123,14 +126,14 @@ struct one_end {
 }  // namespace
 
 TEST_CASE(
-    "bounds hold against exact paths of 200 random problems, refined and not, and refined ones are "
+    "bounds hold against exact paths of 40 random problems, refined and not, and refined ones are "
     "certified") {
   int steps = 0;
   int compared = 0;
   int proved = 0;
-  for (std::uint64_t number = 0; number < 200; ++number) {
-    const lab::random_problem drawn = lab::make_random_problem(17, number, {.most_elements = 8});
-    const problem p = exact::as_problem(drawn);
+  for (std::uint64_t number = 0; number < 40; ++number) {
+    const lab::random_problem drawn = lab::make_random_problem(17, number, {.most_elements = 5});
+    const problem p = lab::as_problem(drawn);
     const exact::exact_path truly = exact::follow_true_path(exact::exact_problem_of(p));
     const linear_structure s = structure_of(p);
     for (const bool refined : {true, false}) {
@@ -151,8 +154,8 @@ TEST_CASE(
       }
     }
   }
-  CHECK(steps > 500);
-  CHECK(compared > 2000);
+  CHECK(steps > 100);
+  CHECK(compared > 400);
   CHECK(2 * proved > steps * 95 / 100);
 }
 
