@@ -1,11 +1,16 @@
 // contct exact: the path in rational arithmetic, and how many digits of each kernel are right.
+#include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
 #include "contct/certify/certificate.hpp"
+#include "contct/exact/definite.hpp"
+#include "contct/exact/demand.hpp"
 #include "contct/exact/exact_problem.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/text/memory.hpp"
 #include "contct/write/exact_output.hpp"
 
 namespace contct::app {
@@ -30,6 +35,60 @@ void refuse_too_large(const problem& p, const std::string& file) {
         "{}: found {} dofs; allowed: at most {} in exact arithmetic, whose numbers grow with them. "
         "Fewer elements would do",
         file, dofs(p.geometry), most_exact_dofs));
+  const demand takes = demand_of(p);
+  if (takes.bytes() > memory_limit())
+    throw std::invalid_argument(
+        fmt::format("{}: exact arithmetic: found {}; allowed: {} (CONTCT_MEMORY_MIB in the environment sets "
+                    "another limit). "
+                    "Fewer elements, or numbers of fewer digits, would do",
+                    file, takes.words(), bytes_words(memory_limit())));
+}
+
+/// What numbers may grow to in the memory that the equations leave.
+std::size_t longest_numbers(const problem& p) {
+  return demand_of(p).bits_within(memory_limit(), lifted_solver::most_bits);
+}
+
+/// A matrix from elsewhere may be none of a structure, which the path's equations do not show. Those of beams
+/// and plates are sums of elements, each of which is semidefinite.
+void refuse_indefinite(const assembled& a, const exact_problem& p) {
+  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
+    if (p.fixed[dof] == 0 && p.stiffness[dof].at(static_cast<int>(dof)) == 0)
+      throw std::invalid_argument(
+          fmt::format("{}: dof {}: found no stiffness and no support; allowed: a positive entry on the "
+                      "diagonal, or a support",
+                      a.name, a.label_of(static_cast<int>(dof))));
+  const std::optional<negative_work> shown = [&] {
+    try {
+      return find_negative_work(p.stiffness, p.fixed, p.place, memory_limit());
+    } catch (const std::runtime_error& e) {
+      throw std::invalid_argument(fmt::format("{}: {}", a.name, e.what()));
+    }
+  }();
+  if (!shown) return;
+  const auto largest = std::ranges::max_element(
+      shown->motion, [](const rational& x, const rational& y) { return abs(x) < abs(y); });
+  const rational size = abs(*largest);
+  throw std::invalid_argument(fmt::format(
+      "{}: not positive semidefinite: found work {} on a displacement whose largest, 1, is at dof {}, in "
+      "exact "
+      "arithmetic; allowed: 0 or more on every displacement that supports leave. Rounded entries can make a "
+      "matrix so, as those of a body that nothing holds",
+      a.name, short_words(shown->work / (size * size), 6),
+      a.label_of(static_cast<int>(largest - shown->motion.begin()))));
+}
+
+exact_problem exactly_read(const problem& p, const std::string& file) {
+  exact_problem e = [&] {
+    try {
+      return exact_problem_of(p);
+    } catch (const std::invalid_argument& wrong) {
+      throw std::invalid_argument(fmt::format("{}: {}", file, wrong.what()));
+    }
+  }();
+  e.longest = longest_numbers(p);
+  if (const auto* const a = std::get_if<assembled>(&p.geometry.kind)) refuse_indefinite(*a, e);
+  return e;
 }
 
 exact_path follow_exactly(const exact_problem& p, const exact_options& o) {
@@ -44,7 +103,7 @@ exact_path follow_exactly(const exact_problem& p, const exact_options& o) {
     throw std::invalid_argument(
         fmt::format("{}: exact numbers became too long: found {}; allowed: at most {} bits. Numbers of fewer "
                     "digits, or fewer elements, would help",
-                    o.file, e.what(), lifted_solver::most_bits));
+                    o.file, e.what(), p.longest));
   } catch (const std::runtime_error& e) {
     throw std::invalid_argument(fmt::format("{}: {}", o.file, e.what()));
   }
@@ -56,12 +115,10 @@ exit_status run_command(const exact_options& options) {
   for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
   const std::vector<output_option> outputs = {{"--json", options.json}};
   refuse_shared_outputs(outputs, {{"the problem", options.file}});
-  const problem p = read_with_progress(options.file, options.quiet);
+  const problem p = read_with_progress(options.file, options.quiet, literals::kept);
   refuse_too_large(p, options.file);
-  // The equations that are solved here do not show whether a matrix is indefinite: its structure is refused.
-  if (std::holds_alternative<assembled>(p.geometry.kind)) (void)build_with_progress(p, options.quiet);
+  const exact_problem exactly = exactly_read(p, options.file);
   const output_files files(outputs);
-  const exact_problem exactly = exact_problem_of(p);
   const exact_path path = follow_exactly(exactly, options);
 
   std::vector<kernel_digits> kernels;

@@ -76,10 +76,10 @@ std::string chosen_engine(const std::string& name, const linear_structure& s) {
   return name == "auto" ? std::string(quickest_engine(s)) : name;
 }
 
-problem read_with_progress(const std::string& file, bool quiet) {
+problem read_with_progress(const std::string& file, bool quiet, literals keep) {
   problem p = [&] {
     const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
-    return read_problem(file);
+    return read_problem(file, keep);
   }();
   for (const std::string& w : p.warnings) complain("warning: {}", w);
   return p;

@@ -1,35 +1,48 @@
 #include "contct/exact/exact_problem.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "contct/exact/elements.hpp"
 
 namespace contct::exact {
 namespace {
 
-/// x[i] = length i / n, where that gives these doubles: what the reader makes of `length` and `elements`.
-std::optional<vector> even_parts(std::span<const double> x, const exact_values& values) {
-  const auto n = static_cast<int>(x.size()) - 1;
-  for (const double length :
-       {x.back(), std::nextafter(x.back(), 0.0), std::nextafter(x.back(), 2 * x.back())}) {
-    bool even = length > 0.0;
-    for (int i = 0; i <= n && even; ++i) even = x[static_cast<std::size_t>(i)] == length * i / n;
-    if (!even) continue;
-    vector parts;
-    for (int i = 0; i <= n; ++i) parts.push_back(values.of(length) * i / n);
-    return parts;
+/// As the file has them: equal parts of its lengths where it gives lengths, otherwise number by number.
+vector coordinates(std::span<const double> x, std::span<const even_run> runs, const exact_values& values) {
+  vector exactly;
+  if (runs.empty())
+    for (const double at : x) exactly.push_back(values.of(at));
+  else
+    exactly.push_back(values.of(x.front()));
+  for (const even_run& run : runs) {
+    const rational start = exactly.back();
+    const rational length = values.of(run.end) - start;
+    for (int i = 1; i <= run.elements; ++i) exactly.emplace_back(start + length * i / run.elements);
   }
-  return std::nullopt;
+  return exactly;
 }
 
-vector coordinates(std::span<const double> x, const exact_values& values) {
-  if (std::optional<vector> even = even_parts(x, values)) return *even;
-  vector exactly;
-  for (const double at : x) exactly.push_back(values.of(at));
-  return exactly;
+/// a0 + a1 x + a2 x^2 + ..
+rational polynomial_value(std::span<const double> coefficients, const rational& x,
+                          const exact_values& values) {
+  rational sum;
+  for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + values.of(coefficients[i]);
+  return sum;
+}
+
+/// The sums of the parts of a distributed load, from the constant on.
+vector summed_parts(std::span<const double> polynomial, std::span<const std::vector<double>> parts,
+                    const exact_values& values) {
+  vector sum(polynomial.size());
+  const auto add = [&](std::span<const double> part) {
+    for (std::size_t i = 0; i < part.size(); ++i) sum[i] += values.of(part[i]);
+  };
+  if (parts.empty()) add(polynomial);
+  for (const std::vector<double>& part : parts) add(part);
+  return sum;
 }
 
 /// Half of each interval beside a point of a line.
@@ -43,6 +56,16 @@ vector tributary(const vector& x) {
   return lengths;
 }
 
+/// Call visit(element, polynomial) for every element that a distributed load acts on.
+template <class Visit>
+void for_each_exact_load(const load& l, int elements, const exact_values& values, const Visit& visit) {
+  for (const distributed_load& d : l.distributed) {
+    const vector q = summed_parts(d.polynomial, d.parts, values);
+    for (const int i : d.elements) visit(i, q);
+    for (int i = 0; d.elements.empty() && i < elements; ++i) visit(i, q);
+  }
+}
+
 template <class Matrix, class Dofs>
 void add_element(sparse_rows& k, const Matrix& element, const Dofs& dofs) {
   for (std::size_t i = 0; i < dofs.size(); ++i)
@@ -54,7 +77,7 @@ void add_element(sparse_rows& k, const Matrix& element, const Dofs& dofs) {
 class exact_beam {
  public:
   exact_beam(const beam& b, const exact_values& values)
-      : beam_(b), values_(values), x_(coordinates(b.x, values)) {}
+      : beam_(b), values_(values), x_(coordinates(b.x, b.runs, values)) {}
 
   void assemble(exact_problem& e) const {
     for (int i = 0; i < beam_.elements(); ++i) {
@@ -67,16 +90,19 @@ class exact_beam {
   }
 
   void add_distributed(const load& l, vector& f) const {
-    for_each_loaded_element(l, beam_.elements(), [&](int i, std::span<const double> polynomial) {
+    for_each_exact_load(l, beam_.elements(), values_, [&](int i, const vector& q) {
       const auto at = static_cast<std::size_t>(i);
-      vector q;
-      for (const double a : polynomial) q.push_back(values_.of(a));
       const std::array<rational, 4> work = beam_load(q, x_[at], x_[at + 1] - x_[at]);
       for (std::size_t k = 0; k < 4; ++k) f[2 * at + k] += work[k];
     });
   }
 
   [[nodiscard]] vector shares() const { return tributary(x_); }
+
+  /// The face that is such a polynomial in x.
+  [[nodiscard]] rational face_at(int node, std::span<const double> polynomial) const {
+    return polynomial_value(polynomial, x_[static_cast<std::size_t>(node)], values_);
+  }
 
  private:
   static std::array<int, 4> dofs_of(int i) { return {2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3}; }
@@ -89,13 +115,17 @@ class exact_beam {
 class exact_plate {
  public:
   exact_plate(const plate& p, const exact_values& values)
-      : plate_(p), values_(values), x_(coordinates(p.x, values)), y_(coordinates(p.y, values)) {}
+      : plate_(p),
+        values_(values),
+        x_(coordinates(p.x, p.x_runs, values)),
+        y_(coordinates(p.y, p.y_runs, values)) {}
 
   void assemble(exact_problem& e) const {
+    const rational nu = values_.of(plate_.nu);
+    const rational D = bending_stiffness_of(nu);
     for (int i = 0; i < plate_.elements(); ++i) {
       const auto [a, b] = halves_of(i);
-      add_element(e.stiffness, plate_stiffness(a, b, values_.of(plate_.D), values_.of(plate_.nu)),
-                  dofs_of(i));
+      add_element(e.stiffness, plate_stiffness(a, b, D, nu), dofs_of(i));
     }
     const bool along_y = plate_.columns() > plate_.rows();  // numbered along the shorter side
     for (int j = 0; j < plate_.rows(); ++j)
@@ -108,12 +138,11 @@ class exact_plate {
   }
 
   void add_distributed(const load& l, vector& f) const {
-    for_each_loaded_element(l, plate_.elements(), [&](int i, std::span<const double> polynomial) {
+    for_each_exact_load(l, plate_.elements(), values_, [&](int i, const vector& q) {
       const auto [a, b] = halves_of(i);
       const vector12 unit = plate_unit_load(a, b);
       const std::array<int, 12> dofs = dofs_of(i);
-      for (std::size_t k = 0; k < 12; ++k)
-        f[static_cast<std::size_t>(dofs[k])] += values_.of(polynomial[0]) * unit[k];
+      for (std::size_t k = 0; k < 12; ++k) f[static_cast<std::size_t>(dofs[k])] += q[0] * unit[k];
     });
   }
 
@@ -124,7 +153,15 @@ class exact_plate {
     return areas;
   }
 
+  [[nodiscard]] rational face_at(int /*node*/, std::span<const double> /*polynomial*/) const { return 0; }
+
  private:
+  [[nodiscard]] rational bending_stiffness_of(const rational& nu) const {
+    if (plate_.E == 0) return values_.of(plate_.D);
+    const rational t = values_.of(plate_.thickness);
+    return values_.of(plate_.E) * t * t * t / (12 * (1 - nu * nu));
+  }
+
   [[nodiscard]] std::pair<rational, rational> halves_of(int element) const {
     const auto i = static_cast<std::size_t>(element % (plate_.columns() - 1));
     const auto j = static_cast<std::size_t>(element / (plate_.columns() - 1));
@@ -144,13 +181,19 @@ class exact_plate {
   vector x_, y_;
 };
 
+/// A number of a file of its own: its literals are kept where they stand.
+rational written_or_shortest(std::span<const std::string> written, std::size_t i, double value) {
+  return i < written.size() && !written[i].empty() ? number_written(written[i]) : decimal_of(value);
+}
+
 class exact_matrix {
  public:
-  exact_matrix(const assembled& a, const exact_values& values) : assembled_(a), values_(values) {}
+  explicit exact_matrix(const assembled& a) : assembled_(a) {}
 
   void assemble(exact_problem& e) const {
-    for (const matrix_entry& m : assembled_.stiffness.entries) {
-      const rational value = values_.of(m.value);
+    for (std::size_t i = 0; i < assembled_.stiffness.entries.size(); ++i) {
+      const matrix_entry& m = assembled_.stiffness.entries[i];
+      const rational value = written_or_shortest(assembled_.written, i, m.value);
       e.stiffness[static_cast<std::size_t>(m.row)][m.column] += value;
       if (m.row != m.column) e.stiffness[static_cast<std::size_t>(m.column)][m.row] += value;
     }
@@ -166,10 +209,10 @@ class exact_matrix {
 
   /// No [[bed]] can be on a matrix.
   [[nodiscard]] vector shares() const { return vector(assembled_.stiffness.order); }
+  [[nodiscard]] rational face_at(int /*node*/, std::span<const double> /*polynomial*/) const { return 0; }
 
  private:
   const assembled& assembled_;
-  const exact_values& values_;
 };
 
 exact_beam exactly(const beam& b, const exact_values& values) {
@@ -178,8 +221,8 @@ exact_beam exactly(const beam& b, const exact_values& values) {
 exact_plate exactly(const plate& p, const exact_values& values) {
   return {p, values};
 }
-exact_matrix exactly(const assembled& a, const exact_values& values) {
-  return {a, values};
+exact_matrix exactly(const assembled& a, const exact_values& /*values*/) {
+  return exact_matrix(a);
 }
 
 /// Elastic supports go into the stiffness.
@@ -193,6 +236,24 @@ void put_on_supports(const problem& p, const exact_values& values, exact_problem
   }
 }
 
+/// Pairs of a bed whose faces are a polynomial: in contact where the exact face is 0, unless the file says
+/// otherwise.
+template <class Kind>
+void put_on_polynomial(const problem& p, const bed& b, const Kind& kind, exact_problem& e) {
+  for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i) {
+    exact_pair& c = e.pairs[i];
+    c.face = kind.face_at(p.pairs[i].node, b.face);
+    if (c.surface * c.face < 0 || (b.closed == true && c.face != 0))
+      throw std::invalid_argument(
+          "pair " + std::to_string(i + 1) + " of a [[bed]], at " + place_words(p.geometry, p.pairs[i].node) +
+          ": found the face " + short_words(c.face, 20) +
+          " by its polynomial in exact arithmetic, where doubles have " +
+          short_words(decimal_of(p.pairs[i].face), 20) +
+          "; allowed: a face at 0 or on the pair's side of it, and at 0 for state = \"contact\"");
+    c.closed = b.closed.value_or(c.face == 0);
+  }
+}
+
 template <class Kind>
 void add_pairs(const problem& p, const Kind& kind, const exact_values& values, exact_problem& e) {
   for (const contact_pair& c : p.pairs)
@@ -203,6 +264,7 @@ void add_pairs(const problem& p, const Kind& kind, const exact_values& values, e
   for (const bed& b : p.beds) {
     for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
       e.pairs[i].stiffness = values.of(b.modulus) * shares[static_cast<std::size_t>(p.pairs[i].node)];
+    if (!b.face.empty()) put_on_polynomial(p, b, kind, e);
   }
 }
 
@@ -211,8 +273,11 @@ void add_step(const problem& p, const load& l, const Kind& kind, const exact_val
               exact_problem& e) {
   const int per_node = dofs_per_node(p.geometry);
   exact_step step{vector(e.dofs()), vector(e.dofs())};
-  for (const point_load& q : l.points)
-    step.load[static_cast<std::size_t>(q.node * per_node + q.dof)] += values.of(q.value);
+  for (std::size_t i = 0; i < l.points.size(); ++i) {
+    const point_load& q = l.points[i];
+    step.load[static_cast<std::size_t>(q.node * per_node + q.dof)] +=
+        i < l.written.size() ? written_or_shortest(l.written, i, q.value) : values.of(q.value);
+  }
   kind.add_distributed(l, step.load);
   for (const prescribed_displacement& g : l.settlements)
     step.settlement[static_cast<std::size_t>(g.node * per_node + g.dof)] += values.of(g.value);
@@ -221,7 +286,9 @@ void add_step(const problem& p, const load& l, const Kind& kind, const exact_val
 
 }  // namespace
 
-exact_problem exact_problem_of(const problem& p, const exact_values& values) {
+exact_problem exact_problem_of(const problem& p, const exact_values& given) {
+  exact_values values = given;
+  for (const written_number& w : p.written) values.meant.try_emplace(w.value, number_written(w.literal));
   exact_problem e;
   e.fixed.assign(static_cast<std::size_t>(dofs(p.geometry)), 0);
   e.stiffness.resize(e.fixed.size());

@@ -45,12 +45,17 @@ struct exact_problem {
   /// beams and plates w at the ends or corners, as the corrected rule in doubles.
   std::vector<added_spring> ground;
 
+  /// The longest that numbers of its path may become, in bits.
+  std::size_t longest = lifted_solver::most_bits;
+
   [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
 };
 
-/// `values` gives the numbers whose doubles do not say what they are. Coordinates that divide a length
-/// evenly, as `length` and `elements` in a file do, are taken for exact parts of it. The stiffness of a bed's
-/// pair is its modulus times an exact share of the structure.
+/// Every number is the literal that the problem has kept for it, otherwise the shortest decimal of its
+/// double. `values` gives other numbers, but not those of matrices and load vectors. Coordinates that the
+/// problem has as runs of equal parts are exact parts. The stiffness of a bed's pair is its modulus times an
+/// exact share of the structure, its face that of the exact polynomial, and a plate's D comes from E, nu and
+/// thickness exactly. Throws std::invalid_argument where a face by a polynomial is inside the structure.
 [[nodiscard]] exact_problem exact_problem_of(const problem& p, const exact_values& values = {});
 
 }  // namespace contct::exact

@@ -8,7 +8,7 @@ namespace contct::exact {
 position::position(const exact_problem& p)
     : problem(p),
       u(p.dofs()),
-      solver_(p.stiffness, p.fixed, p.place),
+      solver_(p.stiffness, p.fixed, p.place, p.longest),
       before_{vector(p.dofs()), vector(p.dofs())} {
   for (const exact_pair& c : p.pairs) closed.push_back(c.closed ? 1 : 0);
 }

@@ -5,7 +5,10 @@
 #include <cfloat>
 #include <charconv>
 #include <cmath>
-#include <string_view>
+#include <cstdlib>
+#include <optional>
+
+#include "contct/text/decimal.hpp"
 
 namespace contct::exact {
 namespace {
@@ -28,6 +31,11 @@ rational ten_to(int exponent) {
 rational two_to(int exponent) {
   const integer power = power_of(2, static_cast<unsigned>(std::abs(exponent)));
   return exponent < 0 ? rational(integer(1), power) : rational(power);
+}
+
+rational value_of(const decimal& d) {
+  const rational size = rational(integer(d.digits)) * ten_to(static_cast<int>(d.exponent));
+  return d.negative ? rational(-size) : size;
 }
 
 /// The exponent of the leading digit of x > 0: 10^e <= x < 10^(e + 1).
@@ -55,19 +63,17 @@ std::string decimal_words(std::string digits, int exponent) {
 }  // namespace
 
 rational decimal_of(double x) {
-  std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
-  const std::string_view written(text.data(), static_cast<std::size_t>(end.ptr - text.data()));
-  const std::size_t e = written.find('e');
-  std::string digits(written.substr(0, e));
-  int exponent = 0;
-  const char* const first = written.data() + e + (written[e + 1] == '+' ? 2 : 1);
-  std::from_chars(first, end.ptr, exponent);
-  if (const std::size_t point = digits.find('.'); point != std::string::npos) {
-    exponent -= static_cast<int>(digits.size() - point - 1);
-    digits.erase(point, 1);
-  }
-  return rational(integer(digits)) * ten_to(exponent);
+  return value_of(shortest_decimal(x));
+}
+
+rational number_written(std::string_view literal) {
+  constexpr std::int64_t most = 10'000;
+  const std::optional<decimal> d = decimal_in(literal);
+  if (!d) throw std::invalid_argument("no decimal number: " + std::string(literal));
+  if (std::abs(d->exponent) > most || d->digits.size() > most)
+    throw too_long("a literal of that many digits, or of such an exponent: " +
+                   std::string(literal.substr(0, 40)));
+  return value_of(*d);
 }
 
 rational binary_value(double x) {

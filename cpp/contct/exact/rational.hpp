@@ -11,6 +11,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "contct/rooms.hpp"
 
@@ -35,6 +36,10 @@ struct too_long : std::runtime_error {
 /// The shortest decimal that reads as `x`: 0.1 is 1/10. This is the literal itself, where that has at most 15
 /// digits. `x` is finite.
 [[nodiscard]] rational decimal_of(double x);
+
+/// What a literal says, digit by digit; see text::decimal_in. Throws std::invalid_argument for one that is no
+/// decimal, and too_long for one that no double comes near.
+[[nodiscard]] rational number_written(std::string_view literal);
 
 /// Exact values of doubles whose shortest decimal is not the number meant.
 struct exact_values {

@@ -94,15 +94,15 @@ inline double_double& operator*=(double_double& a, const double_double& b) {
 }
 
 /// The shortest decimal that reads as a finite number: digits times 10^power, at most 17 digits.
-struct decimal {
+struct short_decimal {
   std::int64_t digits = 0;
   int power = 0;
 };
 
-[[nodiscard]] inline decimal shortest_decimal(double x) {
+[[nodiscard]] inline short_decimal shortest_decimal(double x) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::scientific).ptr;
-  decimal d;
+  short_decimal d;
   bool behind_point = false;
   const char* at = text;
   for (; *at != 'e'; ++at) {
@@ -131,14 +131,14 @@ __extension__ using wide_integer = __int128;
 /// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it.
 [[nodiscard]] inline double_double decimal_of(double x) {
   if (x == std::trunc(x) && std::abs(x) < 0x1p53) return x;
-  const decimal d = shortest_decimal(x);
+  const short_decimal d = shortest_decimal(x);
   return scaled_by_ten(d.digits, d.power);
 }
 
 /// The difference of two such decimals to 2^-94 of itself, however near they are to each other.
 [[nodiscard]] inline double_double decimal_difference(double a, double b) {
-  const decimal x = shortest_decimal(a);
-  const decimal y = shortest_decimal(b);
+  const short_decimal x = shortest_decimal(a);
+  const short_decimal y = shortest_decimal(b);
   constexpr int most = 20;  // powers of ten that fit beside 17 digits: further apart, nothing cancels
   if (x.digits == 0 || y.digits == 0 || std::abs(x.power - y.power) > most)
     return decimal_of(a) - decimal_of(b);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "contct/text/decimal.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct::read {
@@ -21,6 +22,33 @@ struct read_entry {
   int row, column;
   double value;
   std::int64_t line;
+};
+
+/// Literals that are not the shortest decimals of their values, by their lines; only where asked for.
+class kept_literals {
+ public:
+  explicit kept_literals(const std::vector<std::string>* wanted) : wanted_(wanted != nullptr) {}
+
+  /// Field `i` of the line, which reads as `value`.
+  void take(const field_lines& lines, std::size_t i, double value) {
+    if (!wanted_ || is_shortest(lines.field(i), value)) return;
+    if (lines.field(i).size() > most_literal_digits)
+      lines.refuse(fmt::format("a number of {} characters", lines.field(i).size()),
+                   fmt::format("at most {} in exact arithmetic", most_literal_digits));
+    literals_.emplace(lines.line(), lines.field(i));
+  }
+
+  /// That of a line; empty where the shortest decimal is it.
+  [[nodiscard]] std::string of_line(std::int64_t line) const {
+    const auto found = literals_.find(line);
+    return found == literals_.end() ? std::string() : found->second;
+  }
+
+  [[nodiscard]] bool any() const { return !literals_.empty(); }
+
+ private:
+  bool wanted_;
+  std::unordered_map<std::int64_t, std::string> literals_;
 };
 
 /// By columns, and by rows in each. Columns are counted first, so that the whole is linear.
@@ -70,7 +98,8 @@ void refuse_indefinite(const std::vector<read_entry>& entries, int order, std::s
 }
 
 /// The matrix, without entries that are 0. Linear in the entries.
-sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file) {
+sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file,
+                        const kept_literals& kept, std::vector<std::string>* written) {
   // Before anything of the order's size is allocated: it is only what a line declares.
   if (order > static_cast<std::int64_t>(entries.size()))
     refuse_line(file, 0, fmt::format("{} rows and {} entries", order, entries.size()),
@@ -79,8 +108,11 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   refuse_repeated(entries, file);
   refuse_indefinite(entries, order, file);
   sparse_matrix matrix{order, {}};
-  for (const read_entry& e : entries)
-    if (e.value != 0) matrix.entries.push_back({e.row, e.column, e.value});
+  for (const read_entry& e : entries) {
+    if (e.value == 0) continue;
+    matrix.entries.push_back({e.row, e.column, e.value});
+    if (kept.any()) written->push_back(kept.of_line(e.line));
+  }
   return matrix;
 }
 
@@ -113,10 +145,11 @@ void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed
 }
 
 /// The line "row column value", from 1 in the file and from 0 in the answer; `what` the value is.
-read_entry entry_in(const field_lines& lines, int rows, int columns, std::string_view what) {
+read_entry entry_in(const field_lines& lines, int rows, int columns, std::string_view what,
+                    bool fortran = false) {
   lines.expect(3, "row, column and value");
   return {lines.whole(0, 1, rows, "the row") - 1, lines.whole(1, 1, columns, "the column") - 1,
-          lines.real(2, what), lines.line()};
+          lines.real(2, what, fortran), lines.line()};
 }
 
 /// Call `read` at each line behind the line of the size, which says how many there are.
@@ -156,7 +189,8 @@ std::size_t fields_before_comment(const field_lines& lines) {
 
 }  // namespace
 
-sparse_matrix parse_symmetric(std::string_view text, std::string_view file) {
+sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
+                              std::vector<std::string>* written) {
   field_lines lines(text, file);
   (void)read_header(lines, "symmetric", false);
   go_to_size(lines, 3, "rows, columns and the number of entries");
@@ -165,6 +199,7 @@ sparse_matrix parse_symmetric(std::string_view text, std::string_view file) {
   if (rows != columns) lines.refuse(fmt::format("{} rows and {} columns", rows, columns), "a square matrix");
   const int said = lines.whole(2, 1, most_entries, "the number of entries");
   std::vector<read_entry> entries;
+  kept_literals kept(written);
   // The declared entry count alone is not used to allocate memory.
   entries.reserve(std::min<std::size_t>(said, lines.rest().size() / least_bytes_of_entry + 1));
   read_lines(lines, said, "entries than that", [&] {
@@ -172,26 +207,31 @@ sparse_matrix parse_symmetric(std::string_view text, std::string_view file) {
     if (e.row < e.column)
       lines.refuse(fmt::format("row {} and column {}, above the diagonal", e.row + 1, e.column + 1),
                    "the lower triangle, row >= column: what symmetric means in this format");
+    kept.take(lines, 2, e.value);
     entries.push_back(e);
   });
-  return matrix_of(std::move(entries), rows, file);
+  return matrix_of(std::move(entries), rows, file, kept, written);
 }
 
-sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view file, int rows) {
+sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view file, int rows,
+                                       std::vector<std::string>* written) {
   field_lines lines(text, file);
   std::vector<read_entry> entries;
+  kept_literals kept(written);
   while (lines.next()) {
-    read_entry e = entry_in(lines, rows, rows, "an entry");
+    read_entry e = entry_in(lines, rows, rows, "an entry", true);
+    kept.take(lines, 2, e.value);
     if (e.row > e.column)
       lines.refuse(fmt::format("row {} and column {}, below the diagonal", e.row + 1, e.column + 1),
                    "the upper triangle, row <= column, as CalculiX writes it");
     std::swap(e.row, e.column);
     entries.push_back(e);
   }
-  return matrix_of(std::move(entries), rows, file);
+  return matrix_of(std::move(entries), rows, file, kept, written);
 }
 
-std::vector<double> parse_vector(std::string_view text, std::string_view file, int rows) {
+std::vector<double> parse_vector(std::string_view text, std::string_view file, int rows,
+                                 std::vector<std::string>* written) {
   field_lines lines(text, file);
   const bool array = read_header(lines, "general", true);
   go_to_size(lines, array ? 2 : 3, array ? "rows and columns" : "rows, columns and the number of entries");
@@ -199,10 +239,19 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
     lines.refuse(fmt::format("{} rows", lines.field(0)), fmt::format("{}, as the matrix has", rows));
   (void)lines.whole(1, 1, 1, "the columns");
   std::vector<double> values;
+  // Before the next line is read: a row may be anywhere in the file.
+  const auto keep = [&](std::size_t row, std::size_t field, double value) {
+    kept_literals kept(written);
+    kept.take(lines, field, value);
+    if (!kept.any()) return;
+    written->resize(static_cast<std::size_t>(rows));
+    (*written)[row] = kept.of_line(lines.line());
+  };
   if (array) {
     read_lines(lines, rows, "numbers than rows", [&] {
       lines.expect(1, "one number a line");
       values.push_back(lines.real(0, "a load"));
+      keep(values.size() - 1, 0, values.back());
     });
     return values;
   }
@@ -215,6 +264,7 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
                    "each row once");
     line_of[e.row] = e.line;
     values[e.row] = e.value;
+    keep(static_cast<std::size_t>(e.row), 2, e.value);
   });
   return values;
 }

@@ -85,8 +85,14 @@ int coordinate_row::index_of(const table_reader& t, const toml::node& entry, std
                        named(right), remedy));
 }
 
-std::vector<double> sized_mesh(const table_reader& t, const table_reader& top,
-                               const std::vector<double>& ends) {
+mesh_line even_line(double length, int elements) {
+  mesh_line line{{}, {{length, elements}}};
+  line.x.reserve(elements + std::size_t{1});
+  for (int i = 0; i <= elements; ++i) line.x.push_back(length * i / elements);
+  return line;
+}
+
+mesh_line sized_mesh(const table_reader& t, const table_reader& top, const std::vector<double>& ends) {
   const double size = t.real("element_size", positive_real);
   const std::vector<double> corners = corners_of_mesh(ends, named_coordinates(t, top));
   // The quotient of a length of 0.9 and a size of 0.3 is rounded to more than 3.
@@ -99,14 +105,16 @@ std::vector<double> sized_mesh(const table_reader& t, const table_reader& top,
     t.refuse_key("element_size", fmt::format("{:g}, which makes {:.10g} elements", size, elements),
                  fmt::format("a length that makes at most {} elements", most_elements));
   const double same = rounding_of(ends);
-  std::vector<double> x = {corners.front()};
+  mesh_line line{{corners.front()}, {}};
   for (std::size_t i = 1; i < corners.size(); ++i) {
     const double left = corners[i - 1];
     const auto count = static_cast<int>(elements_between(i));
-    for (int k = 1; k < count; ++k) x.push_back(as_written(left + (corners[i] - left) * k / count, same));
-    x.push_back(corners[i]);
+    for (int k = 1; k < count; ++k)
+      line.x.push_back(as_written(left + (corners[i] - left) * k / count, same));
+    line.x.push_back(corners[i]);
+    line.runs.push_back({corners[i], count});
   }
-  return x;
+  return line;
 }
 
 }  // namespace contct::read

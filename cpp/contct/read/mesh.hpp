@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contct/read/toml_reader.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::read {
 
@@ -37,10 +38,19 @@ struct coordinate_row {
 /// Is EI in the beam's table a list of pieces, each up to the x that it names?
 [[nodiscard]] bool has_pieces(const table_reader& beam);
 
+/// Coordinates, and what they are made of.
+struct mesh_line {
+  std::vector<double> x;
+  std::vector<even_run> runs;
+};
+
+/// A line from 0 to `length`, in so many equal parts.
+[[nodiscard]] mesh_line even_line(double length, int elements);
+
 /// The nodes of a beam with `element_size` in its table `t`: at the coordinates `ends`, which rise, and at
 /// every x that a table of the document `top` names between them, and elements of equal length between each
 /// two of these, none longer than that.
-[[nodiscard]] std::vector<double> sized_mesh(const table_reader& t, const table_reader& top,
-                                             const std::vector<double>& ends);
+[[nodiscard]] mesh_line sized_mesh(const table_reader& t, const table_reader& top,
+                                   const std::vector<double>& ends);
 
 }  // namespace contct::read

@@ -1,20 +1,19 @@
 #include "contct/read/model_tables.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <limits>
+#include <utility>
 
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/matrix_places.hpp"
 #include "contct/read/mesh.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/text/memory.hpp"
 
 namespace contct::read {
 namespace {
@@ -32,13 +31,6 @@ std::vector<double> read_coordinates(const table_reader& t, const char* key, con
     t.refuse(entry, indexed(key, i), found_words(entry),
              fmt::format("more than the {} before it, {}", what, x[i - 1]));
   }
-  return x;
-}
-
-std::vector<double> even_coordinates(double length, int elements) {
-  std::vector<double> x;
-  x.reserve(elements + 1);
-  for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);
   return x;
 }
 
@@ -83,23 +75,26 @@ void check_elements(const table_reader& t, const beam& b) {
 }
 
 /// With element_size, the coordinates that the table gives are some of the nodes'.
-std::vector<double> read_nodes(const table_reader& t, const table_reader& top) {
+mesh_line read_nodes(const table_reader& t, const table_reader& top) {
   if (t.has("x")) t.refuse_beside({"length", "elements"}, "x", "either x, or length and elements");
   if (t.has("element_size")) t.refuse_beside({"elements"}, "element_size", "either elements or element_size");
   if (!t.has("x") && !t.has("element_size")) {
     const double length = t.real("length", positive_real);
     (void)t.required("elements", fmt::format("a whole number from 1 to {}, or element_size", most_elements));
-    return even_coordinates(length, t.integer("elements", 1, most_elements));
+    return even_line(length, t.integer("elements", 1, most_elements));
   }
-  const std::vector<double> given = t.has("x") ? read_coordinates(t, "x", "node")
-                                               : std::vector<double>{0.0, t.real("length", positive_real)};
-  return t.has("element_size") ? sized_mesh(t, top, given) : given;
+  std::vector<double> given = t.has("x") ? read_coordinates(t, "x", "node")
+                                         : std::vector<double>{0.0, t.real("length", positive_real)};
+  if (t.has("element_size")) return sized_mesh(t, top, given);
+  return {std::move(given), {}};
 }
 
 beam read_beam(const table_reader& t, const table_reader& top) {
   t.allow_only({"x", "length", "elements", "element_size", "EI"});
   beam b;
-  b.x = read_nodes(t, top);
+  mesh_line line = read_nodes(t, top);
+  b.x = std::move(line.x);
+  b.runs = std::move(line.runs);
   read_stiffness(t, b);
   check_elements(t, b);
   return b;
@@ -141,8 +136,12 @@ void read_grid(const table_reader& t, plate& p) {
   if (size.size() != 2) t.refuse_key("size", "two numbers: along x, along y");
   const std::vector<int> counts = read_counts(t);
   check_size(t, counts[0], counts[1]);
-  p.x = even_coordinates(size[0], counts[0]);
-  p.y = even_coordinates(size[1], counts[1]);
+  mesh_line along_x = even_line(size[0], counts[0]);
+  mesh_line along_y = even_line(size[1], counts[1]);
+  p.x = std::move(along_x.x);
+  p.y = std::move(along_y.x);
+  p.x_runs = std::move(along_x.runs);
+  p.y_runs = std::move(along_y.runs);
 }
 
 void read_material(const table_reader& t, plate& p) {
@@ -152,8 +151,9 @@ void read_material(const table_reader& t, plate& p) {
     p.D = t.real("D", positive_real);
     return;
   }
-  const double E = t.real("E", positive_real);
-  p.D = bending_stiffness(E, p.nu, t.real("thickness", positive_real));
+  p.E = t.real("E", positive_real);
+  p.thickness = t.real("thickness", positive_real);
+  p.D = bending_stiffness(p.E, p.nu, p.thickness);
   if (!std::isnormal(p.D))
     t.refuse(fmt::format("E, nu and thickness that make D = {:g}", p.D),
              "D = E t^3 / 12 (1 - nu^2) within the range of double precision");
@@ -183,33 +183,6 @@ plate read_plate(const table_reader& t) {
   read_material(t, p);
   check_elements(t, p);
   return p;
-}
-
-/// How many bytes a structure may take: what CONTCT_MEMORY_MIB in the environment says, in MiB, or three
-/// quarters of what the machine has. Throws input_error when the variable is not a whole number of 1 or more.
-std::int64_t memory_limit() {
-  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-  constexpr std::int64_t mib = std::int64_t{1} << 20;
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  if (const char* const said = std::getenv("CONTCT_MEMORY_MIB"); said != nullptr) {
-    const std::int64_t limit = number_in<std::int64_t>(said).value_or(0);
-    if (limit < 1 || limit > most / mib)
-      throw input_error("CONTCT_MEMORY_MIB: found " + in_quotes(said) +
-                        "; allowed: a whole number of MiB, 1 or more");
-    return limit * mib;
-  }
-  const std::int64_t pages = sysconf(_SC_PHYS_PAGES);
-  const std::int64_t bytes = sysconf(_SC_PAGESIZE);
-  return pages <= 0 || bytes <= 0 ? most : pages / 4 * 3 * bytes;
-}
-
-std::string bytes_words(std::int64_t bytes) {
-  constexpr double mib = 1 << 20;
-  constexpr double gib = 1 << 30;
-  const auto amount = static_cast<double>(bytes);
-  if (amount >= gib) return fmt::format("{:.1f} GiB", amount / gib);
-  return amount >= 10 * mib ? fmt::format("{:.0f} MiB", amount / mib)
-                            : fmt::format("{:.1f} MiB", amount / mib);
 }
 
 /// What a run takes beyond what there may be, and what to do about it.
@@ -293,11 +266,12 @@ void find_mesh(const table_reader& t, const std::string& folder, const std::stri
   if (t.has("mesh")) refuse_unknown_nodes(t, "mesh", path, a);
 }
 
-assembled read_matrix(const table_reader& t, const std::string& folder) {
+assembled read_matrix(const table_reader& t, const std::string& folder, literals keep) {
   t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
   assembled a;
   a.name = beside(folder, t.text("stiffness"));
-  a.stiffness = parse_symmetric(read_input(a.name, "Matrix Market file", largest_matrix_file), a.name);
+  a.stiffness = parse_symmetric(read_input(a.name, "Matrix Market file", largest_matrix_file), a.name,
+                                keep == literals::kept ? &a.written : nullptr);
   if (t.has("dofs")) {
     a.labels_from = beside(folder, t.text("dofs"));
     a.labels = read_labels(a.labels_from);
@@ -314,16 +288,16 @@ assembled read_matrix(const table_reader& t, const std::string& folder) {
   return a;
 }
 
-assembled read_calculix(const table_reader& t, const std::string& folder) {
+assembled read_calculix(const table_reader& t, const std::string& folder, literals keep) {
   t.allow_only({"job", "mesh", "free_motions", "storage"});
   const std::string job = beside(folder, t.text("job"));
   assembled a;
   a.name = job + ".sti";
   a.labels_from = job + ".dof";
   a.labels = read_labels(a.labels_from);
-  a.stiffness =
-      parse_calculix_stiffness(read_input(a.name, "stiffness matrix of CalculiX", largest_matrix_file),
-                               a.name, static_cast<int>(a.labels.size()));
+  a.stiffness = parse_calculix_stiffness(
+      read_input(a.name, "stiffness matrix of CalculiX", largest_matrix_file), a.name,
+      static_cast<int>(a.labels.size()), keep == literals::kept ? &a.written : nullptr);
   finish(t, a);
   find_mesh(t, folder, job, a);
   return a;
@@ -336,7 +310,7 @@ std::string beside(const std::string& folder, const std::string& name) {
   return path == "-" ? "./-" : path;  // a file of that name: standard input holds the problem, if anything
 }
 
-model read_model(const table_reader& top, const std::string& folder) {
+model read_model(const table_reader& top, const std::string& folder, literals keep) {
   const char* const allowed = "exactly one of [beam], [plate], [matrix] and [calculix]";
   const char* kind = nullptr;
   for (const char* other : {"beam", "plate", "matrix", "calculix"}) {
@@ -346,8 +320,8 @@ model read_model(const table_reader& top, const std::string& folder) {
   }
   if (top.has("beam")) return {read_beam(top.table("beam"), top)};
   if (top.has("plate")) return {read_plate(top.table("plate"))};
-  if (top.has("matrix")) return {read_matrix(top.table("matrix"), folder)};
-  if (top.has("calculix")) return {read_calculix(top.table("calculix"), folder)};
+  if (top.has("matrix")) return {read_matrix(top.table("matrix"), folder, keep)};
+  if (top.has("calculix")) return {read_calculix(top.table("calculix"), folder, keep)};
   top.refuse("neither beam nor plate, matrix or calculix", allowed);
 }
 

@@ -11,6 +11,7 @@
 
 #include "contct/kernel/call.hpp"
 #include "contct/read/model_tables.hpp"
+#include "contct/read/number_literals.hpp"
 #include "contct/read/places.hpp"
 #include "contct/read/step_tables.hpp"
 
@@ -41,15 +42,15 @@ double rounded_down(double x) {
 /// Reads one file into one problem, table by table.
 class problem_reader {
  public:
-  problem_reader(const toml::table& document, std::string_view file)
-      : folder_(std::filesystem::path(file).parent_path().string()), top_(document, "", file) {}
+  problem_reader(const toml::table& document, std::string_view file, literals keep)
+      : keep_(keep), folder_(std::filesystem::path(file).parent_path().string()), top_(document, "", file) {}
 
   problem read() {
     top_.allow_only(
         {"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
     if (top_.has("title")) problem_.title = top_.text("title");
     if (top_.has("units")) read_units(top_.table("units"));
-    problem_.geometry = read_model(top_, folder_);
+    problem_.geometry = read_model(top_, folder_, keep_);
     places_.emplace(problem_.geometry);
     fixed_.assign(dofs(problem_.geometry), 0);
     if (places_->on_matrix() && top_.has("bed"))
@@ -58,7 +59,7 @@ class problem_reader {
     for (const table_reader& t : top_.optional_tables("support")) read_support(t);
     for (const table_reader& t : top_.optional_tables("contact")) read_contact(t);
     for (const table_reader& t : top_.optional_tables("bed")) read_bed(t);
-    const step_reader steps(*places_, problem_.supports, folder_);
+    const step_reader steps(*places_, problem_.supports, folder_, keep_);
     for (const table_reader& t : top_.tables("step")) problem_.steps.push_back(steps.read(t));
     return std::move(problem_);
   }
@@ -167,14 +168,16 @@ class problem_reader {
     }
   }
 
-  /// The faces of a bed: one for all of its nodes, or one for each, those included that are fixed in w.
-  [[nodiscard]] std::vector<double> read_faces(const table_reader& t, const std::vector<int>& at) const {
+  /// The faces of a bed: one for all of its nodes, or one for each, those included that are fixed in w. Where
+  /// they are a polynomial, its coefficients too.
+  [[nodiscard]] std::vector<double> read_faces(const table_reader& t, const std::vector<int>& at,
+                                               std::vector<double>& coefficients) const {
     if (!t.has("face") || !t.required("face", "").is_table())
       return t.reals_for("face", any_real, at.size(), "node of the bed, fixed or not");
     const table_reader face = t.table("face");
     face.allow_only({"polynomial"});
-    const std::vector<double> coefficients = read_polynomial(
-        face, problem_.geometry, "numbers for face: only along a beam it may be a polynomial");
+    coefficients = read_polynomial(face, problem_.geometry,
+                                   "numbers for face: only along a beam it may be a polynomial");
     std::vector<double> values;
     values.reserve(at.size());
     for (const int node : at)
@@ -190,9 +193,10 @@ class problem_reader {
     const double modulus = t.real("modulus", positive_real);
     const facing common = read_facing(t, face_below);
     const std::vector<int> at = places_->named_in(t) ? places_->read(t) : all_nodes();
-    const std::vector<double> faces = read_faces(t, at);
-    if (shares_.empty()) shares_ = tributary_shares(problem_.geometry);
     bed made{modulus, {}, problem_.pairs.size()};
+    made.closed = common.closed;
+    const std::vector<double> faces = read_faces(t, at, made.face);
+    if (shares_.empty()) shares_ = tributary_shares(problem_.geometry);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const int node = at[i];
       if (fixed_in_w(node)) continue;
@@ -236,6 +240,7 @@ class problem_reader {
     return numbers;
   }
 
+  literals keep_;
   std::string folder_;  // of the file
   table_reader top_;
   problem problem_;
@@ -246,14 +251,16 @@ class problem_reader {
 
 }  // namespace
 
-problem parse_problem(std::string_view text, std::string_view file) {
+problem parse_problem(std::string_view text, std::string_view file, literals keep) {
   const toml::table document = parse_toml(text, file);
-  return problem_reader(document, file).read();
+  problem p = problem_reader(document, file, keep).read();
+  if (keep == literals::kept) p.written = written_numbers(document, text, file);
+  return p;
 }
 
-problem read_problem(const std::string& path) {
+problem read_problem(const std::string& path, literals keep) {
   const std::string file = path == "-" ? "standard input" : path;
-  return parse_problem(read_input(path), file);
+  return parse_problem(read_input(path), file, keep);
 }
 
 }  // namespace contct::read

@@ -10,10 +10,12 @@
 namespace contct::read {
 
 /// Read and check the problem in the file at `path`; "-" is standard input.
-/// Throws input_error: nothing is half-accepted.
-[[nodiscard]] problem read_problem(const std::string& path);
+/// Throws input_error: nothing is half-accepted. `keep`: whether problem::written and the like are filled,
+/// for exact arithmetic; then it throws as written_numbers does.
+[[nodiscard]] problem read_problem(const std::string& path, literals keep = literals::dropped);
 
 /// The same for text already in memory; `file` is its name in messages.
-[[nodiscard]] problem parse_problem(std::string_view text, std::string_view file);
+[[nodiscard]] problem parse_problem(std::string_view text, std::string_view file,
+                                    literals keep = literals::dropped);
 
 }  // namespace contct::read

@@ -29,8 +29,9 @@ std::vector<double> read_polynomial(const table_reader& t, const model& m, std::
   return coefficients;
 }
 
-step_reader::step_reader(const node_places& places, const std::vector<support>& supports, std::string folder)
-    : places_(places), folder_(std::move(folder)), held_(dofs(places.structure()), hold::none) {
+step_reader::step_reader(const node_places& places, const std::vector<support>& supports, std::string folder,
+                         literals keep)
+    : places_(places), folder_(std::move(folder)), keep_(keep), held_(dofs(places.structure()), hold::none) {
   for (const support& s : supports) {
     hold& here = held_[s.node * places_.dof_names().size() + s.dof];
     here = std::max(here, s.fixed ? hold::fixed : hold::spring);
@@ -57,10 +58,15 @@ load step_reader::read(const table_reader& t) const {
 
 void step_reader::read_vector(const table_reader& t, load& l) const {
   const std::string path = beside(folder_, t.text("load"));
-  const std::vector<double> values = parse_vector(read_input(path, "Matrix Market file", largest_matrix_file),
-                                                  path, nodes(places_.structure()));
-  for (std::size_t dof = 0; dof < values.size(); ++dof)
-    if (values[dof] != 0.0) l.points.push_back({static_cast<int>(dof), 0, values[dof]});
+  std::vector<std::string> written;
+  const std::vector<double> values =
+      parse_vector(read_input(path, "Matrix Market file", largest_matrix_file), path,
+                   nodes(places_.structure()), keep_ == literals::kept ? &written : nullptr);
+  for (std::size_t dof = 0; dof < values.size(); ++dof) {
+    if (values[dof] == 0.0) continue;
+    l.points.push_back({static_cast<int>(dof), 0, values[dof]});
+    if (keep_ == literals::kept) l.written.push_back(written.empty() ? "" : written[dof]);
+  }
 }
 
 void step_reader::read_uniform(const table_reader& t, load& l) const {
@@ -76,9 +82,12 @@ void step_reader::read_uniform(const table_reader& t, load& l) const {
     distributed_load part = read_distributed(table);
     const auto [at, is_new] = place.try_emplace(part.elements, l.distributed.size());
     if (is_new) {
+      part.parts = {part.polynomial};
       l.distributed.push_back(std::move(part));
     } else {
-      add_polynomial(l.distributed[at->second].polynomial, part.polynomial, 1.0);
+      distributed_load& sum = l.distributed[at->second];
+      add_polynomial(sum.polynomial, part.polynomial, 1.0);
+      sum.parts.push_back(std::move(part.polynomial));
     }
   }
 }

@@ -20,7 +20,8 @@ inline constexpr std::size_t most_coefficients = 21;
 class step_reader {
  public:
   /// Files that a step names are in `folder`. `places` must outlive this object.
-  step_reader(const node_places& places, const std::vector<support>& supports, std::string folder);
+  step_reader(const node_places& places, const std::vector<support>& supports, std::string folder,
+              literals keep = literals::dropped);
 
   [[nodiscard]] load read(const table_reader& t) const;
 
@@ -36,6 +37,7 @@ class step_reader {
 
   const node_places& places_;
   std::string folder_;
+  literals keep_;
   std::vector<hold> held_;  // [dofs] by supports
 };
 

@@ -14,10 +14,18 @@
 
 namespace contct::structure {
 
+/// Coordinates at equal distances, each `end` of a run a number of the file.
+struct even_run {
+  double end;
+  int elements;
+};
+
 /// A straight beam of Hermite elements: two dofs a node, w (up) and theta = dw/dx.
 struct beam {
   std::vector<double> x;   ///< node coordinates, strictly increasing [nodes]
   std::vector<double> EI;  ///< bending stiffness of each element, positive [nodes - 1]
+  /// What x is made of from x[0] on, for exact arithmetic; empty: every x is a number of the file.
+  std::vector<even_run> runs = {};
 
   static constexpr int dofs_per_node = 2;
   static constexpr std::array<const char*, 2> dof_names = {"w", "theta"};
@@ -32,10 +40,13 @@ struct beam {
 /// (i, j), at x[i] and y[j], is node j * columns + i; the element with its lower left corner there is element
 /// j * (columns - 1) + i.
 struct plate {
-  std::vector<double> x;  ///< grid lines, strictly increasing, at least two
-  std::vector<double> y;  ///< the same
-  double D = 0.0;         ///< bending stiffness E t^3 / 12 (1 - nu^2), positive
-  double nu = 0.0;        ///< Poisson's ratio, above -1 and at most 0.5
+  std::vector<double> x;   ///< grid lines, strictly increasing, at least two
+  std::vector<double> y;   ///< the same
+  double D = 0.0;          ///< bending stiffness E t^3 / 12 (1 - nu^2), positive
+  double nu = 0.0;         ///< Poisson's ratio, above -1 and at most 0.5
+  double E = 0.0;          ///< Young's modulus that D is computed from; 0 where the file has D
+  double thickness = 0.0;  ///< likewise
+  std::vector<even_run> x_runs, y_runs{};  ///< as a beam's
 
   static constexpr int dofs_per_node = 3;
   static constexpr std::array<const char*, 3> dof_names = {"w", "wx", "wy"};
@@ -102,8 +113,11 @@ struct placed_nodes {
 /// A structure given by its stiffness matrix alone, which another program has assembled. Every dof is a node
 /// of its own here, so that the listing's NDOFPN and INDOF are 1 and its ID the dof.
 struct assembled {
-  std::string name;                 ///< of the matrix, for messages: its file
-  sparse_matrix stiffness;          ///< positive semidefinite
+  std::string name;         ///< of the matrix, for messages: its file
+  sparse_matrix stiffness;  ///< positive semidefinite
+  /// [entries] literals that are not the shortest decimals of their values, others are empty; no entries
+  /// where there are none, or where the reader was not asked for them.
+  std::vector<std::string> written;
   std::vector<std::string> labels;  ///< [dofs] each once; empty: "1", "2", ...
   std::string labels_from;          ///< the file that has them
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
@@ -260,11 +274,23 @@ struct bed {
   double modulus;             ///< force per length (area) of deflection, positive
   std::vector<double> share;  ///< tributary length, or area, of each pair
   std::size_t first_pair;     ///< from 0; the others follow it
+  /// Where faces are a polynomial in x along a beam, its coefficients, constant first; otherwise empty.
+  std::vector<double> face = {};
+  std::optional<bool> closed = {};  ///< in contact at the start or not, where the file says so
 };
 
 /// Labels for people; nothing is converted. Both are empty, or neither.
 struct unit_labels {
   std::string length, force;
+};
+
+/// Whether a reader keeps the literals of numbers that are not the shortest decimals of their doubles.
+enum class literals : char { dropped, kept };
+
+/// A number in a file whose literal is not the shortest decimal of its double.
+struct written_number {
+  double value;
+  std::string literal;
 };
 
 /// What a problem file says. Nodes, elements and pairs count from 0 here, from 1 in the file.
@@ -277,6 +303,8 @@ struct problem {
   std::vector<bed> beds;            ///< whose pairs are among `pairs`
   unit_labels units;
   std::vector<std::string> warnings;
+  /// Of the file's own numbers, one for each value; only where the reader was asked for them.
+  std::vector<written_number> written;
 };
 
 }  // namespace contct::structure

@@ -24,6 +24,8 @@ struct point_load {
 struct distributed_load {
   std::vector<double> polynomial;  ///< coefficients, constant first; at least one
   std::vector<int> elements;       ///< from 0; empty means all
+  /// The polynomials of a file that add up to this one, for exact arithmetic; empty: it is one itself.
+  std::vector<std::vector<double>> parts = {};
 };
 
 /// What a support moves one dof of one node to.
@@ -39,6 +41,9 @@ struct load {
   std::vector<distributed_load> distributed;
   std::vector<prescribed_displacement> settlements = {};
   std::string name = {};  ///< of the step that ends with it, for people; may be empty
+  /// Of the first of `points`, literals that are not the shortest decimals of their values; empty where they
+  /// are. Only where the reader was asked for them.
+  std::vector<std::string> written = {};
 };
 
 /// The load at share `fraction` of the way from `before` to `after`, with equal places merged.

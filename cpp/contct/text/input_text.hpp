@@ -93,8 +93,8 @@ class field_lines : public text_lines {
   [[nodiscard]] int whole(std::size_t i, std::int64_t least, std::int64_t most, std::string_view what) const {
     return text_lines::whole(field(i), least, most, what);
   }
-  [[nodiscard]] double real(std::size_t i, std::string_view what) const {
-    return text_lines::real(field(i), what);
+  [[nodiscard]] double real(std::size_t i, std::string_view what, bool fortran = false) const {
+    return text_lines::real(field(i), what, fortran);
   }
 
   /// Refuse the line when it has another number of fields.

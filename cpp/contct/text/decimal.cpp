@@ -1,0 +1,86 @@
+#include "contct/text/decimal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace contct::text {
+namespace {
+
+constexpr std::int64_t endless = std::int64_t{1} << 40;  // no exponent that a double has comes near it
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The digits at the front of `rest`, without the underscores between them, and `rest` what is behind.
+std::string take_digits(std::string_view& rest) {
+  std::string digits;
+  while (!rest.empty() && (is_digit(rest.front()) || rest.front() == '_')) {
+    if (rest.front() != '_') digits += rest.front();
+    rest.remove_prefix(1);
+  }
+  return digits;
+}
+
+/// Is there a sign at the front, which is taken off, and is it a minus?
+bool take_minus(std::string_view& rest) {
+  const bool minus = !rest.empty() && rest.front() == '-';
+  if (minus || (!rest.empty() && rest.front() == '+')) rest.remove_prefix(1);
+  return minus;
+}
+
+/// The exponent that is all of `rest`, saturated; nothing where it is none.
+std::optional<std::int64_t> exponent_in(std::string_view rest) {
+  if (rest.empty()) return 0;
+  if (std::string_view("eEdD").find(rest.front()) == std::string_view::npos) return std::nullopt;
+  rest.remove_prefix(1);
+  const bool minus = take_minus(rest);
+  const std::string digits = take_digits(rest);
+  if (digits.empty() || !rest.empty()) return std::nullopt;
+  std::int64_t exponent = 0;
+  for (const char c : digits) exponent = std::min(endless, exponent * 10 + (c - '0'));
+  return minus ? -exponent : exponent;
+}
+
+}  // namespace
+
+std::optional<decimal> decimal_in(std::string_view literal) {
+  decimal d;
+  d.negative = take_minus(literal);
+  d.digits = take_digits(literal);
+  std::size_t behind_point = 0;
+  if (!literal.empty() && literal.front() == '.') {
+    literal.remove_prefix(1);
+    const std::string fraction = take_digits(literal);
+    behind_point = fraction.size();
+    d.digits += fraction;
+  }
+  const std::optional<std::int64_t> exponent = exponent_in(literal);
+  if (d.digits.empty() || !exponent) return std::nullopt;
+  d.exponent = *exponent - static_cast<std::int64_t>(behind_point);
+  const std::size_t last = d.digits.find_last_not_of('0');
+  if (last == std::string::npos) return decimal{false, "0", 0};
+  d.exponent += static_cast<std::int64_t>(d.digits.size() - last - 1);
+  d.digits.erase(last + 1);
+  d.digits.erase(0, d.digits.find_first_not_of('0'));
+  return d;
+}
+
+decimal shortest_decimal(double x) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
+  return *decimal_in({text.data(), static_cast<std::size_t>(end.ptr - text.data())});
+}
+
+bool is_shortest(std::string_view literal, double x) {
+  // Of normal doubles, no two decimals of up to 15 digits read as the same one.
+  constexpr std::size_t always_kept = 15;
+  const auto digits = static_cast<std::size_t>(std::count_if(literal.begin(), literal.end(), is_digit));
+  if (digits <= always_kept && std::isnormal(x)) return true;
+  const std::optional<decimal> written = decimal_in(literal);
+  return !written || *written == shortest_decimal(x);
+}
+
+}  // namespace contct::text

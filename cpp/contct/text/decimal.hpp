@@ -1,0 +1,37 @@
+// Decimal literals as they are written, whatever a double makes of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "contct/rooms.hpp"
+
+namespace contct::text {
+
+/// The number digits * 10^exponent, or its negative. There are no zeros at either end of the digits, so that
+/// equal numbers are equal in all members; 0 is "0" with exponent 0.
+struct decimal {
+  bool negative = false;
+  std::string digits;
+  std::int64_t exponent = 0;
+
+  [[nodiscard]] bool operator==(const decimal&) const = default;
+};
+
+/// As many digits as a literal may have where its exact value is asked for.
+inline constexpr std::size_t most_literal_digits = 1000;
+
+/// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing where it is no decimal: hexadecimal,
+/// infinite, empty.
+[[nodiscard]] std::optional<decimal> decimal_in(std::string_view literal);
+
+/// The shortest decimal that reads as `x`, which is finite.
+[[nodiscard]] decimal shortest_decimal(double x);
+
+/// Is the literal, which reads as `x`, the shortest decimal that does? True for any that is no decimal.
+[[nodiscard]] bool is_shortest(std::string_view literal, double x);
+
+}  // namespace contct::text
