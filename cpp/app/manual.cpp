@@ -63,7 +63,8 @@ constexpr std::pair<const char*, const char*> exit_meanings[] = {
 constexpr std::pair<const char*, const char*> variables[] = {
     {"COLUMNS", "How wide tables are, from 40 to 160."},
     {"CONTCT_MEMORY_MIB",
-     "The most memory, in MiB, that a matrix from elsewhere may take; otherwise three quarters of the "
+     "The most memory, in MiB, that a matrix from elsewhere, or contct exact, may take; otherwise three "
+     "quarters of the "
      "machine's."},
     {"CONTCT_PROGRESS_AFTER", "Seconds before a terminal is shown how far the work has come; otherwise 1."},
     {"NO_COLOR", "No colours, whatever it is set to."}};

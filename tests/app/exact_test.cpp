@@ -116,3 +116,159 @@ TEST_CASE("numbers of absurd size are solved like others") {
   CHECK(f.exit == 0);
   CHECK_THAT(f.out, Contains("pair 1 (node 2, below) makes") && Contains("w -1.00000, force 1.00000e308"));
 }
+
+TEST_CASE("numbers are taken as written, to as many digits as there are") {
+  const finished f = exactly(
+      "[beam]\nx = [0, 1]\nEI = 0.33333333333333333333\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+      "[[step]]\npoint = [ { node = 2, w = -1 } ]\n",
+      {"--digits", "60"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("largest w -100000000000000000000/99999999999999999999 at node 2"));
+}
+
+TEST_CASE("two numbers that read as one double are refused by exact alone") {
+  const scratch_folder dir;
+  dir.write("p.toml",
+            "[beam]\nx = [0, 1]\nEI = 0.10000000000000000555\n[[support]]\nnode = 1\n"
+            "fix = [\"w\", \"theta\"]\n[[step]]\npoint = [ { node = 2, w = 0.1 } ]\n");
+  const finished f = contct_program(dir.path(), {"exact", "p.toml"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err,
+             Contains("p.toml:8:26: found 0.1, which reads as the same double as 0.10000000000000000555 at "
+                      "p.toml:3:6"));
+  CHECK(contct_program(dir.path(), {"run", "p.toml"}).exit == 0);
+}
+
+TEST_CASE("a face that doubles take for 0 and is not is refused with its place") {
+  const finished f = exactly(cantilever +
+                             "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1e-400\nstiffness = 1\n"
+                             "[[step]]\npoint = [ { node = 2, w = -1 } ]\n");
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("p.toml:10:8: found -1e-400, which reads as 0"));
+}
+
+TEST_CASE(
+    "matrices and load vectors are taken as written, at their places, beside other literals of one double") {
+  const scratch_folder dir;
+  dir.write("k.mtx",
+            "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 0.10000000000000000555\n2 1 0\n"
+            "2 2 0.1\n");
+  dir.write("f.mtx", "%%MatrixMarket matrix array real general\n2 1\n0.30000000000000000001\n0.3\n");
+  dir.write("p.toml",
+            "[matrix]\nstiffness = \"k.mtx\"\n[[step]]\nload = \"f.mtx\"\n[[step]]\nload = \"f.mtx\"\n"
+            "point = [ { dof = \"2\", value = 0.1 } ]\n");
+  const finished f = contct_program(dir.path(), {"exact", "p.toml", "--json", "-"});
+  CHECK(f.exit == 0);
+  const auto steps = nlohmann::json::parse(f.out)["steps"];
+  CHECK(steps[0]["displacement"] == nlohmann::json({"30000000000000000001/10000000000000000555", "3"}));
+  CHECK(steps[1]["displacement"] == nlohmann::json({"30000000000000000001/10000000000000000555", "4"}));
+}
+
+TEST_CASE(
+    "a matrix that doubles take for singular or indefinite is solved, and one that is indefinite refused") {
+  const scratch_folder dir;
+  const auto with = [&dir](const std::string& corner) {
+    dir.write("k.mtx",
+              "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 1\n2 2 " + corner + "\n");
+    dir.write("p.toml",
+              "[matrix]\nstiffness = \"k.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n");
+    return contct_program(dir.path(), {"exact", "p.toml", "--digits", "30"});
+  };
+  const finished solved = with("1.0000000000000000000000001");
+  CHECK(solved.exit == 0);
+  CHECK_THAT(solved.out, Contains("largest w 10000000000000000000000001 at dof 1"));
+  const finished refused = with("0.9999999999999999999999999");
+  CHECK(refused.exit == 2);
+  CHECK_THAT(refused.err,
+             Contains("k.mtx: not positive semidefinite: found work -1.00000e-25 on a displacement"));
+  CHECK(with("1").exit == 4);  // semidefinite, and the load drives the free motion
+}
+
+TEST_CASE("a dof of a matrix without stiffness or support is refused") {
+  const scratch_folder dir;
+  dir.write("k.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1\n2 2 0\n");
+  dir.write("p.toml", "[matrix]\nstiffness = \"k.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n");
+  const finished f = contct_program(dir.path(), {"exact", "p.toml"});
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("k.mtx: dof 2: found no stiffness and no support"));
+}
+
+TEST_CASE("what takes more memory than there may be is refused with the figure before it is taken") {
+  const scratch_folder dir;
+  dir.write("p.toml",
+            "[plate]\nsize = [1, 1]\nelements = [12, 12]\nD = 1\nnu = 0.3\n[[bed]]\nmodulus = 1\n"
+            "[[step]]\nuniform = -1\n");
+  process_options little;
+  little.environment = {{"CONTCT_MEMORY_MIB", "1"}};
+  const finished f = contct_program(dir.path(), {"exact", "p.toml"}, little);
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("found 507 dofs by a half bandwidth of 44") && Contains("allowed: 1.0 MiB"));
+}
+
+TEST_CASE("numbers of absurd size are refused or solved") {
+  std::size_t refused = 0;
+  std::size_t solved = 0;
+  for (const char* EI : {"1e308", "5e-324", "1", "1e-300", "1e-308"})
+    for (const char* length : {"1", "1e-300", "1e308", "5e-324", "1e-100"}) {
+      const finished f =
+          exactly(std::string("[beam]\nx = [0, ") + length + "]\nEI = " + EI +
+                  "\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+                  "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -5e-324\nstiffness = 1e308\n"
+                  "[[step]]\npoint = [ { node = 2, w = -1e308 } ]\n");
+      INFO(EI << " " << length << "\n" << f.err);
+      CHECK((f.exit == 0 || f.exit == 2));
+      (f.exit == 0 ? solved : refused) += 1;
+      if (f.exit == 2) CHECK_THAT(f.err, Contains("p.toml:"));
+    }
+  CHECK(solved >= 3);
+  CHECK(refused >= 5);
+}
+
+TEST_CASE("kernels are measured with settlements, several steps, two-sided pairs and pairs at fixed dofs") {
+  const finished f = exactly(
+      "[beam]\nx = [0, 1, 2, 3]\nEI = 0.333333333333333333333\n"
+      "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = 4\nfix = [\"w\"]\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.01\nstiffness = 3\n"
+      "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.01\nstiffness = 3\n"
+      "[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 5\n"
+      "[[contact]]\nnode = 1\nsurface = \"above\"\nface = 0.5\nstiffness = 5\n"
+      "[[step]]\nuniform = -1\nsettlement = [ { node = 4, w = -0.1 } ]\n"
+      "[[step]]\nuniform = 2\nsettlement = [ { node = 4, w = 0.2 } ]\n"
+      "[[step]]\nsettlement = [ { node = 4, w = 0 } ]\n"
+      "[[step]]\npoint = [ { node = 3, w = -0.7, theta = 0.1 } ]\n",
+      {"--kernels", "fortran,corrected", "--json", "-"});
+  CHECK(f.exit == 0);
+  const auto document = nlohmann::json::parse(f.out);
+  REQUIRE(document["steps"].size() == 4);
+  CHECK(document["steps"][1]["increments"][1]["fraction"] == "1/3");
+  CHECK(document["steps"][0]["pairs"][2]["force"] == "1/2");
+  REQUIRE(document["kernels"].size() == 2);
+  for (const auto& kernel : document["kernels"]) {
+    CHECK(kernel["same_events"] == true);
+    for (const char* what : {"digits", "event_digits", "force_digits"}) CHECK(kernel[what] > 13.0);
+  }
+}
+
+TEST_CASE("kernels are measured on structures that pairs alone hold") {
+  const finished f = exactly(
+      "[beam]\nlength = 2\nelements = 3\nEI = 1\n"
+      "[[contact]]\nnodes = [1, 4]\nsurface = \"below\"\nface = [-0.1, -0.2]\nstiffness = 2\n"
+      "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.05\nstiffness = 2\n"
+      "[[step]]\nuniform = -1\n[[step]]\nuniform = -0.5\npoint = [ { node = 2, w = -0.25 } ]\n",
+      {"--kernels", "fortran,corrected"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("pair 1 (node 1, below): w -13/30, force 2/3"));
+  CHECK_THAT(f.out,
+             Contains("\nfortran: no step's end to compare; other events: ") && Contains("\ncorrected: 1"));
+}
+
+TEST_CASE("kernels are measured on plates on beds with a corner that settles") {
+  const finished f = exactly(
+      "[plate]\nsize = [1, 1]\nelements = [2, 2]\nE = 10.92\nnu = 0.3\nthickness = 0.1\n[[bed]]\nmodulus = "
+      "50\nface = 0\n"
+      "[[support]]\nat = [0, 0]\nfix = [\"w\"]\n[[step]]\nuniform = -1\n"
+      "[[step]]\nsettlement = [ { at = [0, 0], w = -0.01 } ]\nuniform = -1\n[[step]]\nuniform = -3\n",
+      {"--kernels", "fortran,corrected", "--json", "-"});
+  CHECK(f.exit == 0);
+  for (const auto& kernel : nlohmann::json::parse(f.out)["kernels"]) CHECK(kernel["digits"] > 12.0);
+}

@@ -13,6 +13,10 @@ exact_problem of(const std::string& text, const exact_values& values = {}) {
   return exact_problem_of(parse_problem(text, "problem.toml"), values);
 }
 
+exact_problem as_written(const std::string& text) {
+  return exact_problem_of(parse_problem(text, "problem.toml", contct::structure::literals::kept));
+}
+
 const std::string clamped = "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
 const std::string unloaded = "[[step]]\nuniform = 0\n";
 
@@ -84,4 +88,77 @@ TEST_CASE("pressure on a plate is consistent, and a settlement moves a fixed dof
   CHECK(e.steps[0].load[0] == rational(15, 100));
   CHECK(e.steps[0].load[1] == rational(1, 40));
   CHECK(e.steps[0].settlement[0] == rational(-1, 100));
+}
+
+TEST_CASE("numbers of more than 15 digits are what is written") {
+  const exact_problem e = as_written(
+      "[beam]\nx = [0, 1]\nEI = 0.33333333333333333333\n" + clamped +
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1.000000000000000000001e-1\nstiffness = 7\n"
+      "[[step]]\npoint = [ { node = 2, w = -9007199254740993 } ]\nuniform = 0.70000000000000000001\n");
+  CHECK(e.stiffness[0].at(0) == 12 * number_written("0.33333333333333333333"));
+  CHECK(e.pairs[0].face == number_written("-0.1000000000000000000001"));
+  CHECK(e.steps[0].load[2] == number_written("0.70000000000000000001") / 2 - integer("9007199254740993"));
+}
+
+TEST_CASE("a list of coordinates is taken as written where it divides a length evenly as doubles") {
+  const rational third = number_written("0.3333333333333333");
+  const exact_problem list =
+      of("[beam]\nx = [0, 0.3333333333333333, 0.6666666666666666, 1]\nEI = 1\n" + clamped + unloaded);
+  CHECK(list.stiffness[1].at(0) == 6 / (third * third));
+  CHECK(of("[beam]\nlength = 1\nelements = 3\nEI = 1\n" + clamped + unloaded).stiffness[1].at(0) == 54);
+  const std::string plate = "D = 1\nnu = 0.3\n[[bed]]\nmodulus = 1\nface = 0\n" + unloaded;
+  CHECK(of("[plate]\nx = [0, 0.3333333333333333, 1]\ny = [0, 1]\n" + plate).pairs[0].stiffness == third / 4);
+}
+
+TEST_CASE("element_size makes equal parts between the coordinates that the file names") {
+  const exact_problem e =
+      of("[beam]\nlength = 1\nelement_size = 0.25\nEI = 1\n" + clamped +
+         "[[contact]]\nx = 0.7\nsurface = \"below\"\nface = -1\nstiffness = 1\n" + unloaded);
+  const rational h = rational(7, 30);  // three elements to 0.7, two from there
+  CHECK(e.dofs() == 12);
+  CHECK(e.stiffness[1].at(0) == 6 / (h * h));
+  CHECK(e.stiffness[10].at(11) == -6 / (rational(3, 20) * rational(3, 20)));
+}
+
+TEST_CASE("a plate's D comes from E, nu and thickness without rounding") {
+  const std::string rest = "size = [1, 1]\nelements = [1, 1]\nnu = 0.3\n";
+  const rational D =
+      rational(1, 10) * rational(7, 10) * rational(7, 10) * rational(7, 10) / (12 * rational(91, 100));
+  const exact_problem from_parts = of("[plate]\nE = 0.1\nthickness = 0.7\n" + rest + unloaded);
+  const exact_problem unit = of("[plate]\nD = 1\n" + rest + unloaded);
+  CHECK(from_parts.stiffness[0].at(0) == D * unit.stiffness[0].at(0));
+}
+
+TEST_CASE("parts of a load on the same elements add up as decimals") {
+  const exact_problem e = of("[beam]\nx = [0, 1]\nEI = 1\n" + clamped +
+                             "[[step]]\nuniform = [ { value = 0.1 }, { value = 0.2 }, "
+                             "{ polynomial = [-0.3, 0.6] }, { polynomial = [0, -0.5, 1] } ]\n");
+  const exact_problem one =
+      of("[beam]\nx = [0, 1]\nEI = 1\n" + clamped + "[[step]]\nuniform = [ { polynomial = [0, 0.1, 1] } ]\n");
+  for (std::size_t dof = 0; dof < 4; ++dof) CHECK(e.steps[0].load[dof] == one.steps[0].load[dof]);
+  CHECK(e.steps[0].load[2] != 0);
+}
+
+TEST_CASE("a bed's polynomial face is exact, and so is whether it is at 0") {
+  // -0.1 x + 0.3 x^2 - 0.2 x^3 + .. is exactly 0 at 1, where doubles have 2.8e-17.
+  const std::string bed = "[beam]\nx = [0, 0.1, 1]\nEI = 1\n" + clamped + "[[bed]]\nmodulus = 1\n";
+  const exact_problem e = of(bed + "face = { polynomial = [0, -0.001, 0, -0.02] }\n" + unloaded);
+  CHECK(e.pairs[0].face == rational(-12, 100000));
+  CHECK_FALSE(e.pairs[0].closed);
+  const exact_problem touches = of(bed + "face = { polynomial = [-0.3, 0.2, 0.1] }\n" + unloaded);
+  CHECK(touches.pairs[1].face == 0);
+  CHECK(touches.pairs[1].closed);
+  CHECK_FALSE(of(bed + "state = \"separated\"\nface = { polynomial = [-0.3, 0.2, 0.1] }\n" + unloaded)
+                  .pairs[1]
+                  .closed);
+}
+
+TEST_CASE("a face that is inside the structure in exact arithmetic alone is refused with its pair") {
+  contct::structure::problem p =
+      parse_problem("[beam]\nx = [0, 1]\nEI = 1\n" + clamped +
+                        "[[bed]]\nmodulus = 1\nface = { polynomial = [0, -0.1] }\n" + unloaded,
+                    "p.toml");
+  p.beds[0].face = {1e-30, 0.0};
+  CHECK_THROWS_WITH(exact_problem_of(p),
+                    Catch::Matchers::Contains("pair 1 of a [[bed]], at node 2: found the face"));
 }

@@ -343,3 +343,34 @@ TEST_CASE("labels are found by their text, or by their number where there are no
   CHECK_FALSE(by_label.find("1").has_value());
   CHECK_THAT(by_label.allowed(), Catch::Matchers::Contains("\"5.1\""));
 }
+
+TEST_CASE("literals of matrices and vectors are kept at their places where they are asked for") {
+  std::vector<std::string> written;
+  const sparse_matrix m = parse_symmetric(
+      "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n2 2 0.1\n2 1 -0.10000000000000000555\n1 1 7\n",
+      "K.mtx", &written);
+  REQUIRE(m.entries.size() == 3);
+  CHECK(written == std::vector<std::string>{"", "-0.10000000000000000555", ""});
+  written.clear();
+  (void)parse_calculix_stiffness("1 1 1.0D0\n1 2 0.0\n2 2 3.00000000000000000001D-1\n", "j.sti", 2, &written);
+  CHECK(written == std::vector<std::string>{"", "3.00000000000000000001D-1"});
+  written.clear();
+  (void)parse_vector("%%MatrixMarket matrix array real general\n2 1\n0.5\n0.30000000000000000001\n", "f.mtx",
+                     2, &written);
+  CHECK(written == std::vector<std::string>{"", "0.30000000000000000001"});
+  written.clear();
+  (void)parse_vector(
+      "%%MatrixMarket matrix coordinate real general\n3 1 2\n3 1 1\n1 1 0.30000000000000000001\n", "f.mtx", 3,
+      &written);
+  CHECK(written == std::vector<std::string>{"0.30000000000000000001", "", ""});
+}
+
+TEST_CASE("a matrix whose literals are asked for may have no endless ones") {
+  std::vector<std::string> written;
+  const std::string text =
+      "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 0." + std::string(1500, '3') + "\n";
+  CHECK(parse_symmetric(text, "K.mtx").entries.size() == 1);
+  CHECK_THROWS_WITH(
+      parse_symmetric(text, "K.mtx", &written),
+      Catch::Matchers::StartsWith("K.mtx:3: found a number of 1502 characters; allowed: at most 1000"));
+}

@@ -63,13 +63,15 @@ TEST_CASE("fractions of more digits than wanted are decimals, and many pairs are
 
 TEST_CASE("a kernel has a line with its digits and the first event that differs") {
   followed_exactly run(reference("pb01-cantilever-tip-stop"));
-  run.kernels = {{"fortran", true, "", 15.4, 15.1, 14.0},
-                 {"mine", false, "exactly, so; here otherwise", 3, 2, 1}};
+  run.kernels = {{"fortran", true, "", 15.4, 15.1, 14.0, 2},
+                 {"mine", false, "exactly, so; here otherwise", 3, 2, 1, 1},
+                 {"early", false, "the path ends early", 16, 16, 16, 0}};
   const std::string text = exact_text(run.result(), 20, {});
   CHECK_THAT(text,
              Contains("\nfortran: 15.4 digits of displacements, 14.0 of forces, 15.1 of the events' shares; "
                       "the same events\n"));
   CHECK_THAT(text, Contains("other events: exactly, so; here otherwise\n"));
+  CHECK_THAT(text, Contains("\nearly: no step's end to compare; other events: the path ends early\n"));
   const exact_json kernels = run.document()["kernels"];
   CHECK(kernels[0] == exact_json{{"name", "fortran"},
                                  {"same_events", true},
@@ -78,6 +80,9 @@ TEST_CASE("a kernel has a line with its digits and the first event that differs"
                                  {"event_digits", 15.1},
                                  {"force_digits", 14.0}});
   CHECK(kernels[1]["first_difference"] == "exactly, so; here otherwise");
+  CHECK(kernels[1]["digits"] == 3.0);
+  CHECK(kernels[2]["digits"].is_null());
+  CHECK(kernels[2]["force_digits"].is_null());
 }
 
 TEST_CASE("the document has every number as a fraction") {

@@ -1,7 +1,5 @@
 #include "contct/exact/demand.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "contct/text/memory.hpp"
@@ -58,9 +56,9 @@ std::size_t demand::bits_within(std::int64_t bytes, std::size_t most) const {
 }
 
 std::string demand::words() const {
-  return fmt::format(
-      "{} dofs by a half bandwidth of {}, {} entries and {} vectors of numbers of {} bits, which take {}",
-      dofs, band, entries, vectors, bits, bytes_words(bytes()));
+  return std::to_string(dofs) + " dofs by a half bandwidth of " + std::to_string(band) + ", " +
+         std::to_string(entries) + " entries and " + std::to_string(vectors) + " vectors of numbers of " +
+         std::to_string(bits) + " bits, which take " + bytes_words(bytes());
 }
 
 demand demand_of(const problem& p) {

@@ -156,6 +156,7 @@ void digit_counter::compare_events(kernel_digits& r, double tie) const {
 kernel_digits digit_counter::result(const std::string& name, path_status ended, double tie) const {
   kernel_digits r;
   r.name = name;
+  r.steps = steps_;
   compare_events(r, tie);
   if (r.same_events && (ended != exactly_.status)) {
     r.same_events = false;

@@ -19,6 +19,8 @@ struct kernel_digits {
   /// at least to the largest deflection over the structure's length). Shares are those of events that are the
   /// same.
   double digits = 16.0, event_digits = 16.0, force_digits = 16.0;
+  /// Ends of steps that were compared; where there is none, digits and force_digits say nothing.
+  std::size_t steps = 0;
 };
 
 /// Observes a kernel's path.

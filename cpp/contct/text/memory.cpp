@@ -1,8 +1,9 @@
 #include "contct/text/memory.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 
@@ -30,9 +31,12 @@ std::string bytes_words(std::int64_t bytes) {
   constexpr double mib = 1 << 20;
   constexpr double gib = 1 << 30;
   const auto amount = static_cast<double>(bytes);
-  if (amount >= gib) return fmt::format("{:.1f} GiB", amount / gib);
-  return amount >= 10 * mib ? fmt::format("{:.0f} MiB", amount / mib)
-                            : fmt::format("{:.1f} MiB", amount / mib);
+  const double shown = amount >= gib ? amount / gib : amount / mib;
+  const bool whole = amount >= 10 * mib && amount < gib;
+  std::array<char, 32> words{};
+  (void)std::snprintf(words.data(), words.size(), "%.*f %s", whole ? 0 : 1, shown,
+                      amount >= gib ? "GiB" : "MiB");
+  return words.data();
 }
 
 }  // namespace contct::text

@@ -58,6 +58,7 @@ json kernel_json(const kernel_digits& k) {
   json entry = {{"name", k.name}, {"same_events", k.same_events}, {"first_difference", nullptr}};
   if (!k.first_difference.empty()) entry["first_difference"] = k.first_difference;
   entry.update({{"digits", k.digits}, {"event_digits", k.event_digits}, {"force_digits", k.force_digits}});
+  if (k.steps == 0) entry["digits"] = entry["force_digits"] = nullptr;
   return entry;
 }
 
@@ -146,9 +147,11 @@ class exact_printer {
   }
 
   void print_kernel(const kernel_digits& k) {
-    out_ +=
-        fmt::format("{}: {:.1f} digits of displacements, {:.1f} of forces, {:.1f} of the events' shares; ",
-                    k.name, k.digits, k.force_digits, k.event_digits);
+    out_ += k.steps == 0
+                ? fmt::format("{}: no step's end to compare; ", k.name)
+                : fmt::format(
+                      "{}: {:.1f} digits of displacements, {:.1f} of forces, {:.1f} of the events' shares; ",
+                      k.name, k.digits, k.force_digits, k.event_digits);
     out_ += k.same_events ? "the same events\n"
                           : painted(terminal_, paint::bad, "other events") + ": " + k.first_difference + "\n";
   }

@@ -1,0 +1,31 @@
+// Literals digit by digit.
+#include "contct/text/decimal.hpp"
+
+#include "catch.hpp"
+
+using namespace contct::text;
+
+TEST_CASE("literals of one number are equal however they are written") {
+  const decimal quarter{false, "25", -2};
+  for (const char* same : {"0.25", ".25", "25e-2", "+0.2500", "2_5E-0_2", "2.5d-1", "0.025D+01", "00.25"})
+    CHECK(decimal_in(same) == quarter);
+  CHECK(decimal_in("-1_000.") == decimal{true, "1", 3});
+  for (const char* zero : {"0", "-0.0", "0e999999999999999999", ".0"})
+    CHECK(decimal_in(zero) == decimal{false, "0", 0});
+}
+
+TEST_CASE("what is no decimal is none") {
+  for (const char* none : {"", "-", ".", "inf", "0x10", "1e", "1e+", "1 ", "1.2.3", "e5"})
+    CHECK_FALSE(decimal_in(none).has_value());
+}
+
+TEST_CASE("a literal is the shortest decimal or not, whatever zeros and signs it has") {
+  CHECK(is_shortest("0.1", 0.1));
+  CHECK(is_shortest("1.0000000000000000000000e-1", 0.1));
+  CHECK_FALSE(is_shortest("0.10000000000000000555", 0.1));
+  CHECK_FALSE(is_shortest("0.1000000000000000055511151231257827", 0.1));
+  CHECK(is_shortest("5e-324", 5e-324));
+  CHECK_FALSE(is_shortest("4.9e-324", 5e-324));
+  CHECK_FALSE(is_shortest("1e-400", 0.0));
+  CHECK(shortest_decimal(-2.5e-300) == decimal{true, "25", -301});
+}

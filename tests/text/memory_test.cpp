@@ -1,0 +1,13 @@
+// Amounts of memory in words. The limit is tested with the structures that it refuses: model_tables_test.cpp.
+#include "contct/text/memory.hpp"
+
+#include "catch.hpp"
+
+using namespace contct::text;
+
+TEST_CASE("amounts of memory have the digits that matter") {
+  CHECK(bytes_words(1 << 19) == "0.5 MiB");
+  CHECK(bytes_words(std::int64_t{20} << 20) == "20 MiB");
+  CHECK(bytes_words(std::int64_t{3} << 29) == "1.5 GiB");
+  CHECK(memory_limit() > 0);
+}
