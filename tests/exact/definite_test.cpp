@@ -56,7 +56,7 @@ matrix pair_of(const rational& d) {
   return m;
 }
 
-/// A chain of springs on a ground of stiffness `ground` at every dof, with all motions bent by `bend`.
+/// A chain of springs on a ground of stiffness `ground` at every dof.
 matrix chain(int n, const rational& ground) {
   matrix m(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) m.put(i, i, (i == 0 || i + 1 == n ? 1 : 2) + ground);
@@ -146,4 +146,12 @@ TEST_CASE("what would take too much memory to decide is refused with the figure"
   CHECK_THROWS_WITH(
       find_negative_work(m.rows, fixed, place, 200),
       Catch::Matchers::Contains("256 would take") || Catch::Matchers::Contains("would take 1 MiB"));
+}
+
+TEST_CASE("a pivot that is exactly 0 above an entry that is not is refused as indefinite") {
+  matrix m(3);
+  for (int i = 0; i < 3; ++i) m.put(i, i, 1);
+  m.put(0, 1, 1);
+  m.put(1, 2, rational(1, 2));
+  CHECK_THROWS_WITH(m.negative(), Catch::Matchers::Contains("indefinite"));
 }

@@ -140,7 +140,6 @@ TEST_CASE("parts of a load on the same elements add up as decimals") {
 }
 
 TEST_CASE("a bed's polynomial face is exact, and so is whether it is at 0") {
-  // -0.1 x + 0.3 x^2 - 0.2 x^3 + .. is exactly 0 at 1, where doubles have 2.8e-17.
   const std::string bed = "[beam]\nx = [0, 0.1, 1]\nEI = 1\n" + clamped + "[[bed]]\nmodulus = 1\n";
   const exact_problem e = of(bed + "face = { polynomial = [0, -0.001, 0, -0.02] }\n" + unloaded);
   CHECK(e.pairs[0].face == rational(-12, 100000));

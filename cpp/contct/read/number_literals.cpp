@@ -92,9 +92,6 @@ class literal_reader {
     const std::optional<decimal> written = decimal_in(literal);
     if (!written) refuse(node, in_quotes(literal.substr(0, shown)), "a decimal number");
     if (is_shortest(literal, value)) return;
-    if (literal.size() > most_literal_digits)
-      refuse(node, fmt::format("a number of {} characters", literal.size()),
-             fmt::format("at most {}", most_literal_digits));
     if (value == 0)
       refuse(node, literal + ", which reads as 0",
              "0, or a number that double precision does not take for 0");

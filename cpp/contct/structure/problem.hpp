@@ -40,13 +40,14 @@ struct beam {
 /// (i, j), at x[i] and y[j], is node j * columns + i; the element with its lower left corner there is element
 /// j * (columns - 1) + i.
 struct plate {
-  std::vector<double> x;   ///< grid lines, strictly increasing, at least two
-  std::vector<double> y;   ///< the same
-  double D = 0.0;          ///< bending stiffness E t^3 / 12 (1 - nu^2), positive
-  double nu = 0.0;         ///< Poisson's ratio, above -1 and at most 0.5
-  double E = 0.0;          ///< Young's modulus that D is computed from; 0 where the file has D
-  double thickness = 0.0;  ///< likewise
-  std::vector<even_run> x_runs, y_runs{};  ///< as a beam's
+  std::vector<double> x;              ///< grid lines, strictly increasing, at least two
+  std::vector<double> y;              ///< the same
+  double D = 0.0;                     ///< bending stiffness E t^3 / 12 (1 - nu^2), positive
+  double nu = 0.0;                    ///< Poisson's ratio, above -1 and at most 0.5
+  double E = 0.0;                     ///< Young's modulus that D is computed from; 0 where the file has D
+  double thickness = 0.0;             ///< likewise
+  std::vector<even_run> x_runs = {};  ///< as a beam's runs
+  std::vector<even_run> y_runs = {};
 
   static constexpr int dofs_per_node = 3;
   static constexpr std::array<const char*, 3> dof_names = {"w", "wx", "wy"};
