@@ -134,7 +134,7 @@ TEST_CASE("two numbers that read as one double are refused by exact alone") {
   const finished f = contct_program(dir.path(), {"exact", "p.toml"});
   CHECK(f.exit == 2);
   CHECK_THAT(f.err,
-             Contains("p.toml:8:26: found 0.1, which reads as the same double as 0.10000000000000000555 at "
+             Contains("p.toml:8:27: found 0.1, which reads as the same double as 0.10000000000000000555 at "
                       "p.toml:3:6"));
   CHECK(contct_program(dir.path(), {"run", "p.toml"}).exit == 0);
 }
@@ -196,7 +196,7 @@ TEST_CASE("a dof of a matrix without stiffness or support is refused") {
 TEST_CASE("what takes more memory than there may be is refused with the figure before it is taken") {
   const scratch_folder dir;
   dir.write("p.toml",
-            "[plate]\nsize = [1, 1]\nelements = [12, 12]\nD = 1\nnu = 0.3\n[[bed]]\nmodulus = 1\n"
+            "[plate]\nsize = [1, 1]\nelements = [12, 12]\nD = 1\nnu = 0.3\n[[bed]]\nmodulus = 1\nface = 0\n"
             "[[step]]\nuniform = -1\n");
   process_options little;
   little.environment = {{"CONTCT_MEMORY_MIB", "1"}};

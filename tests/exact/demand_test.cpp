@@ -10,7 +10,7 @@ using contct::read::parse_problem;
 namespace {
 
 demand of(const std::string& geometry) {
-  return demand_of(parse_problem(geometry + "[[step]]\nuniform = 0.30000000000000000001\n", "p.toml",
+  return demand_of(parse_problem(geometry + "[[step]]\nuniform = 0.70000000000000000001\n", "p.toml",
                                  contct::structure::literals::kept));
 }
 

@@ -144,10 +144,10 @@ TEST_CASE("a bed's polynomial face is exact, and so is whether it is at 0") {
   const exact_problem e = of(bed + "face = { polynomial = [0, -0.001, 0, -0.02] }\n" + unloaded);
   CHECK(e.pairs[0].face == rational(-12, 100000));
   CHECK_FALSE(e.pairs[0].closed);
-  const exact_problem touches = of(bed + "face = { polynomial = [-0.3, 0.2, 0.1] }\n" + unloaded);
+  const exact_problem touches = of(bed + "face = { polynomial = [0.3, -0.1, -0.2] }\n" + unloaded);
   CHECK(touches.pairs[1].face == 0);
   CHECK(touches.pairs[1].closed);
-  CHECK_FALSE(of(bed + "state = \"separated\"\nface = { polynomial = [-0.3, 0.2, 0.1] }\n" + unloaded)
+  CHECK_FALSE(of(bed + "state = \"separated\"\nface = { polynomial = [0.3, -0.1, -0.2] }\n" + unloaded)
                   .pairs[1]
                   .closed);
 }
