@@ -39,8 +39,8 @@ class lifted_solver {
   /// A basis of the motions that K + springs leaves free [motions][dofs]: exact, so their number is.
   [[nodiscard]] const std::vector<vector>& free_motions() const { return free_motions_; }
 
-  /// Is a dof neither fixed nor, by its missing pivot, the amount of a free motion? K + springs is semidefinite
-  /// where it is positive definite on these.
+  /// Is a dof neither fixed nor, by its missing pivot, the amount of a free motion? K + springs is
+  /// semidefinite where it is positive definite on these.
   [[nodiscard]] bool has_pivot(std::size_t dof) const { return is_unknown(dof); }
 
   /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With free
