@@ -83,8 +83,9 @@ TEST_CASE("run.sh alone runs the README's problem, from anywhere") {
   CHECK_THAT(out, Contains(root + "/build/release/contct run " + root + "/reference/problems/pb07"));
   CHECK_THAT(
       out,
-      EndsWith("8 calls, 64 values compared, 0 mismatches\n"
-               "all 4 final states are certified for this mesh\nproved: 10 digits or more of every number\n"));
+      EndsWith(
+          "8 calls, 64 values compared, 0 mismatches\n"
+          "all 4 final states are certified for this mesh\nproved: 10 digits or more of every number\n"));
 }
 
 TEST_CASE("run.sh hands the program's exit status on, and shows why nothing can be built") {

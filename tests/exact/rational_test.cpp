@@ -65,6 +65,8 @@ TEST_CASE("the error of a number is counted in units in the last place of what i
   CHECK(error_in_ulps(0.1, rational(1, 10), 8) == Approx(0.4));
   CHECK(error_in_ulps(std::numeric_limits<double>::denorm_min(), 0, 8) == 1.0);
   CHECK(error_in_ulps(3.0, rational(integer(1), boost::multiprecision::pow(integer(10), 320U)), 8) > 1e300);
+}
+
 TEST_CASE("a literal is taken digit by digit") {
   CHECK(number_written("0.3333333333333333333") ==
         rational(integer("3333333333333333333"), integer("10000000000000000000")));

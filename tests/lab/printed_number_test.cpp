@@ -8,22 +8,22 @@
 using namespace contct::lab;
 
 TEST_CASE("decimals and fractions are read without rounding") {
-  CHECK(number_written("-208/58875") == rational(-208, 58875));
-  CHECK(number_written("0") == 0);
-  CHECK(number_written("-0.0") == 0);
-  CHECK(number_written("010") == 10);
-  CHECK(number_written("0.1") == rational(1, 10));
-  CHECK(number_written("-1.25e-07") == rational(-1, 8'000'000));
-  CHECK(number_written("+2.5E+3") == 2500);
-  const rational long_one = number_written("-0.002016944987362138063308463352034424868111");
-  CHECK(long_one < number_written("-0.002016944987362138063308463352034424868110"));
+  CHECK(number_printed("-208/58875") == rational(-208, 58875));
+  CHECK(number_printed("0") == 0);
+  CHECK(number_printed("-0.0") == 0);
+  CHECK(number_printed("010") == 10);
+  CHECK(number_printed("0.1") == rational(1, 10));
+  CHECK(number_printed("-1.25e-07") == rational(-1, 8'000'000));
+  CHECK(number_printed("+2.5E+3") == 2500);
+  const rational long_one = number_printed("-0.002016944987362138063308463352034424868111");
+  CHECK(long_one < number_printed("-0.002016944987362138063308463352034424868110"));
 }
 
 TEST_CASE("what is no decimal and no fraction is refused") {
   for (const char* words : {"", "-", ".", "1/0", "1/", "/2", "1.5/2", "1e", "1e+", "1e99999", "0x10", "1_000",
                             "inf", "nan", " 1", "--1"}) {
     INFO(words);
-    CHECK_THROWS_AS(number_written(words), std::invalid_argument);
+    CHECK_THROWS_AS(number_printed(words), std::invalid_argument);
   }
 }
 
@@ -49,8 +49,8 @@ TEST_CASE("a cut number that is the nearest one too is rounded, and a half may g
 }
 
 TEST_CASE("zeros at the end are digits") {
-  CHECK(printing_of("0.5", number_written("0.504")) == printing::rounded);
-  CHECK(printing_of("0.500", number_written("0.504")) == printing::neither);
+  CHECK(printing_of("0.5", number_printed("0.504")) == printing::rounded);
+  CHECK(printing_of("0.500", number_printed("0.504")) == printing::neither);
 }
 
 TEST_CASE("0 agrees with 0 alone") {

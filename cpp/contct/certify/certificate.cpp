@@ -49,12 +49,13 @@ by_quantity sizes_of(const error_bounds& b, double span) {
   return sizes;
 }
 
-/// What measures kinds of which all numbers may be 0: slopes by deflections, forces by moments, and both by
-/// what it takes to move a settling dof alone.
+/// What measures kinds of which all numbers may be 0: deflections by slopes and slopes by deflections, forces
+/// by moments, and both by what it takes to move a settling dof alone.
 by_quantity sizes_beside(const error_bounds& b, const by_quantity& sizes, double span) {
   by_quantity beside;
   const double force = b.beside[quantity::force].value_or(0.0);
   const double moment = std::max(b.beside[quantity::moment].value_or(0.0), force * span);
+  beside[quantity::w] = sizes[quantity::slope].value_or(0.0) * span;
   if (span > 0.0) beside[quantity::slope] = sizes[quantity::w].value_or(0.0) / span;
   for (const quantity q : force_kinds)
     beside[q] = span > 0.0 ? std::max(sizes[quantity::moment].value_or(0.0), moment) / span : force;
@@ -168,8 +169,9 @@ by_quantity certifier::allowed(const error_bounds& b) {
     if (!b.error.all[q]) continue;
     double size = sizes.all[q].value_or(0.0);
     const bool untold = b.size.all[q].value_or(0.0) <= *b.error.all[q];  // from 0
-    const bool is_none = b.unloaded || (untold && static_cast<quantity>(q) != quantity::w);
-    if (is_none) size = std::max({size, largest.value_or(0.0), beside.all[q].value_or(0.0)});
+    if (b.unloaded || untold) size = std::max(size, beside.all[q].value_or(0.0));
+    const bool of_path = b.unloaded || (untold && static_cast<quantity>(q) != quantity::w);
+    if (of_path) size = std::max(size, largest.value_or(0.0));
     share.all[q] = certified_share * size;
   }
   return share;

@@ -12,6 +12,10 @@ namespace {
 /// Sums of doubles are off by less than this share of their magnitudes.
 constexpr double of_sums = 0x1p-30;
 
+/// What products of numbers that are all but 0 may lose, and a displacement that is none.
+constexpr double underflow = 1e-300;
+constexpr double no_displacement = 1e-140;
+
 std::vector<int> rows_of(const linear_structure& s) {
   std::vector<int> rows(s.dofs());
   for (std::size_t dof = 0; dof < rows.size(); ++dof) rows[dof] = s.row_of(dof);
@@ -114,7 +118,9 @@ std::optional<double> error_prover::norm_of(const residual& r, double mu) const 
     const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
     rest += scaled * scaled;
   }
-  const double square = (std::max(work.hi, 0.0) + slack + rest / mu) * (1 + of_sums);
+  const bool any = std::ranges::any_of(r.force, [](const double_double& x) { return x.hi != 0.0; });
+  const double square =
+      (std::max(work.hi, 0.0) + slack + rest / mu + (any ? underflow : 0.0)) * (1 + of_sums);
   if (!std::isfinite(square)) return std::nullopt;
   return std::sqrt(square) * (1 + of_sums);
 }
@@ -287,12 +293,14 @@ bool error_prover::correct(const true_loads& l, long_vector& u) {
     stiffness_.solve(correction);
     double square = 0.0;  // of the residual's norm
     for (std::size_t dof = 0; dof < u.size(); ++dof) square += r.force[dof].hi * correction[dof];
-    if (!(square < least) && i > settled) break;
-    if (square < least) best = u;
+    if (!(square < least || square == 0.0) && i > settled) break;
+    if (square < least || square == 0.0) best = u;
     least = std::min(least, square);
-    if (!(square > 0.0)) break;
+    if (std::ranges::all_of(correction, [](double x) { return x == 0.0; })) break;
     for (std::size_t dof = 0; dof < u.size(); ++dof)
       if (true_.fixed[dof] == 0) u[dof] += correction[dof];
+    for (double_double& x : u)
+      if (std::abs(x.hi) < no_displacement) x = 0.0;
   }
   if (best.empty()) return false;
   u = std::move(best);

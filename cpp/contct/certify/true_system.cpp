@@ -17,21 +17,26 @@ struct line {
   long_vector x, h;
 };
 
-/// x[i] = length i / n, where that gives these doubles; otherwise the decimals of all.
-line line_of(std::span<const double> x) {
-  const auto n = static_cast<int>(x.size()) - 1;
+/// Equal parts of the file's lengths where it gives lengths, otherwise number by number.
+line line_of(std::span<const double> x, std::span<const even_run> runs) {
   line exactly;
-  for (const double length :
-       {x.back(), std::nextafter(x.back(), 0.0), std::nextafter(x.back(), 2 * x.back())}) {
-    bool even = length > 0.0;
-    for (int i = 0; i <= n && even; ++i) even = x[i] == length * i / n;
-    if (!even) continue;
-    for (int i = 0; i <= n; ++i) exactly.x.push_back(decimal_of(length) * i / n);
-    exactly.h.assign(n, decimal_of(length) / n);
-    return exactly;
+  exactly.x.push_back(decimal_of(x.front()));
+  if (runs.empty()) {
+    for (std::size_t i = 1; i < x.size(); ++i) {
+      exactly.x.push_back(decimal_of(x[i]));
+      exactly.h.push_back(decimal_difference(x[i], x[i - 1]));
+    }
   }
-  for (const double at : x) exactly.x.push_back(decimal_of(at));
-  for (int i = 0; i < n; ++i) exactly.h.push_back(decimal_difference(x[i + 1], x[i]));
+  double start = x.front();
+  for (const even_run& run : runs) {
+    const double_double from = exactly.x.back();
+    const double_double length = decimal_difference(run.end, start);
+    for (int i = 1; i <= run.elements; ++i) {
+      exactly.x.push_back(from + length * i / run.elements);
+      exactly.h.push_back(length / run.elements);
+    }
+    start = run.end;
+  }
   return exactly;
 }
 
@@ -43,6 +48,14 @@ long_vector tributary(const line& l) {
     lengths[i + 1] += l.h[i] / 2;
   }
   return lengths;
+}
+
+/// D, or E t^3 / 12 (1 - nu^2) where the file has these.
+double_double stiffness_of(const plate& p) {
+  if (p.E == 0.0) return decimal_of(p.D);
+  const double_double t = decimal_of(p.thickness);
+  const double_double nu = decimal_of(p.nu);
+  return decimal_of(p.E) * t * t * t / (12 * (1 - nu * nu));
 }
 
 /// Collects entries row by row.
@@ -57,7 +70,7 @@ void add_element(sparse_rows& k, const Matrix& element, const Dofs& dofs) {
 /// A structure of one kind: what the conversion of a problem asks of it.
 class true_beam {
  public:
-  explicit true_beam(const beam& b) : beam_(b), line_(line_of(b.x)) {
+  explicit true_beam(const beam& b) : beam_(b), line_(line_of(b.x, b.runs)) {
     for (const double EI : b.EI) EI_.push_back(decimal_of(EI));
   }
 
@@ -110,6 +123,11 @@ class true_beam {
   }
 
   [[nodiscard]] long_vector shares() const { return tributary(line_); }
+  [[nodiscard]] double_double face_at(std::size_t node, std::span<const double> polynomial) const {
+    double_double sum;
+    for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * line_.x[node] + decimal_of(polynomial[i]);
+    return sum;
+  }
   [[nodiscard]] double span() const { return beam_.x.back() - beam_.x.front(); }
 
  private:
@@ -141,7 +159,11 @@ class true_beam {
 class true_plate {
  public:
   explicit true_plate(const plate& p)
-      : plate_(p), x_(line_of(p.x)), y_(line_of(p.y)), D_(decimal_of(p.D)), nu_(decimal_of(p.nu)) {}
+      : plate_(p),
+        x_(line_of(p.x, p.x_runs)),
+        y_(line_of(p.y, p.y_runs)),
+        D_(stiffness_of(p)),
+        nu_(decimal_of(p.nu)) {}
 
   void assemble(sparse_rows& k) const {
     std::optional<halves> last;
@@ -189,6 +211,10 @@ class true_plate {
     return all;
   }
 
+  /// Faces of a plate's beds are no polynomials, and matrices have no beds.
+  [[nodiscard]] static double_double face_at(std::size_t /*node*/, std::span<const double> polynomial) {
+    return decimal_of(polynomial.front());
+  }
   [[nodiscard]] long_vector shares() const {
     long_vector areas;
     for (const double_double& height : tributary(y_))
@@ -264,6 +290,9 @@ class true_matrix {
     return {};
   }
   [[nodiscard]] long_vector shares() const { return long_vector(assembled_.stiffness.order); }
+  [[nodiscard]] static double_double face_at(std::size_t /*node*/, std::span<const double> polynomial) {
+    return decimal_of(polynomial.front());
+  }
   [[nodiscard]] static double span() { return 0.0; }
 
  private:
@@ -302,6 +331,20 @@ void add_pairs(const problem& p, const Kind& kind, true_system& t) {
   for (const bed& b : p.beds)
     for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
       t.pairs[i].stiffness = decimal_of(b.modulus) * shares[p.pairs[i].node];
+  for (const bed& b : p.beds)
+    for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size() && !b.face.empty(); ++i)
+      t.pairs[i].face = kind.face_at(p.pairs[i].node, b.face);
+}
+
+/// The loads as the file has them, which a reader may have added up in doubles.
+load in_parts(const load& l) {
+  load all = l;
+  all.distributed.clear();
+  for (const distributed_load& d : l.distributed) {
+    if (d.parts.empty()) all.distributed.push_back(d);
+    for (const std::vector<double>& part : d.parts) all.distributed.push_back({part, d.elements});
+  }
+  return all;
 }
 
 template <class Kind>
@@ -309,7 +352,7 @@ true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
   const std::size_t n = dofs(p.geometry);
   const int per_node = dofs_per_node(p.geometry);
   true_loads f{long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
-  const load& l = p.steps[step - 1];
+  const load l = in_parts(p.steps[step - 1]);
   for (const point_load& q : l.points) {
     f.force[q.node * per_node + q.dof] += decimal_of(q.value);
     f.size[q.node * per_node + q.dof] += std::abs(q.value);
@@ -342,7 +385,7 @@ void fill(const problem& p, const Kind& kind, true_system& t) {
   add_pairs(p, kind, t);
   t.loads = [&p, kind](int step) { return loads_of_step(p, kind, step); };
   t.element_values = [&p, kind](int step, std::span<const double_double> u) {
-    return kind.values(p.steps[step - 1], u);
+    return kind.values(in_parts(p.steps[step - 1]), u);
   };
 }
 

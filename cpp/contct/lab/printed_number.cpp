@@ -66,7 +66,7 @@ std::string_view without_sign(std::string_view words) {
 
 }  // namespace
 
-rational number_written(std::string_view words) {
+rational number_printed(std::string_view words) {
   const std::string_view size = without_sign(words);
   rational x;
   if (const std::size_t slash = size.find('/'); slash != std::string_view::npos) {
@@ -82,7 +82,7 @@ rational number_written(std::string_view words) {
 }
 
 printing printing_of(std::string_view printed, const rational& exact) {
-  const rational x = number_written(printed);
+  const rational x = number_printed(printed);
   if (x == exact) return printing::rounded;
   if (x == 0 || exact == 0) return printing::neither;
   const rational unit = ten_to(unsigned_decimal_of(without_sign(printed)).exponent);

@@ -16,7 +16,7 @@ enum class printing {
 
 /// The number that `words` write: "p/q", or a decimal as "-12", "0.125" or "-1.25e-07". Throws
 /// std::invalid_argument where they write none.
-[[nodiscard]] rational number_written(std::string_view words);
+[[nodiscard]] rational number_printed(std::string_view words);
 
 /// `printed` is a decimal. 0 agrees with 0 alone. Throws std::invalid_argument where it is none.
 [[nodiscard]] printing printing_of(std::string_view printed, const rational& exact);

@@ -54,7 +54,7 @@ void read_exact(const table_reader& t, const text_lines& lines, expected_number&
       {"value", e.written}, {"exact", e.exact}, {e.cut ? "cut" : "printed", e.printed}};
   for (const auto& [key, words] : numbers) {
     try {
-      if (!words.empty()) (void)number_written(words);
+      if (!words.empty()) (void)number_printed(words);
     } catch (const std::invalid_argument&) {
       t.refuse_key(key, "a decimal, or a fraction \"p/q\"");
     }
@@ -294,7 +294,7 @@ std::string exact_disagreement(const expected_number& e, double computed, double
   if (e.quantity == "state")
     return e.exact == (e.value == in_contact ? "contact" : "separated") ? ""
                                                                         : "the exact state is " + e.exact;
-  const rational exactly = number_written(e.exact);
+  const rational exactly = number_printed(e.exact);
   const double nearest = exact::rounded(exactly);
   if (allowed == 0.0) allowed = e.tolerance * (nearest == 0.0 ? 1.0 : std::abs(nearest));
   if (!(std::abs(computed - nearest) <= allowed))

@@ -29,7 +29,7 @@ struct expected_number {
   double tolerance = 0.0;          ///< relative; absolute for a value of 0
   std::optional<double> faithful;  ///< what the 1989 rule gives instead
   std::string reason;              ///< why it does
-  std::string exact;     ///< the exact number, see number_written; of a state, its name; empty: not known
+  std::string exact;     ///< the exact number, see number_printed; of a state, its name; empty: not known
   std::string written;   ///< `value` with the digits that the file has
   std::string printed;   ///< the same number elsewhere, with fewer digits; empty: nowhere
   bool cut = false;      ///< `printed` is the exact number without its further digits, not rounded
