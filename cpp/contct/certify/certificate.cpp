@@ -36,6 +36,9 @@ std::string worst_of(const certificate& c) {
   return "";
 }
 
+/// Numbers below this share of what stands beside them are as good as 0.
+constexpr double beside_it_none = 1e-12;
+
 constexpr quantity force_kinds[] = {quantity::force, quantity::reaction, quantity::shear};
 
 /// The size of each kind of number in a state: forces, reactions and shears are of one kind, and moments are
@@ -168,9 +171,10 @@ by_quantity certifier::allowed(const error_bounds& b) {
     if (sizes.all[q]) largest = std::max(largest.value_or(0.0), *sizes.all[q]);
     if (!b.error.all[q]) continue;
     double size = sizes.all[q].value_or(0.0);
-    const bool untold = b.size.all[q].value_or(0.0) <= *b.error.all[q];  // from 0
-    if (b.unloaded || untold) size = std::max(size, beside.all[q].value_or(0.0));
-    const bool of_path = b.unloaded || (untold && static_cast<quantity>(q) != quantity::w);
+    const double of_beside = beside.all[q].value_or(0.0);
+    const bool untold = b.size.all[q].value_or(0.0) <= std::max(*b.error.all[q], beside_it_none * of_beside);
+    if (b.unloaded || untold) size = std::max(size, of_beside);
+    const bool of_path = b.unloaded || (untold && static_cast<quantity>(q) == quantity::slope);
     if (of_path) size = std::max(size, largest.value_or(0.0));
     share.all[q] = certified_share * size;
   }
