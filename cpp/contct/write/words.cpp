@@ -45,7 +45,8 @@ std::string certificate_mark(const std::optional<certificate>& c) {
 std::string digits_words(const std::optional<certificate>& c, double rcond) {
   constexpr int enough = 10;
   const int digits = c ? digits_of(*c) : digits_left(rcond);
-  return digits >= enough ? fmt::format("{}+ digits", enough) : fmt::format("{} digits", digits);
+  if (digits >= enough) return fmt::format("{}+ digits", enough);
+  return fmt::format("{} digit{}", digits, digits == 1 ? "" : "s");
 }
 
 std::vector<std::string> certificate_summary(const certifier& judged, bool solved) {
