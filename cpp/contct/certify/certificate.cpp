@@ -8,6 +8,7 @@
 
 #include "contct/path/solve_problem.hpp"
 #include "contct/solve/factored_stiffness.hpp"
+#include "contct/text/memory.hpp"
 
 namespace contct::certify {
 namespace {
@@ -90,6 +91,13 @@ std::string worst_bound(const certificate& c) {
   return said;
 }
 
+/// A band, of which three more are held during a proof, besides those of the path.
+bool can_be_proved(const linear_structure& s) {
+  if (!s.stiffness.is_band()) return false;
+  const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
+  return 6 * 8 * s.dofs() * width <= text::memory_limit();
+}
+
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
 /// rest, their springs take no force.
 std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) {
@@ -118,7 +126,7 @@ certifier::certifier(const linear_structure& s, load_history total_load)
 
 certifier::certifier(const problem& p, const linear_structure& s) : certifier(s, loads_of(p, s)) {
   problem_ = &p;
-  if (s.stiffness.is_band()) prover_ = std::make_unique<error_prover>(p, s);
+  if (can_be_proved(s)) prover_ = std::make_unique<error_prover>(p, s);
 }
 
 state_refiner certifier::refiner() {
