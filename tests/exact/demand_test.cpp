@@ -9,7 +9,7 @@ using contct::read::parse_problem;
 
 namespace {
 
-demand of(const std::string& geometry) {
+demand demand_for(const std::string& geometry) {
   return demand_of(parse_problem(geometry + "[[step]]\nuniform = 0.70000000000000000001\n", "p.toml",
                                  contct::structure::literals::kept));
 }
@@ -17,15 +17,15 @@ demand of(const std::string& geometry) {
 }  // namespace
 
 TEST_CASE("the factor of a plate grows with its shorter side, that of a beam with its length") {
-  const demand wide = of("[plate]\nsize = [1, 1]\nelements = [40, 10]\nD = 1\nnu = 0.3\n");
+  const demand wide = demand_for("[plate]\nsize = [1, 1]\nelements = [40, 10]\nD = 1\nnu = 0.3\n");
   CHECK(wide.dofs == 3 * 41 * 11);
   CHECK(wide.band == 3 * 12 + 2);
   CHECK(wide.bytes_of_equations() > wide.dofs * (wide.band + 1) * 8);
-  CHECK(of("[beam]\nlength = 1\nelements = 100\nEI = 1\n").band == 3);
+  CHECK(demand_for("[beam]\nlength = 1\nelements = 100\nEI = 1\n").band == 3);
 }
 
 TEST_CASE("the longest literal counts, and what is left of the memory limits the length of numbers") {
-  const demand d = of("[beam]\nlength = 1\nelements = 100\nEI = 1\n");
+  const demand d = demand_for("[beam]\nlength = 1\nelements = 100\nEI = 1\n");
   CHECK(d.bits == 4 * 22);
   CHECK(d.bits_within(d.bytes_of_equations(), 1000) == 0);
   CHECK(d.bits_within(std::int64_t{1} << 40, 1000) == 1000);

@@ -22,19 +22,19 @@ TEST_CASE("products and quotients are right to 2^-100") {
 }
 
 TEST_CASE("the decimal 0.1 is one tenth, which its double is not") {
-  CHECK(decimal_of(0.1).hi == 0.1);
-  CHECK(decimal_of(0.1).lo != 0.0);
-  CHECK(std::abs((decimal_of(0.1) * 10 - 1.0).hi) <= 0x1p-94);
-  CHECK(std::abs((decimal_of(-2.5e-7) * 4e6 + 1.0).hi) <= 0x1p-94);
-  CHECK(std::abs((decimal_of(1.25e22) / 1e22 - 1.25).hi) <= 0x1p-90);
-  const double_double none = decimal_of(0.1) + decimal_of(0.2) - decimal_of(0.3);
+  CHECK(long_decimal(0.1).hi == 0.1);
+  CHECK(long_decimal(0.1).lo != 0.0);
+  CHECK(std::abs((long_decimal(0.1) * 10 - 1.0).hi) <= 0x1p-94);
+  CHECK(std::abs((long_decimal(-2.5e-7) * 4e6 + 1.0).hi) <= 0x1p-94);
+  CHECK(std::abs((long_decimal(1.25e22) / 1e22 - 1.25).hi) <= 0x1p-90);
+  const double_double none = long_decimal(0.1) + long_decimal(0.2) - long_decimal(0.3);
   CHECK(std::abs(none.hi) < 1e-28);
   CHECK(0.1 + 0.2 - 0.3 > 1e-17);
 }
 
 TEST_CASE("whole numbers, and doubles that are short decimals, are taken as they are") {
   for (const double x : {0.0, -0.0, 3.0, -7.0, 0x1p52, 0.5, 0.25}) {
-    CHECK(decimal_of(x).hi == x);
-    CHECK(decimal_of(x).lo == 0.0);
+    CHECK(long_decimal(x).hi == x);
+    CHECK(long_decimal(x).lo == 0.0);
   }
 }

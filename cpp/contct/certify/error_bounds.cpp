@@ -210,7 +210,7 @@ std::vector<error_prover::true_reaction> error_prover::reactions_at(std::span<co
     const std::size_t dof = static_cast<std::size_t>(s.node) * per_node + s.dof;
     true_reaction& force = all.emplace_back();
     if (!s.fixed && true_.fixed[dof] == 0) {
-      force.force = -(decimal_of(s.spring) * u[dof]);
+      force.force = -(long_decimal(s.spring) * u[dof]);
       force.slack = true_rounding * std::abs(force.force.hi);
       force.per_rho = std::min(std::sqrt(s.spring) * (1 + of_sums), s.spring * reach(dof));
     } else if (s.fixed && taken[dof] == 0) {

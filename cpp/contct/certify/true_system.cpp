@@ -20,10 +20,10 @@ struct line {
 /// Equal parts of the file's lengths where it gives lengths, otherwise number by number.
 line line_of(std::span<const double> x, std::span<const even_run> runs) {
   line exactly;
-  exactly.x.push_back(decimal_of(x.front()));
+  exactly.x.push_back(long_decimal(x.front()));
   if (runs.empty()) {
     for (std::size_t i = 1; i < x.size(); ++i) {
-      exactly.x.push_back(decimal_of(x[i]));
+      exactly.x.push_back(long_decimal(x[i]));
       exactly.h.push_back(decimal_difference(x[i], x[i - 1]));
     }
   }
@@ -52,10 +52,10 @@ long_vector tributary(const line& l) {
 
 /// D, or E t^3 / 12 (1 - nu^2) where the file has these.
 double_double stiffness_of(const plate& p) {
-  if (p.E == 0.0) return decimal_of(p.D);
-  const double_double t = decimal_of(p.thickness);
-  const double_double nu = decimal_of(p.nu);
-  return decimal_of(p.E) * t * t * t / (12 * (1 - nu * nu));
+  if (p.E == 0.0) return long_decimal(p.D);
+  const double_double t = long_decimal(p.thickness);
+  const double_double nu = long_decimal(p.nu);
+  return long_decimal(p.E) * t * t * t / (12 * (1 - nu * nu));
 }
 
 /// Collects entries row by row.
@@ -71,7 +71,7 @@ void add_element(sparse_rows& k, const Matrix& element, const Dofs& dofs) {
 class true_beam {
  public:
   explicit true_beam(const beam& b) : beam_(b), line_(line_of(b.x, b.runs)) {
-    for (const double EI : b.EI) EI_.push_back(decimal_of(EI));
+    for (const double EI : b.EI) EI_.push_back(long_decimal(EI));
   }
 
   void assemble(sparse_rows& k) const {
@@ -125,7 +125,7 @@ class true_beam {
   [[nodiscard]] long_vector shares() const { return tributary(line_); }
   [[nodiscard]] double_double face_at(std::size_t node, std::span<const double> polynomial) const {
     double_double sum;
-    for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * line_.x[node] + decimal_of(polynomial[i]);
+    for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * line_.x[node] + long_decimal(polynomial[i]);
     return sum;
   }
   [[nodiscard]] double span() const { return beam_.x.back() - beam_.x.front(); }
@@ -140,7 +140,7 @@ class true_beam {
     double size = 0.0;
     const double reach = std::max(std::abs(line_.x[e].hi), std::abs(line_.x[e + 1].hi));
     for (std::size_t i = 0; i < polynomial.size(); ++i) {
-      q.push_back(decimal_of(polynomial[i]));
+      q.push_back(long_decimal(polynomial[i]));
       size += std::abs(polynomial[i]) * std::pow(2 * reach, static_cast<double>(i)) * line_.h[e].hi;
     }
     return {formulas::beam_load<double_double>(q, line_.x[e], line_.h[e]), size};
@@ -163,7 +163,7 @@ class true_plate {
         x_(line_of(p.x, p.x_runs)),
         y_(line_of(p.y, p.y_runs)),
         D_(stiffness_of(p)),
-        nu_(decimal_of(p.nu)) {}
+        nu_(long_decimal(p.nu)) {}
 
   void assemble(sparse_rows& k) const {
     std::optional<halves> last;
@@ -183,7 +183,7 @@ class true_plate {
       const auto unit = formulas::plate_unit_load(size.a, size.b);
       const std::array<int, 12> dofs = dofs_of(e);
       for (std::size_t i = 0; i < 12; ++i) {
-        const double_double part = decimal_of(polynomial[0]) * unit[i];
+        const double_double part = long_decimal(polynomial[0]) * unit[i];
         f.force[dofs[i]] += part;
         f.size[dofs[i]] += std::abs(part.hi);
       }
@@ -213,7 +213,7 @@ class true_plate {
 
   /// Faces of a plate's beds are no polynomials, and matrices have no beds.
   [[nodiscard]] static double_double face_at(std::size_t /*node*/, std::span<const double> polynomial) {
-    return decimal_of(polynomial.front());
+    return long_decimal(polynomial.front());
   }
   [[nodiscard]] long_vector shares() const {
     long_vector areas;
@@ -279,7 +279,7 @@ class true_matrix {
 
   void assemble(sparse_rows& k) const {
     for (const matrix_entry& m : assembled_.stiffness.entries) {
-      const double_double value = decimal_of(m.value);
+      const double_double value = long_decimal(m.value);
       k[m.row][m.column] += value;
       if (m.row != m.column) k[m.column][m.row] += value;
     }
@@ -291,7 +291,7 @@ class true_matrix {
   }
   [[nodiscard]] long_vector shares() const { return long_vector(assembled_.stiffness.order); }
   [[nodiscard]] static double_double face_at(std::size_t /*node*/, std::span<const double> polynomial) {
-    return decimal_of(polynomial.front());
+    return long_decimal(polynomial.front());
   }
   [[nodiscard]] static double span() { return 0.0; }
 
@@ -325,12 +325,12 @@ template <class Kind>
 void add_pairs(const problem& p, const Kind& kind, true_system& t) {
   for (const contact_pair& c : p.pairs)
     t.pairs.push_back(
-        {c.node * dofs_per_node(p.geometry), c.surface, decimal_of(c.face), decimal_of(c.stiffness)});
+        {c.node * dofs_per_node(p.geometry), c.surface, long_decimal(c.face), long_decimal(c.stiffness)});
   if (p.beds.empty()) return;
   const long_vector shares = kind.shares();
   for (const bed& b : p.beds)
     for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
-      t.pairs[i].stiffness = decimal_of(b.modulus) * shares[p.pairs[i].node];
+      t.pairs[i].stiffness = long_decimal(b.modulus) * shares[p.pairs[i].node];
   for (const bed& b : p.beds)
     for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size() && !b.face.empty(); ++i)
       t.pairs[i].face = kind.face_at(p.pairs[i].node, b.face);
@@ -354,12 +354,12 @@ true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
   true_loads f{long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
   const load l = in_parts(p.steps[step - 1]);
   for (const point_load& q : l.points) {
-    f.force[q.node * per_node + q.dof] += decimal_of(q.value);
+    f.force[q.node * per_node + q.dof] += long_decimal(q.value);
     f.size[q.node * per_node + q.dof] += std::abs(q.value);
   }
   kind.add_distributed(l, f);
   for (const prescribed_displacement& g : l.settlements)
-    f.settlement[g.node * per_node + g.dof] += decimal_of(g.value);
+    f.settlement[g.node * per_node + g.dof] += long_decimal(g.value);
   return f;
 }
 
@@ -374,7 +374,7 @@ void fill(const problem& p, const Kind& kind, true_system& t) {
   for (const support& s : p.supports) {
     const int dof = s.node * per_node + s.dof;
     if (s.fixed) t.fixed[dof] = 1;
-    if (!s.fixed) rows[dof][dof] += decimal_of(s.spring);
+    if (!s.fixed) rows[dof][dof] += long_decimal(s.spring);
   }
   for (std::size_t dof = 0; dof < n; ++dof) {
     t.root.push_back(std::sqrt(rows[dof][static_cast<int>(dof)].hi) * (1 + 0x1p-50));

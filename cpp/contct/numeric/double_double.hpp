@@ -129,7 +129,7 @@ __extension__ using wide_integer = __int128;
 }
 
 /// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it.
-[[nodiscard]] inline double_double decimal_of(double x) {
+[[nodiscard]] inline double_double long_decimal(double x) {
   if (x == std::trunc(x) && std::abs(x) < 0x1p53) return x;
   const short_decimal d = shortest_decimal(x);
   return scaled_by_ten(d.digits, d.power);
@@ -141,7 +141,7 @@ __extension__ using wide_integer = __int128;
   const short_decimal y = shortest_decimal(b);
   constexpr int most = 20;  // powers of ten that fit beside 17 digits: further apart, nothing cancels
   if (x.digits == 0 || y.digits == 0 || std::abs(x.power - y.power) > most)
-    return decimal_of(a) - decimal_of(b);
+    return long_decimal(a) - long_decimal(b);
   const int power = x.power < y.power ? x.power : y.power;
   wide_integer left = x.digits;
   wide_integer right = y.digits;
