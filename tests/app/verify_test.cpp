@@ -29,7 +29,7 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
   CHECK(v["known_differences"] == 6);
   CHECK(v["exact"]["numbers"] == v["numbers"]);
   CHECK(v["exact"]["comparisons"].get<int>() >= 1200);
-  CHECK(v["exact"]["rounded"].get<int>() >= 454);
+  CHECK(v["exact"]["rounded"].get<int>() >= 455);
   CHECK(v["exact"]["states"].get<int>() >= 77);
   CHECK(v["exact"]["other_models"] == 111);
   CHECK(v["exact"]["inexact"] == 3);
@@ -55,7 +55,7 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
   CHECK(calls > 300);
   CHECK(v["cases"].size() >= 45);
   CHECK(uncertified > 0);  // PB5 after its early toggle, PB11 with 6 digits: said, not hidden
-  CHECK(uncertified < 80);
+  CHECK(uncertified <= 68);
 }
 
 namespace {

@@ -83,7 +83,8 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
   r.whole = end.status == contct::app::path_status::solved;
   if (!certify || !r.whole) return r;
   contct::app::certifier judge(p, s);
-  judge.step_ended(w.last_state());
+  contct::app::observer* const judges[] = {&judge};
+  contct::app::tell_end(w.last_state(), judge.refiner(), judges);
   r.certified = judge.all_exact();
   return r;
 }

@@ -519,3 +519,19 @@ TEST_CASE("a state of the reference solution's own is still judged by its balanc
   CHECK_FALSE(judged.steps()[0]->exact);
   CHECK(judged.steps()[0]->equilibrium > 0.01);
 }
+
+TEST_CASE("unloaded, what only lies on its faces may stand anywhere above them, and not below") {
+  problem p;
+  p.geometry.kind = beam{{0.0, 1.0}, {1e4}};
+  p.pairs = {{0, face_below, 0.0, 10.0, false}, {1, face_below, 0.0, 10.0, false}};
+  p.steps = {load{}};
+  const linear_structure s = structure_of(p);
+  const std::vector<int> open = {separated, separated};
+  for (const double height : {0.1, -0.1}) {
+    const std::vector<double> u = {height, 0.0, height, 0.0};
+    certifier c(p, s);
+    c.step_ended({1, 1.0, u, open, 0.5, false});
+    CHECK(c.steps()[0]->exact == (height > 0.0));
+    CHECK_FALSE(c.steps()[0]->unique);
+  }
+}

@@ -281,3 +281,16 @@ TEST_CASE("what nothing holds for certain is not proved, and says so") {
   REQUIRE(watch.ends.size() == 1);
   CHECK_FALSE(watch.ends[0].bounds.not_proved.empty());
 }
+
+TEST_CASE("a fixed dof on a spring, which settles: the support holds the spring too, and both have bounds") {
+  const one_end e(
+      "[beam]\nlength = 2\nelements = 2\nEI = 1\n"
+      "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+      "[[support]]\nnode = 1\nspring = { w = 5 }\n"
+      "[[support]]\nnode = 3\nfix = \"w\"\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.1\nstiffness = 10\n"
+      "[[step]]\npoint = [{ node = 2, w = -1 }]\nsettlement = [{ node = 1, w = -0.3 }]\n");
+  CHECK(e.end.numbers.reactions[0] == Approx(-1359.0 / 830).epsilon(1e-15));  // contct exact
+  CHECK(e.end.numbers.reactions[2] == Approx(1.5).epsilon(1e-15));
+  CHECK(certified(e.end.bounds));
+}

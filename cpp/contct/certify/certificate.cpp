@@ -37,65 +37,11 @@ std::string worst_of(const certificate& c) {
   return "";
 }
 
-/// Numbers below this share of what stands beside them are as good as 0.
-constexpr double beside_it_none = 1e-12;
-
-constexpr quantity force_kinds[] = {quantity::force, quantity::reaction, quantity::shear};
-
-/// The size of each kind of number in a state: forces, reactions and shears are of one kind, and moments are
-/// measured by them too.
-by_quantity sizes_of(const error_bounds& b, double span) {
-  by_quantity sizes = b.size;
-  double force = 0.0;
-  for (const quantity q : force_kinds) force = std::max(force, b.size[q].value_or(0.0));
-  for (const quantity q : force_kinds) sizes[q] = force;
-  sizes[quantity::moment] = std::max(b.size[quantity::moment].value_or(0.0), force * span);
-  return sizes;
-}
-
-/// What measures kinds of which all numbers may be 0: deflections by slopes and slopes by deflections, forces
-/// by moments, and both by what it takes to move a settling dof alone.
-by_quantity sizes_beside(const error_bounds& b, const by_quantity& sizes, double span) {
-  by_quantity beside;
-  const double force = b.beside[quantity::force].value_or(0.0);
-  const double moment = std::max(b.beside[quantity::moment].value_or(0.0), force * span);
-  beside[quantity::w] = sizes[quantity::slope].value_or(0.0) * span;
-  if (span > 0.0) beside[quantity::slope] = sizes[quantity::w].value_or(0.0) / span;
-  for (const quantity q : force_kinds)
-    beside[q] = span > 0.0 ? std::max(sizes[quantity::moment].value_or(0.0), moment) / span : force;
-  beside[quantity::moment] = moment;
-  return beside;
-}
-
-/// The worst of the bounds that are larger than allowed, in words.
-std::string worst_bound(const certificate& c) {
-  constexpr const char* words[] = {"a deflection", "a slope",  "a contact force",
-                                   "a reaction",   "a moment", "a shear force"};
-  double worst = 1.0;
-  std::string said;
-  for (std::size_t q = 0; q < c.error.all.size(); ++q) {
-    const double error = c.error.all[q].value_or(0.0);
-    const double allowed = c.allowed.all[q].value_or(0.0);
-    if (error <= worst * allowed || error == 0.0) continue;
-    worst = allowed > 0.0 ? error / allowed : std::numeric_limits<double>::max();
-    char text[120];
-    (void)std::snprintf(text, sizeof text, "%s may be off by %.2g", words[q], error);
-    if (allowed > 0.0) {
-      char of[60];
-      (void)std::snprintf(of, sizeof of, ", %.2g of the largest", error / allowed * certified_share);
-      said = std::string(text) + of;
-    } else {
-      said = text;
-    }
-  }
-  return said;
-}
-
-/// A band, of which three more are held during a proof, besides those of the path.
+/// A band, of which two more are held during a proof, besides those of the path and of the comparison.
 bool can_be_proved(const linear_structure& s) {
   if (!s.stiffness.is_band()) return false;
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
-  return 6 * 8 * s.dofs() * width <= text::memory_limit();
+  return 5 * 8 * s.dofs() * width <= text::memory_limit();
 }
 
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
@@ -111,8 +57,8 @@ std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) 
 int digits_of(const certificate& c) {
   constexpr int most = 15;
   if (!c.proof_tried) return digits_left(c.rcond);
-  if (!c.proved || !(c.shape_error < 1.0)) return 0;
-  return c.shape_error > 0.0 ? std::min(most, static_cast<int>(-std::log10(c.shape_error))) : most;
+  if (!c.proved || !(c.worst_share < 1.0)) return 0;
+  return c.worst_share > 0.0 ? std::min(most, static_cast<int>(-std::log10(c.worst_share))) : most;
 }
 
 certifier::certifier(const linear_structure& s, load_history total_load)
@@ -157,69 +103,43 @@ certificate certifier::judge(const step_state& s) {
   c.independent = !s.from_reference;
   remember_sizes(s.displacement);
   if (prover_) prove(s, c);
-  if (c.proved) {
-    measure_state(s, load, c);
-    return c;
-  }
-  const std::string unproved = std::exchange(c.problem, "");
-  compare(s, load, c);
-  if (prover_ && c.problem.empty()) c.problem = unproved;
-  c.exact = c.problem.empty();
+  if (c.exact) measure_state(s, load, c);
+  const bool beyond_face = !c.unique && c.penetration > certified_share;  // no bound knows where it may stand
+  if (!c.exact || beyond_face) compare(s, load, c);
   return c;
-}
-
-/// What a kind of number may be off by: a share of its size here, or, where that cannot be told from 0, of
-/// what it was on the path.
-by_quantity certifier::allowed(const error_bounds& b) {
-  const by_quantity sizes = sizes_of(b, prover_->span());
-  const by_quantity beside = sizes_beside(b, sizes, prover_->span());
-  by_quantity share;
-  for (std::size_t q = 0; q < sizes.all.size(); ++q) {
-    std::optional<double>& largest = largest_.all[q];
-    if (sizes.all[q]) largest = std::max(largest.value_or(0.0), *sizes.all[q]);
-    if (!b.error.all[q]) continue;
-    double size = sizes.all[q].value_or(0.0);
-    const double of_beside = beside.all[q].value_or(0.0);
-    const bool untold = b.size.all[q].value_or(0.0) <= std::max(*b.error.all[q], beside_it_none * of_beside);
-    if (b.unloaded || untold) size = std::max(size, of_beside);
-    const bool of_path = b.unloaded || (untold && static_cast<quantity>(q) == quantity::slope);
-    if (of_path) size = std::max(size, largest.value_or(0.0));
-    share.all[q] = certified_share * size;
-  }
-  return share;
 }
 
 void certifier::prove(const step_state& s, certificate& c) {
   const error_bounds b = prover_->bound(handed_out_at(*problem_, s));
   c.proof_tried = true;
-  c.tolerance = certified_share;
   c.unique = b.unique;
+  c.tolerance = certified_share;
   if (!b.not_proved.empty()) {
     c.problem = "nothing is proved: " + b.not_proved;
     return;
   }
   c.proved = true;
   c.error = b.error;
-  c.allowed = allowed(b);
-  const auto share_of = [&c](std::size_t q) {
-    const double error = c.error.all[q].value_or(0.0);
-    return error == 0.0 ? 0.0 : certified_share * error / c.allowed.all[q].value_or(0.0);
-  };
-  c.displacement_error = share_of(static_cast<std::size_t>(quantity::w));
-  for (std::size_t q = 0; q < c.error.all.size(); ++q) c.shape_error = std::max(c.shape_error, share_of(q));
-  c.problem = worst_bound(c);
+  c.allowed = allowed_.of(b, prover_->span());
+  c.worst_share = worst_share(c.error, c.allowed);
+  c.problem = worst_bound(c.error, c.allowed);
   c.exact = c.problem.empty();
+  c.displacement_error = share_of(c.error[quantity::w], c.allowed[quantity::w]);
+  c.shape_error = c.worst_share;
 }
 
-/// With the reference solution, where nothing is proved.
+/// With the reference solution: the verdict where no proof was tried, and what is wrong where one failed.
 void certifier::compare(const step_state& s, std::span<const double> load, certificate& c) {
   const reference_answer answer = reference_.solve(load);
   remember_sizes(answer.displacement);
-  c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
-                         certificate_never_above);
+  if (!c.proof_tried)
+    c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
+                           certificate_never_above);
+  c.displacement_error = c.shape_error = 0.0;
   c.unique = answer.unique;
   measure_state(s, load, c);
   c.unfounded = answer.how == outcome::no_equilibrium;
+  const std::string of_proof = std::exchange(c.problem, "");
   if (c.unfounded) {
     c.problem = "there is no equilibrium: nothing stops a rigid motion that the load drives";
   } else if (answer.how == outcome::not_found) {
@@ -228,6 +148,8 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
   }
+  if (c.problem.empty() && c.proof_tried) c.problem = of_proof;
+  c.exact = c.problem.empty();
 }
 
 void certifier::remember_sizes(std::span<const double> displacement) {

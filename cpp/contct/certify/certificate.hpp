@@ -1,5 +1,7 @@
-// Is the final state of a step right? Judged by its own residuals, and against the reference solution, which
-// may be such a state itself: as a fallback, and in place of a path.
+// Is the final state of a step right? Proved by bounds on the errors of its numbers, from its own residual
+// (reference/certificate.md). What is wrong with one that is not proved right is told by the reference
+// solution, which also judges structures that no problem file describes, and may be such a state itself: as
+// a fallback, and in place of a path.
 //
 // The reference solution shares no code with kernels, engines or the loop. It does share the assembled
 // stiffness, its Cholesky factor (matrix/cholesky) and the count of rigid motions
@@ -12,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/certify/error_bounds.hpp"
+#include "contct/certify/allowed_errors.hpp"
 #include "contct/certify/reference_solution.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
@@ -23,19 +25,17 @@ namespace contct::certify {
 inline constexpr double certificate_factor = 1024.0;
 inline constexpr double certificate_never_above = 1e-6;
 
-/// Certified means: every proved bound on an error is at most this share of the size of its kind in this
-/// state.
-inline constexpr double certified_share = 1e-6;
-
 /// What is known about the state that a step ended in. Lengths are relative to the largest
 /// deflection that the path has seen, so that a state of no load has a measure too; and where slopes
 /// count for more, relative to what these come to as deflections, so that a structure whose deflections
 /// are rounding is not measured by rounding.
 struct certificate {
-  bool exact = false;               ///< within the tolerance in every respect
-  double displacement_error = 0.0;  ///< of any deflection: as proved, or against the oracle
-  double shape_error = 0.0;  ///< of any number, against the size of its kind, as proved; or of any dof,
-                             ///< scaled by the root of its stiffness, against the oracle
+  bool exact =
+      false;  ///< proved within certified_share in every respect; without a proof, within `tolerance`
+  // Of a certified state of a problem as proved, of others against the reference solution:
+  double displacement_error = 0.0;  ///< of any deflection
+  double shape_error = 0.0;  ///< of any number, against the size of its kind; or of any dof, scaled by the
+                             ///< root of its stiffness, against the largest
   double equilibrium = 0.0;  ///< load left over by K D and the pairs' forces, scaled likewise
   double penetration = 0.0;  ///< of open pairs
   double tension = 0.0;      ///< how far the springs of closed pairs are stretched
@@ -47,9 +47,10 @@ struct certificate {
   bool unique = true;        ///< false: other states are as good, so D is not compared
   bool unfounded = false;    ///< there is no equilibrium at all
   bool proof_tried = false;  ///< of a problem's states
-  bool proved = false;       ///< by bounds: the two that follow
-  by_quantity error;         ///< absolute bounds on the errors of all numbers of a kind
-  by_quantity allowed;       ///< what they may reach: certified_share of the size of that kind
+  bool proved = false;       ///< there are bounds: the three that follow
+  by_quantity error;         ///< on the errors of all numbers of a kind, absolute
+  by_quantity allowed;       ///< what these may reach
+  double worst_share = 0.0;  ///< the worst of them, as a share of the size of its kind
   std::string problem;       ///< what is wrong, in words; empty when exact
 };
 
@@ -79,7 +80,6 @@ class certifier final : public observer {
  private:
   [[nodiscard]] certificate judge(const step_state& s);
   void prove(const step_state& s, certificate& c);
-  [[nodiscard]] by_quantity allowed(const error_bounds& b);
   void compare(const step_state& s, std::span<const double> load, certificate& c);
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
   void compare_with(const reference_answer& a, const step_state& s, certificate& c) const;
@@ -92,7 +92,7 @@ class certifier final : public observer {
   reference_solver reference_;
   const problem* problem_ = nullptr;
   std::unique_ptr<error_prover> prover_;
-  by_quantity largest_;                // of each kind, so far
+  allowed_errors allowed_;
   std::vector<double> scale_;          // roots of the stiffness at each dof [dofs]
   double largest_scale_ = 0.0;         // of a deflection that is not fixed
   double largest_deflection_ = 0.0;    // of path and oracle, so far

@@ -209,10 +209,11 @@ std::vector<error_prover::true_reaction> error_prover::reactions_at(std::span<co
   for (const support& s : problem_.supports) {
     const std::size_t dof = static_cast<std::size_t>(s.node) * per_node + s.dof;
     true_reaction& force = all.emplace_back();
-    if (!s.fixed && true_.fixed[dof] == 0) {
+    if (!s.fixed) {
       force.force = -(long_decimal(s.spring) * u[dof]);
       force.slack = true_rounding * std::abs(force.force.hi);
-      force.per_rho = std::min(std::sqrt(s.spring) * (1 + of_sums), s.spring * reach(dof));
+      if (true_.fixed[dof] == 0)
+        force.per_rho = std::min(std::sqrt(s.spring) * (1 + of_sums), s.spring * reach(dof));
     } else if (s.fixed && taken[dof] == 0) {
       taken[dof] = 1;
       force = {r.needed[dof], r.slack[dof], true_.root[dof]};
@@ -252,7 +253,8 @@ bool error_prover::is_unloaded(const true_loads& l) const {
          std::ranges::all_of(true_.pairs, [](const true_pair& p) { return p.face.hi * p.surface >= 0.0; });
 }
 
-/// All forces are 0 then, and where the supports hold the structure all displacements.
+/// All forces are 0 then, and where the supports hold the structure all displacements. Where they do not, it
+/// may stand, unbent, wherever no pair is beyond its face.
 void error_prover::bound_unloaded(const handed_out& state, error_bounds& b) {
   b.unloaded = true;
   b.unique = proves({});
@@ -260,6 +262,11 @@ void error_prover::bound_unloaded(const handed_out& state, error_bounds& b) {
   const auto take = [&b](quantity q, double value) { b.error.take(q, std::abs(value)); };
   for (std::size_t dof = 0; dof < true_.dofs() && b.unique; ++dof)
     take(true_.deflects[dof] != 0 ? quantity::w : quantity::slope, state.displacement[dof]);
+  if (!b.unique && state.element_values.empty()) {
+    b.not_proved =
+        "nothing but contact holds the structure, and a matrix has no moments that would show it unbent";
+    return;
+  }
   for (const double force : state.pair_forces) take(quantity::force, force);
   for (std::size_t i = 0; i < problem_.supports.size(); ++i)
     take(problem_.supports[i].dof == 0 ? quantity::reaction : quantity::moment, state.reactions[i]);

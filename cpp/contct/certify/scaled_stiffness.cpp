@@ -19,16 +19,29 @@ double root_scale(double x) {
   return std::ldexp(1.0, -((exponent + (exponent > 0 ? 1 : 0)) / 2));
 }
 
-/// L by rows: row i has its columns i - b to i.
-std::vector<double> by_rows(const band_matrix& l) {
-  const int n = l.order();
-  const int b = l.subdiagonals();
-  std::vector<double> rows(static_cast<std::size_t>(n) * (b + 1), 0.0);
-  for (int column = 0; column < n; ++column)
-    for (int row = column; row <= std::min(n - 1, column + b); ++row)
-      rows[static_cast<std::size_t>(row) * (b + 1) + (column - row + b)] = l.at(row, column);
-  return rows;
-}
+/// The rows of L: row i has its columns i - b to i. The last b + 1 rows are kept.
+class last_rows {
+ public:
+  explicit last_rows(const band_matrix& l)
+      : l_(l), width_(l.subdiagonals() + 1), kept_(static_cast<std::size_t>(width_) * width_, 0.0) {}
+
+  /// Rows come in their order.
+  void read(int i) {
+    const int b = width_ - 1;
+    double* const row = &kept_[place(i)];
+    for (int column = std::max(0, i - b); column <= i; ++column) row[column - i + b] = l_.at(i, column);
+  }
+  /// From `column` on.
+  [[nodiscard]] const double* at(int i, int column) const {
+    return &kept_[place(i) + static_cast<std::size_t>(column - i + width_ - 1)];
+  }
+
+ private:
+  [[nodiscard]] std::size_t place(int i) const { return static_cast<std::size_t>(i % width_) * width_; }
+  const band_matrix& l_;
+  int width_;
+  std::vector<double> kept_;
+};
 
 /// In doubles: four sums, so that they can go on beside each other. Off by at most (count + 3) 2^-53 of the
 /// sum of magnitudes.
@@ -127,7 +140,7 @@ double scaled_stiffness::least_estimate() const {
 double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double shift) const {
   const int n = factor.order();
   const int b = factor.subdiagonals();
-  const std::vector<double> l = by_rows(factor);
+  last_rows l(factor);
   const bool narrow = b <= 16;
   // Of a product of two rows, whose magnitudes add up to at most 1.1 (their squares are the diagonal's), and
   // of an entry of K_A.
@@ -135,6 +148,7 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
   std::vector<double> sums(n, (2 * b + 1) * rounding);
   std::vector<double_double> row(b + 1);
   for (int i = 0; i < n; ++i) {
+    l.read(i);
     std::fill(row.begin(), row.end(), 0.0);
     const std::size_t dof = dof_at_[i];
     if (true_.fixed[dof] != 0) {
@@ -152,8 +166,8 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
     for (int j = std::max(0, i - b); j <= i; ++j) {
       const int first = std::max(0, i - b);
       const int count = j - first + 1;
-      const double* const of_i = &l[static_cast<std::size_t>(i) * (b + 1) + (first - i + b)];
-      const double* const of_j = &l[static_cast<std::size_t>(j) * (b + 1) + (first - j + b)];
+      const double* const of_i = l.at(i, first);
+      const double* const of_j = l.at(j, first);
       const double_double product =
           narrow ? long_product(of_i, of_j, count) : quick_product(of_i, of_j, count);
       const double error = std::abs((row[j - i + b] - product).hi);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "contct/structure/element_formulas.hpp"
@@ -59,12 +58,44 @@ double_double stiffness_of(const plate& p) {
 }
 
 /// Collects entries row by row.
-using sparse_rows = std::vector<std::map<int, double_double>>;
+class sparse_rows {
+ public:
+  explicit sparse_rows(std::size_t rows) : rows_(rows) {}
+
+  /// The entry, which is 0 at first.
+  double_double& at(int row, int column) {
+    auto& entries = rows_[row];
+    const auto place = std::ranges::lower_bound(entries, column, {}, &entry::column);
+    if (place != entries.end() && place->column == column) return place->value;
+    return entries.insert(place, {column, {}})->value;
+  }
+
+  /// Ends the collection.
+  long_matrix packed() {
+    long_matrix k;
+    for (auto& row : rows_) {
+      for (const entry& e : row) {
+        k.columns.push_back(e.column);
+        k.values.push_back(e.value);
+      }
+      k.starts.push_back(k.columns.size());
+      row = {};
+    }
+    return k;
+  }
+
+ private:
+  struct entry {
+    int column;
+    double_double value;
+  };
+  std::vector<std::vector<entry>> rows_;
+};
 
 template <class Matrix, class Dofs>
 void add_element(sparse_rows& k, const Matrix& element, const Dofs& dofs) {
   for (std::size_t i = 0; i < dofs.size(); ++i)
-    for (std::size_t j = 0; j < dofs.size(); ++j) k[dofs[i]][dofs[j]] += element[i][j];
+    for (std::size_t j = 0; j < dofs.size(); ++j) k.at(dofs[i], dofs[j]) += element[i][j];
 }
 
 /// A structure of one kind: what the conversion of a problem asks of it.
@@ -173,7 +204,7 @@ class true_plate {
       if (!last || !(last->a == size.a && last->b == size.b))
         matrix = formulas::plate_stiffness(size.a, size.b, D_, nu_);
       last = size;
-      add_element(k, matrix, dofs_of(e));
+      add_element(k, matrix, plate_.dofs_of(e));
     }
   }
 
@@ -181,7 +212,7 @@ class true_plate {
     for_each_loaded_element(l, plate_.elements(), [&](int e, std::span<const double> polynomial) {
       const halves size = halves_of(e);
       const auto unit = formulas::plate_unit_load(size.a, size.b);
-      const std::array<int, 12> dofs = dofs_of(e);
+      const std::array<int, 12> dofs = plate_.dofs_of(e);
       for (std::size_t i = 0; i < 12; ++i) {
         const double_double part = long_decimal(polynomial[0]) * unit[i];
         f.force[dofs[i]] += part;
@@ -196,7 +227,7 @@ class true_plate {
     std::vector<element_value> all;
     for (int e = 0; e < plate_.elements(); ++e) {
       const halves size = halves_of(e);
-      const std::array<int, 12> dofs = dofs_of(e);
+      const std::array<int, 12> dofs = plate_.dofs_of(e);
       const double area = 4 * size.a.hi * size.b.hi;
       const double bends = 4 * std::sqrt(D_.hi / area);
       const double twists = std::sqrt(17 * D_.hi * (1 - nu_.hi) / (2 * area));
@@ -260,14 +291,6 @@ class true_plate {
     return {x_.h[i] / 2, y_.h[j] / 2};
   }
 
-  [[nodiscard]] std::array<int, 12> dofs_of(int element) const {
-    std::array<int, 12> dofs{};
-    std::size_t next = 0;
-    for (const int node : plate_.corners_of(element))
-      for (int d = 0; d < 3; ++d) dofs[next++] = 3 * node + d;
-    return dofs;
-  }
-
   const plate& plate_;
   line x_, y_;
   double_double D_, nu_;
@@ -280,8 +303,8 @@ class true_matrix {
   void assemble(sparse_rows& k) const {
     for (const matrix_entry& m : assembled_.stiffness.entries) {
       const double_double value = long_decimal(m.value);
-      k[m.row][m.column] += value;
-      if (m.row != m.column) k[m.column][m.row] += value;
+      k.at(m.row, m.column) += value;
+      if (m.row != m.column) k.at(m.column, m.row) += value;
     }
   }
   void add_distributed(const load& /*l*/, true_loads& /*f*/) const {}
@@ -307,18 +330,6 @@ true_plate truly(const plate& p) {
 }
 true_matrix truly(const assembled& a) {
   return true_matrix(a);
-}
-
-long_matrix packed(const sparse_rows& rows) {
-  long_matrix k;
-  for (const auto& row : rows) {
-    for (const auto& [column, value] : row) {
-      k.columns.push_back(column);
-      k.values.push_back(value);
-    }
-    k.starts.push_back(k.columns.size());
-  }
-  return k;
 }
 
 template <class Kind>
@@ -368,19 +379,18 @@ void fill(const problem& p, const Kind& kind, true_system& t) {
   const std::size_t n = dofs(p.geometry);
   const int per_node = dofs_per_node(p.geometry);
   sparse_rows rows(n);
-  for (std::size_t dof = 0; dof < n; ++dof) rows[dof][static_cast<int>(dof)] = 0.0;
   kind.assemble(rows);
   t.fixed.assign(n, 0);
   for (const support& s : p.supports) {
     const int dof = s.node * per_node + s.dof;
     if (s.fixed) t.fixed[dof] = 1;
-    if (!s.fixed) rows[dof][dof] += long_decimal(s.spring);
+    if (!s.fixed) rows.at(dof, dof) += long_decimal(s.spring);
   }
-  for (std::size_t dof = 0; dof < n; ++dof) {
-    t.root.push_back(std::sqrt(rows[dof][static_cast<int>(dof)].hi) * (1 + 0x1p-50));
-    t.deflects.push_back(static_cast<int>(dof) % per_node == 0 ? 1 : 0);
+  for (int dof = 0; dof < static_cast<int>(n); ++dof) {
+    t.root.push_back(std::sqrt(rows.at(dof, dof).hi) * (1 + 0x1p-50));
+    t.deflects.push_back(dof % per_node == 0 ? 1 : 0);
   }
-  t.k = packed(rows);
+  t.k = rows.packed();
   t.span = kind.span();
   add_pairs(p, kind, t);
   t.loads = [&p, kind](int step) { return loads_of_step(p, kind, step); };

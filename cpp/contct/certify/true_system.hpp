@@ -1,5 +1,6 @@
 // A problem's equations without the rounding of its assembly: K, loads, faces and springs as pairs of
-// doubles, from the decimals that its file has.
+// doubles, from the decimals that its file has. exact/exact_problem assembles the same in fractions; these
+// share the element formulas and nothing else, so that the exact answer can judge a proof.
 #pragma once
 
 #include <functional>

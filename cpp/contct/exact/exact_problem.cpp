@@ -125,7 +125,7 @@ class exact_plate {
     const rational D = bending_stiffness_of(nu);
     for (int i = 0; i < plate_.elements(); ++i) {
       const auto [a, b] = halves_of(i);
-      add_element(e.stiffness, plate_stiffness(a, b, D, nu), dofs_of(i));
+      add_element(e.stiffness, plate_stiffness(a, b, D, nu), plate_.dofs_of(i));
     }
     const bool along_y = plate_.columns() > plate_.rows();  // numbered along the shorter side
     for (int j = 0; j < plate_.rows(); ++j)
@@ -141,7 +141,7 @@ class exact_plate {
     for_each_exact_load(l, plate_.elements(), values_, [&](int i, const vector& q) {
       const auto [a, b] = halves_of(i);
       const vector12 unit = plate_unit_load(a, b);
-      const std::array<int, 12> dofs = dofs_of(i);
+      const std::array<int, 12> dofs = plate_.dofs_of(i);
       for (std::size_t k = 0; k < 12; ++k) f[static_cast<std::size_t>(dofs[k])] += q[0] * unit[k];
     });
   }
@@ -166,14 +166,6 @@ class exact_plate {
     const auto i = static_cast<std::size_t>(element % (plate_.columns() - 1));
     const auto j = static_cast<std::size_t>(element / (plate_.columns() - 1));
     return {(x_[i + 1] - x_[i]) / 2, (y_[j + 1] - y_[j]) / 2};
-  }
-
-  [[nodiscard]] std::array<int, 12> dofs_of(int element) const {
-    std::array<int, 12> dofs{};
-    std::size_t next = 0;
-    for (const int node : plate_.corners_of(element))
-      for (int d = 0; d < 3; ++d) dofs[next++] = 3 * node + d;
-    return dofs;
   }
 
   const plate& plate_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace contct::structure {
@@ -68,10 +69,41 @@ std::pair<double, double> hull_of(const poly& p) {
   return {*least, *most};
 }
 
-void take(value_range& r, const placed_value& v) {
-  if (v.value < r.least.value) r.least = v;
-  if (v.value > r.most.value) r.most = v;
-}
+/// Values of one quantity. Values that differ by less than rounding may (mirror images, say) are equal: the
+/// first of them has the place.
+class extremes {
+ public:
+  extremes(std::string_view name, const placed_value& first)
+      : name_(name), least_{first, first.value}, most_{first, first.value} {}
+
+  /// `from`: values at and beyond this x are neighbours of v, and not another extreme.
+  void take(const placed_value& v, double from = std::numeric_limits<double>::infinity()) {
+    if (v.value < least_.shown.value) least_.follow(v, from);
+    if (v.value > most_.shown.value) most_.follow(v, from);
+  }
+
+  [[nodiscard]] value_range range() const { return {name_, least_.shown, most_.shown}; }
+  [[nodiscard]] bool has(double least, double most) const {
+    return least >= least_.shown.value && most <= most_.shown.value;
+  }
+
+ private:
+  struct extreme {
+    placed_value shown;
+    double at_place;  // which rounding may have made less extreme than the value shown
+
+    void follow(const placed_value& v, double from) {
+      const bool equal = std::abs(v.value - at_place) <= equal_values * std::abs(v.value);
+      shown.value = v.value;
+      if (equal && shown.x < from) return;
+      shown = v;
+      at_place = v.value;
+    }
+  };
+  static constexpr double equal_values = 1e-9;
+  std::string_view name_;
+  extreme least_, most_;
+};
 
 /// The deflection of a beam's node.
 double w_at(std::span<const double> u, std::size_t node) {
@@ -81,23 +113,23 @@ double w_at(std::span<const double> u, std::size_t node) {
 /// One quantity along a beam.
 class range_along {
  public:
-  range_along(std::string_view name, const placed_value& first) : range_{name, first, first} {}
+  range_along(std::string_view name, const placed_value& first) : values_(name, first) {}
 
   /// An element's own line. Its ends, by `left_value` and `right_value`, are not computed from the
   /// polynomial.
   void take_element(const element_line& line, int e, const poly& p, double left_value, double right_value) {
-    take(range_, {left_value, line.left, 0.0, e});
-    take(range_, {right_value, line.left + line.h, 0.0, e + 1});
+    values_.take({left_value, line.left, 0.0, e}, line.left);
+    values_.take({right_value, line.left + line.h, 0.0, e + 1}, line.left);
     const auto [least, most] = hull_of(p);
-    if (least >= range_.least.value && most <= range_.most.value) return;
+    if (values_.has(least, most)) return;
     for (const double t : zeros_of(derivative(p)))
-      take(range_, {polynomial_at(p, t), line.left + t * line.h, 0.0, -1});
+      values_.take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, line.left);
   }
 
-  [[nodiscard]] const value_range& range() const { return range_; }
+  [[nodiscard]] value_range range() const { return values_.range(); }
 
  private:
-  value_range range_;
+  extremes values_;
 };
 
 std::vector<value_range> ranges(const beam& b, const load& l, std::span<const double> u,
@@ -124,17 +156,17 @@ std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<con
     return placed_value{value, p.x[node % p.columns()], p.y[node / p.columns()], node};
   };
   std::vector<value_range> all;
-  value_range& w = all.emplace_back(value_range{"w", at(0, u[0]), at(0, u[0])});
+  extremes w("w", at(0, u[0]));
   for (int node = 1; node < p.nodes(); ++node)
-    take(w, at(node, u[static_cast<std::size_t>(node) * plate::dofs_per_node]));
+    w.take(at(node, u[static_cast<std::size_t>(node) * plate::dofs_per_node]));
+  all.push_back(w.range());
   element_results moments = results_in_elements(model{p}, {}, u);
   if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
   for (std::size_t name = 0; name < moments.names.size(); ++name) {
-    const placed_value first = at(0, moments.at(0, name)[0]);
-    value_range r{moments.names[name], first, first};
+    extremes moment(moments.names[name], at(0, moments.at(0, name)[0]));
     for (int e = 0; e < p.elements(); ++e)
-      for (std::size_t k = 0; k < 4; ++k) take(r, at(p.corners_of(e)[k], moments.at(e, name)[k]));
-    all.push_back(r);
+      for (std::size_t k = 0; k < 4; ++k) moment.take(at(p.corners_of(e)[k], moments.at(e, name)[k]));
+    all.push_back(moment.range());
   }
   return all;
 }
@@ -143,9 +175,9 @@ std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::
                                 std::span<const int> deflecting, std::span<const double> /*element_values*/) {
   if (deflecting.empty()) return {};
   const auto at = [&](int dof) { return placed_value{u[dof], 0.0, 0.0, dof}; };
-  value_range w{"w", at(deflecting.front()), at(deflecting.front())};
-  for (const int dof : deflecting) take(w, at(dof));
-  return {w};
+  extremes w("w", at(deflecting.front()));
+  for (const int dof : deflecting) w.take(at(dof));
+  return {w.range()};
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ struct value_range {
                                               std::span<const double> u, int first, int last);
 
 /// Beams: "w", "moment" and "shear" over the whole length. Plates: "w" at nodes, "mx", "my" and "mxy" at the
-/// corners of elements. A matrix: the displacements of the dofs among `deflecting`, as "w". Of equal values,
-/// the first one's place. `element_values`: see beam_lines.
+/// corners of elements. A matrix: the displacements of the dofs among `deflecting`, as "w". Of equal values
+/// (to 1e-9 of them), the first one's place. `element_values`: see beam_lines.
 [[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
                                                  std::span<const int> deflecting,
                                                  std::span<const double> element_values = {});

@@ -111,17 +111,8 @@ plate_element element_of(const plate& p, int element) {
   return {p.width_of(element) / 2, p.height_of(element) / 2, p.D, p.nu};
 }
 
-/// The twelve dofs of an element.
-std::array<int, 12> dofs_of(const plate& p, int element) {
-  std::array<int, 12> dofs{};
-  std::size_t next = 0;
-  for (const int node : p.corners_of(element))
-    for (int d = 0; d < 3; ++d) dofs[next++] = 3 * node + d;
-  return dofs;
-}
-
 element_vector12 displacement_of(const plate& p, int element, std::span<const double> u) {
-  const std::array<int, 12> dofs = dofs_of(p, element);
+  const std::array<int, 12> dofs = p.dofs_of(element);
   element_vector12 own{};
   for (std::size_t i = 0; i < 12; ++i) own[i] = u[dofs[i]];
   return own;
@@ -152,7 +143,7 @@ std::vector<int> rows_along_shorter_side(const plate& p) {
 void assemble_elements(const plate& p, linear_structure& s) {
   for (int e = 0; e < p.elements(); ++e) {
     const element_matrix12 k = stiffness_of(element_of(p, e));
-    const std::array<int, 12> dofs = dofs_of(p, e);
+    const std::array<int, 12> dofs = p.dofs_of(e);
     for (std::size_t i = 0; i < 12; ++i)
       for (std::size_t j = 0; j <= i; ++j)
         add_to_band(s.stiffness.band(), s.row_of(dofs[i]), s.row_of(dofs[j]), k[i][j], e);
@@ -268,7 +259,7 @@ void add_consistent_loads(const plate& p, const load& l, std::span<double> f) {
   const std::vector<double> pressure = pressures(p, l);
   for (int e = 0; e < p.elements(); ++e) {
     const element_vector12 unit = unit_pressure_on(element_of(p, e));
-    const std::array<int, 12> dofs = dofs_of(p, e);
+    const std::array<int, 12> dofs = p.dofs_of(e);
     for (std::size_t i = 0; i < 12; ++i) f[dofs[i]] += pressure[e] * unit[i];
   }
 }

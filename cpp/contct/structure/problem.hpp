@@ -63,6 +63,14 @@ struct plate {
     const int j = element / (columns() - 1);
     return {node_at(i, j), node_at(i + 1, j), node_at(i + 1, j + 1), node_at(i, j + 1)};
   }
+  /// The twelve dofs of an element, corner by corner.
+  [[nodiscard]] std::array<int, 12> dofs_of(int element) const {
+    std::array<int, 12> dofs{};
+    std::size_t next = 0;
+    for (const int node : corners_of(element))
+      for (int d = 0; d < dofs_per_node; ++d) dofs[next++] = dofs_per_node * node + d;
+    return dofs;
+  }
   /// An element's size along x and along y.
   [[nodiscard]] double width_of(int element) const {
     const int i = element % (columns() - 1);

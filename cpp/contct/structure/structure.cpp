@@ -142,6 +142,10 @@ std::vector<double> reactions_of(std::span<const support> supports, const load& 
   std::vector<double> points(u.size(), 0.0);
   add_point_loads(l, dofs_per_node, points);
   std::vector<double> values;
+  for (const support& s : supports) {  // a dof may be fixed and on a spring: the fixed support holds that too
+    const int dof = s.node * dofs_per_node + s.dof;
+    if (!s.fixed) points[dof] -= s.spring * u[dof];
+  }
   std::set<int> reacted;
   for (const support& s : supports) {
     const int dof = s.node * dofs_per_node + s.dof;

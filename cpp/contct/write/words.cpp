@@ -62,7 +62,10 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
   const auto independent =
       std::ranges::count_if(steps, [](const auto& c) { return c && !c->proved && c->independent; });
   for (const auto& c : steps) {
-    if (c && (c->proved || c->independent))
+    if (!c) continue;
+    if (c->proved)
+      worst = std::max(worst, c->worst_share);
+    else if (c->independent)
       worst = std::max(
           {worst, c->displacement_error, c->shape_error, c->equilibrium, c->penetration, c->tension});
   }

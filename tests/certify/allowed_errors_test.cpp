@@ -1,0 +1,66 @@
+// What errors may reach is measured in the state itself, and on its path only where the state has nothing.
+#include "contct/certify/allowed_errors.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "catch.hpp"
+
+using namespace contct::app;
+
+namespace {
+
+error_bounds bounds(double w, double w_size, double force, double force_size) {
+  error_bounds b;
+  b.error[quantity::w] = w;
+  b.size[quantity::w] = w_size;
+  b.error[quantity::force] = force;
+  b.size[quantity::force] = force_size;
+  return b;
+}
+
+}  // namespace
+
+TEST_CASE("what a kind may be off by is a millionth of its largest number in this state") {
+  allowed_errors sizes;
+  const by_quantity of_large = sizes.of(bounds(1e-9, 2.0, 1e-9, 50.0), 10.0);
+  CHECK(of_large[quantity::w] == Approx(2e-6));
+  CHECK(of_large[quantity::force] == Approx(50e-6));
+  CHECK_FALSE(of_large[quantity::moment]);  // no such numbers
+  const by_quantity of_small = sizes.of(bounds(1e-9, 2e-3, 1e-9, 0.5), 10.0);
+  CHECK(of_small[quantity::w] == Approx(2e-9));  // the path's 2.0 does not count
+}
+
+TEST_CASE("unloaded, a state is measured by the largest of its path") {
+  allowed_errors sizes;
+  (void)sizes.of(bounds(1e-9, 2.0, 1e-9, 50.0), 10.0);
+  error_bounds nothing = bounds(1e-12, 1e-12, 0.0, 0.0);
+  nothing.unloaded = true;
+  const by_quantity allowed = sizes.of(nothing, 10.0);
+  CHECK(allowed[quantity::w] == Approx(2e-6));
+  allowed_errors fresh;
+  CHECK(fresh.of(nothing, 10.0)[quantity::w].value() < 1e-17);  // the first step has only its own rounding
+}
+
+TEST_CASE("the worst share and its words") {
+  allowed_errors sizes;
+  const error_bounds b = bounds(1e-3, 2.0, 1e-9, 50.0);
+  const by_quantity allowed = sizes.of(b, 10.0);
+  CHECK(worst_share(b.error, allowed) == Approx(5e-4));
+  CHECK(worst_bound(b.error, allowed) == "a deflection may be off by 0.001, 0.0005 of the largest");
+  const error_bounds good = bounds(1e-9, 2.0, 1e-9, 50.0);
+  CHECK(worst_bound(good.error, sizes.of(good, 10.0)).empty());
+}
+
+TEST_CASE("a bound where nothing is allowed is the worst of all, and so is one that is no number") {
+  by_quantity error, allowed;
+  error[quantity::force] = 1e-20;
+  CHECK(std::isinf(worst_share(error, allowed)));
+  CHECK(worst_bound(error, allowed) == "a contact force may be off by 1e-20");
+  error[quantity::force] = 0.0;
+  CHECK(worst_share(error, allowed) == 0.0);
+  error[quantity::w] = std::numeric_limits<double>::quiet_NaN();
+  allowed[quantity::w] = 1.0;
+  CHECK(std::isinf(worst_share(error, allowed)));
+  CHECK_FALSE(worst_bound(error, allowed).empty());
+}
