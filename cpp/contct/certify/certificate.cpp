@@ -41,7 +41,7 @@ std::string worst_of(const certificate& c) {
 bool can_be_proved(const linear_structure& s) {
   if (!s.stiffness.is_band()) return false;
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
-  return 5 * 8 * s.dofs() * width <= text::memory_limit();
+  return std::int64_t{5 * 8} * s.dofs() * width <= text::memory_limit();
 }
 
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
@@ -71,7 +71,7 @@ certifier::certifier(const linear_structure& s, load_history total_load)
 }
 
 certifier::certifier(const problem& p, const linear_structure& s) : certifier(s, loads_of(p, s)) {
-  problem_ = &p;
+  problem_ = &p;  // NOLINT(cppcoreguidelines-prefer-member-initializer): a delegating constructor has none
   if (can_be_proved(s)) prover_ = std::make_unique<error_prover>(p, s);
 }
 

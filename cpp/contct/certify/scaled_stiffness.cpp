@@ -180,8 +180,10 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
 }
 
 double scaled_stiffness::least_eigenvalue() {
-  double shift = least_estimate() / 2;
-  for (int tries = 0; tries < 3 && shift > 0.0; ++tries, shift /= 16) {
+  const double highest = least_estimate() / 2;
+  for (int tries = 0; tries < 3; ++tries) {
+    const double shift = std::ldexp(highest, -4 * tries);
+    if (!(shift > 0.0)) break;
     band_matrix l = shifted(shift);
     if (!matrix::factor(l)) continue;
     const double mu = (shift - largest_row_of_error(l, shift)) * (1 - 0x1p-50);

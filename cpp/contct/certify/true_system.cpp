@@ -113,9 +113,10 @@ class true_beam {
   void add_distributed(const load& l, true_loads& f) const {
     for_each_loaded_element(l, beam_.elements(), [&](int e, std::span<const double> polynomial) {
       const element_loads work = load_on(e, polynomial);
+      const std::array<int, 4> dofs = dofs_of(e);
       for (std::size_t i = 0; i < 4; ++i) {
-        f.force[2 * e + i] += work.force[i];
-        f.size[2 * e + i] += work.size * (i % 2 == 0 ? 1.0 : line_.h[e].hi);
+        f.force[dofs[i]] += work.force[i];
+        f.size[dofs[i]] += work.size * (i % 2 == 0 ? 1.0 : line_.h[e].hi);
       }
     });
   }
@@ -145,9 +146,10 @@ class true_beam {
       const element_loads work = load_on(e, polynomial);
       const std::array<double_double, 4> added = {-work.force[0], work.force[2], work.force[1],
                                                   -work.force[3]};
+      element_value* const of_element = &all[4 * static_cast<std::size_t>(e)];
       for (std::size_t i = 0; i < 4; ++i) {
-        all[4 * e + i].value += added[i];
-        all[4 * e + i].size += work.size * (i < 2 ? 1.0 : line_.h[e].hi);
+        of_element[i].value += added[i];
+        of_element[i].size += work.size * (i < 2 ? 1.0 : line_.h[e].hi);
       }
     });
     return all;
@@ -164,7 +166,7 @@ class true_beam {
  private:
   struct element_loads {
     std::array<double_double, 4> force;
-    double size;
+    double size = 0.0;
   };
   [[nodiscard]] element_loads load_on(std::size_t e, std::span<const double> polynomial) const {
     long_vector q;
@@ -265,8 +267,9 @@ class true_plate {
     double xx_size = 0.0, yy_size = 0.0, xy_size = 0.0;
   };
 
-  [[nodiscard]] std::array<curvature, 4> curvatures(const halves& size, const std::array<int, 12>& dofs,
-                                                    std::span<const double_double> u) const {
+  [[nodiscard]] static std::array<curvature, 4> curvatures(const halves& size,
+                                                           const std::array<int, 12>& dofs,
+                                                           std::span<const double_double> u) {
     std::array<curvature, 4> all;
     for (std::size_t k = 0; k < 4; ++k) {
       const auto c =
@@ -308,8 +311,8 @@ class true_matrix {
     }
   }
   void add_distributed(const load& /*l*/, true_loads& /*f*/) const {}
-  [[nodiscard]] std::vector<element_value> values(const load& /*l*/,
-                                                  std::span<const double_double> /*u*/) const {
+  [[nodiscard]] static std::vector<element_value> values(const load& /*l*/,
+                                                         std::span<const double_double> /*u*/) {
     return {};
   }
   [[nodiscard]] long_vector shares() const { return long_vector(assembled_.stiffness.order); }

@@ -31,8 +31,8 @@ struct long_matrix {
 
 /// A candidate pair: n, its face c and its stiffness k.
 struct true_pair {
-  int dof;
-  int surface;
+  int dof = 0;
+  int surface = 0;
   double_double face, stiffness;
 };
 

@@ -153,7 +153,7 @@ class exact_plate {
     return areas;
   }
 
-  [[nodiscard]] rational face_at(int /*node*/, std::span<const double> /*polynomial*/) const { return 0; }
+  [[nodiscard]] static rational face_at(int /*node*/, std::span<const double> /*polynomial*/) { return 0; }
 
  private:
   [[nodiscard]] rational bending_stiffness_of(const rational& nu) const {
@@ -201,7 +201,7 @@ class exact_matrix {
 
   /// No [[bed]] can be on a matrix.
   [[nodiscard]] vector shares() const { return vector(assembled_.stiffness.order); }
-  [[nodiscard]] rational face_at(int /*node*/, std::span<const double> /*polynomial*/) const { return 0; }
+  [[nodiscard]] static rational face_at(int /*node*/, std::span<const double> /*polynomial*/) { return 0; }
 
  private:
   const assembled& assembled_;

@@ -101,7 +101,7 @@ struct short_decimal {
 
 [[nodiscard]] inline short_decimal shortest_decimal(double x) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::scientific).ptr;
+  const char* const end = std::to_chars(text, text + sizeof text, x, std::chars_format::scientific).ptr;
   short_decimal d;
   bool behind_point = false;
   const char* at = text;
