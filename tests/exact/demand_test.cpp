@@ -19,7 +19,7 @@ demand demand_for(const std::string& geometry) {
 TEST_CASE("the factor of a plate grows with its shorter side, that of a beam with its length") {
   const demand wide = demand_for("[plate]\nsize = [1, 1]\nelements = [40, 10]\nD = 1\nnu = 0.3\n");
   CHECK(wide.dofs == 1353);  // 3 at each of 41 x 11 nodes
-  CHECK(wide.band == 38);  // to the next row and one node on
+  CHECK(wide.band == 38);    // to the next row and one node on
   CHECK(wide.bytes_of_equations() > wide.dofs * (wide.band + 1) * 8);
   CHECK(demand_for("[beam]\nlength = 1\nelements = 100\nEI = 1\n").band == 3);
 }

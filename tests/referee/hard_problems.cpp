@@ -200,7 +200,7 @@ class hard_drawing {
     const int middle = random_.whole(1, last() - 1);
     std::vector<point_load> points;
     for (const auto& [node, share] : {std::pair(middle - 1, 1), {middle, -2}, {middle + 1, 1}})
-      points.push_back({node, 0, decimal(share * large, exponent)});
+      points.push_back({node, 0, decimal(std::int64_t{share} * large, exponent)});
     points.push_back({0, 0, -force(small)});
     points.push_back({last(), 0, -force(small)});
     step(std::move(points));

@@ -72,10 +72,10 @@ TEST_CASE("increments and pairs have their exact numbers, and the errors of both
   const auto& first = j["increments"][0];
   CHECK(first["exact_path"]["smin"] == "1/4");
   CHECK(first["exact_path"]["fraction"] == "1/4");
-  CHECK(first["exact_path"]["winners"] == nlohmann::json({1}));
-  CHECK(first["exact_path"]["toggled"] == nlohmann::json({1}));
+  CHECK(first["exact_path"]["winners"] == nlohmann::ordered_json({1}));
+  CHECK(first["exact_path"]["toggled"] == nlohmann::ordered_json({1}));
   CHECK_FALSE(first["exact_path"].contains("parted"));
-  CHECK(first["exact"]["toggled"] == nlohmann::json({1}));
+  CHECK(first["exact"]["toggled"] == nlohmann::ordered_json({1}));
   const auto& stop = first["pairs"][0];
   CHECK(stop["exact_path"]["s"] == "1/4");
   CHECK(stop["exact_path"]["kind"] == "advancing");

@@ -10,7 +10,6 @@
 #include "support/page_rows.hpp"
 
 using namespace contct::app;
-using Catch::Matchers::Contains;
 
 TEST_CASE("the table of step ends has the largest values, their places and the verdict") {
   const a_run r(propped_cantilever);

@@ -41,7 +41,8 @@ std::string worst_of(const certificate& c) {
 bool can_be_proved(const linear_structure& s) {
   if (!s.stiffness.is_band()) return false;
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
-  return std::int64_t{5 * 8} * s.dofs() * width <= text::memory_limit();
+  constexpr std::int64_t bytes = 40;  // of five doubles
+  return bytes * s.dofs() * width <= text::memory_limit();
 }
 
 /// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
