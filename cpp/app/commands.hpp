@@ -36,7 +36,7 @@ struct run_options {
   std::string file;
   std::vector<std::string> kernels = {"fortran", "cpp"};  ///< the first leads
   std::string engine;                                     ///< empty: what suits the leader
-  std::string json, log, trace;
+  std::string json, log, trace, proof;
   report_options report;
   picture_options pictures;
   bool free_run = false;

@@ -14,6 +14,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/pictures.hpp"
+#include "contct/write/proof_json.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
@@ -44,8 +45,8 @@ std::string pairs_table(const std::string& csv) {
 std::vector<output_option> outputs_of(const run_options& o) {
   const auto& [html, svg, csv, vtu] = o.pictures;
   std::vector<output_option> all = {
-      {"--json", o.json}, {"--log", o.log}, {"--trace", o.trace},         {"--html", html},
-      {"--svg", svg},     {"--csv", csv},   {csv_pairs, pairs_table(csv)}};
+      {"--json", o.json}, {"--log", o.log}, {"--trace", o.trace},          {"--html", html},
+      {"--svg", svg},     {"--csv", csv},   {csv_pairs, pairs_table(csv)}, {"--proof", o.proof}};
   if (vtu.empty()) return with_reports(std::move(all), o.report);
   if (fs::path(vtu).extension() != ".vtu")
     throw std::invalid_argument(fmt::format("--vtu: found \"{}\"; allowed: a file that ends in .vtu", vtu));
@@ -201,6 +202,7 @@ struct observed_run {
 /// Those that every run has, and those that its options ask for, in the order in which they must observe.
 std::vector<observer*> make_observers(observed_run& o) {
   const run_setup& run = o.run;
+  if (o.files["--proof"] != nullptr) o.judged.keep_proofs();
   std::vector<observer*> all = {o.compared, &o.judged, &o.early, o.shown.before.get()};
   if (run.prints)
     all.push_back(&o.rows.emplace(run.what, o.compared, o.judged, run.screen, run.options.detail));
@@ -356,6 +358,8 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
   for (const char* name : {"--log", "--trace"})
     if (output_file* const file = o.files[name]) file->finish();
   if (o.tables) o.tables->finish();
+  if (o.files["--proof"] != nullptr)
+    o.files.write("--proof", proof_json(run.what, fs::path(run.options.file).filename().string(), o.judged));
   if (o.frames) {
     const finished_run r{run.what,
                          *o.frames,

@@ -45,17 +45,6 @@ inline double needed_by(const problem_result& t) {
   return needed;
 }
 
-/// The worst of that in eps / rcond: what C would have to be.
-inline double factor_of(const problem_result& t) {
-  double factor = 0.0;
-  for (const certificate& c : t.certificates) {
-    const double worst =
-        std::max({c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension});
-    factor = std::max(factor, worst / (std::numeric_limits<double>::epsilon() / c.rcond));
-  }
-  return factor;
-}
-
 /// The result on p's own structure, with `counts` of its path.
 inline problem_result try_and_count(const random_problem& p, kernel& leader, path_counts& counts) {
   return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, "refactor", {&counts});

@@ -85,6 +85,11 @@ state_refiner certifier::refiner() {
 
 void certifier::step_ended(const step_state& s) {
   steps_.push_back(s.fraction == 1.0 ? std::optional(judge(s)) : std::nullopt);
+  proofs_.push_back(prover_ && s.fraction == 1.0 ? prover_->take_proof() : std::nullopt);
+}
+
+void certifier::keep_proofs() {
+  if (prover_) prover_->keep_proof();
 }
 
 bool certifier::all_exact() const {

@@ -73,6 +73,11 @@ class certifier final : public observer {
   /// What betters the ends of steps before they are told, of a problem's path. This object must outlive it.
   [[nodiscard]] state_refiner refiner();
 
+  /// Keep what proves the bounds of each step that follows.
+  void keep_proofs();
+  /// In the order of steps(); none where nothing is proved, or none are kept.
+  [[nodiscard]] const std::vector<std::optional<step_proof>>& proofs() const { return proofs_; }
+
   /// One for each step ended so far; none for a step that did not reach its load.
   [[nodiscard]] const std::vector<std::optional<certificate>>& steps() const { return steps_; }
   [[nodiscard]] bool all_exact() const;
@@ -98,6 +103,7 @@ class certifier final : public observer {
   double largest_deflection_ = 0.0;    // of path and oracle, so far
   double largest_displacement_ = 0.0;  // scaled, any dof
   std::vector<std::optional<certificate>> steps_;
+  std::vector<std::optional<step_proof>> proofs_;
 };
 
 /// A fallback for `s`, which must outlive it: the reference solution as the end of a step that a path cannot

@@ -88,7 +88,7 @@ error_prover::residual error_prover::residual_of(std::span<const double_double> 
 
 /// rho: the norm of the residual in K_A^-1, from above. z is about K_A^-1 r, e = r - K_A z, and
 /// rho^2 = r'z + z'e + e' K_A^-1 e.
-std::optional<double> error_prover::norm_of(const residual& r, double mu) const {
+std::optional<double> error_prover::norm_of(const residual& r, double mu) {
   const std::size_t n = true_.dofs();
   long_vector z(n);
   std::vector<double> e(n);
@@ -121,6 +121,7 @@ std::optional<double> error_prover::norm_of(const residual& r, double mu) const 
   const bool any = std::ranges::any_of(r.force, [](const double_double& x) { return x.hi != 0.0; });
   const double square =
       (std::max(work.hi, 0.0) + slack + rest / mu + (any ? underflow : 0.0)) * (1 + of_sums);
+  z_ = std::move(z);
   if (!std::isfinite(square)) return std::nullopt;
   return std::sqrt(square) * (1 + of_sums);
 }
@@ -366,6 +367,14 @@ void error_prover::measure(const true_loads& l, error_bounds& b) const {
   }
 }
 
+void error_prover::keep(const handed_out& state, long_vector u, const error_bounds& b) {
+  if (!keeps_proof_) return;
+  const std::vector<double> displacement(state.displacement.begin(), state.displacement.end());
+  proof_ = step_proof{
+      displacement, state.pair_forces, state.reactions, state.element_values, std::move(u), b.closed,
+      z_,           stiffness_.proof()};
+}
+
 error_bounds error_prover::bound(const handed_out& state) {
   error_bounds b;
   if (!can_factor_) {
@@ -376,6 +385,8 @@ error_bounds error_prover::bound(const handed_out& state) {
   if (is_unloaded(l)) {
     bound_unloaded(state, b);
     b.size = b.error;
+    z_.clear();
+    if (b.not_proved.empty()) keep(state, long_vector(true_.dofs()), b);
     return b;
   }
   const long_vector u = long_displacement(state.step, state.displacement, l);
@@ -386,6 +397,7 @@ error_bounds error_prover::bound(const handed_out& state) {
   bound_forces(state, u, b);
   bound_reactions(state, r, u, b);
   bound_element_values(state, u, b);
+  keep(state, u, b);
   return b;
 }
 

@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contct/certify/scaled_stiffness.hpp"
+#include "contct/certify/step_proof.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct::certify {
@@ -68,6 +70,14 @@ class error_prover {
                                                   std::span<int> isep);
   [[nodiscard]] double span() const { return true_.span; }
 
+  /// Keep what proves the bounds.
+  void keep_proof() {
+    keeps_proof_ = true;
+    stiffness_.keep_proof();
+  }
+  /// Of the last `bound` that proved anything; none before, or unless it is kept.
+  [[nodiscard]] std::optional<step_proof> take_proof() { return std::exchange(proof_, std::nullopt); }
+
  private:
   struct residual {
     long_vector force;          // what is left of the load, 0 at fixed dofs [dofs]
@@ -90,7 +100,8 @@ class error_prover {
   [[nodiscard]] bool is_unloaded(const true_loads& l) const;
   void bound_unloaded(const handed_out& state, error_bounds& b);
   [[nodiscard]] bool proves(const std::vector<int>& closed);
-  [[nodiscard]] std::optional<double> norm_of(const residual& r, double mu) const;
+  [[nodiscard]] std::optional<double> norm_of(const residual& r, double mu);
+  void keep(const handed_out& state, long_vector u, const error_bounds& b);
   bool find_closed(std::span<const double_double> u, const residual& r, error_bounds& b);
   [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
   void bound_displacements(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
@@ -114,6 +125,9 @@ class error_prover {
   double mu_ = 0.0, inverse_root_mu_ = 0.0;
   int refined_step_ = 0;
   long_vector refined_;
+  long_vector z_;  // about K_A^-1 r
+  bool keeps_proof_ = false;
+  std::optional<step_proof> proof_;
 };
 
 }  // namespace contct::certify

@@ -89,6 +89,7 @@ band_matrix scaled_stiffness::shifted(double shift) const {
 }
 
 bool scaled_stiffness::factor(std::span<const int> pairs) {
+  proof_.reset();
   springs_.assign(true_.dofs(), 0.0);
   for (const int i : pairs) springs_[true_.pairs[i].dof] += true_.pairs[i].stiffness;
   scale_.assign(true_.dofs(), 1.0);
@@ -187,7 +188,9 @@ double scaled_stiffness::least_eigenvalue() {
     band_matrix l = shifted(shift);
     if (!matrix::factor(l)) continue;
     const double mu = (shift - largest_row_of_error(l, shift)) * (1 - 0x1p-50);
-    if (mu > 0.0) return mu;  // NaN is not
+    if (!(mu > 0.0)) continue;  // or no number
+    if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l)};
+    return mu;
   }
   return 0.0;
 }

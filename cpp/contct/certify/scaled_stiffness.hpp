@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "contct/certify/step_proof.hpp"
 #include "contct/certify/true_system.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
@@ -29,6 +30,11 @@ class scaled_stiffness {
   /// K_A x.
   [[nodiscard]] long_vector times(std::span<const double_double> x) const;
 
+  /// What least_eigenvalue finds has its proof kept, which takes one more band.
+  void keep_proof() { keeps_proof_ = true; }
+  /// Of the last factor; none before least_eigenvalue.
+  [[nodiscard]] const std::optional<stiffness_proof>& proof() const { return proof_; }
+
   [[nodiscard]] double scale(std::size_t dof) const { return scale_[dof]; }
 
  private:
@@ -42,6 +48,8 @@ class scaled_stiffness {
   long_vector springs_;        // [dofs] of the pairs taken in
   std::vector<double> scale_;  // S [dofs]
   matrix::band_matrix factor_;
+  bool keeps_proof_ = false;
+  std::optional<stiffness_proof> proof_;
 };
 
 }  // namespace contct::certify

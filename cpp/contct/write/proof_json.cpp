@@ -1,0 +1,75 @@
+#include "contct/write/proof_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "contct/write/result_json.hpp"
+
+namespace contct::write {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+/// Sums of two doubles each.
+json sums(const std::vector<numeric::double_double>& all) {
+  json list = json::array();
+  for (const numeric::double_double& x : all) list.push_back({x.hi, x.lo});
+  return list;
+}
+
+/// Rows of L, each from its first entry in the band to its diagonal.
+json rows_of(const matrix::band_matrix& l) {
+  json rows = json::array();
+  for (int i = 0; i < l.order(); ++i) {
+    json row = json::array();
+    for (int j = std::max(0, i - l.subdiagonals()); j <= i; ++j) row.push_back(l.at(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void put_stiffness(json& step, const certify::stiffness_proof& s) {
+  json scale = json::array();
+  for (const double x : s.scale) scale.push_back(std::ilogb(x));
+  step["scale"] = std::move(scale);
+  step["row_of"] = s.row_of;
+  step["shift"] = s.shift;
+  step["L"] = rows_of(s.factor);
+}
+
+json step_json(const certify::step_proof& s) {
+  json closed = json::array();
+  for (const int pair : s.closed) closed.push_back(pair + 1);
+  json step = {{"displacement", s.displacement},
+               {"force", s.pair_forces},
+               {"reactions", s.reactions},
+               {"elements", s.element_values},
+               {"u", sums(s.state)},
+               {"closed", std::move(closed)},
+               {"z", sums(s.z)}};
+  if (s.of_stiffness) put_stiffness(step, *s.of_stiffness);
+  return step;
+}
+
+}  // namespace
+
+std::string proof_json(const problem& p, const std::string& file, const certify::certifier& judged) {
+  json steps = json::array();
+  for (std::size_t i = 0; i < judged.steps().size(); ++i) {
+    const auto& c = judged.steps()[i];
+    const auto& proof = judged.proofs()[i];
+    json step = {{"step", i + 1}, {"certified", c && c->exact}, {"error", nullptr}};
+    if (proof) {
+      step["error"] = error_json(p, c);
+      step.update(step_json(*proof));
+    } else {
+      step["because"] = c ? c->problem : "the step did not reach its load";
+    }
+    steps.push_back(std::move(step));
+  }
+  const json all = {{"format", "contct-proof-1"}, {"problem", file}, {"steps", std::move(steps)}};
+  return all.dump() + "\n";
+}
+
+}  // namespace contct::write
