@@ -83,6 +83,8 @@ if [ "$full" = yes ]; then
   build/release/tests/contct_mutants
   echo "== exact numbers of verification.toml"
   python3 tests/lab/write_exact.py build/release/contct reference --check --least 646
+  echo "== proofs of all reference problems"
+  python3 tests/proof/check_proof_test.py build/release/contct reference all
   echo "== two LAPACKs"
   sh tests/two_lapacks/run.sh build/release
   with_tool "CalculiX as a peer" peer/run.sh build/release

@@ -1,0 +1,85 @@
+"""The plate's element (Adini, Clough, Melosh), in fractions, for check_proof.py: from monomials, by no formula of the program."""
+from fractions import Fraction as F
+from math import perm
+
+MONOMIALS = [(i, 0) for i in range(4)] + [(0, 1), (1, 1), (2, 1), (3, 1), (0, 2), (1, 2), (0, 3), (1, 3)]  # of x^i y^j
+SLOPES = [(0, 0), (1, 0), (0, 1)]  # the orders of derivatives that are dofs
+
+
+def dot(x, y):
+    return sum((a * b for a, b in zip(x, y) if a and b), F(0))
+
+
+def at(p, d, x, y):
+    """The derivative of orders d of the monomial of powers p."""
+    if d[0] > p[0] or d[1] > p[1]:
+        return 0
+    return perm(p[0], d[0]) * perm(p[1], d[1]) * x**(p[0] - d[0]) * y**(p[1] - d[1])
+
+
+def inverse(a):
+    rows = [list(map(F, row)) + [F(i == j) for j in range(len(a))] for i, row in enumerate(a)]
+    for i in range(len(a)):
+        k = next(k for k in range(i, len(a)) if rows[k][i])
+        rows[i], rows[k] = rows[k], rows[i]
+        rows[i] = [x / rows[i][i] for x in rows[i]]
+        rows = [row if r == i or not row[i] else [x - row[i] * y for x, y in zip(row, rows[i])] for r, row in enumerate(rows)]
+    return [row[len(a):] for row in rows]
+
+
+class Plate:
+    """An element of sides a and b; dofs w, wx and wy at its corners, counter-clockwise from the lower left."""
+
+    def __init__(self, a, b, D, nu):
+        self.a, self.b, self.D, self.nu = a, b, D, nu
+        self.corners = [(F(0), F(0)), (a, F(0)), (a, b), (F(0), b)]
+        self.shapes = inverse([[at(p, d, x, y) for p in MONOMIALS] for x, y in self.corners for d in SLOPES])  # monomials by dofs
+        energy = [[self.bending(p, q) for q in MONOMIALS] for p in MONOMIALS]
+        columns = list(zip(*self.shapes))
+        half = [[dot(row, column) for column in columns] for row in energy]
+        self.stiffness = [[dot(column, other) for other in zip(*half)] for column in columns]
+
+    def integral(self, i, j):
+        return self.a**(i + 1) / (i + 1) * self.b**(j + 1) / (j + 1)
+
+    def bending(self, p, q):
+        def of(d, e):  # the integral of derivative d of p times derivative e of q
+            factor = at(p, d, 1, 1) * at(q, e, 1, 1)
+            return factor and factor * self.integral(p[0] + q[0] - d[0] - e[0], p[1] + q[1] - d[1] - e[1])
+        xx, yy, xy = (2, 0), (0, 2), (1, 1)
+        return self.D * (of(xx, xx) + of(yy, yy) + self.nu * (of(xx, yy) + of(yy, xx)) + 2 * (1 - self.nu) * of(xy, xy))
+
+    def load(self, q, _):
+        """Consistent forces of the pressure q[0]."""
+        work = [q[0] * self.integral(*p) for p in MONOMIALS]
+        return [dot(work, column) for column in zip(*self.shapes)]
+
+    def values(self, u, _):
+        """(kind, value, square of its error per rho): mx, my and mxy at the corners."""
+        c, D, nu = [dot(row, u) for row in self.shapes], self.D, self.nu
+        xx, yy, xy = ([dot(c, [at(p, d, x, y) for p in MONOMIALS]) for x, y in self.corners] for d in [(2, 0), (0, 2), (1, 1)])
+        bends, twists = 16 * D / (self.a * self.b), 17 * D * (1 - nu) / (2 * self.a * self.b)
+        return ([("moment", D * (s + nu * t), bends) for s, t in [*zip(xx, yy), *zip(yy, xx)]]
+                + [("moment", D * (1 - nu) * t, twists) for t in xy])
+
+
+def line(of, key, i):
+    """Points given one by one, or equal parts; and how much of the line each has."""
+    size, parts = (of["size"][i], of["elements"][i]) if key not in of else (0, 1)
+    x = [F(v) for v in of[key]] if key in of else [F(size) * k / parts for k in range(parts + 1)]
+    return x, [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])]
+
+
+def plate(of):
+    """Names of dofs, nodes by place, how much of the area each has, and the elements with their dofs and left ends."""
+    (x, width), (y, height), nu = line(of, "x", 0), line(of, "y", 1), F(of["nu"])
+    D = F(of["D"]) if "D" in of else F(of["E"]) * F(of["thickness"])**3 / (12 * (1 - nu * nu))
+    elements, made = [], {}
+    for j in range(len(y) - 1):
+        for i in range(len(x) - 1):
+            sides, first = (x[i + 1] - x[i], y[j + 1] - y[j]), j * len(x) + i
+            made[sides] = made.get(sides) or Plate(*sides, D, nu)
+            corners = [first, first + 1, first + len(x) + 1, first + len(x)]
+            elements.append((made[sides], [3 * corner + d for corner in corners for d in range(3)], x[i]))
+    places = {(a, b): k for k, (b, a) in enumerate((b, a) for b in y for a in x)}
+    return ["w", "wx", "wy"], places, [a * b for b in height for a in width], elements

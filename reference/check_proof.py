@@ -1,0 +1,200 @@
+"""check_proof.py PROBLEM.toml PROOF.json: verify what `contct run PROBLEM.toml --proof PROOF.json` wrote.
+
+Every bound on an error is verified in rational arithmetic, from the decimals of the problem file, without the program:
+certificate.md has the mathematics, proof-format.md the format. Exit 0: all bounds hold; 1: one does not; 2: there are none.
+"""
+import json
+import sys
+import tomllib
+from fractions import Fraction as F
+from math import comb
+
+from check_plate import dot, plate
+
+
+def listed(x):
+    return x if isinstance(x, list) else [x]
+
+
+def up(x):
+    """x, or a little more (2^-200 of it), with a short denominator."""
+    shift = max(0, 200 + x.denominator.bit_length() - abs(x.numerator).bit_length())
+    return F(-((-x.numerator << shift) // x.denominator), 1 << shift)
+
+
+class Beam:
+    """An element of length h: dofs w and w' at its left end, w and w' at its right."""
+
+    def __init__(self, h, EI):
+        self.h, self.EI, c = h, EI, EI / h**3
+        self.stiffness = [[12 * c, 6 * h * c, -12 * c, 6 * h * c], [6 * h * c, 4 * h * h * c, -6 * h * c, 2 * h * h * c],
+                          [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, 2 * h * h * c, -6 * h * c, 4 * h * h * c]]
+
+    def load(self, q, left):
+        """Consistent forces of the polynomial q in x; q and the shapes become polynomials in t = (x - left) / h."""
+        shapes = [(1, 0, -3, 2), (0, self.h, -2 * self.h, self.h), (0, 0, 3, -2), (0, 0, -self.h, self.h)]
+        own = [sum(c * comb(k, i) * left**(k - i) for k, c in enumerate(q) if k >= i) * self.h**(i + 1) for i in range(len(q))]
+        return [sum(c * a / F(i + j + 1) for i, c in enumerate(own) for j, a in enumerate(shape)) for shape in shapes]
+
+    def values(self, u, work):
+        """(kind, value, square of its error per rho) of what is handed out, for its displacements and its own loads."""
+        v, m, w, n = [dot(row, u) - f for row, f in zip(self.stiffness, work)]
+        shear, moment = 12 * self.EI / self.h**3, 4 * self.EI / self.h
+        return [("shear", v, shear), ("shear", -w, shear), ("moment", -m, moment), ("moment", n, moment)]
+
+
+def beam(of):
+    """Names of dofs, nodes by place, how much of the length each has, and the elements with their dofs and left ends."""
+    x = [F(v) for v in of["x"]] if "x" in of else [F(of["length"]) * i / of["elements"] for i in range(of["elements"] + 1)]
+    EI = of["EI"] if isinstance(of["EI"], list) else [of["EI"]] * (len(x) - 1)
+    elements = [(Beam(x[e + 1] - x[e], F(k)), range(2 * e, 2 * e + 4), x[e]) for e, k in enumerate(EI)]
+    return ["w", "theta"], {v: i for i, v in enumerate(x)}, [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])], elements
+
+
+class Problem:
+    """K by rows, supports, pairs and loads, as fractions."""
+
+    def __init__(self, t):
+        self.names, self.at, share, self.elements = plate(t["plate"]) if "plate" in t else beam(t["beam"])
+        self.steps, self.n = t["step"], len(share) * len(self.names)
+        self.K = [{i: F(0)} for i in range(self.n)]
+        for element, dofs, _ in self.elements:
+            for i, j, k in ((i, j, k) for i, row in zip(dofs, element.stiffness) for j, k in zip(dofs, row)):
+                self.K[i][j] = self.K[i].get(j, 0) + k
+        self.supports = []  # (dof, its spring; None: fixed)
+        for s in t.get("support", []):
+            springs = [(name, F(s["spring"][name])) for name in self.names if name in s.get("spring", {})]
+            for name, spring in [(name, None) for name in listed(s.get("fix", []))] + springs:
+                self.supports += [(self.dof(node, name), spring) for node in self.nodes(s, len(share))]
+        for dof, spring in self.supports:
+            self.K[dof][dof] += spring or 0
+        self.fixed = {dof for dof, spring in self.supports if spring is None}
+        self.pairs = []  # (dof, n, face, stiffness)
+        for c in t.get("contact", []) + t.get("bed", []):
+            for i, node in enumerate(self.nodes(c, len(share))):
+                face, k = (v[i] if isinstance(v, list) else v for v in (c["face"], c.get("stiffness", c.get("modulus"))))
+                face = face if not isinstance(face, dict) else sum(
+                    F(a) * list(self.at)[node]**power for power, a in enumerate(face["polynomial"]))
+                k = F(k) * (share[node] if "modulus" in c else 1)
+                if "modulus" not in c or self.dof(node, "w") not in self.fixed:
+                    self.pairs.append((self.dof(node, "w"), 1 if c.get("surface") == "above" else -1, F(face), k))
+
+    def dof(self, node, name):
+        return node * len(self.names) + self.names.index(name)
+
+    def nodes(self, t, count):
+        """Nodes from 0 of a table: node, nodes, x or at; a bed's are all that no support fixes, by default all."""
+        if "x" in t or "at" in t:
+            places = listed(t["x"]) if "x" in t else t["at"] if isinstance(t["at"][0], list) else [t["at"]]
+            return [self.at[tuple(place) if "at" in t else place] for place in places]
+        which = t.get("nodes", t.get("node", "all"))
+        if isinstance(which, str):
+            first, last = ("1", count) if which == "all" else which.split("..")
+            return list(range(int(first) - 1, int(last)))
+        return [node - 1 for node in listed(which)]
+
+    def loads(self, step):
+        """Loads [dofs], the settlement of each fixed dof, and each element's own loads."""
+        f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * len(dofs) for _, dofs, _ in self.elements]
+        for part in listed(step.get("uniform", [])):
+            q = [F(c) for c in part.get("polynomial", [part.get("value")])] if isinstance(part, dict) else [F(part)]
+            part = part if isinstance(part, dict) else {}
+            for e in self.nodes({"nodes": part.get("elements", "all")}, len(own)):
+                element, dofs, left = self.elements[e]
+                own[e] = [a + b for a, b in zip(own[e], element.load(q, left))]
+        for dof, force in ((dof, force) for (_, dofs, _), work in zip(self.elements, own) for dof, force in zip(dofs, work)):
+            f[dof] += force
+        for kind, into in (("point", f), ("settlement", settled)):
+            for part in step.get(kind, []):
+                for node in self.nodes(part, 0):
+                    for name in part.keys() & set(self.names):
+                        into[self.dof(node, name)] += F(part[name])
+        return f, settled, own
+
+
+def least_eigenvalue(p, s, springs):
+    """mu with S K_A S >= mu I: the shift less Gershgorin's discs of S K_A S - shift I - L L'."""
+    S = [F(2)**k for k in s["scale"]]
+    rows = [[F(x) for x in row] for row in s["L"]]
+    unit = max(x.denominator for row in rows for x in row)
+    whole = [[int(x * unit) for x in row] for row in rows]
+    first = [i + 1 - len(row) for i, row in enumerate(rows)]
+    at, shift, sums = s["row_of"], F(s["shift"]), [F(0)] * p.n
+    if sorted(at) != list(range(p.n)) or min(first) < 0:
+        raise ValueError("the rows of L are not those of the dofs")
+    for dof in range(p.n):
+        i = at[dof]
+        row = {at[j]: k * S[dof] * S[j] for j, k in p.K[dof].items() if dof not in p.fixed and j not in p.fixed}
+        row[i] = (row[i] + springs[dof] * S[dof]**2 if dof not in p.fixed else 1) - shift
+        for j in {j for j in row if j <= i} | set(range(first[i], i + 1)):
+            k = max(first[i], first[j])
+            ll = sum(map(int.__mul__, whole[i][k - first[i]:], whole[j][k - first[j]:])) if k <= j else 0
+            error = up(abs(row.get(j, 0) - F(ll, unit * unit)))
+            sums[i] += error
+            sums[j] += error if j != i else 0
+    mu = shift - max(sums)
+    if mu <= 0:
+        raise ValueError("the stiffness is not shown to be positive definite")
+    return mu, S
+
+
+def check(p, step, s):
+    """Raises Refused for a bound that does not hold; gives the number of numbers that were looked at."""
+    f, settled, own = p.loads(step)
+    u = [settled.get(dof, F(hi) + F(lo)) for dof, (hi, lo) in enumerate(s["u"])]
+    deep = [n * (u[dof] - face) for dof, n, face, _ in p.pairs]
+    need = [dot(row.values(), [u[j] for j in row]) - f[i] for i, row in enumerate(p.K)]
+    for (dof, n, _, k), d in zip(p.pairs, deep):
+        need[dof] += n * k * max(d, 0)
+    closed, springs = [i - 1 for i in s["closed"]], [F(0)] * p.n
+    for i in closed:
+        springs[p.pairs[i][0]] += p.pairs[i][3]
+    rho2, reach = F(0), [F(0)] * p.n  # squares: of rho, and of each displacement's error per rho
+    if "L" in s:
+        mu, S = least_eigenvalue(p, s, springs)
+        reach = [x * x / mu for x in S]
+        r = [F(0) if dof in p.fixed else -x for dof, x in enumerate(need)]
+        z = [F(0) if dof in p.fixed else F(hi) + F(lo) for dof, (hi, lo) in enumerate(s["z"] or [(0, 0)] * p.n)]
+        for dof, row in enumerate(p.K):
+            if dof not in p.fixed:
+                e = r[dof] - dot(row.values(), [z[j] for j in row]) - springs[dof] * z[dof]
+                rho2 += up(r[dof] * z[dof] + z[dof] * e + reach[dof] * e * e)
+    elif any(f) or any(u) or any(n * face < 0 for _, n, face, _ in p.pairs):  # nothing acts, and u = 0 is an equilibrium
+        raise ValueError("nothing shows that the stiffness is positive definite")
+    if len(set(closed)) < len(closed) or any(deep[i] <= 0 or p.pairs[i][0] in p.fixed or
+            deep[i]**2 <= min(reach[p.pairs[i][0]], 1 / p.pairs[i][3]) * rho2 for i in closed):
+        raise ValueError("a pair is taken as closed that may be open")
+    per, held = len(p.names), {dof: (need[dof], p.K[dof][dof]) for dof in p.fixed}
+    spread = [0 if dof in p.fixed else reach[dof] for dof in range(p.n)]  # squares per rho: of displacements, then of forces
+    claims = [("slope" if dof % per else "w", true, spread[dof]) for dof, true in enumerate(u)]
+    for (dof, _, _, k), d in zip(p.pairs, deep):
+        claims.append(("force", k * max(d, 0), 0 if d < 0 and d * d > spread[dof] * rho2 else min(k, k * k * spread[dof])))
+    for dof, k in p.supports:  # a dof that is fixed twice gives its reaction to the first
+        true, square = held.pop(dof, (0, 0)) if k is None else (-k * u[dof], min(k, k * k * spread[dof]))
+        claims.append(("moment" if dof % per else "reaction", true, square))
+    claims += [v for (e, dofs, _), work in zip(p.elements, own) for v in e.values([u[dof] for dof in dofs], work)]
+    told = s["displacement"] + s["force"] + s["reactions"] + s["elements"]
+    for number, ((kind, true, square), x) in enumerate(zip(claims, told, strict=True)):
+        if number < p.n and "L" not in s and s["error"][kind] is None:
+            continue  # it may stand anywhere
+        room = F(s["error"][kind]) - abs(F(x) - true)
+        if room < 0 or room * room < square * rho2 or (number < p.n and "L" not in s):
+            raise ValueError(f"the bound on {kind} does not hold for number {number + 1}")
+    return len(claims) if "L" in s else len(claims) - p.n
+
+
+def main(problem, proof):
+    with open(problem, "rb") as file, open(proof, encoding="utf-8") as proofs:
+        p, steps = Problem(tomllib.load(file, parse_float=F)), json.load(proofs)["steps"]
+    for i, s in enumerate(steps):
+        try:
+            words = f"{check(p, p.steps[i], s)} numbers are within their bounds" if s["error"] else f"no bounds: {s['because']}"
+        except (LookupError, ValueError, TypeError, ArithmeticError) as why:
+            print(f"step {i + 1}: REFUSED: {why!r}")
+            return 1
+        print(f"step {i + 1}: {words}")
+    return 0 if any(s["error"] for s in steps) else 2
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]) if len(sys.argv) == 3 else __doc__)

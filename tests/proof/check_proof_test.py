@@ -1,0 +1,162 @@
+"""check_proof_test.py CONTCT REFERENCE [all]: every reference problem's proof is accepted, and each of the doctored ones is refused.
+
+Without `all`, plates of 16 x 16 elements and more are left out, which take most of the time.
+"""
+import copy
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+program, reference = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+sys.dont_write_bytecode = True
+failed = 0
+
+
+def fail(words):
+    global failed
+    failed += 1
+    print(f"FAILED: {words}")
+
+
+def proof_of(problem, folder, *options):
+    """The proof of a run, parsed; none where the run has no end."""
+    out = Path(folder) / "proof.json"
+    run = subprocess.run([program, "run", problem, "--quiet", "--proof", out, *options], capture_output=True, text=True)
+    if run.returncode not in (0, 3):
+        return None
+    return json.loads(out.read_text())
+
+
+def verdict(problem, proof, folder):
+    """What the checker ends with, and what it says."""
+    file = Path(folder) / "checked.json"
+    file.write_text(json.dumps(proof))
+    check = subprocess.run([sys.executable, "-B", reference / "check_proof.py", problem, file], capture_output=True, text=True)
+    return check.returncode, check.stdout + check.stderr
+
+
+def scaled(path, factor):
+    """A fault: the number at `path` of a step is multiplied."""
+    def fault(step):
+        for key in path[:-1]:
+            step = step[key]
+        step[path[-1]] *= factor
+    return fault
+
+
+def put(key, value):
+    def fault(step):
+        step[key] = value(step[key]) if callable(value) else value
+    return fault
+
+
+def swapped(key, i, j):
+    def fault(step):
+        step[key][i], step[key][j] = step[key][j], step[key][i]
+    return fault
+
+
+# In step 3 of PB7 the beam is on three stops, of which the middle one presses more.
+FAULTS = {
+    "the state is moved": scaled(["u", 16, 0], 1 + 1e-6),
+    "the state has lost what doubles leave over": put("u", lambda u: [[hi * (1 + 2e-16), 0.0] for hi, _ in u]),
+    "a displacement is off by 1e-9": scaled(["displacement", 8], 1 + 1e-9),
+    "the bound on deflections is smaller": scaled(["error", "w"], 1e-3),
+    "the bound on slopes is smaller": scaled(["error", "slope"], 1e-3),
+    "the bound on contact forces is smaller": scaled(["error", "force"], 1e-3),
+    "the bound on reactions is smaller": scaled(["error", "reaction"], 1e-3),
+    "the bound on moments is smaller": scaled(["error", "moment"], 1e-3),
+    "the bound on shears is smaller": scaled(["error", "shear"], 1e-3),
+    "a bound is negative": scaled(["error", "moment"], -1.0),
+    "a bound is missing": lambda step: step["error"].pop("shear"),
+    "a closed pair is forgotten": put("closed", [1, 3]),
+    "all closed pairs are forgotten": put("closed", []),
+    "a pair is taken as closed twice": put("closed", [1, 2, 3, 3]),
+    "a pair that there is not is taken as closed": put("closed", [1, 2, 4]),
+    "a contact force is off by one part in 1e9": scaled(["force", 1], 1 + 1e-9),
+    "a contact force pulls": scaled(["force", 1], -1.0),
+    "a pressed pair has no force": scaled(["force", 2], 0.0),
+    "a reaction has the other sign": scaled(["reactions", 0], -1.0),
+    "a moment is off by 1e-9": scaled(["elements", 19], 1 + 1e-9),
+    "the shift has the other sign": scaled(["shift"], -1.0),
+    "the scaling is another one": put("scale", lambda s: [k + 1 for k in s]),
+    "rows of L are exchanged": swapped("row_of", 3, 4),
+    "two dofs have one row": put("row_of", lambda rows: [rows[1], *rows[1:]]),
+    "an entry of L is off": scaled(["L", 9, -1], 1 + 1e-3),
+    "L is the unit matrix": put("L", lambda rows: [[0.0] * (len(row) - 1) + [1.0] for row in rows]),
+    "L is missing": lambda step: step.pop("L"),
+    "z is another vector": put("z", lambda z: [[1.0, 0.0] for _ in z]),
+    "a displacement is left out": lambda step: step["displacement"].pop(),
+    "a reaction is left out": lambda step: step["reactions"].pop(),
+}
+# And the proof of another problem: a digit of the file is another one.
+OTHERS = {"EI": (r"EI( *)= *", "1"), "the load": (r"uniform( *)= *", "1"), "a face": (r"face( *)= *", "1"), "a spring": (r"stiffness( *)= *", "1")}
+
+
+def check_reference(folder):
+    accepted = proved = 0
+    files = sorted(reference.glob("problems/*.toml")) + sorted(reference.glob("problems/divergences/*.toml"))
+    if "all" not in sys.argv:
+        files = [file for file in files if not re.search("n16|n24", file.name)]
+    for problem in files:
+        for kernel in ("corrected", "fortran"):
+            proof = proof_of(problem, folder, "--kernels", kernel)
+            if proof is None:  # a mechanism, by the listing's rule
+                if kernel == "corrected":
+                    fail(f"{problem.name}: no end with {kernel}")
+                continue
+            bounds = sum(step["error"] is not None for step in proof["steps"])
+            proved += bounds
+            code, said = verdict(problem, proof, folder)
+            if code != (0 if bounds else 2) or (kernel == "corrected" and bounds != len(proof["steps"])):
+                fail(f"{problem.name}, {kernel}: {code}: {said}")
+            else:
+                accepted += 1
+    if accepted < 2 * len(files) - 4 or len(files) < 44 or proved < 150:
+        fail(f"only {accepted} proofs with {proved} steps were accepted")
+    print(f"{accepted} proofs of {len(files)} problems, with {proved} steps, are accepted")
+
+
+def check_faults(folder):
+    problem = reference / "problems/pb07-three-gap-supports.toml"
+    proof = proof_of(problem, folder, "--kernels", "corrected")
+    if verdict(problem, proof, folder)[0] != 0 or proof["steps"][2]["closed"] != [1, 2, 3]:
+        fail("the proof that is to be doctored is not as expected")
+    for name, fault in FAULTS.items():
+        doctored = copy.deepcopy(proof)
+        fault(doctored["steps"][2])
+        code, said = verdict(problem, doctored, folder)
+        if code != 1 or "step 3: REFUSED" not in said:
+            fail(f"{name}: {code}: {said}")
+    doctored = copy.deepcopy(proof)
+    doctored["steps"][2]["L"] = doctored["steps"][0]["L"]
+    if verdict(problem, doctored, folder)[0] != 1:
+        fail("the factor is that of another state")
+    doctored = copy.deepcopy(proof)
+    doctored["steps"][1], doctored["steps"][2] = doctored["steps"][2], doctored["steps"][1]
+    if verdict(problem, doctored, folder)[0] != 1:
+        fail("steps are exchanged")
+    problem_that_opens = reference / "problems/pb01-cantilever-tip-stop.toml"
+    opened = proof_of(problem_that_opens, folder, "--kernels", "corrected")
+    opened["steps"][3]["closed"] = [1]
+    if verdict(problem_that_opens, opened, folder)[0] != 1:
+        fail("an open pair is taken as closed")
+    for name, (pattern, digit) in OTHERS.items():
+        other = Path(folder) / "other.toml"
+        text = problem.read_text()
+        changed = re.sub(pattern + r"(-?[0-9.]*[0-9])", lambda m: m.group(0) + ("" if "." in m.group(2) else ".") + "000001" + digit, text, count=1)
+        other.write_text(changed)
+        code, said = verdict(other, proof, folder)
+        if changed == text or code != 1:
+            fail(f"the proof of a problem in which {name} is another: {code}: {said}")
+    print(f"{len(FAULTS) + 3 + len(OTHERS)} doctored proofs were tried")
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    check_reference(scratch)
+    check_faults(scratch)
+print("FAILED" if failed else "passed")
+sys.exit(1 if failed else 0)

@@ -1,0 +1,67 @@
+// A proof has what its checker needs, and says why where there is none.
+#include "contct/write/proof_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "contct/kernel/call.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
+
+using namespace contct::app;
+
+namespace {
+
+/// The proof of a path under the corrected rule.
+nlohmann::json proof_of(const std::string& text) {
+  const problem p = parse_problem(text, "b.toml");
+  const linear_structure s = structure_of(p);
+  certifier judged(p, s);
+  judged.keep_proofs();
+  path_limits limits;
+  limits.refine = judged.refiner();
+  const auto k = make_kernel("corrected");
+  (void)follow(p, s, "refactor", *k, {&judged}, limits);
+  return nlohmann::json::parse(proof_json(p, "b.toml", judged));
+}
+
+constexpr const char* stopped_beam =
+    "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
+    "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n"
+    "[[step]]\nuniform = -10\n[[step]]\nuniform = 0\n";
+
+}  // namespace
+
+TEST_CASE("a proof has the state, the closed pairs, the factor and the bounds of each step") {
+  const nlohmann::json proof = proof_of(stopped_beam);
+  CHECK(proof["format"] == "contct-proof-1");
+  CHECK(proof["problem"] == "b.toml");
+  REQUIRE(proof["steps"].size() == 2);
+  const nlohmann::json& loaded = proof["steps"][0];
+  CHECK(loaded["certified"] == true);
+  CHECK(loaded["closed"] == nlohmann::json::array({1}));
+  CHECK(loaded["error"]["w"].get<double>() < 1e-15);
+  for (const char* each_dof : {"displacement", "u", "z", "scale", "row_of", "L"})
+    CHECK(loaded[each_dof].size() == 10);
+  CHECK(loaded["force"].size() == 1);
+  CHECK(loaded["reactions"].size() == 2);
+  CHECK(loaded["elements"].size() == 16);
+  CHECK(loaded["L"][0].size() == 1);
+  CHECK(loaded["L"][9].size() == 4);
+  CHECK(loaded["shift"].get<double>() > 0.0);
+  const nlohmann::json& unloaded = proof["steps"][1];
+  CHECK(unloaded["closed"].empty());
+  CHECK(unloaded["z"].empty());
+  CHECK(unloaded["L"].size() == 10);
+}
+
+TEST_CASE("where nothing is proved, a proof says why") {
+  const nlohmann::json proof = proof_of(
+      "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = 0\n"
+      "stiffness = 1e6\n[[step]]\npoint = [ { node = 2, w = -1 } ]\n");  // nothing holds node 1 down
+  const nlohmann::json& step = proof["steps"][0];
+  CHECK(step["error"].is_null());
+  CHECK_FALSE(step["because"].get<std::string>().empty());
+  CHECK_FALSE(step.contains("L"));
+}
