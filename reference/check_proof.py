@@ -97,23 +97,22 @@ class Problem:
         """Loads [dofs], the settlement of each fixed dof, and each element's own loads."""
         f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * len(dofs) for _, dofs, _ in self.elements]
         for part in listed(step.get("uniform", [])):
-            q = [F(c) for c in part.get("polynomial", [part.get("value")])] if isinstance(part, dict) else [F(part)]
-            part = part if isinstance(part, dict) else {}
+            part = part if isinstance(part, dict) else {"value": part}
+            q = [F(c) for c in part.get("polynomial", [part.get("value")])]
             for e in self.nodes({"nodes": part.get("elements", "all")}, len(own)):
-                element, dofs, left = self.elements[e]
-                own[e] = [a + b for a, b in zip(own[e], element.load(q, left))]
+                own[e] = [a + b for a, b in zip(own[e], self.elements[e][0].load(q, self.elements[e][2]))]
         for dof, force in ((dof, force) for (_, dofs, _), work in zip(self.elements, own) for dof, force in zip(dofs, work)):
             f[dof] += force
-        for kind, into in (("point", f), ("settlement", settled)):
-            for part in step.get(kind, []):
-                for node in self.nodes(part, 0):
-                    for name in part.keys() & set(self.names):
-                        into[self.dof(node, name)] += F(part[name])
+        given = [(part, f) for part in step.get("point", [])] + [(part, settled) for part in step.get("settlement", [])]
+        for part, into in given:
+            for node in self.nodes(part, 0):
+                for name in part.keys() & set(self.names):
+                    into[self.dof(node, name)] += F(part[name])
         return f, settled, own
 
 
-def least_eigenvalue(p, s, springs):
-    """mu with S K_A S >= mu I: the shift less Gershgorin's discs of S K_A S - shift I - L L'."""
+def reach_of(p, s, springs):
+    """s_i^2 / mu with S K_A S >= mu I; mu is the shift less Gershgorin's discs of S K_A S - shift I - L L'."""
     S = [F(2)**k for k in s["scale"]]
     rows = [[F(x) for x in row] for row in s["L"]]
     unit = max(x.denominator for row in rows for x in row)
@@ -130,16 +129,16 @@ def least_eigenvalue(p, s, springs):
             k = max(first[i], first[j])
             ll = sum(map(int.__mul__, whole[i][k - first[i]:], whole[j][k - first[j]:])) if k <= j else 0
             error = up(abs(row.get(j, 0) - F(ll, unit * unit)))
-            sums[i] += error
-            sums[j] += error if j != i else 0
+            for disc in {i, j}:
+                sums[disc] += error
     mu = shift - max(sums)
     if mu <= 0:
         raise ValueError("the stiffness is not shown to be positive definite")
-    return mu, S
+    return [x * x / mu for x in S]
 
 
 def check(p, step, s):
-    """Raises Refused for a bound that does not hold; gives the number of numbers that were looked at."""
+    """Raises ValueError where a bound does not hold; gives the number of numbers that were looked at."""
     f, settled, own = p.loads(step)
     u = [settled.get(dof, F(hi) + F(lo)) for dof, (hi, lo) in enumerate(s["u"])]
     deep = [n * (u[dof] - face) for dof, n, face, _ in p.pairs]
@@ -151,8 +150,7 @@ def check(p, step, s):
         springs[p.pairs[i][0]] += p.pairs[i][3]
     rho2, reach = F(0), [F(0)] * p.n  # squares: of rho, and of each displacement's error per rho
     if "L" in s:
-        mu, S = least_eigenvalue(p, s, springs)
-        reach = [x * x / mu for x in S]
+        reach = reach_of(p, s, springs)
         r = [F(0) if dof in p.fixed else -x for dof, x in enumerate(need)]
         z = [F(0) if dof in p.fixed else F(hi) + F(lo) for dof, (hi, lo) in enumerate(s["z"] or [(0, 0)] * p.n)]
         for dof, row in enumerate(p.K):
@@ -161,7 +159,7 @@ def check(p, step, s):
                 rho2 += up(r[dof] * z[dof] + z[dof] * e + reach[dof] * e * e)
     elif any(f) or any(u) or any(n * face < 0 for _, n, face, _ in p.pairs):  # nothing acts, and u = 0 is an equilibrium
         raise ValueError("nothing shows that the stiffness is positive definite")
-    if len(set(closed)) < len(closed) or any(deep[i] <= 0 or p.pairs[i][0] in p.fixed or
+    if sorted(set(closed) & set(range(len(p.pairs)))) != closed or any(deep[i] <= 0 or p.pairs[i][0] in p.fixed or
             deep[i]**2 <= min(reach[p.pairs[i][0]], 1 / p.pairs[i][3]) * rho2 for i in closed):
         raise ValueError("a pair is taken as closed that may be open")
     per, held = len(p.names), {dof: (need[dof], p.K[dof][dof]) for dof in p.fixed}
@@ -184,15 +182,17 @@ def check(p, step, s):
 
 
 def main(problem, proof):
-    with open(problem, "rb") as file, open(proof, encoding="utf-8") as proofs:
-        p, steps = Problem(tomllib.load(file, parse_float=F)), json.load(proofs)["steps"]
-    for i, s in enumerate(steps):
-        try:
+    where = "what the files hold"
+    try:
+        with open(problem, "rb") as file, open(proof, encoding="utf-8") as proofs:
+            p, steps = Problem(tomllib.load(file, parse_float=F)), json.load(proofs)["steps"]
+        for i, s in enumerate(steps):
+            where = f"step {i + 1} of {len(p.steps)}"
             words = f"{check(p, p.steps[i], s)} numbers are within their bounds" if s["error"] else f"no bounds: {s['because']}"
-        except (LookupError, ValueError, TypeError, ArithmeticError) as why:
-            print(f"step {i + 1}: REFUSED: {why!r}")
-            return 1
-        print(f"step {i + 1}: {words}")
+            print(f"{where}: {words}")
+    except (OSError, AttributeError, LookupError, ValueError, TypeError, ArithmeticError) as why:
+        print(f"{where}: REFUSED: {why!r}")
+        return 1
     return 0 if any(s["error"] for s in steps) else 2
 
 

@@ -257,8 +257,7 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   p.add_reports(c, o.report);
   p.add_file(c, "--log", o.log, "Write what the leader writes to unit 26 to this file");
   p.add_file(c, "--proof", o.proof,
-             "Write what proves the bounds on errors to this file, for reference/check_proof.py and other "
-             "sceptics");
+             "Write what proves the bounds on errors to this file; reference/check_proof.py verifies it");
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
                                 "--html", "--svg", "--csv", "--vtu", "--envelope", "--node"})
     final_only->excludes(c->get_option(of_a_path));

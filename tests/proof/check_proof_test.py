@@ -83,6 +83,7 @@ FAULTS = {
     "a moment is off by 1e-9": scaled(["elements", 19], 1 + 1e-9),
     "the shift has the other sign": scaled(["shift"], -1.0),
     "the scaling is another one": put("scale", lambda s: [k + 1 for k in s]),
+    "the scaling is no power of two": put("scale", lambda s: [k + 0.5 for k in s]),
     "rows of L are exchanged": swapped("row_of", 3, 4),
     "two dofs have one row": put("row_of", lambda rows: [rows[1], *rows[1:]]),
     "an entry of L is off": scaled(["L", 9, -1], 1 + 1e-3),
@@ -129,7 +130,7 @@ def check_faults(folder):
         doctored = copy.deepcopy(proof)
         fault(doctored["steps"][2])
         code, said = verdict(problem, doctored, folder)
-        if code != 1 or "step 3: REFUSED" not in said:
+        if code != 1 or "step 3 of 4: REFUSED" not in said:
             fail(f"{name}: {code}: {said}")
     doctored = copy.deepcopy(proof)
     doctored["steps"][2]["L"] = doctored["steps"][0]["L"]
@@ -139,6 +140,14 @@ def check_faults(folder):
     doctored["steps"][1], doctored["steps"][2] = doctored["steps"][2], doctored["steps"][1]
     if verdict(problem, doctored, folder)[0] != 1:
         fail("steps are exchanged")
+    doctored = copy.deepcopy(proof)  # pair 3 counts twice, by another name, and the factor has its spring twice
+    twice = Path(folder) / "twice.toml"
+    contact = "\n[[contact]]\nnode = 13\nsurface = \"below\"\nface = -0.006\nstiffness = 1.0e5\n"
+    twice.write_text(problem.read_text().replace("\n[[step]]", contact + "\n[[step]]", 1))
+    doctored["steps"][2].update({key: proof_of(twice, folder, "--kernels", "corrected")["steps"][2][key] for key in ("L", "shift", "scale")})
+    doctored["steps"][2].update(closed=[1, 2, 3, 0], error={kind: 1e6 * bound for kind, bound in proof["steps"][2]["error"].items()})
+    if verdict(problem, doctored, folder)[0] != 1:
+        fail("a pair is taken as closed under two numbers")
     problem_that_opens = reference / "problems/pb01-cantilever-tip-stop.toml"
     opened = proof_of(problem_that_opens, folder, "--kernels", "corrected")
     opened["steps"][3]["closed"] = [1]
@@ -152,7 +161,7 @@ def check_faults(folder):
         code, said = verdict(other, proof, folder)
         if changed == text or code != 1:
             fail(f"the proof of a problem in which {name} is another: {code}: {said}")
-    print(f"{len(FAULTS) + 3 + len(OTHERS)} doctored proofs were tried")
+    print(f"{len(FAULTS) + 4 + len(OTHERS)} doctored proofs were tried")
 
 
 with tempfile.TemporaryDirectory() as scratch:

@@ -367,12 +367,11 @@ void error_prover::measure(const true_loads& l, error_bounds& b) const {
   }
 }
 
-void error_prover::keep(const handed_out& state, long_vector u, const error_bounds& b) {
+void error_prover::keep(const handed_out& state, const long_vector& u, const error_bounds& b) {
   if (!keeps_proof_) return;
   const std::vector<double> displacement(state.displacement.begin(), state.displacement.end());
-  proof_ = step_proof{
-      displacement, state.pair_forces, state.reactions, state.element_values, std::move(u), b.closed,
-      z_,           stiffness_.proof()};
+  proof_ = step_proof{displacement, state.pair_forces, state.reactions, state.element_values, u, b.closed,
+                      z_,           stiffness_.proof()};
 }
 
 error_bounds error_prover::bound(const handed_out& state) {

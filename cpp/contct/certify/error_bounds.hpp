@@ -101,7 +101,7 @@ class error_prover {
   void bound_unloaded(const handed_out& state, error_bounds& b);
   [[nodiscard]] bool proves(const std::vector<int>& closed);
   [[nodiscard]] std::optional<double> norm_of(const residual& r, double mu);
-  void keep(const handed_out& state, long_vector u, const error_bounds& b);
+  void keep(const handed_out& state, const long_vector& u, const error_bounds& b);
   bool find_closed(std::span<const double_double> u, const residual& r, error_bounds& b);
   [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
   void bound_displacements(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;

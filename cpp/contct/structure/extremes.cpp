@@ -76,7 +76,7 @@ class extremes {
   extremes(std::string_view name, const placed_value& first)
       : name_(name), least_{first, first.value}, most_{first, first.value} {}
 
-  /// `from`: values at and beyond this x are neighbours of v, and not another extreme.
+  /// `from`: an extreme at this x or beyond is v's neighbour, and gives its place to v.
   void take(const placed_value& v, double from = std::numeric_limits<double>::infinity()) {
     if (v.value < least_.shown.value) least_.follow(v, from);
     if (v.value > most_.shown.value) most_.follow(v, from);
