@@ -61,3 +61,32 @@ TEST_CASE("a pair at a fixed dof moves nothing") {
   CHECK(after == before);
   CHECK(after[4] == 0.0);
 }
+
+TEST_CASE("a free beam takes all springs in before its first response: one alone does not hold it") {
+  const linear_structure s =
+      build(beam{{0, 1, 2}, {605, 605}}, {}, {{0, -1, -1e-4, 300.0, false}, {2, -1, -5e-5, 250.0, false}});
+  const auto engine = make_engine("condensed", s);
+  engine->switch_spring(0, true);
+  engine->switch_spring(1, true);
+  const std::vector<double> load = {0, 0, -2.0, 0, 0, 0};
+  std::vector<double> d_star(2);
+  engine->respond({load, 1.0, 1}, d_star);
+  CHECK(d_star[0] == Approx(-1.0 / 300).epsilon(1e-12));
+  CHECK(d_star[1] == Approx(-1.0 / 250).epsilon(1e-12));
+}
+
+TEST_CASE("when a spring opens that is 1e18 times as stiff, the response is as it was before it closed") {
+  linear_structure s = cantilever_over_stops(6);
+  s.pairs[2].stiffness = 1e18 * s.pairs[2].stiffness;
+  const auto engine = make_engine("condensed", s);
+  std::vector<double> load(s.dofs());
+  load[12] = -10.0;
+  std::vector<double> before(6);
+  std::vector<double> after(6);
+  engine->respond({load, 1.0, 1}, before);
+  for (const bool closed : {true, false}) {
+    engine->switch_spring(2, closed);
+    engine->respond({load, 1.0, 1}, after);
+    CHECK((relative_difference(before, after) <= 1e-12) != closed);
+  }
+}

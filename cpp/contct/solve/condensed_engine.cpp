@@ -60,6 +60,9 @@ node_matrix solved(const node_matrix& a, const node_matrix& b) {
   const double tt = (b.tt - ratio * b.wt) / pivot;
   return {(b.ww - a.wt * tw) / a.ww, (b.wt - a.wt * tt) / a.ww, tw, tt};
 }
+bool is_definite(const node_matrix& a) {
+  return a.ww > 0.0 && a.tt - a.tw / a.ww * a.wt > 0.0;
+}
 node_vector solved(const node_matrix& a, const node_vector& v) {
   const node_matrix m = solved(a, node_matrix{v.w, 0.0, v.theta, 0.0});
   return {m.ww, m.tw};
@@ -94,6 +97,8 @@ class condensed_engine final : public spring_engine {
       place_.push_back(std::lower_bound(kept_.begin(), kept_.end(), s.pairs[i].node) - kept_.begin());
       spring_factor_.push_back(s.fixed[s.dof_of_pair(i)] != 0 ? 0.0 : 1.0);
     }
+    pairs_at_.resize(kept_.size());
+    for (std::size_t i = 0; i < place_.size(); ++i) pairs_at_[place_[i]].push_back(static_cast<int>(i));
     x_.resize(kept_.size());
     load_.resize(kept_.size());
     column_.resize(kept_.size());
@@ -102,12 +107,14 @@ class condensed_engine final : public spring_engine {
   [[nodiscard]] std::string_view name() const override { return "condensed"; }
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
-    (void)apply_switched([this](int pair) { return update(pair); });
-    if (response_to_ != residual.version) {
-      respond_anew(residual);
-    } else if (drift_.is_due()) {
-      refine_response();
-    }
+    // Before the first response, what is applied need not hold the structure: then there is no column.
+    bool has_response = response_to_ == residual.version;
+    (void)apply_switched([&](int pair) {
+      switch_in_sweeps(pair);
+      has_response = has_response && update_response(pair);
+      return true;
+    });
+    if (!has_response || (drift_.is_due() && !refine_response())) respond_anew(residual);
     for (std::size_t i = 0; i < place_.size(); ++i) d_star[i] = residual.share * x_[place_[i]].w;
   }
 
@@ -159,15 +166,23 @@ class condensed_engine final : public spring_engine {
     eliminate_between(-1, kept_.front(), 0);
     for (std::size_t i = 0; i + 1 < n; ++i) eliminate_between(kept_[i], kept_[i + 1], i);
     eliminate_between(kept_.back(), structure_.stiffness.order() / 2, n - 1);
-    for (std::size_t i = 0; i < place_.size(); ++i)
-      if (wanted_[i] != 0) d_[place_[i]].ww += spring_factor_[i] * structure_.pairs[i].stiffness;
+    for (const node_matrix& d : d_) without_springs_.push_back(d.ww);
     apply_all();
+    for (std::size_t at = 0; at < n; ++at) add_springs(at);
     left_.assign(n, {});
     right_.assign(n, {});
     go_left_.assign(n, {});
     go_right_.assign(n, {});
     for (std::size_t i = 0; i < n; ++i) step_right(i);
     for (std::size_t i = n; i-- > 0;) step_left(i);
+  }
+
+  /// Those of the pairs now in contact; summed anew, since what a stiff spring rounds away does not come back
+  /// when it is subtracted.
+  void add_springs(std::size_t at) {
+    d_[at].ww = without_springs_[at];
+    for (const int pair : pairs_at_[at])
+      if (applied_[pair] != 0) d_[at].ww += spring_factor_[pair] * stiffness_of(pair);
   }
 
   /// L_i, and how a column goes on from i + 1 to i.
@@ -217,16 +232,20 @@ class condensed_engine final : public spring_engine {
     }
   }
 
-  /// The response with one more spring, or one less; true: it takes no new factor. The column c is that of
-  /// the new K', K' c = e, so that x' = x - sigma k x_p c.
-  bool update(int pair) {
+  void switch_in_sweeps(int pair) {
+    ++counts_.updates;
+    add_springs(place_[pair]);
+    sweep_from(place_[pair]);
+  }
+
+  /// The response with one more spring, or one less. The column c is that of the new K', K' c = e, so that
+  /// x' = x - sigma k x_p c. False where rounding leaves no such column.
+  [[nodiscard]] bool update_response(int pair) {
     const std::size_t at = place_[pair];
     const double k = spring_factor_[pair] * stiffness_of(pair);
     const double sigma_k = applied_[pair] != 0 ? k : -k;
-    ++counts_.updates;
     if (k == 0.0) return true;
-    d_[at].ww += sigma_k;
-    sweep_from(at);
+    if (!is_definite(left_[at] + right_[at] - d_[at])) return false;
     inverse_column(at);
     if (-sigma_k * column_[at].w > stiff) drift_.check_next();
     const double factor = sigma_k * x_[at].w;
@@ -263,8 +282,8 @@ class condensed_engine final : public spring_engine {
     }
   }
 
-  /// x + K^-1 (load - K x). The correction is the drift.
-  void refine_response() {
+  /// x + K^-1 (load - K x). The correction is the drift; false when it is more than is allowed.
+  [[nodiscard]] bool refine_response() {
     ++counts_.checks;
     ++counts_.solves;
     residual_of_response();
@@ -278,11 +297,13 @@ class condensed_engine final : public spring_engine {
       x_[i] = x_[i] + correction;
       found.include(x_[i].w, correction.w);
     }
-    (void)drift_.accepts(found);
+    return drift_.accepts(found);
   }
 
   std::vector<std::size_t> place_;               // of each pair's node among the kept ones [pairs]
   std::vector<int> kept_;                        // nodes with pairs, from 0, in order
+  std::vector<std::vector<int>> pairs_at_;       // [kept nodes]
+  std::vector<double> without_springs_;          // D_ww of no pair in contact [kept nodes]
   std::vector<double> spring_factor_;            // [pairs] 1, or 0 where the dof is fixed
   std::vector<node_matrix> d_, e_;               // D_i; E_i couples i (rows) with i + 1 (columns)
   std::vector<node_matrix> left_, right_;        // L_i, R_i
