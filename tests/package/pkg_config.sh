@@ -1,5 +1,5 @@
 #!/bin/sh
-# pkg_config.sh SOURCE WORK PCFILES: runs the compiler lines that the README shows, word for word, on the programs
+# pkg_config.sh SOURCE WORK PCFILES: runs the compiler lines that reference/library.md shows, word for word, on the programs
 # beside this script, and then what they made.
 set -eu
 source=$1
@@ -14,7 +14,7 @@ cd "$work"
   { echo "another contct was found: $(pkg-config --variable=libdir contct)" >&2; exit 1; }
 
 lines=0
-sh "$here/readme.sh" "$source" sh >lines
+sh "$here/page.sh" "$source" sh >lines
 while read -r line; do
   rm -f a.out
   echo "$line"
@@ -23,4 +23,4 @@ while read -r line; do
   echo "$said" | grep -qx '[1-9][0-9]* facts, 0 wrong'
   lines=$((lines + 1))
 done <lines
-[ "$lines" = 3 ] || { echo "the README shows $lines lines, not one each for C, C++ and Fortran" >&2; exit 1; }
+[ "$lines" = 3 ] || { echo "the page shows $lines lines, not one each for C, C++ and Fortran" >&2; exit 1; }

@@ -1,21 +1,21 @@
 #!/bin/sh
-# readme.sh SOURCE: every line that the README's "In your own program" shows stands in a program of this folder.
-# readme.sh SOURCE KIND: prints the block of that kind (sh, cmake, c, cpp, fortran).
+# page.sh SOURCE: every line that "In your own program" of reference/library.md shows stands in a program here.
+# page.sh SOURCE KIND: prints the block of that kind (sh, cmake, c, cpp, fortran).
 set -eu
 source=$(cd "$1" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
 
 block() {
   awk -v fence="\`\`\`$1" '/^## /{here = $0 == "## In your own program"} /^```/{inside = here && $0 == fence; next} inside' \
-    "$source/README.md"
+    "$source/reference/library.md"
 }
 
 # shown KIND FILE
 shown() {
-  block "$1" | sed 's/^ *//; s/ *$//' | grep -v '^$' >lines-of-readme || { echo "the README has no $1" >&2; exit 1; }
+  block "$1" | sed 's/^ *//; s/ *$//' | grep -v '^$' >lines-of-page || { echo "the page has no $1" >&2; exit 1; }
   while read -r line; do
-    grep -qF -e "$line" "$here/$2" || { echo "the README shows, but $2 has not: $line" >&2; exit 1; }
-  done <lines-of-readme
+    grep -qF -e "$line" "$here/$2" || { echo "the page shows, but $2 has not: $line" >&2; exit 1; }
+  done <lines-of-page
 }
 
 if [ $# -gt 1 ]; then
