@@ -1,0 +1,75 @@
+"""Reads a manual page in Markdown: its sections, its tables of keys and its code blocks.
+
+A table of keys is one whose first column is called "key". A cell of that column has one key in backticks, or a link such as
+[place](#places) to the section whose keys are meant. The column "structure", where there is one, says where a key belongs.
+"""
+import re
+from dataclasses import dataclass
+
+FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.M | re.S)
+
+
+def sections(text):
+    """The sections of a page in their order: (heading, text below it, up to the next heading of any level)."""
+    hidden = FENCE.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)  # a comment in a code block is no heading
+    starts = list(re.finditer(r"^#+ (.*)$", hidden, re.M))
+    ends = [m.start() for m in starts[1:]] + [len(text)]
+    return [(m.group(1), text[m.end():end]) for m, end in zip(starts, ends)]
+
+
+def anchor(heading):
+    """What a link has behind # for a heading."""
+    return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
+
+
+def rows(body):
+    """The rows of a section's tables of keys, each a dictionary by the names of the columns."""
+    header, found = None, []
+    for line in FENCE.sub("", body).splitlines():
+        if not line.startswith("|"):
+            header = None
+            continue
+        cells = [cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        if header is None:
+            header = cells
+        elif header[0] == "key" and set(cells[0]) != {"-"}:
+            if len(cells) != len(header):
+                raise ValueError(f"found {len(cells)} cells, allowed: {len(header)}: {line}")
+            found.append(dict(zip(header, cells)))
+    return found
+
+
+class key_tables:
+    """The keys that a page documents, section by section."""
+
+    def __init__(self, text):
+        self.rows = {heading: rows(body) for heading, body in sections(text)}
+        self.rows = {heading: found for heading, found in self.rows.items() if found}
+        self.by_anchor = {anchor(heading): heading for heading in self.rows}
+
+    def keys(self, heading, structure=None, follow=True):
+        """The keys under a heading, as a set; those of one structure where it is named."""
+        found = set()
+        for row in self.rows[heading]:
+            if structure and row.get("structure") and structure not in row["structure"].split(", "):
+                continue
+            key, link = re.fullmatch(r"`([^`]+)`", row["key"]), re.fullmatch(r"\[\w+\]\(#([\w-]+)\)", row["key"])
+            if not key and not link:
+                raise ValueError(f"{heading}: found {row['key']}, allowed: a key in backticks, or a link to a section")
+            if key:
+                found.add(key.group(1))
+            elif follow:
+                found |= self.keys(self.by_anchor[link.group(1)], structure)
+        return found
+
+
+@dataclass
+class block:
+    """A code block: its language, its lines, and the line of the page on which it begins."""
+    language: str
+    text: str
+    line: int
+
+
+def blocks(text):
+    return [block(m.group(1), m.group(2), text.count("\n", 0, m.start()) + 1) for m in FENCE.finditer(text)]

@@ -1,0 +1,261 @@
+"""problem_file.py PROGRAM ROOT: reference/problem-file.md documents the keys that the program accepts, and its examples run.
+
+- Every table of a problem file is given a key that does not exist. The refusal lists the keys that are allowed there. They must
+  be those that the manual documents for that table and that structure.
+- Every example is read and solved; every example of a refusal is refused with the message that is shown.
+- Every key that is documented stands in an example.
+- The comparison of keys must notice each row of the manual's tables that is left out, and each key that is renamed.
+"""
+import re
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+from manual import blocks, key_tables
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "course"))
+from page import broken_link  # noqa: E402
+
+UNKNOWN = "zzzzzzzz"
+PIECES = 'EI = [ { to = 1, value = 1 }, { to = 2, value = 1, %s } ]'
+BEAM = "[beam]\nlength = 2\nelements = 2\n%s\n"
+PLATE = "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0\n"
+MATRIX = '[matrix]\nstiffness = "frame.mtx"\n'
+STRUCTURES = {"beam": BEAM % "EI = 1", "plate": PLATE, "matrix": MATRIX}
+# Each section with a table of keys, and such a table; %s stands for the key that does not exist.
+OWN_TABLES = {
+    "Top level": (None, "%s\n[beam]\n"),
+    "`[units]`": (None, "[units]\n%s\n[beam]\n"),
+    "`[beam]`": ("beam", "[beam]\n%s\n"),
+    "A piece of `EI`": ("beam", BEAM % PIECES),
+    "`[plate]`": ("plate", "[plate]\n%s\n"),
+    "`[matrix]`": ("matrix", "[matrix]\n%s\n"),
+    "`[calculix]`": ("matrix", "[calculix]\n%s\n"),
+    "`face` of a `[[bed]]`": ("beam", BEAM % "EI = 1" + "[[bed]]\nmodulus = 1\nface = { %s }\n"),
+}
+STRUCTURES_TABLES = {
+    "`[[support]]`": "[[support]]\n%s\n",
+    "`spring` of a `[[support]]`": "[[support]]\nnode = 1\nspring = { %s }\n",
+    "`[[contact]]`": "[[contact]]\n%s\n",
+    "`[[bed]]`": "[[bed]]\n%s\n",
+    "`[[step]]`": "[[step]]\n%s\n",
+    "A part of `uniform`": "[[step]]\nuniform = [ { %s } ]\n",
+    "A `point` load": "[[step]]\npoint = [ { %s } ]\n",
+    "A `settlement`": "[[step]]\nsettlement = [ { %s } ]\n",
+}
+NOT_WITH_A_MATRIX = {"`spring` of a `[[support]]`", "`[[bed]]`", "A part of `uniform`"}
+SHARED = {"Places", "Degrees of freedom"}  # their keys are those of other tables
+# Where an example has the keys of a section.
+PATHS = {
+    "Top level": [], "`[units]`": ["units"], "`[beam]`": ["beam"], "A piece of `EI`": ["beam", "EI"], "`[plate]`": ["plate"],
+    "`[matrix]`": ["matrix"], "`[calculix]`": ["calculix"], "`face` of a `[[bed]]`": ["bed", "face"],
+    "`[[support]]`": ["support"], "`spring` of a `[[support]]`": ["support", "spring"], "`[[contact]]`": ["contact"],
+    "`[[bed]]`": ["bed"], "`[[step]]`": ["step"], "A part of `uniform`": ["step", "uniform"],
+    "A `point` load": ["step", "point"], "A `settlement`": ["step", "settlement"],
+}
+PARSERS_TABLES = 17  # how many tables the reader checks for unknown keys: one more here needs one more above
+LEAST_KEYS, LEAST_EXAMPLES, LEAST_REFUSALS = 136, 18, 12
+
+
+def probes():
+    """(section, structure, problem file) for every table of every structure."""
+    for heading, (structure, text) in OWN_TABLES.items():
+        yield heading, structure, text
+    for heading, text in STRUCTURES_TABLES.items():
+        for structure, before in STRUCTURES.items():
+            if structure != "matrix" or heading not in NOT_WITH_A_MATRIX:
+                yield heading, structure, before + text
+
+
+class contct:
+    """The program, in a folder with the files that the examples name."""
+
+    def __init__(self, program, root):
+        self.program = Path(program).resolve()
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = Path(self.scratch.name)
+        structures = root / "reference/structures"
+        for file in [*structures.iterdir(), *(structures / "calculix").iterdir()]:
+            if file.is_file():
+                (self.folder / file.name).symlink_to(file.resolve())
+
+    def __call__(self, command, text):
+        """The exit status for a problem file of this text, and what standard error says."""
+        (self.folder / "beam.toml").write_text(text)
+        finished = subprocess.run([self.program, command, "beam.toml", "--quiet"], cwd=self.folder, text=True,
+                                  stdin=subprocess.DEVNULL, capture_output=True)
+        return finished.returncode, finished.stderr
+
+
+def accepted_keys(run, text):
+    """The keys that the program allows where `text` has one that does not exist."""
+    status, said = run("check", text % f"{UNKNOWN} = 1")
+    listed = re.search(rf"{UNKNOWN}: found an unknown key; allowed: (.*)$", said, re.M)
+    if status != 2 or not listed:
+        raise ValueError(f"exit status {status}, found {said.strip()}; allowed: the refusal of {UNKNOWN} in\n{text}")
+    return set(listed.group(1).split(", "))
+
+
+def first_difference(text, accepted):
+    """The first table whose documented keys are not those that are accepted, in words; None where there is none."""
+    tables = key_tables(text)
+    unprobed = set(tables.rows) - {heading for heading, _ in accepted} - SHARED
+    if unprobed:
+        return f"no table of a problem file is known for the section {min(unprobed)}"
+    for (heading, structure), keys in accepted.items():
+        if heading not in tables.rows:
+            return f"{heading}: found no table of keys"
+        documented = tables.keys(heading, structure)
+        where = f"{heading}{f' of a {structure}' if structure else ''}"
+        if keys - documented:
+            return f"{where}: accepted, not documented: {min(keys - documented)}"
+        if documented - keys:
+            return f"{where}: documented, not accepted: {min(documented - keys)}"
+    return None
+
+
+def unnoticed_fault(text, accepted):
+    """A row of a table of keys whose loss or change first_difference does not notice, and how many were tried."""
+    lines, faults = text.splitlines(), 0
+    for number, line in enumerate(lines):
+        if not re.match(r"\| (`\w+`|\[\w+\]\(#)", line):
+            continue
+        renamed = f"| `{UNKNOWN}` |" + line[2:].partition("|")[2]
+        for fault in ([], [renamed]):
+            faults += 1
+            doctored = "\n".join(lines[:number] + fault + lines[number + 1:])
+            try:
+                if first_difference(doctored, accepted) is None:
+                    return line, faults
+            except (ValueError, KeyError):
+                pass  # a page that cannot be read is noticed, too
+    return None, faults
+
+
+def chunks(text):
+    """The tables of a TOML text: (name, lines), what stands before the first with an empty name."""
+    found = [("", [])]
+    for line in text.splitlines(keepends=True):
+        header = re.match(r"\[+([\w.]+)\]+", line)
+        if header:
+            found.append((header.group(1), []))
+        found[-1][1].append(line)
+    return [(name, "".join(lines)) for name, lines in found]
+
+
+def merged(whole, part):
+    """`whole` with the tables of `part` in the place of those of the same name, or behind all others."""
+    new = {name for name, _ in chunks(part)} - {""}
+    out, placed = [], set()
+    own = {name: "".join(text if text.endswith("\n\n") else text + "\n" for other, text in chunks(part) if other == name)
+           for name in new}
+    for name, text in chunks(whole):
+        if name not in new:
+            out.append(text)
+        elif name not in placed:
+            out.append(own[name])
+            placed.add(name)
+    return "".join(out) + "\n" + "\n".join(own[name] for name in sorted(new - placed))
+
+
+def structure_of(text):
+    return next((kind for kind in ("beam", "plate", "matrix", "calculix") if f"[{kind}]" in text), None)
+
+
+def examples(text):
+    """(line, problem file, message or None) for every example of the page."""
+    shown = blocks(text)
+    whole = {}
+    for b in shown:
+        if b.language == "toml" and structure_of(b.text) and "[[step]]" in b.text:
+            whole.setdefault(structure_of(b.text), b.text)
+    for b, behind in zip(shown, [*shown[1:], None]):
+        if b.language != "toml":
+            continue
+        is_whole = b.text in whole.values()
+        problem = b.text if is_whole else merged(whole[structure_of(b.text) or "beam"], b.text)
+        yield b.line, problem, behind.text if behind and behind.language == "text" else None
+
+
+def on_one_line(text):
+    """The page breaks long messages into lines."""
+    return " ".join(text.split())
+
+
+def wrong_example(run, line, problem, message):
+    """What is wrong with an example, in words."""
+    status, said = run("check", problem)
+    if message is not None:
+        if status != 2 or on_one_line(said) != on_one_line(message):
+            return f"line {line}: found exit status {status} and\n{said}allowed: exit status 2 and\n{message}"
+        return None
+    if status == 0 and not said:
+        status, said = run("run", problem)
+    if status or said:
+        return f"line {line}: found exit status {status} and \"{said.strip()}\"; allowed: 0 and nothing\n{problem}"
+    return None
+
+
+def keys_at(document, path):
+    """The keys of all tables that `path` leads to."""
+    tables = [document]
+    for name in path:
+        inner = [table.get(name) for table in tables]
+        tables = [t for found in inner for t in (found if isinstance(found, list) else [found]) if isinstance(t, dict)]
+    return {key for table in tables for key in table}
+
+
+def key_without_example(text, problems):
+    """A documented key that no example has; None where there is none."""
+    tables = key_tables(text)
+    documents = [tomllib.loads(problem) for problem in problems]
+    found = {heading: set().union(*(keys_at(d, path) for d in documents)) for heading, path in PATHS.items()}
+    for heading, path in PATHS.items():
+        missing = tables.keys(heading, follow=False) - found[heading]
+        if missing:
+            return f"{heading}: {min(missing)}"
+    for heading in SHARED:
+        missing = tables.keys(heading) - set().union(*found.values())
+        if missing:
+            return f"{heading}: {min(missing)}"
+    return None
+
+
+def main(program, root):
+    root = Path(root)
+    page = root / "reference/problem-file.md"
+    text = page.read_text()
+    run = contct(program, root)
+    if broken := broken_link(page, text):
+        return f"a link leads nowhere: {broken}"
+    checked = sum(source.read_text().count("allow_only(") for source in (root / "cpp/contct/read").glob("*.cpp")) - 1
+    if checked != PARSERS_TABLES:
+        return f"found {checked} tables that are checked for unknown keys, allowed: the {PARSERS_TABLES} that are probed"
+    accepted = {(heading, structure): accepted_keys(run, problem) for heading, structure, problem in probes()}
+    if difference := first_difference(text, accepted):
+        return difference
+    compared = sum(map(len, accepted.values()))
+    if compared < LEAST_KEYS:
+        return f"found {compared} keys to compare, allowed: {LEAST_KEYS} or more"
+    unnoticed, faults = unnoticed_fault(text, accepted)
+    if unnoticed:
+        return f"a fault in this row is not noticed: {unnoticed}"
+    shown = list(examples(text))
+    for example in shown:
+        if wrong := wrong_example(run, *example):
+            return wrong
+    good = [problem for _, problem, message in shown if message is None]
+    if len(good) < LEAST_EXAMPLES or len(shown) - len(good) < LEAST_REFUSALS:
+        return (f"found {len(good)} examples and {len(shown) - len(good)} refusals, "
+                f"allowed: {LEAST_EXAMPLES} and {LEAST_REFUSALS} or more")
+    if missing := key_without_example(text, good):
+        return f"no example has this key: {missing}"
+    print(f"{len(accepted)} tables, {compared} keys compared, {faults} faults noticed; {len(good)} examples run, "
+          f"{len(shown) - len(good)} refusals compared")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
