@@ -112,7 +112,9 @@ struct export_options {
 };
 
 struct kernels_options {};
-struct manual_options {};
+struct manual_options {
+  std::string page;  ///< "problem"; empty: the program's own
+};
 
 struct completion_options {
   std::string shell;  ///< "bash", "zsh" or "fish"

@@ -1,32 +1,20 @@
-// contct man and contct completion: the manual page, and what makes a shell complete the words of contct.
+// contct man and contct completion: the manual pages, and what makes a shell complete the words of contct.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "app/commands.hpp"
+#include "app/man_page.hpp"
 #include "contct/solve/engine.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/text/terminal.hpp"
 
 namespace contct::app {
+
+extern const std::string_view problem_file_md;  // reference/problem-file.md, which embed.cmake builds in
+
 namespace {
-
-constexpr const char* page_date = "2026-11-21";
-
-/// A word or a line as roff takes it: a hyphen that is typed is a minus, and no line begins a request.
-std::string roff(std::string_view text) {
-  constexpr escape escapes[] = {{'\\', "\\e"}, {'-', "\\-"}};
-  const bool request = text.starts_with('.') || text.starts_with('\'');
-  return (request ? "\\&" : "") + escaped(text, escapes);
-}
-
-/// A paragraph in lines of at most 72 characters.
-std::string filled(const std::string& text) {
-  std::string out;
-  for (const std::string& line : wrap({text}, 72)) out += roff(line) + "\n";
-  return out;
-}
 
 /// A term, which may be followed by a `value` of it, and what it means.
 std::string entry(std::string_view term, const std::string& meaning, const std::string& value = "") {
@@ -212,7 +200,8 @@ std::string manual_page(const program_description& program) {
   text += ".SH EXAMPLES\n";
   for (const example& e : program.examples) text += entry(e.line, std::string(e.text) + ".");
   return text +
-         ".SH SEE ALSO\nN. J. Salamon, Receding/advancing contact of structural elements simplified,\n.I "
+         ".SH SEE ALSO\n.BR contct\\-problem (5)\n.PP\n"
+         "N. J. Salamon, Receding/advancing contact of structural elements simplified,\n.I "
          "Computers & Structures\n33(2), 509\\-512, 1989.\n";
 }
 
@@ -260,8 +249,10 @@ std::string fish_completion(const program_description& program) {
   return text;
 }
 
-exit_status run_command(const manual_options& /*options*/) {
-  print_text(fmt::format("{}", manual_page(describe_contct(engine_names()))));
+exit_status run_command(const manual_options& options) {
+  print_text(options.page == "problem"
+                 ? page_from_markdown({"contct-problem", "problem files of contct", problem_file_md})
+                 : manual_page(describe_contct(engine_names())));
   return exit_status::solved;
 }
 

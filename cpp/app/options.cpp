@@ -46,6 +46,7 @@ constexpr example all_examples[] = {
     {"contct kernels", "what is built in"},
     {"contct completion bash", "what makes a shell complete the words of contct"},
     {"contct man", "the manual page, for man -l -"},
+    {"contct man problem", "that of problem files: every key"},
 };
 
 /// The option in "--json=file".
@@ -380,16 +381,28 @@ void declare_export(option_parser& p) {
       ->capture_default_str();
 }
 
-/// The commands that print what the program knows of itself.
-void declare_texts(option_parser& p) {
-  p.command<kernels_options>("kernels", "What is built in, and how this machine computes");
+void declare_completion(option_parser& p) {
   const auto [c, o] =
       p.command<completion_options>("completion", "Print what makes a shell complete the words of contct");
   const std::vector<std::string> shells = {"bash", "zsh", "fish"};
   p.add(c, takes::word, "SHELL", o.shell, "bash, zsh or fish", shells)
       ->required()
       ->check(CLI::IsMember(shells));
-  p.command<manual_options>("man", "Print the manual page");
+}
+
+void declare_manual(option_parser& p) {
+  const auto [c, o] = p.command<manual_options>("man", "Print a manual page");
+  const std::vector<std::string> pages = {"problem"};
+  p.add(c, takes::word, "PAGE", o.page, "problem: the page of problem files; without it that of the program",
+        pages)
+      ->check(CLI::IsMember(pages));
+}
+
+/// The commands that print what the program knows of itself.
+void declare_texts(option_parser& p) {
+  p.command<kernels_options>("kernels", "What is built in, and how this machine computes");
+  declare_completion(p);
+  declare_manual(p);
 }
 
 /// Each command's examples stand under its --help, and the first of each under the program's.

@@ -75,4 +75,5 @@ TEST_CASE("the manual has every command with its arguments, in the macros of rof
   for (const char* section :
        {".SH OPTIONS", ".SH COMMANDS", ".SH EXIT STATUS", ".SH ENVIRONMENT", ".SH EXAMPLES"})
     CHECK_THAT(text, Contains(section));
+  CHECK_THAT(text, Contains(".SH SEE ALSO\n.BR contct\\-problem (5)"));
 }

@@ -1,4 +1,5 @@
-# man.sh PROGRAM CHECKER...: the manual page is one that CHECKER has nothing to say of, and it says what --help says.
+# man.sh PROGRAM CHECKER...: the manual pages are ones that CHECKER has nothing to say of, and the program's says what --help
+# says.
 set -eu
 program=$1
 shift
@@ -6,8 +7,11 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 page=$folder/contct.1 # mandoc takes what stands behind the point for the section
 "$program" man >"$page"
-said=$("$@" "$page" 2>&1) || { echo "$said" >&2; exit 1; }
-[ -z "$said" ] || { echo "$said" >&2; exit 1; }
+"$program" man problem >"$folder/contct-problem.5"
+for checked in "$page" "$folder"/contct-*.5; do
+  said=$("$@" "$checked" 2>&1) || { echo "$said" >&2; exit 1; }
+  [ -z "$said" ] || { echo "$said" >&2; exit 1; }
+done
 count=0
 for command in $("$program" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
   grep -q "^\.SS \"contct $command" "$page" || { echo "$command is not in the page" >&2; exit 1; }

@@ -4,6 +4,7 @@
   be those that the manual documents for that table and that structure.
 - Every example is read and solved; every example of a refusal is refused with the message that is shown.
 - Every key that is documented stands in an example.
+- `contct man problem` has every heading, key and line of code of the manual.
 - The comparison of keys must notice each row of the manual's tables that is left out, and each key that is renamed.
 """
 import re
@@ -13,7 +14,7 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-from manual import blocks, key_tables
+from manual import blocks, key_tables, missing_in_man_page
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "course"))
 from page import broken_link  # noqa: E402
@@ -252,6 +253,9 @@ def main(program, root):
                 f"allowed: {LEAST_EXAMPLES} and {LEAST_REFUSALS} or more")
     if missing := key_without_example(text, good):
         return f"no example has this key: {missing}"
+    man_page = subprocess.run([program, "man", "problem"], check=True, capture_output=True, text=True).stdout
+    if missing := missing_in_man_page(text, man_page):
+        return f"contct man problem does not have this: {missing}"
     print(f"{len(accepted)} tables, {compared} keys compared, {faults} faults noticed; {len(good)} examples run, "
           f"{len(shown) - len(good)} refusals compared")
     return 0
