@@ -113,7 +113,7 @@ struct export_options {
 
 struct kernels_options {};
 struct manual_options {
-  std::string page;  ///< "problem"; empty: the program's own
+  std::string page;  ///< "problem" or "result"; empty: the program's own
 };
 
 struct completion_options {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 #include <vector>
 
 #include "contct/text/strings.hpp"
@@ -86,6 +87,14 @@ std::vector<std::string> cells_of(std::string_view line) {
   return cells;
 }
 
+/// A cell behind the name of its column, up to a comma; alone where its own first word is in that name: under
+/// "absent or null", "absent: no pairs".
+std::string fact(const std::string& column, const std::string& cell) {
+  const std::string name = column.substr(0, column.find(','));
+  const bool alone = name.find(cell.substr(0, cell.find_first_of(" :"))) != std::string::npos;
+  return (alone ? "" : name + ": ") + spans(cell);
+}
+
 /// Goes through Markdown line by line.
 class man_writer {
  public:
@@ -155,8 +164,7 @@ class man_writer {
     out_ += ".TP\n" + no_request(spans(cells.front())) + "\n";
     std::vector<std::string> facts;
     for (std::size_t i = 1; i + 1 < std::min(cells.size(), columns_.size()); ++i)
-      if (!cells[i].empty())
-        facts.push_back(columns_[i].substr(0, columns_[i].find(',')) + ": " + spans(cells[i]));
+      if (!cells[i].empty()) facts.push_back(fact(columns_[i], cells[i]));
     if (!facts.empty()) out_ += lines_of(joined(facts, "; "));
     if (!facts.empty() && !cells.back().empty()) out_ += ".br\n";
     if (!cells.back().empty()) out_ += lines_of(spans(cells.back()));

@@ -23,8 +23,8 @@ struct format_page {
 
 /// The page in the man macros. Of Markdown it takes headings, paragraphs, lists, code, tables with a header,
 /// bold text, code spans and links, of which the text stays. The first heading is the title. A row of a table
-/// becomes an entry: its first cell the term, the last one the text, each other one with the name of its
-/// column up to a comma.
+/// becomes an entry: its first cell the term, the last one the text, each other one a fact with the
+/// name of its column.
 [[nodiscard]] std::string page_from_markdown(const format_page& page);
 
 }  // namespace contct::app

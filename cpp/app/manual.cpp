@@ -12,7 +12,8 @@
 
 namespace contct::app {
 
-extern const std::string_view problem_file_md;  // reference/problem-file.md, which embed.cmake builds in
+// Files of reference/, built in: embed.cmake writes them.
+extern const std::string_view problem_file_md, result_file_md;
 
 namespace {
 
@@ -200,7 +201,7 @@ std::string manual_page(const program_description& program) {
   text += ".SH EXAMPLES\n";
   for (const example& e : program.examples) text += entry(e.line, std::string(e.text) + ".");
   return text +
-         ".SH SEE ALSO\n.BR contct\\-problem (5)\n.PP\n"
+         ".SH SEE ALSO\n.BR contct\\-problem (5),\n.BR contct\\-result (5)\n.PP\n"
          "N. J. Salamon, Receding/advancing contact of structural elements simplified,\n.I "
          "Computers & Structures\n33(2), 509\\-512, 1989.\n";
 }
@@ -250,9 +251,13 @@ std::string fish_completion(const program_description& program) {
 }
 
 exit_status run_command(const manual_options& options) {
-  print_text(options.page == "problem"
-                 ? page_from_markdown({"contct-problem", "problem files of contct", problem_file_md})
-                 : manual_page(describe_contct(engine_names())));
+  if (options.page == "problem") {
+    print_text(page_from_markdown({"contct-problem", "problem files of contct", problem_file_md}));
+  } else if (options.page == "result") {
+    print_text(page_from_markdown({"contct-result", "result files of contct", result_file_md}));
+  } else {
+    print_text(manual_page(describe_contct(engine_names())));
+  }
   return exit_status::solved;
 }
 

@@ -47,6 +47,7 @@ constexpr example all_examples[] = {
     {"contct completion bash", "what makes a shell complete the words of contct"},
     {"contct man", "the manual page, for man -l -"},
     {"contct man problem", "that of problem files: every key"},
+    {"contct man result", "that of the results of --json: every key"},
 };
 
 /// The option in "--json=file".
@@ -392,9 +393,9 @@ void declare_completion(option_parser& p) {
 
 void declare_manual(option_parser& p) {
   const auto [c, o] = p.command<manual_options>("man", "Print a manual page");
-  const std::vector<std::string> pages = {"problem"};
-  p.add(c, takes::word, "PAGE", o.page, "problem: the page of problem files; without it that of the program",
-        pages)
+  const std::vector<std::string> pages = {"problem", "result"};
+  p.add(c, takes::word, "PAGE", o.page,
+        "problem: the page of problem files; result: that of --json; without it that of the program", pages)
       ->check(CLI::IsMember(pages));
 }
 

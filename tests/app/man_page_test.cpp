@@ -71,6 +71,11 @@ TEST_CASE("a row of a table becomes an entry with the facts of its other columns
         ".TP\n\\fBy\\fR\ntype: \\fBa|b\\fR\n.TP\n\\fBz\\fR\na third\n");
 }
 
+TEST_CASE("a cell that begins with a word of its column's name does not have that name before it") {
+  CHECK(body_of("| key | absent or null | meaning |\n| --- | --- | --- |\n| a | null: no b | c |\n") ==
+        ".TP\na\nnull: no b\n.br\nc\n");
+}
+
 TEST_CASE("tables with a paragraph between them have columns of their own") {
   CHECK(body_of("| a | b |\n| --- | --- |\n| 1 | 2 |\n\nText.\n\n| c | d | e |\n| --- | --- | --- |\n| 3 | 4 "
                 "| 5 |\n") == ".TP\n1\n2\n.PP\nText.\n.TP\n3\nd: 4\n.br\n5\n");

@@ -192,11 +192,12 @@ TEST_CASE("every option is described with the kind of argument that it takes") {
   CHECK_FALSE(option_in(command_in(program, "new").positionals, "FILE").required);
   CHECK(option_in(command_in(program, "completion").positionals, "SHELL").words ==
         words{"bash", "zsh", "fish"});
-  CHECK(option_in(command_in(program, "man").positionals, "PAGE").words == words{"problem"});
+  CHECK(option_in(command_in(program, "man").positionals, "PAGE").words == words{"problem", "result"});
 }
 
 TEST_CASE("contct man takes the name of a page, or none") {
   CHECK(parsed<manual_options>({"man"}).page.empty());
   CHECK(parsed<manual_options>({"man", "problem"}).page == "problem");
+  CHECK(parsed<manual_options>({"man", "result"}).page == "result");
   CHECK_THAT(refusal({"man", "problems"}), Contains("problems not in {problem"));
 }

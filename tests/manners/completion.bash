@@ -46,7 +46,7 @@ expect "" contct run --max-increments 1
 expect "beam plate" contct new ""
 expect "beam.toml" contct new beam be
 expect "bash zsh fish" contct completion ""
-expect "problem" contct man p
+expect "problem result" contct man ""
 expect "" contct nonsense x
 for command in run explain new verify fuzz replay atlas kernels completion man; do
   case " $(offered contct "") " in
