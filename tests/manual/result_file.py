@@ -1,0 +1,280 @@
+"""result_file.py PROGRAM ROOT PLUGIN: what contct run --json writes is as reference/result.schema.json says, and
+reference/result-file.md documents that schema. PLUGIN is a kernel that differs from FORTRAN in the last bit.
+
+- Every result of every reference problem, under the 1989 rule and the corrected one, is valid, and so is one of each other kind.
+- The schema and the manual have the same objects with the same keys; the manual's cells say which of them may be absent or null,
+  and of which type they are. Each row that is left out or renamed, and each key that the schema loses, must be noticed.
+- Results that are doctored must be refused: a key taken away, a key added, a value of another type.
+- Every key of the schema is in some result, but for those in UNSEEN. The example of the manual is what the program writes.
+"""
+import copy
+import json
+import math
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from manual import anchor, blocks, key_tables, missing_in_man_page
+from schema import listed, validator
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "course"))
+from page import broken_link  # noqa: E402
+
+WORDS = {"object": "object", "array": "list", "string": "text", "boolean": "boolean", "number": "number",
+         "integer": "whole number"}
+# No reference problem's path is given up; bounds on shares are written with --proof where they are proved.
+UNSEEN = {("A step", "ended_by"), ("An increment", "error")}
+UNKNOWN = "zzzzzzzz"
+LEAST_RUNS, LEAST_KEYS, LEAST_DOCTORED = 127, 163, 8000
+
+MECHANISM = """
+[units]
+length = "m"
+force = "kN"
+[beam]
+length = 4.0
+elements = 4
+EI = 1.0e4
+[[contact]]
+x = [1.0, 3.0]
+surface = "below"
+face = 0.0
+stiffness = 1.0e4
+[[step]]
+uniform = -1.0
+[[step]]
+uniform = [ { value = -1.0 }, { polynomial = [0.0, 1.0e-3], elements = "2..3" } ]
+point = [ { x = 2.0, w = 12.0, theta = 0.5 } ]
+"""
+PLATE = """
+[plate]
+size = [1.0, 1.0]
+elements = [2, 2]
+D = 1.0
+nu = 0.3
+[[support]]
+nodes = "1..3"
+fix = ["w", "wx", "wy"]
+[[step]]
+uniform = 1.0
+point = [ { node = 5, w = 1.0, wx = 1.0, wy = 1.0 } ]
+settlement = [ { node = 1, wx = 1.0e-3, wy = 1.0e-3 }, { node = 2, w = 1.0e-3 } ]
+"""
+MANY_PARTS = PLATE + f"[[step]]\npoint = [ {', '.join(['{ node = 5, w = 1 }'] * 40)} ]\n"
+SETTLED_BEAM = """
+[beam]
+length = 2.0
+elements = 2
+EI = 1.0
+[[support]]
+nodes = [1, 3]
+fix = ["w", "theta"]
+[[step]]
+settlement = [ { node = 1, theta = 1.0e-3 } ]
+"""
+
+
+def objects(schema):
+    """The objects of the schema by their titles."""
+    return {o["title"]: o for o in [schema, *schema["$defs"].values()]}
+
+
+def target(schema, wanted):
+    """The object that a key's schema refers to, directly, as an entry of a list, or beside null; None where there is none."""
+    choices = [wanted, wanted.get("items", {}), *wanted.get("anyOf", [])]
+    names = [choice["$ref"].rpartition("/")[2] for choice in choices if "$ref" in choice]
+    return schema["$defs"][names[0]] if names else None
+
+
+def types(schema, wanted):
+    """The types of a key's value: {"object", "null"}."""
+    if "$ref" in wanted:
+        return {"object"}
+    if "anyOf" in wanted:
+        return set().union(*(types(schema, choice) for choice in wanted["anyOf"]))
+    return set(listed(wanted["type"]))
+
+
+def cell_fault(schema, of, row):
+    """What a row of the manual says of a key that the schema does not, in words; None where they agree."""
+    key = row["key"].strip("`")
+    wanted = of["properties"][key]
+    there = types(schema, wanted)
+    if ("absent" in row["absent or null"]) != (key not in of["required"]):
+        return "when it is absent"
+    if ("null" in row["absent or null"]) != ("null" in there):
+        return "when it is null"
+    named = {kind for kind in WORDS if any(part.strip().startswith(WORDS[kind]) for part in row["type"].split(" or "))}
+    if named != there - {"null"}:
+        return "its type"
+    to, link = target(schema, wanted), re.search(r"\(#([\w-]+)\)", row["type"])
+    if (to is not None or link is not None) and (not to or not link or link.group(1) != anchor(to["title"])):
+        return "the object that it is"
+    return None
+
+
+def first_difference(text, schema):
+    """The first difference between the manual and the schema, in words; None where there is none."""
+    tables, known = key_tables(text), objects(schema)
+    if set(tables.rows) != set(known):
+        return f"an object that only one of the two has: {min(set(tables.rows) ^ set(known))}"
+    for title, of in known.items():
+        if different := tables.keys(title) ^ set(of["properties"]):
+            return f"{title}: a key that only one of the two has: {min(different)}"
+        for row in tables.rows[title]:
+            if wrong := cell_fault(schema, of, row):
+                return f"{title}: {row['key']}: {wrong}"
+    return None
+
+
+def unnoticed_fault(text, schema):
+    """A row of the manual, or a key of the schema, whose loss or change is not noticed, and how many were tried."""
+    lines, faults = text.splitlines(), 0
+    for number, line in enumerate(lines):
+        if not re.match(r"\| `\w+` \|", line):
+            continue
+        cells = line.split("|")
+        absent = "|".join([*cells[:4], " " if "absent" in cells[4] else " absent: never ", *cells[5:]])
+        for fault in ([], [re.sub(r"\w+", UNKNOWN, line, count=1)], [absent]):
+            faults += 1
+            if first_difference("\n".join(lines[:number] + fault + lines[number + 1:]), schema) is None:
+                return line, faults
+    for title, of in objects(schema).items():
+        for key in of["properties"]:
+            doctored = copy.deepcopy(schema)
+            del objects(doctored)[title]["properties"][key]
+            faults += 1
+            if first_difference(text, doctored) is None:
+                return f"{title}: {key}", faults
+    return None, faults
+
+
+def runs(root, plugin):
+    """(problem file or text, options, exit status) for each result."""
+    problems = sorted(p for folder in ("problems", "structures") for p in (root / "reference" / folder).rglob("*.toml"))
+    for problem in problems:
+        mechanism = 4 if problem.stem in ("locked-in-forces", "standstill") else 0
+        yield problem, [], mechanism
+        yield problem, ["--kernels", "corrected"], 0
+    for part in ("problems/pb07-three-gap-supports", "problems/pp04a-unilateral-edges-settled-column-n6", "structures/frame"):
+        problem = root / f"reference/{part}.toml"
+        yield problem, ["--kernels", "corrected", "--envelope", "--proof", "proof.json"], 0
+        yield problem, ["--final-only"], 0
+    pb07 = root / "reference/problems/pb07-three-gap-supports.toml"
+    yield pb07, ["--free-run", "--kernels", "fortran,cpp"], 0
+    yield pb07, ["--free-run", "--kernels", "corrected,fortran"], 1
+    yield pb07, ["--kernels", f"fortran,plugin:{plugin}"], 1
+    yield pb07, ["--max-increments", "1"], 5
+    yield MECHANISM, ["--envelope"], 4
+    yield MECHANISM, ["--final-only"], 4
+    for text in (PLATE, MANY_PARTS, SETTLED_BEAM):
+        yield text, ["--envelope"], 0
+
+
+def result_of(program, folder, problem, options, status):
+    """The result of a run that ends with this exit status."""
+    (folder / "own.toml").write_text(problem if isinstance(problem, str) else "")
+    name = "own.toml" if isinstance(problem, str) else problem
+    line = [program, "run", name, "--quiet", "--json", "result.json", *options]
+    finished = subprocess.run(line, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if finished.returncode != status:
+        raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
+    return json.loads((folder / "result.json").read_text(), parse_constant=lambda name: f"no JSON: {name}")
+
+
+def seen_keys(schema, value, of, seen):
+    """Add (title of the object, key) for every key in a valid value."""
+    for key, inner in value.items():
+        seen.add((of["title"], key))
+        to = target(schema, of["properties"][key])
+        for entry in inner if isinstance(inner, list) else [inner]:
+            if to is not None and entry is not None:
+                seen_keys(schema, entry, to, seen)
+
+
+def doctored(schema, value, of):
+    """The same result with one fault in it, every such fault: (what, the result). It is changed back after each."""
+    for key in list(value):
+        right = value.pop(key)
+        if key in of["required"]:
+            yield f"without {key}"
+        value[key] = right
+        for wrong in ([] if isinstance(right, dict) else {}, "x" if not isinstance(right, str) else 1.5):
+            if not (isinstance(right, str) and of["properties"][key].get("type") == ["string", "array"] and wrong == []):
+                value[key] = wrong
+                yield f"{key} = {wrong}"
+        value[key] = right
+        to = target(schema, of["properties"][key])
+        for entry in (right if isinstance(right, list) else [right])[:2]:
+            if to is not None and entry is not None:
+                yield from doctored(schema, entry, to)
+    value[UNKNOWN] = 1
+    yield f"with {UNKNOWN}"
+    del value[UNKNOWN]
+
+
+def refused_faults(check, schema, result):
+    """How many doctored results are refused; a ValueError names one that is not."""
+    count = 0
+    for what in doctored(schema, result, schema):
+        count += 1
+        if check.fault(result) is None:
+            raise ValueError(f"a doctored result is valid: {what}")
+    return count
+
+
+def same(shown, found):
+    """Is a value of the manual, whose numbers are shortened, that of a result? Tiny numbers are rounding."""
+    if isinstance(shown, dict):
+        return list(shown) == list(found) and all(same(shown[key], found[key]) for key in shown)
+    if isinstance(shown, list):
+        return len(shown) == len(found) and all(map(same, shown, found))
+    if isinstance(shown, float):
+        return math.isclose(shown, found, rel_tol=1e-3, abs_tol=1e-9)
+    return shown == found
+
+
+def main(program, root, plugin):
+    program, root = str(Path(program).resolve()), Path(root).resolve()
+    page = root / "reference/result-file.md"
+    text, schema = page.read_text(), json.loads((root / "reference/result.schema.json").read_text())
+    if broken := broken_link(page, text):
+        return f"a link leads nowhere: {broken}"
+    if difference := first_difference(text, schema):
+        return f"result-file.md and result.schema.json: {difference}"
+    unnoticed, faults = unnoticed_fault(text, schema)
+    if unnoticed:
+        return f"a fault in this is not noticed: {unnoticed}"
+    check, seen, count, refused = validator(schema), set(), 0, 0
+    with tempfile.TemporaryDirectory() as folder:
+        for problem, options, status in runs(root, Path(plugin).resolve()):
+            result = result_of(program, Path(folder), problem, options, status)
+            if fault := check.fault(result):
+                return f"{problem} {options}: {fault}"
+            count += 1
+            new = len(seen)
+            seen_keys(schema, result, schema, seen)
+            if len(seen) > new and len(json.dumps(result)) < 200_000:
+                refused += refused_faults(check, schema, result)
+        shown = blocks(text)
+        example = result_of(program, Path(folder), shown[0].text, [], 0)
+        if not same(json.loads(shown[1].text), example):
+            return f"line {shown[1].line}: the example is not what the program writes:\n{json.dumps(example)}"
+    keys = {(title, key) for title, of in objects(schema).items() for key in of["properties"]}
+    if missing := keys - seen - UNSEEN:
+        return f"no result has this key: {min(missing)}"
+    if count < LEAST_RUNS or len(keys) < LEAST_KEYS or refused < LEAST_DOCTORED:
+        return (f"found {count} results, {len(keys)} keys, {refused} doctored results refused; "
+                f"allowed: {LEAST_RUNS}, {LEAST_KEYS} and {LEAST_DOCTORED} or more")
+    man_page = subprocess.run([program, "man", "result"], check=True, capture_output=True, text=True).stdout
+    if missing := missing_in_man_page(text, man_page):
+        return f"contct man result does not have this: {missing}"
+    print(f"{len(objects(schema))} objects, {len(keys)} keys compared, {faults} faults noticed; {count} results are valid and "
+          f"have {len(seen)} of the keys; {refused} doctored results refused")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
