@@ -1,4 +1,5 @@
 // The shells' completions and the manual, made of the description of a small program.
+#include <iterator>
 #include <string>
 
 #include "app/commands.hpp"
@@ -75,5 +76,20 @@ TEST_CASE("the manual has every command with its arguments, in the macros of rof
   for (const char* section :
        {".SH OPTIONS", ".SH COMMANDS", ".SH EXIT STATUS", ".SH ENVIRONMENT", ".SH EXAMPLES"})
     CHECK_THAT(text, Contains(section));
-  CHECK_THAT(text, Contains(".SH SEE ALSO\n.BR contct\\-problem (5)"));
+  CHECK_THAT(text, Contains(".SH SEE ALSO\n.BR contct\\-problem (5),\n.BR contct\\-result (5)"));
+}
+
+TEST_CASE("the manual has every exit status and no other") {
+  const std::string text = manual_page(small_program());
+  const std::size_t from = text.find(".SH EXIT STATUS\n");
+  const std::string section = text.substr(from, text.find(".SH ENVIRONMENT") - from);
+  constexpr exit_status all[] = {exit_status::solved,    exit_status::kernels_differ,
+                                 exit_status::bad_input, exit_status::uncertified,
+                                 exit_status::mechanism, exit_status::iteration_limit};
+  std::size_t entries = 0;
+  for (std::size_t at = section.find(".TP\n"); at != std::string::npos; at = section.find(".TP\n", at + 1))
+    ++entries;
+  CHECK(entries == std::size(all));
+  for (const exit_status status : all)
+    CHECK_THAT(section, Contains(".TP\n\\fB" + std::to_string(static_cast<int>(status)) + "\\fR\n"));
 }

@@ -7,7 +7,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 page=$folder/contct.1 # mandoc takes what stands behind the point for the section
 "$program" man >"$page"
-"$program" man problem >"$folder/contct-problem.5"
+for file in problem result; do "$program" man $file >"$folder/contct-$file.5"; done
 for checked in "$page" "$folder"/contct-*.5; do
   said=$("$@" "$checked" 2>&1) || { echo "$said" >&2; exit 1; }
   [ -z "$said" ] || { echo "$said" >&2; exit 1; }
@@ -22,4 +22,10 @@ for command in $("$program" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\)
     count=$((count + 1))
   done
 done
-[ "$count" -gt 40 ] || { echo "only $count options were looked at" >&2; exit 1; }
+for option in $("$program" --help | sed -n 's/^  [-h,]*\(--[a-z-]*\).*/\1/p'); do
+  escaped=$(echo "$option" | sed 's/-/\\\\-/g')
+  sed -n "/^\.SH OPTIONS/,/^\.SH COMMANDS/p" "$page" | grep -q "^\\\\fB$escaped\\\\fR" ||
+    { echo "$option is not in the page" >&2; exit 1; }
+  count=$((count + 1))
+done
+[ "$count" -ge 80 ] || { echo "only $count options were looked at" >&2; exit 1; }
