@@ -40,7 +40,7 @@ fix = ["w", "theta"]    # w is the deflection, theta the slope dw/dx
 x         = [2.0, 4.0]
 surface   = "below"     # the faces are below the beam; or "above"
 face      = [-0.010, -0.030]  # where they are; 0 touches from the start. One value for all, or one for each
-stiffness = 5.0e4       # of the pairs' springs; large is hard
+stiffness = 5.0e4       # of the pairs' springs; a large one is a hard stop
 
 # [[bed]]               # a one-sided spring under every node, for ground that cannot pull
 # modulus = 2.0e3       # force per length and deflection
@@ -114,7 +114,7 @@ void refuse_taken(const std::string& file) {
   const auto kind = std::filesystem::symlink_status(file, ignored).type();
   if (kind == std::filesystem::file_type::not_found || kind == std::filesystem::file_type::none) return;
   throw std::invalid_argument("FILE: found " + file +
-                              ", which is there already; allowed: a new name, or - for standard output");
+                              ", which exists already; allowed: a new name, or - for standard output");
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ exit_status run_command(const new_options& options) {
   output_file out(file);
   out.write(text);
   out.finish();
-  if (file != "-") print_text(fmt::format("{} is written; now: contct run {}\n", file, file));
+  if (file != "-") print_text(fmt::format("{} is written; next: contct run {}\n", file, file));
   return exit_status::solved;
 }
 
@@ -177,11 +177,11 @@ exit_status run_command(const kernels_options& /*options*/) {
   print_text(fmt::format("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler"));
   for (const std::string& name : kernel_names()) {
     const kernel_facts f = facts_of_kernel(name);
-    print_text(fmt::format("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes, f.rule, f.language,
-                           f.compiler));
+    print_text(fmt::format("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes,
+                           f.rule == "listing" ? "1989" : f.rule, f.language, f.compiler));
   }
   print_text(
-      fmt::format("\nfrom outside: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n"));
+      fmt::format("\nexternal kernels: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n"));
   print_text(fmt::format("listing sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
                          describe(probe_floating_point())));
   return exit_status::solved;

@@ -31,16 +31,15 @@ kernel_digits digits_of_kernel(const std::string& name, const problem& p, const 
 /// A problem that would take more than a machine has is refused before it is converted.
 void refuse_too_large(const problem& p, const std::string& file) {
   if (dofs(p.geometry) > most_exact_dofs)
-    throw std::invalid_argument(fmt::format(
-        "{}: found {} dofs; allowed: at most {} in exact arithmetic, whose numbers grow with them. "
-        "Fewer elements would do",
-        file, dofs(p.geometry), most_exact_dofs));
+    throw std::invalid_argument(
+        fmt::format("{}: found {} dofs; allowed: at most {} in exact arithmetic, whose numbers grow with "
+                    "them. Use fewer elements",
+                    file, dofs(p.geometry), most_exact_dofs));
   const demand takes = demand_of(p);
   if (takes.bytes() > memory_limit())
     throw std::invalid_argument(
         fmt::format("{}: exact arithmetic: found {}; allowed: {} (CONTCT_MEMORY_MIB in the environment sets "
-                    "another limit). "
-                    "Fewer elements, or numbers of fewer digits, would do",
+                    "another limit). Use fewer elements, or numbers of fewer digits",
                     file, takes.words(), bytes_words(memory_limit())));
 }
 
@@ -70,10 +69,9 @@ void refuse_indefinite(const assembled& a, const exact_problem& p) {
       shown->motion, [](const rational& x, const rational& y) { return abs(x) < abs(y); });
   const rational size = abs(*largest);
   throw std::invalid_argument(fmt::format(
-      "{}: not positive semidefinite: found work {} on a displacement whose largest, 1, is at dof {}, in "
-      "exact "
-      "arithmetic; allowed: 0 or more on every displacement that supports leave. Rounded entries can make a "
-      "matrix so, as those of a body that nothing holds",
+      "{}: not positive semidefinite: found work {}, in exact arithmetic, on a displacement whose largest "
+      "component, 1, is at dof {}; allowed: 0 or more on every displacement that the supports allow. Rounded "
+      "entries can cause this, as in the matrix of a body without supports",
       a.name, short_words(shown->work / (size * size), 6),
       a.label_of(static_cast<int>(largest - shown->motion.begin()))));
 }
@@ -101,8 +99,8 @@ exact_path follow_exactly(const exact_problem& p, const exact_options& o) {
     return o.rule == "1989" ? follow_1989_path(p, tell) : follow_true_path(p, tell);
   } catch (const too_long& e) {
     throw std::invalid_argument(
-        fmt::format("{}: exact numbers became too long: found {}; allowed: at most {} bits. Numbers of fewer "
-                    "digits, or fewer elements, would help",
+        fmt::format("{}: exact numbers became too long: found {}; allowed: at most {} bits. Use numbers of "
+                    "fewer digits, or fewer elements",
                     o.file, e.what(), p.longest));
   } catch (const std::runtime_error& e) {
     throw std::invalid_argument(fmt::format("{}: {}", o.file, e.what()));

@@ -45,8 +45,8 @@ std::string follower_words(const fuzz_follower& f, const std::string& leader) {
   const floating_point fp = probe_floating_point();
   if (f.compared.mismatches == 0)
     return fmt::format("{} is equal to {} to the bit; {} values compared", f.name, leader, f.compared.values);
-  return fmt::format("{} is NOT equal to {}{}; {} of {} values differ; highest rung that holds: {}{}", f.name,
-                     leader, fp.strict() ? "" : " (environment, not kernel)", f.compared.mismatches,
+  return fmt::format("{} is NOT equal to {}{}; {} of {} values differ; closest equality that holds: {}{}",
+                     f.name, leader, fp.strict() ? "" : " (environment, not kernel)", f.compared.mismatches,
                      f.compared.values, name_of(f.highest),
                      f.highest == equality_level::ulps ? fmt::format(" (within {})", f.most_ulps) : "");
 }
@@ -72,7 +72,7 @@ void print_result(const fuzz_result& r) {
                 {fmt::format("{} calls, {} problems, {:.1f} s", r.calls, r.problems, r.seconds),
                  fmt::format("events: {} make, {} break, {} of them stationary", r.events.make,
                              r.events.break_, r.events.stationary),
-                 fmt::format("the rarest outcome of an IF came {} times", r.branches.rarest())});
+                 fmt::format("the rarest outcome of an IF occurred {} times", r.branches.rarest())});
   for (const fuzz_follower& f : r.followers)
     print_wrapped(t, f.compared.mismatches == 0 ? paint::good : paint::bad,
                   {follower_words(f, r.request.kernels[0])});

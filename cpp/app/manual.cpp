@@ -25,7 +25,7 @@ std::string entry(std::string_view term, const std::string& meaning, const std::
 
 std::string option_entry(const option_description& o) {
   std::string says = o.text + ".";
-  if (!o.default_value.empty()) says += " Usually " + o.default_value + ".";
+  if (!o.default_value.empty()) says += " Default: " + o.default_value + ".";
   if (!o.words.empty()) says += fmt::format(" There are: {}.", joined(o.words, ", "));
   return entry(o.name, says, o.name[0] == '-' ? o.value : "");
 }
@@ -47,16 +47,15 @@ constexpr std::pair<const char*, const char*> exit_meanings[] = {
      "precision."},
     {"3", "solved, but a final state is not certified, under --strict."},
     {"4", "no equilibrium: the structure became a mechanism."},
-    {"5", "the same pairs toggle for ever, or the limit of increments is reached."}};
+    {"5", "the path repeats the same events in a cycle, or the limit of increments is reached."}};
 
 constexpr std::pair<const char*, const char*> variables[] = {
-    {"COLUMNS", "How wide tables are, from 40 to 160."},
+    {"COLUMNS", "Width of tables in columns, from 40 to 160."},
     {"CONTCT_MEMORY_MIB",
-     "The most memory, in MiB, that a matrix from elsewhere, or contct exact, may take; otherwise three "
-     "quarters of the "
-     "machine's."},
-    {"CONTCT_PROGRESS_AFTER", "Seconds before a terminal is shown how far the work has come; otherwise 1."},
-    {"NO_COLOR", "No colours, whatever it is set to."}};
+     "The most memory, in MiB, that a structure given by its matrix, or contct exact, may take. Default: "
+     "three quarters of the machine's memory."},
+    {"CONTCT_PROGRESS_AFTER", "Seconds until progress is shown on a terminal. Default: 1."},
+    {"NO_COLOR", "Any value turns colours off."}};
 
 /// For single quotes: a quote ends them, stands for itself, and begins them again.
 std::string shell_quoted(std::string_view text) {
@@ -184,7 +183,7 @@ if [[ $zsh_eval_context[-1] == loadautofunc ]]; then _contct "$@"; else compdef 
 std::string manual_page(const program_description& program) {
   std::string text =
       fmt::format(".TH CONTCT 1 {} \"contct {}\" \"User Commands\"\n", page_date, CONTCT_VERSION);
-  text += ".SH NAME\ncontct \\- the 1989 contact subroutine, in FORTRAN and in C++, side by side\n";
+  text += ".SH NAME\ncontct \\- the 1989 contact subroutine in FORTRAN and C++, compared bit for bit\n";
   text += ".SH SYNOPSIS\n.B contct\n.I COMMAND\n[\\fIOPTION\\fR]...\n.SH DESCRIPTION\n";
   text += filled(
       "CONTCT is a FORTRAN subroutine that N. J. Salamon printed in 1989. It solves contact between "

@@ -20,31 +20,34 @@ constexpr example all_examples[] = {
     {"contct new beam beam.toml", "a commented problem to start from"},
     {"contct new plate plate.toml", "the same for a plate"},
     {"contct run beam.toml", "the path, FORTRAN and C++ in lockstep"},
-    {"contct run beam.toml --json result.json --log unit26.txt", "all numbers, and what the listing writes"},
-    {"contct run beam.toml --kernels corrected --strict", "the repaired rule; exit 3 unless it is certified"},
-    {"contct run beam.toml --free-run --kernels corrected,fortran", "where the 1989 rule goes another way"},
-    {"contct run beam.toml --final-only", "no path: the end of every step by the oracle, certified"},
-    {"contct run beam.toml --html beam.html", "a page to look at, with everything in it"},
-    {"contct check beam.toml", "what a problem is, without solving it"},
+    {"contct run beam.toml --json result.json --log unit26.txt",
+     "all numbers, and what the listing writes to unit 26"},
+    {"contct run beam.toml --kernels corrected --strict", "the corrected rule; exit 3 if not certified"},
+    {"contct run beam.toml --free-run --kernels corrected,fortran",
+     "where the path of the 1989 rule differs"},
+    {"contct run beam.toml --final-only", "no path: the reference solution at the end of each step"},
+    {"contct run beam.toml --html beam.html", "a report as one HTML page"},
+    {"contct check beam.toml", "a summary of a problem, without solving it"},
     {"contct check beam.toml --quiet --svg beam.svg", "the structure before any load"},
     {"contct export beam.toml --calculix beam.inp", "the end of the last step, for CalculiX to solve"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
     {"contct explain beam.toml --exact --increment 1.1", "how far its numbers are from the exact ones"},
-    {"contct explain beam.toml --quiet --json why.json", "the same for a program"},
-    {"contct exact beam.toml", "the path without rounding, in fractions"},
+    {"contct explain beam.toml --quiet --json why.json", "the same as JSON"},
+    {"contct exact beam.toml", "the path in rational numbers, without rounding"},
     {"contct exact beam.toml --kernels fortran,corrected", "how many of their digits are right"},
-    {"contct exact beam.toml --rule 1989 --digits 30", "the 1989 rule, were arithmetic exact"},
-    {"contct verify", "every reference problem against its numbers"},
+    {"contct exact beam.toml --rule 1989 --digits 30", "the 1989 rule in exact arithmetic"},
+    {"contct verify", "every reference problem, compared with its numbers"},
     {"contct verify --quiet --junit verify.xml", "for a CI system"},
     {"contct fuzz --calls 20000 --seed 7", "FORTRAN against C++ on random calls"},
-    {"contct fuzz --kernels fortran,plugin:./mine.so --calls 20000", "is a kernel of your own CONTCT?"},
-    {"contct replay calls.trace", "recorded calls put to the 1989 code again"},
-    {"contct replay --kernel fortran,cpp calls.trace", "the same to two kernels"},
-    {"contct atlas --problems 2 --csv atlas.csv", "how often the 1989 rule goes wrong, in a hurry"},
-    {"contct atlas --problems 2 --quiet --svg atlas.svg", "the picture alone"},
+    {"contct fuzz --kernels fortran,plugin:./mine.so --calls 20000",
+     "does a kernel of your own answer as CONTCT does?"},
+    {"contct replay calls.trace", "repeat recorded calls with the 1989 code"},
+    {"contct replay --kernel fortran,cpp calls.trace", "the same with two kernels"},
+    {"contct atlas --problems 2 --csv atlas.csv", "a quick estimate of how often the 1989 rule goes wrong"},
+    {"contct atlas --problems 2 --quiet --svg atlas.svg", "only the picture"},
     {"contct kernels", "what is built in"},
-    {"contct completion bash", "what makes a shell complete the words of contct"},
+    {"contct completion bash", "a script for command completion in bash"},
     {"contct man", "the manual page, for man -l -"},
     {"contct man problem", "that of problem files: every key"},
     {"contct man result", "that of the results of --json: every key"},
@@ -126,7 +129,7 @@ class option_parser {
     return add(command, takes::kernels, name, kernels, text, kernel_names())->delimiter(',');
   }
   static void add_quiet(CLI::App* command, bool& quiet) {
-    command->add_flag("--quiet", quiet, "Print nothing but what is wrong");
+    command->add_flag("--quiet", quiet, "Print only warnings and errors");
   }
   void add_reports(CLI::App* command, report_options& o) {
     add_quiet(command, o.quiet);
@@ -208,22 +211,21 @@ void declare_replay(option_parser& p, CLI::App* c) {
 }
 
 void declare_pictures(option_parser& p, CLI::App* c, picture_options& o) {
-  p.add_file(
-      c, "--html", o.html,
-      "Write the run as one page to this file: the structure increment by increment, its events, "
-      "kernel against kernel, the certificate (- is standard output). A structure given by its matrix is "
-      "drawn where coordinates are known, and is a table otherwise");
+  p.add_file(c, "--html", o.html,
+             "Write a report of the run as one HTML page to this file (- is standard output): the structure "
+             "increment by increment, its events, the comparison of the kernels, the certificate. A "
+             "structure given by its matrix is drawn if coordinates are known; otherwise it is a table");
   p.add_file(c, "--svg", o.svg,
              "Draw the final state and the load-deflection path to this file (- is standard output)");
   p.add_file(c, "--csv", o.csv,
-             "Write a table, an increment a row, to this file (- is standard output); F.csv has "
-             "F.pairs.csv beside it, a row for each pair and increment. Columns: step, increment, kind, s, "
-             "share, force, events, closed, open, at_face, smin, kernels; and step, increment, pair, node, "
-             "surface, state, look, w, gap, force");
+             "Write a table with a row for each increment to this file (- is standard output), and beside "
+             "F.csv a file F.pairs.csv with a row for each pair and increment. Columns: step, increment, "
+             "kind, s, share, force, events, closed, open, at_face, smin, kernels; and step, increment, "
+             "pair, node, surface, state, look, w, gap, force");
   p.add_file(c, "--vtu", o.vtu,
-             "For ParaView: write the final state to this file; F.vtu has beside it F.000.vtu, F.001.vtu, "
-             ".. for the start and each kept increment, every step's final state among them, and F.pvd, "
-             "which collects these. A structure given by its matrix must have coordinates");
+             "For ParaView: write the final state to this file, and beside F.vtu the files F.000.vtu, "
+             "F.001.vtu, .. for the start and each kept increment, with every step's final state, and F.pvd, "
+             "which lists them. A structure given by its matrix must have coordinates");
 }
 
 void declare_run(option_parser& p, const std::vector<std::string>& engines) {
@@ -236,20 +238,20 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
                   joined(engines, ", ")),
       engines);
   c->add_flag("--free-run", o.free_run,
-              "Drive each kernel on a path of its own; compare events, load fractions and D");
-  CLI::Option* const final_only =
-      c->add_flag("--final-only", o.final_only,
-                  "No path: the equilibrium under each step's load by the oracle, certified");
+              "Free run: each kernel follows its own path; events, shares of the step and D are compared");
+  CLI::Option* const final_only = c->add_flag(
+      "--final-only", o.final_only,
+      "Do not follow the path: give the reference solution at the end of each step, with its certificate");
   c->add_flag("--strict", o.strict, "Exit 3 when a final state is not certified");
   c->add_flag("--detail", o.detail,
-              "Print every event, and after each step all pairs, reactions and ends of elements");
-  c->add_flag(
-      "--envelope", o.envelope,
-      "Add to the result of --json the least and largest of everything over all increments, which takes "
-      "a solve for each");
+              "Print every event, and after each step all pairs, reactions, and moments and shears at the "
+              "ends of elements");
+  c->add_flag("--envelope", o.envelope,
+              "Add to the result of --json the least and largest values over all increments; this takes one "
+              "more solve for each increment");
   p.add(c, takes::number, "--node", o.watched,
-        "The node whose deflection the table of --csv has: its number, \"x = 4.5\" along a beam, or a dof's "
-        "label [the one that deflects most at the ends of steps]")
+        "The node whose deflection --csv writes: its number, \"x = 4.5\" along a beam, or a dof's label [the "
+        "one that deflects most at the ends of steps]")
       ->type_name("NODE");
   p.add(c, takes::number, "--max-increments", o.max_increments, "Limit of increments in a step")
       ->check(CLI::Range(1, most_increments));
@@ -257,9 +259,9 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   p.add_file(c, "--trace", o.trace, "Write every call of the leader, inputs and answers, to this file");
   declare_pictures(p, c, o.pictures);
   p.add_reports(c, o.report);
-  p.add_file(c, "--log", o.log, "Write what the leader writes to unit 26 to this file");
+  p.add_file(c, "--log", o.log, "Write the leader's unit 26 to this file");
   p.add_file(c, "--proof", o.proof,
-             "Write what proves the bounds on errors to this file; reference/check_proof.py verifies it");
+             "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
                                 "--html", "--svg", "--csv", "--vtu", "--envelope", "--node"})
     final_only->excludes(c->get_option(of_a_path));
@@ -274,12 +276,11 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
       ->type_name("INCREMENT");
   p.add(c, takes::number, "--step", o.step, "Only this step, from 1");
   p.add(c, takes::number, "--pair", o.pair, "Only this pair, from 1");
-  p.add_kernels(c, "--kernels", o.kernels, "The kernels to put side by side, the first one leads")
+  p.add_kernels(c, "--kernels", o.kernels, "The kernels to compare, the first one leads")
       ->capture_default_str();
-  c->add_flag(
-      "--exact", o.exact,
-      "With the s that exact arithmetic gives, from the numbers of each call and on the exact path of "
-      "the 1989 rule, and the error of each kernel's in ULP");
+  c->add_flag("--exact", o.exact,
+              "Add the exact s, from the numbers of each call and on the exact path of the 1989 rule, and "
+              "the error of each kernel's s in ULP");
   p.add(c, takes::word, "--engine", o.engine, "How the stiffness equations are solved", engines)
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");
@@ -288,7 +289,7 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
 
 void declare_check(option_parser& p) {
   const auto [c, o] =
-      p.command<check_options>("check", "Read a problem without solving it, and say what it is");
+      p.command<check_options>("check", "Read a problem without solving it, and print a summary");
   p.add_problem_file(c, o.file);
   p.add_file(c, "--svg", o.svg, "Draw the structure before any load to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
@@ -299,15 +300,16 @@ void declare_exact(option_parser& p) {
       "exact", "The path in rational arithmetic, and how many digits of each kernel are right");
   p.add_problem_file(c, o.file);
   const std::vector<std::string> rules = {"corrected", "1989"};
-  p.add(c, takes::word, "--rule", o.rule, "Whose decisions: corrected is the true path", rules)
+  p.add(c, takes::word, "--rule", o.rule,
+        "The rule: corrected gives the true path, 1989 that of the listing without rounding", rules)
       ->check(CLI::IsMember(rules))
       ->capture_default_str();
-  p.add_kernels(c, "--kernels", o.kernels, "Kernels whose own paths are compared with it");
+  p.add_kernels(c, "--kernels", o.kernels, "Kernels to compare with it, each in free run");
   p.add(c, takes::number, "--digits", o.digits,
-        "Fractions of more digits than that are printed as decimals with so many")
+        "Rational numbers of more digits than this are printed as decimals with this many")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  p.add_file(c, "--json", o.json, "Write every number as a fraction to this file (- is standard output)");
+  p.add_file(c, "--json", o.json, "Write every number as \"p/q\" to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
 }
 
@@ -315,12 +317,14 @@ void declare_new(option_parser& p) {
   const auto [c, o] = p.command<new_options>("new", "Write a commented problem file to start from");
   p.add(c, takes::word, "SHAPE", o.shape, "beam or plate", {"beam", "plate"})->required();
   p.add_file(c, "FILE", o.file,
-             "Where to; by default beam.toml or plate.toml. Nothing is overwritten. - is standard output");
+             "The file to write; by default beam.toml or plate.toml. An existing file is not overwritten. - "
+             "is standard output");
 }
 
 void declare_verify(option_parser& p) {
   const auto [c, o] = p.command<verify_options>(
-      "verify", "Every problem in reference/ against published, closed-form and recomputed numbers");
+      "verify",
+      "Solve every problem in reference/ and compare it with published, closed-form and recomputed numbers");
   p.add_file(c, "--reference", o.reference, "The folder with verification.toml and problems/");
   p.add_file(c, "--json", o.json, "Write all numbers to this file (- is standard output)");
   p.add_reports(c, o.report);
@@ -328,19 +332,21 @@ void declare_verify(option_parser& p) {
 
 void declare_fuzz(option_parser& p) {
   const auto [c, o] = p.command<fuzz_options>(
-      "fuzz", "Random and adversarial calls and problems, kernels against each other, to the bit");
+      "fuzz", "Compare kernels to the bit on random and adversarial calls and problems");
   p.add_kernels(c, "--kernels", o.request.kernels, "Kernels to compare, the first one leads")
       ->capture_default_str();
-  p.add(c, takes::number, "--calls", o.request.calls, "Calls, of all shards together")
+  p.add(c, takes::number, "--calls", o.request.calls, "Number of calls, in all shards together")
       ->check(CLI::Range(std::int64_t{1}, most_random_cases))
       ->capture_default_str();
-  p.add(c, takes::number, "--problems", o.problems, "Whole problems; by default one for 500 calls")
+  p.add(c, takes::number, "--problems", o.problems, "Number of whole problems; by default one for 500 calls")
       ->check(CLI::Range(std::int64_t{0}, most_random_cases));
-  p.add(c, takes::number, "--seed", o.request.seed, "Another seed, other calls")->capture_default_str();
+  p.add(c, takes::number, "--seed", o.request.seed, "Seed of the random numbers")->capture_default_str();
   p.add(c, takes::number, "--shard", o.shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
   p.add(c, takes::file, "--merge", o.merge, "Add up the --json files of all shards instead of running");
   p.add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
-  p.add_file(c, "--out", o.out, "Write what is found to this folder: trace, Catch2 test, FORTRAN main");
+  p.add_file(
+      c, "--out", o.out,
+      "Write each mismatch to this folder, reduced: a trace, a Catch2 test and a FORTRAN main program");
   p.add_reports(c, o.report);
 }
 
@@ -356,7 +362,7 @@ void declare_atlas(option_parser& p) {
         "Problems in each cell; the default takes a minute")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  p.add(c, takes::number, "--seed", o.request.seed, "Another seed, other problems")
+  p.add(c, takes::number, "--seed", o.request.seed, "Seed of the random numbers")
       ->check(not_negative)
       ->capture_default_str();
   p.add_file(c, "--csv", o.csv, "Write the cells to this file (- is standard output)");
@@ -366,13 +372,12 @@ void declare_atlas(option_parser& p) {
 }
 
 void declare_export(option_parser& p) {
-  const auto [c, o] =
-      p.command<export_options>("export", "Write a beam or a plate for another program, CalculiX");
+  const auto [c, o] = p.command<export_options>("export", "Write a beam or a plate as input for CalculiX");
   p.add_problem_file(c, o.file);
   p.add_file(c, "--calculix", o.calculix,
              "Write CalculiX's input to this file, JOB.inp (- is standard output)")
       ->required();
-  p.add(c, takes::number, "--step", o.choice.step, "The load step whose end it is [the last]")
+  p.add(c, takes::number, "--step", o.choice.step, "The load step whose end is written [the last]")
       ->check(CLI::Range(1, 1'000'000'000));
   p.add(c, takes::number, "--refine", o.choice.refine, "Elements for each of the problem's, along each side")
       ->check(CLI::Range(1, 64))
@@ -384,7 +389,7 @@ void declare_export(option_parser& p) {
 
 void declare_completion(option_parser& p) {
   const auto [c, o] =
-      p.command<completion_options>("completion", "Print what makes a shell complete the words of contct");
+      p.command<completion_options>("completion", "Print a script for command completion in bash");
   const std::vector<std::string> shells = {"bash", "zsh", "fish"};
   p.add(c, takes::word, "SHELL", o.shell, "bash, zsh or fish", shells)
       ->required()
@@ -425,7 +430,7 @@ void add_examples(CLI::App& program) {
 /// It stays where it is made: the callbacks of its commands refer to it.
 std::unique_ptr<option_parser> contct_parser(std::vector<std::string> engines) {
   auto made = std::make_unique<option_parser>(
-      "contct", "CONTCT: the 1989 contact subroutine, in FORTRAN and in C++, side by side.");
+      "contct", "CONTCT: the 1989 contact subroutine in FORTRAN and C++, compared bit for bit.");
   option_parser& p = *made;
   engines.insert(engines.begin(), "auto");
   p.program.require_subcommand(1);
@@ -436,7 +441,8 @@ std::unique_ptr<option_parser> contct_parser(std::vector<std::string> engines) {
   declare_new(p);
   declare_verify(p);
   declare_fuzz(p);
-  declare_replay(p, p.program.add_subcommand("replay", "Put recorded calls to a kernel; needs no LAPACK"));
+  declare_replay(p,
+                 p.program.add_subcommand("replay", "Repeat recorded calls with a kernel; needs no LAPACK"));
   declare_atlas(p);
   declare_export(p);
   declare_texts(p);
@@ -451,7 +457,7 @@ command_options parse_contct(int argc, const char* const* argv, const std::vecto
 }
 
 command_options parse_contct_replay(int argc, const char* const* argv) {
-  option_parser p("contct-replay", "Put recorded calls of CONTCT to a kernel, and compare to the bit.");
+  option_parser p("contct-replay", "Repeat recorded calls of CONTCT with a kernel, and compare to the bit.");
   declare_replay(p, &p.program);
   return p.parse(argc, argv);
 }

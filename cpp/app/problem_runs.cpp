@@ -53,12 +53,12 @@ std::string pair_words(const problem& p, const std::vector<int>& pairs) {
 
 std::string mechanism_words(const problem& p, const path_end& end) {
   if (end.pairs.empty())
-    return "no equilibrium: supports and closed pairs do not hold the structure, which is free to move as a "
-           "rigid body. A structure held only by pairs must start with enough of them in contact; --kernels "
-           "corrected follows one that first falls onto its faces";
-  return "no equilibrium: the opening of " + pair_words(p, end.pairs) +
-         " left the structure free to move as a rigid body" +
-         (end.fraction < 1e-9 ? ". At a standstill the 1989 rule may pass by an equilibrium that exists"
+    return "no equilibrium: the structure is a mechanism: its supports and the pairs in contact allow a "
+           "rigid-body motion. A structure held only by pairs must start with enough of them in contact; "
+           "--kernels corrected also follows one that first falls onto its faces";
+  return "no equilibrium: when " + pair_words(p, end.pairs) + " separated, the structure became a mechanism" +
+         (end.fraction < 1e-9 ? ". At constant load the 1989 rule can miss an equilibrium that exists; "
+                                "compare --kernels corrected"
                               : "");
 }
 
@@ -103,9 +103,12 @@ std::string end_words(const problem& p, const path_end& end) {
     case path_status::mechanism:
       return where + mechanism_words(p, end);
     case path_status::cycle:
-      return where + "a cycle at a standstill: these pairs keep toggling: " + pair_words(p, end.pairs);
+      return where + "a cycle at constant load: these pairs change their status again and again: " +
+             pair_words(p, end.pairs);
     case path_status::iteration_limit:
-      return where + "the limit of increments (--max-increments) is reached; these pairs keep toggling: " +
+      return where +
+             "the limit of increments (--max-increments) is reached; these pairs change their status again "
+             "and again: " +
              (end.pairs.empty() ? "none" : pair_words(p, end.pairs));
     default:
       return where +
@@ -154,8 +157,8 @@ std::string digit_watch::warning() const {
                              : fewest == 1 ? "about 1 digit"
                                            : fmt::format("about {} digits", fewest);
   return fmt::format(
-      "step {}: {} of the answer can be relied on: the stiffness is ill-conditioned (rcond {:.1e}). Fewer "
-      "elements in a span, or more supports, would help",
+      "step {}: {} of the answer can be relied on: the stiffness is ill-conditioned (rcond {:.1e}). Use "
+      "fewer elements in a span, or more supports",
       step, digits, rcond);
 }
 

@@ -34,7 +34,7 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   if (!comparable(h, facts)) {
     result.what = outcome::skipped;
     result.summary =
-        fmt::format(R"(skipped: recorded with {}-byte REAL under the rule "{}", {} has {} and "{}")",
+        fmt::format(R"(skipped: recorded with {}-byte REAL and rule "{}"; {} has {}-byte REAL and rule "{}")",
                     h.real_bytes, h.rule, kernel, facts.real_bytes, facts.rule);
     return result;
   }

@@ -24,7 +24,7 @@ TEST_CASE("export writes a deck, and says by what its answers are to be divided"
   CHECK(dir.files() == std::vector<std::string>{"gaps.inp"});
   const std::string deck = dir.read("gaps.inp");
   CHECK_THAT(deck, Contains("*STEP,NLGEOM\n") && Contains("*END STEP\n") &&
-                       Contains("pair i presses on ground node 65 + i"));
+                       Contains("pair i is the spring to ground node 65 + i"));
   const finished piped = contct_program(dir.path(), {"export", gaps, "--calculix", "-", "--step", "3"});
   CHECK(piped.exit == 0);
   CHECK(piped.out == deck);

@@ -140,7 +140,7 @@ TEST_CASE("a new problem runs, has events, and is certified, and its comments na
     const finished made = contct_program(dir.path(), {"new", shape});
     const std::string name = std::string(shape) + ".toml";
     CHECK(made.exit == 0);
-    CHECK_THAT(made.out, Contains(name + " is written; now: contct run " + name));
+    CHECK_THAT(made.out, Contains(name + " is written; next: contct run " + name));
     CHECK(dir.files() == words{name});
     const std::string text = dir.read(name);
     for (const char* piece : {"[[support]]", "[[contact]]", "[[bed]]", "[[step]]", "positive up"})
@@ -183,7 +183,7 @@ TEST_CASE("a new problem overwrites nothing, not even a link that leads nowhere"
   for (const char* file : {"beam.toml", "link.toml", "."}) {
     const finished f = contct_program(dir.path(), {"new", "beam", file});
     CHECK(f.exit == 2);
-    CHECK_THAT(f.err, Contains("which is there already"));
+    CHECK_THAT(f.err, Contains("which exists already"));
   }
   CHECK(contct_program(dir.path(), {"new", "beam"}).exit == 2);
   CHECK(dir.read("beam.toml") == "mine");

@@ -69,7 +69,7 @@ TEST_CASE("fish knows which option takes a file, a word, or nothing") {
 TEST_CASE("the manual has every command with its arguments, in the macros of roff") {
   const std::string text = manual_page(small_program());
   CHECK_THAT(text, Contains(".SS \"contct pull SHAPE [FILE]\"\n"));
-  CHECK_THAT(text, Contains(".TP\n\\fB\\-\\-force\\fR \\fIFLOAT\\fR\nHow much. Usually 3.\n"));
+  CHECK_THAT(text, Contains(".TP\n\\fB\\-\\-force\\fR \\fIFLOAT\\fR\nHow much. Default: 3.\n"));
   CHECK_THAT(text, Contains(".TP\n\\fB\\-\\-kernels\\fR \\fITEXT\\fR\nWhich. There are: fortran, cpp.\n"));
   CHECK_THAT(text, Contains(".TP\n\\fBFILE\\fR\nWhere to.\n"));
   CHECK_THAT(text, Contains(".TP\n\\fBcontct pull beam \\-\\fR\nwhat it is good for.\n"));

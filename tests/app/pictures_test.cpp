@@ -162,7 +162,7 @@ TEST_CASE("a mechanism has a page that says so, up to the state reached") {
       "[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n[[step]]\n"
       "point = [ { node = 3, w = -4 } ]\n[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n",
       4);
-  CHECK_THAT(freed["ended"].get<std::string>(), Contains("left the structure free"));
+  CHECK_THAT(freed["ended"].get<std::string>(), Contains("the structure became a mechanism"));
   CHECK(freed["frames"].back()["step"] == 2);
   CHECK(freed["frames"].back()["fraction"].get<double>() < 1.0);
   CHECK(freed["frames"].back()["end"] == true);

@@ -225,7 +225,7 @@ def check_structure(name, step):
         for row, pair in zip(rows[1:], step["pairs"]):
             check([row[0], float(row[3]), float(row[4]), float(row[5])] == [pair["dof"], by_label[pair["dof"]], pair["gap"], pair["force"]],
                   f"{where}: the table in the picture's place has {row} for {pair}")
-            check(row[2].startswith("closed") == (pair["state"] == "contact" and pair["force"] > 1e-3), f"{where}: {row[2]} for {pair}")
+            check(row[2].startswith("in contact") == (pair["state"] == "contact" and pair["force"] > 1e-3), f"{where}: {row[2]} for {pair}")
         return
     shape = browser.value("({names: geometry.names, axes: geometry.axes, unit: geometry.unit, u: frames[current].u})")
     worst = 0.0
@@ -369,7 +369,7 @@ def looks_differ_in_shape(name):
         for kind, tag in browser.value("[...document.querySelectorAll('#picture .pair-open, #picture .pair-closed, #picture .pair-face')].map(m => [m.classList[0], m.tagName])"):
             shapes.setdefault(kind, set()).add(tag)
     check({k: sorted(v) for k, v in shapes.items()} == {"pair-open": ["circle"], "pair-closed": ["rect"], "pair-face": ["path"]},
-          f"{name}: open, closed and at the face have shapes of their own: {shapes}")
+          f"{name}: separated, in contact and at its face have shapes of their own: {shapes}")
 
 
 def prints(name):

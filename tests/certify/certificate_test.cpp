@@ -168,7 +168,7 @@ TEST_CASE("an open pair beyond its face is seen alone, when its spring is too we
   const certificate c = judged(p, t);
   CHECK(wrong_in(c) == "P");
   CHECK(c.penetration == Approx((-0.05 - t.u[6]) / std::abs(t.u[8])).epsilon(1e-10));
-  CHECK(says(c, "an open pair is beyond its face"));
+  CHECK(says(c, "a separated pair is beyond its face"));
   t.isep[1] = in_contact;
   t.isep[0] = separated;  // with a spring that counts the load is not carried either
   CHECK(wrong_in(judged(p, t)) == "EP");
@@ -181,7 +181,7 @@ TEST_CASE("a closed pair that pulls is seen alone, when its spring is too weak f
   const certificate c = judged(p, t);
   CHECK(wrong_in(c) == "T");
   CHECK(c.tension == Approx((t.u[14] + 0.2) / std::abs(t.u[8])).epsilon(1e-10));
-  CHECK(says(c, "a closed pair pulls"));
+  CHECK(says(c, "a pair in contact pulls"));
   t.isep[3] = separated;
   t.isep[2] = in_contact;
   CHECK(wrong_in(judged(p, t)) == "ET");

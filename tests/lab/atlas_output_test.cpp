@@ -137,7 +137,7 @@ TEST_CASE("the atlas's picture is well-formed, self-contained, and has every cel
                              (c.held ? ", held: " : ", free: ") + wrong + "</title>"));
   }
   for (const char* colour : {"#0072B2", "#D55E00", "#007F5F"}) CHECK_THAT(svg, Contains(colour));
-  CHECK_THAT(svg, Contains("fortran-r4: as printed") && Contains("corrected: the repaired rule"));
+  CHECK_THAT(svg, Contains("fortran-r4: as printed") && Contains("corrected: the corrected rule"));
 }
 
 TEST_CASE("a point stands where its share is: more wrong is higher, none is lowest") {

@@ -47,7 +47,7 @@ TEST_CASE("a second answer that comes late is not taken for the next call's") {
     std::string word;
     std::ifstream(said) >> word;
     CHECK(word == "said");
-    CHECK(put(*k, behaves) == "it answered without being asked");
+    CHECK(put(*k, behaves) == "it answered without being called");
     CHECK(put(*k, behaves).empty());
   }
   left.check();
@@ -84,7 +84,7 @@ TEST_CASE("nonsense from a command is refused with what was found and what is al
     return put_to_pipe("printf '" + text + "'; exec cat >/dev/null");
   };
   CHECK_THAT(answering("hello\\nend\\n"),
-             Contains("answered nonsense: its answer:1: found hello; allowed: \"smin X\""));
+             Contains("gave an invalid answer: its answer:1: found hello; allowed: \"smin X\""));
   CHECK_THAT(answering("end\\n"), Contains("its answer:1: found end"));
   CHECK_THAT(answering("smin 1\\nend\\n"),
              Contains("its answer:2: found end; allowed: \"pair 1 ss X isep S\""));
@@ -93,6 +93,6 @@ TEST_CASE("nonsense from a command is refused with what was found and what is al
   CHECK_THAT(answering("smin 1\\npair 1 ss 1 isep 1.5\\npair 2 ss 1 isep 1\\nend\\n"), Contains("isep 1.5"));
   CHECK_THAT(answering("smin 1\\npair 1 ss one isep 1\\npair 2 ss 1 isep 1\\nend\\n"), Contains("ss one"));
   CHECK_THAT(answering("smin 1\\npair 1 ss 1 isep 1\\npair 2 ss 1 isep 1\\nend\\nsmin 1\\nend\\n"),
-             Contains("goes on behind \"end\""));
+             Contains("continues after \"end\""));
   CHECK_THAT(answering("smin\\t1\\033[2J\\nend\\n"), Contains("found smin\\x091\\x1b[2J; allowed"));
 }

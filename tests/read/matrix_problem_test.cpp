@@ -351,7 +351,7 @@ TEST_CASE(
       {small_with("dofs = \"K.dof\"\n", "labels = \"K.dof\"\n"), "p.toml:3:1: matrix.labels", "unknown",
        "stiffness, dofs, coordinates"},
       {small_with("[[support]]", "coordinates = \"K.xyz\"\n[[support]]"), "p.toml:4:15: matrix.coordinates",
-       "no node in", "before the last dot"},
+       "no node in", "labels NODE.DIRECTION"},
       {small_with("[[support]]", "coordinates = \"bad.xyz\"\n[[support]]"), "bad.xyz:2", "\"nan\" for y",
        "finite"},
       {small_with("[[support]]", "coordinates = \"none.xyz\"\n[[support]]"), "none.xyz: cannot be read",

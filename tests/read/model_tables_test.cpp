@@ -134,7 +134,7 @@ TEST_CASE(
   CHECK_THAT(places("").said.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));
   CHECK_THAT(message_of(with_mesh("mesh = \"job.inp\"\n")),
              Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node in") &&
-                 Catch::Matchers::Contains("allowed: nodes by what stands before the last dot"));
+                 Catch::Matchers::Contains("allowed: labels NODE.DIRECTION"));
   CHECK_THAT(message_of(with_mesh("mesh = \"none.inp\"\n")),
              Catch::Matchers::Contains("none.inp: cannot be read"));
   (void)here.write("job.inp", "*NODE\n2,0,0,x\n");

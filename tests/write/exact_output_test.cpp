@@ -108,7 +108,7 @@ TEST_CASE("the document has every number as a fraction") {
 TEST_CASE("a mechanism is told with the motion and the work that prove it") {
   const followed_exactly run(contct::read::parse_problem(falling, "falling.toml"));
   CHECK_THAT(exact_text(run.result(), 20, {}),
-             Contains("share 0, load 0: the structure moves rigidly at constant load\n") &&
+             Contains("share 0, load 0: a rigid-body motion at constant load\n") &&
                  Contains("\nno equilibrium: ") &&
                  Contains("the step's full load does work 1 on it.\n  w 0, -1/2, -1\n"));
   const exact_json d = run.document();

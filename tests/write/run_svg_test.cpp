@@ -135,12 +135,12 @@ TEST_CASE("a pair's mark is a ring, a square or a diamond around its point, with
     return mark_of_pair(r.what, r.kept.frames()[frame], 0, {100, 200}, 5);
   };
   CHECK_THAT(mark(0), Contains("<circle cx=\"100.0\" cy=\"200.0\" r=\"5.0\" class=\"open\">"));
-  CHECK_THAT(mark(0), Contains("<title>pair 1, node 3, face below at -0.004, open: gap 0.004</title>"));
+  CHECK_THAT(mark(0), Contains("<title>pair 1, node 3, face below at -0.004, separated: gap 0.004</title>"));
   CHECK_THAT(mark(1), Contains("M100.0 193.5l6.5 6.5l-6.5 6.5l-6.5 -6.5z\" class=\"face\"") &&
                           Contains("at its face"));
   CHECK_THAT(mark(2),
              Contains("<rect x=\"95.0\" y=\"195.0\" width=\"10.0\" height=\"10.0\" class=\"closed\">"));
-  CHECK_THAT(mark(2), Contains("closed: force 41.8605</title>"));
+  CHECK_THAT(mark(2), Contains("in contact: force 41.8605</title>"));
 }
 
 TEST_CASE(

@@ -68,6 +68,7 @@ TEST_CASE("of a state with locked-in forces the summary names the step, the comp
   const std::string step = complaints[0].substr(0, complaints[0].find(" is not certified: "));
   CHECK_THAT(certificate_summary(r.judged, true)[0], Contains(step + " is NOT certified: "));
   const early_toggle& first = r.early.all().front();
-  CHECK_THAT(complaints[0], Contains("let pair ") && Contains(" contact ") && Contains("away from its face"));
+  CHECK_THAT(complaints[0],
+             Contains("; in increment ") && Contains(" contact ") && Contains(" from its face"));
   CHECK(first.distance > 0.0);
 }

@@ -24,8 +24,8 @@ std::string worst_of(const certificate& c) {
   const std::pair<double, const char*> parts[] = {
       {c.displacement_error, "the deflections are off"},
       {c.shape_error, "the displacements are off"},
-      {c.penetration, "an open pair is beyond its face"},
-      {c.tension, "a closed pair pulls: it is off its face"},
+      {c.penetration, "a separated pair is beyond its face"},
+      {c.tension, "a pair in contact pulls: it is off its face"},
       {c.equilibrium, "loads and forces do not balance: they differ"},
   };
   for (const auto& [amount, words] : parts) {
@@ -121,7 +121,7 @@ void certifier::prove(const step_state& s, certificate& c) {
   c.unique = b.unique;
   c.tolerance = certified_share;
   if (!b.not_proved.empty()) {
-    c.problem = "nothing is proved: " + b.not_proved;
+    c.problem = "no error bound is proved: " + b.not_proved;
     return;
   }
   c.proved = true;
@@ -147,9 +147,11 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
   c.unfounded = answer.how == outcome::no_equilibrium;
   const std::string of_proof = std::exchange(c.problem, "");
   if (c.unfounded) {
-    c.problem = "there is no equilibrium: nothing stops a rigid motion that the load drives";
+    c.problem =
+        "there is no equilibrium: no support and no face stops a rigid-body motion on which the load does "
+        "work";
   } else if (answer.how == outcome::not_found) {
-    c.problem = "the oracle came to no answer: the stiffness is too ill-conditioned";
+    c.problem = "there is no reference solution: the stiffness is too ill-conditioned";
   } else {
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);

@@ -148,7 +148,7 @@ bool error_prover::find_closed(std::span<const double_double> u, const residual&
   b.closed = pressed(u);
   for (int tries = 0; tries < 3; ++tries) {
     if (!proves(b.closed)) {
-      b.not_proved = "the stiffness is too ill-conditioned, or nothing certain holds the structure";
+      b.not_proved = "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
       return false;
     }
     const std::optional<double> rho = norm_of(r, mu_);
@@ -265,7 +265,8 @@ void error_prover::bound_unloaded(const handed_out& state, error_bounds& b) {
     take(true_.deflects[dof] != 0 ? quantity::w : quantity::slope, state.displacement[dof]);
   if (!b.unique && state.element_values.empty()) {
     b.not_proved =
-        "nothing but contact holds the structure, and a matrix has no moments that would show it unbent";
+        "only contact holds the structure, and a structure given by its matrix has no moments to prove that "
+        "it is not bent";
     return;
   }
   for (const double force : state.pair_forces) take(quantity::force, force);

@@ -55,13 +55,13 @@ std::string ulp_words(const mismatch& d) {
 /// The branch margin.
 std::string margin_words(const mismatch_report& f) {
   const std::optional<decision> least = narrowest(f.decisions);
-  if (!least) return "branch margin: the listing decided nothing in this call";
+  if (!least) return "branch margin: no decision in this call";
   const bool with_nan = least->ulps == std::numeric_limits<std::uint64_t>::max();
   const bool tie = least->ulps <= tie_ulps;
   return "branch margin: " + words_of(*least) +
-         (tie        ? ": a tie, which rounding may decide otherwise"
+         (tie        ? ": a tie, which rounding may decide the other way"
           : with_nan ? ""
-                     : "; every other decision by as much or more: no tie, a bug");
+                     : "; all other margins are as large or larger: not a tie, so a bug");
 }
 
 }  // namespace

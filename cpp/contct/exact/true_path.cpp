@@ -168,7 +168,8 @@ class true_path {
       } else if (!seen.insert(at_.closed).second) {  // pairs that the terms so far do not move decide it
         seen.clear();
         terms += 2;
-        if (terms > most_terms) throw std::runtime_error("the pairs at their faces could not be decided");
+        if (terms > most_terms)
+          throw std::runtime_error("the status of the pairs at their faces could not be decided");
       }
       if (patience == 0) wrong.resize(1);
       for (const std::size_t i : wrong) at_.closed[i] = at_.closed[i] != 0 ? 0 : 1;

@@ -57,22 +57,22 @@ json cell_json(const atlas_cell& c) {
 }
 
 constexpr const char* meaning =
-    R"(wrong     without a word: at the end of some step a deflection is off, an open
-          pair is beyond its face or a closed one stands off it, by more than
-          1e-3 of the largest deflection; or there is no equilibrium at all. The
-          interval is Wilson's; the error is that of the deflections: where it
-          is small, a pair's status, and with it a force, is what is wrong.
-          One yardstick for both precisions: rounding to 4 bytes costs 6e-8, and
-          only the kernel rounds so, all else being 8-byte. A program that is
-          single precision throughout does worse than fortran-r4.
-mech.     stopped for a mechanism where there is an equilibrium, and said so.
-no end    stopped for a cycle or increments without end, and said so.
+    R"(wrong     and not reported: at the end of some step a deflection is off, a
+          separated pair is beyond its face or a pair in contact is off it, by
+          more than 1e-3 of the largest deflection; or there is no equilibrium.
+          The interval is Wilson's; the error is that of the deflections: where
+          it is small, a pair's status, and with it a force, is wrong. The
+          tolerance is the same for both precisions: rounding to 4 bytes costs
+          6e-8, and only the kernel rounds so; the rest is 8-byte. A program
+          that is single precision throughout does worse than fortran-r4.
+mech.     stopped for a mechanism where there is an equilibrium, reported.
+no end    stopped for a cycle or the limit of increments, reported.
 not cert. all of these, and what is off by more than the rounding of 8 bytes
           (the certificate's 1024 eps / rcond); says little of a 4-byte kernel.
-Every row of a block has the same problems, but for the unit: three quarters
+All rows of a block have the same problems, except for the unit: three quarters
 beams, a quarter plates, one to five load steps, springs over eight decades;
 faces with gaps, at zero, mixed, at equal gaps, near ties, symmetric,
-antisymmetric and on both sides, an eighth each. Another mix has other shares.
+antisymmetric and on both sides, an eighth each. Another mix gives other rates.
 Nothing holds {} of the {} free structures of unit 1 at the start: fortran can
 only stop there.
 )";
@@ -162,8 +162,8 @@ constexpr look as_8_bytes = {"fortran: the listing, REAL of 8 bytes", "#0072B2",
                              R"(fill="#0072B2")", "none"};
 constexpr look as_printed = {"fortran-r4: as printed, REAL of 4 bytes", "#D55E00", marker::triangle,
                              R"(fill="#D55E00" stroke="#ffffff")", "7 4"};
-constexpr look as_corrected = {"corrected: the repaired rule", "#007F5F", marker::square, R"(fill="#007F5F")",
-                               "none"};
+constexpr look as_corrected = {"corrected: the corrected rule", "#007F5F", marker::square,
+                               R"(fill="#007F5F")", "none"};
 constexpr look in_unit_1 = {"unit of length 1", "#0072B2", marker::disc, R"(fill="#0072B2")", "none"};
 constexpr look in_unit_100 = {"unit of length 100", "#56A0D0", marker::disc,
                               R"(fill="#ffffff" stroke="#56A0D0" stroke-width="2")", "2 3"};
@@ -275,8 +275,8 @@ std::string legend(double y, std::initializer_list<std::pair<double, look>> entr
 std::string svg_heading(const atlas& a) {
   return text_markup(at_left, 36, R"(font-weight="bold" font-size="22")", "Where the 1989 code goes wrong") +
          text_markup(at_left, 60, "",
-                     "Share of random problems answered wrong without a word: off by more than 0.1 % of the "
-                     "largest deflection.") +
+                     "Random problems answered wrong and not reported: off by more than 0.1 % of the largest "
+                     "deflection.") +
          text_markup(at_left, 79, "",
                      fmt::format("{} problems a point, the same ones along each line (seed {}); bands: 95 % "
                                  "confidence.",
@@ -310,7 +310,7 @@ std::string captions() {
                      "size of the structure in the unit it is put in; EPSGAP stays 10<tspan dy=\"-5\" "
                      "font-size=\"10\">\u221210</tspan>") +
          text_markup(at_left + wide_width / 2, below - 4, middle,
-                     "Paths that stop for a mechanism or a cycle say so, and are not counted as wrong.");
+                     "Paths that stop for a mechanism or a cycle report it, and are not counted as wrong.");
 }
 
 }  // namespace

@@ -163,8 +163,7 @@ class fuzzing {
                       std::to_string(small->calls.back().pairs()) + " pair(s): " + words_of(small->what)[0]);
       run_.cases.push_back(std::move(*small));
     } else {
-      lines.emplace_back(
-          "it could not be seen again by fresh kernels: the kernel is no function of its calls");
+      lines.emplace_back("not reproducible with fresh kernels: the kernel keeps state between calls");
     }
   }
 

@@ -59,13 +59,12 @@ bool ready(int channel, short events, child_process::clock::time_point deadline)
 
 child_process::child_process(const std::function<void(int channel)>& body) {
   int ends[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    fail("no channel to a kernel from outside");
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("no channel to an external kernel");
   pid_ = fork();
   if (pid_ < 0) {
     close(ends[0]);
     close(ends[1]);
-    fail("no process for a kernel from outside");
+    fail("no process for an external kernel");
   }
   if (pid_ == 0) {
     detach_from_parent(ends[1]);
@@ -130,7 +129,7 @@ kernel_in_child::kernel_in_child(kernel_facts facts, const outside_limits& limit
 
 void kernel_in_child::refuse_when_enough() const {
   if (failures_ < limits_.most_failures && waits_ < limits_.most_waits) return;
-  throw kernel_failure("is asked no more after " + std::to_string(failures_ + waits_) +
+  throw kernel_failure("is not called again after " + std::to_string(failures_ + waits_) +
                        " failures; the last: it " + last_);
 }
 

@@ -49,7 +49,7 @@ class pipe_kernel final : public kernel_in_child {
   void refuse_stray_answer() {
     answered_.clear();
     if (child_->receive(answered_, child_process::clock::now()) == child_process::sent::whole)
-      fail("answered without being asked");
+      fail("answered without being called");
   }
 
   [[nodiscard]] bool answer_is_whole() const {
@@ -63,9 +63,9 @@ class pipe_kernel final : public kernel_in_child {
       trace_reader reader(answered_, "its answer");
       reader.read_answer(out_);
       if (reader.line() != static_cast<int>(std::count(answered_.begin(), answered_.end(), '\n')))
-        throw input_error("its answer goes on behind \"end\"");
+        throw input_error("its answer continues after \"end\"");
     } catch (const input_error& e) {
-      fail(std::string("answered nonsense: ") + e.what());
+      fail(std::string("gave an invalid answer: ") + e.what());
     }
     c.smin = out_.smin;
     std::copy(out_.ss.begin(), out_.ss.end(), c.ss.begin());

@@ -183,8 +183,8 @@ class plugin_kernel final : public kernel_in_child {
     const auto from = arrays_of(c);
     std::string words;
     for (int a = 0; a < arrays; ++a) {
-      if (!intact(m + l.at[a] - fence)) words = std::string("wrote in front of ") + names[a];
-      if (!intact(m + l.at[a] + l.bytes[a])) words = std::string("wrote behind the end of ") + names[a];
+      if (!intact(m + l.at[a] - fence)) words = std::string("wrote before the start of ") + names[a];
+      if (!intact(m + l.at[a] + l.bytes[a])) words = std::string("wrote past the end of ") + names[a];
     }
     for (const array_index a : {dd, dtest, cc, id, isurf}) {
       if (l.bytes[a] > 0 && std::memcmp(m + l.at[a], from[a], l.bytes[a]) != 0)

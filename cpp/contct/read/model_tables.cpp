@@ -253,9 +253,8 @@ void finish(const table_reader& t, assembled& a) {
 void refuse_unknown_nodes(const table_reader& t, std::string_view key, const std::string& path,
                           const assembled& a) {
   if (a.places.known()) return;
-  t.refuse_key(
-      key, fmt::format("no node in {} of any label, as {}", path, in_quotes(a.label_of(0))),
-      "nodes by what stands before the last dot of labels, and behind it x, y, z, r, rx, ry, rz or 1 to 6");
+  t.refuse_key(key, fmt::format("no node in {} of any label, as {}", path, in_quotes(a.label_of(0))),
+               "labels NODE.DIRECTION: the name of a node, a dot, and x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
 /// The mesh that the table names, or else the one beside the job's matrix, where there is one.

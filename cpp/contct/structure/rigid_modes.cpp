@@ -189,12 +189,14 @@ void refuse_count(const numbers& values, std::optional<int> known) {
   if (values.front() < -negative_beyond) refuse_negative("of " + short_words(values.front()));
   const std::size_t declared = known.value_or(0);
   if (declared > values.size() || (declared > 0 && values[declared - 1] > free_if_declared))
-    throw std::invalid_argument("the matrix, on its supports, is said to leave " + std::to_string(declared) +
-                                " motions free, but it leaves " + std::to_string(count_free(values)));
+    throw std::invalid_argument(
+        "free_motions: found " + std::to_string(declared) +
+        "; allowed: the number of rigid-body motions of the matrix on its supports, " +
+        std::to_string(count_free(values)));
   if (!known && count_free(values) > most_rigid_motions)
-    throw std::invalid_argument("the matrix, on its supports, leaves more than " +
-                                std::to_string(most_rigid_motions) +
-                                " motions free; allowed: one body's, or parts that supports hold");
+    throw std::invalid_argument(
+        "the matrix, on its supports, has more than " + std::to_string(most_rigid_motions) +
+        " rigid-body motions; allowed: those of one body, or parts that supports hold");
 }
 
 }  // namespace

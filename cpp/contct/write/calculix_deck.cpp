@@ -217,12 +217,12 @@ void refuse_what_cannot_be_written(const problem& p, int step) {
     refuse("only beams and plates can be written for CalculiX");
   if (const auto* of = std::get_if<plate>(&p.geometry.kind); of != nullptr && of->nu > 0.49)
     refuse(fmt::format(
-        "plate.nu: found {:g}; allowed: at most 0.49 for CalculiX, whose plates are solid inside", of->nu));
+        "plate.nu: found {:g}; allowed: at most 0.49 for CalculiX, whose plates are solid elements", of->nu));
   for (const support& s : p.supports) {
     if (!s.fixed && s.dof != 0)
       refuse(
-          fmt::format("the support at node {} has a spring in {}: CalculiX has none for the turns of beams "
-                      "and plates; allowed: springs in w",
+          fmt::format("the support at node {} has a spring in {}: CalculiX has no springs for the rotations "
+                      "of beams and plates; allowed: springs in w",
                       s.node + 1, dof_names(p.geometry)[s.dof]));
   }
   const linear_structure s = structure_of(p);
@@ -230,8 +230,8 @@ void refuse_what_cannot_be_written(const problem& p, int step) {
   for (const rigid_row& row : s.held_by_supports) held.hold(row);
   if (held.rank() < s.rigid_motions)
     refuse(
-        "the supports alone do not hold the structure: CalculiX's first step, with springs not yet pressed, "
-        "has no answer; allowed: a structure that its [[support]] tables hold");
+        "the supports alone do not hold the structure: CalculiX starts with every pair separated and then "
+        "finds no solution; allowed: a structure that its [[support]] tables hold");
 }
 
 /// What a spring, one-sided or not, has in common with its like: one table for all of them.
@@ -305,7 +305,7 @@ class deck_writer {
     const reference_answer found = finds.solve(total);
     if (found.how != reference_answer::outcome::found)
       throw std::invalid_argument(
-          fmt::format("nothing carries the load of step {}: there is no final state", choice_.step));
+          fmt::format("the load of step {} has no equilibrium, so there is no final state", choice_.step));
     for (std::size_t dof = 0; dof < found.displacement.size(); dof += s.dofs_per_node)
       deflection_ = std::max(deflection_, std::abs(found.displacement[dof]));
     if (deflection_ == 0.0) deflection_ = length_;  // any length will do
@@ -325,15 +325,15 @@ class deck_writer {
 
   void write_heading() {
     line(
-        R"(** One state of a problem of contct: the end of its load step {} of {}.
+        R"(** The state at the end of load step {} of {} of a contct problem.
 ** Displacements and faces are the problem's times the first of these, forces times the second:
 ** displacement-scale {}
 ** force-scale {}
-** NLGEOM, without which CalculiX takes one-sided springs for linear ones, also counts every
-** turn: so the largest deflection is {:g} of the length. And it takes forces far below 0.01 for
-** none, and is content too early: so the loads, with everything elastic, are in smaller units.
-** The problem's node i is node i here; pair i presses on ground node {} + i.
-** No field has more than 20 characters: CalculiX cuts it there.)",
+** NLGEOM is needed: without it CalculiX treats one-sided springs as linear. It also makes rotations
+** nonlinear, so displacements are scaled: the largest is {:g} of the length. CalculiX treats forces
+** far below 0.01 as zero and stops iterating too early, so loads and stiffnesses are scaled up.
+** The problem's node i is node i here; pair i is the spring to ground node {} + i.
+** No field has more than 20 characters, since CalculiX cuts longer ones.)",
         choice_.step, problem_.steps.size(), field(scale_), field(force_scale()), smallness,
         first_ground() - 1);
   }
@@ -343,7 +343,9 @@ class deck_writer {
     for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
       line("{},{},{},0", i + 1, field(mesh_.nodes[i].x), field(mesh_.nodes[i].y));
     if (springs_.empty()) return;
-    line("** Ground: a node for each spring, straight above or below its node.\n*NODE,NSET=GROUND");
+    line(
+        "** Ground: a node for each spring, directly above or below the spring's other "
+        "node.\n*NODE,NSET=GROUND");
     int next = first_ground();
     for (const ground_spring& s : springs_) {
       const auto& at = mesh_.nodes[s.node];
@@ -361,8 +363,9 @@ class deck_writer {
 
   void write_beam(const beam& b) {
     line(
-        R"(** A square section, 1/{:g} of the length: shear adds (thickness over length)^2. E is what
-** gives EI; nu = 0, because EI knows none. Between nodes of the problem the intervals are even.)",
+        R"(** A square section, 1/{:g} of the length: shear adds (thickness over length)^2. E is chosen
+** to give EI; nu = 0, since a beam of given EI has no nu. Elements between two nodes of the problem
+** are of equal length.)",
         choice_.slenderness);
     std::map<double, std::vector<std::size_t>> by_stiffness;
     for (std::size_t e = 0; e < mesh_.elements.size(); ++e) by_stiffness[b.EI[mesh_.origins[e]]].push_back(e);
@@ -378,7 +381,7 @@ class deck_writer {
   }
 
   void write_plate(const plate& p) {
-    line("** Thickness 1/{:g} of the length: shear adds (thickness over length)^2. E is what gives D.",
+    line("** Thickness 1/{:g} of the length: shear adds (thickness over length)^2. E is chosen to give D.",
          choice_.slenderness);
     line("*ELEMENT,TYPE=S8R,ELSET=PLATE");
     std::vector<std::size_t> all(mesh_.elements.size());
@@ -395,8 +398,8 @@ class deck_writer {
     if (springs_.empty()) return;
     line(
         R"(** Springs to the ground: SPRINGA, since SPRING1 cannot be nonlinear in CalculiX 2.20. A table is force
-** over lengthening: the slope k up to the face, zero beyond. Outside a table the force stays as at its
-** end, so it ends {:g} largest deflections away.)",
+** against elongation: slope k in contact, zero when separated. Outside its table a force is constant,
+** so a table ends {:g} times the largest deflection away.)",
         reach);
     std::map<spring_law, std::vector<std::size_t>> by_law;
     for (std::size_t i = 0; i < springs_.size(); ++i) by_law[springs_[i].law].push_back(i);
@@ -418,7 +421,8 @@ class deck_writer {
 
   void write_step() {
     line(
-        R"(** One increment. The usual criterion is enough: on springs of straight pieces Newton's method ends.
+        R"(** One increment. The default criterion is enough: with piecewise linear springs Newton's method
+** terminates.
 *STEP,NLGEOM
 *STATIC
 1.,1.)");
@@ -431,7 +435,7 @@ class deck_writer {
     }
     line("*NSET,NSET=GIVEN,GENERATE\n1,{},1\n*NODE PRINT,NSET=GIVEN\nU", nodes(problem_.geometry));
     if (!springs_.empty())
-      line("** What the ground is held with: the pairs' forces, up positive.\n*NODE PRINT,NSET=GROUND\nRF");
+      line("** Reactions of the ground nodes: the contact forces, positive up.\n*NODE PRINT,NSET=GROUND\nRF");
     line("*NODE FILE,OUTPUT=2D\nU\n*END STEP");
   }
 

@@ -108,7 +108,7 @@ class exact_printer {
       for (const event& e : i.events)
         events.push_back(pair_words(static_cast<std::size_t>(e.pair)) +
                          (e.what == change::make ? " makes" : " breaks"));
-      if (i.snaps) events.emplace_back("the structure moves rigidly at constant load");
+      if (i.snaps) events.emplace_back("a rigid-body motion at constant load");
       out_ += fmt::format("  share {}, load {}{}{}\n", number(i.fraction), number(load_at(step, i.fraction)),
                           events.empty() ? "" : ": ", joined(events, ", "));
     }
@@ -137,8 +137,8 @@ class exact_printer {
   /// The free motion by the deflections of its nodes.
   void print_mechanism(const mechanism_proof& proof) {
     out_ += fmt::format(
-        "\n{}: supports and pairs in contact leave this motion free, no other pair stands in its way, and "
-        "the step's full load does work {} on it.\n  w",
+        "\n{}: the supports and the pairs in contact allow this rigid-body motion, no other pair stops it, "
+        "and the step's full load does work {} on it.\n  w",
         painted(terminal_, paint::bad, "no equilibrium"), number(proof.work));
     const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
     for (std::size_t dof = 0; dof < proof.motion.size() && dof < most_rows * per_node; dof += per_node)

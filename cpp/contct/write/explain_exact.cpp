@@ -183,11 +183,10 @@ explain_addition::remarks exact_addition::of_end(const explained_kernels& of,
   const std::string share = exact_number(c->led_to.fraction);
   if (!path_->parted())
     return {
-        {fmt::format("The exact path has the same events. It has reached the share {} of the step's load; "
-                     "here {}.",
+        {fmt::format("The exact path has the same events. It has reached the share {} of the step; here {}.",
                      share, off_words(i.what.fraction, c->led_to.fraction, of.real_bytes))}};
-  return {{fmt::format("The exact path has other events, at share {} of the step's load: {}; here: {}. From "
-                       "now on it is not shown: its calls are no longer those of this path.",
+  return {{fmt::format("The exact path has other events, at share {} of the step: {}; here: {}. From now on "
+                       "it is not shown, because its calls are no longer those of this path.",
                        share, events_words(c->led_to.events), events_words(i.what.events)),
            true}};
 }

@@ -134,8 +134,8 @@ drawn draw_path(const finished_run& r, const shown_parts& shown, double top) {
 /// Pairs by their looks, with what their marks are.
 std::string counts_of(const problem& p, const frame& f) {
   const pair_counts n = count_pairs(p, f);
-  return fmt::format("pairs: {} closed (square), {} open (ring), {} at their faces (diamond)", n.closed,
-                     n.open, n.at_face);
+  return fmt::format("pairs: {} in contact (square), {} separated (ring), {} at their faces (diamond)",
+                     n.closed, n.open, n.at_face);
 }
 
 /// How the run ended, and what the marks of pairs mean.

@@ -252,7 +252,7 @@ json envelope_tables(const finished_run& r, std::vector<std::string>& omissions)
                     bound_cell(p.geometry, sized, kind_of(v.name), v.most)});
   quantities.put_into(tables, omissions);
   page_table forces("Largest contact force of each pair" + in_unit(p.units, 1, 0),
-                    joined_heads(joined_heads({"Pair"}, place_head(p)), {"Face", "Largest"}));
+                    joined_heads(joined_heads({"Pair"}, place_head(p)), {"Surface", "Largest"}));
   for (std::size_t i = 0; i < all.pairs().size(); ++i) {
     const contact_pair& at = p.pairs[i];
     forces.add(joined_cells(joined_cells({std::to_string(i + 1)}, place_cells(p, at.node)),
@@ -292,7 +292,7 @@ json result_tables(const finished_run& r, const std::vector<int>& deflecting,
   if (!p.pairs.empty())
     put_ends(p, sized, ends,
              {"Contact forces" + in_unit(p.units, 1, 0),
-              joined_heads(joined_heads({"Pair"}, place_head(p)), {"Face"}), cells_of_pair,
+              joined_heads(joined_heads({"Pair"}, place_head(p)), {"Surface"}), cells_of_pair,
               [](std::size_t) { return std::string_view("force"); }, &end_reading::forces, true},
              tables, omissions);
   const auto cells_of_support = [&p](std::size_t i) {

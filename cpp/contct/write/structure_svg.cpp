@@ -447,7 +447,7 @@ drawn draw_table(const structure_picture& s) {
     const int i = s.shown.pairs[k];
     const pair_reading r = reading_of(s.what, s.at, i);
     text += table_row(y += row_height, "plain",
-                      {std::to_string(i + 1), label(s.what.pairs[i].node), std::string(look_name(r.look)),
+                      {std::to_string(i + 1), label(s.what.pairs[i].node), std::string(look_words(r.look)),
                        number(r.w), number(r.gap), number(r.force)});
   }
   if (rows < s.what.pairs.size())
@@ -465,7 +465,7 @@ std::string mark_of_pair(const problem& p, const frame& f, int pair, const spot&
   const std::string words =
       title(fmt::format("pair {}, {}, face {} at {:.6g}, {}: {} {:.6g}", pair + 1,
                         place_words(p.geometry, of.node), surface_name(of.surface), of.face,
-                        look_name(now.look), closed ? "force" : "gap", closed ? now.force : now.gap));
+                        look_words(now.look), closed ? "force" : "gap", closed ? now.force : now.gap));
   if (now.look == pair_look::open) return circle(at.x, at.y, r, R"(class="open")", words);
   if (now.look == pair_look::closed)
     return rectangle(at.x - r, at.y - r, 2 * r, 2 * r, R"(class="closed")", words);

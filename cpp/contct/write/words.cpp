@@ -29,10 +29,11 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
   if (worst == nullptr) return "";
   const contact_pair& at = p.pairs[worst->what.pair];
   return fmt::format(
-      "; increment {}.{} let pair {} ({}, {}) {} contact {:.2g} away from its face ({:.2g} of the largest "
+      "; in increment {}.{} pair {} ({}, {}) {} contact {:.2g} from its face ({:.2g} of the largest "
       "deflection)",
       worst->step, worst->number, worst->what.pair + 1, place_words(p.geometry, at.node),
-      surface_name(at.surface), change_name(worst->what.what), worst->distance, worst->share);
+      surface_name(at.surface), worst->what.what == change::make ? "made" : "broke", worst->distance,
+      worst->share);
 }
 
 }  // namespace
@@ -83,10 +84,11 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
     items.push_back("proved: " + digits_words(worst) + " of every number");
     return items;
   }
-  if (independent > 0) items.push_back("the oracle agrees to " + digits_words(worst));
+  if (independent > 0) items.push_back("the reference solution agrees to " + digits_words(worst));
   if (independent + proved < certified)
-    items.push_back(fmt::format("{} taken from the oracle, by equilibrium, penetration and tension alone",
-                                certified - independent - proved));
+    items.push_back(fmt::format(
+        "{} from the reference solution itself, judged only by equilibrium, penetration and tension",
+        certified - independent - proved));
   return items;
 }
 

@@ -26,8 +26,15 @@ constexpr std::string_view state_name(int isep) {
   return isep == in_contact ? "contact" : "separated";
 }
 
+/// As --csv has it.
 constexpr std::string_view look_name(pair_look look) {
   constexpr std::string_view names[] = {"open", "closed", "at its face"};
+  return names[static_cast<std::size_t>(look)];
+}
+
+/// The same for people: the terminal, the pages and the pictures.
+constexpr std::string_view look_words(pair_look look) {
+  constexpr std::string_view names[] = {"separated", "in contact", "at its face"};
   return names[static_cast<std::size_t>(look)];
 }
 

@@ -30,7 +30,7 @@ const placed = (name) => `${data.place} ${name}`;
 const inUnit = (name, quantity) => name + (data.units[quantity] ? ` [${data.units[quantity]}]` : "");
 // Where a value is: at a node, or between two of a beam's.
 const placeOf = (v) => (v.node === null ? `x = ${rough(v.x)}` : placed(v.node));
-const looks = { o: "open", c: "closed", f: "at its face" };
+const looks = { o: "separated", c: "in contact", f: "at its face" };
 
 function element(name, attributes = {}, ...children) {
   const e = document.createElement(name);
@@ -978,10 +978,10 @@ function stateWords(f) {
   const n = data.all_pairs;
   const [open, closed, atFace] = f.counts;
   const place = f.step === 0 ? "Before any load."
-    : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid motion at constant load; " : ""}load: ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
+    : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid-body motion at constant load; " : ""}load: ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
   const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
   const rescued = f.rescued ? " This state is the reference solution: the path could not reach it." : "";
-  const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} closed, ${open} open, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
+  const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} in contact, ${open} separated, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
   return `${place}${event}${rescued}${pairs} Largest ${moves} ${short(f.largest.w)} at ${placeOf(f.largest)}.`;
 }
 
@@ -995,7 +995,7 @@ function showReadings(f) {
     read("Load", minus(f.load)),
     read(`Largest ${ofMatrix ? moves : "w"}, ${placeOf(f.largest)}`, short(f.largest.w), f.largest.w),
   ];
-  if (data.all_pairs > 0) list.push(read("Closed, open, at face", f.counts[1] + ", " + f.counts[0] + ", " + f.counts[2]));
+  if (data.all_pairs > 0) list.push(read("In contact, separated, at face", f.counts[1] + ", " + f.counts[0] + ", " + f.counts[2]));
   byId("readings").replaceChildren(...list);
 }
 
@@ -1009,7 +1009,7 @@ function head(...names) {
 
 const mostPairRows = 250;
 
-if (data.pairs.length > 60) cuts.add(`The numbers of ${data.pairs.length} pairs are not written beside their marks, but shown when the mouse is over them.`);
+if (data.pairs.length > 60) cuts.add(`The numbers of ${data.pairs.length} pairs are not written beside their marks, but shown when the pointer is over a mark.`);
 const firstPairs = `The first ${mostPairRows} of ${data.pairs.length} pairs are listed.`;
 if (data.pairs.length > mostPairRows) cuts.add(`Pairs in a state: the first ${mostPairRows} of ${data.pairs.length} are listed.`);
 
@@ -1022,9 +1022,9 @@ function showPairs(f) {
   }
   const pairs = pairsOf(f);
   const shown = pairs.slice(0, mostPairRows);
-  byId("pairs-words").textContent = `State ${where(f)}. Gaps are those of open pairs; forces press on the structure, and a negative one is tension.` +
+  byId("pairs-words").textContent = `State ${where(f)}. A gap is that of a separated pair. A contact force is positive when it pushes the structure off the face; a negative one is tension.` +
     (shown.length < pairs.length ? ` ${firstPairs}` : "");
-  table.replaceChildren(head(["Pair"], ofMatrix ? ["Dof", true] : ["Node"], ["Face", true], ["stands at"], ["State", true], ["Gap"], ["Force"]),
+  table.replaceChildren(head(["Pair"], ofMatrix ? ["Dof", true] : ["Node"], ["Surface", true], ["Face"], ["State", true], ["Gap"], ["Force"]),
     element("tbody", {}, ...shown.map((p) => {
       const r = row(element("th", { scope: "row" }, String(p.pair)), cell(p.node, { "data-value": String(p.node) }), cell(side(p.side)), cell(p.face),
         cell(lookWords(p)), cell(p.gap), cell(p.force));
@@ -1037,7 +1037,7 @@ const mostPaperRows = 60;
 
 function showEvents() {
   byId("events-words").textContent = data.all_increments === 0 ? "The path has no increment."
-    : `${counted(data.all_increments, "increment")}. Share is how much of the step's load is applied; s is the share of what was left of it.`;
+    : `${counted(data.all_increments, "increment")}. Share is the share of the step that is applied after the increment; s is the paper's scale factor, the share of the remaining load that the increment applies.`;
   if (data.all_increments === 0) byId("event-table").parentElement.hidden = true;
   const stops = new Map(frames.map((f, i) => [where(f), i]));
   const table = byId("event-table");
@@ -1099,12 +1099,12 @@ function showCalls() {
   const holder = byId("call-table").parentElement;
   byId("comparison-heading").textContent = kernels.join(" against ");
   if (others.length === 0) {
-    byId("comparison-heading").textContent = `${leader} alone`;
-    words.textContent = "One kernel ran, so none was compared. These are its answers.";
+    byId("comparison-heading").textContent = `Calls of ${leader}`;
+    words.textContent = "One kernel ran, so nothing was compared. These are its answers.";
   } else if (!data.lockstep) {
-    words.textContent = `Each kernel went its own way, so single calls were not compared: ${data.comparison}. The calls of ${leader}:`;
+    words.textContent = `Free run: each kernel followed its own path, so single calls were not compared: ${data.comparison}. The calls of ${leader}:`;
   } else {
-    words.textContent = `Every call of ${leader} was put to ${others.join(" and ")} with the same inputs: ${data.comparison}. ` +
+    words.textContent = `Lockstep: ${others.join(" and ")} had the same input as ${leader} at every call: ${data.comparison}. ` +
       "A distance of 0 ULP means equal to the bit. Compared are SMIN, every s, every status, and the text of unit 26 where both have one.";
   }
   if (data.calls.length === 0) {
@@ -1127,27 +1127,27 @@ function showCalls() {
     for (let i = 0; i < pairs; ++i) cells.push(cell(c.ss[i]));
     return row(...cells);
   })));
-  if (data.all_pairs > pairs) words.textContent += ` Distances are over all pairs, s is listed of the first ${pairs} of ${data.all_pairs}.`;
+  if (data.all_pairs > pairs) words.textContent += ` Distances are over all pairs; s is listed for the first ${pairs} of ${data.all_pairs}.`;
 }
 
 function showCertificate() {
   const words = byId("certificate-words");
   const say = (text, kind) => words.append(element("p", kind ? { class: kind } : {}, text));
-  say("Each step's final state is compared with the minimiser of the structure's energy, the reference solution, which uses neither the kernels nor the path.");
+  say("A step is certified when the errors of all numbers of its final state are within the allowed ones: by proved bounds, or, where none can be proved, by comparison with the reference solution. That is the minimiser of the structure's energy; it uses neither the kernels nor the path.");
   if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.certified_whole ? "good" : "bad");
   for (const text of data.uncertified) say(sentence(text));
   const steps = data.certificates;
   if (steps.length === 0) {
-    say("No step came to its end, so there is nothing to certify.");
+    say("No step reached its full load, so there is nothing to certify.");
     byId("certificate-table").parentElement.hidden = true;
     return;
   }
   const own = steps.filter((c) => c.numbers && !c.numbers.independent).length;
-  if (own > 0) say(`${counted(own, "state")} came from the reference solution itself, so comparing the two shows nothing: there equilibrium, penetration and tension are all that is judged.`);
+  if (own > 0) say(`${counted(own, "state")} came from the reference solution itself, so a comparison with it shows nothing: only equilibrium, penetration and tension are judged there.`);
   const small = (x) => (x === null || x === undefined ? "–" : minus(x === 0 ? "0" : x.toExponential(1)));
   const fields = ["displacement_error", "shape_error", "equilibrium", "penetration", "tension", "tolerance"];
   byId("certificate-table").replaceChildren(
-    head(["Step"], ["Verdict", true], ["deflections off by"], ["shape off by"], ["out of balance"], ["penetration"], ["tension"], ["allowed"], ["digits"]),
+    head(["Step"], ["Certificate", true], ["error of deflections"], ["error of shape"], ["equilibrium"], ["penetration"], ["tension"], ["allowed"], ["digits"]),
     element("tbody", {}, ...steps.map((c, i) => row(element("th", { scope: "row" }, String(i + 1)), cell(c.mark),
       ...fields.map((name) => element("td", c.numbers ? { title: String(c.numbers[name]) } : {}, c.numbers ? small(c.numbers[name]) : "–")),
       element("td", {}, c.numbers ? String(c.numbers.digits) : "–")))));
@@ -1194,21 +1194,21 @@ function showHead() {
   say(data.status === "solved" ? "All load is applied." : `Not solved: ${data.ended || data.status}.`, data.status === "solved" ? "good" : "bad");
   if (data.equal === null) say("One kernel ran; nothing was compared.", "note");
   else if (data.all_calls === 0) say("The kernels were never called; nothing was compared.", "note");
-  else say(`${kernels.join(" and ")} ${data.lockstep ? (data.equal ? "are equal to the bit" : "are NOT equal to the bit") : data.equal ? "agree on paths of their own" : "do NOT agree on paths of their own"}: ${data.comparison}.`, data.equal ? "good" : "bad");
+  else say(`${kernels.join(" and ")} ${data.lockstep ? (data.equal ? "are equal to the bit" : "are NOT equal to the bit") : data.equal ? "agree in free run" : "do NOT agree in free run"}: ${data.comparison}.`, data.equal ? "good" : "bad");
   if (data.certified.length > 0) say(sentence(data.certified.join("; ")), data.certified_whole ? "good" : "bad");
   if (data.certificates.some((c) => c.numbers)) {
-    byId("mesh-words").textContent = "Certified means: these are the numbers of this mesh. How far the mesh is from the structure it stands for is not judged.";
+    byId("mesh-words").textContent = "Certified means that these are the right numbers for this mesh. The error of the mesh itself is not judged.";
   }
 }
 
 function showLog() {
-  byId("log-words").textContent = data.log === "" ? `${kernels[0]} wrote nothing there, or has no text.` : `What ${kernels[0]} wrote to unit 26.`;
+  byId("log-words").textContent = data.log === "" ? `${kernels[0]} wrote nothing to unit 26, or writes no text.` : `What ${kernels[0]} wrote to unit 26.`;
   byId("log-text").textContent = data.log;
   byId("log-text").hidden = data.log === "";
 }
 
 function showThinned() {
-  const list = data.thinned.length + cuts.size > 0 ? [...data.thinned, ...cuts] : [`Nothing: every increment, ${data.place}, pair and call is here.`];
+  const list = data.thinned.length + cuts.size > 0 ? [...data.thinned, ...cuts] : [`Nothing: every increment, ${data.place}, pair and call is on this page.`];
   byId("thinned").replaceChildren(...list.map((text) => element("li", {}, text)));
 }
 
@@ -1227,7 +1227,7 @@ function showLegend() {
     return element("li", {}, s, words);
   };
   const list = [];
-  const looked = [["c", "in contact: pressed", "c"], ["o", "separated: a gap", "o"], ["f", "at its face, separated", "f"], ["f in contact", "at its face, in contact, no force", "f"]];
+  const looked = [["c", "in contact, with a force", "c"], ["o", "separated, with a gap", "o"], ["f", "at its face, separated", "f"], ["f in contact", "at its face, in contact, no force", "f"]];
   for (const [seen, words, look] of looked) {
     if (looksSeen.has(seen)) list.push(item(words, pairMark(look, 11, 9, 5, seen === "f in contact")));
   }
@@ -1247,13 +1247,13 @@ function showLegend() {
     if (loaded) list.push(item("load", arrow(11, 1, 0, 15, "load")));
     list.push(item("undeformed", line(0, 9, 22, 9, "mesh-was")));
     if (data.supports.length > 0) list.push(item("support of a dof", svg("path", { d: "M11 3l7 12h-14Z", class: "support" })));
-    if (geometry.still.length > 0) list.push(item("node without a dof: it stands still", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
+    if (geometry.still.length > 0) list.push(item("node without a dof: it does not move", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
     byId("picture-words").textContent = "Edges are drawn straight between their nodes. Between two increments every point moves along a straight line. " +
-      "A face stands across the direction of its pair's dof, as far from where the node was as the problem says, magnified alike, and is drawn beside the node.";
+      "A face is drawn beside its node, across the direction of the pair's dof, at its distance from the undeformed node, magnified as displacements are.";
     byId("magnification-label").textContent = "Displacements drawn";
   } else if (!plate) {
     list.length = 0;
-    byId("picture-words").textContent = "No coordinates of this structure are known, so its numbers stand in the picture's place: " +
+    byId("picture-words").textContent = "No coordinates of this structure are known, so a table takes the picture's place: " +
       "the dof that moves most on the path, and the pairs. [matrix] takes coordinates, [calculix] the mesh in CalculiX's input.";
     byId("magnification").parentElement.hidden = true;
   } else {
@@ -1266,12 +1266,12 @@ function showLegend() {
     if (holds(true)) list.push(item("support of w", svg("path", { d: "M11 3l6 11h-12Z", class: "support" })));
     if (plate.reaction > 0) list.push(item("reaction up, by its area", svg("circle", { cx: 11, cy: 9, r: 7, class: "reaction" })));
     if (holds(false)) list.push(item("support of a slope", svg("path", { d: "M8 6l6 6m-6 0l6 -6", class: "thin" })));
-    byId("picture-words").textContent = "The colours are the same in all states: dark is low. Up is positive; moments are those of sagging, means of the elements at each node; between nodes colours are interpolated. A closed pair's square grows with its force; a bar over a pair says that its face stands above.";
+    byId("picture-words").textContent = "The colours are the same in all states: dark is low. Up is positive; moments are those of sagging, means of the elements at each node; between nodes colours are interpolated. The square of a pair in contact grows with its force; a bar over a pair means that its face is above.";
     byId("magnification").hidden = byId("magnification-label").hidden = true;
   }
   byId("legend").classList.toggle("on-map", Boolean(plate));
   byId("legend").replaceChildren(...list);
-  byId("chart-words").textContent = "Straight between events; filled circles are pairs that make contact, rings pairs that break it, squares the ends of steps.";
+  byId("chart-words").textContent = "Lines are straight between events. Filled circles: pairs that make contact; rings: pairs that break it; squares: ends of steps.";
 }
 
 // ---- where we are ----
