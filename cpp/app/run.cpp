@@ -233,6 +233,13 @@ void print_verdict(observed_run& o, paint p, const std::vector<std::string>& ite
   print_wrapped(o.run.screen, p, items);
 }
 
+/// The words of the table's columns, below it.
+void print_legend(observed_run& o) {
+  if (!o.rows) return;
+  if (const std::vector<std::string> legend = o.rows->legend(); !legend.empty())
+    print_verdict(o, paint::quiet, legend);
+}
+
 path_limits limits_of(const run_setup& run, certifier& judged) {
   return {run.options.max_increments, fallback_to_reference(run.structure), judged.refiner()};
 }
@@ -260,6 +267,7 @@ path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
   if (recorded != nullptr) observers.push_back(recorded);
   path_end end = follow(run.what, run.structure, run.engine, leader, observers, limits_of(run, o.judged));
   o.shown.line.erase();
+  print_legend(o);
   return end;
 }
 
@@ -292,19 +300,20 @@ comparison report_lockstep(observed_run& o, const lockstep& compared) {
 /// Print how the path of `name` compares with the leader's, and add that to `c`.
 void report_free_run(observed_run& o, const std::string& name, const free_run_difference& d, bool certified,
                      comparison& c) {
-  const std::string distances = fmt::format("load fractions within {:.2g}, D within {:.2g} (bound {:.0e})",
-                                            d.fraction, d.displacement, d.bound);
-  print_verdict(
-      o, d.within_bound() ? paint::good : paint::bad,
-      {fmt::format("{} on a path of its own: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
-       distances, certified ? "certified" : "NOT certified"});
+  const std::string distances =
+      fmt::format("shares of the step within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
+                  d.displacement, d.bound);
+  print_verdict(o, d.within_bound() ? paint::good : paint::bad,
+                {fmt::format("{} in free run: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
+                 distances, certified ? "certified" : "NOT certified"});
   c.equal = c.equal && d.within_bound();
   c.words += (c.words.empty() ? "" : "; ") + name + ": " + distances;
   if (!d.first_difference.empty()) {
     c.differences += name + ": " + d.first_difference + "\n";
     complain("{}: first difference: {}", name, d.first_difference);
   }
-  for (const auto& [what, difference] : {std::pair("a load fraction", d.fraction), {"D", d.displacement}}) {
+  for (const auto& [what, difference] :
+       {std::pair("a share of the step", d.fraction), {"D", d.displacement}}) {
     if (difference > d.bound)
       complain("{}: {} differs by {:.2g}; allowed: {:.0e}", name, what, difference, d.bound);
   }
@@ -414,9 +423,9 @@ exit_status final_states(const run_setup& run) {
       find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
                         loads_of(run.what, run.structure), make_observers(o), o.judged.refiner());
   o.shown.line.erase();
-  print_verdict(
-      o, paint::quiet,
-      {"only the end of every step, without a path", fmt::format("{} factorisations", end.work.factors)});
+  print_legend(o);
+  print_verdict(o, paint::quiet,
+                {"only the end of each step, no path", fmt::format("{} factorisations", end.work.factors)});
   return finish(o, end, {});
 }
 

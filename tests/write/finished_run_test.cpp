@@ -256,10 +256,11 @@ TEST_CASE("an event's load is told in the words of the problem file") {
       parse_problem(with("point = [ { node = 3, w = -60.0 } ]", "uniform = -8"), "pb.toml");
   CHECK(load_path(uniform).words_at(1, 0.5, 24) == "uniform -4");
   const problem mixed = parse_problem(with("point = [", "uniform = -8\npoint = ["), "pb.toml");
-  // Digits go before anything is cut.
+  // The number has six digits in every row; where there is no room, the place goes first, then the kind.
   CHECK(load_path(p).words_at(1, 1.0 / 3, 24) == "w -20 at node 3");
-  CHECK(load_path(p).words_at(1, 0.123456, 17) == "w -7.41 at node 3");
-  CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.41");
+  CHECK(load_path(p).words_at(1, 0.123456, 20) == "w -7.40736 at node 3");
+  CHECK(load_path(p).words_at(1, 0.123456, 19) == "w -7.40736");
+  CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.40736");
   CHECK(load_path(p).words_at(1, 0.123456, 3).empty());
   CHECK(load_path(mixed).words_at(1, 1.0, 24) == "force -76");
   // From -60 to 10 the load passes 0 at 6/7, where the sum is nothing but rounding.

@@ -193,8 +193,8 @@ void choose_pairs(const shown_states& r, shown_parts& shown) {
   shown.pairs = evenly(all, most);
   if (shown.pairs.size() == all) return;
   shown.omissions.push_back(
-      fmt::format("{} of {} pairs are drawn and listed, evenly chosen. How many are open, closed or at their "
-                  "faces is counted over all of them, and events are those of all.",
+      fmt::format("{} of {} pairs are drawn and listed, evenly chosen. The numbers in contact, separated and "
+                  "at their faces count all pairs, and events are those of all.",
                   shown.pairs.size(), all));
 }
 
@@ -279,12 +279,10 @@ std::string load_path::words_at(int step, double fraction, int width) const {
   load_words w = words_of(fraction);
   w.value = without_rounding(w.value, std::max(std::abs(words_of(0.0).value), std::abs(words_of(1.0).value)));
   const auto fits = [width](const std::string& text) { return static_cast<int>(text.size()) <= width; };
-  for (int digits = 6; digits >= 3; --digits) {
-    std::string text = fmt::format("{}{:.{}g}{}", w.before, w.value, digits, w.after);
+  const std::string number = fmt::format("{:.6g}", w.value);
+  for (std::string text : {w.before + number + w.after, w.before + number, number})
     if (fits(text)) return text;
-  }
-  std::string number = fmt::format("{:.3g}", w.value);
-  return fits(number) ? number : "";
+  return "";
 }
 
 double deflection_of(const problem& p, std::span<const double> u, int node) {

@@ -12,11 +12,12 @@
 namespace contct::write {
 namespace {
 
-// increment, share, s and kernels, each with the blanks behind it: what every row has.
-constexpr int fixed_width = 6 + 2 + 9 + 2 + 9 + 2 + 7 + 2;
+// increment, share and s, each with the blanks behind it: what every row has.
+constexpr int fixed_width = 6 + 2 + 9 + 2 + 9 + 2;
+constexpr int kernels_width = 7 + 2;  // where there are two or more
 constexpr int load_width_at_most = 24;
 constexpr int load_width_at_least = 12;
-constexpr int events_width_at_least = 24;
+constexpr int events_width_at_least = 22;
 constexpr std::size_t most_events_shown = 12;
 /// At no larger share of its load, a step has only begun: structures that rest on their faces let go at once.
 constexpr double first_load = 1e-12;
@@ -56,7 +57,7 @@ table::table(const problem& p, const lockstep* compared, const certifier& judged
       terminal_(t),
       deflecting_(deflecting_nodes(p)),
       detail_(detail) {
-  const int room = t.width - fixed_width;
+  const int room = t.width - fixed_width - (compared == nullptr ? 0 : kernels_width);
   const int widest = widest_event(p);
   events_below_ = room < widest;
   load_width_ = std::min(load_width_at_most, events_below_ ? room : room - 2 - widest);
@@ -66,14 +67,15 @@ table::table(const problem& p, const lockstep* compared, const certifier& judged
 
 std::string table::row(std::string_view number, std::string_view share, std::string_view s,
                        std::string_view kernels, std::string_view load, std::string_view events) const {
-  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  {}  ", number, share, s, kernels);
+  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  ", number, share, s);
+  if (compared_ != nullptr) line += fmt::format("{}  ", kernels);
   if (load_width_ > 0) line += fmt::format("{:<{}}  ", load, load_width_);
   if (!events_below_) line += events;
   return line.erase(line.find_last_not_of(' ') + 1);
 }
 
 std::string table::agreement() const {
-  if (compared_ == nullptr) return "one    ";
+  if (compared_ == nullptr) return "";
   return compared_->last_call_equal() && first_load_.equal ? painted(terminal_, paint::good, "equal") + "  "
                                                            : painted(terminal_, paint::bad, "DIFFER") + " ";
 }
@@ -119,6 +121,7 @@ void table::print_row(const increment& i, std::string_view kernels, const std::v
   }
   std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
   if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
+  snapped_ = snapped_ || i.snaps;
   print_text(fmt::format("{}\n", row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
                                      i.snaps ? "snap" : share_words(i.s), kernels,
                                      loads_.words_at(i.step, i.fraction, load_width_), lines.front())));
@@ -128,6 +131,7 @@ void table::print_row(const increment& i, std::string_view kernels, const std::v
 
 void table::step_ended(const step_state& s) {
   flush_first_load();
+  ended_ = true;
   // Where the path ends at a pair's opening, its status is as it was before, without force.
   auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
   for (const event& e : last_events_)
@@ -140,7 +144,7 @@ void table::step_ended(const step_state& s) {
   items.insert(items.begin() + 1, digits_words(judged_.steps().back(), s.rcond));
   if (const std::string& name = problem_.steps[s.step - 1].name; !name.empty())
     items.insert(items.begin(), on_one_line(name));
-  if (s.from_fallback) items.emplace_back("ended by the oracle");
+  if (s.from_fallback) items.emplace_back("from the reference solution");
   for (const std::string& line : wrap(items, width)) {
     print_text(fmt::format("{}\n", label + line));
     label.assign(label.size(), ' ');
@@ -150,6 +154,15 @@ void table::step_ended(const step_state& s) {
     for (const std::string& line : wrap({largest}, width))
       print_text(fmt::format("{}\n", painted(terminal_, paint::strong, label + line)));
   if (detail_) print_text(detail_tables(problem_, s, r));
+}
+
+std::vector<std::string> table::legend() const {
+  std::vector<std::string> words;
+  if (headed_) words = {"share: share of the step applied so far", "s: scale factor of the increment"};
+  if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
+  if (headed_ && compared_ != nullptr) words.emplace_back("kernels: whether their bits are equal");
+  if (ended_) words.emplace_back("digits: correct in every number");
+  return words;
 }
 
 std::string csv_field(std::string_view text) {

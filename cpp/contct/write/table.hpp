@@ -19,12 +19,15 @@ namespace contct::write {
 /// certifier that it reports on.
 class table final : public observer {
  public:
-  /// `p` and `judged` must outlive this object, and so must `compared`, which is null for a kernel
-  /// alone. `detail`: every event, and all numbers of each step's end.
+  /// `p` and `judged` must outlive this object, and so must `compared`, which is null where
+  /// one kernel runs. `detail`: every event, and all numbers of each step's end.
   table(const problem& p, const lockstep* compared, const certifier& judged, const terminal& t, bool detail);
 
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
+
+  /// What the columns and words of the rows so far mean, to stand below them.
+  [[nodiscard]] std::vector<std::string> legend() const;
 
  private:
   [[nodiscard]] std::string row(std::string_view number, std::string_view share, std::string_view s,
@@ -42,8 +45,8 @@ class table final : public observer {
   int load_width_ = 0;         // 0: no room for loads
   int indent_ = 0;             // of the events
   bool events_below_ = false;  // on a narrow terminal they stand on lines of their own
-  bool headed_ = false;
-  std::vector<event> last_events_;  // of the increment before
+  bool headed_ = false, snapped_ = false, ended_ = false;  // what the rows so far have shown
+  std::vector<event> last_events_;                         // of the increment before
   std::vector<int> deflecting_;
   sizes_so_far sizes_;
   bool detail_;
