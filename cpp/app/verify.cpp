@@ -144,37 +144,54 @@ std::string words_of(const expected_number& e, double x) {
   return fmt::format("{:.8g}", x);
 }
 
-/// step, quantity, expected, computed, relative difference, tolerance, certificate
-constexpr std::string_view row = "{:>2} {:<20} {:>13} {:>13} {:>6} {:>6} {}";
+/// step, quantity, expected, computed, relative difference, tolerance, verdict
+constexpr std::string_view row = "{:>4} {:<20} {:>13} {:>13} {:>5} {:>5} {}\n";
 
-/// A row; its source and the reason of its tolerance above it, where they are not those of the row before.
+/// --json has the number of events as "toggles".
+std::string quantity_head(const expected_number& e) {
+  std::string words = quantity_words(e);
+  return words == "toggles" ? "events" : words;
+}
+
+/// What belongs to a row, below it.
+void print_below(const terminal& t, paint p, const std::string& words) {
+  constexpr int indent = 9;
+  for (const std::string& line : wrap({words}, t.width - indent))
+    print_text(fmt::format("{:{}}{}\n", "", indent, painted(t, p, line)));
+}
+
+/// A row; below it its exact value, and its source and the reason of its tolerance, where they are not those
+/// of the row before.
 void print(const terminal& t, const verified_number& n, std::string& said) {
   const expected_number& e = n.expected;
   const paint p = !n.passed ? paint::bad : e.faithful ? paint::quiet : paint::good;
-  std::string source =
-      fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
-  if (source != said) {
-    for (const std::string& line : wrap({source}, t.width - 4))
-      print_text(fmt::format("    {}\n", painted(t, paint::quiet, line)));
-    said = std::move(source);
-  }
-  print_text(fmt::format(row, e.step, quantity_words(e), words_of(e, e.value), words_of(e, n.computed),
+  print_text(fmt::format(row, e.step, quantity_head(e), words_of(e, e.value), words_of(e, n.computed),
                          fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
                          painted(t, p, mark_of(n))));
-  print_text("\n");
-  if (!n.apart.empty()) print_text(fmt::format("   {}\n", painted(t, paint::bad, n.apart)));
+  if (!n.apart.empty()) print_below(t, paint::bad, n.apart);
   if (!e.exact.empty() && e.quantity != "state" && e.exact != e.written)
-    print_text(fmt::format("   {}\n", painted(t, paint::quiet, "exactly " + e.exact)));
-  if (!e.faithful) return;
-  for (const std::string& line : wrap({e.reason}, t.width - 6)) print_text(fmt::format("      {}\n", line));
+    print_below(t, paint::quiet, "exactly " + e.exact);
+  std::string source =
+      fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
+  if (source != said) print_below(t, paint::quiet, source);
+  said = std::move(source);
+  if (e.faithful) print_below(t, paint::quiet, e.reason);
+}
+
+/// What the table's columns mean, once.
+void print_legend(const terminal& t) {
+  print_wrapped(t, paint::quiet,
+                {"error: relative difference between computed and expected", "tol: the largest error allowed",
+                 "below a row: its exact value, its source, the reason of its tolerance",
+                 "a row without a source has that of the row above"});
+  print_text("\n");
 }
 
 void print(const terminal& t, const verified_case& c) {
   print_wrapped(t, paint::strong, {c.title.empty() ? c.file : c.title});
   print_text(fmt::format("{}: {} of {} calls equal to the bit\n", c.file, c.calls - c.mismatches, c.calls));
-  print_text(fmt::format(
-      "{}\n", painted(t, paint::quiet,
-                      fmt::format(row, "", "quantity", "expected", "computed", "differ", "allow", ""))));
+  print_text(painted(t, paint::quiet,
+                     fmt::format(row, "step", "quantity", "expected", "computed", "error", "tol", "result")));
   if (!c.failure.empty()) print_text(fmt::format("  {}\n", painted(t, paint::bad, "FAILED: " + c.failure)));
   std::string said;
   for (const verified_number& n : c.numbers) print(t, n, said);
@@ -184,13 +201,13 @@ void print(const terminal& t, const verified_case& c) {
 void print(const terminal& t, const exact_totals& x) {
   print_wrapped(
       t, paint::quiet,
-      {fmt::format("{} exact numbers, compared {} times with what kernels found", x.numbers, x.comparisons),
-       fmt::format("the numbers above are {} times these rounded to their digits", x.rounded),
-       fmt::format("{} times states", x.states),
-       fmt::format("{} times of another model, within its tolerance", x.of_other_models),
-       fmt::format("{} times inexact in the last digits", x.inexact)});
+      {fmt::format("{} exact numbers, compared {} times with numbers of kernels", x.numbers, x.comparisons),
+       fmt::format("of the expected numbers {} are these, rounded to their digits", x.rounded),
+       fmt::format("{} are states", x.states),
+       fmt::format("{} are of another model, within its tolerance", x.of_other_models),
+       fmt::format("{} are inexact in the last digits", x.inexact)});
   print_wrapped(t, paint::quiet,
-                {fmt::format("{} are printed with fewer digits elsewhere", x.printed),
+                {fmt::format("{} are published with fewer digits", x.printed),
                  fmt::format("{} of these were cut, not rounded", x.cut.size())});
   for (const std::string& where : x.cut) print_text(fmt::format("  {}\n", where));
 }
@@ -200,7 +217,7 @@ void print(const terminal& t, const totals& all) {
   for (const auto& [kind, count] : all.by_kind) kinds.push_back(fmt::format("{} {}", count, kind));
   print_wrapped(t, all.failed == 0 ? paint::good : paint::bad,
                 {fmt::format("{} numbers in {} problems", all.numbers, all.cases), joined(kinds, ", "),
-                 fmt::format("{} where the 1989 rule differs, as known", all.known),
+                 fmt::format("{} known differences of the 1989 rule", all.known),
                  fmt::format("{} failed", all.failed)});
   print_text(fmt::format(
       "The examples of the paper's reference [1] (Mahmoud, Salamon, Pawlak 1986) are not available\n"
@@ -221,6 +238,7 @@ exit_status run_command(const verify_options& options) {
   check_report report{"contct verify", common_facts(), {}, 0.0};
   json judged = json::array();
   progress shown(static_cast<std::int64_t>(cases.size()), "problems", options.report.quiet);
+  if (!silent) print_legend(t);
   for (const verification_case& c : cases) {
     shown.reached(all.cases);
     const verified_case verified = verify_case(c, read_problem((reference / "problems" / c.file).string()));
