@@ -61,6 +61,8 @@ struct explain_options {
   std::string increment;  ///< "3", or "2.3" with its step
   std::optional<int> step, pair;
   bool exact = false;  ///< with the exact numbers
+  bool all = false;    ///< every increment of a long run
+  bool hex = false;    ///< with the bits of s and SMIN
   std::string json;
   bool quiet = false;
 };

@@ -43,16 +43,16 @@ void refuse_kernels(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (facts_of_kernel(name).rule != "listing")
       throw std::invalid_argument(
-          fmt::format("--kernels: \"{}\" follows another rule, and no line of the listing says what it does; "
-                      "allowed: kernels with the listing's rule. What it does instead: "
-                      "reference/corrected-rule.md, and contct run --free-run --kernels {},fortran",
+          fmt::format("--kernels: \"{}\" has another rule, which is not in the listing; allowed: kernels "
+                      "with the 1989 rule. reference/corrected-rule.md describes the other; contct run "
+                      "--free-run --kernels {},fortran compares the two",
                       name, name));
   }
   if (names[0].find(':') != std::string::npos)
-    throw std::invalid_argument(fmt::format(
-        "--kernels: \"{}\" comes from outside and cannot lead; allowed: a kernel that is built in, with this "
-        "one second: --kernels fortran,{}",
-        names[0], names[0]));
+    throw std::invalid_argument(
+        fmt::format("--kernels: \"{}\" is an external kernel and cannot lead; allowed: a built-in kernel "
+                    "first and this one second: --kernels fortran,{}",
+                    names[0], names[0]));
   if (names.size() > 2)
     throw std::invalid_argument(
         fmt::format("--kernels: found {}; allowed: one or two, the first one leads", names.size()));
@@ -133,7 +133,9 @@ exit_status run_command(const explain_options& options) {
   const explained_kernels of{p, options.kernels, leader->facts().real_bytes, options.pair.value_or(0)};
   std::optional<explain_text> text;
   std::optional<explain_json> json;
-  if (!options.quiet && !takes_standard_output(outputs)) text.emplace(of, look_at_terminal());
+  const bool chosen = options.all || wanted.step > 0 || wanted.increment > 0;
+  if (!options.quiet && !takes_standard_output(outputs))
+    text.emplace(of, look_at_terminal(), explain_detail{chosen, options.hex});
   if (output_file* const file = files["--json"]) json.emplace(of, *file);
   std::optional<exact_companion> exactly;
   explained_path told(leader->facts(), second_kernel(options.kernels), wanted, [&](const auto& i) {
@@ -151,6 +153,7 @@ exit_status run_command(const explain_options& options) {
   shown.line.erase();
 
   const bool anything = end.status != path_status::not_factored && told.explained() > 0;
+  if (anything && text) text->finish();
   if (anything && text && options.kernels.size() > 1) print_comparison(options.kernels, told);
   if (anything) flush_standard_output();
   if (anything && told.first()) complain_of(words_of(*told.first()));

@@ -276,6 +276,10 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
       ->type_name("INCREMENT");
   p.add(c, takes::number, "--step", o.step, "Only this step, from 1");
   p.add(c, takes::number, "--pair", o.pair, "Only this pair, from 1");
+  c->add_flag("--all", o.all,
+              "Explain every increment; otherwise a run of more than 20 has one line for each, unless "
+              "--increment or --step chooses some");
+  c->add_flag("--hex", o.hex, "Add the bits of s and SMIN, as hexadecimal numbers");
   p.add_kernels(c, "--kernels", o.kernels, "The kernels to compare, the first one leads")
       ->capture_default_str();
   c->add_flag("--exact", o.exact,

@@ -16,6 +16,7 @@
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -42,12 +43,21 @@ std::string printed(Print print) {
   return folder.read("out");
 }
 
-std::string explained_text(int pair, int width) {
-  const problem p = parse_problem(two_pairs, "pb.toml");
+std::string explained_text(int pair, int width, const std::string& toml = two_pairs,
+                           explain_detail detail = {}) {
+  const problem p = parse_problem(toml, "pb.toml");
   return printed([&] {
-    explain_text text({p, {"fortran", "cpp"}, 8, pair}, {width, false});
+    explain_text text({p, {"fortran", "cpp"}, 8, pair}, {width, false}, detail);
     explain_run(p, [&](const explained_increment& i) { text.print(i); });
+    text.finish();
   });
+}
+
+/// `steps` load steps more, each without an event: an increment each.
+std::string two_pairs_and(int steps) {
+  std::string toml = two_pairs;
+  for (int i = 0; i < steps; ++i) toml += "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
+  return toml;
 }
 
 nlohmann::json explained_json(const std::string& text, int pair = 0) {
@@ -78,10 +88,13 @@ TEST_CASE("a pair's story cites the lines that it went through, with the paper's
 
 TEST_CASE("two numbers are equal to the bit, so many ULP apart, or one is no number") {
   const double next = std::nextafter(0.25, 1.0);
-  CHECK(side_by_side_words("a", 0.25, "b", 0.25, 8) == "a 0x1p-2, b equal to the bit");
-  CHECK_THAT(side_by_side_words("a", 0.25, "b", next, 8), Contains(": 1 ULP apart"));
-  CHECK_THAT(side_by_side_words("a", 0.25, "b", std::numeric_limits<double>::quiet_NaN(), 8),
-             Contains("one is NaN"));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(side_by_side_words("a", 0.25, "b", 0.25, 8, true) == "a 0x1p-2, b equal to the bit");
+  CHECK_THAT(side_by_side_words("a", 0.25, "b", next, 8, true), Contains(": 1 ULP apart"));
+  CHECK_THAT(side_by_side_words("a", 0.25, "b", nan, 8, true), Contains("one is NaN"));
+  CHECK(side_by_side_words("a", 0.25, "b", 0.25, 8, false) == "a and b are equal to the bit");
+  CHECK(side_by_side_words("a", 0.25, "b", next, 8, false) == "a and b are 1 ULP apart");
+  CHECK(side_by_side_words("a", 0.25, "b", nan, 8, false) == "a and b are different: one is NaN");
   CHECK(ulps_apart(0.25, next, 8) == 1);
   CHECK(ulps_apart(0.25, std::nextafter(0.25F, 1.0F), 4) == 1);
 }
@@ -92,8 +105,39 @@ TEST_CASE("an explanation has a heading for each increment and each pair, and sa
   CHECK_THAT(text, Contains("Step 1, increment 2\n"));
   CHECK_THAT(text, Contains("Pair 1, node 2, face below, separated: advancing\n"));
   CHECK_THAT(text, Contains("Pair 2, node 1, face below, separated: no response\n"));
-  CHECK_THAT(text, Contains("cpp equal to the bit") && !Contains("DIFFERENT"));
+  CHECK_THAT(text,
+             Contains("fortran and cpp are equal to the bit") && !Contains("DIFFERENT") && !Contains("0x"));
   CHECK_THAT(explained_text(2, 80), !Contains("Pair 1, node 2"));
+}
+
+TEST_CASE("more than twenty increments are a line each, unless all are wanted") {
+  const std::string few = explained_text(0, 80, two_pairs_and(18), {false, false});
+  CHECK(few == explained_text(0, 80, two_pairs_and(18)));
+  CHECK_THAT(few, Contains("Step 19, increment 1\n"));
+  const std::string many = explained_text(0, 80, two_pairs_and(19), {false, false});
+  CHECK_THAT(
+      many,
+      StartsWith("  incr  share      events\n   1.1  0.25       make 1\n   1.2  1          no event\n") &&
+          Contains("\n  20.1  1          no event\n\n21 increments") && Contains("--all") &&
+          !Contains("Step"));
+  CHECK_THAT(explained_text(0, 80, two_pairs_and(19)),
+             Contains("Step 20, increment 1\n") && !Contains("--all"));
+}
+
+TEST_CASE("the summary names the pairs that are toggled too early") {
+  std::string toml =
+      "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.2501\nstiffness = 1\n"
+      "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
+  for (int i = 0; i < 19; ++i) toml += "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
+  CHECK_THAT(explained_text(0, 80, toml, {false, false}),
+             Contains("   1.1  0.25       make 1, make 2; too early: 2\n"));
+}
+
+TEST_CASE("the bits of s are shown where they are asked for") {
+  CHECK_THAT(explained_text(0, 80, two_pairs, {true, true}),
+             Contains("s: fortran 0x1p+0, cpp equal to the bit"));
 }
 
 TEST_CASE("statements of the listing are shown where there is room for them") {

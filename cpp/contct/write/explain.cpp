@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -50,14 +51,14 @@ sentence check_of_sign(const explained_pair& p) {
         "(12)"};
   return {listing::if_check_positive,
           fmt::format("SSCHK is not positive: the load {}. No event; the mark stays.",
-                      open ? "moves the structure away from the face" : "keeps the pair closed")};
+                      open ? "moves the structure away from the face" : "keeps the pair in contact")};
 }
 
 std::string meaning_of_s(const explained_pair& p) {
   const char* const advances = is_separated(p) ? "touches its face" : "leaves its face";
-  if (std::isnan(p.s)) return "That is no number, and no event.";
+  if (std::isnan(p.s)) return "s is NaN: no event.";
   if (p.s < 0) return "Negative: the structure moves away from this event.";
-  if (p.s == 0) return "Zero is no progress, and no event.";
+  if (p.s == 0) return "Zero: no progress, and no event.";
   if (p.s < 1) {
     return fmt::format("{}: it {} at {} of the residual load.", is_separated(p) ? "Advancing" : "Receding",
                        advances, per_cent(p.s));
@@ -93,13 +94,14 @@ std::string runner_up(const explained_call& c) {
 std::string reason_for_toggle(const explained_pair& p) {
   if (p.why == why_toggled::too_early)
     return fmt::format(
-        "TAKEN ALONG: {}, {:.3g} from its face. Its own s is {}; the listing does not wait for it.",
-        is_separated(p) ? "it is closed before it touches" : "it is let go before it comes to its face",
+        "TOO EARLY: {}, {:.3g} from its face. Its own s is {}; the listing does not wait for it.",
+        is_separated(p) ? "it is put in contact before it touches"
+                        : "it is separated before it comes to its face",
         p.distance, number(p.s));
   if (p.why == why_toggled::by_mark)
     return fmt::format(
-        "BY ITS MARK: this pair has no event. Its s = 1 only says so, but SMIN is so near to 1 that the "
-        "mark lies within EPSMUL. It is {:.3g} from its face. The paper's step 14 does not do this.",
+        "BY ITS MARK: this pair has no event. Its s = 1 is only the mark for that, but SMIN is so near to 1 "
+        "that the mark lies within EPSMUL. It is {:.3g} from its face. The paper's step 14 does not do this.",
         p.distance);
   if (p.why == why_toggled::same_moment) return "It comes to its face at the same moment as the winner.";
   return "";
@@ -191,30 +193,59 @@ std::string_view kind_name(way_to_s way, bool is_separated) {
 }
 
 std::string side_by_side_words(std::string_view first_name, double first, std::string_view second_name,
-                               double second, int real_bytes) {
-  const std::string words = fmt::format("{} {}, {} ", first_name, hexfloat(first), second_name);
+                               double second, int real_bytes, bool hex) {
+  const std::string words = hex ? fmt::format("{} {}, {} ", first_name, hexfloat(first), second_name)
+                                : fmt::format("{} and {} are ", first_name, second_name);
   if (same_bits(first, second)) return words + "equal to the bit";
   const std::string apart = std::isnan(first) != std::isnan(second)
-                                ? "one is NaN"
+                                ? (hex ? "one is NaN" : "different: one is NaN")
                                 : fmt::format("{} ULP apart", ulps_apart(first, second, real_bytes));
-  return words + fmt::format("{}: {}", hexfloat(second), apart);
+  return words + (hex ? fmt::format("{}: {}", hexfloat(second), apart) : apart);
 }
 
 namespace {
 
-/// Prints one increment.
+/// "1, 3" for the pairs that were toggled for this reason.
+std::string pairs_toggled(const explained_call& c, why_toggled why) {
+  std::vector<int> pairs;
+  for (const explained_pair& p : c.pairs)
+    if (p.why == why) pairs.push_back(p.pair + 1);
+  return fmt::format("{}", fmt::join(pairs, ", "));
+}
+
+/// "make 1, break 3; too early: 3": what a line of the summary says of the events.
+std::vector<std::string> summary_words(const explained_increment& i) {
+  constexpr std::size_t most_named = 12;
+  std::vector<std::string> events;
+  for (const event& e : i.what.events.first(std::min(i.what.events.size(), most_named)))
+    events.push_back(fmt::format("{} {}", change_name(e.what), e.pair + 1));
+  if (i.what.events.size() > most_named)
+    events.push_back(fmt::format("{} more", i.what.events.size() - most_named));
+  std::vector<std::string> words = {
+      events.empty() ? i.left_undone ? "no event: the load left after it is rounding" : "no event"
+                     : fmt::format("{}", fmt::join(events, ", "))};
+  if (i.left_undone) return words;
+  if (const std::string early = pairs_toggled(i.call, why_toggled::too_early); !early.empty())
+    words.push_back("too early: " + early);
+  if (const std::string marked = pairs_toggled(i.call, why_toggled::by_mark); !marked.empty())
+    words.push_back("by its mark: " + marked);
+  return words;
+}
+
+/// The text of one increment.
 class increment_printer {
  public:
-  increment_printer(const explained_kernels& of, const terminal& t, const explained_increment& i,
+  increment_printer(const explained_kernels& of, const terminal& t, bool hex, const explained_increment& i,
                     const explain_addition* more)
-      : of_(of), terminal_(t), i_(i), more_(more) {}
+      : of_(of), terminal_(t), hex_(hex), i_(i), more_(more) {}
 
-  void print(bool first) const {
+  std::string text(bool first) {
     if (first && !of_.what.title.empty()) say(paint::strong, of_.what.title);
     if (first)
       say(paint::quiet,
-          "At the left: lines of the listing, fortran/contct.f. At the right: equations of the paper.");
-    print_text("\n");
+          "On the left: line numbers of the listing, fortran/contct.f. On the right: equations of the "
+          "paper.");
+    out_ += "\n";
     const std::string heading = fmt::format("Step {}, increment {}", i_.what.step, i_.what.number);
     say(paint::strong, heading);
     say(paint::strong, std::string(heading.size(), '-'));
@@ -225,17 +256,17 @@ class increment_printer {
     print_winner();
     print_toggles();
     print_outcome();
+    return std::move(out_);
   }
 
  private:
-  void say(paint p, const std::string& words) const {
-    for (const std::string& line : wrap({words}, terminal_.width))
-      print_text(fmt::format("{}\n", painted(terminal_, p, line)));
+  void say(paint p, const std::string& words) {
+    for (const std::string& line : wrap({words}, terminal_.width)) out_ += painted(terminal_, p, line) + "\n";
   }
 
   /// "  38  s = GAP / d* = 0.25.                 (4)"; where there is room, with the statement behind its
   /// number.
-  void say(const sentence& t, bool loud = false) const {
+  void say(const sentence& t, bool loud = false) {
     constexpr int margin = 6;
     constexpr int statement_width = 49;
     constexpr int width_with_statements = 120;
@@ -253,21 +284,22 @@ class increment_printer {
       }
     }
     for (const std::string& line : lines) {
-      print_text(fmt::format("{}{}\n", head, loud ? painted(terminal_, paint::bad, line) : line));
+      out_ += head + (loud ? painted(terminal_, paint::bad, line) : line) + "\n";
       head.assign(head.size(), ' ');
     }
   }
 
-  void say_side_by_side(std::string_view what, double first, double second) const {
-    const std::string words = side_by_side_words(of_.names[0], first, of_.names[1], second, of_.real_bytes);
+  void say_side_by_side(std::string_view what, double first, double second) {
+    const std::string words =
+        side_by_side_words(of_.names[0], first, of_.names[1], second, of_.real_bytes, hex_);
     say({no_line, fmt::format("{}: {}", what, words)}, words.find("equal to the bit") == std::string::npos);
   }
 
-  void say(const explain_addition::remarks& remarks) const {
+  void say(const explain_addition::remarks& remarks) {
     for (const added_remark& r : remarks) say({no_line, r.words}, r.loud);
   }
 
-  void print_load() const {
+  void print_load() {
     constexpr int room = 24;
     const std::string now = of_.loads.words_at(i_.what.step, i_.fraction_before, room);
     const std::string aim = of_.loads.words_at(i_.what.step, 1.0, room);
@@ -275,8 +307,8 @@ class increment_printer {
     say(paint::quiet, fmt::format("The residual load leads from {} to {}.", now, aim));
   }
 
-  void print_pair(const explained_pair& p) const {
-    print_text("\n");
+  void print_pair(const explained_pair& p) {
+    out_ += "\n";
     say(paint::strong, fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1,
                                    place_words(of_.what.geometry, p.node - 1), surface_name(p.surface),
                                    is_separated(p) ? "separated" : "in contact", kind_of_contact(p)));
@@ -285,8 +317,8 @@ class increment_printer {
     if (more_ != nullptr) say(more_->of_s(of_, i_, p));
   }
 
-  void print_winner() const {
-    print_text("\n");
+  void print_winner() {
+    out_ += "\n";
     say(paint::strong, "The smallest s");
     for (const sentence& t : winner_story(i_.call)) say(t);
     if (i_.other != nullptr) say_side_by_side("SMIN", i_.call.smin, i_.other->smin);
@@ -298,11 +330,11 @@ class increment_printer {
                       : "No decision of this call was close."});
   }
 
-  void print_toggles() const {
+  void print_toggles() {
     if (i_.call.winner < 0) return;
     for (const explained_pair& p : i_.call.pairs) {
       if (!of_.wants(p)) continue;
-      print_text("\n");
+      out_ += "\n";
       say(paint::strong, fmt::format("Pair {}: {}", p.pair + 1, name_of(p.why)));
       for (const sentence& t : toggle_story(i_.call, p))
         say(t, t.at.number == 0 && p.why != why_toggled::same_moment);
@@ -313,20 +345,19 @@ class increment_printer {
     }
   }
 
-  void print_outcome() const {
-    print_text("\n");
+  void print_outcome() {
+    out_ += "\n";
     if (i_.left_undone) {
       say(paint::quiet,
-          "What would be left of the load after this event is rounding. The driver, not CONTCT, takes the "
-          "toggles back and applies the whole residual load.");
+          "After this event only rounding would be left of the load. The driver, not CONTCT, restores ISEP "
+          "and applies the whole residual load.");
     }
     if (i_.what.s == 1.0) {
       say(paint::quiet, "The whole residual load is applied: D + d* is the new D (10). The step ends here.");
     } else {
-      say(paint::quiet,
-          fmt::format("s = {} of the residual load is applied: D + s d* is the new D (10). {} of "
-                      "the step's load is applied by now.",
-                      share_words(i_.what.s), share_words(i_.what.fraction)));
+      say(paint::quiet, fmt::format("The share s = {} of the residual load is applied: D + s d* is the new D "
+                                    "(10). The share of the step is now {}.",
+                                    share_words(i_.what.s), share_words(i_.what.fraction)));
     }
     if (more_ != nullptr) {
       for (const added_remark& r : more_->of_end(of_, i_)) say(r.loud ? paint::bad : paint::quiet, r.words);
@@ -340,8 +371,10 @@ class increment_printer {
 
   const explained_kernels& of_;
   const terminal& terminal_;
+  bool hex_;
   const explained_increment& i_;
   const explain_addition* more_;
+  std::string out_;
 };
 
 json story_json(const std::vector<sentence>& story) {
@@ -420,7 +453,42 @@ json narrowest_json(const std::optional<decision>& d) {
 }  // namespace
 
 void explain_text::print(const explained_increment& i, const explain_addition* more) {
-  increment_printer(of_, terminal_, i, more).print(!std::exchange(begun_, true));
+  ++increments_;
+  if (detail_.all || increments_ <= most_told_in_full) {
+    std::string text = increment_printer(of_, terminal_, detail_.hex, i, more).text(increments_ == 1);
+    if (detail_.all) return print_text(text);
+    in_full_ += text;
+  }
+  print_summary(i);
+}
+
+/// Its heading is printed as soon as there are too many increments to tell in full.
+void explain_text::print_summary(const explained_increment& i) {
+  constexpr int indent = 6 + 2 + 9 + 2;
+  std::string head = fmt::format("{:>6}  {:<9}  ", fmt::format("{}.{}", i.what.step, i.what.number),
+                                 share_words(i.what.fraction));
+  for (const std::string& line : wrap(summary_words(i), terminal_.width - indent)) {
+    lines_ += head + line + "\n";
+    head.assign(indent, ' ');
+  }
+  if (increments_ <= most_told_in_full) return;
+  if (increments_ == most_told_in_full + 1) {
+    in_full_.clear();
+    if (!of_.what.title.empty()) print_text(painted(terminal_, paint::strong, of_.what.title) + "\n");
+    print_text(painted(terminal_, paint::strong, fmt::format("{:>6}  {:<9}  {}", "incr", "share", "events")) +
+               "\n");
+  }
+  print_text(std::exchange(lines_, ""));
+}
+
+void explain_text::finish() {
+  if (detail_.all || increments_ == 0) return;
+  if (increments_ <= most_told_in_full) return print_text(std::exchange(in_full_, ""));
+  const std::vector<std::string> advice = {
+      fmt::format("{} increments; share: share of the step applied so far", increments_),
+      "explain one with --increment STEP.INCREMENT, a step with --step, all with --all"};
+  print_text("\n");
+  for (const std::string& line : wrap(advice, terminal_.width)) print_text(line + "\n");
 }
 
 explain_json::explain_json(explained_kernels of, output_file& out)

@@ -17,9 +17,11 @@ namespace contct::write {
 /// How far two numbers of kernels of `real_bytes` are apart in ULP.
 [[nodiscard]] std::uint64_t ulps_apart(double first, double second, int real_bytes);
 
-/// "fortran 0x1p-2, cpp equal to the bit", or by how many ULP they differ.
+/// "fortran and cpp are equal to the bit", or by how many ULP they differ; with the bits where `hex`:
+/// "fortran 0x1p-2, cpp equal to the bit".
 [[nodiscard]] std::string side_by_side_words(std::string_view first_name, double first,
-                                             std::string_view second_name, double second, int real_bytes);
+                                             std::string_view second_name, double second, int real_bytes,
+                                             bool hex);
 
 /// What an explanation is about.
 struct explained_kernels {
@@ -66,19 +68,35 @@ class explain_addition {
                         const explained_increment& i, const explained_pair& p) const = 0;
 };
 
+/// How much of a run explain_text prints.
+struct explain_detail {
+  bool all =
+      true;  ///< every increment; otherwise a line for each where there are more than most_told_in_full
+  bool hex = false;  ///< the bits of s and SMIN
+};
+inline constexpr std::size_t most_told_in_full = 20;
+
 /// Prints increments, one at a time: the lines of the listing in the left margin, the paper's equations at
-/// the right.
+/// the right. A summary is a line an increment; memory does not grow with their number.
 class explain_text {
  public:
-  explain_text(explained_kernels of, const terminal& t) : of_(std::move(of)), terminal_(t) {}
+  explain_text(explained_kernels of, const terminal& t, explain_detail detail = {})
+      : of_(std::move(of)), terminal_(t), detail_(detail) {}
 
   /// `more`: what else is told of it; null: nothing.
   void print(const explained_increment& i, const explain_addition* more = nullptr);
 
+  /// Behind the last increment: print what was kept, or the end of the summary.
+  void finish();
+
  private:
+  void print_summary(const explained_increment& i);
+
   explained_kernels of_;
   terminal terminal_;
-  bool begun_ = false;
+  explain_detail detail_;
+  std::size_t increments_ = 0;
+  std::string in_full_, lines_;  // kept until it is known how many there are
 };
 
 /// Writes increments as they come, format "contct-explain-1" (reference/explain-format.md): memory does not

@@ -95,9 +95,9 @@ case $1 in
     [ $faithful = 0 ] && wrong "the listing gets it right"
     [ $faithful = 3 ] || wrong "exit status of the listing: found $faithful; allowed: 3, solved but not certified"
     [ $corrected = 0 ] || wrong "exit status of the corrected rule: found $corrected; allowed: 0"
-    "$contct" explain "$file" >"$scratch/explained" 2>/dev/null
-    grep '^      TAKEN ALONG: it is closed before it touches' "$scratch/explained" | head -n 1 | grep . ||
-      wrong "it goes wrong in another way: no pair is closed before it touches"
+    "$contct" explain --all "$file" >"$scratch/explained" 2>/dev/null
+    grep '^      TOO EARLY: it is put in contact before it touches' "$scratch/explained" | head -n 1 | grep . ||
+      wrong "it goes wrong in another way: no pair is put in contact before it touches"
     right "a pair is toggled too early, and only the corrected rule is certified"
     ;;
   d)
