@@ -32,6 +32,7 @@ constexpr example all_examples[] = {
     {"contct export beam.toml --calculix beam.inp", "the end of the last step, for CalculiX to solve"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
+    {"contct explain beam.toml --all --hex", "every increment of a long run, with the bits of s"},
     {"contct explain beam.toml --exact --increment 1.1", "how far its numbers are from the exact ones"},
     {"contct explain beam.toml --quiet --json why.json", "the same as JSON"},
     {"contct exact beam.toml", "the path in rational numbers, without rounding"},
