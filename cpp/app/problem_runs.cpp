@@ -106,10 +106,10 @@ std::string end_words(const problem& p, const path_end& end) {
       return where + "a cycle at constant load: these pairs change their status again and again: " +
              pair_words(p, end.pairs);
     case path_status::iteration_limit:
-      return where +
-             "the limit of increments (--max-increments) is reached; these pairs change their status again "
-             "and again: " +
-             (end.pairs.empty() ? "none" : pair_words(p, end.pairs));
+      return where + "the limit of increments (--max-increments) is reached" +
+             (end.pairs.empty()
+                  ? ""
+                  : "; these pairs change their status again and again: " + pair_words(p, end.pairs));
     default:
       return where +
              "the structure is held, but its stiffness is too ill-conditioned, or its loads too large, for "

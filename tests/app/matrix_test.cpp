@@ -98,6 +98,7 @@ TEST_CASE("what a band cannot hold is solved by its entries, and the certificate
   CHECK_THAT(f.out, Contains("make 1: dof 1 below"));
   CHECK_THAT(f.out, Contains("0 mismatches"));
   CHECK_THAT(f.out, Contains("both final states are certified"));
+  CHECK_THAT(f.out, Contains("proved: "));
   for (const char* how : {"--engine=cholmod", "--engine=dissected", "--engine=auto", "--final-only",
                           "--kernels=corrected", "--free-run"}) {
     const finished other = contct_program(here.path(), {"run", "p.toml", "--strict", how}, little);

@@ -63,6 +63,30 @@ TEST_CASE("what is not definite has no bound, however little it is short of it")
   }
 }
 
+TEST_CASE("by sparse columns the same is proved, and nothing of what is not definite") {
+  if (!sparse_factor::available()) return;
+  for (const int n : {1, 2, 10, 1000}) {
+    const true_system t = chain(n);
+    scaled_stiffness band(t, in_order(n), 1);
+    scaled_stiffness columns(t, in_order(n), std::nullopt);
+    REQUIRE(band.factor({}));
+    REQUIRE(columns.factor({}));
+    const double mu = columns.least_eigenvalue();
+    CHECK(mu == Approx(band.least_eigenvalue()).epsilon(1e-3));
+    CHECK_FALSE(columns.proof());
+    std::vector<double> b(n, 1.0);
+    columns.solve(b);
+    for (const double_double& back : columns.times(long_vector(b.begin(), b.end())))
+      CHECK(back.hi == Approx(1.0).epsilon(1e-8));
+  }
+  const double least = 4 * std::pow(std::sin(std::acos(-1.0) / 42), 2);
+  for (const double less : {-1e-3, -1e-9, -1e-14}) {
+    const true_system t = chain(20, -least + less);
+    scaled_stiffness columns(t, in_order(20), std::nullopt);
+    CHECK((!columns.factor({}) || columns.least_eigenvalue() == 0.0));
+  }
+}
+
 TEST_CASE("springs of pairs hold what supports do not, and a wide band is bounded too") {
   problem p;
   std::vector<double> lines(9);

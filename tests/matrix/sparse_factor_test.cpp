@@ -1,6 +1,8 @@
 // Only where CHOLMOD is built in.
 #include "contct/matrix/sparse_factor.hpp"
 
+#include <algorithm>
+
 #include "catch.hpp"
 #include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/cholesky.hpp"
@@ -45,6 +47,29 @@ TEST_CASE("every kind of sparse factor solves as LAPACK does, again with another
     REQUIRE(f->factor(diagonal_of(stiffer)));
     check_solves(*f, stiffer);
   }
+}
+
+TEST_CASE("a readable factor is L with L L' the matrix, in its own order") {
+  const band_matrix k = random_band(unknowns, 7, 4);
+  const auto f = sparse_factor::make(columns_of(k), sparse_factor::kind::readable);
+  REQUIRE(f->factor(diagonal_of(k)));
+  check_solves(*f, k);
+  const sparse_columns l = f->lower();
+  REQUIRE(l.order() == unknowns);
+  std::vector<std::vector<double>> product(unknowns, std::vector<double>(unknowns));
+  for (int column = 0; column < unknowns; ++column) {
+    const auto first = l.rows.begin() + l.starts[column];
+    const auto last = l.rows.begin() + l.starts[column + 1];
+    CHECK(*first == column);
+    CHECK(std::is_sorted(first, last));
+    for (int i = l.starts[column]; i < l.starts[column + 1]; ++i)
+      for (int j = l.starts[column]; j < l.starts[column + 1]; ++j)
+        product[l.rows[i]][l.rows[j]] += l.values[i] * l.values[j];
+  }
+  const std::vector<int>& places = f->places();
+  for (int row = 0; row < unknowns; ++row)
+    for (int column = std::max(0, row - 7); column <= row; ++column)
+      CHECK(product[places[row]][places[column]] == Approx(k.at(row, column)).margin(1e-13));
 }
 
 TEST_CASE("a spring that is put into a factor, and taken out again, is that of the changed matrix") {

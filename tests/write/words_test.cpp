@@ -61,6 +61,18 @@ TEST_CASE("the remedy for what the 1989 rule does wrong is a command, and other 
   CHECK(remedy_words({}, "a/b.toml").empty());
 }
 
+TEST_CASE("where the 1989 rule leaves a pair that pulls, the complaint has the pair and the amount") {
+  const a_run r(  // exactly the forces are 2.75e-4 and 0
+      "[beam]\nlength = 128\nelements = 128\nEI = 1e4\n"
+      "[[support]]\nnodes = [1, 129]\nfix = \"w\"\n"
+      "[[contact]]\nnodes = [65, 33]\nsurface = \"above\"\nface = [1e-4, 2e-4]\nstiffness = 1e3\n"
+      "[[step]]\nuniform = -0.37252902984619140625\n[[step]]\nuniform = 3.7252902984619140625e-6\n");
+  const std::vector<std::string> complaints = certificate_complaints(r.what, r.judged, r.early);
+  REQUIRE(complaints.size() == 1);
+  CHECK_THAT(complaints[0], Contains("step 2 is not certified: ") &&
+                                Contains("; pair 2 (node 33, above) pulls with 0.129; in increment 2.1 "));
+}
+
 TEST_CASE("of a state with locked-in forces the summary names the step, the complaint the early toggle") {
   const a_run r(read_input(CONTCT_REFERENCE "/problems/divergences/locked-in-forces.toml"));
   const std::vector<std::string> complaints = certificate_complaints(r.what, r.judged, r.early);

@@ -37,9 +37,17 @@ std::string worst_of(const certificate& c) {
   return "";
 }
 
+/// A sparse factor that fits into memory three times, and whose product takes a minute or less.
+bool can_be_proved_by_columns(const linear_structure& s) {
+  if (!matrix::sparse_factor::available()) return false;
+  constexpr double most_flops = 5e10;
+  const auto factor = matrix::sparse_factor::make(s.stiffness.columns());
+  return 3 * factor->bytes() <= text::memory_limit() && factor->flops() <= most_flops;
+}
+
 /// A band, of which two more are held during a proof, besides those of the path and of the comparison.
 bool can_be_proved(const linear_structure& s) {
-  if (!s.stiffness.is_band()) return false;
+  if (!s.stiffness.is_band()) return can_be_proved_by_columns(s);
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
   constexpr std::int64_t bytes = 40;  // of five doubles
   return bytes * s.dofs() * width <= text::memory_limit();
@@ -89,7 +97,20 @@ void certifier::step_ended(const step_state& s) {
 }
 
 void certifier::keep_proofs() {
-  if (prover_) prover_->keep_proof();
+  if (!prover_) return;
+  prover_->keep_proof();
+  shares_ = std::make_unique<share_prover>(structure_, total_load_, *prover_);
+}
+
+void certifier::incremented(const increment& i) {
+  if (!shares_) return;
+  share_errors_.resize(i.step);
+  share_errors_.back().push_back(shares_->bound(i));
+}
+
+std::span<const std::optional<double>> certifier::share_errors(int step) const {
+  if (step > static_cast<int>(share_errors_.size())) return {};
+  return share_errors_[step - 1];
 }
 
 bool certifier::all_exact() const {
@@ -112,7 +133,24 @@ certificate certifier::judge(const step_state& s) {
   if (c.exact) measure_state(s, load, c);
   const bool beyond_face = !c.unique && c.penetration > certified_share;  // no bound knows where it may stand
   if (!c.exact || beyond_face) compare(s, load, c);
+  if (!c.exact) find_pulling_pair(s, c);
   return c;
+}
+
+/// The corrected rule leaves none: a pull that is not rounding comes from a pair that the 1989 rule toggled
+/// too early, or too late.
+void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < structure_.pairs.size(); ++i) {
+    const std::size_t dof = structure_.dof_of_pair(static_cast<int>(i));
+    const double force = force_of(structure_.pairs[i], s.displacement[dof], s.isep[i] == in_contact);
+    largest = std::max(largest, std::abs(force));
+    if (-force > c.pull) {
+      c.pulling = static_cast<int>(i);
+      c.pull = -force;
+    }
+  }
+  if (c.pull <= certified_share * largest) c.pulling = -1;
 }
 
 void certifier::prove(const step_state& s, certificate& c) {

@@ -16,6 +16,7 @@
 
 #include "contct/certify/allowed_errors.hpp"
 #include "contct/certify/reference_solution.hpp"
+#include "contct/certify/share_bounds.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 
@@ -52,6 +53,8 @@ struct certificate {
   by_quantity allowed;       ///< what these may reach
   double worst_share = 0.0;  ///< the worst of them, as a share of the size of its kind
   std::string problem;       ///< what is wrong, in words; empty when exact
+  int pulling = -1;          ///< of a state that is not exact: the pair in contact that pulls most, from 0
+  double pull = 0.0;         ///< what it pulls with
 };
 
 /// Whole decimal digits that every number of a state has, as proved: 0 where nothing is; where no proof was
@@ -68,15 +71,20 @@ class certifier final : public observer {
   /// as above. `p` and `s` must outlive this object.
   certifier(const problem& p, const linear_structure& s);
 
+  void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
 
   /// What betters the ends of steps before they are told, of a problem's path. This object must outlive it.
   [[nodiscard]] state_refiner refiner();
 
-  /// Keep what proves the bounds of each step that follows.
+  /// Keep what proves the bounds of each step that follows, and bound the shares of increments.
   void keep_proofs();
   /// In the order of steps(); none where nothing is proved, or none are kept.
   [[nodiscard]] const std::vector<std::optional<step_proof>>& proofs() const { return proofs_; }
+
+  /// How far off the share of each increment of a step, from 1, can be; none where that is not proved. Empty
+  /// unless proofs are kept.
+  [[nodiscard]] std::span<const std::optional<double>> share_errors(int step) const;
 
   /// One for each step ended so far; none for a step that did not reach its load.
   [[nodiscard]] const std::vector<std::optional<certificate>>& steps() const { return steps_; }
@@ -87,6 +95,7 @@ class certifier final : public observer {
   void prove(const step_state& s, certificate& c);
   void compare(const step_state& s, std::span<const double> load, certificate& c);
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
+  void find_pulling_pair(const step_state& s, certificate& c) const;
   void compare_with(const reference_answer& a, const step_state& s, certificate& c) const;
   void remember_sizes(std::span<const double> displacement);
   [[nodiscard]] double largest_length() const;
@@ -104,6 +113,8 @@ class certifier final : public observer {
   double largest_displacement_ = 0.0;  // scaled, any dof
   std::vector<std::optional<certificate>> steps_;
   std::vector<std::optional<step_proof>> proofs_;
+  std::unique_ptr<share_prover> shares_;                          // null unless proofs are kept
+  std::vector<std::vector<std::optional<double>>> share_errors_;  // [steps][increments]
 };
 
 /// A fallback for `s`, which must outlive it: the reference solution as the end of a step that a path cannot

@@ -47,13 +47,24 @@ handed_out handed_out_at(const problem& p, const step_state& s) {
 
 error_prover::error_prover(const problem& p, const linear_structure& s)
     : problem_(p),
-      can_factor_(s.stiffness.is_band()),
-      true_(can_factor_ ? true_system_of(p) : true_system{}),
-      stiffness_(true_, rows_of(s), can_factor_ ? s.stiffness.band().subdiagonals() : 0) {}
+      true_(true_system_of(p)),
+      stiffness_(true_, rows_of(s),
+                 s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt) {}
 
 double_double error_prover::depth(std::size_t pair, std::span<const double_double> u) const {
   const true_pair& p = true_.pairs[pair];
   return (u[p.dof] - p.face) * p.surface;
+}
+
+double error_prover::doubt(std::size_t pair, std::span<const double_double> u) const {
+  const true_pair& p = true_.pairs[pair];
+  return 2 * true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
+}
+
+bool error_prover::is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const {
+  const int dof = true_.pairs[pair].dof;
+  const double moved = true_.fixed[dof] != 0 ? 0.0 : reach(dof) * rho * (1 + of_sums);
+  return depth(pair, u).hi < -moved - doubt(pair, u);
 }
 
 /// The load less K u and what pairs beyond their faces press with, whatever their statuses.
@@ -160,8 +171,7 @@ bool error_prover::find_closed(std::span<const double_double> u, const residual&
     std::erase_if(b.closed, [&](int i) {
       const true_pair& p = true_.pairs[i];
       const double moved = std::min(reach(p.dof), (1 + of_sums) / std::sqrt(p.stiffness.hi)) * *rho;
-      const double doubt = 2 * true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
-      return !(depth(i, u).hi * (1 - of_sums) - doubt > moved);
+      return !(depth(i, u).hi * (1 - of_sums) - doubt(i, u) > moved);
     });
     if (b.closed.size() == before) {
       b.rho = *rho;
@@ -190,12 +200,11 @@ void error_prover::bound_forces(const handed_out& state, std::span<const double_
     const double_double deep = depth(i, u);
     const double_double force = deep.hi > 0.0 ? p.stiffness * deep : double_double(0.0);
     const double told = std::abs((double_double(state.pair_forces[i]) - force).hi);
-    const double doubt = 2 * true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
     const double root = std::sqrt(p.stiffness.hi) * (1 + of_sums);
     const bool held = true_.fixed[p.dof] != 0;
-    const bool open = deep.hi < -(held ? 0.0 : reach(p.dof) * b.rho * (1 + of_sums)) - doubt;  // for certain
+    const bool open = is_certainly_open(i, u, b.rho);
     const double moved = held || open ? 0.0 : std::min(root, p.stiffness.hi * reach(p.dof)) * b.rho;
-    const double noise = open ? 0.0 : p.stiffness.hi * doubt;
+    const double noise = open ? 0.0 : p.stiffness.hi * doubt(i, u);
     b.error.take(quantity::force, (told + noise + moved) * (1 + of_sums));
     b.size.take(quantity::force, std::abs(state.pair_forces[i]));
   }
@@ -344,7 +353,6 @@ end_numbers error_prover::numbers_of(int step, std::span<const double_double> u,
 
 std::optional<end_numbers> error_prover::refine(int step, std::span<double> displacement,
                                                 std::span<int> isep) {
-  if (!can_factor_) return std::nullopt;
   const true_loads l = true_.loads(step);
   long_vector u = long_displacement(step, displacement, l);
   if (is_unloaded(l) && proves({})) {
@@ -359,6 +367,43 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   return numbers_of(step, u, l, isep);
 }
 
+/// What acts in between two ends of steps; nothing acts before the first one.
+true_loads error_prover::loads_at(int step, double share) const {
+  true_loads l = true_.loads(step);
+  if (step == 1) {
+    for (double_double& f : l.force) f = f * share;
+    for (double_double& s : l.settlement) s = s * share;
+    return l;
+  }
+  const true_loads before = true_.loads(step - 1);
+  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
+    l.force[dof] = before.force[dof] + (l.force[dof] - before.force[dof]) * share;
+    l.size[dof] += before.size[dof];
+    const double moves = std::abs(l.settlement[dof].hi) + std::abs(before.settlement[dof].hi);
+    l.settlement[dof] = before.settlement[dof] + (l.settlement[dof] - before.settlement[dof]) * share;
+    if (moves == 0.0) continue;
+    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at)  // what cancels in the sum
+      l.size[true_.k.columns[at]] += true_.root[dof] * true_.root[true_.k.columns[at]] * moves;
+  }
+  return l;
+}
+
+std::vector<int> error_prover::certain_statuses(int step, double share, std::span<const double> near) {
+  std::vector<int> certain(true_.pairs.size());
+  const true_loads l = loads_at(step, share);
+  long_vector u(true_.dofs());
+  for (std::size_t dof = 0; dof < u.size(); ++dof)
+    u[dof] = true_.fixed[dof] != 0 ? l.settlement[dof] : double_double(near[dof]);
+  error_bounds b;
+  if (!correct(l, u) || !find_closed(u, residual_of(u, l), b)) return certain;
+  for (const int pair : b.closed) certain[pair] = in_contact;
+  for (std::size_t i = 0; i < certain.size(); ++i) {
+    if (true_.fixed[true_.pairs[i].dof] != 0 && depth(i, u).hi > doubt(i, u)) certain[i] = in_contact;
+    if (is_certainly_open(i, u, b.rho)) certain[i] = separated;
+  }
+  return certain;
+}
+
 /// Nodal loads are sizes; so is, where nothing else acts, what it takes to move one settling dof alone.
 void error_prover::measure(const true_loads& l, error_bounds& b) const {
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
@@ -369,7 +414,7 @@ void error_prover::measure(const true_loads& l, error_bounds& b) const {
 }
 
 void error_prover::keep(const handed_out& state, const long_vector& u, const error_bounds& b) {
-  if (!keeps_proof_) return;
+  if (!keeps_proof_ || (b.unique && !stiffness_.proof())) return;  // a sparse factor is not kept
   const std::vector<double> displacement(state.displacement.begin(), state.displacement.end());
   proof_ = step_proof{displacement, state.pair_forces, state.reactions, state.element_values, u, b.closed,
                       z_,           stiffness_.proof()};
@@ -377,10 +422,6 @@ void error_prover::keep(const handed_out& state, const long_vector& u, const err
 
 error_bounds error_prover::bound(const handed_out& state) {
   error_bounds b;
-  if (!can_factor_) {
-    b.not_proved = "the stiffness is not stored as a band, and only a band's factor is checked";
-    return b;
-  }
   const true_loads l = true_.loads(state.step);
   if (is_unloaded(l)) {
     bound_unloaded(state, b);

@@ -70,6 +70,10 @@ class error_prover {
                                                   std::span<int> isep);
   [[nodiscard]] double span() const { return true_.span; }
 
+  /// The statuses that are certain in the equilibrium at a share of the load of step `step`, from 1:
+  /// in_contact or separated [pairs], 0 where neither is. `near`: displacements to start from [dofs].
+  [[nodiscard]] std::vector<int> certain_statuses(int step, double share, std::span<const double> near);
+
   /// Keep what proves the bounds.
   void keep_proof() {
     keeps_proof_ = true;
@@ -103,6 +107,11 @@ class error_prover {
   [[nodiscard]] std::optional<double> norm_of(const residual& r, double mu);
   void keep(const handed_out& state, const long_vector& u, const error_bounds& b);
   bool find_closed(std::span<const double_double> u, const residual& r, error_bounds& b);
+  [[nodiscard]] true_loads loads_at(int step, double share) const;
+  /// How far rounding can put a pair's depth off.
+  [[nodiscard]] double doubt(std::size_t pair, std::span<const double_double> u) const;
+  /// Not in contact, in any state within rho of u.
+  [[nodiscard]] bool is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const;
   [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
   void bound_displacements(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
   void bound_forces(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
@@ -118,8 +127,7 @@ class error_prover {
   void bound_element_values(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
 
   const problem& problem_;
-  bool can_factor_;
-  true_system true_;  // empty where it cannot be factored
+  true_system true_;
   scaled_stiffness stiffness_;
   std::optional<std::vector<int>> factored_;  // the pairs in the last factor
   double mu_ = 0.0, inverse_root_mu_ = 0.0;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "contct/certify/sparse_product.hpp"
 #include "contct/matrix/cholesky.hpp"
 
 namespace contct::certify {
@@ -60,19 +61,27 @@ double_double long_product(const double* x, const double* y, int count) {
   return sum;
 }
 
+std::vector<double> diagonal_of(const matrix::sparse_columns& a) {
+  std::vector<double> diagonal(a.order());
+  for (int row = 0; row < a.order(); ++row) diagonal[row] = a.diagonal(row);
+  return diagonal;
+}
+
 }  // namespace
 
-scaled_stiffness::scaled_stiffness(const true_system& t, std::vector<int> row_of, int subdiagonals)
+scaled_stiffness::scaled_stiffness(const true_system& t, std::vector<int> row_of,
+                                   std::optional<int> subdiagonals)
     : true_(t), row_of_(std::move(row_of)), dof_at_(row_of_.size()), subdiagonals_(subdiagonals) {
   for (std::size_t dof = 0; dof < row_of_.size(); ++dof) dof_at_[row_of_[dof]] = static_cast<int>(dof);
 }
 
-band_matrix scaled_stiffness::shifted(double shift) const {
-  band_matrix band(static_cast<int>(true_.dofs()), subdiagonals_);
+/// Calls put(row, column, value) for every entry of the lower triangle that is not 0.
+template <class Put>
+void scaled_stiffness::each_entry(double shift, Put put) const {
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
     const int row = row_of_[dof];
     if (true_.fixed[dof] != 0) {
-      band.at(row, row) = 1.0 - shift;
+      put(row, row, 1.0 - shift);
       continue;
     }
     for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
@@ -82,10 +91,23 @@ band_matrix scaled_stiffness::shifted(double shift) const {
       if (column == static_cast<int>(dof)) entry += springs_[dof];
       entry = entry * (scale_[dof] * scale_[column]);
       if (column == static_cast<int>(dof)) entry -= shift;
-      band.at(row, row_of_[column]) = entry.hi;
+      put(row, row_of_[column], entry.hi);
     }
   }
-  return band;
+}
+
+band_matrix scaled_stiffness::band(double shift) const {
+  band_matrix all(static_cast<int>(true_.dofs()), *subdiagonals_);
+  each_entry(shift, [&all](int row, int column, double value) { all.at(row, column) = value; });
+  return all;
+}
+
+matrix::sparse_columns scaled_stiffness::columns(double shift) const {
+  matrix::sparse_matrix all{static_cast<int>(true_.dofs()), {}};
+  each_entry(shift, [&all](int row, int column, double value) {
+    all.entries.push_back({row, column, value});
+  });
+  return matrix::columns_of(all);
 }
 
 bool scaled_stiffness::factor(std::span<const int> pairs) {
@@ -96,15 +118,26 @@ bool scaled_stiffness::factor(std::span<const int> pairs) {
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
     if (true_.fixed[dof] == 0) scale_[dof] = root_scale(true_.root[dof] * true_.root[dof] + springs_[dof].hi);
   }
-  factor_ = shifted(0.0);
+  if (!subdiagonals_) {
+    matrix::sparse_columns all = columns(0.0);
+    const std::vector<double> diagonal = diagonal_of(all);
+    sparse_ = matrix::sparse_factor::make(std::move(all));
+    return sparse_->factor(diagonal);
+  }
+  factor_ = band(0.0);
   return matrix::factor(factor_);
+}
+
+void scaled_stiffness::solve_rows(std::span<double> x) const {
+  if (sparse_) return sparse_->solve(x);
+  matrix::solve_with(factor_, x);
 }
 
 void scaled_stiffness::solve(std::span<double> b) const {
   std::vector<double> x(b.size());
   for (std::size_t dof = 0; dof < b.size(); ++dof)
     x[row_of_[dof]] = true_.fixed[dof] != 0 ? 0.0 : b[dof] * scale_[dof];
-  matrix::solve_with(factor_, x);
+  solve_rows(x);
   for (std::size_t dof = 0; dof < b.size(); ++dof) b[dof] = x[row_of_[dof]] * scale_[dof];
 }
 
@@ -131,7 +164,7 @@ double scaled_stiffness::least_estimate() const {
     if (!(norm > 0.0)) return 1.0;
     for (double& part : x) part /= norm;
     const std::vector<double> before = x;
-    matrix::solve_with(factor_, x);
+    solve_rows(x);
     estimate = 1.0 / std::inner_product(x.begin(), x.end(), before.begin(), 0.0);
   }
   return std::min(estimate, 1.0);
@@ -180,17 +213,35 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
   return largest * (1 + 0x1p-30);
 }
 
+std::optional<double> scaled_stiffness::error_of_band(double shift) {
+  band_matrix l = band(shift);
+  if (!matrix::factor(l)) return std::nullopt;
+  const double error = largest_row_of_error(l, shift);
+  if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l)};
+  return error;
+}
+
+std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
+  const matrix::sparse_columns a = columns(shift);
+  const auto l = matrix::sparse_factor::make(a, matrix::sparse_factor::kind::readable);
+  if (!l->factor(diagonal_of(a))) return std::nullopt;
+  std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double
+  for (std::size_t dof = 0; dof < true_.dofs(); ++dof)
+    most = std::max(most, true_.k.starts[dof + 1] - true_.k.starts[dof]);
+  const double rounding = static_cast<double>(most) * (0x1p-53 + true_rounding);
+  return largest_row_of_error_in(reordered(a, l->places()), l->lower()) + rounding;
+}
+
 double scaled_stiffness::least_eigenvalue() {
   const double highest = least_estimate() / 2;
   for (int tries = 0; tries < 3; ++tries) {
     const double shift = std::ldexp(highest, -4 * tries);
     if (!(shift > 0.0)) break;
-    band_matrix l = shifted(shift);
-    if (!matrix::factor(l)) continue;
-    const double mu = (shift - largest_row_of_error(l, shift)) * (1 - 0x1p-50);
-    if (!(mu > 0.0)) continue;  // or no number
-    if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l)};
-    return mu;
+    const std::optional<double> error = subdiagonals_ ? error_of_band(shift) : error_of_columns(shift);
+    if (!error) continue;
+    const double mu = (shift - *error) * (1 - 0x1p-50);
+    if (mu > 0.0) return mu;  // and a number
+    proof_.reset();
   }
   return 0.0;
 }

@@ -2,11 +2,14 @@
 // eigenvalue (reference/certificate.md).
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "contct/certify/step_proof.hpp"
 #include "contct/certify/true_system.hpp"
+#include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
 namespace contct::certify {
@@ -15,8 +18,9 @@ namespace contct::certify {
 /// of the unit matrix.
 class scaled_stiffness {
  public:
-  /// `row_of`: the row of each dof in a band of `subdiagonals`. `t` must outlive this object.
-  scaled_stiffness(const true_system& t, std::vector<int> row_of, int subdiagonals);
+  /// `row_of`: the row of each dof in a band of `subdiagonals`; without these, by sparse columns, which takes
+  /// CHOLMOD. `t` must outlive this object.
+  scaled_stiffness(const true_system& t, std::vector<int> row_of, std::optional<int> subdiagonals);
 
   /// Take the springs of these pairs, from 0, into K_A, and factor it. False where a pivot is not positive.
   [[nodiscard]] bool factor(std::span<const int> pairs);
@@ -30,7 +34,7 @@ class scaled_stiffness {
   /// K_A x.
   [[nodiscard]] long_vector times(std::span<const double_double> x) const;
 
-  /// What least_eigenvalue finds has its proof kept, which takes one more band.
+  /// What least_eigenvalue finds has its proof kept, which takes one more band. Of sparse columns none is.
   void keep_proof() { keeps_proof_ = true; }
   /// Of the last factor; none before least_eigenvalue.
   [[nodiscard]] const std::optional<stiffness_proof>& proof() const { return proof_; }
@@ -38,16 +42,25 @@ class scaled_stiffness {
   [[nodiscard]] double scale(std::size_t dof) const { return scale_[dof]; }
 
  private:
-  [[nodiscard]] matrix::band_matrix shifted(double shift) const;
+  /// S K_A S - shift I, in rows of the band, or by columns.
+  [[nodiscard]] matrix::band_matrix band(double shift) const;
+  [[nodiscard]] matrix::sparse_columns columns(double shift) const;
+  template <class Put>
+  void each_entry(double shift, Put put) const;
+  void solve_rows(std::span<double> x) const;
   [[nodiscard]] double least_estimate() const;
+  /// How far L L' is from S K_A S - shift I, in norm; nothing where there is no factor.
+  [[nodiscard]] std::optional<double> error_of_band(double shift);
+  [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
   [[nodiscard]] double largest_row_of_error(const matrix::band_matrix& factor, double shift) const;
 
   const true_system& true_;
   std::vector<int> row_of_, dof_at_;
-  int subdiagonals_;
+  std::optional<int> subdiagonals_;
   long_vector springs_;        // [dofs] of the pairs taken in
   std::vector<double> scale_;  // S [dofs]
   matrix::band_matrix factor_;
+  std::unique_ptr<matrix::sparse_factor> sparse_;  // in place of it
   bool keeps_proof_ = false;
   std::optional<stiffness_proof> proof_;
 };

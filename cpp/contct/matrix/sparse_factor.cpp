@@ -56,7 +56,7 @@ class cholmod final : public sparse_factor {
       work_.method[1].ordering = CHOLMOD_AMD;
     } else {
       work_.supernodal = CHOLMOD_SIMPLICIAL;  // cholmod_updown takes no other
-      work_.final_ll = 0;
+      work_.final_ll = k == kind::readable ? 1 : 0;
     }
     if (k == kind::updatable_amd) {
       work_.nmethods = 1;
@@ -110,6 +110,21 @@ class cholmod final : public sparse_factor {
     cholmod_sparse column = view_of(factor_->n, 1, starts, &place, &root, 1);
     return cholmod_updown(add ? 1 : 0, &column, factor_, &work_) != 0 && work_.status == CHOLMOD_OK;
   }
+
+  [[nodiscard]] sparse_columns lower() const override {
+    const auto* const starts = static_cast<const int*>(factor_->p);
+    const auto* const counts = static_cast<const int*>(factor_->nz);
+    const auto* const rows = static_cast<const int*>(factor_->i);
+    const auto* const values = static_cast<const double*>(factor_->x);
+    sparse_columns l;
+    for (std::size_t column = 0; column < factor_->n; ++column) {  // room for fill may lie between columns
+      l.rows.insert(l.rows.end(), rows + starts[column], rows + starts[column] + counts[column]);
+      l.values.insert(l.values.end(), values + starts[column], values + starts[column] + counts[column]);
+      l.starts.push_back(static_cast<int>(l.rows.size()));
+    }
+    return l;
+  }
+  [[nodiscard]] const std::vector<int>& places() const override { return places_; }
 
   [[nodiscard]] double flops() const override { return work_.fl; }
 

@@ -18,9 +18,10 @@ class sparse_factor {
   [[nodiscard]] static bool available();
 
   enum class kind {
-    supernodal,    ///< L L^T in dense blocks, in the better of METIS' and AMD's orders
-    updatable,     ///< L D L^T, in the best order that CHOLMOD finds
-    updatable_amd  ///< L D L^T in AMD's order: enough for a band, and quick to find
+    supernodal,     ///< L L^T in dense blocks, in the better of METIS' and AMD's orders
+    updatable,      ///< L D L^T, in the best order that CHOLMOD finds
+    updatable_amd,  ///< L D L^T in AMD's order: enough for a band, and quick to find
+    readable        ///< L L^T by columns, for `lower`
   };
 
   /// Find the order, and keep A. Throws std::bad_alloc, and std::logic_error where CHOLMOD is not built in.
@@ -47,6 +48,10 @@ class sparse_factor {
   /// Make an updatable factor that of A + k e e^T, or of A - k e e^T where `add` is false; e is the unit
   /// vector of `row`, k positive. False when the factor must be made anew.
   [[nodiscard]] virtual bool update(int row, double k, bool add) = 0;
+
+  /// A readable factor's L by columns; row i of A is its row places()[i].
+  [[nodiscard]] virtual sparse_columns lower() const = 0;
+  [[nodiscard]] virtual const std::vector<int>& places() const = 0;
 
   /// Products and sums that a factorisation takes.
   [[nodiscard]] virtual double flops() const = 0;

@@ -52,6 +52,11 @@ json step_json(const certify::step_proof& s) {
   return step;
 }
 
+std::string reason_without_proof(const std::optional<certify::certificate>& c) {
+  if (!c) return "the step did not reach its load";
+  return c->proved ? "the bounds are proved with a sparse factor, which is not written" : c->problem;
+}
+
 }  // namespace
 
 std::string proof_json(const problem& p, const std::string& file, const certify::certifier& judged) {
@@ -64,7 +69,7 @@ std::string proof_json(const problem& p, const std::string& file, const certify:
       step["error"] = error_json(p, c);
       step.update(step_json(*proof));
     } else {
-      step["because"] = c ? c->problem : "the step did not reach its load";
+      step["because"] = reason_without_proof(c);
     }
     steps.push_back(std::move(step));
   }

@@ -260,7 +260,7 @@ void result_json::step_ended(const step_state& s) {
                   {"error", error_json(problem_, judged)},
                   {"certificate", certificate_json(judged)}});
   document_.add(members,
-                {{"increments", increments_.size(), [this](auto i) { return increment_of(increments_[i]); }},
+                {{"increments", increments_.size(), [this](auto i) { return increment_of(i); }},
                  {"pairs", problem_.pairs.size(), [&](auto i) { return pair_in(s, i, r.pairs[i]); }},
                  {"reactions", r.reactions.size(),
                   [&](auto i) {
@@ -272,13 +272,16 @@ void result_json::step_ended(const step_state& s) {
   increments_.clear();
 }
 
-json result_json::increment_of(const increment_record& i) const {
+json result_json::increment_of(std::size_t at) const {
+  const increment_record& i = increments_[at];
   json entry = {{"increment", i.number},
                 {"s", i.s},
                 {"fraction", i.fraction},
                 {"load", load_json(problem_.geometry, loads_, i.step, i.fraction)},
                 {"events", list_of(i.events, [this](const event& e) { return event_json(problem_, e); })}};
   if (i.snaps) entry["snap"] = true;
+  const std::span<const std::optional<double>> errors = judged_.share_errors(i.step);
+  if (!errors.empty()) entry["error"] = errors[at] ? json(*errors[at]) : json(nullptr);
   return entry;
 }
 

@@ -95,7 +95,7 @@ class result_json final : public observer {
               const envelope* all = nullptr);
 
  private:
-  [[nodiscard]] nlohmann::ordered_json increment_of(const increment_record& i) const;
+  [[nodiscard]] nlohmann::ordered_json increment_of(std::size_t at) const;
   [[nodiscard]] nlohmann::ordered_json pair_in(const step_state& s, std::size_t pair,
                                                const pair_reading& r) const;
 

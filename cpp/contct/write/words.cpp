@@ -36,6 +36,14 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
       worst->share);
 }
 
+/// The pair in contact that pulls most, in words; nothing where none does.
+std::string pull_words(const certificate& c, const problem& p) {
+  if (c.pulling < 0) return "";
+  const contact_pair& at = p.pairs[c.pulling];
+  return fmt::format("; pair {} ({}, {}) pulls with {:.3g}", c.pulling + 1, place_words(p.geometry, at.node),
+                     surface_name(at.surface), c.pull);
+}
+
 }  // namespace
 
 std::string certificate_mark(const std::optional<certificate>& c) {
@@ -97,8 +105,8 @@ std::vector<std::string> certificate_complaints(const problem& p, const certifie
   std::vector<std::string> lines;
   for (int step = 1; const auto& c : judged.steps()) {
     if (c && !c->exact)
-      lines.push_back(fmt::format("step {} is not certified: {}; allowed: {:.1e}{}", step, c->problem,
-                                  c->tolerance, worst_until(step, *c, p, early)));
+      lines.push_back(fmt::format("step {} is not certified: {}; allowed: {:.1e}{}{}", step, c->problem,
+                                  c->tolerance, pull_words(*c, p), worst_until(step, *c, p, early)));
     ++step;
   }
   return lines;
