@@ -137,10 +137,9 @@ std::string passage_watch::warning() const {
   const contact_pair& left = what.pairs[worst->first];
   return fmt::format(
       "step {}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g} "
-      "at x = "
-      "{:.6g}. Contact is modelled at nodes with pairs only: put pairs closer together (nodes of a finer "
-      "mesh: "
-      "element_size)",
+      "at x = {:.6g}. Where these are separate stops, this is as it should be; where one surface runs "
+      "between "
+      "them, put pairs closer together (at the nodes of a finer mesh: element_size)",
       step, worst->first + 1, worst->second + 1, left.face, worst->depth, worst->x);
 }
 
