@@ -77,6 +77,13 @@ TEST_CASE("of an exact factor nothing but the rounding of sums is left, and a pa
   CHECK(largest_row_of_error_in(a, l) > 6e-9);
 }
 
+TEST_CASE("an entry that is no number is never passed over") {
+  const sparse_columns a = columns_of(random_band(9, 3, 7));
+  sparse_columns l = a;
+  l.values[l.starts[4]] = std::nan("");
+  CHECK(std::isinf(largest_row_of_error_in(a, l)));
+}
+
 TEST_CASE("a matrix in another order has its entries in the lower triangle again") {
   const sparse_columns a = columns_of(random_band(9, 3, 7));
   const std::vector<int> places = {8, 0, 7, 1, 6, 2, 5, 3, 4};

@@ -137,8 +137,7 @@ certificate certifier::judge(const step_state& s) {
   return c;
 }
 
-/// The corrected rule leaves none: a pull that is not rounding comes from a pair that the 1989 rule toggled
-/// too early, or too late.
+/// Which pair in contact pulls most, where that is more than a millionth of the largest contact force.
 void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   double largest = 0.0;
   for (std::size_t i = 0; i < structure_.pairs.size(); ++i) {

@@ -398,8 +398,7 @@ std::vector<int> error_prover::certain_statuses(int step, double share, std::spa
   if (!correct(l, u) || !find_closed(u, residual_of(u, l), b)) return certain;
   for (const int pair : b.closed) certain[pair] = in_contact;
   for (std::size_t i = 0; i < certain.size(); ++i) {
-    if (true_.fixed[true_.pairs[i].dof] != 0 && depth(i, u).hi > doubt(i, u)) certain[i] = in_contact;
-    if (is_certainly_open(i, u, b.rho)) certain[i] = separated;
+    if (true_.fixed[true_.pairs[i].dof] == 0 && is_certainly_open(i, u, b.rho)) certain[i] = separated;
   }
   return certain;
 }

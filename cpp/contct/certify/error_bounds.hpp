@@ -71,7 +71,8 @@ class error_prover {
   [[nodiscard]] double span() const { return true_.span; }
 
   /// The statuses that are certain in the equilibrium at a share of the load of step `step`, from 1:
-  /// in_contact or separated [pairs], 0 where neither is. `near`: displacements to start from [dofs].
+  /// in_contact or separated [pairs], 0 where neither is, and at fixed dofs. `near`: displacements to start
+  /// from [dofs].
   [[nodiscard]] std::vector<int> certain_statuses(int step, double share, std::span<const double> near);
 
   /// Keep what proves the bounds.

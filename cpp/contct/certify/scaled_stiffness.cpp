@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -209,8 +210,10 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
       if (j != i) sums[j] += error;
     }
   }
-  const double largest = *std::max_element(sums.begin(), sums.end());
-  return largest * (1 + 0x1p-30);
+  const auto finite = [](double sum) { return std::isfinite(sum); };
+  if (!std::ranges::all_of(sums, finite))
+    return std::numeric_limits<double>::infinity();  // NaN has no largest
+  return *std::max_element(sums.begin(), sums.end()) * (1 + 0x1p-30);
 }
 
 std::optional<double> scaled_stiffness::error_of_band(double shift) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace contct::certify {
@@ -106,8 +107,11 @@ double largest_row_of_error_in(const sparse_columns& a, const sparse_columns& l)
   }
   const std::vector<double> sizes = magnitudes(a, l);
   double largest = 0.0;
-  for (int row = 0; row < l.order(); ++row)
-    largest = std::max(largest, sums[row] + (product.most_terms() + 3) * half_ulp * sizes[row]);
+  for (int row = 0; row < l.order(); ++row) {
+    const double sum = sums[row] + (product.most_terms() + 3) * half_ulp * sizes[row];
+    if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();  // std::max would pass NaN over
+    largest = std::max(largest, sum);
+  }
   return largest * (1 + 0x1p-30) + 0x1p-900;  // of underflow
 }
 

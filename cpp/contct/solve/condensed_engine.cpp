@@ -107,10 +107,11 @@ class condensed_engine final : public spring_engine {
   [[nodiscard]] std::string_view name() const override { return "condensed"; }
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
-    // Before the first response, what is applied need not hold the structure: then there is no column.
+    // Without a response the springs that are applied need not hold the structure yet: no sweep before all
+    // are.
     bool has_response = response_to_ == residual.version;
     (void)apply_switched([&](int pair) {
-      switch_in_sweeps(pair);
+      add_springs(place_[pair]);
       has_response = has_response && update_response(pair);
       return true;
     });
@@ -173,8 +174,6 @@ class condensed_engine final : public spring_engine {
     right_.assign(n, {});
     go_left_.assign(n, {});
     go_right_.assign(n, {});
-    for (std::size_t i = 0; i < n; ++i) step_right(i);
-    for (std::size_t i = n; i-- > 0;) step_left(i);
   }
 
   /// Those of the pairs now in contact; summed anew, since what a stiff spring rounds away does not come back
@@ -232,19 +231,15 @@ class condensed_engine final : public spring_engine {
     }
   }
 
-  void switch_in_sweeps(int pair) {
-    ++counts_.updates;
-    add_springs(place_[pair]);
-    sweep_from(place_[pair]);
-  }
-
   /// The response with one more spring, or one less. The column c is that of the new K', K' c = e, so that
   /// x' = x - sigma k x_p c. False where rounding leaves no such column.
   [[nodiscard]] bool update_response(int pair) {
     const std::size_t at = place_[pair];
+    ++counts_.updates;
     const double k = spring_factor_[pair] * stiffness_of(pair);
     const double sigma_k = applied_[pair] != 0 ? k : -k;
     if (k == 0.0) return true;
+    sweep_from(at);
     if (!is_definite(left_[at] + right_[at] - d_[at])) return false;
     inverse_column(at);
     if (-sigma_k * column_[at].w > stiff) drift_.check_next();
@@ -254,8 +249,15 @@ class condensed_engine final : public spring_engine {
     return true;
   }
 
+  void sweep_anew() {
+    for (std::size_t i = 0; i < d_.size(); ++i) step_right(i);
+    for (std::size_t i = d_.size(); i-- > 0;) step_left(i);
+  }
+
   /// One solve of the whole beam. The condensed load is then the condensed K times its solution.
   void respond_anew(const residual_load& residual) {
+    response_to_ = 0;
+    sweep_anew();
     stiffness_.factor(applied_);
     std::vector<double> u(residual.increment.begin(), residual.increment.end());
     stiffness_.solve(u);
