@@ -23,7 +23,7 @@ kernel_digits digits_of_kernel(const std::string& name, const problem& p, const 
   const std::unique_ptr<kernel> leader = make_kernel(name);
   digit_counter counter(p, exactly);
   const path_end end = follow(p, s, "refactor", *leader, {shown.before.get(), &counter, shown.behind.get()},
-                              {0, fallback_to_reference(s)});
+                              {0, fallback_to_reference(s, loads_of(p, s))});
   shown.line.erase();
   return counter.result(name, end.status, rounding[leader->facts().real_bytes == 4 ? 1 : 0]);
 }

@@ -241,7 +241,7 @@ void print_legend(observed_run& o) {
 }
 
 path_limits limits_of(const run_setup& run, certifier& judged) {
-  return {run.options.max_increments, fallback_to_reference(run.structure), judged.refiner()};
+  return {run.options.max_increments, judged.fallback(), judged.refiner()};
 }
 
 /// The leader's path, observed by all that was asked for, and by `recorded` where that is not null.
@@ -419,9 +419,8 @@ exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
 exit_status final_states(const run_setup& run) {
   observed_run o{run, nullptr};
   print_heading(run);
-  const path_end end =
-      find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
-                        loads_of(run.what, run.structure), make_observers(o), o.judged.refiner());
+  const path_end end = find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
+                                         loads_of(run.what, run.structure), make_observers(o), &o.judged);
   o.shown.line.erase();
   print_legend(o);
   print_verdict(o, paint::quiet,

@@ -1,12 +1,13 @@
 // A namespace a room; each names only the rooms directly below it, since using-directives are transitive.
 #pragma once
 
-namespace contct::numeric {}
 namespace contct::text {}
+namespace contct::numeric {
+using namespace text;
+}
 namespace contct::kernels {
 using namespace numeric;
-using namespace text;
-}  // namespace contct::kernels
+}
 namespace contct::trace {
 using namespace kernels;
 }
@@ -15,8 +16,7 @@ using namespace trace;
 }
 namespace contct::matrix {
 using namespace numeric;
-using namespace text;
-}  // namespace contct::matrix
+}
 namespace contct::structure {
 using namespace kernels;
 using namespace matrix;

@@ -110,7 +110,7 @@ TEST_CASE("numbers that become too long are refused with the figure") {
   b[0] = 1;
   lifted_solver solver(k, fixed, places);
   solver.factor({});
-  CHECK(bits_of(solver.solve(b)[29]) > 600);
+  CHECK(length_in_bits(solver.solve(b)[29]) > 600);
   lifted_solver limited(k, fixed, places, 500);
   limited.factor({});
   CHECK_THROWS_WITH(limited.solve(b), Catch::Matchers::Contains("more than 500 bits"));

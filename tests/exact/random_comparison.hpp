@@ -48,8 +48,9 @@ inline void compare_one(std::uint64_t number, const lab::random_problem& drawn, 
   const auto leader = outside::make_kernel("corrected");
   digit_counter counter(p, exactly);
   certify::certifier judged(p, s);
-  const path::path_end end = path::follow(p, s, "refactor", *leader, {&judged, &counter},
-                                          {0, certify::fallback_to_reference(s), judged.refiner()});
+  const path::path_end end =
+      path::follow(p, s, "refactor", *leader, {&judged, &counter},
+                   {0, certify::fallback_to_reference(s, loads_of(p, s)), judged.refiner()});
   const kernel_digits r = counter.result("corrected", end.status, 1e-9);
   ++counts.problems;
   counts.steps += static_cast<int>(judged.steps().size());

@@ -65,7 +65,8 @@ void check_shares(const problem& p, double moved, share_counts& n) {
   const exact::exact_path truly = exact::follow_true_path(exact::exact_problem_of(p));
   const linear_structure s = structure_of(p);
   watch_shares watch(p, s, moved);
-  (void)follow(p, s, "refactor", *make_kernel("corrected"), {&watch}, {0, fallback_to_reference(s), nullptr});
+  (void)follow(p, s, "refactor", *make_kernel("corrected"), {&watch},
+               {0, fallback_to_reference(s, loads_of(p, s)), nullptr});
   for (const told_increment& told : watch.all) {
     if (told.step > static_cast<int>(truly.steps.size())) continue;
     ++n.events;

@@ -235,5 +235,5 @@ TEST_CASE("numbers of absurd size are solved like any other") {
       followed("[beam]\nx = [0, 1]\nEI = 1e-300\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n" +
                pair(2, "below", "-1e-300", "1e300") + "[[step]]\npoint = [ { node = 2, w = -1e308 } ]\n");
   CHECK(path.status == contct::path::path_status::solved);
-  CHECK(bits_of(path.steps[0].displacement[2]) > 1000);
+  CHECK(length_in_bits(path.steps[0].displacement[2]) > 1000);
 }

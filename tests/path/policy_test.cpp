@@ -141,7 +141,7 @@ TEST_CASE("driven away from the start, a beam that nothing holds has not moved")
 TEST_CASE("the listing's rule gets none of this: a beam above its stops is a mechanism from the start") {
   for (const char* name : {"fortran", "cpp"}) {
     bool asked = false;
-    const path_limits limits{0, [&](std::span<const double>) -> std::optional<equilibrium_state> {
+    const path_limits limits{0, [&](int, std::span<const double>) -> std::optional<equilibrium_state> {
                                asked = true;
                                return made_up_rest();
                              }};
@@ -290,7 +290,7 @@ TEST_CASE("a path that cannot go on is rescued by an equilibrium from elsewhere,
   const beam_problem p = cantilever_on_two();
   std::vector<double> asked_for;
   equilibrium_state rest{{0, 0, -1, -2, -3, -4}, {1, 0}};
-  const path_limits limits{0, [&](std::span<const double> load) -> std::optional<equilibrium_state> {
+  const path_limits limits{0, [&](int, std::span<const double> load) -> std::optional<equilibrium_state> {
                              asked_for.assign(load.begin(), load.end());
                              return rest;
                            }};
@@ -310,7 +310,7 @@ TEST_CASE("a path that cannot go on is rescued by an equilibrium from elsewhere,
 TEST_CASE("nobody rescues a path under the listing's rule, nor one without an equilibrium") {
   const beam_problem p = cantilever_on_two();
   int asked = 0;
-  const path_limits none{0, [&](std::span<const double>) -> std::optional<equilibrium_state> {
+  const path_limits none{0, [&](int, std::span<const double>) -> std::optional<equilibrium_state> {
                            ++asked;
                            return {};
                          }};
@@ -343,7 +343,7 @@ TEST_CASE("after a rescue the path goes on from the equilibrium that it was give
   recorder sound;
   REQUIRE(p.run("corrected", {&sound}).status == path_status::solved);
   REQUIRE(sound.steps[0].isep == std::vector<int>{in_contact, in_contact});
-  const path_limits limits{0, [&](std::span<const double>) -> std::optional<equilibrium_state> {
+  const path_limits limits{0, [&](int, std::span<const double>) -> std::optional<equilibrium_state> {
                              from_fallback = true;
                              return equilibrium_state{sound.steps[0].u, {1, 1}};
                            }};
@@ -372,7 +372,7 @@ TEST_CASE("after a rescue the path goes on from the equilibrium that it was give
 }
 
 TEST_CASE("a mechanism, an early limit and a lost factor are rescued too") {
-  const fallback_solver fallback = [](std::span<const double>) -> std::optional<equilibrium_state> {
+  const fallback_solver fallback = [](int, std::span<const double>) -> std::optional<equilibrium_state> {
     return made_up_rest();
   };
   beam_problem p = beam_above_stops();

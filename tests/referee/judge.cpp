@@ -204,11 +204,10 @@ class comparing {
 path_end solve(const problem& p, const linear_structure& s, way how, const std::vector<observer*>& observers,
                certifier& judged) {
   if (how == way::final_only)
-    return find_final_states(s, static_cast<int>(p.steps.size()), loads_of(p, s), observers,
-                             judged.refiner());
+    return find_final_states(s, static_cast<int>(p.steps.size()), loads_of(p, s), observers, &judged);
   const auto leader = outside::make_kernel(how == way::listing ? "cpp" : "corrected");
   const std::string engine(how == way::default_engine ? quickest_engine(s) : "refactor");
-  return path::follow(p, s, engine, *leader, observers, {0, fallback_to_reference(s), judged.refiner()});
+  return path::follow(p, s, engine, *leader, observers, {0, judged.fallback(), judged.refiner()});
 }
 
 /// What is wrong with how it ended; nothing where that is right.

@@ -49,9 +49,7 @@ std::string refusal_of(const assembled& a, const std::vector<support>& supports)
 
 int rank_of(const linear_structure& s) {
   REQUIRE(s.held_by_pairs.size() == s.pairs.size());
-  rigid_rank rank = s.nothing_held();
-  for (const rigid_row& row : s.held_by_pairs) rank.hold(row);
-  return rank.rank();
+  return s.held_by([](std::size_t) { return true; }).rank();
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ inline followed follow(const random_problem& p, bool refined = true) {
   f.stride = static_cast<std::size_t>(s.dofs_per_node);
   observer* const observers[] = {&f.seen, &certifies};
   path_limits limits;
-  limits.fallback = fallback_to_reference(s);
+  limits.fallback = fallback_to_reference(s, loads_of(what, s));
   if (refined) limits.refine = certifies.refiner();
   f.end = follow_steps(p.geometry, s, p.steps, "refactor", *make_kernel("corrected"), observers, limits);
   f.certificates = certifies.steps();

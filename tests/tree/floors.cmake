@@ -2,7 +2,7 @@ cmake_minimum_required(VERSION 3.25)
 # Fails when a room of cpp/contct includes a header from a floor above it, or from beside it; when a folder there is
 # no room; and when a room has more than MOST sources.
 # Usage: cmake -DSOURCES=<cpp/contct> -DMOST=<files> -P floors.cmake
-set(below_numeric)
+set(below_numeric text)
 set(below_text)
 set(below_kernel numeric text)
 set(below_trace ${below_kernel} kernel)

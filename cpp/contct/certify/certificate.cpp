@@ -173,7 +173,7 @@ void certifier::prove(const step_state& s, certificate& c) {
 
 /// With the reference solution: the verdict where no proof was tried, and what is wrong where one failed.
 void certifier::compare(const step_state& s, std::span<const double> load, certificate& c) {
-  const reference_answer answer = reference_.solve(load);
+  const reference_answer answer = reference_.solve(load, total_load_.work(s.step));
   remember_sizes(answer.displacement);
   if (!c.proof_tried)
     c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
@@ -260,16 +260,48 @@ void certifier::compare_with(const reference_answer& a, const step_state& s, cer
   c.shape_error = share(any, largest_displacement_);
 }
 
-fallback_solver fallback_to_reference(const linear_structure& s) {
-  return [&s](std::span<const double> load) -> std::optional<equilibrium_state> {
-    reference_answer answer = reference_solver(s).solve(load);
+namespace {
+
+/// The reference solution, and where that gives up, what the proofs' own residuals lead to from there.
+reference_answer solve_for(reference_solver& finds, std::span<const double> load, const rigid_work& work,
+                           int step, certifier* helper) {
+  reference_answer answer = finds.solve(load, work);
+  if (answer.how != outcome::not_found || helper == nullptr) return answer;
+  std::vector<int> isep;
+  for (const char pressed : answer.pressed) isep.push_back(pressed != 0 ? in_contact : separated);
+  if (!helper->search(step, answer.displacement, isep)) return answer;
+  for (std::size_t i = 0; i < isep.size(); ++i) answer.pressed[i] = isep[i] == in_contact ? 1 : 0;
+  answer.how = outcome::found;
+  return answer;
+}
+
+fallback_solver fallback(const linear_structure& s, load_history total_load, certifier* helper) {
+  return [&s, loads = std::move(total_load), helper](
+             int step, std::span<const double> load) -> std::optional<equilibrium_state> {
+    reference_solver finds(s);
+    reference_answer answer = solve_for(finds, load, loads.work(step), step, helper);
     if (answer.how != outcome::found) return {};
     return equilibrium_state{std::move(answer.displacement), std::move(answer.pressed)};
   };
 }
 
+}  // namespace
+
+fallback_solver fallback_to_reference(const linear_structure& s, load_history total_load) {
+  return fallback(s, std::move(total_load), nullptr);
+}
+
+fallback_solver certifier::fallback() {
+  return certify::fallback(structure_, total_load_, this);
+}
+
+bool certifier::search(int step, std::span<double> displacement, std::span<int> isep) {
+  return prover_ && prover_->search(step, displacement, isep);
+}
+
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
-                           std::span<observer* const> observers, const state_refiner& refine) {
+                           std::span<observer* const> observers, certifier* helper) {
+  const state_refiner refine = helper != nullptr ? helper->refiner() : nullptr;
   reference_solver finds(s);
   factored_stiffness stiffness(s);
   std::vector<double> total(s.dofs());
@@ -277,7 +309,7 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
   for (int step = 1; step <= steps; ++step) {
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
-    const reference_answer found = finds.solve(total);
+    const reference_answer found = solve_for(finds, total, total_load.work(step), step, helper);
     end.work.factors += found.factorisations;
     if (found.how == outcome::no_equilibrium) return {path_status::mechanism, step, 0.0, {}, end.work};
     if (found.how != outcome::found) return {path_status::not_factored, step, 0.0, {}, end.work};

@@ -76,6 +76,11 @@ class certifier final : public observer {
 
   /// What betters the ends of steps before they are told, of a problem's path. This object must outlive it.
   [[nodiscard]] state_refiner refiner();
+  /// The reference solution as the end of a step that a path cannot reach, found with `search` where that
+  /// alone gives up. Valid as long as this object.
+  [[nodiscard]] fallback_solver fallback();
+  /// Look for the equilibrium at the end of `step` from a state near it; see error_prover::search.
+  [[nodiscard]] bool search(int step, std::span<double> displacement, std::span<int> isep);
 
   /// Keep what proves the bounds of each step that follows, and bound the shares of increments.
   void keep_proofs();
@@ -118,8 +123,8 @@ class certifier final : public observer {
 };
 
 /// A fallback for `s`, which must outlive it: the reference solution as the end of a step that a path cannot
-/// reach.
-[[nodiscard]] fallback_solver fallback_to_reference(const linear_structure& s);
+/// reach. Of `total_load` only the work counts, which decides what is driven.
+[[nodiscard]] fallback_solver fallback_to_reference(const linear_structure& s, load_history total_load = {});
 
 /// Only the ends: find the equilibrium under the total load of every step and tell it to the observers as
 /// that step's end.
@@ -129,6 +134,6 @@ class certifier final : public observer {
 /// Ends as `mechanism` at the first step whose load nothing carries, and as `not_factored` where no
 /// answer is found in double precision; that step is not told.
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
-                           std::span<observer* const> observers, const state_refiner& refine = nullptr);
+                           std::span<observer* const> observers, certifier* helper = nullptr);
 
 }  // namespace contct::certify

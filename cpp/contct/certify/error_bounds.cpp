@@ -47,6 +47,7 @@ handed_out handed_out_at(const problem& p, const step_state& s) {
 
 error_prover::error_prover(const problem& p, const linear_structure& s)
     : problem_(p),
+      structure_(s),
       true_(true_system_of(p)),
       stiffness_(true_, rows_of(s),
                  s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt) {}
@@ -141,6 +142,26 @@ std::vector<int> error_prover::pressed(std::span<const double_double> u) const {
   std::vector<int> pairs;
   for (std::size_t i = 0; i < true_.pairs.size(); ++i)
     if (true_.fixed[true_.pairs[i].dof] == 0 && depth(i, u).hi > 0.0) pairs.push_back(static_cast<int>(i));
+  return pairs;
+}
+
+/// The pairs beyond their faces, and where these do not hold the structure, those nearest to theirs that do.
+std::vector<int> error_prover::holding(std::span<const double_double> u) const {
+  std::vector<int> pairs = pressed(u);
+  std::vector<char> is_pressed(true_.pairs.size());
+  for (const int pair : pairs) is_pressed[pair] = 1;
+  rigid_rank rank = structure_.held_by([&](std::size_t i) { return is_pressed[i] != 0; });
+  if (structure_.is_held(rank)) return pairs;
+  std::vector<int> nearest;
+  for (std::size_t i = 0; i < is_pressed.size(); ++i)
+    if (is_pressed[i] == 0 && true_.fixed[true_.pairs[i].dof] == 0) nearest.push_back(static_cast<int>(i));
+  std::ranges::stable_sort(nearest, {}, [&](int i) { return -depth(i, u).hi; });
+  for (const int i : nearest) {
+    const int before = rank.rank();
+    rank.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
+    if (rank.rank() > before) pairs.push_back(i);
+  }
+  std::ranges::sort(pairs);
   return pairs;
 }
 
@@ -304,7 +325,7 @@ bool error_prover::correct(const true_loads& l, long_vector& u) {
   long_vector best;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
-    if (!proves(pressed(u))) break;
+    if (!proves(holding(u))) break;
     const residual r = residual_of(u, l);
     std::vector<double> correction(u.size());
     for (std::size_t dof = 0; dof < u.size(); ++dof) correction[dof] = r.force[dof].hi;
@@ -365,6 +386,16 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   for (std::size_t dof = 0; dof < displacement.size(); ++dof) displacement[dof] = u[dof].hi;
   settle_statuses(u, l, isep);
   return numbers_of(step, u, l, isep);
+}
+
+bool error_prover::search(int step, std::span<double> displacement, std::span<int> isep) {
+  const true_loads l = true_.loads(step);
+  long_vector u = long_displacement(step, displacement, l);
+  error_bounds b;
+  if (!correct(l, u) || !find_closed(u, residual_of(u, l), b)) return false;
+  for (std::size_t dof = 0; dof < displacement.size(); ++dof) displacement[dof] = u[dof].hi;
+  settle_statuses(u, l, isep);
+  return true;
 }
 
 /// What acts in between two ends of steps; nothing acts before the first one.

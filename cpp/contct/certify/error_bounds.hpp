@@ -68,6 +68,9 @@ class error_prover {
   /// certain holds the structure. What is left over from doubles is kept for `bound`.
   [[nodiscard]] std::optional<end_numbers> refine(int step, std::span<double> displacement,
                                                   std::span<int> isep);
+  /// Look for the equilibrium from here on: false, and nothing written, where the pairs in contact of what is
+  /// found are not certain.
+  [[nodiscard]] bool search(int step, std::span<double> displacement, std::span<int> isep);
   [[nodiscard]] double span() const { return true_.span; }
 
   /// The statuses that are certain in the equilibrium at a share of the load of step `step`, from 1:
@@ -101,6 +104,7 @@ class error_prover {
   [[nodiscard]] end_numbers numbers_of(int step, std::span<const double_double> u, const true_loads& l,
                                        std::span<const int> isep) const;
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
+  [[nodiscard]] std::vector<int> holding(std::span<const double_double> u) const;
   void measure(const true_loads& l, error_bounds& b) const;
   [[nodiscard]] bool is_unloaded(const true_loads& l) const;
   void bound_unloaded(const handed_out& state, error_bounds& b);
@@ -128,6 +132,7 @@ class error_prover {
   void bound_element_values(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
 
   const problem& problem_;
+  const linear_structure& structure_;
   true_system true_;
   scaled_stiffness stiffness_;
   std::optional<std::vector<int>> factored_;  // the pairs in the last factor

@@ -38,9 +38,10 @@ class reference_solver::search {
     for (int row = 0; row < s.dofs(); ++row) scale_.push_back(std::sqrt(s.stiffness.diagonal(row)));
   }
 
-  reference_answer solve(std::span<const double> load) {
+  reference_answer solve(std::span<const double> load, const rigid_work& work) {
     factorisations_ = 0;
-    take(load);
+    take(load, work);
+    if (exists_ == false) return end(outcome::no_equilibrium, false);
     reference_answer answer = from_here();
     if (answer.how == outcome::found) return answer;
     // A start that is far from the answer may have spoilt it by rounding.
@@ -61,18 +62,12 @@ class reference_solver::search {
     long double rest;
   };
 
-  void take(std::span<const double> load) {
-    resultant_ = {};
-    resultant_size_ = {};
-    for (std::size_t dof = 0; dof < load.size(); ++dof) {
-      const bool fixed = structure_.fixed[dof] != 0;
-      load_[structure_.row_of(static_cast<int>(dof))] = structure_.in_row(dof, load[dof]);
-      if (fixed) continue;
-      for (std::size_t m = 0; m < resultant_.size(); ++m) {
-        resultant_[m] += load[dof] * structure_.rigid_rows[dof][m];
-        resultant_size_[m] += std::abs(load[dof] * structure_.rigid_rows[dof][m]);
-      }
-    }
+  void take(std::span<const double> load, const rigid_work& work) {
+    given_.assign(load.begin(), load.end());
+    work_ = work;
+    exists_ = structure_.has_equilibrium(work);
+    for (std::size_t dof = 0; dof < load.size(); ++dof)
+      load_[structure_.row_of(dof)] = structure_.in_row(dof, load[dof]);
     long double whole = 0.0L;
     for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node)
       if (structure_.fixed[dof] == 0) whole += std::abs(load_[structure_.row_of(dof)]);
@@ -123,29 +118,18 @@ class reference_solver::search {
 
   /// Does no open pair stand in the way of this rigid motion?
   [[nodiscard]] bool nothing_stops(const numbers& motion) const {
-    const long double rounding = std::max(1e-10, structure_.rigid_rounding);
-    long double largest = 0.0L;
-    for (int dof = structure_.deflection; dof < structure_.dofs(); dof += structure_.dofs_per_node)
-      largest = std::max(largest, std::abs(motion[structure_.row_of(dof)]));
     for (std::size_t i = 0; i < pair_rows_.size(); ++i)
-      if (set_[i] == 0 && structure_.pairs[i].surface * motion[pair_rows_[i]] > rounding * largest)
-        return false;
+      if (set_[i] == 0 && structure_.pairs[i].surface * motion[pair_rows_[i]] > 0.0L) return false;
     return true;
   }
 
-  /// p = the rigid motion that the load drives and no held dof stops; false when it drives none.
-  bool rigid_direction(const rigid_rank& rank, numbers& p) const {
-    const rigid_row motion = rank.free_part(resultant_);
-    const double rounding = std::max(1e-12, structure_.rigid_rounding);  // of the sums of the load's work
-    if (!(largest_of(motion) > rounding * largest_of(resultant_size_))) return false;
-    for (int dof = 0; dof < structure_.dofs(); ++dof) {
-      long double along = 0.0L;
-      for (std::size_t m = 0; m < motion.size(); ++m) along += motion[m] * structure_.rigid_rows[dof][m];
-      p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0L : along;
-    }
+  /// p = a rigid motion.
+  void put(const free_motion& motion, numbers& p) const {
+    for (int dof = 0; dof < structure_.dofs(); ++dof)
+      p[structure_.row_of(dof)] =
+          structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof, structure_.rigid_rows[dof]);
     for (std::size_t i = 0; i < set_.size(); ++i)
       if (set_[i] != 0) p[pair_rows_[i]] = 0.0L;  // what is left there is rounding
-    return true;
   }
 
   /// Springs without force at the present displacement, at as many dofs as it takes to hold the structure.
@@ -153,7 +137,7 @@ class reference_solver::search {
     for (int dof = 0; dof < structure_.dofs() && rank.rank() < structure_.rigid_motions; ++dof) {
       const int before = rank.rank();
       if (structure_.fixed[dof] != 0) continue;
-      rank.hold(structure_.rigid_rows[dof]);
+      rank.hold(structure_.rigid_rows[dof], dof);
       if (rank.rank() == before) continue;
       const int row = structure_.row_of(dof);
       holding_.push_back({static_cast<std::size_t>(row), structure_.stiffness.diagonal(row), u_[row]});
@@ -220,8 +204,10 @@ class reference_solver::search {
   [[nodiscard]] long double best_step(const numbers& p) const {
     numbers minus_kp(p.size());
     multiply_minus(structure_.stiffness, p, minus_kp);
-    long double slope = -dot(minus_kp, u_) - dot(load_, p);
-    long double growth = -dot(minus_kp, p);
+    return best_step(p, -dot(minus_kp, u_) - dot(load_, p), -dot(minus_kp, p));
+  }
+  /// The same, from the slope at alpha = 0 and its growth without the pairs.
+  [[nodiscard]] long double best_step(const numbers& p, long double slope, long double growth) const {
     struct bend {
       long double at, slope, growth;
     };
@@ -252,7 +238,7 @@ class reference_solver::search {
   /// E falls for ever along p: there is no equilibrium, unless supports hold the structure or numbers went
   /// out of range.
   [[nodiscard]] outcome why_endless(const numbers& p) const {
-    if (structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
+    if (exists_ == true || structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
     const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
     return finite ? outcome::no_equilibrium : outcome::not_found;
   }
@@ -270,7 +256,9 @@ class reference_solver::search {
       rigid_rank rank = held_by(set_);
       const bool held = structure_.is_held(rank);
       holding_.clear();
-      if (held || !rigid_direction(rank, p)) {
+      const std::optional<free_motion> driven =
+          held ? std::nullopt : structure_.driven_motion(rank, given_, work_);
+      if (!driven) {
         if (!held) add_holding_springs(rank);
         if (!factor()) return end(outcome::not_found, held);
         numbers target = u_;
@@ -280,10 +268,11 @@ class reference_solver::search {
           return end(outcome::found, held && holds_firmly());
         }
         for (std::size_t i = 0; i < p.size(); ++i) p[i] = target[i] - u_[i];
-      } else if (nothing_stops(p)) {
-        return end(outcome::no_equilibrium, false);
+      } else {
+        put(*driven, p);
+        if (nothing_stops(p)) return end(outcome::no_equilibrium, false);
       }
-      const long double alpha = best_step(p);
+      const long double alpha = driven ? best_step(p, -driven->work(), 0.0L) : best_step(p);
       if (!std::isfinite(alpha)) return end(why_endless(p), false);
       for (std::size_t i = 0; i < p.size(); ++i) u_[i] += alpha * p[i];
       set_ = pressed_at(u_, 0.0L);
@@ -294,8 +283,9 @@ class reference_solver::search {
   const linear_structure& structure_;
   std::vector<std::size_t> pair_rows_;   // [pairs]
   numbers load_;                         // [rows]
-  rigid_row resultant_{};                // work of the load on each rigid motion
-  rigid_row resultant_size_{};           // the same with every part counted as positive
+  std::vector<double> given_;            // the same, as it was given [dofs]
+  rigid_work work_;                      // of the load on each rigid motion
+  std::optional<bool> exists_;           // an equilibrium; none: only rounding decides
   std::vector<holding_spring> holding_;  // of this iteration only
   long double largest_load_ = 0.0L;      // sum of all forces on deflections, the largest so far
   numbers u_;                            // the last answer [rows]
@@ -308,8 +298,8 @@ class reference_solver::search {
 reference_solver::reference_solver(const linear_structure& s) : search_(std::make_unique<search>(s)) {}
 reference_solver::~reference_solver() = default;
 
-reference_answer reference_solver::solve(std::span<const double> load) {
-  return search_->solve(load);
+reference_answer reference_solver::solve(std::span<const double> load, const rigid_work& work) {
+  return search_->solve(load, work);
 }
 
 }  // namespace contct::certify

@@ -53,8 +53,8 @@ class reference_solver {
   ~reference_solver();
 
   /// The equilibrium under `load` [dofs]. Starts from the last answer, and once more from the undeformed
-  /// structure where that leads nowhere.
-  [[nodiscard]] reference_answer solve(std::span<const double> load);
+  /// structure where that leads nowhere. `work` of this load decides, where it is known, what is driven.
+  [[nodiscard]] reference_answer solve(std::span<const double> load, const rigid_work& work = {});
 
  private:
   class search;

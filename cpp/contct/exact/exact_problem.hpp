@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contct/exact/lifted_solver.hpp"
-#include "contct/exact/rational.hpp"
+#include "contct/numeric/rational.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct::exact {

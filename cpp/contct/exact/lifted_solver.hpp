@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "contct/exact/rational.hpp"
+#include "contct/numeric/rational.hpp"
 
 namespace contct::exact {
 

@@ -51,7 +51,7 @@ bool path_1989::next(const exact_progress& tell) {
   const rational& s_min = call_.answer.s_min;
   for (std::size_t dof = 0; dof < d_star.size(); ++dof) at_.u[dof] += s_min * d_star[dof];
   at_.fraction += s_min * (1 - at_.fraction);
-  if (bits_of(at_.fraction) > lifted_solver::most_bits)
+  if (length_in_bits(at_.fraction) > lifted_solver::most_bits)
     throw too_long("the share of the load has more than " + std::to_string(lifted_solver::most_bits) +
                    " bits");
   call_.led_to = {at_.fraction, at_.events_since(before)};

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "contct/exact/rational.hpp"
+#include "contct/numeric/rational.hpp"
 
 namespace contct::lab {
 

@@ -262,7 +262,8 @@ verdict judge(const path_end& end, const certifier& judged, const load_history& 
   if (end.status != path_status::mechanism) return verdict::no_end;
   std::vector<double> load(s.dofs(), 0.0);
   total(end.step, load);
-  const bool agreed = reference_solver(s).solve(load).how == reference_answer::outcome::no_equilibrium;
+  const bool agreed =
+      reference_solver(s).solve(load, total.work(end.step)).how == reference_answer::outcome::no_equilibrium;
   return agreed ? verdict::no_equilibrium : verdict::false_mechanism;
 }
 
@@ -296,16 +297,14 @@ problem_result try_problem(const random_problem& p, kernel& leader, std::string_
 
 problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
                              std::string_view engine, std::vector<observer*> watching) {
-  const load_history total = [&p](int step, std::span<double> f) {
-    add_consistent_loads(p.geometry, p.steps[step - 1], f);
-  };
   problem_result t;
   increment_counter counted;
   const problem what = as_problem(p);
+  const load_history total = loads_of(what, s);
   certifier judged(what, s);
   watching.insert(watching.end(), {&counted, &judged});
   path_limits limits;
-  limits.fallback = fallback_to_reference(s);
+  limits.fallback = judged.fallback();
   limits.refine = judged.refiner();
   const path_end end = follow_steps(p.geometry, s, p.steps, engine, leader, watching, limits);
   for (const auto& c : judged.steps())

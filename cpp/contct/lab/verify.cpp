@@ -362,7 +362,7 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   measurement corrected(p);
   certifier judged_corrected(p, s);
   path_limits limits;
-  limits.fallback = fallback_to_reference(s);
+  limits.fallback = judged_corrected.fallback();
   limits.refine = judged_corrected.refiner();
   const path_end corrected_end =
       follow(p, s, "refactor", *make_kernel("corrected"), {&judged_corrected, &corrected}, limits);

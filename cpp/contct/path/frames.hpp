@@ -103,10 +103,7 @@ class frame_keeper final : public observer {
   /// Do supports and all pairs together hold the structure? Then the factor is there.
   [[nodiscard]] bool can_be_solved() {
     if (stiffness_ || unsolvable_) return !unsolvable_;
-    rigid_rank rank;
-    for (const rigid_row& row : structure_.held_by_supports) rank.hold(row);
-    for (const rigid_row& row : structure_.held_by_pairs) rank.hold(row);
-    unsolvable_ = rank.rank() < structure_.rigid_motions;
+    unsolvable_ = !structure_.is_held(structure_.held_by([](std::size_t) { return true; }));
     if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(d_.size(), 1));
     return !unsolvable_;
   }

@@ -46,7 +46,8 @@ class path {
   /// The stiffness has no factor.
   path_end not_factored(int step) {
     if (policy_->fall_back(step)) return {path_status::solved, step, 1.0, {}};
-    return {path_status::not_factored, step, now_.fraction(), {}};
+    const bool none = policy_->cannot_stand();
+    return {none ? path_status::mechanism : path_status::not_factored, step, now_.fraction(), {}};
   }
 
  private:
@@ -81,6 +82,10 @@ class path {
 
   /// Tell the state reached, and end.
   path_end stop(path_status status, int step, std::vector<int> pairs) {
+    if (policy_->cannot_stand()) {  // whatever became of the path
+      status = path_status::mechanism;
+      pairs = now_.last_opened;
+    }
     if (status != path_status::solved && policy_->fall_back(step))
       return {path_status::solved, step, 1.0, {}};
     std::vector<double> u(now_.total.size());

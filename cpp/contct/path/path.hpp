@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "contct/kernel/kernel.hpp"
@@ -31,9 +33,29 @@ struct path_end {
   engine_counts work = {};  ///< what the engine did
 };
 
-/// Loads along the path: write the total load at the end of `step` (from 1) to `total` [dofs],
-/// which comes zeroed; at dofs that settle, the displacement that is prescribed (add_settlements).
-using load_history = std::function<void(int step, std::span<double> total)>;
+/// Loads along the path.
+class load_history {
+ public:
+  /// Write the total load at the end of `step` (from 1) to `total` [dofs], which comes zeroed; at dofs that
+  /// settle, the displacement that is prescribed (add_settlements).
+  using totals = std::function<void(int step, std::span<double> total)>;
+  /// The work of that load on the rigid motions, without rounding.
+  using works = std::function<rigid_work(int step)>;
+
+  load_history() = default;
+  template <class Totals>
+  requires std::is_invocable_v<Totals&, int, std::span<double>> load_history(
+      Totals total, works work = nullptr)  // NOLINT(google-explicit-constructor): loads, as they are
+      : total_(std::move(total)), work_(std::move(work)) {}
+
+  void operator()(int step, std::span<double> total) const { total_(step, total); }
+  /// Not known, where only rounded loads are given, and in step 0.
+  [[nodiscard]] rigid_work work(int step) const { return work_ && step > 0 ? work_(step) : rigid_work(); }
+
+ private:
+  totals total_;
+  works work_;
+};
 
 /// An equilibrium found without a path.
 struct equilibrium_state {
@@ -41,8 +63,9 @@ struct equilibrium_state {
   std::vector<char> closed;          ///< [pairs] 1 in contact
 };
 
-/// Finds the equilibrium under a step's total load [dofs]; nothing where there is none.
-using fallback_solver = std::function<std::optional<equilibrium_state>(std::span<const double> load)>;
+/// Finds the equilibrium under the total load [dofs] of a step, from 1; nothing where there is none.
+using fallback_solver =
+    std::function<std::optional<equilibrium_state>(int step, std::span<const double> load)>;
 
 struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair

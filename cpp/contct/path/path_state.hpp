@@ -90,6 +90,24 @@ struct path_state {
     for (std::size_t i = 0; i < total.size(); ++i) increment[i] += total[i];
     residual = {increment, 1.0, residual.version + 1};
     last_opened.clear();
+    loads_ = &total_load;
+  }
+
+  /// The rigid motion that the residual load drives and that nothing stops now; none where it drives none.
+  [[nodiscard]] std::optional<free_motion> driven_motion() const {
+    const rigid_work work = loads_->work(step);
+    return structure.driven_motion(held_by(), increment,
+                                   step == 1 ? work : work.less(loads_->work(step - 1)));
+  }
+
+  /// Is there no equilibrium at the end of the step, for certain?
+  [[nodiscard]] bool cannot_stand() const { return structure.has_equilibrium(loads_->work(step)) == false; }
+
+  /// Does the step's total load drive what nothing stops now? Nothing where only rounding would decide.
+  [[nodiscard]] std::optional<bool> total_drives_a_motion() const {
+    const rigid_work work = loads_->work(step);
+    if (!work.is_known()) return std::nullopt;
+    return structure.driven_motion(held_by(), total, work).has_value();
   }
 
   /// Put one call to the kernel, with `d_test` [pairs] for d* and `at_rest` for call::at_rest, and tell the
@@ -212,6 +230,7 @@ struct path_state {
     return off[0] + off[1] + off[2] + off[3] == 0.0;
   }
 
+  const load_history* loads_ = nullptr;
   std::span<observer* const> observers_;
   bool as_listed_;
   std::vector<double> dd_, dtest_;  // D and d* over the structure, where the kernel is called so [dofs]

@@ -31,46 +31,21 @@ class policy_1989 final : public path_policy {
   }
 };
 
-/// The free motion on which the step's load does most work, its largest part 1; all zero when it does none.
-rigid_row driven_motion(const path_state& now) {
-  constexpr double rounding_of_work = 1e-12;
-  const linear_structure& s = now.structure;
-  rigid_row work{};
-  rigid_row size{};
-  for (std::size_t dof = 0; dof < now.increment.size(); ++dof) {
-    if (s.fixed[dof] != 0) continue;
-    for (std::size_t m = 0; m < work.size(); ++m) {
-      work[m] += now.increment[dof] * s.rigid_rows[dof][m];
-      size[m] += std::abs(now.increment[dof] * s.rigid_rows[dof][m]);
-    }
-  }
-  rigid_row motion = now.held_by().free_part(work);
-  const double driven = largest_of(motion);
-  if (!(driven > std::max(rounding_of_work, s.rigid_rounding) * largest_of(size))) return {};
-  for (double& part : motion) part /= driven;
-  return motion;
-}
-
 /// A structure that nothing holds moves rigidly, at constant load, to the next face. Write to d* a rigid
 /// motion that the residual load drives and that supports and closed pairs leave free: the limit, up to its
 /// size, of the response of the structure on a ground that gets ever softer. It is long enough to reach every
 /// separated pair on its way. False, and nothing written, when the load does no work on any free motion.
 bool rigid_snap(path_state& now) {
-  constexpr double rounding_of_motion = 1e-10;
-  const linear_structure& s = now.structure;
-  const rigid_row motion = driven_motion(now);
-  if (largest_of(motion) == 0.0) return false;
-  const double still = std::max(rounding_of_motion, s.rigid_rounding);
+  const std::optional<free_motion> motion = now.driven_motion();
+  if (!motion) return false;
   double longest_way = 0.0;
   for (std::size_t i = 0; i < now.pairs(); ++i) {
-    const double moves = along(motion, s.held_by_pairs[i]);
-    if (now.status[i] == in_contact || std::abs(moves) < still) continue;
-    longest_way = std::max(longest_way, (now.c[i] - now.d[i]) / moves);
+    now.d_star[i] = 0.0;
+    if (now.status[i] == in_contact) continue;
+    now.d_star[i] = motion->at(static_cast<int>(now.at_dof[i]), now.structure.held_by_pairs[i]);
+    if (now.d_star[i] != 0.0) longest_way = std::max(longest_way, (now.c[i] - now.d[i]) / now.d_star[i]);
   }
-  for (std::size_t i = 0; i < now.pairs(); ++i) {
-    const double moves = along(motion, s.held_by_pairs[i]) * (longest_way > 0.0 ? 2.0 * longest_way : 1.0);
-    now.d_star[i] = now.status[i] == in_contact ? 0.0 : moves;  // what is left in contact is rounding
-  }
+  for (double& moves : now.d_star) moves *= longest_way > 0.0 ? 2.0 * longest_way : 1.0;
   return true;
 }
 
@@ -108,7 +83,7 @@ class stabilized_policy final : public path_policy {
   bool accept(double& s_min) override {
     if (rigid_ && s_min == 1.0) return false;
     // Only the last pairs that hold the structure open too early; any other event is followed.
-    if (s_min < 1.0 && !now_.held() && reaches_full_load(s_min)) leave_undone(s_min);
+    if (s_min < 1.0 && !now_.held() && opens_at_full_load(s_min)) leave_undone(s_min);
     if (keep_in_contact_if_toggled_again(s_min)) cycles_.reset();
     return true;
   }
@@ -133,6 +108,8 @@ class stabilized_policy final : public path_policy {
       now_.switch_springs();
     }
   }
+
+  [[nodiscard]] bool cannot_stand() const override { return now_.cannot_stand(); }
 
   void displace(std::span<double> u) override {
     std::vector<double> load = now_.applied_load();
@@ -162,7 +139,7 @@ class stabilized_policy final : public path_policy {
 
   bool fall_back(int step) override {
     if (!fallback_) return false;
-    const std::optional<equilibrium_state> found = fallback_(now_.total);
+    const std::optional<equilibrium_state> found = fallback_(step, now_.total);
     if (!found) return false;
     remove_holding_springs();
     for (std::size_t i = 0; i < now_.pairs(); ++i)
@@ -180,6 +157,15 @@ class stabilized_policy final : public path_policy {
   }
 
  private:
+  /// Do the last pairs that hold the structure open exactly at full load, but for rounding? The load of the
+  /// step then does no work on the motions that they free.
+  [[nodiscard]] bool opens_at_full_load(double s_min) const {
+    constexpr double rounding_at_most = 1e-6;
+    const std::optional<bool> driven = now_.total_drives_a_motion();
+    if (!driven) return reaches_full_load(s_min);
+    return !*driven && now_.residual.share * (1.0 - s_min) <= rounding_at_most;
+  }
+
   /// Where supports and pairs in contact leave rigid motions free that the load does not drive, springs of
   /// separated pairs hold the structure for a solve, each at rest where its pair is. False when even these do
   /// not hold it.

@@ -54,6 +54,9 @@ class path_policy {
   /// Can the structure be solved for as it stands?
   [[nodiscard]] virtual bool can_be_held() { return now_.held(); }
 
+  /// Is there no equilibrium at the end of the step, for certain?
+  [[nodiscard]] virtual bool cannot_stand() const { return false; }
+
   /// The path cannot reach the end of `step`: put the state at its equilibrium by other means, and tell the
   /// observers. False when there is no such means, or no equilibrium.
   virtual bool fall_back(int /*step*/) { return false; }

@@ -21,11 +21,13 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
                       std::string_view engine, kernel& leader, std::span<observer* const> observers,
                       const path_limits& limits = {}) {
   const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
-  const load_history total = [&](int step, std::span<double> f) {
+  const auto total = [&](int step, std::span<double> f) {
     add_consistent_loads(geometry, steps[step - 1], f);
     add_settlements(s, steps[step - 1], f);
   };
-  return follow_path(s, static_cast<int>(steps.size()), total, *solves, leader, observers, limits);
+  const auto work = [&](int step) { return s.truth ? s.truth->work_of(steps[step - 1]) : rigid_work(); };
+  return follow_path(s, static_cast<int>(steps.size()), load_history(total, work), *solves, leader, observers,
+                     limits);
 }
 
 /// The structure that a problem describes; the supports that its steps move are built to settle.
@@ -38,12 +40,15 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
   return build(p.geometry, supports, p.pairs);
 }
 
-/// The load vectors of a problem's steps, as follow_path takes them. `p` and its structure must outlive them.
+/// The loads of a problem's steps, as follow_path takes them. `p` and its structure must outlive them.
 [[nodiscard]] inline load_history loads_of(const problem& p, const linear_structure& s) {
-  return [&p, &s](int step, std::span<double> f) {
+  const auto total = [&p, &s](int step, std::span<double> f) {
     add_consistent_loads(p.geometry, p.steps[step - 1], f);
     add_settlements(s, p.steps[step - 1], f);
   };
+  return {total, [&p, truth = s.truth](int step) {
+            return truth ? truth->work_of(p.steps[step - 1]) : rigid_work();
+          }};
 }
 
 /// Follow a problem's path on an engine by name. `s` is its structure.

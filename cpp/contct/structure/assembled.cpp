@@ -42,6 +42,7 @@ linear_structure build(const assembled& a, std::span<const support> supports,
   s.rigid_motions = motions.count;
   s.rigid_rounding = motions.rounding;
   s.held_by_supports.clear();
+  s.supported_dofs.clear();
   s.held_by_pairs.clear();
   for (std::size_t dof = 0; dof < s.fixed.size(); ++dof)
     if (s.fixed[dof] == 0) s.rigid_rows[dof] = motions.rows[s.row_of(dof)];

@@ -68,6 +68,7 @@ linear_structure build(const beam& b, std::span<const support> supports, std::ve
   assemble_elements(b, s.stiffness.band());
   s.rigid_motions = 2;
   s.rigid_rows = rigid_rows_of(b);
+  s.truth = std::make_shared<rigid_truth>(b);
   put_on_supports(s, supports, std::move(pairs));
   return s;
 }

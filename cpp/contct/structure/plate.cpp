@@ -250,6 +250,7 @@ linear_structure build(const plate& p, std::span<const support> supports, std::v
   assemble_elements(p, s);
   s.rigid_motions = 3;
   s.rigid_rows = rigid_rows_of(p);
+  s.truth = std::make_shared<rigid_truth>(p);
   put_on_supports(s, supports, std::move(pairs));
   return s;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "contct/matrix/stiffness_matrix.hpp"
@@ -35,17 +36,22 @@ using rigid_row = std::array<double, most_rigid_motions>;
   return largest;
 }
 
-/// How many independent rigid motions the dofs in `held` stop: the rank of their rows.
+class rigid_truth;
+
+/// How many independent rigid motions the dofs that are held stop: the rank of their rows.
 /// The structure is a mechanism when this is less than the number of its rigid motions.
 class rigid_rank {
  public:
-  /// Rows are scaled to the structure's size, so `independent` is a share of that size: two supports nearer
-  /// to each other than 1e-12 of the length hold no better than one.
-  explicit rigid_rank(double independent = 1e-12) : independent_(independent) {}
+  /// Rows that are known from a matrix are rounded: one is independent whose part beside the others is larger
+  /// than this share of it.
+  explicit rigid_rank(double independent) : independent_(independent) {}
+  /// Rows that `truth` knows exactly. It must outlive this object.
+  explicit rigid_rank(const rigid_truth& truth) : truth_(&truth) {}
 
-  /// Count one more dof as held.
-  void hold(const rigid_row& row) {
+  /// Count dof `dof`, whose row this is, as held.
+  void hold(const rigid_row& row, int dof) {
     if (rank_ == most_rigid_motions) return;
+    if (truth_ != nullptr && !is_independent(dof)) return;
     // Only its direction counts; a slope's row, 1 over a length, may be of any size.
     const double largest = largest_of(row);
     if (!(largest > 0.0)) return;
@@ -53,12 +59,16 @@ class rigid_rank {
     for (double& entry : direction) entry /= largest;
     rigid_row rest = free_part(direction);
     const double left = std::sqrt(along(rest, rest));
-    if (!(left > independent_ * std::sqrt(along(direction, direction)))) return;
-    for (double& entry : rest) entry /= left;
+    if (truth_ == nullptr && !(left > independent_ * std::sqrt(along(direction, direction)))) return;
+    for (double& entry : rest) entry = left > 0.0 ? entry / left : 0.0;
+    dofs_[rank_] = dof;
     basis_[rank_++] = rest;
   }
 
   [[nodiscard]] int rank() const { return rank_; }
+
+  /// Held dofs that are independent of each other, and stop all that is stopped.
+  [[nodiscard]] std::span<const int> dofs() const { return {dofs_.data(), static_cast<std::size_t>(rank_)}; }
 
   /// The part of a combination of motions that is still free.
   [[nodiscard]] rigid_row free_part(const rigid_row& motion) const {
@@ -74,8 +84,12 @@ class rigid_rank {
   }
 
  private:
-  double independent_;
-  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal
+  [[nodiscard]] bool is_independent(int dof) const;
+
+  double independent_ = 0.0;
+  const rigid_truth* truth_ = nullptr;
+  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal, but for rounding
+  std::array<int, most_rigid_motions> dofs_{};
   int rank_ = 0;
 };
 

@@ -64,10 +64,32 @@ std::vector<int> linear_structure::pairs_that_hold(rigid_rank& rank) const {
   std::vector<int> holding;
   for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i) {
     const int before = rank.rank();
-    rank.hold(held_by_pairs[i]);
+    rank.hold(held_by_pairs[i], dof_of_pair(i));
     if (rank.rank() > before) holding.push_back(static_cast<int>(i));
   }
   return holding;
+}
+
+std::optional<free_motion> linear_structure::driven_motion(const rigid_rank& held,
+                                                           std::span<const double> load,
+                                                           const rigid_work& work) const {
+  if (truth && work.is_known()) return truth->driven_by(work, held.dofs());
+  constexpr double rounding_of_work = 1e-12;
+  constexpr double rounding_of_motion = 1e-10;
+  rigid_row sum{};
+  rigid_row size{};
+  for (std::size_t dof = 0; dof < load.size(); ++dof) {
+    if (fixed[dof] != 0) continue;
+    for (std::size_t m = 0; m < sum.size(); ++m) {
+      sum[m] += load[dof] * rigid_rows[dof][m];
+      size[m] += std::abs(load[dof] * rigid_rows[dof][m]);
+    }
+  }
+  rigid_row motion = held.free_part(sum);
+  const double driven = largest_of(motion);
+  if (!(driven > std::max(rounding_of_work, rigid_rounding) * largest_of(size))) return std::nullopt;
+  for (double& part : motion) part /= driven;
+  return free_motion(motion, std::max(rounding_of_motion, rigid_rounding), along(motion, sum));
 }
 
 void add_to_band(band_matrix& k, int row, int column, double entry, int element) {
@@ -119,6 +141,7 @@ void put_on_supports(linear_structure& s, std::span<const support> supports,
       s.stiffness.add_to_diagonal(s.row_of(dof), p.spring);
     }
     s.held_by_supports.push_back(s.rigid_rows[dof]);
+    s.supported_dofs.push_back(dof);
   }
   fix(s);
   s.pairs = std::move(pairs);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "contct/structure/rigid_modes.hpp"
+#include "contct/structure/rigid_truth.hpp"
 
 namespace contct::structure {
 
@@ -138,7 +140,10 @@ struct linear_structure {
   int rigid_motions = 0;                    ///< 2 for a beam, 3 for a plate, up to 6 for other bodies
   std::vector<rigid_row> rigid_rows;        ///< [dofs] what the rigid motions do there
   std::vector<rigid_row> held_by_supports;  ///< a row for each dof that a support holds
+  std::vector<int> supported_dofs;          ///< these dofs
   std::vector<rigid_row> held_by_pairs;     ///< [pairs] the row that a closed pair holds
+  /// The motions without rounding, of beams and plates; null for others.
+  std::shared_ptr<const rigid_truth> truth;
   /// How far off `rigid_rows` may be, relative to the largest: 0 where they are known by a formula, more
   /// where they are found from the matrix.
   double rigid_rounding = 0.0;
@@ -161,19 +166,30 @@ struct linear_structure {
     return lengths.empty() ? dof % dofs_per_node == deflection : lengths[dof] != 0;
   }
   /// What stops rigid motions while no dof is held.
-  [[nodiscard]] rigid_rank nothing_held() const { return rigid_rank(std::max(1e-12, rigid_rounding)); }
+  [[nodiscard]] rigid_rank nothing_held() const {
+    return truth ? rigid_rank(*truth) : rigid_rank(std::max(1e-12, rigid_rounding));
+  }
   /// The motions that the supports and those pairs stop, from 0, for which `closed(pair)` is true.
   template <class Closed>
   [[nodiscard]] rigid_rank held_by(Closed closed) const {
     rigid_rank rank = nothing_held();
     for (std::size_t i = 0; i < held_by_supports.size() && !is_held(rank); ++i)
-      rank.hold(held_by_supports[i]);
+      rank.hold(held_by_supports[i], supported_dofs[i]);
     for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i)
-      if (closed(i)) rank.hold(held_by_pairs[i]);
+      if (closed(i)) rank.hold(held_by_pairs[i], dof_of_pair(i));
     return rank;
   }
   /// Are these all of its rigid motions?
   [[nodiscard]] bool is_held(const rigid_rank& rank) const { return rank.rank() >= rigid_motions; }
+  /// The steepest of the rigid motions that `held` leaves free and the load drives; none where it does no
+  /// work on any. `work` decides where it is known, otherwise the rounded `load` [dofs].
+  [[nodiscard]] std::optional<free_motion> driven_motion(const rigid_rank& held, std::span<const double> load,
+                                                         const rigid_work& work) const;
+  /// Is there an equilibrium under a load of this work? Nothing where only rounding would decide.
+  [[nodiscard]] std::optional<bool> has_equilibrium(const rigid_work& work) const {
+    if (!truth || !work.is_known()) return std::nullopt;
+    return truth->is_carried(work, supported_dofs, pairs);
+  }
   /// The first pairs that stop what `rank` leaves free; they are counted as held.
   [[nodiscard]] std::vector<int> pairs_that_hold(rigid_rank& rank) const;
   /// The dof, from 0, at which pair `i` (from 0) acts.

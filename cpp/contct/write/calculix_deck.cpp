@@ -226,9 +226,7 @@ void refuse_what_cannot_be_written(const problem& p, int step) {
                       s.node + 1, dof_names(p.geometry)[s.dof]));
   }
   const linear_structure s = structure_of(p);
-  rigid_rank held;
-  for (const rigid_row& row : s.held_by_supports) held.hold(row);
-  if (held.rank() < s.rigid_motions)
+  if (!s.is_held(s.held_by([](std::size_t) { return false; })))
     refuse(
         "the supports alone do not hold the structure: CalculiX starts with every pair separated and then "
         "finds no solution; allowed: a structure that its [[support]] tables hold");
@@ -300,9 +298,10 @@ class deck_writer {
 
     const linear_structure s = structure_of(problem_);
     std::vector<double> total(s.dofs(), 0.0);
-    loads_of(problem_, s)(choice_.step, total);
+    const load_history loads = loads_of(problem_, s);
+    loads(choice_.step, total);
     reference_solver finds(s);
-    const reference_answer found = finds.solve(total);
+    const reference_answer found = finds.solve(total, loads.work(choice_.step));
     if (found.how != reference_answer::outcome::found)
       throw std::invalid_argument(
           fmt::format("the load of step {} has no equilibrium, so there is no final state", choice_.step));

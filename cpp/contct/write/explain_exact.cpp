@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "contct/exact/rational.hpp"
+#include "contct/numeric/rational.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 

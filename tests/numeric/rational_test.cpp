@@ -1,11 +1,11 @@
 // Decimals in and out of exact numbers.
-#include "contct/exact/rational.hpp"
+#include "contct/numeric/rational.hpp"
 
 #include <limits>
 
 #include "catch.hpp"
 
-using namespace contct::exact;
+using namespace contct::numeric;
 
 TEST_CASE("a double becomes the shortest decimal that reads as it") {
   CHECK(decimal_of(0.1) == rational(1, 10));

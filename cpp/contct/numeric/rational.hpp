@@ -15,7 +15,7 @@
 
 #include "contct/rooms.hpp"
 
-namespace contct::exact {
+namespace contct::numeric {
 
 #ifdef CONTCT_HAS_GMP
 using integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
@@ -70,6 +70,6 @@ struct exact_values {
 [[nodiscard]] std::string short_words(const rational& x, int digits);
 
 /// Bits of the numerator or the denominator, whichever has more.
-[[nodiscard]] std::size_t bits_of(const rational& x);
+[[nodiscard]] std::size_t length_in_bits(const rational& x);
 
-}  // namespace contct::exact
+}  // namespace contct::numeric

@@ -1,4 +1,4 @@
-#include "contct/exact/rational.hpp"
+#include "contct/numeric/rational.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,14 +10,14 @@
 
 #include "contct/text/decimal.hpp"
 
-namespace contct::exact {
+namespace contct::numeric {
 namespace {
 
 integer power_of(unsigned base, unsigned exponent) {
   return boost::multiprecision::pow(integer(base), exponent);
 }
 
-std::size_t bits_of(const integer& n) {
+std::size_t length_in_bits(const integer& n) {
   return n == 0 ? 0 : boost::multiprecision::msb(abs(n)) + 1;
 }
 
@@ -40,8 +40,8 @@ rational value_of(const decimal& d) {
 
 /// The exponent of the leading digit of x > 0: 10^e <= x < 10^(e + 1).
 int leading_exponent(const rational& x) {
-  const auto top = static_cast<double>(bits_of(numerator(x)));
-  const auto bottom = static_cast<double>(bits_of(denominator(x)));
+  const auto top = static_cast<double>(length_in_bits(numerator(x)));
+  const auto bottom = static_cast<double>(length_in_bits(denominator(x)));
   int e = static_cast<int>(std::floor((top - bottom) * std::log10(2.0)));
   while (ten_to(e) > x) --e;
   while (ten_to(e + 1) <= x) ++e;
@@ -89,7 +89,7 @@ double rounded(const rational& x) {
   integer top = abs(numerator(x));
   integer bottom = denominator(x);
   if (top == 0) return 0.0;
-  const int shift = 62 + static_cast<int>(bits_of(bottom)) - static_cast<int>(bits_of(top));
+  const int shift = 62 + static_cast<int>(length_in_bits(bottom)) - static_cast<int>(length_in_bits(top));
   if (shift > 0) top <<= static_cast<unsigned>(shift);
   if (shift < 0) bottom <<= static_cast<unsigned>(-shift);
   const double size =
@@ -102,7 +102,7 @@ double error_in_ulps(double x, const rational& exactly, int real_bytes) {
   int exponent = real_bytes == 4 ? FLT_MIN_EXP : DBL_MIN_EXP;  // 2^(exponent - 1) <= |exactly| < 2^exponent
   if (exactly != 0) {
     const rational size = abs(exactly);
-    int found = static_cast<int>(bits_of(numerator(size))) - static_cast<int>(bits_of(denominator(size)));
+    int found = static_cast<int>(length_in_bits(numerator(size))) - static_cast<int>(length_in_bits(denominator(size)));
     if (size >= two_to(found)) ++found;
     exponent = std::max(exponent, found);
   }
@@ -115,7 +115,7 @@ std::string fraction_words(const rational& x) {
 
 std::string short_words(const rational& x, int digits) {
   constexpr double digits_of_bit = 0.30103;
-  const auto bits = static_cast<double>(bits_of(numerator(x)) + bits_of(denominator(x)));
+  const auto bits = static_cast<double>(length_in_bits(numerator(x)) + length_in_bits(denominator(x)));
   if (bits * digits_of_bit <= digits + 2) {  // a digit more than that, and the fraction is too long
     std::string words = fraction_words(x);
     const auto counted = static_cast<int>(words.size()) - (x < 0 ? 1 : 0) - (denominator(x) == 1 ? 0 : 1);
@@ -135,8 +135,8 @@ std::string short_words(const rational& x, int digits) {
   return (x < 0 ? "-" : "") + decimal_words(shown, exponent);
 }
 
-std::size_t bits_of(const rational& x) {
-  return std::max(bits_of(numerator(x)), bits_of(denominator(x)));
+std::size_t length_in_bits(const rational& x) {
+  return std::max(length_in_bits(numerator(x)), length_in_bits(denominator(x)));
 }
 
-}  // namespace contct::exact
+}  // namespace contct::numeric

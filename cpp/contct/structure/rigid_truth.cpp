@@ -1,0 +1,297 @@
+#include "contct/structure/rigid_truth.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "contct/numeric/rational.hpp"
+#include "contct/numeric/rational_cone.hpp"
+#include "contct/structure/problem.hpp"
+
+namespace contct::structure {
+
+using numeric::decimal_of;
+using numeric::rational;
+
+/// One for each motion: up, about the middle of x, about the middle of y.
+struct rigid_work::numbers {
+  std::array<rational, 3> all;
+};
+
+namespace {
+
+using motion_numbers = std::array<rational, 3>;
+
+rational dot(const motion_numbers& a, const motion_numbers& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+void subtract(motion_numbers& from, const motion_numbers& part, const rational& share) {
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] -= share * part[i];
+}
+
+/// What is left of `row` beside all of `orthogonal`.
+motion_numbers rest_of(motion_numbers row, std::span<const motion_numbers> orthogonal) {
+  for (const motion_numbers& b : orthogonal) subtract(row, b, dot(row, b) / dot(b, b));
+  return row;
+}
+
+bool is_zero(const motion_numbers& row) {
+  return row[0] == 0 && row[1] == 0 && row[2] == 0;
+}
+
+/// sum of coefficients[i] (b^(i+1) - a^(i+1)) / (i+1) and the same of x times the polynomial.
+struct integrals {
+  rational plain, by_x;
+};
+integrals integrate(std::span<const rational> coefficients, const rational& a, const rational& b) {
+  integrals sum;
+  rational power_a = a;
+  rational power_b = b;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const int next = static_cast<int>(i) + 1;
+    sum.plain += coefficients[i] * (power_b - power_a) / next;
+    power_a *= a;
+    power_b *= b;
+    sum.by_x += coefficients[i] * (power_b - power_a) / (next + 1);
+  }
+  return sum;
+}
+
+/// The polynomial of a distributed load, from its parts in the file where it has several.
+std::vector<rational> polynomial_of(const distributed_load& d) {
+  std::vector<rational> sum(d.polynomial.size());
+  const auto add = [&sum](std::span<const double> part) {
+    for (std::size_t i = 0; i < part.size(); ++i) sum[i] += decimal_of(part[i]);
+  };
+  if (d.parts.empty()) add(d.polynomial);
+  for (const std::vector<double>& part : d.parts) add(part);
+  return sum;
+}
+
+/// Call visit(first, last) for each run of elements that follow each other, from 0.
+template <class Visit>
+void for_each_run(const std::vector<int>& elements, int all, const Visit& visit) {
+  if (elements.empty()) return visit(0, all - 1);
+  for (std::size_t i = 0; i < elements.size();) {
+    std::size_t j = i;
+    while (j + 1 < elements.size() && elements[j + 1] == elements[j] + 1) ++j;
+    visit(elements[i], elements[j]);
+    i = j + 1;
+  }
+}
+
+}  // namespace
+
+/// The points of a line as the file has them: equal parts of its lengths where it gives lengths, otherwise
+/// number by number. A point is computed when it is asked for: a long beam has many, and few are.
+class exact_line {
+ public:
+  exact_line(std::span<const double> x, std::span<const even_run> runs)
+      : x_(x.begin(), x.end()), runs_(runs.begin(), runs.end()), first_(decimal_of(x.front())) {
+    half_ = (at(x.size() - 1) - first_) / 2;
+  }
+
+  [[nodiscard]] std::size_t points() const { return x_.size(); }
+  [[nodiscard]] const rational& half() const { return half_; }
+
+  [[nodiscard]] rational at(std::size_t point) const {
+    if (runs_.empty()) return decimal_of(x_[point]);
+    rational start = first_;
+    for (const even_run& run : runs_) {
+      const auto elements = static_cast<std::size_t>(run.elements);
+      const rational end = decimal_of(run.end);
+      if (point <= elements) return start + (end - start) * static_cast<int>(point) / run.elements;
+      point -= elements;
+      start = end;
+    }
+    return start;
+  }
+
+  /// From -1 to 1 over the line.
+  [[nodiscard]] rational across(const rational& x) const { return (x - first_) / half_ - 1; }
+
+  /// What rounding can make of `across` at any point.
+  [[nodiscard]] double rounding() const {
+    const double largest = std::max(std::abs(x_.front()), std::abs(x_.back()));
+    return 8 * std::numeric_limits<double>::epsilon() * (1 + largest / (x_.back() / 2 - x_.front() / 2));
+  }
+
+ private:
+  std::vector<double> x_;
+  std::vector<even_run> runs_;
+  rational first_, half_;
+};
+
+/// A line for each direction in which it extends.
+struct rigid_truth::shape {
+  explicit shape(const beam& b) : along_x(b.x, b.runs) {}
+  explicit shape(const plate& p) : along_x(p.x, p.x_runs), along_y(std::in_place, p.y, p.y_runs) {}
+
+  exact_line along_x;
+  std::optional<exact_line> along_y;
+
+  [[nodiscard]] int dofs_per_node() const { return along_y ? plate::dofs_per_node : beam::dofs_per_node; }
+  [[nodiscard]] std::size_t column_of(int dof) const {
+    return static_cast<std::size_t>(dof / dofs_per_node()) % along_x.points();
+  }
+  [[nodiscard]] std::size_t line_of(int dof) const {
+    return static_cast<std::size_t>(dof / dofs_per_node()) / along_x.points();
+  }
+  /// 0: a deflection; otherwise the slope along x (1) or y (2).
+  [[nodiscard]] int kind_of(int dof) const { return dof % dofs_per_node(); }
+
+  [[nodiscard]] motion_numbers row_of(int dof) const {
+    if (kind_of(dof) == 1) return {0, 1 / along_x.half(), 0};
+    if (kind_of(dof) == 2) return {0, 0, 1 / along_y->half()};
+    const rational x = along_x.across(along_x.at(column_of(dof)));
+    return {1, x, along_y ? along_y->across(along_y->at(line_of(dof))) : rational(0)};
+  }
+
+  [[nodiscard]] double rounding() const {
+    return std::max(along_x.rounding(), along_y ? along_y->rounding() : 0.0);
+  }
+
+  /// is_independent, where that needs no arithmetic.
+  [[nodiscard]] std::optional<bool> seen_at_once(std::span<const int> held, int dof) const {
+    if (held.empty()) return true;
+    const auto same = [&](auto what) {
+      return std::ranges::all_of(held, [&](int other) { return what(other) == what(dof); });
+    };
+    const bool all_deflections = kind_of(dof) == 0 && same([this](int d) { return kind_of(d); });
+    if (kind_of(dof) != 0)
+      for (const int other : held)
+        if (kind_of(other) == kind_of(dof)) return false;
+    if (!all_deflections) return std::nullopt;
+    if (held.size() == 1) return held.front() != dof;
+    if (held.size() == 2 && (!along_y || same([this](int d) { return line_of(d); }) ||
+                             same([this](int d) { return column_of(d); })))
+      return false;
+    return std::nullopt;
+  }
+
+  void add_distributed(const distributed_load& d, motion_numbers& work) const {
+    const std::vector<rational> q = polynomial_of(d);
+    const int columns = static_cast<int>(along_x.points()) - 1;
+    if (!along_y) {
+      for_each_run(d.elements, columns, [&](int first, int last) { add_strip(q, first, last, work); });
+      return;
+    }
+    const int lines = static_cast<int>(along_y->points()) - 1;
+    if (d.elements.empty()) return add_rectangle(q[0], 0, columns - 1, 0, lines - 1, work);
+    for_each_run(d.elements, columns * lines, [&](int first, int last) {
+      for (int line = first / columns; line <= last / columns; ++line)
+        add_rectangle(q[0], std::max(first - line * columns, 0), std::min(last - line * columns, columns - 1),
+                      line, line, work);
+    });
+  }
+
+ private:
+  void add_strip(std::span<const rational> q, int first, int last, motion_numbers& work) const {
+    const integrals over = integrate(q, along_x.at(static_cast<std::size_t>(first)),
+                                     along_x.at(static_cast<std::size_t>(last) + 1));
+    work[0] += over.plain;
+    work[1] += over.by_x / along_x.half() + over.plain * along_x.across(0);
+  }
+
+  /// A uniform pressure acts at the middle of the rectangle.
+  void add_rectangle(const rational& pressure, int left, int right, int below, int above,
+                     motion_numbers& work) const {
+    const auto ends = [](const exact_line& line, int first, int last) {
+      return std::pair(line.at(static_cast<std::size_t>(first)), line.at(static_cast<std::size_t>(last) + 1));
+    };
+    const auto [x1, x2] = ends(along_x, left, right);
+    const auto [y1, y2] = ends(*along_y, below, above);
+    const rational force = pressure * (x2 - x1) * (y2 - y1);
+    work[0] += force;
+    work[1] += force * along_x.across((x1 + x2) / 2);
+    work[2] += force * along_y->across((y1 + y2) / 2);
+  }
+};
+
+bool rigid_rank::is_independent(int dof) const {
+  return truth_->is_independent(dofs(), dof);
+}
+
+rigid_work rigid_work::less(const rigid_work& other) const {
+  if (!is_known() || !other.is_known()) return {};
+  auto difference = std::make_shared<numbers>(*exactly_);
+  subtract(difference->all, other.exactly_->all, 1);
+  return rigid_work(std::move(difference));
+}
+
+double free_motion::at(int dof, const rigid_row& row) const {
+  const double rounded = along(parts_, row);
+  if (std::abs(rounded) >= still_ * largest_of(row)) return rounded;
+  return truth_ ? numeric::rounded(dot(exactly_->all, truth_->shape_->row_of(dof))) : 0.0;
+}
+
+rigid_truth::rigid_truth(const beam& b) : shape_(std::make_unique<shape>(b)) {}
+rigid_truth::rigid_truth(const plate& p) : shape_(std::make_unique<shape>(p)) {}
+rigid_truth::~rigid_truth() = default;
+
+bool rigid_truth::is_independent(std::span<const int> held, int dof) const {
+  if (const std::optional<bool> known = shape_->seen_at_once(held, dof)) return *known;
+  std::vector<motion_numbers> orthogonal;
+  for (const int other : held) orthogonal.push_back(rest_of(shape_->row_of(other), orthogonal));
+  return !is_zero(rest_of(shape_->row_of(dof), orthogonal));
+}
+
+rigid_work rigid_truth::work_of(const load& l) const {
+  auto work = std::make_shared<rigid_work::numbers>();
+  for (const point_load& p : l.points)
+    subtract(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof), -decimal_of(p.value));
+  for (const distributed_load& d : l.distributed) shape_->add_distributed(d, work->all);
+  return rigid_work(std::move(work));
+}
+
+bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> supported,
+                             std::span<const contact_pair> pairs) const {
+  std::vector<motion_numbers> stopped;
+  for (const int dof : supported)
+    if (motion_numbers rest = rest_of(shape_->row_of(dof), stopped); !is_zero(rest))
+      stopped.push_back(std::move(rest));
+  const std::size_t motions = shape_->along_y ? 3 : 2;
+  if (stopped.size() == motions) return true;
+  // What supports leave, in the directions in which they leave something.
+  std::vector<motion_numbers> free = stopped;
+  for (std::size_t m = 0; m < motions && free.size() < motions; ++m) {
+    motion_numbers unit{};
+    unit[m] = 1;
+    if (motion_numbers rest = rest_of(unit, free); !is_zero(rest)) free.push_back(std::move(rest));
+  }
+  free.erase(free.begin(), free.begin() + static_cast<std::ptrdiff_t>(stopped.size()));
+  const auto along_free = [&free](const motion_numbers& row, int times) {
+    std::vector<rational> parts;
+    for (const motion_numbers& f : free) parts.emplace_back(dot(row, f) * times);
+    return parts;
+  };
+  std::vector<std::vector<rational>> presses;
+  for (const contact_pair& p : pairs)
+    presses.push_back(along_free(shape_->row_of(p.node * shape_->dofs_per_node()), p.surface));
+  return numeric::is_in_cone(along_free(work.exactly().all, 1), presses);
+}
+
+std::optional<free_motion> rigid_truth::driven_by(const rigid_work& work, std::span<const int> held) const {
+  std::vector<motion_numbers> orthogonal;
+  for (const int dof : held) orthogonal.push_back(rest_of(shape_->row_of(dof), orthogonal));
+  motion_numbers steepest = rest_of(work.exactly().all, orthogonal);
+  if (is_zero(steepest)) return std::nullopt;
+  rational largest;
+  for (const rational& part : steepest) largest = std::max(largest, rational(abs(part)));
+  rigid_row parts{};
+  for (std::size_t i = 0; i < steepest.size(); ++i) {
+    steepest[i] /= largest;
+    parts[i] = numeric::rounded(steepest[i]);
+  }
+  constexpr double safely = 16;
+  free_motion motion(parts, safely * shape_->rounding(), numeric::rounded(dot(work.exactly().all, steepest)));
+  motion.exactly_ = std::make_shared<rigid_work::numbers>(rigid_work::numbers{std::move(steepest)});
+  motion.truth_ = shared_from_this();
+  return motion;
+}
+
+}  // namespace contct::structure

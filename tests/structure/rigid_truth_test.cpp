@@ -1,0 +1,140 @@
+// What decimals say of rigid motions, where doubles would say something else.
+#include "contct/structure/rigid_truth.hpp"
+
+#include "catch.hpp"
+#include "contct/structure/problem.hpp"
+
+using namespace contct::structure;
+
+namespace {
+
+beam beam_at(std::vector<double> x) {
+  beam b;
+  b.EI.assign(x.size() - 1, 1.0);
+  b.x = std::move(x);
+  return b;
+}
+
+load points(std::vector<point_load> all) {
+  return {std::move(all), {}};
+}
+
+std::optional<free_motion> driven(const linear_structure& s, const load& l, std::vector<int> held = {}) {
+  return s.truth->driven_by(s.truth->work_of(l), held);
+}
+
+/// The same from rounded loads.
+std::optional<free_motion> driven_by_rounded(const model& m, const linear_structure& s, const load& l) {
+  std::vector<double> f(s.fixed.size());
+  add_consistent_loads(m, l, f);
+  return s.driven_motion(s.nothing_held(), f, {});
+}
+
+double at(const free_motion& motion, const linear_structure& s, int dof) {
+  return motion.at(dof, s.rigid_rows[dof]);
+}
+
+}  // namespace
+
+TEST_CASE("0.1 + 0.2 - 0.3 is no load, and 1e-300 beside 1e12 is one") {
+  const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
+  CHECK_FALSE(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));
+  CHECK(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}, {1, 0, 1e-300}})));
+  CHECK(driven(s, points({{1, 0, 1e12}, {1, 0, -1e12}, {1, 0, 1e-300}})));
+  const model m{beam_at({0, 1, 2})};
+  CHECK(driven_by_rounded(m, s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));  // by 5.6e-17
+}
+
+TEST_CASE("a load over a support turns the beam about it only with a moment, however small") {
+  const linear_structure s = build(beam_at({0, 0.7, 2}), {}, {});
+  CHECK_FALSE(driven(s, points({{1, 0, -1.0}}), {2}));
+  const auto turn = driven(s, points({{1, 0, -1.0}, {1, 1, -4e-13}}), {2});
+  REQUIRE(turn.has_value());
+  CHECK(at(*turn, s, 2) == 0.0);  // the node of the support
+  CHECK(at(*turn, s, 0) * at(*turn, s, 4) < 0.0);
+  CHECK(at(*turn, s, 0) / at(*turn, s, 4) == Approx(-0.7 / 1.3).epsilon(1e-14));
+  CHECK(at(*turn, s, 1) < 0.0);  // the slope goes as the moment
+}
+
+TEST_CASE("the motion is the steepest one, and its parts are those of the rounded loads") {
+  const model m{beam_at({0, 1, 3, 4})};
+  const linear_structure s = build(m, {}, {});
+  load l = points({{0, 0, 3.0}, {2, 1, -0.5}});
+  l.distributed = {{{1.0, -0.25, 0.125}, {}}, {{2.0}, {0, 2}}, {{-1.0, 1.0}, {1, 2}}};
+  const auto exactly = driven(s, l);
+  const auto rounded = driven_by_rounded(m, s, l);
+  REQUIRE(exactly.has_value());
+  REQUIRE(rounded.has_value());
+  for (int dof = 0; dof < s.dofs(); ++dof)
+    CHECK(at(*exactly, s, dof) == Approx(at(*rounded, s, dof)).epsilon(1e-13).margin(1e-15));
+}
+
+TEST_CASE("what a plate's pressures and forces do on its motions is summed exactly, rectangle by rectangle") {
+  plate p;
+  p.x = {0, 0.7, 1.3, 2.9};
+  p.y = {-1, 0.1, 0.35};
+  p.D = 1.0;
+  const model m{p};
+  const linear_structure s = build(m, {}, {});
+  load l = points({{5, 0, 0.25}, {2, 1, 0.5}, {7, 2, -0.125}});
+  l.distributed = {{{0.3}, {}}, {{-0.2}, {1, 2, 3, 5}}};
+  const auto exactly = driven(s, l);
+  const auto rounded = driven_by_rounded(m, s, l);
+  REQUIRE(exactly.has_value());
+  REQUIRE(rounded.has_value());
+  for (int dof = 0; dof < s.dofs(); ++dof)
+    CHECK(at(*exactly, s, dof) == Approx(at(*rounded, s, dof)).epsilon(1e-13).margin(1e-15));
+  l.points = {
+      {0, 0, 1.0}};  // of a uniform pressure on it all, less the same as a force at the middle: nothing
+  p.x = {0, 0.3, 0.6};
+  p.y = {0, 0.7, 1.4};
+  const linear_structure even = build(p, {}, {});
+  load balanced = points({{4, 0, -0.0084}});
+  balanced.distributed = {{{0.01}, {}}};
+  CHECK_FALSE(driven(even, balanced));
+  balanced.points[0].value = -0.00840000000000001;
+  CHECK(driven(even, balanced));
+}
+
+TEST_CASE("equal parts of a length are exact: a third has no decimal") {
+  beam b = beam_at({0, 1.0 / 3, 2.0 / 3, 1});
+  b.runs = {{1.0, 3}};
+  const linear_structure s = build(b, {}, {});
+  CHECK_FALSE(driven(s, points({{0, 0, 2.0}, {1, 0, -3.0}, {3, 0, 1.0}})));
+  const linear_structure by_decimals = build(beam_at(b.x), {}, {});
+  CHECK(driven(by_decimals, points({{0, 0, 2.0}, {1, 0, -3.0}, {3, 0, 1.0}})));
+}
+
+TEST_CASE("two supports hold a beam however near they are, and three a plate unless they lie on one line") {
+  const linear_structure s = build(beam_at({0, 1e-14, 1}), {}, {});
+  CHECK(s.truth->is_independent(std::vector<int>{0}, 2));
+  CHECK_FALSE(s.truth->is_independent(std::vector<int>{0}, 0));
+  CHECK(s.truth->is_independent(std::vector<int>{0}, 3));
+  CHECK_FALSE(s.truth->is_independent(std::vector<int>{1}, 5));  // two slopes
+
+  plate p;
+  p.x = {0, 0.1, 0.2, 0.3};
+  p.y = {0, 0.7, 1.4, 2.1};
+  p.D = 1.0;
+  const linear_structure even = build(p, {}, {});
+  const auto w = [&p](int i, int j) { return 3 * p.node_at(i, j); };
+  const auto hold = [&](std::vector<int> held, int dof) { return even.truth->is_independent(held, dof); };
+  CHECK_FALSE(hold({w(0, 0), w(1, 0)}, w(3, 0)));
+  CHECK_FALSE(hold({w(0, 0), w(1, 1)}, w(3, 3)));  // 0.1 + 0.2 is not 0.3 in doubles
+  CHECK(hold({w(0, 0), w(1, 1)}, w(3, 2)));
+  CHECK(hold({w(0, 0), w(0, 0) + 1}, w(0, 0) + 2));
+  CHECK_FALSE(hold({w(0, 0), w(0, 0) + 1}, w(3, 0)));
+  CHECK(hold({w(0, 0), w(0, 0) + 1}, w(3, 1)));
+  p.x[3] = 0.30000000000000004;
+  CHECK(build(p, {}, {}).truth->is_independent(std::vector<int>{w(0, 0), w(1, 1)}, w(3, 3)));
+}
+
+TEST_CASE("the work of one load less that of another is not known where one of them is not") {
+  const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
+  const rigid_work large = s.truth->work_of(points({{1, 0, -1e16}, {2, 0, -0.1}}));
+  const rigid_work small = s.truth->work_of(points({{1, 0, -1e16}}));
+  CHECK(s.truth->driven_by(large.less(small), {}));
+  CHECK_FALSE(s.truth->driven_by(large.less(small), std::vector<int>{4}));
+  CHECK_FALSE(large.less(large).less({}).is_known());
+  CHECK_FALSE(rigid_work().less(large).is_known());
+}
