@@ -37,8 +37,10 @@ class path {
       if (!policy_->goes_on()) return stop(path_status::mechanism, step, now_.opened());
       now_.switch_springs();  // of the pairs that the kernel toggled
       if (s_min == 1.0) return end_step(step, number);
-      if (cycles_.repeats(moved, now_.status, now_.events))
+      if (!cycles_.repeats(moved, now_.status, now_.events)) continue;
+      if (!policy_->step_over_cycle(++number))
         return stop(path_status::cycle, step, cycles_.restless_pairs());
+      cycles_.reset();
     }
     return stop(path_status::iteration_limit, step, cycles_.restless_pairs());
   }

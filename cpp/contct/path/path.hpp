@@ -63,7 +63,8 @@ struct equilibrium_state {
   std::vector<char> closed;          ///< [pairs] 1 in contact
 };
 
-/// Finds the equilibrium under the total load [dofs] of a step, from 1; nothing where there is none.
+/// Finds the equilibrium under the total load [dofs] of a step, from 1, or under any other load (0); nothing
+/// where there is none.
 using fallback_solver =
     std::function<std::optional<equilibrium_state>(int step, std::span<const double> load)>;
 

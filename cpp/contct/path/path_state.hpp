@@ -132,6 +132,12 @@ struct path_state {
     return arguments.smin;
   }
 
+  /// The pairs in contact are those of `closed` [pairs], whatever the last call said: the others toggle.
+  void take_over(std::span<const char> closed) {
+    for (std::size_t i = 0; i < pairs(); ++i) status[i] = closed[i] != 0 ? in_contact : separated;
+    find_events();
+  }
+
   /// Undo the toggles of the last call.
   void take_back_toggles() {
     status = sprung;
