@@ -72,7 +72,7 @@ def unnoticed_fault(text, schema):
     """A row of the manual, or a key of the schema, whose loss or change is not noticed, and how many were tried."""
     lines, faults = text.splitlines(), 0
     for number, line in enumerate(lines):
-        if not re.match(r"\| `\w+` \|", line):
+        if not re.match(r"\| `\w+` \|", line) or line.count("|") < 6:  # another table than one of keys
             continue
         cells = line.split("|")
         absent = "|".join([*cells[:4], " " if "absent" in cells[4] else " absent: never ", *cells[5:]])
