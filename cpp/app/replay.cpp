@@ -34,8 +34,8 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   if (!comparable(h, facts)) {
     result.what = outcome::skipped;
     result.summary =
-        fmt::format(R"(skipped: recorded with {}-byte REAL and rule "{}"; {} has {}-byte REAL and rule "{}")",
-                    h.real_bytes, h.rule, kernel, facts.real_bytes, facts.rule);
+        fmt::format("skipped: recorded with {}-byte REAL and {}; {} has {}-byte REAL and {}", h.real_bytes,
+                    rule_words(h.rule), kernel, facts.real_bytes, rule_words(facts.rule));
     return result;
   }
   const std::unique_ptr<class kernel> k = make_kernel(kernel);

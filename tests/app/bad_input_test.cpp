@@ -112,7 +112,7 @@ TEST_CASE("wrong usage: exit 2, and what there is") {
   refused({"run", "good.toml", "--kernels", "fortran,cpp-r4"}, "--free-run");
   // What does not fit is said of precision, whichever is FORTRAN, and before unit 26 is asked for twice.
   for (const char* pair : {"fortran,fortran-r4", "fortran-r4,fortran", "cpp,fortran-r4", "cpp-r4,fortran"}) {
-    refused({"run", "good.toml", "--kernels", pair}, "-byte REAL, rule \"listing\") differ in precision");
+    refused({"run", "good.toml", "--kernels", pair}, "-byte REAL, the 1989 rule) differ in precision");
     refused({"run", "good.toml", "--kernels", pair}, "--free-run");
   }
   refused({"run", "good.toml", "--engine", "warp"}, "no engine is named \"warp\"; allowed: auto, refactor, ");

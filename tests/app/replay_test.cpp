@@ -64,7 +64,7 @@ TEST_CASE("a trace of one precision is not put to a kernel of another") {
   const finished f = contct_program(dir.path(), {"replay", "t.trace", "--kernel", "cpp-r4"});
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("nothing was compared"));
-  CHECK_THAT(f.out, Contains("skipped: recorded with 8-byte REAL"));
+  CHECK_THAT(f.out, Contains("skipped: recorded with 8-byte REAL and the 1989 rule"));
 }
 
 TEST_CASE(

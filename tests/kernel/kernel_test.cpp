@@ -54,3 +54,8 @@ TEST_CASE("a single-precision kernel sees the doubles rounded and gives its numb
     CHECK(c.ss[0] == arguments.smin);
   }
 }
+
+TEST_CASE("messages call the rule of the listing the 1989 rule") {
+  CHECK(rule_words("listing") == "the 1989 rule");
+  CHECK(rule_words("corrected") == "the corrected rule");
+}

@@ -7,26 +7,21 @@ reference/result-file.md documents that schema. PLUGIN is a kernel that differs 
 - Results that are doctored must be refused: a key taken away, a key added, a value of another type.
 - Every key of the schema is in some result, but for those in UNSEEN. The example of the manual is what the program writes.
 """
-import copy
 import json
-import math
-import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from manual import anchor, blocks, key_tables, missing_in_man_page
-from schema import listed, validator
+from documented import first_difference, objects, refused_faults, same, seen_keys, unnoticed_fault
+from manual import blocks, missing_in_man_page
+from schema import validator
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "course"))
 from page import broken_link  # noqa: E402
 
-WORDS = {"object": "object", "array": "list", "string": "text", "boolean": "boolean", "number": "number",
-         "integer": "whole number"}
 # No reference problem's path is given up; bounds on shares are written with --proof where they are proved.
 UNSEEN = {("A step", "ended_by"), ("An increment", "error")}
-UNKNOWN = "zzzzzzzz"
 LEAST_RUNS, LEAST_KEYS, LEAST_DOCTORED = 127, 163, 8000
 
 MECHANISM = """
@@ -76,81 +71,6 @@ settlement = [ { node = 1, theta = 1.0e-3 } ]
 """
 
 
-def objects(schema):
-    """The objects of the schema by their titles."""
-    return {o["title"]: o for o in [schema, *schema["$defs"].values()]}
-
-
-def target(schema, wanted):
-    """The object that a key's schema refers to, directly, as an entry of a list, or beside null; None where there is none."""
-    choices = [wanted, wanted.get("items", {}), *wanted.get("anyOf", [])]
-    names = [choice["$ref"].rpartition("/")[2] for choice in choices if "$ref" in choice]
-    return schema["$defs"][names[0]] if names else None
-
-
-def types(schema, wanted):
-    """The types of a key's value: {"object", "null"}."""
-    if "$ref" in wanted:
-        return {"object"}
-    if "anyOf" in wanted:
-        return set().union(*(types(schema, choice) for choice in wanted["anyOf"]))
-    return set(listed(wanted["type"]))
-
-
-def cell_fault(schema, of, row):
-    """What a row of the manual says of a key that the schema does not, in words; None where they agree."""
-    key = row["key"].strip("`")
-    wanted = of["properties"][key]
-    there = types(schema, wanted)
-    if ("absent" in row["absent or null"]) != (key not in of["required"]):
-        return "when it is absent"
-    if ("null" in row["absent or null"]) != ("null" in there):
-        return "when it is null"
-    named = {kind for kind in WORDS if any(part.strip().startswith(WORDS[kind]) for part in row["type"].split(" or "))}
-    if named != there - {"null"}:
-        return "its type"
-    to, link = target(schema, wanted), re.search(r"\(#([\w-]+)\)", row["type"])
-    if (to is not None or link is not None) and (not to or not link or link.group(1) != anchor(to["title"])):
-        return "the object that it is"
-    return None
-
-
-def first_difference(text, schema):
-    """The first difference between the manual and the schema, in words; None where there is none."""
-    tables, known = key_tables(text), objects(schema)
-    if set(tables.rows) != set(known):
-        return f"an object that only one of the two has: {min(set(tables.rows) ^ set(known))}"
-    for title, of in known.items():
-        if different := tables.keys(title) ^ set(of["properties"]):
-            return f"{title}: a key that only one of the two has: {min(different)}"
-        for row in tables.rows[title]:
-            if wrong := cell_fault(schema, of, row):
-                return f"{title}: {row['key']}: {wrong}"
-    return None
-
-
-def unnoticed_fault(text, schema):
-    """A row of the manual, or a key of the schema, whose loss or change is not noticed, and how many were tried."""
-    lines, faults = text.splitlines(), 0
-    for number, line in enumerate(lines):
-        if not re.match(r"\| `\w+` \|", line):
-            continue
-        cells = line.split("|")
-        absent = "|".join([*cells[:4], " " if "absent" in cells[4] else " absent: never ", *cells[5:]])
-        for fault in ([], [re.sub(r"\w+", UNKNOWN, line, count=1)], [absent]):
-            faults += 1
-            if first_difference("\n".join(lines[:number] + fault + lines[number + 1:]), schema) is None:
-                return line, faults
-    for title, of in objects(schema).items():
-        for key in of["properties"]:
-            doctored = copy.deepcopy(schema)
-            del objects(doctored)[title]["properties"][key]
-            faults += 1
-            if first_difference(text, doctored) is None:
-                return f"{title}: {key}", faults
-    return None, faults
-
-
 def runs(root, plugin):
     """(problem file or text, options, exit status) for each result."""
     problems = sorted(p for folder in ("problems", "structures") for p in (root / "reference" / folder).rglob("*.toml"))
@@ -182,58 +102,6 @@ def result_of(program, folder, problem, options, status):
     if finished.returncode != status:
         raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
     return json.loads((folder / "result.json").read_text(), parse_constant=lambda name: f"no JSON: {name}")
-
-
-def seen_keys(schema, value, of, seen):
-    """Add (title of the object, key) for every key in a valid value."""
-    for key, inner in value.items():
-        seen.add((of["title"], key))
-        to = target(schema, of["properties"][key])
-        for entry in inner if isinstance(inner, list) else [inner]:
-            if to is not None and entry is not None:
-                seen_keys(schema, entry, to, seen)
-
-
-def doctored(schema, value, of):
-    """The same result with one fault in it, every such fault: (what, the result). It is changed back after each."""
-    for key in list(value):
-        right = value.pop(key)
-        if key in of["required"]:
-            yield f"without {key}"
-        value[key] = right
-        for wrong in ([] if isinstance(right, dict) else {}, "x" if not isinstance(right, str) else 1.5):
-            if not (isinstance(right, str) and of["properties"][key].get("type") == ["string", "array"] and wrong == []):
-                value[key] = wrong
-                yield f"{key} = {wrong}"
-        value[key] = right
-        to = target(schema, of["properties"][key])
-        for entry in (right if isinstance(right, list) else [right])[:2]:
-            if to is not None and entry is not None:
-                yield from doctored(schema, entry, to)
-    value[UNKNOWN] = 1
-    yield f"with {UNKNOWN}"
-    del value[UNKNOWN]
-
-
-def refused_faults(check, schema, result):
-    """How many doctored results are refused; a ValueError names one that is not."""
-    count = 0
-    for what in doctored(schema, result, schema):
-        count += 1
-        if check.fault(result) is None:
-            raise ValueError(f"a doctored result is valid: {what}")
-    return count
-
-
-def same(shown, found):
-    """Is a value of the manual, whose numbers are shortened, that of a result? Tiny numbers are rounding."""
-    if isinstance(shown, dict):
-        return list(shown) == list(found) and all(same(shown[key], found[key]) for key in shown)
-    if isinstance(shown, list):
-        return len(shown) == len(found) and all(map(same, shown, found))
-    if isinstance(shown, float):
-        return math.isclose(shown, found, rel_tol=1e-3, abs_tol=1e-9)
-    return shown == found
 
 
 def main(program, root, plugin):

@@ -1,4 +1,4 @@
-"""A validator for the part of JSON Schema (draft 2020-12) that reference/result.schema.json uses.
+"""A validator for the part of JSON Schema (draft 2020-12) that the schemas in reference/ use.
 
 A keyword that is not known here is an error, so that nothing in a schema goes unchecked.
 """
@@ -20,8 +20,10 @@ def listed(wanted):
 
 
 class validator:
-    def __init__(self, schema):
+    """`others`: the schemas of other files that this one refers to, by the files' names."""
+    def __init__(self, schema, others=None):
         self.root = schema
+        self.others = others or {}
 
     def fault(self, value, schema=None, place="$"):
         """What is wrong with a value, in words with its place; None where it is as the schema says."""
@@ -37,7 +39,11 @@ class validator:
         return None
 
     def check_ref(self, value, wanted, _, place):
-        return self.fault(value, self.root["$defs"][wanted.removeprefix("#/$defs/")], place)
+        file, _, name = wanted.partition("#/$defs/")
+        if file:
+            other = self.others[file]
+            return validator(other, self.others).fault(value, other["$defs"][name], place)
+        return self.fault(value, self.root["$defs"][name], place)
 
     def check_type(self, value, wanted, _, place):
         return None if any(is_of(kind, value) for kind in listed(wanted)) else f"{place}: not of type {wanted}"

@@ -28,6 +28,11 @@ def main():
             count += 1
             if (check.fault(value) is None) != right:
                 return f"{schema}: {value} is {'refused' if right else 'taken'}"
+    other = {"$defs": {"x": {"type": "integer"}}}
+    for value, right in ((1, True), ("1", False)):
+        count += 1
+        if (validator({"$ref": "other.json#/$defs/x"}, {"other.json": other}).fault(value) is None) != right:
+            return f"a schema of another file: {value} is {'refused' if right else 'taken'}"
     for schema in ({"pattern": "a"}, {"additionalProperties": True}):
         try:
             validator(schema).fault({"a": 1})

@@ -82,7 +82,7 @@ std::string equivalent_row(const mutant& m) {
 }
 
 std::string page(const std::vector<trial>& trials, const bounded_fuzz& fuzz) {
-  return "# Mutants: who guards the guards\n\n"
+  return "# Mutants: what the tests would notice\n\n"
          "Faults put into the kernels on purpose, one at a time, and what notices each: the golden set\n"
          "(`reference/traces`), and " +
          std::to_string(fuzz.calls) +

@@ -2,7 +2,7 @@
 # pages.sh SOURCE PROGRAMS PAGE LEAST [HEADING]: runs the commands that a page shows, as they stand there: its sh blocks,
 # and what the CI jobs of its yaml blocks run. Every one must end with 0, and there must be LEAST or more. With HEADING, of
 # that section alone. What installs and builds this project is left out: PROGRAMS has it built. A command that the page
-# shows twice is run once.
+# shows twice is run once. The script of a GitLab job is one command: its lines share variables, and it ends where one exits.
 set -eu
 source=$(cd "$1" && pwd)
 programs=$(cd "$2" && pwd)
@@ -11,18 +11,20 @@ page=$source/$3
 commands() {
   awk -v only="${5:-}" '
     /^## / { here = $0 == "## " only }
-    /^```/ { kind = substr($0, 4); steps = script = 0; next }
+    function left_out(line) { return line ~ /^(sh contct\/cpp\/run\.sh$|apt-get |git clone )/ }
+    function end_script() { if (script) print job; script = 0; job = "" }
+    /^```/ { end_script(); kind = substr($0, 4); steps = 0; next }
     only != "" && !here { next }
     kind == "sh" { line = line $0; if (sub(/\\$/, "", line)) next; print line; line = "" }
     kind != "yaml" { next }
     match($0, /^ *shard: \[/) { shards = split(substr($0, RLENGTH + 1, index($0, "]") - RLENGTH - 1), shard, ", "); next }
     /^ *script:$/ { script = 1; next }
-    script && !/^ *- / { script = 0 }
-    script { sub(/^ *- /, "") }
-    !script && !sub(/^ *- run: /, "") { next }
+    script && !/^ *- / { end_script() }
+    script && sub(/^ *- /, "") { if (!left_out($0)) job = job (job == "" ? "" : "; ") $0; next }
+    !sub(/^ *- run: /, "") || left_out($0) { next }
     !/matrix\.shard/ { print; next }
     { for (i = 1; i <= shards; ++i) { one = $0; gsub(/\$\{\{ matrix\.shard \}\}/, shard[i], one); print one } }
-  ' "$page" | awk '!seen[$0]++' | grep -v -e '^sh contct/cpp/run\.sh$' -e '^apt-get ' -e '^git clone '
+  ' "$page" | awk '!seen[$0]++'
 }
 
 # The folder that the pages speak of: a project of its own with this one in contct/, and this one.

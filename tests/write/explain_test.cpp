@@ -124,17 +124,6 @@ TEST_CASE("more than twenty increments are a line each, unless all are wanted") 
              Contains("Step 20, increment 1\n") && !Contains("--all"));
 }
 
-TEST_CASE("the summary names the pairs that are toggled too early") {
-  std::string toml =
-      "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
-      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n"
-      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.2501\nstiffness = 1\n"
-      "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
-  for (int i = 0; i < 19; ++i) toml += "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
-  CHECK_THAT(explained_text(0, 80, toml, {false, false}),
-             Contains("   1.1  0.25       make 1, make 2; too early: 2\n"));
-}
-
 TEST_CASE("the bits of s are shown where they are asked for") {
   CHECK_THAT(explained_text(0, 80, two_pairs, {true, true}),
              Contains("s: fortran 0x1p+0, cpp equal to the bit"));

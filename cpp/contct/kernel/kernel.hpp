@@ -17,13 +17,18 @@ namespace contct::kernels {
 struct kernel_facts {
   std::string name;              ///< as typed after --kernels
   int real_bytes;                ///< 8, or 4 for the listing as printed
-  std::string rule;              ///< "listing"
+  std::string rule;              ///< "listing" (the 1989 rule) or "corrected"
   std::string language;          ///< for people
   std::string compiler;          ///< for people
   std::string flags;             ///< for people: how floating point was compiled
   bool has_text;                 ///< the kernel writes the listing's unit-26 text
   bool text_by_meaning = false;  ///< its text may write .25 for 0.25, and is compared so
 };
+
+/// A rule as messages name it: "the 1989 rule".
+[[nodiscard]] inline std::string rule_words(const std::string& rule) {
+  return rule == "listing" ? "the 1989 rule" : "the " + rule + " rule";
+}
 
 /// A kernel that gave no answer: it crashed, did not answer in time, wrote where it must not. Kernels from
 /// outside throw it from `answer`, and can be asked again.

@@ -205,33 +205,6 @@ std::string side_by_side_words(std::string_view first_name, double first, std::s
 
 namespace {
 
-/// "1, 3" for the pairs that were toggled for this reason.
-std::string pairs_toggled(const explained_call& c, why_toggled why) {
-  std::vector<int> pairs;
-  for (const explained_pair& p : c.pairs)
-    if (p.why == why) pairs.push_back(p.pair + 1);
-  return fmt::format("{}", fmt::join(pairs, ", "));
-}
-
-/// "make 1, break 3; too early: 3": what a line of the summary says of the events.
-std::vector<std::string> summary_words(const explained_increment& i) {
-  constexpr std::size_t most_named = 12;
-  std::vector<std::string> events;
-  for (const event& e : i.what.events.first(std::min(i.what.events.size(), most_named)))
-    events.push_back(fmt::format("{} {}", change_name(e.what), e.pair + 1));
-  if (i.what.events.size() > most_named)
-    events.push_back(fmt::format("{} more", i.what.events.size() - most_named));
-  std::vector<std::string> words = {
-      events.empty() ? i.left_undone ? "no event: the load left after it is rounding" : "no event"
-                     : fmt::format("{}", fmt::join(events, ", "))};
-  if (i.left_undone) return words;
-  if (const std::string early = pairs_toggled(i.call, why_toggled::too_early); !early.empty())
-    words.push_back("too early: " + early);
-  if (const std::string marked = pairs_toggled(i.call, why_toggled::by_mark); !marked.empty())
-    words.push_back("by its mark: " + marked);
-  return words;
-}
-
 /// The text of one increment.
 class increment_printer {
  public:
@@ -454,41 +427,20 @@ json narrowest_json(const std::optional<decision>& d) {
 
 void explain_text::print(const explained_increment& i, const explain_addition* more) {
   ++increments_;
-  if (detail_.all || increments_ <= most_told_in_full) {
-    std::string text = increment_printer(of_, terminal_, detail_.hex, i, more).text(increments_ == 1);
-    if (detail_.all) return print_text(text);
-    in_full_ += text;
-  }
-  print_summary(i);
-}
-
-/// Its heading is printed as soon as there are too many increments to tell in full.
-void explain_text::print_summary(const explained_increment& i) {
-  constexpr int indent = 6 + 2 + 9 + 2;
-  std::string head = fmt::format("{:>6}  {:<9}  ", fmt::format("{}.{}", i.what.step, i.what.number),
-                                 share_words(i.what.fraction));
-  for (const std::string& line : wrap(summary_words(i), terminal_.width - indent)) {
-    lines_ += head + line + "\n";
-    head.assign(indent, ' ');
-  }
-  if (increments_ <= most_told_in_full) return;
-  if (increments_ == most_told_in_full + 1) {
-    in_full_.clear();
-    if (!of_.what.title.empty()) print_text(painted(terminal_, paint::strong, of_.what.title) + "\n");
-    print_text(painted(terminal_, paint::strong, fmt::format("{:>6}  {:<9}  {}", "incr", "share", "events")) +
-               "\n");
-  }
-  print_text(std::exchange(lines_, ""));
+  const bool in_full = detail_.all || increments_ <= most_told_in_full;
+  std::string text;
+  if (in_full) text = increment_printer(of_, terminal_, detail_.hex, i, more).text(increments_ == 1);
+  if (detail_.all) return print_text(text);
+  in_full_ += text;
+  summary_.add(i);
+  if (in_full) return;
+  in_full_.clear();
+  print_text(summary_.take());
 }
 
 void explain_text::finish() {
   if (detail_.all || increments_ == 0) return;
-  if (increments_ <= most_told_in_full) return print_text(std::exchange(in_full_, ""));
-  const std::vector<std::string> advice = {
-      fmt::format("{} increments; share: share of the step applied so far", increments_),
-      "explain one with --increment STEP.INCREMENT, a step with --step, all with --all"};
-  print_text("\n");
-  for (const std::string& line : wrap(advice, terminal_.width)) print_text(line + "\n");
+  print_text(increments_ <= most_told_in_full ? in_full_ : summary_.end());
 }
 
 explain_json::explain_json(explained_kernels of, output_file& out)

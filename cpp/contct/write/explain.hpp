@@ -10,6 +10,7 @@
 
 #include "contct/compare/explanation.hpp"
 #include "contct/text/terminal.hpp"
+#include "contct/write/explain_summary.hpp"
 #include "contct/write/result_json.hpp"
 
 namespace contct::write {
@@ -81,7 +82,7 @@ inline constexpr std::size_t most_told_in_full = 20;
 class explain_text {
  public:
   explain_text(explained_kernels of, const terminal& t, explain_detail detail = {})
-      : of_(std::move(of)), terminal_(t), detail_(detail) {}
+      : of_(std::move(of)), terminal_(t), detail_(detail), summary_(t, of_.what.title) {}
 
   /// `more`: what else is told of it; null: nothing.
   void print(const explained_increment& i, const explain_addition* more = nullptr);
@@ -90,13 +91,12 @@ class explain_text {
   void finish();
 
  private:
-  void print_summary(const explained_increment& i);
-
   explained_kernels of_;
   terminal terminal_;
   explain_detail detail_;
   std::size_t increments_ = 0;
-  std::string in_full_, lines_;  // kept until it is known how many there are
+  std::string in_full_;  // kept until it is known how many increments there are
+  explain_summary summary_;
 };
 
 /// Writes increments as they come, format "contct-explain-1" (reference/explain-format.md): memory does not

@@ -158,7 +158,9 @@ void table::step_ended(const step_state& s) {
 
 std::vector<std::string> table::legend() const {
   std::vector<std::string> words;
-  if (headed_) words = {"share: share of the step applied so far", "s: scale factor of the increment"};
+  if (headed_)
+    words = {"share: share of the step applied so far",
+             "s: share of the remaining load that the increment applies"};
   if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
   if (headed_ && compared_ != nullptr) words.emplace_back("kernels: whether their bits are equal");
   if (ended_) words.emplace_back("digits: correct in every number");

@@ -1037,7 +1037,7 @@ const mostPaperRows = 60;
 
 function showEvents() {
   byId("events-words").textContent = data.all_increments === 0 ? "The path has no increment."
-    : `${counted(data.all_increments, "increment")}. Share is the share of the step that is applied after the increment; s is the paper's scale factor, the share of the remaining load that the increment applies.`;
+    : `${counted(data.all_increments, "increment")}. Share is the share of the step that is applied after the increment; s is the share of the remaining load that the increment applies, which the paper calls the scale factor.`;
   if (data.all_increments === 0) byId("event-table").parentElement.hidden = true;
   const stops = new Map(frames.map((f, i) => [where(f), i]));
   const table = byId("event-table");

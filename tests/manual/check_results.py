@@ -1,0 +1,177 @@
+"""check_results.py PROGRAM ROOT PLUGIN BENCH: what contct fuzz, verify, atlas, exact and explain and the program BENCH, contct_bench,
+write with --json is documented, key by key. PLUGIN is a kernel that differs from FORTRAN in the last bit.
+
+- fuzz, verify, atlas: reference/check-results.md documents reference/check-results.schema.json, results are as that schema says,
+  and doctored ones are refused. Every key of the schema is in some result. The examples of the page are what the program writes.
+- exact, explain, contct_bench: every key of a result stands in reference/exact.md, explain-format.md or speed.md, and every key that these document is in
+  some result. Without any one of its keys the page must be refused, and so must a page with one key more.
+"""
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from documented import UNKNOWN, first_difference, objects, refused_faults, same, seen_keys, unnoticed_fault
+from manual import blocks
+from schema import validator
+
+LEAST_KEYS, LEAST_DOCTORED, LEAST_PLAIN = 109, 900, 120
+BEAM = """
+[beam]
+length = %s
+elements = %s
+EI = 1.0
+[[contact]]
+x = [0.0, %s]
+surface = "below"
+face = -0.001
+stiffness = 1.0e4
+[[step]]
+uniform = -1.0
+"""
+# Nothing holds this beam at first: the exact path begins with a rigid-body motion, and ends in a mechanism.
+FREE = BEAM % (2.0, 2, 2.0) + "[[step]]\nuniform = 1.0\n"
+# More than 50,000 dofs: no exact path.
+LONG = BEAM % (30000.0, 30000, 1.0) + '[[support]]\nnode = 1\nfix = ["w", "theta"]\n'
+
+
+def result_of(program, folder, arguments, status):
+    """What --json writes; the command ends with this exit status."""
+    line = [program, *map(str, arguments), *(["--quiet"] if "--rounds" not in arguments else []), "--json", "result.json"]
+    finished = subprocess.run(line, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if finished.returncode != status:
+        raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
+    return json.loads((folder / "result.json").read_text(), parse_constant=lambda name: f"no JSON: {name}")
+
+
+def doctored_reference(root, folder):
+    """A reference folder in which one exact number is wrong."""
+    (folder / "wrong").mkdir()
+    (folder / "wrong/problems").symlink_to(root / "reference/problems")
+    table = (root / "reference/verification.toml").read_text()
+    (folder / "wrong/verification.toml").write_text(table.replace('exact     = "-1/375"', 'exact     = "-1/374"', 1))
+    return folder / "wrong"
+
+
+def of_schema(program, root, plugin, folder):
+    """(name in the schema, arguments, exit status) for each result."""
+    yield "fuzz", ["fuzz", "--calls", 1000, "--problems", 0], 0
+    yield "fuzz", ["fuzz", "--calls", 2000, "--shard", "2/3", "--kernels", f"fortran,cpp,plugin:{plugin}"], 1
+    yield "verify", ["verify", "--reference", root / "reference"], 0
+    yield "verify", ["verify", "--reference", doctored_reference(root, folder)], 1
+    yield "atlas", ["atlas", "--problems", 2], 0
+
+
+def with_schema(program, root, plugin, folder):
+    """What is wrong with the results that have a schema, in words, or a summary."""
+    text = (root / "reference/check-results.md").read_text()
+    schema, results = (json.loads((root / f"reference/{name}.schema.json").read_text()) for name in ("check-results", "result"))
+    if difference := first_difference(text, schema):
+        raise ValueError(f"check-results.md and check-results.schema.json: {difference}")
+    unnoticed, faults = unnoticed_fault(text, schema)
+    if unnoticed:
+        raise ValueError(f"a fault in this is not noticed: {unnoticed}")
+    check, seen, refused, written = validator(schema, {"result.schema.json": results}), set(), 0, []
+    for name, arguments, status in of_schema(program, root, plugin, folder):
+        result = result_of(program, folder, arguments, status)
+        of = schema["$defs"][name]
+        if fault := check.fault(result) or check.fault(result, of):
+            raise ValueError(f"{arguments}: {fault}: {check.fault(result, of)}")
+        seen_keys(schema, result, of, seen)
+        written.append(result)
+        for lists in ("cases", "cells"):  # a few of them are enough to be doctored
+            if lists in result:
+                result = {**result, lists: result[lists][:2]}
+        refused += refused_faults(validator({**of, "$defs": schema["$defs"]}, check.others), {**of, "$defs": schema["$defs"]}, result)
+    keys = {(title, key) for title, of in objects(schema).items() for key in of["properties"]}
+    if missing := keys - seen:
+        raise ValueError(f"no result has this key: {min(missing)}")
+    examples = [json.loads(b.text) for b in blocks(text) if b.language == "json"]
+    fuzzed = {**written[0], "seconds": examples[0]["seconds"]}
+    if not same(examples[0], fuzzed) or not any(same(examples[1], check) for check in written[2]["cases"][0]["checks"]):
+        raise ValueError("an example of check-results.md is not what the program writes")
+    if len(keys) < LEAST_KEYS or refused < LEAST_DOCTORED:
+        raise ValueError(f"found {len(keys)} keys, {refused} doctored results refused; allowed: {LEAST_KEYS} and {LEAST_DOCTORED} or more")
+    return f"{len(keys)} keys compared, {faults} faults noticed, {refused} doctored results refused"
+
+
+def keys_in(value, found):
+    """Add every key in a result; loads are those of contct run --json, and the name of a kernel is no key of the format."""
+    for key, inner in value.items() if isinstance(value, dict) else ():
+        if re.fullmatch(r"\w+", key):
+            found.add(key)
+        if key != "load":
+            keys_in(inner, found)
+    for entry in value if isinstance(value, list) else ():
+        keys_in(entry, found)
+
+
+def documented_keys(text):
+    """The keys that a page's JSON shows, and those in the first column of its tables or, in braces, in their cells."""
+    shown = set(re.findall(r'"(\w+)":', "".join(b.text for b in blocks(text) if b.language == "json")))
+    rows = [line for line in text.splitlines() if line.startswith("| `")]
+    first = {key for row in rows for key in re.findall(r"`(\w+)`", row.split("|")[1])}
+    braces = "".join(re.findall(r"`\{[^`]*\}`", "".join(rows)))
+    return shown | first | set(re.findall(r'"(\w+)"', braces))
+
+
+def plain_difference(documented, named, found):
+    """`named`: every name in backticks too, which may document a key, but need not be one."""
+    if missing := found - documented - named:
+        return f"written, not documented: {min(missing)}"
+    if missing := documented - found:
+        return f"documented, not written: {min(missing)}"
+    return None
+
+
+def plainly(program, root, plugin, bench, folder):
+    """What is wrong with the results of exact, explain and contct_bench raises a ValueError; returns a summary."""
+    pb07 = root / "reference/problems/pb07-three-gap-supports.toml"
+    (folder / "free.toml").write_text(FREE)
+    (folder / "long.toml").write_text(LONG)
+    near_tie, other_events = (root / f"reference/problems/{name}.toml" for name in ("divergences/near-tie", "pb08b-heavy-beam-up-4"))
+    results = {
+        "exact.md": [["exact", pb07, "--kernels", "fortran,corrected"], ["exact", "free.toml", "--kernels", "fortran"],
+                     ["exact", root / "reference/structures/frame.toml"]],
+        "explain-format.md": [["explain", pb07, "--exact"], ["explain", near_tie, "--exact"],
+                              ["explain", other_events, "--exact", "--kernels", "fortran-r4,cpp-r4"],
+                              ["explain", "long.toml", "--exact", "--increment", "1.1"],
+                              ["explain", root / "reference/structures/frame.toml"],
+                              ["explain", pb07, "--kernels", f"fortran,plugin:{plugin}"]],
+        "speed.md": [["--problem", "rail-3", "--engine", "refactor,updated", "--rounds", "1"]]}
+    count = 0
+    for page, lines in results.items():
+        text, found = (root / "reference" / page).read_text(), set()
+        for arguments in lines:
+            status = 4 if "free.toml" in arguments else 1 if str(arguments[-1]).startswith("fortran,plugin") else 0
+            keys_in(result_of(bench if page == "speed.md" else program, folder, arguments, status), found)
+        documented = documented_keys(text)
+        named = set(re.findall(r"`(\w+)`", text))
+        if difference := plain_difference(documented, named, found):
+            raise ValueError(f"{page}: {difference}")
+        for key in found:
+            if plain_difference(documented - {key}, named - {key}, found) is None:
+                raise ValueError(f"{page}: it is not noticed that {key} is missing")
+        if plain_difference(documented | {UNKNOWN}, named, found) is None:
+            raise ValueError(f"{page}: it is not noticed that no result has {UNKNOWN}")
+        count += len(found)
+    if count < LEAST_PLAIN:
+        raise ValueError(f"found {count} keys of exact, explain and contct_bench; allowed: {LEAST_PLAIN} or more")
+    return f"{count} keys of exact, explain and contct_bench"
+
+
+def main(program, root, plugin, bench):
+    program, root, plugin = str(Path(program).resolve()), Path(root).resolve(), Path(plugin).resolve()
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            print(with_schema(program, root, plugin, Path(folder)))
+            print(plainly(program, root, plugin, str(Path(bench).resolve()), Path(folder)))
+        except ValueError as wrong:
+            return str(wrong)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,168 @@
+"""program.py CONTCT REPLAY BENCH ROOT: what the manuals say of the programs' options and exit statuses.
+
+- Every option in the --help of contct, of each of its commands and of contct-replay stands in contct man, in the section of the
+  command; and the section has no other. No page shows an option that the program before it does not have.
+- The exit statuses are those of the source: in contct man and running.md all of them, in result-file.md each under the `status`
+  of a result that gives it. A run for each ends with it, and writes that `status`.
+- A missing entry of any of these must be noticed.
+"""
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+LEAST_OPTIONS, LEAST_SHOWN = 82, 110
+# Options of other programs that pages show: cmake, pkg-config, tests/run.sh and programs of the tests.
+FOREIGN = {"--preset", "--build", "--target", "--install", "--prefix", "--cflags", "--libs", "--full", "--check", "--page", "--only",
+           "--file"}
+PB07, NEAR_TIE = "problems/pb07-three-gap-supports", "problems/divergences/near-tie"
+RUNS = [(0, "solved", [PB07]), (1, "kernels-disagree", [PB07, "--free-run", "--kernels", "corrected,fortran"]),
+        (2, None, ["problems/no-such-problem"]), (3, "solved", [NEAR_TIE, "--strict"]),
+        (4, "mechanism", ["problems/divergences/locked-in-forces"]), (5, "iteration-limit", [PB07, "--max-increments", "1"])]
+
+
+def output(*line, status=0):
+    finished = subprocess.run(line, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if finished.returncode != status:
+        raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
+    return finished.stdout
+
+
+def options_in(help_text):
+    return set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", help_text, re.M))
+
+
+def options_by_command(contct, replay, bench):
+    """What --help has: the options of each command, of contct itself under "", of the other programs under their names."""
+    commands = re.findall(r"^  (\w+)  ", output(contct, "--help").split("Subcommands:")[1].split("Examples:")[0], re.M)
+    found = {name: options_in(output(contct, name, "--help")) for name in commands}
+    return found | {"": options_in(output(contct, "--help")), "contct-replay": options_in(output(replay, "--help")),
+                    "contct_bench": options_in(output(bench, "--help"))}
+
+
+def undocumented(man_page, options):
+    """An option that the manual page lacks or has too many, in words; None where there is none. contct-replay is contct replay."""
+    plain = man_page.replace("\\-", "-")
+    of_program = plain.split(".SH OPTIONS\n")[1].split(".SH COMMANDS\n")[0]
+    sections = {"": of_program}
+    for section in plain.split(".SH COMMANDS\n")[1].split(".SH EXIT STATUS\n")[0].split(".SS ")[1:]:
+        sections[re.match(r'"contct (\w+)', section).group(1)] = section
+    sections["contct-replay"] = sections.get("replay", "") + of_program
+    for command in options.keys() - {"contct_bench"}:
+        documented = set(re.findall(r"^\\fB(--[\w-]+)", sections.get(command, ""), re.M))
+        if different := documented ^ options[command]:
+            return f"contct man and --help: {command} {min(different)}"
+    return None
+
+
+def shown_options(text, options):
+    """(option, whether the program before it has it) for each option in a page's code, links left out."""
+    known = set().union(*options.values()) | FOREIGN
+    for code in re.findall(r"```.*?```|^    .*$|`[^`]+`", text, re.M | re.S):
+        for part in re.split(r"[|;\n]|&&", code.replace("\\\n", " ")):
+            named = re.search(r"\b(contct_bench|contct-replay|contct)(?: (\w+))?(?= |$|`)", part)
+            command = "" if not named else named[1] if named[1] != "contct" else named[2] or ""
+            for option in re.finditer(r"(?<![\w-])--[a-z][\w-]*", part):
+                is_its = command in options and command and option.start() > named.start()
+                yield option[0], option[0] in (options[command] if is_its else known)
+
+
+def statuses_in_source(root):
+    enum = re.search(r"enum class exit_status \{(.*?)\};", (root / "cpp/app/commands.hpp").read_text(), re.S).group(1)
+    return {int(value) for value in re.findall(r"= (\d+)", enum)}
+
+
+def statuses_in_man(man_page):
+    return {int(s) for s in re.findall(r"^\\fB(\d)\\fR", man_page.split(".SH EXIT STATUS\n")[1].split(".SH ")[0], re.M)}
+
+
+def statuses_in_running(text):
+    return {int(s) for s in re.findall(r"^\| (\d) \|", text.split("\n## Exit status")[1].split("\n## ")[0], re.M)}
+
+
+def statuses_in_result_file(text):
+    """{exit status: the `status` that gives it}; None where there is no file."""
+    rows = re.findall(r'^\| (?:`"([\w-]+)"`|no file) \| (.*) \|$', text.split("\n## Exit status")[1].split("\n## ")[0], re.M)
+    return {int(number): status or None for status, cell in rows for number in re.findall(r"\d", cell)}
+
+
+def wrong_statuses(root, man_page, running, result_file):
+    allowed = statuses_in_source(root)
+    if allowed != {status for status, _, _ in RUNS}:
+        return f"found the exit statuses {allowed} in the source, allowed: those of RUNS"
+    for where, found in (("contct man", statuses_in_man(man_page)), ("running.md", statuses_in_running(running)),
+                         ("result-file.md", set(statuses_in_result_file(result_file)))):
+        if different := allowed ^ found:
+            return f"{where} and the source: exit status {min(different)}"
+    for status, name, _ in RUNS:
+        if statuses_in_result_file(result_file)[status] != name:
+            return f"result-file.md: found {statuses_in_result_file(result_file)[status]} for exit status {status}, allowed: {name}"
+    return None
+
+
+def run_each(contct, root):
+    """Every exit status comes from a run, whose result has the `status`."""
+    with tempfile.TemporaryDirectory() as folder:
+        for status, name, (problem, *options) in RUNS:
+            file = Path(folder) / f"{status}.json"
+            output(contct, "run", str(root / f"reference/{problem}.toml"), "--quiet", "--json", str(file), *options, status=status)
+            found = json.loads(file.read_text())["status"] if file.exists() else None
+            if found != name:
+                raise ValueError(f"exit status {status}: found the status {found}, allowed: {name}")
+
+
+def without(lines, pattern):
+    """The text without one line that fits, for every such line."""
+    for number, line in enumerate(lines):
+        if re.match(pattern, line):
+            yield "\n".join(lines[:number] + lines[number + 1:])
+
+
+def unnoticed_faults(root, options, man_page, running, result_file):
+    """How many missing entries were noticed; a ValueError names the page in which one is not."""
+    faults = 0
+    for page in without(man_page.splitlines(), r"\\fB(\\-\\-|\d\\fR)"):
+        faults += 1
+        if undocumented(page, options) is None and wrong_statuses(root, page, running, result_file) is None:
+            raise ValueError("a line of contct man is missing, and that is not noticed")
+    for page in without(running.splitlines(), r"\| \d \|"):
+        faults += 1
+        if wrong_statuses(root, man_page, page, result_file) is None:
+            raise ValueError("a row of running.md is missing, and that is not noticed")
+    for page in without(result_file.splitlines(), r'\| (`"[\w-]+"`|no file) \|'):
+        faults += 1
+        if wrong_statuses(root, man_page, running, page) is None:
+            raise ValueError("a row of result-file.md is missing, and that is not noticed")
+    return faults
+
+
+def main(contct, replay, bench, root):
+    root = Path(root).resolve()
+    options, man_page = options_by_command(contct, replay, bench), output(contct, "man")
+    running, result_file = ((root / f"reference/{name}.md").read_text() for name in ("running", "result-file"))
+    if wrong := undocumented(man_page, options) or wrong_statuses(root, man_page, running, result_file):
+        return wrong
+    shown = 0
+    for page in [root / "README.md", *sorted((root / "reference").rglob("*.md"))]:
+        for option, known in shown_options(page.read_text(), options):
+            shown += 1
+            if not known:
+                return f"{page.relative_to(root)}: found {option}; allowed: an option of the program before it"
+    if all(known for _, known in shown_options("`contct check FILE --html F`", options)):
+        return "an option of another command is not noticed in a page"
+    count = sum(map(len, options.values()))
+    if count < LEAST_OPTIONS or shown < LEAST_SHOWN:
+        return f"found {count} options, and {shown} in pages; allowed: {LEAST_OPTIONS} and {LEAST_SHOWN} or more"
+    try:
+        faults = unnoticed_faults(root, options, man_page, running, result_file)
+        run_each(contct, root)
+    except ValueError as wrong:
+        return str(wrong)
+    print(f"{count} options, {shown} shown in pages, {len(RUNS)} exit statuses; {faults} missing entries noticed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

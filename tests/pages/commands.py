@@ -1,0 +1,130 @@
+"""commands.py ROOT PROGRAMS NOT_RUN LEAST [PAGE..]: runs every command that the pages outside the course show, and compares what
+comes out where a page shows that.
+
+A command stands in a block fenced as `sh` (the `text` block behind it is its output), in an indented line, or in a code span. FILE
+and other names in capitals stand for the files in NAMES. Every command ends with 0, or is in NOT_RUN with the reason why it is not
+run, "PAGE: COMMAND -> reason", or with the exit status with which it ends instead, "PAGE: COMMAND -> exit 1: reason". A code span that only names a command, as in "see `contct run`", is none. PROGRAMS is the release
+build. There must be LEAST commands or more that ran.
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "course"))
+from page import FENCE, difference  # noqa: E402
+
+PROGRAM = r"(?:[\w./]*/)?contct(?:[_-]\w+)?"
+BEGINS = re.compile(rf"(?:{PROGRAM}|sh|python3|cmake|cc|g\+\+|gfortran|ccx|export|mkdir|git)\s")
+READS_A_FILE = ("run", "check", "explain", "exact", "export", "replay")
+PB07 = "reference/problems/pb07-three-gap-supports.toml"
+NAMES = {"FILE": PB07, "F": "f.out", "JOB.inp": "job.inp", "RESULT.json": "result.json", "COMMAND": "run", "fortran,NAME": "fortran,cpp"}
+
+
+def is_mention(command):
+    """Does a code span only name a command, or one of its options?"""
+    named = re.fullmatch(rf"{PROGRAM}(?: (\w+))?(.*)", command)
+    if not named or (not named[1] and not named[2]):
+        return command in ("sh -c",)
+    if command.startswith("build/"):
+        return False
+    of_file = named[1] in READS_A_FILE and not re.search(r"\bFILE\b|\.\w+\b| -$", named[2])
+    return of_file or not named[2].strip()
+
+
+def commands_of(text):
+    """(line, command, lines shown as its output or None) in the page's order."""
+    found, blocks = [], list(FENCE.finditer(text))
+    for number, block in enumerate(blocks):
+        if block.group(1) != "sh":
+            continue
+        following = blocks[number + 1] if number + 1 < len(blocks) else None
+        line = text.count("\n", 0, block.start()) + 2
+        if following and following.group(1) == "text" and not text[block.end():following.start()].strip():
+            found.append((line, block.group(2).strip(), following.group(2).splitlines()))
+            continue
+        found += [(line, re.sub(r"\s+#.*", "", part), None) for part in block.group(2).replace("\\\n", " ").splitlines()]
+    prose = FENCE.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)
+    for m in re.finditer(r"^    (\S.*)$|`([^`]+)`", prose, re.M):
+        command = re.sub(r"\s{4,}.*", "", m[1]) if m[1] else " ".join(m[2].split())
+        if BEGINS.match(command) and (m[1] or not is_mention(command)):
+            found.append((text.count("\n", 0, m.start()) + 1, command, None))
+    return sorted(dict.fromkeys((line, command, tuple(shown) if shown else None) for line, command, shown in found),
+                  key=lambda entry: entry[0])
+
+
+def reasons(path):
+    """{(page, command): reason} of NOT_RUN."""
+    rows = [re.fullmatch(r"(\S+): (.*) -> (.*)", line) for line in path.read_text().splitlines() if line and line[0] != "#"]
+    return {(row[1], row[2]): row[3] for row in rows}
+
+
+def as_run(command):
+    """The command with files in the place of names, and without man where there is none."""
+    if not shutil.which("man"):
+        command = command.replace(" | man -l -", "")
+    words = [NAMES.get(word, word) for word in command.split(" ")]
+    if words[:2] == ["contct", "new"]:
+        words = [word.replace(PB07, "new.toml") for word in words]
+    return " ".join(words)
+
+
+class place:
+    """A copy of what the pages' commands use, in which they may write: the project's root with the release build."""
+
+    def __init__(self, root, programs):
+        self.folder = tempfile.TemporaryDirectory()
+        here = Path(self.folder.name)
+        shutil.copytree(root / "reference", here / "reference")
+        for name in ("README.md", "cpp", "fortran", "tests"):
+            (here / name).symlink_to(root / name)
+        for file in (root / "reference/structures").iterdir():
+            if file.is_file():
+                shutil.copy(file, here)
+        (here / "build").mkdir()
+        (here / "build/release").symlink_to(programs)
+        self.path = programs
+
+    def run(self, command):
+        with open(Path(self.folder.name) / PB07) as problem:
+            finished = subprocess.run(["sh", "-euc", f'PATH="{self.path}:$PATH"\n{command}'], cwd=self.folder.name, stdin=problem,
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return [line.rstrip() for line in finished.stdout.splitlines()], finished.returncode
+
+
+def wrong_in(here, command, shown, allowed):
+    """What is wrong with a command, in words; None where nothing is."""
+    lines, status = here.run(as_run(command))
+    if status != allowed:
+        return f"found exit status {status}, allowed: {allowed}\n" + "\n".join(lines[-5:])
+    return difference(shown, lines) if shown else None
+
+
+def main(root, programs, not_run, least, *only):
+    root, programs = Path(root).resolve(), Path(programs).resolve()
+    excused, used, ran = reasons(Path(not_run)), set(), 0
+    pages = [root / "README.md", *sorted((root / "reference").rglob("*.md"))]
+    for page in [Path(name) for name in only] or [page for page in pages if page.parent.name != "course"]:
+        here, name = place(root, programs), str(page.resolve().relative_to(root))
+        for line, command, shown in commands_of(page.read_text()):
+            reason = excused.get((name, command), "")
+            used.add((name, command))
+            ends = re.match(r"exit (\d): ", reason)
+            if reason and not ends:
+                continue
+            print(f"{name}:{line}: {command}", flush=True)
+            if wrong := wrong_in(here, command, shown, int(ends[1]) if ends else 0):
+                return f"{name}:{line}: {command}: {wrong}"
+            ran += 1
+    if unused := [] if only else sorted(excused.keys() - used):
+        return f"{not_run}: found {': '.join(unused[0])}; allowed: a command that this page shows"
+    if ran < int(least):
+        return f"found {ran} commands, allowed: {least} or more"
+    print(f"{ran} commands ran; {len(excused)} are not run, or end with another exit status than 0, for a reason")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
