@@ -28,9 +28,12 @@ class path {
     begin_step(step, total_load);  // R* = the step's total load less the previous one's
     for (int number = 1; number <= increments_allowed_; ++number) {
       const response w_star = policy_->respond();  // K w* = R*, with the springs of the pairs now in contact
-      if (w_star == response::none) return set_free(step);
-      double s_min = policy_->ask();  // the kernel gives s_min and toggles statuses
-      if (!policy_->accept(s_min)) return set_free(step);
+      double s_min = 0.0;
+      if (w_star != response::none) s_min = policy_->ask();  // the kernel gives s_min and toggles statuses
+      if (w_star == response::none || !policy_->accept(s_min)) {
+        if (policy_->go_on_ahead(number)) continue;
+        return set_free(step);
+      }
       const bool moved = now_.advance(s_min);                               // D <- D + s_min d*
       if (w_star == response::elastic) now_.residual.share *= 1.0 - s_min;  // R* <- (1 - s_min) R*
       now_.tell_increment(number, s_min, w_star == response::rigid);
@@ -38,8 +41,7 @@ class path {
       now_.switch_springs();  // of the pairs that the kernel toggled
       if (s_min == 1.0) return end_step(step, number);
       if (!cycles_.repeats(moved, now_.status, now_.events)) continue;
-      if (!policy_->step_over_cycle(++number))
-        return stop(path_status::cycle, step, cycles_.restless_pairs());
+      if (!policy_->go_on_ahead(++number)) return stop(path_status::cycle, step, cycles_.restless_pairs());
       cycles_.reset();
     }
     return stop(path_status::iteration_limit, step, cycles_.restless_pairs());

@@ -65,15 +65,14 @@ class stabilized_policy final : public path_policy {
     last_toggled_at_rest_ = -1;
   }
 
-  /// At constant load only rounding moves such pairs; a billionth of the load further, the reference solution
-  /// knows which of them are in contact.
-  bool step_over_cycle(int number) override {
+  /// A billionth of the load further, the reference solution knows which pairs are in contact.
+  bool go_on_ahead(int number) override {
     constexpr double ahead = 0x1p-30;
     constexpr int most_a_step = 8;
-    if (stepped_over_in_ != now_.step) cycles_stepped_over_ = 0;
-    stepped_over_in_ = now_.step;
+    if (went_ahead_in_ != now_.step) times_ahead_ = 0;
+    went_ahead_in_ = now_.step;
     const double share = now_.residual.share;
-    if (!fallback_ || share <= 2 * ahead || ++cycles_stepped_over_ > most_a_step) return false;
+    if (!fallback_ || share <= 2 * ahead || ++times_ahead_ > most_a_step) return false;
     now_.residual.share = share - ahead;
     const std::optional<equilibrium_state> found = fallback_(0, now_.applied_load());
     if (!found) {
@@ -265,8 +264,8 @@ class stabilized_policy final : public path_policy {
   bool rigid_ = false;                // the last response
   int at_rest_ = 0;                   // answers in a row with SMIN = 0
   int last_toggled_at_rest_ = -1;     // the pair that the last answer without progress toggled
-  int stepped_over_in_ = 0;           // the step in which cycles were stepped over
-  int cycles_stepped_over_ = 0;       // and how many
+  int went_ahead_in_ = 0;             // the last step in which the path went on ahead
+  int times_ahead_ = 0;               // and how often it did there
   std::vector<int> kept_in_contact_;  // pairs that are not asked until the load advances
   std::vector<int> holding_;          // separated pairs whose springs hold the structure for a solve
   std::vector<double> d_test_;        // d* with 0 for the pairs kept in contact [pairs]

@@ -54,9 +54,10 @@ class path_policy {
   /// Can the structure be solved for as it stands?
   [[nodiscard]] virtual bool can_be_held() { return now_.held(); }
 
-  /// The same pairs toggle for ever: go on from a state a little further along the load, as an increment of
-  /// this number. False when there is no such means.
-  virtual bool step_over_cycle(int /*number*/) { return false; }
+  /// The same pairs toggle for ever, or nothing stops the structure, and rounding alone may be the reason: go
+  /// on from a state a little further along the load, as an increment of this number. False when there is no
+  /// such means, or no such state.
+  virtual bool go_on_ahead(int /*number*/) { return false; }
 
   /// Is there no equilibrium at the end of the step, for certain?
   [[nodiscard]] virtual bool cannot_stand() const { return false; }
