@@ -448,15 +448,14 @@ TEST_CASE("the listing's rule is wrong often enough to be caught, and right at o
   CHECK(t.fallbacks == 0);
 }
 
-TEST_CASE("the oracle ends what a path cannot, and the state is as right as any") {
-  // Balanced on its middle, or turning by rounding alone: one in several hundred free beams needs help.
+TEST_CASE("1500 free beams reach their ends without the reference solution") {
   random_problem_kind kind;
   kind.free_share = 1.0;
   kind.plate_share = 0.0;
   const judged_problems t = try_problems(1, 1500, kind, "corrected");
   INFO(t);
-  CHECK(t.fallbacks > 0);
-  CHECK(t.fallbacks < 15);
+  CHECK(t.steps > 3000);
+  CHECK(t.fallbacks < 3);
 }
 
 TEST_CASE("what a certificate measures is taken into account: the largest errors") {

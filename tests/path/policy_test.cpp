@@ -317,12 +317,12 @@ TEST_CASE("nobody rescues a path under the listing's rule, nor one without an eq
   made_kernel k = endless();
   recorder r;
   CHECK(p.run(k, {&r}, none).status == path_status::cycle);
-  CHECK(asked == 1);
+  CHECK(asked == 2);  // for a state a little ahead, and at the end
   REQUIRE(r.steps.size() == 1);
   CHECK_FALSE(r.steps[0].from_fallback);
   made_kernel listing = endless("listing");
   CHECK(p.run(listing, {}, none).status == path_status::cycle);
-  CHECK(asked == 1);
+  CHECK(asked == 2);
 }
 
 TEST_CASE("after a rescue the path goes on from the equilibrium that it was given") {
@@ -343,7 +343,8 @@ TEST_CASE("after a rescue the path goes on from the equilibrium that it was give
   recorder sound;
   REQUIRE(p.run("corrected", {&sound}).status == path_status::solved);
   REQUIRE(sound.steps[0].isep == std::vector<int>{in_contact, in_contact});
-  const path_limits limits{0, [&](int, std::span<const double>) -> std::optional<equilibrium_state> {
+  const path_limits limits{0, [&](int step, std::span<const double>) -> std::optional<equilibrium_state> {
+                             if (step == 0) return {};  // not ahead
                              from_fallback = true;
                              return equilibrium_state{sound.steps[0].u, {1, 1}};
                            }};
@@ -439,4 +440,35 @@ TEST_CASE("recovery is refined: a span of 40 elements has its middle to 14 digit
   CHECK(u[40] == Approx((-without + 4 * f) / (1 + 2 * f)).epsilon(1e-14));
   CHECK(u[0] == 0.0);
   CHECK(u[80] == 0.0);
+}
+
+TEST_CASE("a path that would toggle for ever goes on from a state a billionth of the load ahead") {
+  const beam_problem p = cantilever_on_two();
+  recorder sound;
+  REQUIRE(p.run("corrected", {&sound}).status == path_status::solved);
+  std::vector<double> asked_for;
+  made_kernel k([&asked_for, calls = 0](call<double>& c) mutable {
+    if (!asked_for.empty()) return contct_corrected(c);
+    c.smin = 0.0;
+    const std::size_t i = calls++ % 2 == 0 ? 0 : 1;
+    c.isep[i] = -c.isep[i];
+  });
+  const path_limits limits{0,
+                           [&](int step, std::span<const double> load) -> std::optional<equilibrium_state> {
+                             CHECK(step == 0);
+                             asked_for.assign(load.begin(), load.end());
+                             return equilibrium_state{std::vector<double>(6), {0, 0}};
+                           }};
+  recorder r;
+  CHECK(p.run(k, {&r}, limits).status == path_status::solved);
+  REQUIRE(asked_for.size() == 6);
+  CHECK(asked_for[4] == Approx(p.steps[0].points[0].value * 0x1p-30).epsilon(1e-12));
+  REQUIRE(r.steps.size() == sound.steps.size());
+  CHECK_FALSE(r.steps[0].from_fallback);
+  CHECK(r.steps[0].isep == sound.steps[0].isep);
+  for (std::size_t dof = 0; dof < 6; ++dof)
+    CHECK(r.steps[0].u[dof] == Approx(sound.steps[0].u[dof]).epsilon(1e-8));
+  bool told = false;
+  for (const auto& i : r.increments) told = told || i.fraction == 0x1p-30;
+  CHECK(told);
 }

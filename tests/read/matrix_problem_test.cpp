@@ -419,3 +419,43 @@ TEST_CASE("a matrix that is no stiffness is refused where it is factored, with i
   CHECK_THAT(message, Catch::Matchers::Contains("K.mtx: the matrix is not positive semidefinite"));
   CHECK_THAT(message, Catch::Matchers::Contains("allowed: none below -1e-10"));
 }
+
+TEST_CASE("where half a unit in a matrix's last digits decides whether it is held, nothing is certified") {
+  const scratch_folder to;
+  const auto certificate_of = [&to](const std::string& last_entry, const std::string& more) {
+    (void)to.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 -1\n2 2 " +
+                                last_entry + "\n");
+    const problem p = read_problem(to.write(
+        "p.toml",
+        "[matrix]\nstiffness = \"K.mtx\"\n" + more +
+            "[[contact]]\ndof = \"2\"\nsurface = \"above\"\nface = 1\nstiffness = 1e-13\n"
+            "[[step]]\npoint = [{ dof = \"1\", value = 1 }, { dof = \"2\", value = -0.9999999 }]\n"));
+    const linear_structure s = structure_of(p);
+    certifier judged(p, s);
+    observer* const watching[] = {&judged};
+    (void)find_final_states(s, 1, loads_of(p, s), watching, &judged);
+    REQUIRE(judged.steps().size() == 1);
+    return *judged.steps()[0];
+  };
+  CHECK(certificate_of("1.00000000000005", "").exact);  // 5e-14 is stiffness, but for half of 1e-14
+  const certificate doubtful = certificate_of("1.0000000000000", "");  // as CalculiX writes a free body
+  CHECK_FALSE(doubtful.exact);
+  CHECK_THAT(doubtful.problem, Catch::Matchers::Contains("`free_motions` says"));
+  CHECK(certificate_of("1.0000000000000", "free_motions = 1\n").exact);
+  CHECK(certificate_of("1", "").exact);  // whole numbers are not rounded
+}
+
+TEST_CASE(
+    "the places where numbers of a matrix were rounded are those of the file, whatever zeros it leaves out") {
+  const auto digits = [](const std::string& a, const std::string& b, const std::string& c) {
+    return parse_symmetric("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 " + a + "\n2 1 " + b +
+                               "\n2 2 " + c + "\n",
+                           "K.mtx")
+        .last_digits;
+  };
+  constexpr auto exact = sparse_matrix::exact_entry;
+  CHECK(digits("1", "-1", "2").empty());
+  CHECK(digits("1", "-0.5", "2.25") == std::vector<std::int16_t>{exact, -3, -2});    // to three digits
+  CHECK(digits("12.50", "-0.01", "2.00") == std::vector<std::int16_t>{-2, -2, -2});  // to two places
+  CHECK(digits("1.25000E+03", "-1.00000E-02", "2.00000E+00") == std::vector<std::int16_t>{-2, -7, -5});
+}

@@ -19,6 +19,17 @@ TEST_CASE("what is no decimal is none") {
     CHECK_FALSE(decimal_in(none).has_value());
 }
 
+TEST_CASE("the last digit that is written is where a number was rounded, but for whole numbers") {
+  CHECK(last_written_digit("1.250") == -3);
+  CHECK(last_written_digit("-1.25e4") == 2);
+  CHECK(last_written_digit("1.0000000000000D+00") == -13);
+  CHECK(last_written_digit("5e-324") == -324);
+  CHECK(last_written_digit("2.") == 0);
+  CHECK_FALSE(last_written_digit("-2").has_value());
+  CHECK_FALSE(last_written_digit("1_000").has_value());
+  CHECK_FALSE(last_written_digit("x").has_value());
+}
+
 TEST_CASE("a literal is the shortest decimal or not, whatever zeros and signs it has") {
   CHECK(is_shortest("0.1", 0.1));
   CHECK(is_shortest("1.0000000000000000000000e-1", 0.1));

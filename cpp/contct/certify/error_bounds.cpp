@@ -175,12 +175,32 @@ bool error_prover::proves(const std::vector<int>& closed) {
   return mu_ > 0.0;
 }
 
+bool error_prover::last_digits_decide() const {
+  const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
+  if (a == nullptr || a->free_motions || a->stiffness.last_digits.empty()) return false;
+  std::vector<double> rows(true_.dofs());  // of S H S, where H has the half units
+  for (std::size_t i = 0; i < a->stiffness.entries.size(); ++i) {
+    const matrix_entry& e = a->stiffness.entries[i];
+    if (true_.fixed[e.row] != 0 || true_.fixed[e.column] != 0) continue;
+    const double scaled = a->stiffness.half_unit(i) * stiffness_.scale(e.row) * stiffness_.scale(e.column);
+    rows[e.row] += scaled;
+    if (e.row != e.column) rows[e.column] += scaled;
+  }
+  return !(std::ranges::max(rows) * (1 + of_sums) < mu_);
+}
+
 /// A: at first all pairs beyond their faces; those that are not so for certain leave it again.
 bool error_prover::find_closed(std::span<const double_double> u, const residual& r, error_bounds& b) {
   b.closed = pressed(u);
   for (int tries = 0; tries < 3; ++tries) {
     if (!proves(b.closed)) {
       b.not_proved = "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
+      return false;
+    }
+    if (last_digits_decide()) {
+      b.not_proved =
+          "half a unit in the last digits that the matrix is written with decides whether it is held: "
+          "`free_motions` says how many motions it leaves free";
       return false;
     }
     const std::optional<double> rho = norm_of(r, mu_);

@@ -109,6 +109,9 @@ class error_prover {
   [[nodiscard]] bool is_unloaded(const true_loads& l) const;
   void bound_unloaded(const handed_out& state, error_bounds& b);
   [[nodiscard]] bool proves(const std::vector<int>& closed);
+  /// Can half a unit in the last digits of a matrix, that does not say how many motions it leaves free, make
+  /// K_A indefinite?
+  [[nodiscard]] bool last_digits_decide() const;
   [[nodiscard]] std::optional<double> norm_of(const residual& r, double mu);
   void keep(const handed_out& state, const long_vector& u, const error_bounds& b);
   bool find_closed(std::span<const double_double> u, const residual& r, error_bounds& b);

@@ -1,6 +1,7 @@
 // Symmetric matrices without their zeros, in three storages; and the stiffness matrix K of a structure.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -68,6 +69,19 @@ struct matrix_entry {
 struct sparse_matrix {
   int order = 0;
   std::vector<matrix_entry> entries;
+  /// [entries] the last digit that the file has of each, as its power of ten; exact_entry where there is no
+  /// rounding behind it. Empty: all are exact.
+  std::vector<std::int16_t> last_digits = {};
+  static constexpr std::int16_t exact_entry = -32768;
+  /// Half a unit in the last digit of an entry.
+  [[nodiscard]] double half_unit(std::size_t entry) const {
+    if (last_digits.empty() || last_digits[entry] == exact_entry) return 0.0;
+    return 0.5 * std::pow(10.0, last_digits[entry]);
+  }
+
+  /// By how much x'A x is in doubt: half a unit in the last digits of the entries, and what rounds away where
+  /// a program adds up an entry in doubles, two units in the last place beside the diagonals.
+  [[nodiscard]] double doubt(std::span<const double> x) const;
 
   /// y = A x in long double.
   [[nodiscard]] std::vector<long double> times(std::span<const double> x) const;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "contct/text/decimal.hpp"
@@ -17,11 +19,12 @@ constexpr std::int64_t most_rows = std::numeric_limits<int>::max() - 1;
 constexpr std::int64_t most_entries = std::numeric_limits<int>::max() - 1;
 constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and its line's end
 
-/// An entry of the lower triangle, row >= column, from 0, and the line that it was read from. 24 bytes.
+/// An entry of the lower triangle, row >= column, from 0, and the line that it was read from. 32 bytes.
 struct read_entry {
   int row, column;
   double value;
   std::int64_t line;
+  int last_digit;  ///< its power of ten, or sparse_matrix::exact_entry
 };
 
 /// Literals that are not the shortest decimals of their values, by their lines; only where asked for.
@@ -97,6 +100,33 @@ void refuse_indefinite(const std::vector<read_entry>& entries, int order, std::s
   }
 }
 
+/// Where each entry was rounded when it was written. A program writes all of them alike: to as many places
+/// behind the point, or to as many digits, of which it may leave out zeros at the end. Whole numbers are
+/// exact.
+std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries) {
+  constexpr int exact = sparse_matrix::exact_entry;
+  const auto first_digit = [](const read_entry& e) {
+    return static_cast<int>(std::floor(std::log10(std::abs(e.value))));
+  };
+  int most_digits = 0;
+  bool same_place = true;
+  std::optional<int> place;
+  for (const read_entry& e : entries) {
+    if (e.value == 0 || e.last_digit == exact) continue;
+    most_digits = std::max(most_digits, first_digit(e) - e.last_digit + 1);
+    same_place = same_place && place.value_or(e.last_digit) == e.last_digit;
+    place = e.last_digit;
+  }
+  if (!place) return {};
+  std::vector<std::int16_t> digits;
+  for (const read_entry& e : entries) {
+    if (e.value == 0) continue;
+    const int rounded = same_place ? *place : first_digit(e) - most_digits + 1;
+    digits.push_back(static_cast<std::int16_t>(e.last_digit == exact ? exact : rounded));
+  }
+  return digits;
+}
+
 /// The matrix, without entries that are 0. Linear in the entries.
 sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file,
                         const kept_literals& kept, std::vector<std::string>* written) {
@@ -107,7 +137,7 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   sort_entries(entries, order);
   refuse_repeated(entries, file);
   refuse_indefinite(entries, order, file);
-  sparse_matrix matrix{order, {}};
+  sparse_matrix matrix{order, {}, last_digits_of(entries)};
   for (const read_entry& e : entries) {
     if (e.value == 0) continue;
     matrix.entries.push_back({e.row, e.column, e.value});
@@ -149,7 +179,8 @@ read_entry entry_in(const field_lines& lines, int rows, int columns, std::string
                     bool fortran = false) {
   lines.expect(3, "row, column and value");
   return {lines.whole(0, 1, rows, "the row") - 1, lines.whole(1, 1, columns, "the column") - 1,
-          lines.real(2, what, fortran), lines.line()};
+          lines.real(2, what, fortran), lines.line(),
+          last_written_digit(lines.field(2)).value_or(sparse_matrix::exact_entry)};
 }
 
 /// Call `read` at each line behind the line of the size, which says how many there are.

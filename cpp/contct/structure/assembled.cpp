@@ -35,7 +35,12 @@ linear_structure build(const assembled& a, std::span<const support> supports,
   // These are the motions that the supports leave free: the supports hold none of them.
   free_motions motions;
   try {
-    motions = find_free_motions(s.stiffness, a.free_motions);
+    motions = find_free_motions(s.stiffness, a.free_motions, [&](std::span<const double> in_rows) {
+      std::vector<double> u(in_rows.size());
+      for (std::size_t dof = 0; dof < u.size(); ++dof)
+        u[dof] = s.fixed[dof] != 0 ? 0.0 : in_rows[s.row_of(dof)];
+      return a.stiffness.doubt(u);
+    });
   } catch (const std::invalid_argument& e) {
     throw std::invalid_argument(a.name + ": " + e.what());
   }

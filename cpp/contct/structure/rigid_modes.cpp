@@ -185,15 +185,29 @@ std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const fr
   return rows;
 }
 
-void refuse_count(const numbers& values, std::optional<int> known) {
+/// How many of the softest are free: no stiffer than rounding makes them, nor than is in doubt.
+int count_in_doubt(const subspace& space, const numbers& d,
+                   const std::function<double(std::span<const double>)>& doubt) {
+  int count = count_free(space.values);
+  if (!doubt) return count;
+  const double of_values = 8 * std::numeric_limits<double>::epsilon() * space.values.back();  // dsyev's
+  for (int i = 0; i < count; ++i) {
+    numbers u = space.vectors[i];
+    for (std::size_t r = 0; r < u.size(); ++r) u[r] *= d[r];
+    if (space.values[i] > doubt(u) + of_values) return i;
+  }
+  return count;
+}
+
+void refuse_count(const numbers& values, int in_doubt, std::optional<int> known) {
   if (values.front() < -negative_beyond) refuse_negative("of " + short_words(values.front()));
   const std::size_t declared = known.value_or(0);
   if (declared > values.size() || (declared > 0 && values[declared - 1] > free_if_declared))
     throw std::invalid_argument(
         "free_motions: found " + std::to_string(declared) +
         "; allowed: the number of rigid-body motions of the matrix on its supports, " +
-        std::to_string(count_free(values)));
-  if (!known && count_free(values) > most_rigid_motions)
+        std::to_string(in_doubt));
+  if (!known && in_doubt > most_rigid_motions)
     throw std::invalid_argument(
         "the matrix, on its supports, has more than " + std::to_string(most_rigid_motions) +
         " rigid-body motions; allowed: those of one body, or parts that supports hold");
@@ -201,7 +215,8 @@ void refuse_count(const numbers& values, std::optional<int> known) {
 
 }  // namespace
 
-free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> known) {
+free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> known,
+                               const std::function<double(std::span<const double>)>& doubt) {
   free_motions found;
   found.rows.assign(k.order(), rigid_row{});
   if (known.value_or(0) == 0) {
@@ -212,8 +227,9 @@ free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> kno
   const stiffness_matrix a = scaled(k, d);
   subspace space(a);
   converge(space, known);
-  refuse_count(space.values, known);
-  found.count = known.value_or(count_free(space.values));
+  const int in_doubt = count_in_doubt(space, d, doubt);
+  refuse_count(space.values, in_doubt, known);
+  found.count = known.value_or(in_doubt);
   const std::size_t m = found.count;
   if (m == 0) return found;
   double off = std::numeric_limits<double>::epsilon();

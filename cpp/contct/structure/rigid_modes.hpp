@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -94,8 +95,7 @@ class rigid_rank {
 };
 
 /// With its diagonal scaled to 1, which removes the units, a stiffness matrix has eigenvalues between 0 and
-/// a few. One up to this size counts as 0, and its motion as free: matrices in files have 14 digits or
-/// more, and a beam of 1000 elements bends with 5e-13 as a cantilever, with 2e-11 where it is free.
+/// a few. One up to this size may count as 0, and its motion as free, where the matrix does not say better.
 inline constexpr double free_below = 1e-13;
 /// A matrix with one below minus this is refused as not positive semidefinite.
 inline constexpr double negative_beyond = 1e-10;
@@ -109,11 +109,15 @@ struct free_motions {
 };
 
 /// Find them in `k`, whose diagonal is positive. `known`: how many there are, where that is known; they must
-/// then be free to 1e-10. Takes a factorisation, and up to three times that and some forty solves where the
-/// matrix is close to leaving something free; memory for K once more and a factor.
+/// then be free to 1e-10. `doubt`: by how much u'K u is in doubt for u [rows]; a soft motion is stiffness,
+/// and not free, where there is less doubt than stiffness. Takes a factorisation, and up to three times that
+/// and some forty solves where the matrix is close to leaving something free; memory for K once more and a
+/// factor.
 ///
 /// Throws std::invalid_argument when k has a negative eigenvalue, leaves more than six motions free, or
 /// fewer than `known`; the message calls it "the matrix".
-[[nodiscard]] free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> known);
+[[nodiscard]] free_motions find_free_motions(
+    const stiffness_matrix& k, std::optional<int> known,
+    const std::function<double(std::span<const double> u)>& doubt = nullptr);
 
 }  // namespace contct::structure

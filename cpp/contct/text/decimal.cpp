@@ -68,6 +68,22 @@ std::optional<decimal> decimal_in(std::string_view literal) {
   return d;
 }
 
+std::optional<int> last_written_digit(std::string_view literal) {
+  (void)take_minus(literal);
+  const bool is_whole = take_digits(literal).size() > 0 && literal.empty();
+  if (is_whole) return std::nullopt;
+  std::size_t behind_point = 0;
+  if (!literal.empty() && literal.front() == '.') {
+    literal.remove_prefix(1);
+    behind_point = take_digits(literal).size();
+  }
+  const std::optional<std::int64_t> exponent = exponent_in(literal);
+  if (!exponent) return std::nullopt;
+  constexpr std::int64_t most = 1000;  // beyond any double
+  return static_cast<int>(std::clamp(*exponent, -most, most)) -
+         static_cast<int>(std::min<std::size_t>(behind_point, most));
+}
+
 decimal shortest_decimal(double x) {
   std::array<char, 64> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);

@@ -28,6 +28,10 @@ inline constexpr std::size_t most_literal_digits = 1000;
 /// infinite, empty.
 [[nodiscard]] std::optional<decimal> decimal_in(std::string_view literal);
 
+/// The power of ten of the last digit that is written: -3 of "1.250", 2 of "1.25e4". Nothing where `literal`
+/// is no decimal, and for whole numbers without point and exponent, which nothing has rounded.
+[[nodiscard]] std::optional<int> last_written_digit(std::string_view literal);
+
 /// The shortest decimal that reads as `x`, which is finite.
 [[nodiscard]] decimal shortest_decimal(double x);
 
