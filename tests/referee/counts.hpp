@@ -29,6 +29,8 @@ struct judged_problem {
   std::array<judgement, ways> judgements;
 };
 [[nodiscard]] judged_problem judge_all_ways(const drawn_problem& p);
+/// The same by judge_end.
+[[nodiscard]] judged_problem judge_all_ends(const drawn_problem& p);
 
 /// Counts of problems of one kind, or of one way.
 struct kind_counts {
@@ -58,9 +60,11 @@ struct referee_counts {
 using judgement_sink = std::function<void(std::uint64_t number, const judged_problem& p)>;
 
 /// Judge problems 0 to `count` - 1, or those of one kind among them, on `jobs` threads; the counts do not
-/// depend on `jobs`.
+/// depend on `jobs`. Of each 2 `exact_every` problems two are judged by their exact paths, the others by
+/// their ends.
 [[nodiscard]] referee_counts judge_many(std::uint64_t count, std::uint64_t seed, int jobs,
-                                        const judgement_sink& tell = {}, const std::string& only_kind = {});
+                                        const judgement_sink& tell = {}, const std::string& only_kind = {},
+                                        std::uint64_t exact_every = 1);
 
 /// The table: a row a kind, then the ways.
 [[nodiscard]] std::string table_of(const referee_counts& c);

@@ -1,11 +1,10 @@
 // The exact path as referee of the corrected rule and its certificate:
-//     contct_referee COUNT SEED [--jobs N] [--kind KIND] [--ceilings FILE] [--list] [--examples]
-//     contct_referee --only NUMBER SEED
-//     contct_referee --file PROBLEM.toml
+//     contct_referee COUNT SEED [--jobs N] [--kind KIND] [--exact-every N] [--ceilings FILE] [--list]
+//     [--examples] contct_referee --only NUMBER SEED contct_referee --file PROBLEM.toml
 // Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails where a
 // count is above its ceiling or too little was compared. --list prints everything that is wrong, --examples
 // the worst problems as files; --only prints one problem and all that is wrong with it, --file does so for a
-// problem file.
+// problem file. With --exact-every N only so many are judged by their exact paths, the others by their ends.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -26,7 +25,7 @@ using namespace contct::referee;
 namespace {
 
 struct options {
-  std::uint64_t count = 0, seed = 0, only = 0;
+  std::uint64_t count = 0, seed = 0, only = 0, exact_every = 1;
   bool only_one = false, list = false, examples = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string problem_file = {}, kind = {};
@@ -34,12 +33,12 @@ struct options {
 };
 
 [[noreturn]] void refuse(std::string_view found) {
-  fmt::print(
-      stderr,
-      "contct_referee: found {}; allowed: COUNT SEED [--jobs N] [--kind KIND] [--ceilings FILE] [--list] "
-      "[--examples], or --only "
-      "NUMBER SEED, or --file PROBLEM\n",
-      found);
+  fmt::print(stderr,
+             "contct_referee: found {}; allowed: COUNT SEED [--jobs N] [--kind KIND] [--exact-every N] "
+             "[--ceilings FILE] [--list] "
+             "[--examples], or --only "
+             "NUMBER SEED, or --file PROBLEM\n",
+             found);
   std::exit(2);
 }
 
@@ -68,6 +67,8 @@ options options_of(int argc, char** argv) {
       o.problem_file = value();
     } else if (a == "--jobs") {
       o.jobs = std::max(1, static_cast<int>(number_in(value())));
+    } else if (a == "--exact-every") {
+      o.exact_every = std::max<std::uint64_t>(1, number_in(value()));
     } else if (a == "--only") {
       o.only_one = true;
       o.only = number_in(value());
@@ -126,7 +127,7 @@ int judge_all(const options& o) {
   if (!o.kind.empty()) std::erase_if(allowed, [&o](const auto& row) { return row.first != o.kind; });
   const auto started = std::chrono::steady_clock::now();
   const referee_counts counts =
-      judge_many(o.count, o.seed, o.jobs, o.list ? print_findings : judgement_sink{}, o.kind);
+      judge_many(o.count, o.seed, o.jobs, o.list ? print_findings : judgement_sink{}, o.kind, o.exact_every);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
   fmt::print("{} problems, seed {}, {:.1f} s\n{}", o.count, o.seed, taken.count(), table_of(counts));
   print_worst(o, counts);

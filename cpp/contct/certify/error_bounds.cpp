@@ -145,24 +145,26 @@ std::vector<int> error_prover::pressed(std::span<const double_double> u) const {
   return pairs;
 }
 
-/// The pairs beyond their faces, and where these do not hold the structure, those nearest to theirs that do.
-std::vector<int> error_prover::holding(std::span<const double_double> u) const {
-  std::vector<int> pairs = pressed(u);
-  std::vector<char> is_pressed(true_.pairs.size());
-  for (const int pair : pairs) is_pressed[pair] = 1;
-  rigid_rank rank = structure_.held_by([&](std::size_t i) { return is_pressed[i] != 0; });
-  if (structure_.is_held(rank)) return pairs;
+rigid_rank error_prover::held_by(const std::vector<int>& closed) const {
+  return structure_.held_by(
+      [&](std::size_t i) { return std::ranges::binary_search(closed, static_cast<int>(i)); });
+}
+
+/// `closed`, and where these do not hold the structure, those nearest to their faces that do.
+std::vector<int> error_prover::holding(std::span<const double_double> u, std::vector<int> closed) const {
+  rigid_rank rank = held_by(closed);
+  if (structure_.is_held(rank)) return closed;
   std::vector<int> nearest;
-  for (std::size_t i = 0; i < is_pressed.size(); ++i)
-    if (is_pressed[i] == 0 && true_.fixed[true_.pairs[i].dof] == 0) nearest.push_back(static_cast<int>(i));
+  for (int i = 0; i < static_cast<int>(true_.pairs.size()); ++i)
+    if (true_.fixed[true_.pairs[i].dof] == 0 && !std::ranges::binary_search(closed, i)) nearest.push_back(i);
   std::ranges::stable_sort(nearest, {}, [&](int i) { return -depth(i, u).hi; });
   for (const int i : nearest) {
     const int before = rank.rank();
     rank.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
-    if (rank.rank() > before) pairs.push_back(i);
+    if (rank.rank() > before) closed.push_back(i);
   }
-  std::ranges::sort(pairs);
-  return pairs;
+  std::ranges::sort(closed);
+  return closed;
 }
 
 /// Factor K_A; is it definite for certain?
@@ -208,19 +210,57 @@ bool error_prover::find_closed(std::span<const double_double> u, const residual&
       b.not_proved = "the numbers are too large or too small";
       return false;
     }
-    const std::size_t before = b.closed.size();
-    std::erase_if(b.closed, [&](int i) {
-      const true_pair& p = true_.pairs[i];
-      const double moved = std::min(reach(p.dof), (1 + of_sums) / std::sqrt(p.stiffness.hi)) * *rho;
-      return !(depth(i, u).hi * (1 - of_sums) - doubt(i, u) > moved);
-    });
-    if (b.closed.size() == before) {
+    if (!erase_doubtful(u, *rho, b.closed)) {
       b.rho = *rho;
       return true;
     }
   }
   b.not_proved = "which pairs are in contact is not certain";
   return false;
+}
+
+bool error_prover::erase_doubtful(std::span<const double_double> u, double rho,
+                                  std::vector<int>& closed) const {
+  return std::erase_if(closed, [&](int i) {
+           const true_pair& p = true_.pairs[i];
+           const double moved = std::min(reach(p.dof), (1 + of_sums) / std::sqrt(p.stiffness.hi)) * rho;
+           return !(depth(i, u).hi * (1 - of_sums) - doubt(i, u) > moved);
+         }) > 0;
+}
+
+/// Where the pairs of A leave rigid motions free on which the load does no work at all: springs without force
+/// hold the structure where it is, and change nothing else.
+bool error_prover::find_balanced(int step, std::span<const double_double> u, const residual& r,
+                                 error_bounds& b) {
+  if (!structure_.truth) return false;
+  b.closed = pressed(u);
+  for (int tries = 0; tries < 3; ++tries) {
+    if (!proves(holding(u, b.closed))) return false;
+    const std::optional<double> rho = norm_of(r, mu_);
+    if (!rho) return false;
+    if (erase_doubtful(u, *rho, b.closed)) continue;
+    b.rho = *rho;
+    b.unique = false;
+    if (!stands_free(step, u, b)) break;
+    b.not_proved.clear();
+    return true;
+  }
+  b.rho = std::numeric_limits<double>::infinity();
+  b.unique = true;
+  return false;
+}
+
+/// No work on what A leaves free, and no pair that this moves can be in contact.
+bool error_prover::stands_free(int step, std::span<const double_double> u, const error_bounds& b) const {
+  const rigid_rank held = held_by(b.closed);
+  const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);
+  if (structure_.is_held(held) || structure_.truth->driven_by(work, held.dofs())) return false;
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+    rigid_rank with_it = held;
+    with_it.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
+    if (with_it.rank() > held.rank() && !is_certainly_open(i, u, b.rho)) return false;
+  }
+  return true;
 }
 
 void error_prover::bound_displacements(const handed_out& state, std::span<const double_double> u,
@@ -345,7 +385,7 @@ bool error_prover::correct(const true_loads& l, long_vector& u) {
   long_vector best;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
-    if (!proves(holding(u))) break;
+    if (!proves(holding(u, pressed(u)))) break;
     const residual r = residual_of(u, l);
     std::vector<double> correction(u.size());
     for (std::size_t dof = 0; dof < u.size(); ++dof) correction[dof] = r.force[dof].hi;
@@ -482,13 +522,13 @@ error_bounds error_prover::bound(const handed_out& state) {
   }
   const long_vector u = long_displacement(state.step, state.displacement, l);
   const residual r = residual_of(u, l);
-  if (!find_closed(u, r, b)) return b;
+  if (!find_closed(u, r, b) && !find_balanced(state.step, u, r, b)) return b;
   measure(l, b);
-  bound_displacements(state, u, b);
+  if (b.unique) bound_displacements(state, u, b);
   bound_forces(state, u, b);
   bound_reactions(state, r, u, b);
   bound_element_values(state, u, b);
-  keep(state, u, b);
+  if (b.unique) keep(state, u, b);  // of a balanced one the checker knows nothing
   return b;
 }
 

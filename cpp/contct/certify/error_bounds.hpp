@@ -50,7 +50,7 @@ struct error_bounds {
   by_quantity beside;  ///< what a kind whose numbers are all 0 is measured by: see reference/certificate.md
   /// Nothing acts, and no pair is beyond its face in the state of no displacement: that is the equilibrium.
   bool unloaded = false;
-  bool unique = true;      ///< false, where nothing acts: the structure may stand elsewhere as well
+  bool unique = true;      ///< false: the structure may stand elsewhere as well, under the same forces
   std::string not_proved;  ///< why there is no bound, in words; empty where there is
   double rho = std::numeric_limits<double>::infinity();  ///< in the norm of K_A
   std::vector<int> closed;  ///< A: the pairs that are certainly in contact, from 0
@@ -104,7 +104,8 @@ class error_prover {
   [[nodiscard]] end_numbers numbers_of(int step, std::span<const double_double> u, const true_loads& l,
                                        std::span<const int> isep) const;
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
-  [[nodiscard]] std::vector<int> holding(std::span<const double_double> u) const;
+  [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;
+  [[nodiscard]] rigid_rank held_by(const std::vector<int>& closed) const;
   void measure(const true_loads& l, error_bounds& b) const;
   [[nodiscard]] bool is_unloaded(const true_loads& l) const;
   void bound_unloaded(const handed_out& state, error_bounds& b);
@@ -115,6 +116,10 @@ class error_prover {
   [[nodiscard]] std::optional<double> norm_of(const residual& r, double mu);
   void keep(const handed_out& state, const long_vector& u, const error_bounds& b);
   bool find_closed(std::span<const double_double> u, const residual& r, error_bounds& b);
+  bool find_balanced(int step, std::span<const double_double> u, const residual& r, error_bounds& b);
+  [[nodiscard]] bool stands_free(int step, std::span<const double_double> u, const error_bounds& b) const;
+  /// The pairs that may not be in contact leave `closed`; false where there are none.
+  bool erase_doubtful(std::span<const double_double> u, double rho, std::vector<int>& closed) const;
   [[nodiscard]] true_loads loads_at(int step, double share) const;
   /// How far rounding can put a pair's depth off.
   [[nodiscard]] double doubt(std::size_t pair, std::span<const double_double> u) const;
