@@ -294,3 +294,35 @@ TEST_CASE("a fixed dof on a spring, which settles: the support holds the spring 
   CHECK(e.end.numbers.reactions[2] == Approx(1.5).epsilon(1e-15));
   CHECK(certified(e.end.bounds));
 }
+
+namespace {
+
+/// A beam on its middle alone: faces at its ends are out of reach.
+std::string balanced(const std::string& loads) {
+  return "[beam]\nx = [0, 0.7, 1.4]\nEI = 1e4\n"
+         "[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e6\n"
+         "[[contact]]\nnodes = [1, 3]\nsurface = \"below\"\nface = -0.1\nstiffness = 1e6\n"
+         "[[step]]\npoint = [" +
+         loads + "]\n";
+}
+
+}  // namespace
+
+TEST_CASE("of a beam that balances on one face, forces and moments are proved, and no displacements") {
+  const one_end e(balanced("{ node = 1, w = -0.1 }, { node = 3, w = -0.1 }, { node = 2, w = -3 }"));
+  CHECK(certified(e.end.bounds));
+  CHECK_FALSE(e.end.bounds.unique);
+  CHECK_FALSE(e.end.bounds.error[quantity::w]);
+  CHECK(e.end.numbers.pair_forces[0] == Approx(3.2).epsilon(1e-15));
+  CHECK(*e.end.bounds.error[quantity::force] < 1e-14);
+  CHECK(*e.end.bounds.error[quantity::moment] < 1e-14);
+}
+
+TEST_CASE("a load that is out of balance by one part in 1e13 is not balanced: the beam turns onto its end") {
+  const one_end e(
+      balanced("{ node = 1, w = -0.1 }, { node = 3, w = -0.1000000000001 }, { node = 2, w = -3 }"));
+  CHECK(e.end.bounds.unique);
+  CHECK(e.end.numbers.pair_forces[1] == 0.0);
+  CHECK(e.end.numbers.pair_forces[2] == Approx(1e-13).epsilon(1e-6));
+  CHECK(certified(e.end.bounds));
+}

@@ -45,7 +45,7 @@ struct certificate {
   /// False: the state is the reference solution's own, so that comparing the two shows nothing. What is left
   /// then is equilibrium, penetration and tension.
   bool independent = true;
-  bool unique = true;        ///< false: other states are as good, so D is not compared
+  bool unique = true;        ///< false: other displacements are as good, so these have no bound
   bool unfounded = false;    ///< there is no equilibrium at all
   bool proof_tried = false;  ///< of a problem's states
   bool proved = false;       ///< there are bounds: the three that follow

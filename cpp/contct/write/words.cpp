@@ -90,6 +90,12 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
   std::vector<std::string> items = {states + " certified"};
   if (proved == certified) {
     items.push_back("proved: " + digits_words(worst) + " of every number");
+    const auto loose = std::ranges::find_if(steps, [](const auto& c) { return c && !c->unique; });
+    if (loose != steps.end())
+      items.push_back(
+          fmt::format("but displacements of step {}: its load leaves a rigid-body motion as it is, and "
+                      "nothing stops that",
+                      loose - steps.begin() + 1));
     return items;
   }
   if (independent > 0) items.push_back("the reference solution agrees to " + digits_words(worst));
