@@ -82,10 +82,20 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
   r.counts = solves->counts();
   r.whole = end.status == contct::app::path_status::solved;
   if (!certify || !r.whole) return r;
+  const auto seconds_since = [](clock::time_point start) {
+    return std::chrono::duration<double>(clock::now() - start).count();
+  };
+  const clock::time_point start = clock::now();
   contct::app::certifier judge(p, s);
   contct::app::observer* const judges[] = {&judge};
   contct::app::tell_end(w.last_state(), judge.refiner(), judges);
+  r.certificate_seconds = seconds_since(start);
   r.certified = judge.all_exact();
+  const clock::time_point again = clock::now();
+  contct::app::certifier compares(s, loads);
+  contct::app::observer* const comparing[] = {&compares};
+  contct::app::tell_end(w.last_state(), nullptr, comparing);
+  r.comparison_seconds = seconds_since(again);
   return r;
 }
 

@@ -27,10 +27,12 @@ struct run_of_engine {
   long peak_kib = 0;  ///< of the process while this engine ran
   bool whole = true;  ///< the path came to its end
   bool certified = false;
+  double certificate_seconds = 0.0;  ///< of the last state: refined and proved
+  double comparison_seconds = 0.0;   ///< compared with the reference solution in place of a proof
 };
 
 /// Follow the path under the corrected rule. `most_events` in a step, 0: all. The certificate is asked for
-/// where `certify` says so and the path is whole; its time does not count.
+/// where `certify` says so and the path is whole; its time is measured by itself.
 [[nodiscard]] run_of_engine run_engine(const contct::app::problem& p, const contct::app::linear_structure& s,
                                        const std::string& engine, int most_events, bool certify);
 

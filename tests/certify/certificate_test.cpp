@@ -471,7 +471,7 @@ TEST_CASE("the fallback finds the equilibrium, with a spring that is pressed, an
   const linear_structure s = stop.structure();
   std::vector<double> load(s.dofs());
   load[4] = -60.0;
-  const auto found = fallback_to_reference(s)(1, load);
+  const auto found = fallback_to_reference(s)(1, 1.0, load);
   REQUIRE(found.has_value());
   const double flexibility = 8.0 / 3 / 1e4;
   const double force = (60 * flexibility - 0.004) / (flexibility + 1 / 5e4);
@@ -482,7 +482,7 @@ TEST_CASE("the fallback finds the equilibrium, with a spring that is pressed, an
   free.supports.clear();
   const linear_structure nothing_holds = free.structure();
   load[4] = 60.0;  // away from its only face
-  CHECK_FALSE(fallback_to_reference(nothing_holds)(1, load).has_value());
+  CHECK_FALSE(fallback_to_reference(nothing_holds)(1, 1.0, load).has_value());
 }
 
 TEST_CASE(

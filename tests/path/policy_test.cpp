@@ -141,7 +141,8 @@ TEST_CASE("driven away from the start, a beam that nothing holds has not moved")
 TEST_CASE("the listing's rule gets none of this: a beam above its stops is a mechanism from the start") {
   for (const char* name : {"fortran", "cpp"}) {
     bool asked = false;
-    const path_limits limits{0, [&](int, std::span<const double>) -> std::optional<equilibrium_state> {
+    const path_limits limits{0,
+                             [&](int, double, std::span<const double>) -> std::optional<equilibrium_state> {
                                asked = true;
                                return made_up_rest();
                              }};
@@ -290,10 +291,11 @@ TEST_CASE("a path that cannot go on is rescued by an equilibrium from elsewhere,
   const beam_problem p = cantilever_on_two();
   std::vector<double> asked_for;
   equilibrium_state rest{{0, 0, -1, -2, -3, -4}, {1, 0}};
-  const path_limits limits{0, [&](int, std::span<const double> load) -> std::optional<equilibrium_state> {
-                             asked_for.assign(load.begin(), load.end());
-                             return rest;
-                           }};
+  const path_limits limits{
+      0, [&](int, double, std::span<const double> load) -> std::optional<equilibrium_state> {
+        asked_for.assign(load.begin(), load.end());
+        return rest;
+      }};
   recorder r;
   const path_end end = p.run(k, {&r}, limits);
   CHECK(end.status == path_status::solved);
@@ -310,7 +312,7 @@ TEST_CASE("a path that cannot go on is rescued by an equilibrium from elsewhere,
 TEST_CASE("nobody rescues a path under the listing's rule, nor one without an equilibrium") {
   const beam_problem p = cantilever_on_two();
   int asked = 0;
-  const path_limits none{0, [&](int, std::span<const double>) -> std::optional<equilibrium_state> {
+  const path_limits none{0, [&](int, double, std::span<const double>) -> std::optional<equilibrium_state> {
                            ++asked;
                            return {};
                          }};
@@ -343,11 +345,12 @@ TEST_CASE("after a rescue the path goes on from the equilibrium that it was give
   recorder sound;
   REQUIRE(p.run("corrected", {&sound}).status == path_status::solved);
   REQUIRE(sound.steps[0].isep == std::vector<int>{in_contact, in_contact});
-  const path_limits limits{0, [&](int step, std::span<const double>) -> std::optional<equilibrium_state> {
-                             if (step == 0) return {};  // not ahead
-                             from_fallback = true;
-                             return equilibrium_state{sound.steps[0].u, {1, 1}};
-                           }};
+  const path_limits limits{
+      0, [&](int, double share, std::span<const double>) -> std::optional<equilibrium_state> {
+        if (share < 1.0) return {};  // not ahead
+        from_fallback = true;
+        return equilibrium_state{sound.steps[0].u, {1, 1}};
+      }};
   recorder r;
   CHECK(p.run(k, {&r}, limits).status == path_status::solved);
   REQUIRE(r.steps.size() == 2);
@@ -373,9 +376,8 @@ TEST_CASE("after a rescue the path goes on from the equilibrium that it was give
 }
 
 TEST_CASE("a mechanism, an early limit and a lost factor are rescued too") {
-  const fallback_solver fallback = [](int, std::span<const double>) -> std::optional<equilibrium_state> {
-    return made_up_rest();
-  };
+  const fallback_solver fallback =
+      [](int, double, std::span<const double>) -> std::optional<equilibrium_state> { return made_up_rest(); };
   beam_problem p = beam_above_stops();
   p.steps = {tip_load(2, 8.0)};
   recorder never_held;
@@ -453,12 +455,12 @@ TEST_CASE("a path that would toggle for ever goes on from a state a billionth of
     const std::size_t i = calls++ % 2 == 0 ? 0 : 1;
     c.isep[i] = -c.isep[i];
   });
-  const path_limits limits{0,
-                           [&](int step, std::span<const double> load) -> std::optional<equilibrium_state> {
-                             CHECK(step == 0);
-                             asked_for.assign(load.begin(), load.end());
-                             return equilibrium_state{std::vector<double>(6), {0, 0}};
-                           }};
+  const path_limits limits{
+      0, [&](int, double share, std::span<const double> load) -> std::optional<equilibrium_state> {
+        CHECK(share == 0x1p-30);
+        asked_for.assign(load.begin(), load.end());
+        return equilibrium_state{std::vector<double>(6), {0, 0}};
+      }};
   recorder r;
   CHECK(p.run(k, {&r}, limits).status == path_status::solved);
   REQUIRE(asked_for.size() == 6);

@@ -71,7 +71,7 @@ int digits_of(const certificate& c) {
 }
 
 certifier::certifier(const linear_structure& s, load_history total_load)
-    : structure_(s), total_load_(std::move(total_load)), reference_(s) {
+    : structure_(s), total_load_(std::move(total_load)) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
     scale_.push_back(std::sqrt(s.stiffness.diagonal(s.row_of(dof))));
     const std::size_t at = dof;
@@ -173,7 +173,8 @@ void certifier::prove(const step_state& s, certificate& c) {
 
 /// With the reference solution: the verdict where no proof was tried, and what is wrong where one failed.
 void certifier::compare(const step_state& s, std::span<const double> load, certificate& c) {
-  const reference_answer answer = reference_.solve(load, total_load_.work(s.step));
+  if (!reference_) reference_.emplace(structure_);
+  const reference_answer answer = reference_->solve(load, total_load_.work(s.step));
   remember_sizes(answer.displacement);
   if (!c.proof_tried)
     c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
@@ -264,12 +265,12 @@ namespace {
 
 /// The reference solution, and where that gives up, what the proofs' own residuals lead to from there.
 reference_answer solve_for(reference_solver& finds, std::span<const double> load, const rigid_work& work,
-                           int step, certifier* helper) {
+                           int step, double share, certifier* helper) {
   reference_answer answer = finds.solve(load, work);
-  if (answer.how != outcome::not_found || helper == nullptr || step == 0) return answer;
+  if (answer.how != outcome::not_found || helper == nullptr) return answer;
   std::vector<int> isep;
   for (const char pressed : answer.pressed) isep.push_back(pressed != 0 ? in_contact : separated);
-  if (!helper->search(step, answer.displacement, isep)) return answer;
+  if (!helper->search(step, share, answer.displacement, isep)) return answer;
   for (std::size_t i = 0; i < isep.size(); ++i) answer.pressed[i] = isep[i] == in_contact ? 1 : 0;
   answer.how = outcome::found;
   return answer;
@@ -277,9 +278,9 @@ reference_answer solve_for(reference_solver& finds, std::span<const double> load
 
 fallback_solver fallback(const linear_structure& s, load_history total_load, certifier* helper) {
   return [&s, loads = std::move(total_load), helper](
-             int step, std::span<const double> load) -> std::optional<equilibrium_state> {
+             int step, double share, std::span<const double> load) -> std::optional<equilibrium_state> {
     reference_solver finds(s);
-    reference_answer answer = solve_for(finds, load, loads.work(step), step, helper);
+    reference_answer answer = solve_for(finds, load, loads.work(step, share), step, share, helper);
     if (answer.how != outcome::found) return {};
     return equilibrium_state{std::move(answer.displacement), std::move(answer.pressed)};
   };
@@ -295,8 +296,8 @@ fallback_solver certifier::fallback() {
   return certify::fallback(structure_, total_load_, this);
 }
 
-bool certifier::search(int step, std::span<double> displacement, std::span<int> isep) {
-  return prover_ && prover_->search(step, displacement, isep);
+bool certifier::search(int step, double share, std::span<double> displacement, std::span<int> isep) {
+  return prover_ && prover_->search(step, share, displacement, isep);
 }
 
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
@@ -309,7 +310,7 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
   for (int step = 1; step <= steps; ++step) {
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
-    const reference_answer found = solve_for(finds, total, total_load.work(step), step, helper);
+    const reference_answer found = solve_for(finds, total, total_load.work(step), step, 1.0, helper);
     end.work.factors += found.factorisations;
     if (found.how == outcome::no_equilibrium) return {path_status::mechanism, step, 0.0, {}, end.work};
     if (found.how != outcome::found) return {path_status::not_factored, step, 0.0, {}, end.work};

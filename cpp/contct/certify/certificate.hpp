@@ -79,8 +79,8 @@ class certifier final : public observer {
   /// The reference solution as the end of a step that a path cannot reach, found with `search` where that
   /// alone gives up. Valid as long as this object.
   [[nodiscard]] fallback_solver fallback();
-  /// Look for the equilibrium at the end of `step` from a state near it; see error_prover::search.
-  [[nodiscard]] bool search(int step, std::span<double> displacement, std::span<int> isep);
+  /// Look for the equilibrium at a share of `step` from a state near it; see error_prover::search.
+  [[nodiscard]] bool search(int step, double share, std::span<double> displacement, std::span<int> isep);
 
   /// Keep what proves the bounds of each step that follows, and bound the shares of increments.
   void keep_proofs();
@@ -108,7 +108,7 @@ class certifier final : public observer {
 
   const linear_structure& structure_;
   load_history total_load_;
-  reference_solver reference_;
+  std::optional<reference_solver> reference_;  // made when it is first asked
   const problem* problem_ = nullptr;
   std::unique_ptr<error_prover> prover_;
   allowed_errors allowed_;

@@ -324,15 +324,13 @@ void error_prover::bound_reactions(const handed_out& state, const residual& r,
   }
 }
 
-void error_prover::bound_element_values(const handed_out& state, std::span<const double_double> u,
-                                        error_bounds& b) const {
+void error_prover::bound_element_values(const handed_out& state, error_bounds& b) const {
   if (state.element_values.empty()) return;
-  const std::vector<element_value> all = true_.element_values(state.step, u);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const quantity q = all[i].moment ? quantity::moment : quantity::shear;
-    const double told = std::abs((double_double(state.element_values[i]) - all[i].value).hi);
-    const double noise = 64 * true_rounding * all[i].size;
-    b.error.take(q, (told + noise + all[i].energy * b.rho) * (1 + of_sums));
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const quantity q = values_[i].moment ? quantity::moment : quantity::shear;
+    const double told = std::abs((double_double(state.element_values[i]) - values_[i].value).hi);
+    const double noise = 64 * true_rounding * values_[i].size;
+    b.error.take(q, (told + noise + values_[i].energy * b.rho) * (1 + of_sums));
     b.size.take(q, std::abs(state.element_values[i]));
   }
 }
@@ -368,33 +366,48 @@ void error_prover::bound_unloaded(const handed_out& state, error_bounds& b) {
     take(kinds[i].moment ? quantity::moment : quantity::shear, state.element_values[i]);
 }
 
+bool error_prover::is_refined(int step, std::span<const double> displacement) const {
+  const auto same = [](const double_double& a, double b) { return a.hi == b; };
+  return step == refined_step_ && std::ranges::equal(refined_, displacement, same);
+}
+
 long_vector error_prover::long_displacement(int step, std::span<const double> displacement,
                                             const true_loads& l) const {
-  const auto same = [](const double_double& a, double b) { return a.hi == b; };
-  if (step == refined_step_ && std::ranges::equal(refined_, displacement, same)) return refined_;
+  if (is_refined(step, displacement)) return refined_;
   long_vector u(true_.dofs());
   for (std::size_t dof = 0; dof < u.size(); ++dof)
     u[dof] = true_.fixed[dof] != 0 ? l.settlement[dof] : double_double(displacement[dof]);
   return u;
 }
 
-/// u += K_A^-1 r until that no longer makes r smaller. False where K_A is not definite for certain.
+/// u += K_A^-1 r until r is nothing beside the loads, or that no longer makes it smaller. False where K_A is
+/// not definite for certain. Keeps the residual.
 bool error_prover::correct(const true_loads& l, long_vector& u) {
   constexpr int most = 20;
-  constexpr int settled = 3;  // corrections after which the pairs pressed no longer change
+  constexpr int settled = 3;         // corrections after which the pairs pressed no longer change
+  constexpr double none = 0x1p-150;  // of the loads' work: displacements are right to 2^-75
+  refined_step_ = 0;                 // what was kept of it is overwritten
   long_vector best;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
     if (!proves(holding(u, pressed(u)))) break;
-    const residual r = residual_of(u, l);
+    residual r = residual_of(u, l);
     std::vector<double> correction(u.size());
     for (std::size_t dof = 0; dof < u.size(); ++dof) correction[dof] = r.force[dof].hi;
     stiffness_.solve(correction);
     double square = 0.0;  // of the residual's norm
-    for (std::size_t dof = 0; dof < u.size(); ++dof) square += r.force[dof].hi * correction[dof];
+    double work = 0.0;
+    for (std::size_t dof = 0; dof < u.size(); ++dof) {
+      square += r.force[dof].hi * correction[dof];
+      work += l.force[dof].hi * u[dof].hi;
+    }
     if (!(square < least || square == 0.0) && i > settled) break;
-    if (square < least || square == 0.0) best = u;
+    if (square < least || square == 0.0) {
+      best = u;
+      residual_ = std::move(r);
+    }
     least = std::min(least, square);
+    if (square >= 0.0 && square <= none * work) break;
     if (std::ranges::all_of(correction, [](double x) { return x == 0.0; })) break;
     for (std::size_t dof = 0; dof < u.size(); ++dof)
       if (true_.fixed[dof] == 0) u[dof] += correction[dof];
@@ -419,16 +432,15 @@ void error_prover::settle_statuses(std::span<const double_double> u, const true_
   }
 }
 
-end_numbers error_prover::numbers_of(int step, std::span<const double_double> u, const true_loads& l,
-                                     std::span<const int> isep) const {
+end_numbers error_prover::numbers_of(std::span<const double_double> u, std::span<const int> isep) const {
   end_numbers n;
   for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
     const double_double deep = depth(i, u);
     const bool presses = isep[i] == in_contact && deep.hi > 0.0;
     n.pair_forces.push_back(presses ? (true_.pairs[i].stiffness * deep).hi : 0.0);
   }
-  for (const true_reaction& r : reactions_at(u, residual_of(u, l))) n.reactions.push_back(r.force.hi);
-  for (const element_value& v : true_.element_values(step, u)) n.element_values.push_back(v.value.hi);
+  for (const true_reaction& r : reactions_at(u, residual_)) n.reactions.push_back(r.force.hi);
+  for (const element_value& v : values_) n.element_values.push_back(v.value.hi);
   return n;
 }
 
@@ -438,18 +450,20 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   long_vector u = long_displacement(step, displacement, l);
   if (is_unloaded(l) && proves({})) {
     std::fill(u.begin(), u.end(), 0.0);
+    residual_ = residual_of(u, l);
   } else if (!correct(l, u)) {
     return std::nullopt;
   }
   refined_step_ = step;
   refined_ = u;
+  values_ = true_.element_values(step, u);
   for (std::size_t dof = 0; dof < displacement.size(); ++dof) displacement[dof] = u[dof].hi;
   settle_statuses(u, l, isep);
-  return numbers_of(step, u, l, isep);
+  return numbers_of(u, isep);
 }
 
-bool error_prover::search(int step, std::span<double> displacement, std::span<int> isep) {
-  const true_loads l = true_.loads(step);
+bool error_prover::search(int step, double share, std::span<double> displacement, std::span<int> isep) {
+  const true_loads l = share == 1.0 ? true_.loads(step) : loads_at(step, share);
   long_vector u = long_displacement(step, displacement, l);
   error_bounds b;
   if (!correct(l, u) || !find_closed(u, residual_of(u, l), b)) return false;
@@ -521,13 +535,18 @@ error_bounds error_prover::bound(const handed_out& state) {
     return b;
   }
   const long_vector u = long_displacement(state.step, state.displacement, l);
-  const residual r = residual_of(u, l);
+  if (!is_refined(state.step, state.displacement)) {
+    refined_step_ = 0;  // what was kept is of another state
+    residual_ = residual_of(u, l);
+    values_ = true_.element_values(state.step, u);
+  }
+  const residual& r = residual_;
   if (!find_closed(u, r, b) && !find_balanced(state.step, u, r, b)) return b;
   measure(l, b);
   if (b.unique) bound_displacements(state, u, b);
   bound_forces(state, u, b);
   bound_reactions(state, r, u, b);
-  bound_element_values(state, u, b);
+  bound_element_values(state, b);
   if (b.unique) keep(state, u, b);  // of a balanced one the checker knows nothing
   return b;
 }

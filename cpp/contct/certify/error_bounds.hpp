@@ -68,9 +68,9 @@ class error_prover {
   /// certain holds the structure. What is left over from doubles is kept for `bound`.
   [[nodiscard]] std::optional<end_numbers> refine(int step, std::span<double> displacement,
                                                   std::span<int> isep);
-  /// Look for the equilibrium from here on: false, and nothing written, where the pairs in contact of what is
-  /// found are not certain.
-  [[nodiscard]] bool search(int step, std::span<double> displacement, std::span<int> isep);
+  /// Look for the equilibrium at a share of the load of a step from here on: false, and nothing written,
+  /// where the pairs in contact of what is found are not certain.
+  [[nodiscard]] bool search(int step, double share, std::span<double> displacement, std::span<int> isep);
   [[nodiscard]] double span() const { return true_.span; }
 
   /// The statuses that are certain in the equilibrium at a share of the load of step `step`, from 1:
@@ -101,8 +101,8 @@ class error_prover {
                                               const true_loads& l) const;
   [[nodiscard]] bool correct(const true_loads& l, long_vector& u);
   void settle_statuses(std::span<const double_double> u, const true_loads& l, std::span<int> isep) const;
-  [[nodiscard]] end_numbers numbers_of(int step, std::span<const double_double> u, const true_loads& l,
-                                       std::span<const int> isep) const;
+  [[nodiscard]] end_numbers numbers_of(std::span<const double_double> u, std::span<const int> isep) const;
+  [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
   [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;
   [[nodiscard]] rigid_rank held_by(const std::vector<int>& closed) const;
@@ -137,7 +137,7 @@ class error_prover {
                                                         const residual& r) const;
   void bound_reactions(const handed_out& state, const residual& r, std::span<const double_double> u,
                        error_bounds& b) const;
-  void bound_element_values(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
+  void bound_element_values(const handed_out& state, error_bounds& b) const;
 
   const problem& problem_;
   const linear_structure& structure_;
@@ -147,7 +147,9 @@ class error_prover {
   double mu_ = 0.0, inverse_root_mu_ = 0.0;
   int refined_step_ = 0;
   long_vector refined_;
-  long_vector z_;  // about K_A^-1 r
+  residual residual_;                  // of the state refined or bounded last
+  std::vector<element_value> values_;  // and what is read off its elements
+  long_vector z_;                      // about K_A^-1 r
   bool keeps_proof_ = false;
   std::optional<step_proof> proof_;
 };

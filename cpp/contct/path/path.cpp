@@ -50,8 +50,7 @@ class path {
   /// The stiffness has no factor.
   path_end not_factored(int step) {
     if (policy_->fall_back(step)) return {path_status::solved, step, 1.0, {}};
-    const bool none = policy_->cannot_stand();
-    return {none ? path_status::mechanism : path_status::not_factored, step, now_.fraction(), {}};
+    return {truly(path_status::not_factored), step, now_.fraction(), {}};
   }
 
  private:
@@ -81,15 +80,24 @@ class path {
     if (policy_->fall_back(step)) return {path_status::solved, step, 1.0, {}};
     const std::vector<double> u(now_.total.size());
     now_.tell_end({step, 0.0, u, now_.status, 0.0});
-    return {path_status::mechanism, step, 0.0, {}};
+    return {truly(path_status::mechanism), step, 0.0, {}};
+  }
+
+  /// How a path ends that seems to end so: where there is certainly no equilibrium, in a mechanism; where
+  /// there is one that it did not reach, for want of digits. What all pairs together do not hold is a
+  /// mechanism, though it may balance.
+  [[nodiscard]] path_status truly(path_status seems) const {
+    const std::optional<bool> exists = policy_->can_stand();
+    if (exists == false) return path_status::mechanism;
+    if (exists != true || seems != path_status::mechanism) return seems;
+    const linear_structure& s = now_.structure;
+    return s.is_held(s.held_by([](std::size_t) { return true; })) ? path_status::not_factored : seems;
   }
 
   /// Tell the state reached, and end.
   path_end stop(path_status status, int step, std::vector<int> pairs) {
-    if (policy_->cannot_stand()) {  // whatever became of the path
-      status = path_status::mechanism;
-      pairs = now_.last_opened;
-    }
+    const path_status seemed = std::exchange(status, truly(status));
+    if (status != seemed) pairs = now_.last_opened;
     if (status != path_status::solved && policy_->fall_back(step))
       return {path_status::solved, step, 1.0, {}};
     std::vector<double> u(now_.total.size());

@@ -51,6 +51,10 @@ class load_history {
   void operator()(int step, std::span<double> total) const { total_(step, total); }
   /// Not known, where only rounded loads are given, and in step 0.
   [[nodiscard]] rigid_work work(int step) const { return work_ && step > 0 ? work_(step) : rigid_work(); }
+  /// The same at a share of the step.
+  [[nodiscard]] rigid_work work(int step, double share) const {
+    return share == 1.0 ? work(step) : work(step).mixed(share, work(step - 1));
+  }
 
  private:
   totals total_;
@@ -63,10 +67,10 @@ struct equilibrium_state {
   std::vector<char> closed;          ///< [pairs] 1 in contact
 };
 
-/// Finds the equilibrium under the total load [dofs] of a step, from 1, or under any other load (0); nothing
-/// where there is none.
+/// Finds the equilibrium under the load [dofs] at a share, up to 1, of a step, from 1; nothing where there is
+/// none.
 using fallback_solver =
-    std::function<std::optional<equilibrium_state>(int step, std::span<const double> load)>;
+    std::function<std::optional<equilibrium_state>(int step, double share, std::span<const double> load)>;
 
 struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair

@@ -100,8 +100,11 @@ struct path_state {
                                    step == 1 ? work : work.less(loads_->work(step - 1)));
   }
 
-  /// Is there no equilibrium at the end of the step, for certain?
-  [[nodiscard]] bool cannot_stand() const { return structure.has_equilibrium(loads_->work(step)) == false; }
+  /// Is there an equilibrium at the end of the step? There is one on the way then, too. Nothing where only
+  /// rounding would decide.
+  [[nodiscard]] std::optional<bool> has_equilibrium() const {
+    return structure.has_equilibrium(loads_->work(step));
+  }
 
   /// Does the step's total load drive what nothing stops now? Nothing where only rounding would decide.
   [[nodiscard]] std::optional<bool> total_drives_a_motion() const {

@@ -74,7 +74,7 @@ class stabilized_policy final : public path_policy {
     const double share = now_.residual.share;
     if (!fallback_ || share <= 2 * ahead || ++times_ahead_ > most_a_step) return false;
     now_.residual.share = share - ahead;
-    const std::optional<equilibrium_state> found = fallback_(0, now_.applied_load());
+    const std::optional<equilibrium_state> found = fallback_(now_.step, now_.fraction(), now_.applied_load());
     if (!found) {
       now_.residual.share = share;
       return false;
@@ -131,7 +131,7 @@ class stabilized_policy final : public path_policy {
     }
   }
 
-  [[nodiscard]] bool cannot_stand() const override { return now_.cannot_stand(); }
+  [[nodiscard]] std::optional<bool> can_stand() const override { return now_.has_equilibrium(); }
 
   void displace(std::span<double> u) override {
     std::vector<double> load = now_.applied_load();
@@ -161,7 +161,7 @@ class stabilized_policy final : public path_policy {
 
   bool fall_back(int step) override {
     if (!fallback_) return false;
-    const std::optional<equilibrium_state> found = fallback_(step, now_.total);
+    const std::optional<equilibrium_state> found = fallback_(step, 1.0, now_.total);
     if (!found) return false;
     remove_holding_springs();
     for (std::size_t i = 0; i < now_.pairs(); ++i)

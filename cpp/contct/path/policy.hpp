@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "contct/kernel/kernel.hpp"
@@ -59,8 +60,8 @@ class path_policy {
   /// such means, or no such state.
   virtual bool go_on_ahead(int /*number*/) { return false; }
 
-  /// Is there no equilibrium at the end of the step, for certain?
-  [[nodiscard]] virtual bool cannot_stand() const { return false; }
+  /// Is there an equilibrium at the end of the step? Nothing where that is not certain.
+  [[nodiscard]] virtual std::optional<bool> can_stand() const { return std::nullopt; }
 
   /// The path cannot reach the end of `step`: put the state at its equilibrium by other means, and tell the
   /// observers. False when there is no such means, or no equilibrium.
