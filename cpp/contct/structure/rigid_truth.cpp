@@ -275,6 +275,7 @@ bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> suppor
   free.erase(free.begin(), free.begin() + static_cast<std::ptrdiff_t>(stopped.size()));
   const auto along_free = [&free](const motion_numbers& row, int times) {
     std::vector<rational> parts;
+    parts.reserve(free.size());
     for (const motion_numbers& f : free) parts.emplace_back(dot(row, f) * times);
     return parts;
   };

@@ -70,7 +70,7 @@ std::optional<decimal> decimal_in(std::string_view literal) {
 
 std::optional<int> last_written_digit(std::string_view literal) {
   (void)take_minus(literal);
-  const bool is_whole = take_digits(literal).size() > 0 && literal.empty();
+  const bool is_whole = !take_digits(literal).empty() && literal.empty();
   if (is_whole) return std::nullopt;
   std::size_t behind_point = 0;
   if (!literal.empty() && literal.front() == '.') {
