@@ -54,7 +54,9 @@ json step_json(const certify::step_proof& s) {
 
 std::string reason_without_proof(const std::optional<certify::certificate>& c) {
   if (!c) return "the step did not reach its load";
-  return c->proved ? "the bounds are proved with a sparse factor, which is not written" : c->problem;
+  if (!c->proved) return c->problem;
+  if (!c->unique) return "the structure balances, which this proof does not cover";
+  return "the bounds are proved with a sparse factor, which is not written";
 }
 
 }  // namespace
