@@ -35,9 +35,9 @@ need() {
 }
 
 need_core() {
-  need "to build" g++ gfortran cmake ninja-build liblapack-dev libblas-dev
+  need "to build" g++ gfortran cmake ninja-build liblapack-dev libblas-dev libboost-dev
 }
 
 need_program() {
-  need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libboost-dev
+  need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
 }
