@@ -13,6 +13,7 @@
 
 #include "contct/lab/atlas.hpp"
 #include "contct/lab/fuzz.hpp"
+#include "contct/write/exit_status.hpp"
 #include "contct/write/calculix_deck.hpp"
 
 namespace contct::app {
@@ -184,16 +185,6 @@ template <class Described>
 
 /// `engines` as in parse_contct.
 [[nodiscard]] program_description describe_contct(const std::vector<std::string>& engines);
-
-/// Exit statuses of the program (what a CI job reads).
-enum class exit_status {
-  solved = 0,           ///< solved, and the kernels are equal
-  kernels_differ = 1,   ///< kernels disagree
-  bad_input = 2,        ///< a file, an option or an output path is wrong
-  uncertified = 3,      ///< solved but not certified, under --strict
-  mechanism = 4,        ///< no equilibrium
-  iteration_limit = 5,  ///< cycle or iteration limit
-};
 
 // Each runs one command and returns its exit status. All throw a std::exception whose what() is a message for
 // the user.

@@ -8,6 +8,7 @@
 #include "contct/exact/exact_problem.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/serve/listing_kernels.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/write/explain_exact.hpp"
 #include "contct/write/words.hpp"
@@ -36,34 +37,6 @@ increments_wanted wanted_of(const explain_options& o) {
         "--increment {} is in step {}, but --step is {}; allowed: one step", o.increment, step, *o.step));
   wanted.step = step;
   return wanted;
-}
-
-/// The leader must be the listing, built in: nobody else has its lines.
-void refuse_kernels(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (facts_of_kernel(name).rule != "listing")
-      throw std::invalid_argument(
-          fmt::format("--kernels: \"{}\" has another rule, which is not in the listing; allowed: kernels "
-                      "with the 1989 rule. reference/corrected-rule.md describes the other; contct run "
-                      "--free-run --kernels {},fortran compares the two",
-                      name, name));
-  }
-  if (names[0].find(':') != std::string::npos)
-    throw std::invalid_argument(
-        fmt::format("--kernels: \"{}\" is an external kernel and cannot lead; allowed: a built-in kernel "
-                    "first and this one second: --kernels fortran,{}",
-                    names[0], names[0]));
-  if (names.size() > 2)
-    throw std::invalid_argument(
-        fmt::format("--kernels: found {}; allowed: one or two, the first one leads", names.size()));
-  if (names.size() == 2 && names[0] == names[1])
-    throw std::invalid_argument("--kernels: \"" + names[0] + "\" is named twice");
-}
-
-std::unique_ptr<kernel> second_kernel(const std::vector<std::string>& kernels) {
-  if (kernels.size() < 2) return nullptr;
-  refuse_unequal(facts_of_kernel(kernels[0]), facts_of_kernel(kernels[1]));
-  return make_kernel(kernels[1]);
 }
 
 void refuse_beyond(const char* option, std::optional<int> found, std::size_t most, const char* what) {
@@ -122,7 +95,7 @@ class exact_companion {
 exit_status run_command(const explain_options& options) {
   const increments_wanted wanted = wanted_of(options);
   refuse_engine_option(options.engine);
-  refuse_kernels(options.kernels);
+  refuse_other_rules(options.kernels);
   const problem p = read_with_progress(options.file, options.quiet);
   refuse_beyond("--pair", options.pair, p.pairs.size(), "pair");
   refuse_beyond("--step", wanted.step > 0 ? wanted.step : options.step, p.steps.size(), "step");

@@ -39,29 +39,6 @@ struct increment_counter final : observer {
   int step = 1, number = 0;
 };
 
-std::string pair_words(const problem& p, const std::vector<int>& pairs) {
-  constexpr std::size_t most_named = 8;
-  std::string words;
-  for (std::size_t i = 0; i < pairs.size() && i < most_named; ++i) {
-    const contact_pair& at = p.pairs[static_cast<std::size_t>(pairs[i])];
-    words += fmt::format("{}pair {} ({}, {})", i == 0 ? "" : ", ", pairs[i] + 1,
-                         place_words(p.geometry, at.node), surface_name(at.surface));
-  }
-  if (pairs.size() > most_named) words += fmt::format(" and {} more", pairs.size() - most_named);
-  return words;
-}
-
-std::string mechanism_words(const problem& p, const path_end& end) {
-  if (end.pairs.empty())
-    return "no equilibrium: the structure is a mechanism: its supports and the pairs in contact allow a "
-           "rigid-body motion. A structure held only by pairs must start with enough of them in contact; "
-           "--kernels corrected also follows one that first falls onto its faces";
-  return "no equilibrium: when " + pair_words(p, end.pairs) + " separated, the structure became a mechanism" +
-         (end.fraction < 1e-9 ? ". At constant load the 1989 rule can miss an equilibrium that exists; "
-                                "compare --kernels corrected"
-                              : "");
-}
-
 }  // namespace
 
 void refuse_engine_option(const std::string& name) {
@@ -94,71 +71,5 @@ path_progress::path_progress(std::size_t steps, bool quiet)
     : line(static_cast<std::int64_t>(steps), "steps", quiet),
       before(std::make_unique<eraser>(line)),
       behind(std::make_unique<increment_counter>(line, steps)) {}
-
-std::string end_words(const problem& p, const path_end& end) {
-  const std::string where = fmt::format("step {}, at share {:.9g} of its load: ", end.step, end.fraction);
-  switch (end.status) {
-    case path_status::solved:
-      return "";
-    case path_status::mechanism:
-      return where + mechanism_words(p, end);
-    case path_status::cycle:
-      return where + "a cycle at constant load: these pairs change their status again and again: " +
-             pair_words(p, end.pairs);
-    case path_status::iteration_limit:
-      return where + "the limit of increments (--max-increments) is reached" +
-             (end.pairs.empty()
-                  ? ""
-                  : "; these pairs change their status again and again: " + pair_words(p, end.pairs));
-    default:
-      return where +
-             "the structure is held, but its stiffness is too ill-conditioned, or its loads too large, for "
-             "double precision: no digit of the answer would be right. Use fewer elements in a span, or "
-             "stiffness and loads of less extreme size";
-  }
-}
-
-exit_status status_of(path_status status) {
-  constexpr exit_status statuses[] = {exit_status::solved, exit_status::mechanism,
-                                      exit_status::iteration_limit, exit_status::iteration_limit,
-                                      exit_status::bad_input};
-  return statuses[static_cast<int>(status)];  // in the order of path_status
-}
-
-void passage_watch::step_ended(const step_state& s) {
-  const auto here = deepest_passage(what, loads.at(s.step, s.fraction), s.displacement);
-  if (!here || (worst && here->depth <= worst->depth)) return;
-  worst = here;
-  step = s.step;
-}
-
-std::string passage_watch::warning() const {
-  if (!worst) return "";
-  const contact_pair& left = what.pairs[worst->first];
-  return fmt::format(
-      "step {}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g} "
-      "at x = {:.6g}. Where these are separate stops, this is as it should be; where one surface runs "
-      "between "
-      "them, put pairs closer together (at the nodes of a finer mesh: element_size)",
-      step, worst->first + 1, worst->second + 1, left.face, worst->depth, worst->x);
-}
-
-void digit_watch::step_ended(const step_state& s) {
-  if (s.numbers != nullptr || digits_left(s.rcond) >= fewest) return;  // refined states keep their digits
-  fewest = digits_left(s.rcond);
-  step = s.step;
-  rcond = s.rcond;
-}
-
-std::string digit_watch::warning() const {
-  if (fewest >= 5) return "";
-  const std::string digits = fewest == 0   ? "no digit"
-                             : fewest == 1 ? "about 1 digit"
-                                           : fmt::format("about {} digits", fewest);
-  return fmt::format(
-      "step {}: {} of the answer can be relied on: the stiffness is ill-conditioned (rcond {:.1e}). Use "
-      "fewer elements in a span, or more supports",
-      step, digits, rcond);
-}
 
 }  // namespace contct::app

@@ -84,13 +84,6 @@ void refuse_bad_options(const run_options& o) {
   }
 }
 
-/// The engine of a path that `kernel` leads: unless asked otherwise, one factorisation an increment, as in
-/// 1989, for the 1989 rule; the quickest for others.
-std::string engine_for(const std::string& kernel, const run_options& o, const linear_structure& s) {
-  if (o.engine.empty() && facts_of_kernel(kernel).rule == "listing") return "refactor";
-  return chosen_engine(o.engine.empty() ? "auto" : o.engine, s);
-}
-
 /// The node of --node, from 0: a number from 1, "x = 4.5", or a dof's label. Throws std::invalid_argument.
 int node_named(const model& m, const std::string& name) {
   for (int node = 0; node < nodes(m); ++node)
@@ -149,7 +142,7 @@ run_setup set_up(const run_options& o) {
   run.structure = build_with_progress(run.what, o.report.quiet);
   if (!o.final_only) {
     run.kernels = o.kernels;
-    run.engine = engine_for(o.kernels.front(), o, run.structure);
+    run.engine = engine_for(facts_of_kernel(o.kernels.front()), o.engine, run.structure);
   }
   refuse_shared_outputs(run.outputs, {{"the problem", o.file}});
   if (!o.watched.empty()) {
@@ -449,8 +442,9 @@ exit_status free_run(const run_setup& run) {
   for (const std::string& name : std::span(run.kernels).subspan(1)) {
     path_record own;
     certifier judged(run.what, run.structure);
-    own.end = follow(run.what, run.structure, engine_for(name, run.options, run.structure),
-                     *make_kernel(name), {&judged, &own}, limits_of(run, judged));
+    own.end =
+        follow(run.what, run.structure, engine_for(facts_of_kernel(name), run.options.engine, run.structure),
+               *make_kernel(name), {&judged, &own}, limits_of(run, judged));
     const double bound = free_run_bound(facts_of_kernel(run.kernels.front()), facts_of_kernel(name));
     const free_run_difference d = compare_paths(leader, own, bound, run.structure.dofs_per_node);
     if (o.json) o.json->add_free_run(name, d, judged.all_exact());

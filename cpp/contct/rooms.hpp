@@ -49,6 +49,9 @@ namespace contct::lab {
 using namespace write;
 using namespace read;
 }  // namespace contct::lab
-namespace contct::app {
+namespace contct::serve {
 using namespace lab;
+}
+namespace contct::app {
+using namespace serve;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -49,6 +50,15 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
   return {total, [&p, truth = s.truth](int step) {
             return truth ? truth->work_of(p.steps[step - 1]) : rigid_work();
           }};
+}
+
+/// The engine of a path that a kernel leads: the one that was asked for, by name or as "auto", the quickest;
+/// where none was, one factorisation an increment, as in 1989, for the 1989 rule, and the quickest for
+/// others.
+[[nodiscard]] inline std::string engine_for(const kernel_facts& leader, const std::string& asked,
+                                            const linear_structure& s) {
+  if (asked.empty() && leader.rule == "listing") return "refactor";
+  return asked.empty() || asked == "auto" ? std::string(quickest_engine(s)) : asked;
 }
 
 /// Follow a problem's path on an engine by name. `s` is its structure.

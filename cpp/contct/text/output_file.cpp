@@ -94,10 +94,15 @@ void output_file::open_without_name() {
 }
 
 void output_file::write(std::string_view text) {
+  if (kept_ != nullptr) {
+    kept_->append(text);
+    return;
+  }
   if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail(errno);
 }
 
 void output_file::finish() {
+  if (kept_ != nullptr) return;
   if (is_standard_output()) return flush_standard_output();
   if (std::fflush(file_) != 0) fail(errno);
   if (!target_.empty()) give_name();

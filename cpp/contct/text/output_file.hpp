@@ -44,6 +44,8 @@ enum class naming { link_or_copy, copy };
 class output_file {
  public:
   explicit output_file(std::string path, naming how = naming::link_or_copy);
+  /// No file: what is written is appended to `kept`, which must outlive this object.
+  explicit output_file(std::string* kept) : path_("a text"), how_(naming::copy), kept_(kept) {}
   ~output_file();
   output_file(const output_file&) = delete;
   output_file& operator=(const output_file&) = delete;
@@ -63,6 +65,7 @@ class output_file {
   std::string path_;
   std::string target_;  // path_ with links followed; empty when written directly
   naming how_;
+  std::string* kept_ = nullptr;
   std::FILE* file_ = nullptr;
 };
 

@@ -1,0 +1,189 @@
+#include "contct/serve/answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <stdexcept>
+
+#include "contct/read/problem_file.hpp"
+#include "contct/solve/engine.hpp"
+#include "contct/text/input_text.hpp"
+
+namespace contct::serve {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+/// Text that may be no UTF-8, as JSON.
+std::string as_json(const std::string& text) {
+  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+/// Where a message says that it belongs: "pb.toml:12:3: ..", or without the column.
+struct message_place {
+  std::string_view file;
+  int line = 0, column = 0;
+};
+
+std::optional<message_place> place_in(std::string_view message) {
+  const auto number_at = [&](std::size_t from, std::size_t& end) {
+    end = message.find_first_not_of("0123456789", from);
+    if (end == std::string_view::npos || end == from || message[end] != ':') return 0;
+    return number_in<int>(message.substr(from, end - from)).value_or(0);
+  };
+  for (std::size_t colon = message.find(':'); colon != std::string_view::npos;
+       colon = message.find(':', colon + 1)) {
+    std::size_t end = 0, behind = 0;
+    const int line = number_at(colon + 1, end);
+    if (line > 0) return message_place{message.substr(0, colon), line, number_at(end + 1, behind)};
+  }
+  return {};
+}
+
+std::string error_json(const std::string& message) {
+  json error = {{"message", message}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}};
+  if (const auto at = place_in(message)) {
+    error["file"] = at->file;
+    error["line"] = at->line;
+    if (at->column > 0) error["column"] = at->column;
+  }
+  return error.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+/// Results are written as text, and stay so: reading them again would cost more than the path.
+std::string text_of(const answer& a, const std::optional<std::string>& error) {
+  const auto exit = error ? write::exit_status::bad_input : a.exit;
+  std::string text =
+      fmt::format(R"({{"format": "contct-answer-1", "exit": {}, "messages": [)", static_cast<int>(exit));
+  for (std::size_t i = 0; i < a.messages.size(); ++i)
+    text.append(i == 0 ? "" : ", ").append(as_json(a.messages[i]));
+  text.append("], \"error\": ").append(error ? error_json(*error) : "null");
+  text.append(", \"result\": ").append(error || a.result.empty() ? "null" : a.result);
+  if (!error)
+    for (const auto& [key, value] : a.texts)
+      text.append(", ").append(as_json(key)).append(": ").append(as_json(value));
+  return text + "}";
+}
+
+}  // namespace
+
+request::request(const char* text, std::initializer_list<std::string_view> known) {
+  if (text == nullptr) return;
+  try {
+    options_ = nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& e) {
+    throw std::invalid_argument(fmt::format("options: found no JSON: {}; allowed: an object", e.what()));
+  }
+  if (!options_.is_object())
+    throw std::invalid_argument(fmt::format("options: found {}; allowed: an object", options_.type_name()));
+  for (const auto& [name, value] : options_.items())
+    if (std::ranges::find(known, std::string_view(name)) == known.end())
+      throw std::invalid_argument(
+          fmt::format("options: found \"{}\"; allowed: {}", name, fmt::join(known, ", ")));
+}
+
+void request::refuse(std::string_view name, std::string_view allowed) const {
+  throw std::invalid_argument(fmt::format(
+      "options: {}: found {}; allowed: {}", name,
+      options_[std::string(name)].dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), allowed));
+}
+
+bool request::flag(std::string_view name) const {
+  if (!has(name)) return false;
+  const auto& value = options_[std::string(name)];
+  if (!value.is_boolean()) refuse(name, "true or false");
+  return value.get<bool>();
+}
+
+std::string request::text(std::string_view name, std::string_view otherwise) const {
+  if (!has(name)) return std::string(otherwise);
+  const auto& value = options_[std::string(name)];
+  if (!value.is_string()) refuse(name, "text");
+  return value.get<std::string>();
+}
+
+std::vector<std::string> request::texts(std::string_view name, std::vector<std::string> otherwise) const {
+  if (!has(name)) return otherwise;
+  const auto& value = options_[std::string(name)];
+  const auto is_text = [](const auto& entry) { return entry.is_string(); };
+  if (!value.is_array() || value.empty() || !std::all_of(value.begin(), value.end(), is_text))
+    refuse(name, "a list of texts, at least one");
+  return value.get<std::vector<std::string>>();
+}
+
+int request::whole(std::string_view name, int otherwise, int least, int most) const {
+  if (!has(name)) return otherwise;
+  const auto& value = options_[std::string(name)];
+  if (value.is_number_integer()) {
+    const auto number = value.get<std::int64_t>();
+    if (number >= least && number <= most) return static_cast<int>(number);
+  }
+  refuse(name, fmt::format("a whole number from {} to {}", least, most));
+}
+
+std::vector<std::vector<double>> request::lists(std::string_view name) const {
+  if (!has(name)) return {};
+  const auto& value = options_[std::string(name)];
+  const auto is_number = [](const auto& entry) {
+    return entry.is_number() && std::isfinite(entry.template get<double>());
+  };
+  const auto is_list = [&](const auto& entry) {
+    return entry.is_array() && std::all_of(entry.begin(), entry.end(), is_number);
+  };
+  if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_list))
+    refuse(name, "a list of lists of finite numbers");
+  return value.get<std::vector<std::vector<double>>>();
+}
+
+std::string request::file() const {
+  const std::string folder = text("folder", "");
+  const std::string name = text("file", "problem");
+  return folder.empty() || name.starts_with('/') ? name : folder + "/" + name;
+}
+
+problem read_problem_text(const char* text, const std::string& file, answer& a, literals keep) {
+  if (text == nullptr)
+    throw std::invalid_argument("problem: found null; allowed: the text of a problem file");
+  problem p = parse_problem(text, file, keep);
+  for (const std::string& w : p.warnings) a.messages.push_back("warning: " + w);
+  return p;
+}
+
+void refuse_unknown_engine(const std::string& name) {
+  const std::vector<std::string> names = engine_names();
+  if (name.empty() || name == "auto" || std::ranges::find(names, name) != names.end()) return;
+  throw std::invalid_argument(
+      fmt::format("options: engine: found \"{}\"; allowed: auto, {}", name, fmt::join(names, ", ")));
+}
+
+std::recursive_mutex& turn() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+char* answered(const std::function<void(answer&)>& find) noexcept {
+  try {
+    answer a;
+    std::optional<std::string> error;
+    try {
+      find(a);
+    } catch (const std::bad_alloc&) {
+      error = "memory does not suffice for this problem";
+    } catch (const std::exception& e) {
+      error = e.what();
+    }
+    const std::string text = text_of(a, error);
+    auto* const copy = static_cast<char*>(std::malloc(text.size() + 1));  // NOLINT: freed by contct_free
+    if (copy != nullptr) std::memcpy(copy, text.c_str(), text.size() + 1);
+    return copy;
+  } catch (...) {
+    return nullptr;
+  }
+}
+
+}  // namespace contct::serve

@@ -1,0 +1,65 @@
+// What the functions of serve.h take and return: options as a JSON object, an answer as another.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contct/structure/problem.hpp"
+#include "contct/write/exit_status.hpp"
+
+namespace contct::serve {
+
+/// The options of one request. All refusals are std::invalid_argument: "options: kernels: found 3; allowed:
+/// ..".
+class request {
+ public:
+  /// `text` may be null. Refuses what is no JSON object, and names that are not in `known`.
+  request(const char* text, std::initializer_list<std::string_view> known);
+
+  [[nodiscard]] bool flag(std::string_view name) const;
+  [[nodiscard]] std::string text(std::string_view name, std::string_view otherwise) const;
+  [[nodiscard]] std::vector<std::string> texts(std::string_view name,
+                                               std::vector<std::string> otherwise) const;
+  [[nodiscard]] int whole(std::string_view name, int otherwise, int least, int most) const;
+  /// Lists of finite numbers; none where the option is not there.
+  [[nodiscard]] std::vector<std::vector<double>> lists(std::string_view name) const;
+  [[nodiscard]] bool has(std::string_view name) const { return options_.contains(name); }
+
+  /// The problem's name for messages: "file" in "folder".
+  [[nodiscard]] std::string file() const;
+
+ private:
+  [[noreturn]] void refuse(std::string_view name, std::string_view allowed) const;
+
+  nlohmann::json options_ = nlohmann::json::object();
+};
+
+/// The answer to one request, while it is found.
+struct answer {
+  write::exit_status exit = write::exit_status::solved;
+  std::vector<std::string> messages;
+  std::string result;                                      ///< JSON as text; empty: null
+  std::vector<std::pair<std::string, std::string>> texts;  ///< what else was asked for, by its key
+};
+
+/// The problem in a text; its warnings become messages. Throws as parse_problem does.
+[[nodiscard]] problem read_problem_text(const char* text, const std::string& file, answer& a,
+                                        literals keep = literals::dropped);
+
+/// Throws std::invalid_argument for what is no engine's name, nor "auto", nor empty.
+void refuse_unknown_engine(const std::string& name);
+
+/// Whoever has kernels made waits for this: unit 26 belongs to the whole process. Recursive, so that a kernel
+/// of the caller's which asks for another one is refused and does not hang.
+[[nodiscard]] std::recursive_mutex& turn();
+
+/// What a C function returns: the answer that `find` fills in, or the error that it throws, as text on the C
+/// heap; null without memory for it.
+[[nodiscard]] char* answered(const std::function<void(answer&)>& find) noexcept;
+
+}  // namespace contct::serve

@@ -1,0 +1,112 @@
+#include "contct/serve/exact_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "contct/certify/certificate.hpp"
+#include "contct/exact/definite.hpp"
+#include "contct/exact/demand.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/text/memory.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::serve {
+namespace {
+
+/// A problem that would take more than a machine has is refused before it is converted.
+void refuse_too_large(const problem& p, const std::string& file) {
+  if (dofs(p.geometry) > most_exact_dofs)
+    throw std::invalid_argument(
+        fmt::format("{}: found {} dofs; allowed: at most {} in exact arithmetic, whose numbers grow with "
+                    "them. Use fewer elements",
+                    file, dofs(p.geometry), most_exact_dofs));
+  const demand takes = demand_of(p);
+  if (takes.bytes() > memory_limit())
+    throw std::invalid_argument(
+        fmt::format("{}: exact arithmetic: found {}; allowed: {} (CONTCT_MEMORY_MIB in the environment sets "
+                    "another limit). Use fewer elements, or numbers of fewer digits",
+                    file, takes.words(), bytes_words(memory_limit())));
+}
+
+/// What numbers may grow to in the memory that the equations leave.
+std::size_t longest_numbers(const problem& p) {
+  return demand_of(p).bits_within(memory_limit(), lifted_solver::most_bits);
+}
+
+/// A matrix from elsewhere may be none of a structure, which the path's equations do not show. Those of beams
+/// and plates are sums of elements, each of which is semidefinite.
+void refuse_indefinite(const assembled& a, const exact_problem& p) {
+  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
+    if (p.fixed[dof] == 0 && p.stiffness[dof].at(static_cast<int>(dof)) == 0)
+      throw std::invalid_argument(
+          fmt::format("{}: dof {}: found no stiffness and no support; allowed: a positive entry on the "
+                      "diagonal, or a support",
+                      a.name, a.label_of(static_cast<int>(dof))));
+  const std::optional<negative_work> shown = [&] {
+    try {
+      return find_negative_work(p.stiffness, p.fixed, p.place, memory_limit());
+    } catch (const std::runtime_error& e) {
+      throw std::invalid_argument(fmt::format("{}: {}", a.name, e.what()));
+    }
+  }();
+  if (!shown) return;
+  const auto largest = std::ranges::max_element(
+      shown->motion, [](const rational& x, const rational& y) { return abs(x) < abs(y); });
+  const rational size = abs(*largest);
+  throw std::invalid_argument(fmt::format(
+      "{}: not positive semidefinite: found work {}, in exact arithmetic, on a displacement whose largest "
+      "component, 1, is at dof {}; allowed: 0 or more on every displacement that the supports allow. Rounded "
+      "entries can cause this, as in the matrix of a body without supports",
+      a.name, short_words(shown->work / (size * size), 6),
+      a.label_of(static_cast<int>(largest - shown->motion.begin()))));
+}
+
+}  // namespace
+
+exact_problem exactly_read(const problem& p, const std::string& file) {
+  refuse_too_large(p, file);
+  exact_problem e = [&] {
+    try {
+      return exact_problem_of(p);
+    } catch (const std::invalid_argument& wrong) {
+      throw std::invalid_argument(fmt::format("{}: {}", file, wrong.what()));
+    }
+  }();
+  e.longest = longest_numbers(p);
+  if (const auto* const a = std::get_if<assembled>(&p.geometry.kind)) refuse_indefinite(*a, e);
+  return e;
+}
+
+exact_path follow_exactly(const exact_problem& p, const std::string& rule, const std::string& file,
+                          const exact_progress& tell) {
+  try {
+    return rule == "1989" ? follow_1989_path(p, tell) : follow_true_path(p, tell);
+  } catch (const too_long& e) {
+    throw std::invalid_argument(
+        fmt::format("{}: exact numbers became too long: found {}; allowed: at most {} bits. Use numbers of "
+                    "fewer digits, or fewer elements",
+                    file, e.what(), p.longest));
+  } catch (const std::runtime_error& e) {
+    throw std::invalid_argument(fmt::format("{}: {}", file, e.what()));
+  }
+}
+
+/// The kernel's own path beside the exact one.
+kernel_digits digits_of_kernel(const std::string& name, const problem& p, const linear_structure& s,
+                               const exact_path& exactly, observer* before, observer* behind) {
+  constexpr double rounding[] = {1e-9, 1e-4};  // of an event's share, in 8 and in 4 bytes
+  const std::unique_ptr<kernel> leader = make_kernel(name);
+  digit_counter counter(p, exactly);
+  std::vector<observer*> all = {before, &counter, behind};
+  std::erase(all, nullptr);
+  const path_end end = follow(p, s, "refactor", *leader, all, {0, fallback_to_reference(s, loads_of(p, s))});
+  return counter.result(name, end.status, rounding[leader->facts().real_bytes == 4 ? 1 : 0]);
+}
+
+}  // namespace contct::serve

@@ -1,0 +1,39 @@
+// contct_judge: a function of the caller's, put the calls and problems of contct fuzz.
+#include <stdexcept>
+
+#include "contct/lab/fuzz.hpp"
+#include "contct/outside/own_kernel.hpp"
+#include "contct/serve/answer.hpp"
+#include "contct/serve/serve.h"
+
+namespace contct::serve {
+namespace {
+
+void judge(contct_kernel_function* procedure, const char* options, answer& a) {
+  const request r(options, {"leader", "name", "calls", "problems", "seed"});
+  if (procedure == nullptr) throw std::invalid_argument("kernel: found null; allowed: a function");
+  constexpr int most_calls = 2'000'000'000, most_problems = 10'000'000, usual_calls = 20'000;
+  fuzz_request wanted;
+  wanted.kernels = {r.text("leader", "fortran"), r.text("name", "function")};
+  wanted.calls = r.whole("calls", usual_calls, 1, most_calls);
+  wanted.problems = r.whole("problems", 40, 0, most_problems);
+  wanted.seed = static_cast<std::uint64_t>(r.whole("seed", 1989, 0, most_calls));
+  const std::scoped_lock mine(turn());
+  const own_kernel judged(wanted.kernels[1], procedure);
+  const fuzz_run run = run_fuzz(wanted);
+  const std::string missed = floors_missed(run.result);
+  for (const fuzz_follower& f : run.result.followers)
+    a.messages.insert(a.messages.end(), f.mismatch_reports.begin(), f.mismatch_reports.end());
+  if (!missed.empty()) a.messages.push_back(missed);
+  a.result = fuzz_json(run.result);
+  a.exit = run.result.compared().mismatches > 0 ? write::exit_status::kernels_differ
+           : missed.empty()                     ? write::exit_status::solved
+                                                : write::exit_status::bad_input;
+}
+
+}  // namespace
+}  // namespace contct::serve
+
+char* contct_judge(contct_kernel_function* kernel, const char* options) {
+  return contct::serve::answered([&](contct::serve::answer& a) { contct::serve::judge(kernel, options, a); });
+}

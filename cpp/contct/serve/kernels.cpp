@@ -1,0 +1,141 @@
+// contct_about, contct_call and contct_replay: the kernels, without a problem.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "contct/compare/compare.hpp"
+#include "contct/matrix/cholesky.hpp"
+#include "contct/numeric/probe.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/serve/answer.hpp"
+#include "contct/serve/serve.h"
+#include "contct/solve/engine.hpp"
+
+namespace contct::serve {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+void tell_about(answer& a) {
+  json out = {{"version", CONTCT_VERSION},
+              {"listing_sha256", CONTCT_LISTING_SHA256},
+              {"floating_point", describe(probe_floating_point())},
+              {"lapack", lapack_identity()},
+              {"kernels", json::array()},
+              {"engines", {"auto"}}};
+  for (const std::string& name : kernel_names()) {
+    const kernel_facts k = facts_of_kernel(name);
+    out["kernels"].push_back({{"name", k.name},
+                              {"real_bytes", k.real_bytes},
+                              {"rule", k.rule},
+                              {"language", k.language},
+                              {"compiler", k.compiler},
+                              {"flags", k.flags}});
+  }
+  for (const std::string& name : engine_names()) out["engines"].push_back(name);
+  a.result = out.dump();
+}
+
+/// The dof of every pair must be there: no kernel looks. What else the listing takes, whatever it means, is
+/// taken.
+void refuse_outside(const call<double>& c) {
+  const auto refuse = [](const std::string& what, std::int64_t found, const std::string& allowed) {
+    throw std::invalid_argument(fmt::format("call: {}: found {}; allowed: {}", what, found, allowed));
+  };
+  const auto ndof = static_cast<std::int64_t>(c.dd.size());
+  for (std::size_t i = 0; i < c.id.size(); ++i) {
+    const std::int64_t dof = (std::int64_t{c.id[i]} - 1) * c.dof.ndofpn + c.dof.indof;
+    if (dof < 1 || dof > ndof)
+      refuse(fmt::format("id[{}]", i + 1), c.id[i], fmt::format("a node whose dof is one of 1 to {}", ndof));
+  }
+}
+
+std::string answer_call(const char* name, call<double> c, double* smin) {
+  if (name == nullptr)
+    throw std::invalid_argument("call: found no kernel's name; allowed: one of contct_about's");
+  refuse_outside(c);
+  const std::scoped_lock mine(turn());
+  const std::unique_ptr<kernel> k = make_kernel(name);
+  k->answer(c);
+  *smin = c.smin;
+  return k->take_text();
+}
+
+void replay_trace(const char* text, const char* options, answer& a) {
+  const request r(options, {"file", "folder", "kernel"});
+  if (text == nullptr) throw std::invalid_argument("trace: found null; allowed: the text of a trace");
+  trace_reader calls(text, r.text("file", "trace"));
+  const trace_header h = calls.read_header();
+  const std::string usual = h.rule == "corrected" ? "corrected"
+                            : h.real_bytes == 4   ? "fortran-r4"
+                                                  : "fortran";
+  const std::string name = r.text("kernel", usual);
+  const std::scoped_lock mine(turn());
+  const std::unique_ptr<kernel> k = make_kernel(name);
+  if (!comparable(h, k->facts()))
+    throw std::invalid_argument(fmt::format(
+        "options: kernel: found {}, of {}-byte REAL and {}; allowed: one of {}-byte REAL and {}, "
+        "as the trace",
+        name, k->facts().real_bytes, rule_words(k->facts().rule), h.real_bytes, rule_words(h.rule)));
+  const replay_report found = replay(h, calls, *k);
+  if (found.calls == 0) throw std::invalid_argument("trace: found no call; allowed: one or more");
+  json out = {{"kernel", name},
+              {"calls", found.calls},
+              {"values_compared", found.compared.values},
+              {"mismatches", found.compared.mismatches},
+              {"first", nullptr}};
+  if (found.first) out["first"] = words_of(*found.first);
+  a.result = out.dump();
+  a.exit = found.compared.mismatches == 0 ? write::exit_status::solved : write::exit_status::kernels_differ;
+}
+
+}  // namespace
+}  // namespace contct::serve
+
+using contct::serve::answer;
+using contct::serve::answered;
+
+int contct_serve_version() {
+  return CONTCT_SERVE_VERSION;
+}
+
+char* contct_about() {
+  return answered([](answer& a) { contct::serve::tell_about(a); });
+}
+
+char* contct_call(const char* kernel, const double dd[], const double dtest[], const double cc[], double ss[],
+                  double* smin, const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn,
+                  int ndof) {
+  return answered([&](answer& a) {
+    if (nc < 0 || ndof < 0 || smin == nullptr ||
+        (nc > 0 &&
+         (cc == nullptr || ss == nullptr || id == nullptr || isep == nullptr || isurf == nullptr)) ||
+        (ndof > 0 && (dd == nullptr || dtest == nullptr)))
+      throw std::invalid_argument(
+          "call: found null, or a length below 0; allowed: arrays as long as nc and ndof say");
+    const auto pairs = static_cast<std::size_t>(nc);
+    const auto dofs = static_cast<std::size_t>(ndof);
+    const std::string text = contct::serve::answer_call(kernel,
+                                                        {{dd, dofs},
+                                                         {dtest, dofs},
+                                                         {cc, pairs},
+                                                         {ss, pairs},
+                                                         0.0,
+                                                         {id, pairs},
+                                                         {isep, pairs},
+                                                         {isurf, pairs},
+                                                         {indof, ndofpn}},
+                                                        smin);
+    a.result = nlohmann::json{{"text", text}}.dump();
+  });
+}
+
+char* contct_replay(const char* trace, const char* options) {
+  return answered([&](answer& a) { contct::serve::replay_trace(trace, options, a); });
+}
+
+void contct_free(char* text) {
+  std::free(text);  // NOLINT: made by malloc, for callers in C
+}

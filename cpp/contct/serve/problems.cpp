@@ -1,0 +1,108 @@
+// contct_check, contct_exact and contct_explain: what else can be asked of a problem.
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "contct/certify/certificate.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/serve/answer.hpp"
+#include "contct/serve/exact_run.hpp"
+#include "contct/serve/listing_kernels.hpp"
+#include "contct/serve/serve.h"
+#include "contct/write/exact_output.hpp"
+#include "contct/write/explain.hpp"
+#include "contct/write/pictures.hpp"
+#include "contct/write/run_words.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::serve {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+void check(const char* text, const char* options, answer& a) {
+  const request r(options, {"file", "folder", "svg"});
+  const problem p = read_problem_text(text, r.file(), a);
+  json out = {{"title", p.title},
+              {"kind", std::holds_alternative<beam>(p.geometry.kind)    ? "beam"
+                       : std::holds_alternative<plate>(p.geometry.kind) ? "plate"
+                                                                        : "matrix"},
+              {"nodes", nodes(p.geometry)},
+              {"dofs", dofs(p.geometry)},
+              {"elements", elements(p.geometry)},
+              {"pairs", p.pairs.size()},
+              {"steps", json::array()},
+              {"units", nullptr}};
+  for (const load& step : p.steps) out["steps"].push_back(step.name);
+  if (!p.units.length.empty()) out["units"] = {{"length", p.units.length}, {"force", p.units.force}};
+  a.result = out.dump();
+  if (r.flag("svg")) a.texts.emplace_back("svg", problem_svg(p, r.file()));
+}
+
+void follow_exact_path(const char* text, const char* options, answer& a) {
+  const request r(options, {"file", "folder", "rule", "kernels"});
+  const std::string rule = r.text("rule", "corrected");
+  if (rule != "corrected" && rule != "1989")
+    throw std::invalid_argument(fmt::format("options: rule: found \"{}\"; allowed: corrected, 1989", rule));
+  const std::vector<std::string> names = r.texts("kernels", {});
+  for (const std::string& name : names) (void)facts_of_kernel(name);
+  const problem p = read_problem_text(text, r.file(), a, literals::kept);
+  const exact_problem exactly = exactly_read(p, r.file());
+  const exact_path path = follow_exactly(exactly, rule, r.file());
+  std::vector<kernel_digits> kernels;
+  if (!names.empty()) {
+    const std::scoped_lock mine(turn());
+    const linear_structure s = structure_of(p);
+    for (const std::string& name : names) kernels.push_back(digits_of_kernel(name, p, s, path));
+  }
+  output_file out(&a.result);
+  write_exact_json({p, exactly, path, kernels}, out);
+  a.exit = status_of(path.status);
+}
+
+void explain_path(const char* text, const char* options, answer& a) {
+  const request r(options, {"file", "folder", "kernels", "engine", "step", "increment"});
+  const std::vector<std::string> names = r.texts("kernels", {"fortran", "cpp"});
+  const std::string engine = r.text("engine", "refactor");
+  refuse_unknown_engine(engine);
+  refuse_other_rules(names);
+  const problem p = read_problem_text(text, r.file(), a);
+  const increments_wanted wanted{r.whole("step", 0, 1, static_cast<int>(p.steps.size())),
+                                 r.whole("increment", 0, 1, most_increments)};
+  const std::scoped_lock mine(turn());
+  const std::unique_ptr<kernel> leader = make_kernel(names.front());
+  output_file out(&a.result);
+  explain_json written({p, names, leader->facts().real_bytes, 0}, out);
+  explained_path told(leader->facts(), second_kernel(names), wanted,
+                      [&](const auto& i) { written.write(i); });
+  const linear_structure s = structure_of(p);
+  const path_end end = follow(p, s, engine_for(leader->facts(), engine, s), *leader, {&told});
+  if (end.status == path_status::not_factored || told.explained() == 0)
+    throw std::invalid_argument(
+        end.status == path_status::solved
+            ? fmt::format("{}: no increment is explained: the path has no such one", r.file())
+            : r.file() + ": " + end_words(p, end));
+  const bool equal = told.compared().mismatches == 0;
+  written.finish(equal ? status_name(end.status) : "kernels-disagree", told);
+  if (end.status != path_status::solved) a.messages.push_back(r.file() + ": " + end_words(p, end));
+  a.exit = equal ? status_of(end.status) : write::exit_status::kernels_differ;
+}
+
+}  // namespace
+}  // namespace contct::serve
+
+using contct::serve::answer;
+using contct::serve::answered;
+
+char* contct_check(const char* text, const char* options) {
+  return answered([&](answer& a) { contct::serve::check(text, options, a); });
+}
+
+char* contct_exact(const char* text, const char* options) {
+  return answered([&](answer& a) { contct::serve::follow_exact_path(text, options, a); });
+}
+
+char* contct_explain(const char* text, const char* options) {
+  return answered([&](answer& a) { contct::serve::explain_path(text, options, a); });
+}

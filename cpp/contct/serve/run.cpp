@@ -1,0 +1,303 @@
+// contct_run and contct_certify: a path with its certificate, and the certificate of states from elsewhere.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "contct/certify/certificate.hpp"
+#include "contct/compare/lockstep.hpp"
+#include "contct/matrix/cholesky.hpp"
+#include "contct/numeric/probe.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/serve/answer.hpp"
+#include "contct/serve/serve.h"
+#include "contct/write/pictures.hpp"
+#include "contct/write/proof_json.hpp"
+#include "contct/write/result_json.hpp"
+#include "contct/write/run_words.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::serve {
+namespace {
+
+struct run_request {
+  std::string file;
+  std::vector<std::string> kernels;  // the leader first; none: only the ends of the steps
+  std::string engine;
+  int max_increments;
+  bool envelope, page, svg, log, trace, proof;
+};
+
+run_request read_run_request(const char* options) {
+  const request r(options, {"file", "folder", "kernels", "engine", "final_only", "envelope", "max_increments",
+                            "page", "svg", "log", "trace", "proof"});
+  constexpr int most_increments = 1'000'000'000;
+  run_request wanted{r.file(),
+                     r.texts("kernels", {"fortran", "cpp"}),
+                     r.text("engine", ""),
+                     r.whole("max_increments", 0, 0, most_increments),
+                     r.flag("envelope"),
+                     r.flag("page"),
+                     r.flag("svg"),
+                     r.flag("log"),
+                     r.flag("trace"),
+                     r.flag("proof")};
+  refuse_unknown_engine(wanted.engine);
+  for (const std::string& name : wanted.kernels) {
+    if (std::ranges::count(wanted.kernels, name) > 1)
+      throw std::invalid_argument(fmt::format("options: kernels: \"{}\" is named twice", name));
+    (void)facts_of_kernel(name);
+  }
+  if (r.flag("final_only")) wanted.kernels.clear();
+  if (wanted.kernels.empty() && (wanted.log || wanted.trace))
+    throw std::invalid_argument(
+        "options: found final_only with log or trace; allowed: a path, which calls kernels");
+  return wanted;
+}
+
+std::vector<std::string> facts() {
+  return {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
+          "floating point: " + describe(probe_floating_point())};
+}
+
+struct log_keeper final : observer {
+  explicit log_keeper(std::string& text) : out(text) {}
+  void called(const answered_call& c) override { out += c.text; }
+  std::string& out;
+};
+
+/// A problem with what watches its path.
+class served_run {
+ public:
+  served_run(const run_request& wanted, const problem& p, answer& a)
+      : wanted_(wanted), p_(p), a_(a), judged_(p, structure_) {
+    if (wanted.proof) judged_.keep_proofs();
+  }
+
+  void go() {
+    if (wanted_.kernels.empty()) return finish(find_ends(), nullptr);
+    const std::unique_ptr<kernel> leader = make_kernel(wanted_.kernels.front());
+    lockstep compared = make_lockstep(leader->facts(), std::span(wanted_.kernels).subspan(1));
+    lockstep* const watched = wanted_.kernels.size() > 1 ? &compared : nullptr;
+    engine_ = engine_for(leader->facts(), wanted_.engine, structure_);
+    std::vector<observer*> all = observers(watched);
+    if (wanted_.page || wanted_.svg || wanted_.envelope) watch_states(all, watched, leader->facts());
+    log_keeper log(log_);
+    if (wanted_.log) all.push_back(&log);
+    std::optional<trace_recorder> trace;
+    if (wanted_.trace) {
+      trace_header h = header_for(leader->facts(), CONTCT_LISTING_SHA256, lapack_identity());
+      h.about = {"every call of " + std::filesystem::path(wanted_.file).filename().string()};
+      all.push_back(&trace.emplace(h, [this](std::string_view text) { trace_ += text; }));
+    }
+    const path_end end = follow(p_, structure_, engine_, *leader, all,
+                                {wanted_.max_increments, judged_.fallback(), judged_.refiner()});
+    finish(end, watched);
+  }
+
+ private:
+  /// In the order in which they must observe.
+  std::vector<observer*> observers(lockstep* compared) {
+    std::vector<observer*> all = {compared, &judged_,
+                                  &early_,  &json_.emplace(p_, wanted_.kernels, engine_, judged_, result_),
+                                  &digits_, &passages_};
+    std::erase(all, nullptr);
+    return all;
+  }
+
+  void watch_states(std::vector<observer*>& all, const lockstep* compared, const kernel_facts& leader) {
+    all.push_back(&frames_.emplace(structure_, loads_of(p_, structure_), leader.rule != "listing"));
+    all.push_back(&record_.emplace(compared));
+    if (!wanted_.envelope) return;
+    extremes_.emplace(p_);
+    frames_->show_each_to([this](const frame& f) { extremes_->take(f); });
+  }
+
+  path_end find_ends() {
+    engine_ = "oracle";
+    std::vector<observer*> all = observers(nullptr);
+    if (wanted_.page || wanted_.svg || wanted_.envelope)
+      throw std::invalid_argument(
+          "options: found final_only with page, svg or envelope; allowed: these with a path");
+    return find_final_states(structure_, static_cast<int>(p_.steps.size()), loads_of(p_, structure_), all,
+                             &judged_);
+  }
+
+  void finish(const path_end& end, const lockstep* compared) {
+    const bool equal = compared == nullptr || compared->compared().mismatches == 0;
+    const bool solved = end.status == path_status::solved;
+    const std::string words = end_words(p_, end);
+    if (status_of(end.status) == exit_status::bad_input)
+      throw std::invalid_argument(wanted_.file + ": " + words);
+    const std::string status(equal ? status_name(end.status) : "kernels-disagree");
+    const envelope* const extremes = extremes_ ? &*extremes_ : nullptr;
+    json_->finish(status, end, compared, extremes);
+    a_.result = std::move(text_);
+    a_.exit = !equal ? exit_status::kernels_differ : status_of(end.status);
+    if (!equal && compared->first()) tell(words_of(*compared->first()));
+    tell(certificate_complaints(p_, judged_, early_));
+    if (!solved) a_.messages.push_back(wanted_.file + ": " + words);
+    for (const std::string& w : {solved ? digits_.warning() : "", passages_.warning()})
+      if (!w.empty()) a_.messages.push_back("warning: " + w);
+    if (wanted_.page || wanted_.svg) draw({status, words, compared, equal, extremes});
+    if (wanted_.log) a_.texts.emplace_back("log", std::move(log_));
+    if (wanted_.trace) a_.texts.emplace_back("trace", std::move(trace_));
+    if (wanted_.proof)
+      a_.texts.emplace_back("proof",
+                            proof_json(p_, std::filesystem::path(wanted_.file).filename().string(), judged_));
+  }
+
+  struct outcome {
+    std::string status, words;
+    const lockstep* compared;
+    bool equal;
+    const envelope* extremes;
+  };
+
+  void draw(const outcome& o) {
+    const std::string comparison =
+        o.compared == nullptr
+            ? ""
+            : fmt::format("{} calls, {} values compared, {} mismatches", o.compared->calls(),
+                          o.compared->compared().values, o.compared->compared().mismatches);
+    const finished_run r{p_,
+                         *frames_,
+                         *record_,
+                         judged_,
+                         early_,
+                         wanted_.file,
+                         wanted_.kernels,
+                         engine_,
+                         o.status,
+                         o.words,
+                         o.compared != nullptr,
+                         o.equal,
+                         comparison,
+                         facts(),
+                         "",
+                         o.extremes};
+    if (wanted_.page) a_.texts.emplace_back("page", run_page(r));
+    if (wanted_.svg) a_.texts.emplace_back("svg", run_svg(r));
+  }
+
+  void tell(const std::vector<std::string>& lines) {
+    a_.messages.insert(a_.messages.end(), lines.begin(), lines.end());
+  }
+
+  const run_request& wanted_;
+  const problem& p_;
+  answer& a_;
+  linear_structure structure_ = structure_of(p_);
+  certifier judged_;
+  early_toggles early_;
+  digit_watch digits_;
+  passage_watch passages_{p_};
+  std::string engine_, text_, log_, trace_;
+  output_file result_{&text_};
+  std::optional<result_json> json_;
+  std::optional<frame_keeper> frames_;  // these three for pictures and the envelope
+  std::optional<run_record> record_;
+  std::optional<envelope> extremes_;
+};
+
+/// The states of a request, each with its pairs' statuses.
+struct given_states {
+  std::vector<std::vector<double>> displacement;  // [states][dofs]
+  std::vector<std::vector<int>> isep;             // [states][pairs]
+};
+
+/// Where no list says so, a pair is closed whose face the state touches or enters.
+std::vector<int> statuses_at(const problem& p, const linear_structure& s,
+                             std::span<const double> displacement) {
+  std::vector<int> isep(p.pairs.size(), separated);
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
+    const contact_pair& at = p.pairs[i];
+    const double w = displacement[static_cast<std::size_t>(at.node) * s.dofs_per_node];
+    if (at.surface * (w - at.face) >= 0) isep[i] = in_contact;
+  }
+  return isep;
+}
+
+std::vector<int> statuses_in(const problem& p, const std::vector<double>& closed) {
+  std::vector<int> isep(p.pairs.size(), separated);
+  for (const double number : closed) {
+    const auto pair = static_cast<std::size_t>(std::max(number, 0.0));
+    if (static_cast<double>(pair) != number || pair < 1 || pair > p.pairs.size())
+      throw std::invalid_argument(
+          fmt::format("options: closed: found {}; allowed: pairs from 1 to {}", number, p.pairs.size()));
+    isep[pair - 1] = in_contact;
+  }
+  return isep;
+}
+
+given_states read_states(const request& r, const problem& p, const linear_structure& s) {
+  given_states states{r.lists("displacement"), {}};
+  const std::vector<std::vector<double>> closed = r.lists("closed");
+  const std::size_t count = states.displacement.size();
+  if (count == 0 || count > p.steps.size())
+    throw std::invalid_argument(
+        fmt::format("options: displacement: found {} states; allowed: one for each of the first "
+                    "steps, from 1 to {}",
+                    count, p.steps.size()));
+  if (r.has("closed") && closed.size() != count)
+    throw std::invalid_argument(fmt::format(
+        "options: closed: found {} lists; allowed: {}, one for each state", closed.size(), count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<double>& u = states.displacement[i];
+    if (std::ssize(u) != dofs(p.geometry))
+      throw std::invalid_argument(
+          fmt::format("options: displacement: found {} numbers; allowed: {}, one for each dof", u.size(),
+                      dofs(p.geometry)));
+    states.isep.push_back(closed.empty() ? statuses_at(p, s, u) : statuses_in(p, closed[i]));
+  }
+  return states;
+}
+
+void certify_states(const char* text, const char* options, answer& a) {
+  const request r(options, {"file", "folder", "displacement", "closed"});
+  const problem p = read_problem_text(text, r.file(), a);
+  const linear_structure s = structure_of(p);
+  const given_states states = read_states(r, p, s);
+  certifier judged(p, s);
+  output_file out(&a.result);
+  result_json json(p, {}, "given", judged, out);
+  path_end end{path_status::solved, 0, 1.0, {}};
+  for (std::size_t i = 0; i < states.displacement.size(); ++i) {
+    const std::unique_ptr<stiffness_engine> factored = make_engine("refactor", s);
+    for (std::size_t pair = 0; pair < p.pairs.size(); ++pair)
+      if ((states.isep[i][pair] == in_contact) != p.pairs[pair].closed)
+        factored->switch_spring(static_cast<int>(pair), states.isep[i][pair] == in_contact);
+    end.step = static_cast<int>(i) + 1;
+    const step_state given{end.step, 1.0, states.displacement[i], states.isep[i],
+                           factored->reciprocal_condition()};
+    judged.step_ended(given);
+    json.step_ended(given);
+  }
+  json.finish(status_name(end.status), end, nullptr);
+  const std::vector<std::string> complaints = certificate_complaints(p, judged, {});
+  a.messages.insert(a.messages.end(), complaints.begin(), complaints.end());
+  a.exit = judged.all_exact() ? exit_status::solved : exit_status::uncertified;
+}
+
+}  // namespace
+}  // namespace contct::serve
+
+using contct::serve::answer;
+using contct::serve::answered;
+
+char* contct_run(const char* text, const char* options) {
+  return answered([&](answer& a) {
+    const auto wanted = contct::serve::read_run_request(options);
+    const auto p = contct::serve::read_problem_text(text, wanted.file, a);
+    const std::scoped_lock mine(contct::serve::turn());
+    contct::serve::served_run(wanted, p, a).go();
+  });
+}
+
+char* contct_certify(const char* text, const char* options) {
+  return answered([&](answer& a) { contct::serve::certify_states(text, options, a); });
+}

@@ -1,0 +1,62 @@
+// A function of this process as a kernel.
+#include "contct/outside/own_kernel.hpp"
+
+#include "catch.hpp"
+#include "contct/kernel/call_inputs.hpp"
+#include "contct/outside/registry.hpp"
+
+using namespace contct::outside;
+
+namespace {
+
+call_inputs<double> one_pair() {
+  return {{0.0, 0.0}, {-2.0, 0.0}, {-1.0}, {1}, {separated}, {face_below}, {1, 2}};
+}
+
+void halves(const double* /*dd*/, const double* /*dtest*/, const double* /*cc*/, double ss[], double* smin,
+            const int* /*id*/, int isep[], const int* /*isurf*/, int nc, int /*indof*/, int /*ndofpn*/,
+            int /*ndof*/) {
+  for (int i = 0; i < nc; ++i) ss[i] = 0.5;
+  *smin = 0.5;
+  isep[0] = in_contact;
+}
+
+void changes_its_input(const double dd[], const double dtest[], const double cc[], double ss[], double* smin,
+                       const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn,
+                       int ndof) {
+  halves(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof);
+  const_cast<double*>(dd)[1] = 3.0;
+}
+
+}  // namespace
+
+TEST_CASE("a function is a kernel by its name, as long as its owner lives") {
+  {
+    const own_kernel mine("halves", halves);
+    CHECK(facts_of_kernel("halves").language == "a function");
+    const auto k = make_kernel("halves");
+    const call_inputs<double> in = one_pair();
+    call_outputs out;
+    call<double> c = out.prepare(in);
+    k->answer(c);
+    CHECK(c.smin == 0.5);
+    CHECK(out.isep[0] == in_contact);
+    CHECK_THROWS_AS(own_kernel("another", halves), std::invalid_argument);
+  }
+  CHECK_THROWS_AS(make_kernel("halves"), std::invalid_argument);
+}
+
+TEST_CASE("a function that changes its input fails, and the caller's arrays stay as they were") {
+  const own_kernel mine("changes", changes_its_input);
+  const auto k = make_kernel("changes");
+  const call_inputs<double> in = one_pair();
+  call_outputs out;
+  call<double> c = out.prepare(in);
+  CHECK_THROWS_WITH(k->answer(c), "changes: changed its input DD");
+  CHECK(in.dd[1] == 0.0);
+}
+
+TEST_CASE("a function's name may not be another kernel's") {
+  for (const char* const name : {"cpp", "fortran", "", "a:b", "a,b"})
+    CHECK_THROWS_AS(own_kernel(name, halves), std::invalid_argument);
+}

@@ -1,0 +1,250 @@
+// The program as functions: what they answer is what the program writes.
+#include "contct/serve/serve.h"
+
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "catch.hpp"
+#include "contct/text/input_text.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+std::string problem_text(const std::string& name) {
+  return contct::text::read_input(std::string(CONTCT_REFERENCE) + "/problems/" + name + ".toml");
+}
+
+/// The text that a function returned, read and freed.
+json taken(char* text) {
+  REQUIRE(text != nullptr);
+  json answer = json::parse(text);
+  contct_free(text);
+  CHECK(answer.at("format") == "contct-answer-1");
+  return answer;
+}
+
+json run(const std::string& problem, const json& options = json::object()) {
+  return taken(contct_run(problem.c_str(), options.dump().c_str()));
+}
+
+std::vector<json> displacements(const json& result) {
+  std::vector<json> all;
+  for (const json& step : result.at("steps")) all.push_back(step.at("displacement"));
+  return all;
+}
+
+/// Asks C++ CONTCT.
+void right_kernel(const double dd[], const double dtest[], const double cc[], double ss[], double* smin,
+                  const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof) {
+  contct_free(contct_call("cpp", dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof));
+}
+
+/// Is off by 1e-9 where there are three pairs.
+void late_kernel(const double dd[], const double dtest[], const double cc[], double ss[], double* smin,
+                 const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof) {
+  right_kernel(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof);
+  if (nc == 3) ss[2] += 1e-9;
+}
+
+}  // namespace
+
+TEST_CASE("a run's answer is a result, with every other output that is asked for") {
+  const json plain = run(problem_text("pb07-three-gap-supports"));
+  CHECK(plain.at("exit") == 0);
+  CHECK(plain.at("error").is_null());
+  CHECK(plain.at("messages").empty());
+  CHECK(plain.at("result").at("certified") == true);
+  CHECK(plain.at("result").at("lockstep").at("mismatches") == 0);
+  CHECK(plain.at("result").at("lockstep").at("values_compared") >= 64);
+  CHECK_FALSE(plain.contains("page"));
+
+  const json full = run(
+      problem_text("pb07-three-gap-supports"),
+      {{"page", true}, {"svg", true}, {"log", true}, {"trace", true}, {"proof", true}, {"envelope", true}});
+  CHECK(displacements(full.at("result")) == displacements(plain.at("result")));
+  CHECK(full.at("result").contains("envelope"));
+  CHECK(full.at("page").get<std::string>().starts_with("<!DOCTYPE html>"));
+  CHECK(full.at("svg").get<std::string>().starts_with("<svg"));
+  CHECK(full.at("log").get<std::string>().find("MAKING CONTACT") != std::string::npos);
+  CHECK(json::parse(full.at("proof").get<std::string>()).at("steps").size() == 4);
+
+  const json replayed =
+      taken(contct_replay(full.at("trace").get<std::string>().c_str(), R"({"kernel": "cpp"})"));
+  CHECK(replayed.at("exit") == 0);
+  CHECK(replayed.at("result").at("calls") == 8);
+  CHECK(replayed.at("result").at("mismatches") == 0);
+}
+
+TEST_CASE("a doctored trace is noticed in replay") {
+  std::string trace = run(problem_text("pb07-three-gap-supports"), {{"trace", true}}).at("trace");
+  const std::size_t smin = trace.find("smin 0x1.");
+  REQUIRE(smin != std::string::npos);
+  char& digit = trace[smin + 9];
+  digit = digit == '0' ? '1' : '0';
+  const json replayed = taken(contct_replay(trace.c_str(), nullptr));
+  CHECK(replayed.at("exit") == 1);
+  CHECK(replayed.at("result").at("mismatches") == 1);
+}
+
+TEST_CASE("errors are data with file, line and column") {
+  std::string text = problem_text("pb07-three-gap-supports");
+  text.replace(text.find("surface"), 7, "surfase");
+  const json wrong = run(text, {{"file", "beam.toml"}});
+  CHECK(wrong.at("exit") == 2);
+  CHECK(wrong.at("result").is_null());
+  CHECK(wrong.at("error").at("file") == "beam.toml");
+  CHECK(wrong.at("error").at("line") == 24);
+  CHECK(wrong.at("error").at("column") == 1);
+  CHECK(wrong.at("error").at("message").get<std::string>().find("did you mean \"surface\"?") !=
+        std::string::npos);
+}
+
+TEST_CASE("options that are not known, or of another type, are refused by name") {
+  const std::pair<const char*, const char*> wrong[] = {
+      {R"({"kernel": "cpp"})", "found \"kernel\""},
+      {R"({"kernels": "cpp"})", "kernels: found \"cpp\""},
+      {R"({"kernels": ["cpp", "cpp"]})", "named twice"},
+      {R"({"kernels": ["none"]})", "no kernel is named"},
+      {R"({"engine": "fast"})", "engine: found \"fast\""},
+      {R"({"page": 1})", "page: found 1"},
+      {R"({"max_increments": -1})", "max_increments: found -1"},
+      {R"({"final_only": true, "trace": true})", "final_only"},
+      {"[]", "allowed: an object"},
+      {"{", "found no JSON"},
+  };
+  const std::string problem = problem_text("pb07-three-gap-supports");
+  for (const auto& [options, words] : wrong) {
+    const json answer = taken(contct_run(problem.c_str(), options));
+    CAPTURE(options);
+    CHECK(answer.at("exit") == 2);
+    CHECK(answer.at("error").at("message").get<std::string>().find(words) != std::string::npos);
+  }
+  CHECK(taken(contct_run(nullptr, nullptr)).at("exit") == 2);
+}
+
+TEST_CASE("a path that ends in a mechanism answers with exit 4, the result and why") {
+  const json answer =
+      run("[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n"
+          "[[step]]\npoint = [{ node = 3, w = -1 }]\n");
+  CHECK(answer.at("exit") == 4);
+  CHECK(answer.at("result").at("status") == "mechanism");
+  REQUIRE(answer.at("messages").size() == 1);
+  CHECK(answer.at("messages")[0].get<std::string>().find("mechanism") != std::string::npos);
+}
+
+TEST_CASE("states from elsewhere are certified, and a state that is wrong is not") {
+  const std::string text = problem_text("pb07-three-gap-supports");
+  std::vector<json> states = displacements(run(text, {{"kernels", {"corrected"}}}).at("result"));
+  const json right = taken(contct_certify(text.c_str(), json{{"displacement", states}}.dump().c_str()));
+  CHECK(right.at("exit") == 0);
+  CHECK(right.at("result").at("certified") == true);
+  CHECK(right.at("result").at("engine") == "given");
+  CHECK(right.at("result").at("steps")[0].at("error").at("w").get<double>() < 1e-12);
+
+  json& w = states[2][16];
+  const double change = 1e-4 * w.get<double>();
+  w = w.get<double>() + change;
+  const json wrong = taken(contct_certify(text.c_str(), json{{"displacement", states}}.dump().c_str()));
+  CHECK(wrong.at("exit") == 3);
+  CHECK(wrong.at("result").at("certified") == false);
+  const json& bound = wrong.at("result").at("steps")[2].at("error").at("w");
+  CHECK((bound.is_null() || bound.get<double>() >= std::abs(change)));
+
+  CHECK(taken(contct_certify(text.c_str(), R"({"displacement": [[0, 1]]})")).at("exit") == 2);
+  CHECK(taken(contct_certify(text.c_str(), json{{"displacement", states},
+                                                {"closed", std::vector<std::vector<int>>{{9}, {}, {}, {}}}}
+                                               .dump()
+                                               .c_str()))
+            .at("error")
+            .at("message")
+            .get<std::string>()
+            .find("closed: found 9") != std::string::npos);
+}
+
+TEST_CASE("check, exact, explain and about answer as the program does") {
+  const std::string text = problem_text("pb07-three-gap-supports");
+  const json checked = taken(contct_check(text.c_str(), R"({"svg": true})"));
+  CHECK(checked.at("result").at("kind") == "beam");
+  CHECK(checked.at("result").at("pairs") == 3);
+  CHECK(checked.at("svg").get<std::string>().starts_with("<svg"));
+
+  const json exactly = taken(contct_exact(text.c_str(), R"({"kernels": ["cpp"]})"));
+  CHECK(exactly.at("result").at("format") == "contct-exact-1");
+  CHECK(exactly.at("result").at("kernels")[0].at("same_events") == true);
+  CHECK(taken(contct_exact(text.c_str(), R"({"rule": "1988"})")).at("exit") == 2);
+
+  const json explained = taken(contct_explain(text.c_str(), R"({"step": 1})"));
+  CHECK(explained.at("result").at("format") == "contct-explain-1");
+  CHECK_FALSE(explained.at("result").at("increments").empty());
+  CHECK(taken(contct_explain(text.c_str(), R"({"kernels": ["corrected"]})")).at("exit") == 2);
+
+  const json about = taken(contct_about());
+  CHECK(contct_serve_version() == CONTCT_SERVE_VERSION);
+  CHECK(about.at("result").at("kernels").size() >= 5);
+}
+
+TEST_CASE("one call of a kernel answers with its unit-26 text, and refuses a dof that is not there") {
+  const double dd[] = {0.0, 0.0}, dtest[] = {-2.0, 0.0}, cc[] = {-1.0};
+  const int id[] = {1}, isurf[] = {-1};
+  for (const char* name : {"fortran", "cpp", "fortran-r4", "corrected"}) {
+    int isep[] = {1};
+    double ss[] = {0.0}, smin = 0.0;
+    const json answer = taken(contct_call(name, dd, dtest, cc, ss, &smin, id, isep, isurf, 1, 1, 2, 2));
+    CAPTURE(name);
+    CHECK(answer.at("exit") == 0);
+    CHECK(smin == 0.5);
+    CHECK(isep[0] == -1);
+    CHECK((answer.at("result").at("text").get<std::string>().find("MAKING CONTACT") != std::string::npos) ==
+          (std::string(name) != "corrected"));
+  }
+  int isep[] = {1};
+  double ss[] = {0.0}, smin = 7.0;
+  const int beyond[] = {2};
+  CHECK(taken(contct_call("cpp", dd, dtest, cc, ss, &smin, beyond, isep, isurf, 1, 1, 2, 2)).at("exit") == 2);
+  CHECK(smin == 7.0);
+}
+
+TEST_CASE("a kernel of the caller's is judged: equal to the bit, or not") {
+  const json right =
+      taken(contct_judge(right_kernel, R"({"leader": "fortran", "calls": 3000, "problems": 4})"));
+  CHECK(right.at("exit") == 0);
+  CHECK(right.at("result").at("mismatches") == 0);
+  CHECK(right.at("result").at("values_compared") > 10000);
+  const json wrong = taken(contct_judge(late_kernel, R"({"calls": 3000, "problems": 4, "name": "late"})"));
+  CHECK(wrong.at("exit") == 1);
+  CHECK(wrong.at("result").at("mismatches") > 0);
+  CHECK(wrong.at("result").at("followers")[0].at("kernel") == "late");
+  CHECK(taken(contct_judge(nullptr, nullptr)).at("exit") == 2);
+  CHECK(taken(contct_judge(right_kernel, R"({"name": "cpp"})")).at("exit") == 2);
+}
+
+TEST_CASE("threads get their own answers") {
+  const std::string names[] = {"pb01-cantilever-tip-stop", "pb07-three-gap-supports",
+                               "pb10-cantilever-gapped-spring"};
+  std::vector<std::string> texts;
+  std::vector<json> expected;
+  for (const std::string& name : names) {
+    texts.push_back(problem_text(name));
+    expected.push_back(run(texts.back()).at("result"));
+  }
+  std::atomic<int> right = 0;
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < 8; ++t)
+    threads.emplace_back([&, t] {
+      for (std::size_t i = 0; i < 6; ++i) {
+        const std::size_t which = (t + i) % texts.size();
+        char* const text = i % 2 == 0 ? contct_run(texts[which].c_str(), nullptr)
+                                      : contct_exact(texts[which].c_str(), nullptr);
+        const json answer = json::parse(text);
+        contct_free(text);
+        const bool is_right = i % 2 == 0
+                                  ? answer.at("result") == expected[which]
+                                  : answer.at("exit") == 0 && answer.at("result").at("status") == "solved";
+        if (is_right) ++right;
+      }
+    });
+  for (std::thread& t : threads) t.join();
+  CHECK(right == 48);
+}
