@@ -9,6 +9,7 @@
 #include "contct/compare/free_run.hpp"
 #include "contct/compare/lockstep.hpp"
 #include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/lapack_identity.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"

@@ -16,6 +16,7 @@
 #include "bench/measure.hpp"
 #include "bench/problems.hpp"
 #include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/lapack_identity.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/solve/spring_engine.hpp"
 #include "contct/text/output_file.hpp"

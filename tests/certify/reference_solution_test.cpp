@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/lapack_identity.hpp"
 #include "support/beams.hpp"
 #include "support/every_set.hpp"
 #include "support/tried_problem.hpp"

@@ -1,4 +1,5 @@
 #include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/lapack_identity.hpp"
 
 #include <algorithm>
 #include <cmath>

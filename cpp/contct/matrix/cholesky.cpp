@@ -1,11 +1,8 @@
 #include "contct/matrix/cholesky.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <limits>
 
 #include "contct/matrix/block_solve.hpp"
@@ -20,7 +17,6 @@ void CONTCT_FC_GLOBAL(dpbtrs, DPBTRS)(const char* uplo, const int* n, const int*
                                       std::size_t uplo_length);
 void CONTCT_FC_GLOBAL(dlacn2, DLACN2)(const int* n, double* v, double* x, int* isgn, double* est, int* kase,
                                       int* isave);
-void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 }
 
 namespace contct::matrix {
@@ -56,24 +52,6 @@ double norm_of_inverse(int n, const in_place_solver& solve) {
 
 double reciprocal(double norm, double inverse_norm) {
   return std::isfinite(norm) && std::isfinite(inverse_norm) ? 1.0 / inverse_norm / norm : 0.0;
-}
-
-/// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found.
-std::string library_of_dpbtrf() {
-  Dl_info found{};
-  // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses
-  if (dladdr(reinterpret_cast<void*>(&CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)), &found) == 0) return "";
-  std::error_code ignored;
-  const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, ignored);
-  return (ignored ? std::filesystem::path(found.dli_fname) : real).filename().string();
-}
-
-/// The configuration of OpenBLAS with the core type that it uses; empty where it is not loaded.
-std::string openblas_identity() {
-  using configuration = char*();
-  // NOLINTNEXTLINE(*-reinterpret-cast)
-  const auto get_config = reinterpret_cast<configuration*>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
-  return get_config == nullptr ? "" : get_config();
 }
 
 }  // namespace
@@ -145,18 +123,6 @@ double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs
   band_ = std::move(scaled.band());
   if (!std::isfinite(norm) || !contct::matrix::factor(band_)) return 0.0;
   return reciprocal(norm, norm_of_inverse(k_.order(), [this](std::span<double> x) { solve(x); }));
-}
-
-std::string lapack_identity() {
-  int major = 0;
-  int minor = 0;
-  int patch = 0;
-  CONTCT_FC_GLOBAL(ilaver, ILAVER)(&major, &minor, &patch);
-  std::string words = "LAPACK " + std::to_string(major);
-  words += "." + std::to_string(minor) + "." + std::to_string(patch);
-  for (const std::string& more : {library_of_dpbtrf(), openblas_identity()})
-    if (!more.empty()) words += ", " + more;
-  return words;
 }
 
 }  // namespace contct::matrix

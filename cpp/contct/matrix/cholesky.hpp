@@ -87,9 +87,4 @@ class stiffness_factor {
   std::unique_ptr<sparse_factor> sparse_;  // of K where it is no band
 };
 
-/// The LAPACK in use: its version as ILAVER has it, and the library that holds dpbtrf, as in
-/// "LAPACK 3.11.0, liblapack.so.3.11.0"; and the configuration of OpenBLAS where that is loaded. Results of
-/// solves differ between libraries, calls of CONTCT do not.
-[[nodiscard]] std::string lapack_identity();
-
 }  // namespace contct::matrix

@@ -10,6 +10,7 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
 #include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/lapack_identity.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"

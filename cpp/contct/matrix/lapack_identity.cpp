@@ -1,0 +1,49 @@
+#include "contct/matrix/lapack_identity.hpp"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
+
+extern "C" {
+void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)();  // for its address
+void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
+}
+
+namespace contct::matrix {
+namespace {
+
+/// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found.
+std::string library_of_dpbtrf() {
+  Dl_info found{};
+  // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses
+  if (dladdr(reinterpret_cast<void*>(&CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)), &found) == 0) return "";
+  std::error_code ignored;
+  const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, ignored);
+  return (ignored ? std::filesystem::path(found.dli_fname) : real).filename().string();
+}
+
+/// The configuration of OpenBLAS with the core type that it uses; empty where it is not loaded.
+std::string openblas_identity() {
+  using configuration = char*();
+  // NOLINTNEXTLINE(*-reinterpret-cast)
+  const auto get_config = reinterpret_cast<configuration*>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
+  return get_config == nullptr ? "" : get_config();
+}
+
+}  // namespace
+
+std::string lapack_identity() {
+  int major = 0;
+  int minor = 0;
+  int patch = 0;
+  CONTCT_FC_GLOBAL(ilaver, ILAVER)(&major, &minor, &patch);
+  std::string words = "LAPACK " + std::to_string(major);
+  words += "." + std::to_string(minor) + "." + std::to_string(patch);
+  for (const std::string& more : {library_of_dpbtrf(), openblas_identity()})
+    if (!more.empty()) words += ", " + more;
+  return words;
+}
+
+}  // namespace contct::matrix

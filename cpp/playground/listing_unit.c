@@ -1,0 +1,147 @@
+/* What f2c's translation of the listing needs besides itself: its calls, and unit 26. The listing's WRITE
+ * statements use the descriptors X, I, E and text, which are all that is written here; numbers come out as
+ * gfortran has them. */
+#include <f2c.h> /* last: it makes a macro of abs */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+extern struct { integer indof, ndofpn; } dof_;
+
+void contc8_(doublereal* dd, doublereal* dtest, doublereal* cc, doublereal* ss, doublereal* smin, integer* id,
+             integer* isep, integer* isurf, integer* nc);
+void contc4_(real* dd, real* dtest, real* cc, real* ss, real* smin, integer* id, integer* isep,
+             integer* isurf, integer* nc);
+
+void contct_call_r8(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
+                    const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn) {
+  dof_.indof = indof;
+  dof_.ndofpn = ndofpn;
+  contc8_((double*)dd, (double*)dtest, (double*)cc, ss, smin, (int*)id, isep, (int*)isurf, &nc);
+}
+
+void contct_call_r4(const float* dd, const float* dtest, const float* cc, float* ss, float* smin,
+                    const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn) {
+  dof_.indof = indof;
+  dof_.ndofpn = ndofpn;
+  contc4_((float*)dd, (float*)dtest, (float*)cc, ss, smin, (int*)id, isep, (int*)isurf, &nc);
+}
+
+/* Unit 26: a file, or nothing. */
+static FILE* unit = NULL;
+
+int contct_log_open(const char* path, int length) {
+  char name[256];
+  if (length < 0 || (size_t)length >= sizeof name) return 1;
+  memcpy(name, path, (size_t)length);
+  name[length] = 0;
+  if (unit != NULL) fclose(unit);
+  unit = fopen(name, "r+");
+  return unit == NULL;
+}
+
+void contct_log_flush(void) {
+  if (unit != NULL) fflush(unit);
+}
+
+void contct_log_rewind(void) {
+  if (unit != NULL) rewind(unit);
+}
+
+void contct_log_close(void) {
+  if (unit != NULL) fclose(unit);
+  unit = NULL;
+}
+
+/* One WRITE statement: its format, and how far it has come. */
+static struct {
+  const char* at;
+  char line[256];
+  size_t length;
+} now;
+
+static void put(char c) {
+  if (now.length < sizeof now.line) now.line[now.length++] = c;
+}
+
+static void put_right(const char* digits, size_t width) {
+  const size_t length = strlen(digits);
+  for (size_t i = 0; i < width; ++i)
+    put(length > width ? '*' : i < width - length ? ' ' : digits[i - (width - length)]);
+}
+
+/* Text and blanks, up to the next descriptor of a number or the end. */
+static void copy_text(void) {
+  while (*now.at != 0 && *now.at != 'i' && *now.at != 'e') {
+    char* end = NULL;
+    if (*now.at == '(' || *now.at == ')' || *now.at == ',' || *now.at == ' ') {
+      ++now.at;
+    } else if (*now.at == '\002') { /* f2c quotes text by it, as often as needed */
+      while (*++now.at != '\002') put(*now.at);
+      ++now.at;
+    } else if (*now.at == '\'' || *now.at == '"') {
+      const char quote = *now.at;
+      while (*++now.at != quote) put(*now.at);
+      ++now.at;
+    } else {
+      for (long blanks = strtol(now.at, &end, 10); blanks > 0; --blanks) put(' ');
+      now.at = end + 1; /* behind x */
+    }
+  }
+}
+
+/* Ew.d: 0.dddE+ee, from digits that C rounds. */
+static void put_e(double x, size_t width, int digits) {
+  char c[64], out[64];
+  if (x != x) {
+    put_right("NaN", width);
+  } else if (x - x != 0) {
+    put_right(x > 0 ? (width >= 8 ? "Infinity" : "Inf") : (width >= 9 ? "-Infinity" : "-Inf"), width);
+  } else {
+    snprintf(c, sizeof c, "%.*e", digits - 1, x); /* -d.ddde+ee */
+    const int negative = c[0] == '-';
+    const char* const exponent = strchr(c, 'e');
+    int e = x == 0 ? 0 : atoi(exponent + 1) + 1;
+    char mantissa[40];
+    size_t n = 0;
+    for (const char* m = c + negative; m < exponent; ++m)
+      if (*m != '.') mantissa[n++] = *m;
+    mantissa[n] = 0;
+    const char sign = e < 0 ? '-' : '+';
+    if (e < 0) e = -e;
+    snprintf(out, sizeof out, e > 99 ? "%s0.%s%c%d" : "%s0.%sE%c%02d", negative ? "-" : "", mantissa, sign,
+             e);
+    put_right(out, width);
+  }
+}
+
+integer s_wsfe(cilist* control) {
+  now.at = control->cifmt;
+  now.length = 0;
+  return 0;
+}
+
+integer do_fio(ftnint* count, char* value, ftnlen bytes) {
+  copy_text();
+  const char kind = *now.at;
+  char* end = NULL;
+  const size_t width = (size_t)strtol(now.at + 1, &end, 10);
+  const int digits = *end == '.' ? (int)strtol(end + 1, &end, 10) : 0;
+  now.at = end;
+  (void)count; /* a single number each time */
+  if (kind == 'i') {
+    char text[16];
+    snprintf(text, sizeof text, "%d", *(const integer*)value);
+    put_right(text, width);
+  } else {
+    put_e(bytes == sizeof(real) ? (double)*(const real*)value : *(const doublereal*)value, width, digits);
+  }
+  return 0;
+}
+
+integer e_wsfe(void) {
+  copy_text();
+  put('\n');
+  if (unit != NULL) fwrite(now.line, 1, now.length, unit);
+  return 0;
+}

@@ -1,0 +1,42 @@
+# Makes one page of the template, its style and script, the reference problems, the listing and the compiled program.
+# Usage: cmake -DROOT=<project> -DMODULE=<contct.js> -DOUT=<contct.html> -P page.cmake
+set(here ${CMAKE_CURRENT_LIST_DIR})
+
+# as_json(VARIABLE TEXT): a JSON string that may stand in a <script>.
+function(as_json variable text)
+  string(REPLACE "\\" "\\\\" text "${text}")
+  string(REPLACE "\"" "\\\"" text "${text}")
+  string(REPLACE "\n" "\\n" text "${text}")
+  string(REPLACE "\t" "\\t" text "${text}")
+  string(REPLACE "</" "<\\/" text "${text}")
+  set(${variable} "\"${text}\"" PARENT_SCOPE)
+endfunction()
+
+file(GLOB problems RELATIVE ${ROOT}/reference/problems ${ROOT}/reference/problems/*.toml
+     ${ROOT}/reference/problems/divergences/*.toml)
+list(SORT problems)
+set(all "")
+foreach(name IN LISTS problems)
+  file(READ ${ROOT}/reference/problems/${name} text)
+  as_json(text "${text}")
+  string(REGEX REPLACE "[.]toml$" "" name ${name})
+  string(APPEND all "\"${name}\": ${text},\n")
+endforeach()
+file(READ ${ROOT}/fortran/contct.f listing)
+as_json(listing "${listing}")
+string(CONCAT data "{\"problems\": {\n" "${all}" "\"\": \"\"},\n\"listing\": " "${listing}" "}")
+
+file(READ ${here}/playground.html page)
+foreach(part style:playground.css script:playground.js)
+  string(REPLACE ":" ";" part ${part})
+  list(GET part 0 place)
+  list(GET part 1 name)
+  file(READ ${here}/${name} text)
+  string(REPLACE "{{${place}}}" "${text}" page "${page}")
+endforeach()
+file(READ ${MODULE} module)
+string(REPLACE "</script" "<\\/script" module "${module}")
+string(REPLACE "{{data}}" "${data}" page "${page}")
+string(REPLACE "{{module}}" "${module}" page "${page}")
+file(WRITE ${OUT}.part "${page}")
+file(RENAME ${OUT}.part ${OUT})
