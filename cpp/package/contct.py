@@ -1,0 +1,966 @@
+"""CONTCT from Python: the 1989 contact subroutine, its reimplementation, and the program around them.
+
+    import contct
+
+    beam = contct.read("beam.toml")
+    for face in (-0.002, -0.003, -0.004):
+        beam["contact"][0]["face"] = face
+        print(face, contct.run(beam).steps[-1].pairs[0].force)
+
+`run`, `exact`, `explain`, `check` and `certify` take a problem: the name of a file (a text that ends in ".toml", or a
+path), the text of a problem file (it has a line break), or a dict with the same keys. reference/problem-file.md has every
+key, with shapes and units; nodes, elements, pairs and steps are numbered from 1 there. Python's own lists begin with 0:
+`result.steps[0]` is step 1.
+
+What comes back is the program's JSON, each key an attribute and an item: `result.steps[0].w` is `result["steps"][0]["w"]`.
+Arrays of numbers are NumPy arrays where NumPy can be imported, and lists otherwise.
+
+Bad input raises `InputError`, with file, line and column. A path that ends early, or kernels that disagree, are results
+with another `exit` and `status`; `run(.., strict=True)` raises `NotSolved` for them. Functions may be called from several
+threads: the module keeps nothing from call to call. What calls the 1989 code waits for its turn, since COMMON /DOF/
+belongs to the whole process.
+
+The module needs the standard library and libcontct.so, which is looked for beside the module, under the name in
+$CONTCT_LIBRARY, and where the system looks. reference/python.md has an example of everything.
+"""
+from __future__ import annotations
+
+import array
+import copy
+import ctypes
+import ctypes.util
+import html
+import importlib
+import json
+import os
+import re
+import tomllib
+import typing
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Annotated, Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
+
+__all__ = ["Answer", "Call", "Certificate", "Check", "Error", "Event", "Exact", "ExactEvent", "ExactIncrement", "ExactPair",
+           "ExactReaction", "ExactStep", "Explanation", "Increment", "InputError", "Inputs", "Judgement", "NotSolved", "Pair",
+           "Reaction", "Record", "Replay", "Result", "Step", "about", "call", "certify", "check", "exact", "explain", "judge",
+           "read", "replay", "run", "to_toml"]
+
+Problem = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+Kernels = Union[str, Iterable[str]]
+Numbers = Any  # a list, a tuple, an array.array or a NumPy array, of one dimension
+Array = Annotated[Any, "array"]  # a NumPy array of float64 where NumPy can be imported, otherwise a list of floats
+
+_INTERFACE = 1  # CONTCT_SERVE_VERSION
+_doubles = ctypes.POINTER(ctypes.c_double)
+_ints = ctypes.POINTER(ctypes.c_int)
+_kernel_function = ctypes.CFUNCTYPE(None, _doubles, _doubles, _doubles, _doubles, _doubles, _ints, _ints, _ints,
+                                    ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.c_int)
+
+
+# Errors
+
+
+class Error(Exception):
+    """What this module raises beside TypeError, OSError, MemoryError and ImportError."""
+
+
+class InputError(Error, ValueError):
+    """A problem, a trace or an argument is refused: exit status 2 of the program.
+
+    message  what was found, and what is allowed
+    file     the file; "problem" for a text or a dict; None where the message has no place
+    line     in the file, from 1; of a dict, in the text that `to_toml` writes; or None
+    column   in the line, from 1; or None
+    """
+
+    def __init__(self, message: str, file: Optional[str] = None, line: Optional[int] = None,
+                 column: Optional[int] = None) -> None:
+        super().__init__(message, file, line, column)
+        self.message, self.file, self.line, self.column = message, file, line, column
+
+    def __str__(self) -> str:
+        place = ":".join(str(part) for part in (self.file, self.line, self.column) if part is not None)
+        return f"{place}: {self.message}" if place else self.message
+
+
+class NotSolved(Error):
+    """Under strict=True: a run that is not solved, equal and certified; and whatever else ends without a result.
+
+    exit    exit status of the program: 1 kernels disagree, 3 not certified, 4 no equilibrium, 5 a limit or a cycle
+    result  the Result, with all that was computed; None where there is none
+    """
+
+    def __init__(self, message: str, exit: int, result: Optional[Result] = None) -> None:
+        super().__init__(message, exit, result)
+        self.message, self.exit, self.result = message, exit, result
+
+    def __str__(self) -> str:
+        return self.message
+
+
+# Results: views of JSON
+
+
+def _optional_module(name: str) -> Any:
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        return None
+
+
+_numpy = _optional_module("numpy")
+
+
+def _fraction(text: str) -> Fraction:
+    """Of "p/q" or "p". Python converts texts of at most 4300 digits to int, so longer ones are taken in parts."""
+    def whole(digits: str) -> int:
+        if len(digits) <= 4000:
+            return int(digits)
+        low = len(digits) // 2
+        shift: int = 10**low
+        return whole(digits[:-low]) * shift + whole(digits[-low:])
+
+    p, _, q = text.removeprefix("-").partition("/")
+    return Fraction((-1 if text.startswith("-") else 1) * whole(p), whole(q or "1"))
+
+
+def _is_record(kind: object) -> bool:
+    return isinstance(kind, type) and typing.get_origin(kind) is None and issubclass(kind, Record)
+
+
+def _view(value: Any, kind: Any) -> Any:
+    """A value of the JSON, as a user gets it. `kind`: what it, or each of its items, is said to be."""
+    if isinstance(value, dict):
+        return kind(value) if _is_record(kind) else Record(value)
+    if isinstance(value, list):
+        if kind is Array and _numpy and all(isinstance(x, (int, float)) for x in value):
+            return _numpy.array(value, dtype=_numpy.float64)
+        return [_view(item, kind) for item in value]
+    return _fraction(value) if kind is Fraction and isinstance(value, str) else value
+
+
+class Record(Mapping[str, Any]):
+    """An object of the program's JSON. Its keys are attributes and items; two records are equal if their JSON is.
+
+    A key that is no name in Python, such as "if" in an explanation, is an item only.
+    """
+
+    _kinds: dict[str, Any] = {}
+
+    def __init_subclass__(cls) -> None:
+        """What a key's values are is written once, as its annotation."""
+        cls._kinds = {}
+        for name, hint in typing.get_type_hints(cls, include_extras=True).items():
+            for kind in (hint, *typing.get_args(hint)):
+                if kind is Array or kind is Fraction or _is_record(kind):
+                    cls._kinds[name] = kind
+                    break
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self._data = data
+        self._views: dict[str, Any] = {}
+
+    def __getitem__(self, key: str) -> Any:
+        if key not in self._views:
+            self._views[key] = _view(self._data[key], self._kinds.get(key))
+        return self._views[key]
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_") and name in self._data:
+            return self[name]
+        known = "" if name.startswith("_") else f"; allowed: {', '.join(self._data)}"
+        raise AttributeError(f"{type(self).__name__}: found no \"{name}\"{known}")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *(key for key in self._data if key.isidentifier())})
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Record) and self._data == other._data
+
+    def __repr__(self) -> str:
+        shown = json.dumps(self._data, ensure_ascii=False)
+        return f"<contct.{type(self).__name__} {shown if len(shown) <= 200 else shown[:196] + ' ...'}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON itself, as dicts, lists, texts and numbers; a copy."""
+        return copy.deepcopy(self._data)
+
+
+class Answer(Record):
+    """A result of its own, with what the program said beside it.
+
+    exit      exit status of the program: 0 solved and equal, 1 kernels disagree, 4 no equilibrium, 5 iteration limit or
+              cycle; reference/running.md
+    messages  warnings, and what the program prints on standard error, a text each
+    """
+    exit: int
+    messages: list[str]
+
+    def __init__(self, answer: dict[str, Any]) -> None:
+        super().__init__(answer["result"])
+        self.exit, self.messages = answer["exit"], answer["messages"]
+
+
+class Event(Record):
+    """A pair that changed its state (listing, lines 51 to 58). `change`: "make" or "break"."""
+    pair: int
+    node: int
+    dof: str
+    surface: str
+    change: str
+
+
+class Increment(Record):
+    """One call of the kernel and what followed. `s`: SMIN, the share of the remaining load (eq. 9); `fraction`: the share
+    of the step's load that is applied now, 0 to 1; `error`: proved bound on `fraction`, with `proof`."""
+    increment: int
+    s: float
+    fraction: float
+    load: Record
+    events: list[Event]
+    error: Optional[float]
+
+
+class Pair(Record):
+    """A contact pair. `state`: "separated" or "contact"; `gap`: n (c - w), a length (eq. 5); `force`: -n k (c - w)."""
+    pair: int
+    node: int
+    dof: str
+    surface: str
+    state: str
+    gap: float
+    force: float
+
+
+class Reaction(Record):
+    """What a support does to the structure: a force or a moment, positive as its dof is."""
+    node: int
+    dof: str
+    value: float
+
+
+class Element(Record):
+    """Moments and shears: of a beam at both ends, of a plate at the corners."""
+    element: int
+    shear: Array
+    moment: Array
+    mx: Array
+    my: Array
+    mxy: Array
+
+
+class Certificate(Record):
+    """The verdict on a state; `exact`: certified, that is, every number is proved to be within `tolerance`."""
+    exact: bool
+    tolerance: float
+    unique: bool
+    independent: bool
+    digits: int
+    problem: str
+
+
+class Step(Record):
+    """A load step and its final state. `w`: deflection of each node, a length; `displacement`: every dof; `error`: proved
+    bounds by kind (`error.w`, `error.force`, ..), each a number or None."""
+    step: int
+    name: str
+    fraction: float
+    increments: list[Increment]
+    w: Array
+    displacement: Array
+    pairs: list[Pair]
+    reactions: list[Reaction]
+    elements: list[Element]
+    extremes: Record
+    digits: int
+    error: Record
+    certificate: Optional[Certificate]
+
+
+class Result(Answer):
+    """What `run` and `certify` find: reference/result-file.md has every key."""
+    title: str
+    kernels: list[str]
+    engine: str
+    status: str
+    certified: bool
+    steps: list[Step]
+    lockstep: Optional[Record]
+    units: Optional[Record]
+    end: Record
+
+    def __init__(self, answer: dict[str, Any], again: Optional[tuple[_Source, dict[str, Any]]] = None) -> None:
+        """`again`: what `run` was asked; its pages and texts are made from it when they are first wanted."""
+        super().__init__(answer)
+        self._again = again
+        self._texts: dict[str, str] = {key: answer[key] for key in _texts if isinstance(answer.get(key), str)}
+
+    def _text(self, key: str) -> str:
+        if key not in self._texts:
+            if self._again is None:
+                raise InputError(f"found a result without a path; allowed: `{key}` of what contct.run follows")
+            source, options = self._again
+            self._texts[key] = str(_ask(_library.contct_run, source, {**options, key: True})[key])
+        return self._texts[key]
+
+    @property
+    def page(self) -> str:
+        """The report as one HTML page, as `contct run --html` writes it. The first use runs the problem again."""
+        return self._text("page")
+
+    @property
+    def svg(self) -> str:
+        """Final state and load-deflection path as a picture (`--svg`). The first use runs the problem again."""
+        return self._text("svg")
+
+    @property
+    def log(self) -> str:
+        """Unit 26 of the leading kernel (`--log`). The first use runs the problem again."""
+        return self._text("log")
+
+    @property
+    def trace(self) -> str:
+        """Every call of the leading kernel (`--trace`), for `replay`. The first use runs the problem again."""
+        return self._text("trace")
+
+    @property
+    def proof(self) -> str:
+        """The proof of the error bounds as JSON (`--proof`). The first use runs the problem again."""
+        return self._text("proof")
+
+    @property
+    def _verdict(self) -> str:
+        certified = "certified" if self.certified else "NOT certified"
+        disagree: str = ", kernels disagree" if self.exit == 1 and self.status == "solved" else ""
+        return f"{self.status}{disagree}, {certified}"
+
+    def __repr__(self) -> str:
+        events = sum(len(i.events) for step in self.steps for i in step.get("increments", []))
+        return f"<contct.Result {self.title!r}: {self._verdict}; {_count(len(self.steps), 'step')}, {_count(events, 'event')}>"
+
+    def _repr_html_(self) -> Optional[str]:
+        """A notebook shows the page, in a frame of its own."""
+        try:
+            page = self.page
+        except Error:  # no path, or nothing to draw: the notebook shows __repr__
+            return None
+        return (f'<iframe srcdoc="{html.escape(page)}" title="{html.escape(self.title)}" sandbox="allow-scripts"'
+                ' style="width: 100%; height: 45em; border: 0"></iframe>')
+
+
+_texts = ("page", "svg", "log", "trace", "proof")
+
+
+def _count(number: int, thing: str) -> str:
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+
+
+class Check(Answer):
+    """What `check` finds: `title`, `kind` ("beam", "plate" or "matrix"), counts, names of the steps, `units`."""
+    title: str
+    kind: str
+    nodes: int
+    dofs: int
+    elements: int
+    pairs: int
+    steps: list[str]
+    units: Optional[Record]
+
+    def __init__(self, answer: dict[str, Any], source: _Source) -> None:
+        super().__init__(answer)
+        self._source = source
+
+    @property
+    def svg(self) -> Optional[str]:
+        """A picture of the problem, unloaded; None for a matrix whose coordinates are not known."""
+        text: Optional[str] = _ask(_library.contct_check, self._source, {"svg": True}).get("svg")
+        return text
+
+    def _repr_svg_(self) -> Optional[str]:
+        try:
+            return self.svg
+        except Error:
+            return None
+
+
+class ExactEvent(Event):
+    """An event of the exact path."""
+
+
+class ExactIncrement(Record):
+    """Events at one share of the step; the last one has none, at share 1. `fraction`: the share, rational."""
+    increment: int
+    fraction: Fraction
+    events: list[ExactEvent]
+
+
+class ExactPair(Record):
+    """A contact pair; `gap` (a length) and `force` are rational."""
+    pair: int
+    node: int
+    dof: str
+    surface: str
+    state: str
+    gap: Fraction
+    force: Fraction
+
+
+class ExactReaction(Record):
+    """A reaction; `value` is rational."""
+    node: int
+    dof: str
+    value: Fraction
+
+
+class ExactStep(Record):
+    """A step of the exact path; `fraction`, every `w` and every `displacement` are rational."""
+    step: int
+    name: str
+    fraction: Fraction
+    increments: list[ExactIncrement]
+    w: list[Fraction]
+    displacement: list[Fraction]
+    pairs: list[ExactPair]
+    reactions: list[ExactReaction]
+
+
+class _Mechanism(Record):
+    motion: list[Fraction]
+    work: Fraction
+
+
+class Exact(Answer):
+    """What `exact` finds: the path without rounding, each number a `fractions.Fraction`; reference/exact.md has every key.
+
+    `kernels`: for each one compared, `same_events`, `digits` of displacements, `event_digits`, `force_digits`.
+    """
+    title: str
+    status: str
+    steps: list[ExactStep]
+    kernels: list[Record]
+    mechanism: _Mechanism
+
+    def __repr__(self) -> str:
+        events = sum(len(i.events) for step in self.steps for i in step.increments)
+        return f"<contct.Exact {self.title!r}: {self.status}; {_count(len(self.steps), 'step')}, {_count(events, 'event')}>"
+
+
+class Explanation(Answer):
+    """What `explain` finds: for each increment and pair the lines of the listing, and why; reference/explain-format.md."""
+    title: str
+    kernels: list[str]
+    increments: list[Record]
+    lockstep: Optional[Record]
+    status: str
+
+    def __repr__(self) -> str:
+        return f"<contct.Explanation {self.title!r}: {self.status}; {_count(len(self.increments), 'increment')}>"
+
+
+class Replay(Record):
+    """What `replay` finds: `calls`, `values_compared`, `mismatches`, and the `first` mismatch in words, or None."""
+    calls: int
+    values_compared: int
+    mismatches: int
+    first: Optional[str]
+
+
+class Judgement(Answer):
+    """What `judge` finds: reference/check-results.md has every key.
+
+    Beside the keys:
+    equal     True: every value of every call has the leading kernel's bits
+    level     the closest equality that holds: "bits", "ulps", "events", "certificate" or "none"
+    findings  the first mismatch, line by line; empty if there is none
+    """
+    kernels: list[str]
+    calls: int
+    problems: int
+    values_compared: int
+    mismatches: int
+    seed: int
+    followers: list[Record]
+
+    @property
+    def equal(self) -> bool:
+        return self.exit == 0 and self.mismatches == 0 and self.values_compared > 0
+
+    @property
+    def level(self) -> str:
+        rung: str = self.followers[0].rung
+        return rung
+
+    @property
+    def findings(self) -> list[str]:
+        lines: list[str] = self.followers[0].findings
+        return lines
+
+    def __repr__(self) -> str:
+        verdict = "equal to the bit" if self.equal else f"NOT equal (level \"{self.level}\")"
+        return (f"<contct.Judgement {self.kernels[-1]!r}: {verdict}; {self.calls} calls, {self.values_compared} values "
+                f"compared, {self.mismatches} mismatches>")
+
+
+class Call(NamedTuple):
+    """What one call of a kernel answers.
+
+    ss    s of each pair, a share of the remaining load (eqs. 4, 10 to 12)
+    smin  the least positive s below 1, or 1 (eq. 9)
+    isep  status of each pair after the call: +1 separated, -1 in contact
+    text  what the kernel wrote to unit 26
+    """
+    ss: Any
+    smin: float
+    isep: Any
+    text: str
+
+
+class Inputs(NamedTuple):
+    """The arguments of one call of CONTCT, for a kernel written in Python (see `judge`). The arrays are its own.
+
+    dd      D, deflections so far; a length for each dof
+    dtest   d*, what the whole remaining load would add to them
+    cc      c, the position of each pair's face
+    id      each pair's node, from 1: its dof is (id - 1) * ndofpn + indof, from 1
+    isep    +1 separated, -1 in contact
+    isurf   the side of each pair's face: +1 above, -1 below
+    indof   INDOF, which dof of a node deflects, from 1
+    ndofpn  NDOFPN, dofs of a node
+    """
+    dd: Any
+    dtest: Any
+    cc: Any
+    id: Any
+    isep: Any
+    isurf: Any
+    indof: int
+    ndofpn: int
+
+
+# The library
+
+
+def _names_of_the_library() -> Iterator[str]:
+    """Where it may be: beside the module, $CONTCT_LIBRARY, the system's."""
+    for name in ("libcontct.so", "libcontct.so.0"):
+        beside = Path(__file__).resolve().parent / name
+        if beside.exists():
+            yield str(beside)
+    if os.environ.get("CONTCT_LIBRARY"):
+        yield os.environ["CONTCT_LIBRARY"]
+    yield ctypes.util.find_library("contct") or "libcontct.so.0"
+
+
+def _load() -> ctypes.CDLL:
+    """The first one found. One that is found and cannot be loaded, or is another version, is an error."""
+    name = next(_names_of_the_library())
+    try:
+        library = ctypes.CDLL(name)
+    except OSError as error:
+        raise ImportError(
+            f"contct.py: {error}. The library was looked for beside {Path(__file__).resolve()}, under the name in "
+            "$CONTCT_LIBRARY, and where the system looks. Build it (sh cpp/run.sh) and say where it is: "
+            "CONTCT_LIBRARY=.../build/release/libcontct.so") from error
+    try:
+        found = library.contct_serve_version()
+    except AttributeError as error:
+        raise ImportError(f"contct.py: {name} is not the CONTCT library: found no contct_serve_version") from error
+    if found != _INTERFACE:
+        raise ImportError(f"contct.py: {name} has interface {found}; allowed: {_INTERFACE}. Module and library must come "
+                          "from one version of CONTCT")
+    of_problem = (ctypes.c_char_p, ctypes.c_char_p)
+    arguments: dict[str, Sequence[Any]] = {
+        "contct_about": (), "contct_run": of_problem, "contct_check": of_problem, "contct_exact": of_problem,
+        "contct_explain": of_problem, "contct_certify": of_problem, "contct_replay": of_problem,
+        "contct_judge": (_kernel_function, ctypes.c_char_p),
+        "contct_call": (ctypes.c_char_p, _doubles, _doubles, _doubles, _doubles, _doubles, _ints, _ints, _ints,
+                        ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.c_int)}
+    for function, types in arguments.items():
+        library_function = getattr(library, function)
+        library_function.argtypes = types
+        library_function.restype = ctypes.c_void_p  # not c_char_p: the text has to be freed
+    library.contct_free.argtypes, library.contct_free.restype = (ctypes.c_void_p,), None
+    return library
+
+
+_library = _load()
+
+
+def _answer_of(function: Any, *arguments: Any) -> dict[str, Any]:
+    """What a function of the library answers, whatever its exit status."""
+    text = function(*arguments)
+    if not text:
+        raise MemoryError("libcontct: memory does not suffice for an answer")
+    try:
+        answer: dict[str, Any] = json.loads(ctypes.string_at(text).decode(errors="replace"))
+    finally:
+        _library.contct_free(text)
+    return answer
+
+
+def _result_of(answer: dict[str, Any]) -> dict[str, Any]:
+    """The answer, if it has a result; its error raised otherwise."""
+    error = answer["error"]
+    if error is None:
+        return answer
+    if answer["exit"] == 2:
+        raise InputError(error["message"], error["file"], error["line"], error["column"])
+    raise NotSolved(error["message"], answer["exit"])
+
+
+def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str, Any]:
+    """One function of the library that takes a text and options. Options that are None are left to the library."""
+    given = {key: value for key, value in options.items() if value is not None}
+    given.update({"file": source.file}, **({} if source.folder is None else {"folder": source.folder}))
+    try:
+        return _result_of(_answer_of(function, source.text, json.dumps(given, allow_nan=False).encode()))
+    except InputError as error:
+        if error.file == source.file and error.line is not None and not source.on_disk:
+            lines = source.text.decode(errors="replace").split("\n")
+            if error.line <= len(lines):
+                error.add_note(f"line {error.line} of {source.file}: {lines[error.line - 1]}")
+        raise
+
+
+# Problems
+
+
+class _Source(NamedTuple):
+    """A text for the library. `folder` None: the function has no such option."""
+    text: bytes
+    file: str
+    folder: Optional[str]
+    on_disk: bool
+
+
+def _source(given: Any, ending: str, what: str, folder: Optional[Any]) -> _Source:
+    """The text behind a path, a text or a dict."""
+    if isinstance(given, os.PathLike) or (isinstance(given, str) and "\n" not in given and given.endswith(ending)):
+        path = os.fspath(given)
+        source = _Source(Path(path).read_bytes(), path, os.path.dirname(path) if folder is None else os.fspath(folder), True)
+    elif isinstance(given, str) and "\n" in given:
+        source = _Source(given.encode(), what, "" if folder is None else os.fspath(folder), False)
+    elif isinstance(given, Mapping) and what == "problem":
+        source = _Source(to_toml(given).encode(), what, "" if folder is None else os.fspath(folder), False)
+    else:
+        shown = repr(given) if isinstance(given, str) else f"a {type(given).__name__}"
+        or_dict = ", or a dict" if what == "problem" else ""
+        kind: type[Exception] = InputError if isinstance(given, str) else TypeError
+        raise kind(f"{what}: found {shown}; allowed: a path or a name that ends in \"{ending}\", a text with a line break{or_dict}")
+    if b"\0" in source.text:  # the library's texts end there
+        before = source.text[:source.text.index(b"\0")]
+        raise InputError("found a character of code 0; allowed: text", source.file, before.count(b"\n") + 1,
+                         len(before) - before.rfind(b"\n"))
+    return source
+
+
+def read(path: Union[str, os.PathLike[str]]) -> dict[str, Any]:
+    """A problem file as a dict, to change and to run. Its numbers become Python's: a literal with more digits than a
+    double holds is rounded. Files that the problem names are then relative to `folder` of `run`."""
+    with open(path, "rb") as file:
+        try:
+            return tomllib.load(file)
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            place = re.search(r"line (\d+), column (\d+)", str(error))
+            raise InputError(str(error), os.fspath(path), *(map(int, place.groups()) if place else ())) from error
+
+
+_ESCAPES: dict[str, str] = {'"': '\\"', "\\": "\\\\", "\b": "\\b", "\t": "\\t", "\n": "\\n", "\f": "\\f", "\r": "\\r"}
+
+
+def _toml_text(text: str) -> str:
+    return '"' + re.sub(r'["\\\x00-\x1f\x7f]', lambda m: _ESCAPES.get(str(m[0]), f"\\u{ord(m[0]):04X}"), text) + '"'
+
+
+def _toml_key(key: object, where: str) -> str:
+    if not isinstance(key, str):
+        raise InputError(f"{where or 'problem'}: found the key {key!r}; allowed: a text")
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _toml_text(key)
+
+
+def _toml_value(value: Any, where: str) -> str:
+    """A value on one line. `where`: its name, for messages."""
+    if hasattr(value, "tolist"):  # NumPy's arrays and numbers, array.array
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) and -2**63 <= value < 2**63:
+        return int.__repr__(value)
+    if isinstance(value, float):
+        return float.__repr__(value)
+    if isinstance(value, Decimal) and value.is_finite():
+        return str(value)
+    if isinstance(value, (str, os.PathLike)):
+        return _toml_text(os.fspath(value))
+    if isinstance(value, Mapping):
+        inside = [f"{_toml_key(key, where)} = {_toml_value(item, f'{where}.{key}')}" for key, item in value.items()]
+        return "{ " + ", ".join(inside) + " }" if inside else "{}"
+    if isinstance(value, (list, tuple, range)):
+        return "[" + ", ".join(_toml_value(item, f"{where}[{i}]") for i, item in enumerate(value)) + "]"
+    shown = repr(value) if isinstance(value, (int, Decimal)) or value is None else f"a {type(value).__name__}"
+    raise InputError(f"{where}: found {shown}; allowed: true, false, an int of 64 bits, a float, a Decimal, a text, a list, "
+                     "a dict, an array")
+
+
+def to_toml(problem: Mapping[str, Any]) -> str:
+    """The text of a problem file for a dict; `run` reads this text, and its lines are those of an `InputError`.
+
+    Exact: floats are written with all their digits, a `decimal.Decimal` as it is. NumPy's numbers and arrays may stand
+    wherever numbers and lists may. Whatever TOML does not have is refused, with its place: `contact[0].face`."""
+    lines, tables = [], []
+    for key, value in problem.items():
+        name = _toml_key(key, "")
+        if isinstance(value, Mapping):
+            tables.append((f"[{name}]", key, value))
+        elif isinstance(value, (list, tuple)) and value and all(isinstance(item, Mapping) for item in value):
+            tables += [(f"[[{name}]]", f"{key}[{i}]", item) for i, item in enumerate(value)]
+        else:
+            lines.append(f"{name} = {_toml_value(value, key)}")
+    for heading, where, table in tables:
+        lines += ["", heading]
+        lines += [f"{_toml_key(key, where)} = {_toml_value(value, f'{where}.{key}')}" for key, value in table.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _kernel_list(kernels: Kernels) -> list[str]:
+    return kernels.split(",") if isinstance(kernels, str) else list(kernels)
+
+
+# What a problem is put to
+
+
+def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None, final_only: bool = False,
+        envelope: bool = False, max_increments: int = 0, strict: bool = False,
+        folder: Union[None, str, os.PathLike[str]] = None) -> Result:
+    """Follow the path of a problem, all kernels in lockstep: `contct run`.
+
+    kernels         names, or one text with commas; the first one leads
+    engine          how the stiffness equations are solved; None: what suits the leading kernel
+    final_only      True: no path, the equilibrium under each step's load
+    envelope        True: also least and largest values over all increments
+    max_increments  limit for a step; 0: the program's own
+    strict          True: raise NotSolved unless all steps are solved and certified, and the kernels equal
+    folder          where files that a text or a dict names are looked for; None: where the process runs. Of a problem file
+                    it is the file's own
+
+    Raises InputError for a bad problem or a bad option, and OSError if the file cannot be read.
+    """
+    source = _source(problem, ".toml", "problem", folder)
+    options = {"kernels": None if final_only else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
+               "envelope": envelope or None, "max_increments": max_increments or None}
+    answer = _ask(_library.contct_run, source, options)
+    result = Result(answer, None if final_only else (source, options))
+    if strict and not (result.exit == 0 and result.certified):
+        why = "; ".join([f"{result._verdict}; allowed with strict=True: solved, kernels equal, certified", *result.messages])
+        raise NotSolved(why, result.exit or 3, result)
+    return result
+
+
+def check(problem: Problem, *, folder: Union[None, str, os.PathLike[str]] = None) -> Check:
+    """Read a problem and solve nothing: `contct check`. Raises InputError if it is refused."""
+    source = _source(problem, ".toml", "problem", folder)
+    return Check(_ask(_library.contct_check, source, {}), source)
+
+
+def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
+          folder: Union[None, str, os.PathLike[str]] = None) -> Exact:
+    """Follow the path in rational arithmetic, from the decimals as they are written: `contct exact`.
+
+    rule     "corrected", or "1989" for the listing's rule without rounding
+    kernels  are compared with it: how many of their digits are right
+    """
+    source = _source(problem, ".toml", "problem", folder)
+    return Exact(_ask(_library.contct_exact, source, {"rule": rule, "kernels": _kernel_list(kernels) if kernels else None}))
+
+
+def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None,
+            step: Optional[int] = None, increment: Optional[int] = None,
+            folder: Union[None, str, os.PathLike[str]] = None) -> Explanation:
+    """What each line of the listing did, and why: `contct explain`.
+
+    kernels          one or two of the 1989 rule
+    step, increment  only these, from 1; None: all
+    """
+    source = _source(problem, ".toml", "problem", folder)
+    return Explanation(_ask(_library.contct_explain, source, {"kernels": _kernel_list(kernels), "engine": engine, "step": step,
+                                                              "increment": increment}))
+
+
+def certify(problem: Problem, displacement: Any, *, closed: Optional[Iterable[Iterable[int]]] = None,
+            folder: Union[None, str, os.PathLike[str]] = None) -> Result:
+    """Bounds on the errors of states from elsewhere, such as another program's.
+
+    displacement  for each of the first steps the displacement of every dof, under the step's whole load: a list of states,
+                  an array with a row for each, or one state. Beams have w, theta of node 1, then of node 2, ..; plates w,
+                  wx, wy; lengths and slopes, positive up
+    closed        for each state the numbers of the pairs that are in contact, from 1. None: those whose faces it touches
+                  or enters
+
+    The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments.
+    """
+    source = _source(problem, ".toml", "problem", folder)
+    states = displacement.tolist() if hasattr(displacement, "tolist") else list(displacement)
+    states = [state.tolist() if hasattr(state, "tolist") else state for state in states]
+    if not any(hasattr(state, "__iter__") for state in states):
+        states = [states]
+    options = {"displacement": [[_finite(x, i, j) for j, x in enumerate(state, 1)] for i, state in enumerate(states, 1)],
+               "closed": None if closed is None else [[int(pair) for pair in pairs] for pairs in closed]}
+    return Result(_ask(_library.contct_certify, source, options))
+
+
+def _finite(number: Any, state: int, dof: int) -> float:
+    value = float(number)
+    if value - value != 0:
+        raise InputError(f"displacement: found {value} in state {state}, dof {dof}; allowed: finite numbers")
+    return value
+
+
+# Kernels
+
+
+def _from_numpy(name: str, values: Any, real: bool) -> Any:
+    """The array itself if it has the type that a kernel takes, else one that has."""
+    if values.ndim != 1 or values.dtype.kind not in ("iuf" if real else "iu"):
+        raise InputError(f"{name}: found an array of {_count(values.ndim, 'dimension')} and type {values.dtype}; allowed: one "
+                         f"dimension of {'numbers' if real else 'whole numbers'}")
+    if not real and values.size and not -2**31 <= int(values.min()) <= int(values.max()) < 2**31:
+        raise InputError(f"{name}: found {int(values.min())} to {int(values.max())}; allowed: whole numbers of 32 bits")
+    return _numpy.ascontiguousarray(values, dtype=_numpy.float64 if real else _numpy.intc)
+
+
+def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = None) -> tuple[Any, Any, int]:
+    """An array argument: pointer, owner of its memory, length."""
+    if _numpy and isinstance(values, _numpy.ndarray):
+        owner = _from_numpy(name, values, real)
+        address = owner.ctypes.data
+    else:
+        try:
+            owner = array.array("d" if real else "i", values)
+        except OverflowError as error:
+            raise InputError(f"{name}: {error}; allowed: whole numbers of 32 bits") from error
+        except TypeError as error:
+            raise TypeError(f"{name}: {error}; allowed: a list or an array of {'numbers' if real else 'whole numbers'}") from error
+        address = owner.buffer_info()[0]
+    if length is not None and len(owner) != length:
+        raise InputError(f"{name}: found {_count(len(owner), 'value')}; allowed: {length}")
+    kind: Any = _doubles if real else _ints
+    return ctypes.cast(address, kind), owner, len(owner)
+
+
+def _numbers(values: Any) -> Any:
+    """A ctypes array as a user gets it: a NumPy array of its own, or a list."""
+    return _numpy.array(values) if _numpy else list(values)
+
+
+def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, isep: Numbers, isurf: Numbers, indof: int = 1,
+         ndofpn: int = 1) -> Call:
+    """One call of a kernel, by its name: CALL CONTCT(DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC), line 1 of the listing.
+
+    dd, dtest  D and d*, of every dof: what deflects so far, and what the whole remaining load would add
+    cc         c, each pair's face
+    id         each pair's node, from 1; its dof is (id - 1) * ndofpn + indof, from 1
+    isep       +1 separated, -1 in contact; it is not changed, the new one is in the answer
+    isurf      +1 above, -1 below
+    indof, ndofpn  the members of COMMON /DOF/
+
+    NumPy arrays of float64 and of C's int are passed as they are, without a copy. Raises InputError if lengths differ, or
+    if an id leads outside dd.
+    """
+    dd_at, dd_owner, ndof = _argument("dd", dd, True)
+    dtest_at, dtest_owner, _ = _argument("dtest", dtest, True, ndof)
+    cc_at, cc_owner, nc = _argument("cc", cc, True)
+    id_at, id_owner, _ = _argument("id", id, False, nc)
+    isep_at, isep_owner, _ = _argument("isep", isep, False, nc)
+    isurf_at, isurf_owner, _ = _argument("isurf", isurf, False, nc)
+    ss, smin, status = (ctypes.c_double * nc)(), ctypes.c_double(), (ctypes.c_int * nc)()
+    ctypes.memmove(status, isep_at, ctypes.sizeof(status))
+    answer = _result_of(_answer_of(_library.contct_call, kernel.encode(), dd_at, dtest_at, cc_at, ss, ctypes.byref(smin), id_at,
+                                   status, isurf_at, nc, indof, ndofpn, ndof))
+    del dd_owner, dtest_owner, cc_owner, id_owner, isep_owner, isurf_owner  # the pointers were good until here
+    return Call(_numbers(ss), smin.value, _numbers(status), answer["result"]["text"])
+
+
+class _PythonKernel:
+    """A Python function as contct_kernel of contct/outside/plugin.h. The first exception ends it, and is kept."""
+
+    def __init__(self, function: Callable[[Inputs], tuple[Any, float, Any]]) -> None:
+        self.function = function
+        self.raised: Optional[BaseException] = None
+
+    def __call__(self, dd: Any, dtest: Any, cc: Any, ss: Any, smin: Any, id: Any, isep: Any, isurf: Any, nc: int, indof: int,
+                 ndofpn: int, ndof: int) -> None:
+        smin[0] = float("nan")
+        if self.raised is not None:  # the judge still asks; nothing counts any more
+            return
+        inputs = None
+        try:
+            inputs = Inputs(_taken(dd, ndof, True), _taken(dtest, ndof, True), _taken(cc, nc, True), _taken(id, nc, False),
+                            _taken(isep, nc, False), _taken(isurf, nc, False), indof, ndofpn)
+            answer = self.function(inputs)
+            self._write(answer, ss, smin, isep, nc)
+        except BaseException as error:  # no exception may pass through the library
+            error.add_note(f"in the call {inputs}")
+            self.raised = error
+
+    @staticmethod
+    def _write(answer: Any, ss: Any, smin: Any, isep: Any, nc: int) -> None:
+        try:
+            s, least, status = answer
+            s, least, status = [float(x) for x in s], float(least), [int(x) for x in status]
+        except (TypeError, ValueError) as error:
+            raise TypeError(f"a kernel: found {answer!r}; allowed: (ss, smin, isep)") from error
+        if len(s) != nc or len(status) != nc:
+            raise InputError(f"a kernel: found {len(s)} values of ss and {len(status)} of isep; allowed: {nc} of each")
+        if any(not -2**31 <= x < 2**31 for x in status):
+            raise InputError(f"a kernel: found isep {status}; allowed: whole numbers of 32 bits")
+        smin[0] = least
+        for i in range(nc):
+            ss[i], isep[i] = s[i], status[i]
+
+
+def _taken(pointer: Any, count: int, real: bool) -> Any:
+    """A copy of what a pointer points to; a slice of a pointer is a list."""
+    return _numpy.array(pointer[:count], dtype=_numpy.float64 if real else _numpy.intc) if _numpy else pointer[:count]
+
+
+def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 20000, problems: int = 40, seed: int = 1989,
+          leader: str = "fortran", name: Optional[str] = None) -> Judgement:
+    """Is a Python function CONTCT? Random and adversarial calls, and the paths of whole problems: `contct fuzz`.
+
+    function  is given `Inputs` and returns (ss, smin, isep): s of each pair, the least of them, and each pair's new status.
+              It must be a function of its inputs alone, and must not call this module
+    calls, problems, seed  how many, and which
+    leader    the kernel that it is compared with, to the bit
+
+    An exception in the function ends the judgement, and is raised after it, with the call that it was given as a note.
+    """
+    kernel = _PythonKernel(function)
+    pointer = _kernel_function(kernel)
+    options = {"calls": calls, "problems": problems, "seed": seed, "leader": leader,
+               "name": name or getattr(function, "__name__", "function")}
+    answer = _answer_of(_library.contct_judge, pointer, json.dumps(options).encode())
+    if kernel.raised is not None:
+        raise kernel.raised
+    return Judgement(_result_of(answer))
+
+
+def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None) -> Replay:
+    """Put a recorded trace to a kernel, and compare every answer: `contct replay`.
+
+    trace   the name of a file (it ends in ".trace"), a path, or the text of a trace, such as `Result.trace`
+    kernel  its name; None: the 1989 code in the precision of the trace
+    """
+    return Replay(_ask(_library.contct_replay, _source(trace, ".trace", "trace", None)._replace(folder=None),
+                       {"kernel": kernel})["result"])
+
+
+def about() -> Record:
+    """`version`, `listing_sha256`, `floating_point`, `lapack`, `kernels` with precision, rule and compiler, `engines`."""
+    return Record(_result_of(_answer_of(_library.contct_about))["result"])
