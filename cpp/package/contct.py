@@ -523,25 +523,39 @@ class Call(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """The arguments of one call of CONTCT, for a kernel written in Python (see `judge`). The arrays are its own.
+    """The arguments of one call of CONTCT, for a kernel written in Python (see `judge`). Lists of Python's floats, which are
+    the listing's 8-byte REAL, and of ints; they are the kernel's own.
 
-    dd      D, deflections so far; a length for each dof
-    dtest   d*, what the whole remaining load would add to them
-    cc      c, the position of each pair's face
-    id      each pair's node, from 1: its dof is (id - 1) * ndofpn + indof, from 1
-    isep    +1 separated, -1 in contact
-    isurf   the side of each pair's face: +1 above, -1 below
+    dd      [dofs] D, deflections so far: lengths
+    dtest   [dofs] d*, what the whole remaining load would add to them: lengths
+    cc      [pairs] c, the position of each pair's face: lengths
+    id      [pairs] each pair's node, from 1
+    isep    [pairs] +1 separated, -1 in contact
+    isurf   [pairs] the side of each pair's face: +1 above, -1 below
     indof   INDOF, which dof of a node deflects, from 1
     ndofpn  NDOFPN, dofs of a node
     """
-    dd: Any
-    dtest: Any
-    cc: Any
-    id: Any
-    isep: Any
-    isurf: Any
+    dd: list[float]
+    dtest: list[float]
+    cc: list[float]
+    id: list[int]
+    isep: list[int]
+    isurf: list[int]
     indof: int
     ndofpn: int
+
+    @property
+    def dofs(self) -> list[int]:
+        """[pairs] The dof of each pair, as an index of dd and dtest, from 0: NDOF - 1 of line 29."""
+        return [(node - 1) * self.ndofpn + self.indof - 1 for node in self.id]
+
+    @property
+    def _words(self) -> str:
+        shown = list(zip(self.dofs, self.cc, self.isep, self.isurf))[:8]
+        lines = [f"in a call of {_count(len(self.id), 'pair')}:"]
+        for i, (dof, c, isep, isurf) in enumerate(shown, 1):
+            lines.append(f"pair {i}: d {self.dd[dof]!r}, d* {self.dtest[dof]!r}, c {c!r}, isep {isep}, isurf {isurf}")
+        return "\n  ".join(lines + (["..."] if len(self.id) > len(shown) else []))
 
 
 # The library
@@ -610,19 +624,19 @@ def _result_of(answer: dict[str, Any]) -> dict[str, Any]:
     error = answer["error"]
     if error is None:
         return answer
-    if answer["exit"] == 2:
-        raise InputError(error["message"], error["file"], error["line"], error["column"])
-    raise NotSolved(error["message"], answer["exit"])
+    place = [error[key] for key in ("file", "line", "column")]
+    before = ":".join(str(part) for part in place if part is not None) + ": "
+    raise InputError(error["message"].removeprefix(before), *place)
 
 
 def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str, Any]:
     """One function of the library that takes a text and options. Options that are None are left to the library."""
     given = {key: value for key, value in options.items() if value is not None}
-    given.update({"file": source.file}, **({} if source.folder is None else {"folder": source.folder}))
+    given |= {"file": source.file, "folder": source.folder}
     try:
         return _result_of(_answer_of(function, source.text, json.dumps(given, allow_nan=False).encode()))
     except InputError as error:
-        if error.file == source.file and error.line is not None and not source.on_disk:
+        if error.line is not None and not source.on_disk and error.file == source.place:
             lines = source.text.decode(errors="replace").split("\n")
             if error.line <= len(lines):
                 error.add_note(f"line {error.line} of {source.file}: {lines[error.line - 1]}")
@@ -633,30 +647,35 @@ def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str
 
 
 class _Source(NamedTuple):
-    """A text for the library. `folder` None: the function has no such option."""
+    """A text for the library, and the place to which its messages refer: `file` in `folder`."""
     text: bytes
     file: str
-    folder: Optional[str]
+    folder: str
     on_disk: bool
+
+    @property
+    def place(self) -> str:
+        return os.path.join(self.folder, self.file)
 
 
 def _source(given: Any, ending: str, what: str, folder: Optional[Any]) -> _Source:
-    """The text behind a path, a text or a dict."""
+    """The text behind a path, a text or a dict. A file's folder is its own."""
     if isinstance(given, os.PathLike) or (isinstance(given, str) and "\n" not in given and given.endswith(ending)):
-        path = os.fspath(given)
-        source = _Source(Path(path).read_bytes(), path, os.path.dirname(path) if folder is None else os.fspath(folder), True)
+        beside, name = os.path.split(os.fspath(given))
+        source = _Source(Path(given).read_bytes(), name, beside, True)
     elif isinstance(given, str) and "\n" in given:
-        source = _Source(given.encode(), what, "" if folder is None else os.fspath(folder), False)
+        source = _Source(given.encode(), what, os.fspath(folder or ""), False)
     elif isinstance(given, Mapping) and what == "problem":
-        source = _Source(to_toml(given).encode(), what, "" if folder is None else os.fspath(folder), False)
+        source = _Source(to_toml(given).encode(), what, os.fspath(folder or ""), False)
     else:
         shown = repr(given) if isinstance(given, str) else f"a {type(given).__name__}"
         or_dict = ", or a dict" if what == "problem" else ""
         kind: type[Exception] = InputError if isinstance(given, str) else TypeError
-        raise kind(f"{what}: found {shown}; allowed: a path or a name that ends in \"{ending}\", a text with a line break{or_dict}")
+        raise kind(f"{what}: found {shown}; allowed: a path or a name that ends in \"{ending}\", a text with a line break"
+                   f"{or_dict}")
     if b"\0" in source.text:  # the library's texts end there
         before = source.text[:source.text.index(b"\0")]
-        raise InputError("found a character of code 0; allowed: text", source.file, before.count(b"\n") + 1,
+        raise InputError("found a character of code 0; allowed: text", source.place, before.count(b"\n") + 1,
                          len(before) - before.rfind(b"\n"))
     return source
 
@@ -846,7 +865,8 @@ def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = No
         except OverflowError as error:
             raise InputError(f"{name}: {error}; allowed: whole numbers of 32 bits") from error
         except TypeError as error:
-            raise TypeError(f"{name}: {error}; allowed: a list or an array of {'numbers' if real else 'whole numbers'}") from error
+            allowed = f"a list or an array of {'numbers' if real else 'whole numbers'}"
+            raise TypeError(f"{name}: {error}; allowed: {allowed}") from error
         address = owner.buffer_info()[0]
     if length is not None and len(owner) != length:
         raise InputError(f"{name}: found {_count(len(owner), 'value')}; allowed: {length}")
@@ -899,14 +919,13 @@ class _PythonKernel:
         smin[0] = float("nan")
         if self.raised is not None:  # the judge still asks; nothing counts any more
             return
-        inputs = None
+        def inputs() -> Inputs:  # a slice of a pointer is a list
+            return Inputs(dd[:ndof], dtest[:ndof], cc[:nc], id[:nc], isep[:nc], isurf[:nc], indof, ndofpn)
+
         try:
-            inputs = Inputs(_taken(dd, ndof, True), _taken(dtest, ndof, True), _taken(cc, nc, True), _taken(id, nc, False),
-                            _taken(isep, nc, False), _taken(isurf, nc, False), indof, ndofpn)
-            answer = self.function(inputs)
-            self._write(answer, ss, smin, isep, nc)
+            self._write(self.function(inputs()), ss, smin, isep, nc)
         except BaseException as error:  # no exception may pass through the library
-            error.add_note(f"in the call {inputs}")
+            error.add_note(inputs()._words)  # its own may be changed
             self.raised = error
 
     @staticmethod
@@ -925,21 +944,18 @@ class _PythonKernel:
             ss[i], isep[i] = s[i], status[i]
 
 
-def _taken(pointer: Any, count: int, real: bool) -> Any:
-    """A copy of what a pointer points to; a slice of a pointer is a list."""
-    return _numpy.array(pointer[:count], dtype=_numpy.float64 if real else _numpy.intc) if _numpy else pointer[:count]
-
-
 def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 20000, problems: int = 40, seed: int = 1989,
           leader: str = "fortran", name: Optional[str] = None) -> Judgement:
     """Is a Python function CONTCT? Random and adversarial calls, and the paths of whole problems: `contct fuzz`.
 
-    function  is given `Inputs` and returns (ss, smin, isep): s of each pair, the least of them, and each pair's new status.
-              It must be a function of its inputs alone, and must not call this module
-    calls, problems, seed  how many, and which
-    leader    the kernel that it is compared with, to the bit
+    function  is given `Inputs` and returns (ss, smin, isep): s of each pair, SMIN, and the new status of each pair, as lists
+              or arrays. It must be a function of its inputs alone
+    calls, problems, seed  how many, and which. With 1000 calls or more, every branch of the listing must have been taken
+              often enough to compare; otherwise `exit` is 2, `equal` is False, and `messages` say what was missed
+    leader    the kernel with which it is compared, to the bit
+    name      in messages; None: the function's own
 
-    An exception in the function ends the judgement, and is raised after it, with the call that it was given as a note.
+    An exception in the function, KeyboardInterrupt too, ends the judgement and is raised after it, with the call as a note.
     """
     kernel = _PythonKernel(function)
     pointer = _kernel_function(kernel)
@@ -957,7 +973,7 @@ def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None)
     trace   the name of a file (it ends in ".trace"), a path, or the text of a trace, such as `Result.trace`
     kernel  its name; None: the 1989 code in the precision of the trace
     """
-    return Replay(_ask(_library.contct_replay, _source(trace, ".trace", "trace", None)._replace(folder=None),
+    return Replay(_ask(_library.contct_replay, _source(trace, ".trace", "trace", None),
                        {"kernel": kernel})["result"])
 
 
