@@ -881,7 +881,7 @@ def _numbers(values: Any) -> Any:
 
 def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, isep: Numbers, isurf: Numbers, indof: int = 1,
          ndofpn: int = 1) -> Call:
-    """One call of a kernel, by its name: CALL CONTCT(DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC), line 1 of the listing.
+    """One call of a kernel, by its name: CALL CONTCT(DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC), line 19 of the listing.
 
     dd, dtest  D and d*, of every dof: what deflects so far, and what the whole remaining load would add
     cc         c, each pair's face

@@ -1,0 +1,133 @@
+"""Bad input is an exception with its place; other ends are results, or exceptions where that is asked for."""
+import os
+
+import contct
+import pytest
+from conftest import PROBLEMS
+
+
+def refusal(problem, function=contct.check, **options):
+    with pytest.raises(contct.InputError) as caught:
+        function(problem, **options)
+    return caught.value
+
+
+def test_a_file_is_named_with_line_and_column(tmp_path, monkeypatch):
+    text = (PROBLEMS / "pb01-cantilever-tip-stop.toml").read_text()
+    line = text.split("\n").index("stiffness = 5.0e4") + 1
+    bad = tmp_path / "bad.toml"
+    bad.write_text(text.replace("stiffness = 5.0e4", "stiffness = -5.0e4"))
+    for function in (contct.run, contct.check, contct.exact, contct.explain):
+        error = refusal(bad, function)
+        assert (error.file, error.line, error.column) == (str(bad), line, 13)
+        assert error.message.startswith("contact[1].stiffness: found -50000") and "allowed: " in error.message
+        assert str(error) == f"{bad}:{line}:13: {error.message}"
+        assert not hasattr(error, "__notes__")  # the file is there to look at
+    assert isinstance(error, ValueError) and isinstance(error, contct.Error)
+    monkeypatch.chdir(tmp_path)
+    assert refusal("bad.toml").file == "bad.toml"
+
+
+def test_of_a_dict_the_line_is_told(beam):
+    beam["contact"][0]["face"] = "low"
+    error = refusal(beam)
+    assert (error.file, error.column) == ("problem", 8)
+    assert contct.to_toml(beam).split("\n")[error.line - 1] == 'face = "low"'
+    assert error.__notes__ == [f'line {error.line} of problem: face = "low"']
+
+
+def test_a_text_has_a_place():
+    error = refusal("[beam]\nx = 3\n")
+    assert (error.file, error.line, error.column) == ("problem", 2, 5)
+    assert error.message == "beam.x: found 3; allowed: an array of at least 2 numbers, each a finite number"
+    error = refusal("a = 1\nb = 'x\0y'\n")
+    assert (error.line, error.column) == (2, 7) and "code 0" in error.message
+    error = refusal("[beam\n")
+    assert (error.line, error.column) == (1, 6)
+
+
+def test_what_is_no_problem_is_refused():
+    assert "found 'beam'; allowed: a path or a name that ends in \".toml\"" in refusal("beam").message
+    assert refusal("").line is None
+    for nothing in (None, 3, ["a"], b"[beam]\n"):
+        with pytest.raises(TypeError, match="problem: found a .*; allowed: a path or a name"):
+            contct.run(nothing)
+    with pytest.raises(FileNotFoundError):
+        contct.run("no-such-file.toml")
+    with pytest.raises(FileNotFoundError):
+        contct.read("no-such-file.toml")
+
+
+def test_options_are_refused_by_name(beam):
+    assert refusal(beam, contct.run, engine="steam").message.startswith('options: engine: found "steam"; allowed: auto, ')
+    assert "no-such-kernel" in refusal(beam, contct.run, kernels="no-such-kernel").message
+    assert "rule" in refusal(beam, contct.exact, rule="1990").message
+    assert "step" in refusal(beam, contct.explain, step=9).message
+    assert "max_increments" in refusal(beam, contct.run, max_increments=-1).message
+    assert refusal(beam, contct.run, final_only=True, envelope=True).line is None
+
+
+def test_states_are_refused(beam):
+    assert "found 2 numbers; allowed: 6" in refusal(beam, lambda p: contct.certify(p, [1.0, 2.0])).message
+    assert "found nan in state 1, dof 2" in refusal(beam, lambda p: contct.certify(p, [0.0, float("nan"), 0, 0, 0, 0])).message
+    assert "found 5" in refusal(beam, lambda p: contct.certify(p, [[0.0] * 6] * 5)).message
+    assert "closed" in refusal(beam, lambda p: contct.certify(p, [0.0] * 6, closed=[[7]])).message
+
+
+def test_a_toml_error_of_read_has_a_place(tmp_path):
+    bad = tmp_path / "bad.toml"
+    bad.write_text("a = 1\nb = ?\n")
+    error = refusal(bad, contct.read)
+    assert (error.file, error.line, error.column) == (str(bad), 2, 5)
+
+
+MECHANISM = """
+[beam]
+x  = [0.0, 1.0]
+EI = 1.0
+[[support]]
+node = 1
+fix  = "w"
+[[contact]]
+node      = 2
+surface   = "below"
+face      = 0.0
+stiffness = 1.0
+[[step]]
+point = [ { node = 2, w = 1.0 } ]
+"""
+
+
+def test_other_ends_are_results(beam):
+    found = contct.run(MECHANISM)
+    assert (found.exit, found.status, found.certified) == (4, "mechanism", False)
+    assert found.end.reason == "mechanism" and "no equilibrium" in found.messages[-1]
+    assert contct.exact(MECHANISM).exit == 4
+    assert contct.run(PROBLEMS / "divergences/near-tie.toml").exit == 0
+    assert contct.run(beam, max_increments=1).exit == 5
+
+
+def test_strict_raises_what_is_not_solved_equal_and_certified(beam):
+    assert contct.run(beam, strict=True).certified
+    for problem, options, exit, words in ((MECHANISM, {}, 4, "mechanism"), (beam, {"max_increments": 1}, 5, "iteration-limit"),
+                                          (PROBLEMS / "divergences/near-tie.toml", {}, 3, "NOT certified")):
+        with pytest.raises(contct.NotSolved, match=words) as caught:
+            contct.run(problem, strict=True, **options)
+        assert caught.value.exit == exit and caught.value.result == contct.run(problem, **options)
+        assert caught.value.result.messages[0] in str(caught.value)
+    assert contct.run(PROBLEMS / "divergences/near-tie.toml", kernels="corrected", strict=True).certified
+
+
+def test_files_of_a_problem_are_looked_for_beside_it_or_in_the_folder(tmp_path, monkeypatch):
+    (tmp_path / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n")
+    problem = {"matrix": {"stiffness": "K.mtx"}, "contact": [{"dof": "2", "surface": "above", "face": 0.5, "stiffness": 10.0}],
+               "step": [{"point": [{"dof": "1", "value": 3.0}]}]}
+    (tmp_path / "p.toml").write_text(contct.to_toml(problem))
+    found = contct.run(tmp_path / "p.toml")
+    assert found.certified and [pair.state for pair in found.steps[0].pairs] == ["contact"]
+    assert contct.run(problem, folder=tmp_path) == contct.run(problem, folder=str(tmp_path)) == found
+    assert os.getcwd() != str(tmp_path) and "K.mtx" in str(refusal(problem, contct.run))
+    monkeypatch.chdir(tmp_path)
+    assert contct.run(problem) == found
+    (tmp_path / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 x\n2 2 2.0\n")
+    assert "K.mtx" in refusal(tmp_path / "p.toml", contct.run).file

@@ -1,0 +1,165 @@
+"""One call of a kernel; kernels written in Python, judged; recorded calls."""
+import array
+import json
+
+import contct
+import pytest
+from conftest import PROBLEMS, ROOT
+
+LAYOUT = dict(dd=[0.0, 9.0, 0.0, 9.0], dtest=[2.0, 0.0, 1.0, 0.0], cc=[0.5, 0.75], id=[1, 2], isep=[1, 1], isurf=[1, 1], ndofpn=2)
+
+
+@pytest.mark.parametrize("kernel", ["fortran", "cpp", "fortran-r4", "cpp-r4"])
+def test_a_call_is_answered(kernel):
+    isep = [1, 1]
+    found = contct.call(kernel, [0, 0], [2, 1], [0.5, 0.75], [1, 2], isep, [1, 1])
+    assert (list(found.ss), found.smin, list(found.isep)) == ([0.25, 0.75], 0.25, [-1, 1])
+    assert isep == [1, 1]  # what is given stays as it is
+    assert "MAKING CONTACT" in found.text and "0.2500E+00" in found.text
+    ss, smin, isep, text = contct.call(kernel, **LAYOUT)
+    assert (list(ss), smin, list(isep)) == ([0.25, 0.75], 0.25, [-1, 1])
+    quiet = contct.call(kernel, [0], [0], [1], [1], [1], [1])
+    assert (list(quiet.ss), quiet.smin) == ([1.0], 1.0) and "NO EVENTS" in quiet.text
+    none = contct.call(kernel, [], [], [], [], [], [])
+    assert (list(none.ss), none.smin, list(none.isep)) == ([], 1.0, [])
+
+
+def test_a_call_takes_any_array():
+    expected = contct.call("fortran", **LAYOUT)
+    for kind in (tuple, list, lambda x: array.array("d" if isinstance(x[0], float) else "i", x)):
+        found = contct.call("fortran", *(kind(LAYOUT[name]) for name in ("dd", "dtest", "cc", "id", "isep", "isurf")), 1, 2)
+        assert list(found.ss) == list(expected.ss) and found.text == expected.text
+
+
+def test_numpy_arrays_are_not_copied():
+    if not contct._numpy:
+        pytest.skip("NumPy is not there")
+    numpy = contct._numpy
+    for name, real in (("dd", True), ("id", False)):
+        values = numpy.array(LAYOUT[name], dtype=numpy.float64 if real else numpy.intc)
+        values.flags.writeable = False
+        pointer, owner, length = contct._argument(name, values, real)
+        assert owner is values and length == len(values)
+        import ctypes
+        assert ctypes.cast(pointer, ctypes.c_void_p).value == values.ctypes.data
+    strided = numpy.array([0.0, 7.0, 0.0, 7.0])[::2]
+    found = contct.call("fortran", strided, numpy.array([2, 1]), [0.5, 0.75], numpy.array([1, 2], dtype="int64"), [1, 1], [1, 1])
+    assert isinstance(found.ss, numpy.ndarray) and found.ss.tolist() == [0.25, 0.75] and found.isep.tolist() == [-1, 1]
+    for wrong, words in ((numpy.array([[1, 2]]), "2 dimensions"), (numpy.array([1.0, 2.0]), "float64"), (numpy.array([2**40, 1]), "1099511627776")):
+        with pytest.raises(contct.InputError, match=f"id: found .*{words}"):
+            contct.call("fortran", [0, 0], [2, 1], [0.5, 0.75], wrong, [1, 1], [1, 1])
+
+
+@pytest.mark.parametrize("change, error, words", [
+    ({"dtest": [1.0]}, contct.InputError, "dtest: found 1 value; allowed: 4"), ({"isep": [1]}, contct.InputError, "isep: found 1 value; allowed: 2"),
+    ({"id": [1, 3]}, contct.InputError, r"id\[2\]: found 3"), ({"id": [0, 1]}, contct.InputError, r"id\[1\]: found 0"),
+    ({"id": [1, 2**40]}, contct.InputError, "id: .*; allowed: whole numbers of 32 bits"), ({"id": [1, 1.5]}, TypeError, "id: .*float"),
+    ({"dd": ["a", 1, 1, 1]}, TypeError, "dd: "), ({"cc": 3}, TypeError, "cc: "), ({"ndofpn": 0}, contct.InputError, "ndofpn: found 0"),
+    ({"kernel": "no-such"}, contct.InputError, "no-such")])
+def test_a_wrong_call_is_refused(change, error, words):
+    with pytest.raises(error, match=words):
+        contct.call(**{"kernel": "fortran", **LAYOUT, **change})
+
+
+def scale_factor(d, d_star, face, isep, isurf):
+    gap = face - d
+    if d_star == 0:
+        return 1.0
+    if abs(gap) < 1e-10:
+        s = isep * isurf / d_star
+        return s * 1e-20 if s > 0 else 1.0
+    return gap / d_star
+
+
+def listing(call, near=0.390625e-02, s_of=scale_factor):
+    """CONTCT, as in reference/kernels/contct_kernel.py."""
+    ss = [s_of(call.dd[dof], call.dtest[dof], *pair) for dof, *pair in zip(call.dofs, call.cc, call.isep, call.isurf)]
+    smin = min([1.0] + [s for s in ss if 0 < s < 1])
+    toggled = [smin != 1 and abs(s - smin) / smin < near for s in ss]
+    return ss, smin, [(-1 if isep == 1 else 1) if t else isep for t, isep in zip(toggled, call.isep)]
+
+
+def test_a_right_kernel_is_equal():
+    found = contct.judge(listing, calls=2000, problems=5)
+    assert found.equal and found.exit == 0 and found.mismatches == 0 and found.level == "bits" and found.findings == []
+    assert found.values_compared > 30000 and found.kernels == ["fortran", "listing"] and found.seed == 1989
+    assert "'listing': equal to the bit" in repr(found)
+    if contct._numpy:
+        arrays = contct.judge(lambda call: tuple(map(contct._numpy.array, listing(call))), calls=1000, problems=1)
+        assert arrays.equal and arrays.values_compared > 10000
+
+
+def test_the_judgement_is_the_programs():
+    """Calls and values that are compared are those of contct fuzz."""
+    import os
+    import subprocess
+    out = subprocess.run([os.environ["CONTCT_BUILD"] + "/contct", "fuzz", "--calls", "1000", "--problems", "2", "--seed", "7", "--json", "-", "--quiet"],
+                         capture_output=True, text=True, check=True).stdout
+    expected, found = json.loads(out), contct.judge(listing, calls=1000, problems=2, seed=7)
+    assert {key: found[key] for key in ("calls", "values_compared", "events", "branches", "problems")} == {
+        key: expected[key] for key in ("calls", "values_compared", "events", "branches", "problems")} or found.to_dict() == expected
+
+
+@pytest.mark.parametrize("wrong, level", [
+    (lambda call: listing(call, near=0.4e-02), ("none", "certificate", "events")),
+    (lambda call: listing(call, s_of=lambda d, *rest: scale_factor(d, *rest) * (1 + 2**-52)), ("ulps",)),
+    (lambda call: (listing(call)[0], listing(call)[1], call.isep), ("none", "certificate"))])
+def test_a_kernel_with_a_fault_is_not(wrong, level):
+    found = contct.judge(wrong, calls=2000, problems=5, name="wrong")
+    assert not found.equal and found.exit == 1 and found.mismatches > 0 and found.level in level
+    assert "wrong differs in" in found.findings[0] and "NOT equal" in repr(found)
+
+
+def test_an_exception_of_a_kernel_is_raised_with_its_call():
+    seen = []
+
+    def fails(call):
+        seen.append(call)
+        if len(seen) == 100:
+            raise ZeroDivisionError("the hundredth")
+        return listing(call)
+
+    with pytest.raises(ZeroDivisionError, match="the hundredth") as caught:
+        contct.judge(fails, calls=2000)
+    assert len(seen) == 100  # it is not called again
+    assert caught.value.__notes__[0].startswith(f"in a call of {len(seen[-1].id)} pair")
+
+    def stops(call):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        contct.judge(stops, calls=2000)
+    assert contct.judge(listing, calls=1000, problems=1).equal
+
+
+@pytest.mark.parametrize("answer, error, words", [
+    (None, TypeError, "found None; allowed: .ss, smin, isep"), (([], 1.0, []), contct.InputError, "found 0 values of ss and 0 of isep"),
+    (("x", 1.0, []), TypeError, "allowed: .ss, smin, isep")])
+def test_a_wrong_answer_is_refused(answer, error, words):
+    with pytest.raises(error, match=words):
+        contct.judge(lambda call: answer, calls=100, problems=1)
+
+
+def test_a_judgement_of_too_little_says_so():
+    with pytest.raises(contct.InputError, match="calls: found 0"):
+        contct.judge(listing, calls=0)
+    with pytest.raises(contct.InputError, match='name: found "cpp"'):
+        contct.judge(listing, name="cpp")
+    with pytest.raises(contct.InputError, match="no-such"):
+        contct.judge(listing, leader="no-such", calls=10)
+
+
+def test_a_trace_is_replayed(ask):
+    path = ROOT / "reference/traces/ties.trace"
+    found = contct.replay(path, kernel="cpp")
+    assert found.calls > 5 and found.values_compared > 30 and found.mismatches == 0 and found.first is None
+    assert contct.replay(str(path)) == contct.replay(path.read_text(), kernel="fortran")
+    own = contct.run(PROBLEMS / "pb01-cantilever-tip-stop.toml").trace
+    assert contct.replay(own).calls == 6
+    doctored = contct.replay(own.replace(" isep -1", " isep 1", 1))
+    assert doctored.mismatches >= 1 and doctored.first
+    with pytest.raises(contct.InputError) as caught:
+        contct.replay(own.replace("smin", "smax", 1))
+    assert caught.value.file == "trace" and caught.value.line > 1
+    with pytest.raises(TypeError):
+        contct.replay({})

@@ -1,0 +1,87 @@
+"""Where the library is looked for, and what is said where it is not there."""
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+BUILD = os.environ["CONTCT_BUILD"]
+
+
+def imported(folder, program="import contct; print(contct._library._name)", **environment):
+    """(exit status, output, errors) of a Python that imports the module of a folder, with little else in its environment."""
+    finished = subprocess.run([sys.executable, "-B", "-c", program], capture_output=True, text=True,
+                              env={"PYTHONPATH": str(folder), "PATH": os.environ["PATH"], **environment})
+    return finished.returncode, finished.stdout.strip(), finished.stderr
+
+
+@pytest.fixture
+def alone(tmp_path):
+    """The module without the library."""
+    shutil.copy(os.path.join(BUILD, "contct.py"), tmp_path)
+    return tmp_path
+
+
+def fake(path, source):
+    (path.parent / "fake.c").write_text(source)
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", path, path.parent / "fake.c"], check=True)
+    return path
+
+
+def test_beside_the_module_comes_first(alone):
+    assert imported(BUILD, CONTCT_LIBRARY="/no/such/library.so")[:2] == (0, os.path.join(os.path.realpath(BUILD), "libcontct.so"))
+    os.symlink(os.path.join(BUILD, "libcontct.so"), alone / "libcontct.so.0")
+    assert imported(alone)[:2] == (0, str(alone / "libcontct.so.0"))
+
+
+def test_the_variable_comes_next(alone):
+    library = os.path.join(BUILD, "libcontct.so")
+    assert imported(alone, CONTCT_LIBRARY=library)[:2] == (0, library)
+
+
+def test_the_system_comes_last(alone, tmp_path):
+    there = tmp_path / "lib"
+    there.mkdir()
+    os.symlink(os.path.join(BUILD, "libcontct.so"), there / "libcontct.so.0")
+    status, name, errors = imported(alone, LD_LIBRARY_PATH=str(there))
+    assert status == 0 and name.endswith("libcontct.so.0") or "libcontct" in name, errors
+
+
+def test_no_library_is_an_import_error_that_says_what_to_do(alone):
+    status, _, errors = imported(alone)
+    if status == 0:
+        pytest.skip("the system has a libcontct.so.0")
+    assert "ImportError: contct.py: libcontct.so.0: cannot open shared object file" in errors
+    assert f"beside {alone / 'contct.py'}" in errors and "CONTCT_LIBRARY=" in errors and "sh cpp/run.sh" in errors
+    assert "ImportError: contct.py: /no/such.so" in imported(alone, CONTCT_LIBRARY="/no/such.so")[2]
+
+
+def test_another_library_is_refused(alone):
+    if not shutil.which("cc"):
+        pytest.skip("there is no C compiler")
+    library = str(fake(alone / "libcontct.so", "int contct_serve_version(void) { return 2; }"))
+    assert f"ImportError: contct.py: {library} has interface 2; allowed: 1" in imported(alone)[2]
+    fake(alone / "libcontct.so", "int nothing;")
+    assert f"ImportError: contct.py: {library} is not the CONTCT library" in imported(alone)[2]
+
+
+def test_the_module_needs_the_standard_library_alone():
+    program = ("import sys; sys.modules['numpy'] = None; import contct; print(contct.run({'beam': {'x': [0, 1], 'EI': 1}, 'support': "
+               "[{'node': 1, 'fix': ['w', 'theta']}], 'step': [{'point': [{'node': 2, 'w': 3.0}]}]}).steps[0].w)")
+    status, out, errors = imported(BUILD, program)
+    assert status == 0 and out.startswith("[0.0, "), errors
+    assert eval(out) == pytest.approx([0, 1], rel=1e-14)
+
+
+def test_nothing_leaks():
+    """Texts are freed: a thousand results of a hundred kilobytes."""
+    program = ("import contct, resource\np = '[beam]\\nlength = 1.0\\nelements = 200\\nEI = 1.0\\n[[support]]\\nnode = 1\\nfix = [\"w\", \"theta\"]\\n"
+               "[[step]]\\nuniform = 1.0\\n'\nsize = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
+               "for i in range(100): contct.check(p, ); x = contct._ask(contct._library.contct_check, contct._source(p, '.toml', 'problem', None), {'svg': True})\n"
+               "before = size()\nfor i in range(3000): x = contct._ask(contct._library.contct_check, contct._source(p, '.toml', 'problem', None), {'svg': True})\n"
+               "print(len(x['svg']) * 3000 // 1024, size() - before)")
+    status, out, errors = imported(BUILD, program)
+    assert status == 0, errors
+    answered, grown = map(int, out.split())  # KiB
+    assert answered > 20 * 1024 and grown < answered // 4

@@ -1,0 +1,181 @@
+"""What comes back: the program's own numbers, as attributes and items."""
+import json
+import pickle
+from fractions import Fraction
+
+import contct
+import pytest
+from conftest import PROBLEMS
+
+SMALL = sorted(path for path in PROBLEMS.rglob("*.toml") if "n16" not in path.name and "n24" not in path.name
+               and "n20" not in path.name and "n40" not in path.name and "n12" not in path.name)
+
+
+def test_there_are_problems():
+    assert len(SMALL) >= 35
+
+
+@pytest.mark.parametrize("path", SMALL, ids=lambda path: path.stem)
+def test_a_run_has_the_bits_of_the_programs_json(path, ask):
+    exit, out, _ = ask("run", path, "--quiet", "--json", "-")
+    expected = json.loads(out)
+    found = contct.run(path)
+    assert found.to_dict() == expected  # Python reads and compares doubles exactly
+    assert found.exit == exit
+    assert len(found.steps) == len(expected["steps"]) >= 1
+    # The module's own TOML has the same numbers, and so has the file's text.
+    assert contct.run(contct.read(path)) == found
+    assert contct.run(path.read_text()) == found
+
+
+@pytest.mark.parametrize("name", ["pb01-cantilever-tip-stop", "pb07-three-gap-supports", "divergences/near-tie"])
+@pytest.mark.parametrize("rule", ["corrected", "1989"])
+def test_an_exact_path_has_the_numbers_of_the_programs_json(name, rule, ask):
+    path = PROBLEMS / f"{name}.toml"
+    _, out, _ = ask("exact", path, "--rule", rule, "--json", "-", "--kernels", "fortran")
+    found = contct.exact(path, rule=rule, kernels="fortran")
+    assert found.to_dict() == json.loads(out)
+    for step, raw in zip(found.steps, found.to_dict()["steps"]):
+        assert [str(w) for w in step.w] == raw["w"]
+        assert [str(u) for u in step.displacement] == raw["displacement"]
+        assert [str(i.fraction) for i in step.increments] == [i["fraction"] for i in raw["increments"]]
+        assert [(str(p.gap), str(p.force)) for p in step.pairs] == [(p["gap"], p["force"]) for p in raw["pairs"]]
+        assert [str(r.value) for r in step.reactions] == [r["value"] for r in raw["reactions"]]
+
+
+def test_an_explanation_is_the_programs_json(ask):
+    path = PROBLEMS / "pb07-three-gap-supports.toml"
+    found = contct.explain(path)
+    assert found.to_dict() == json.loads(ask("explain", path, "--quiet", "--json", "-")[1])
+    one = contct.explain(path, step=2, increment=1)
+    assert [(i.step, i.increment) for i in one.increments] == [(2, 1)]
+    assert [pair.why for pair in one.increments[0].pairs] == ["winner", "not toggled", "same moment"] or one.increments[0].pairs[0].leads is False
+
+
+def test_keys_are_attributes_and_items(beam):
+    found = contct.run(beam)
+    step = found.steps[1]
+    assert step is found["steps"][1] and isinstance(step, contct.Step)
+    assert step.pairs[0].force == step["pairs"][0]["force"] == found.to_dict()["steps"][1]["pairs"][0]["force"]
+    assert isinstance(step.certificate, contct.Certificate) and step.certificate.exact is True
+    assert step.error.w < 1e-15
+    event = step.increments[0].events[0]
+    assert (event.pair, event.node, event.surface, event.change) == (1, 3, "below", "make")
+    assert set(step) == set(found.to_dict()["steps"][1]) and "w" in step and len(step) == len(set(step))
+    assert {"w", "pairs", "to_dict"} <= set(dir(step))
+    with pytest.raises(AttributeError, match='Step: found no "force"; allowed: step, name, fraction'):
+        step.force
+    with pytest.raises(KeyError):
+        step["force"]
+
+
+def test_arrays_are_numpys_where_it_is_there_and_lists_otherwise(beam):
+    step = contct.run(beam).steps[1]
+    if contct._numpy:
+        assert all(isinstance(x, contct._numpy.ndarray) and x.dtype == "float64"
+                   for x in (step.w, step.displacement, step.elements[0].moment))
+    else:
+        assert all(type(x) is list for x in (step.w, step.displacement, step.elements[0].moment))
+    assert list(step.w) == step.to_dict()["w"] and len(step.w) == 3
+    assert step.extremes.w.min.value == min(step.w)  # here "w" is an object
+
+
+def test_to_dict_is_a_copy(beam):
+    found = contct.run(beam)
+    found.to_dict()["steps"].clear()
+    assert len(found.steps) == len(found.to_dict()["steps"]) == 4
+
+
+def test_results_can_be_pickled(beam):
+    found = contct.run(beam)
+    again = pickle.loads(pickle.dumps(found))
+    assert again == found and again.exit == 0 and again.page == found.page
+    assert again != contct.run(beam, kernels="corrected")
+
+
+def test_reprs_are_one_line(beam):
+    found = contct.run(beam)
+    assert repr(found) == "<contct.Result 'PB1  Cantilever with a tip stop': solved, certified; 4 steps, 2 events>"
+    assert repr(found.steps[0].increments[0]).startswith('<contct.Increment {"increment": 1, "s": 1.0,')
+    assert len(repr(found.steps[0])) < 250
+    near = contct.run(PROBLEMS / "divergences/near-tie.toml")
+    assert "solved, NOT certified; 2 steps" in repr(near)
+    assert repr(contct.exact(beam)) == "<contct.Exact 'PB1  Cantilever with a tip stop': solved; 4 steps, 2 events>"
+    assert repr(contct.explain(beam)) == "<contct.Explanation 'PB1  Cantilever with a tip stop': solved; 6 increments>"
+
+
+def test_a_notebook_shows_the_page(beam, ask, tmp_path):
+    found = contct.run(PROBLEMS / "pb01-cantilever-tip-stop.toml")
+    shown = found._repr_html_()
+    assert shown.startswith('<iframe srcdoc="') and shown.count('"') == 8  # nothing in the page ends the attribute
+    assert found.page.startswith("<!DOCTYPE html>") or found.page.startswith("<!doctype html>")
+    assert "Cantilever with a tip stop" in found.page
+    assert found.page is found.page  # made once
+    assert contct.run(beam, final_only=True)._repr_html_() is None
+    assert contct.certify(beam, found.steps[0].displacement)._repr_html_() is None
+
+
+def test_log_trace_and_proof_are_the_programs(ask, tmp_path):
+    path = PROBLEMS / "pb07-three-gap-supports.toml"
+    log, trace, proof = tmp_path / "log", tmp_path / "trace", tmp_path / "proof"
+    assert ask("run", path, "--quiet", "--log", log, "--trace", trace, "--proof", proof)[0] == 0
+    found = contct.run(path)
+    assert found.log == log.read_text() and "MAKING CONTACT" in found.log
+    assert found.trace == trace.read_text()
+    assert json.loads(found.proof) == json.loads(proof.read_text())
+    assert found.svg.startswith("<svg")
+
+
+def test_options_of_a_run(beam, ask):
+    path = PROBLEMS / "pb01-cantilever-tip-stop.toml"
+    for options, arguments in (({"kernels": "corrected"}, ["--kernels", "corrected"]),
+                               ({"kernels": ("cpp", "fortran"), "engine": "updated"}, ["--kernels", "cpp,fortran", "--engine", "updated"]),
+                               ({"envelope": True}, ["--envelope"]), ({"final_only": True}, ["--final-only"]),
+                               ({"max_increments": 1}, ["--max-increments", "1"])):
+        exit, out, _ = ask("run", path, "--quiet", "--json", "-", *arguments)
+        found = contct.run(path, **options)
+        assert (found.exit, found.to_dict()) == (exit, json.loads(out)), options
+    assert exit == 5 and found.status == "iteration-limit" and not found.certified
+
+
+def test_what_check_finds(beam, tmp_path):
+    found = contct.check(beam)
+    assert (found.kind, found.nodes, found.dofs, found.elements, found.pairs, found.steps) == ("beam", 3, 6, 2, 1, [""] * 4)
+    assert found.svg.startswith("<svg") and found._repr_svg_() == found.svg
+    assert contct.check(PROBLEMS / "pp01a-simply-supported-plate-n4.toml").kind == "plate"
+
+
+def test_states_from_elsewhere_are_certified(beam):
+    found = contct.run(beam)
+    states = [step.displacement for step in found.steps]
+    assert contct.certify(beam, states).certified is True
+    assert contct.certify(beam, states[:1]).to_dict() == contct.certify(beam, states[0]).to_dict()
+    if contct._numpy:
+        assert contct.certify(beam, contct._numpy.array(states)) == contct.certify(beam, [list(u) for u in states])
+    assert [step.pairs[0].state for step in contct.certify(beam, states).steps] == ["separated", "contact", "contact", "separated"]
+    off = [list(states[0])]
+    off[0][4] *= 1.01
+    judged = contct.certify(beam, off)
+    assert judged.certified is False and judged.exit == 3 and judged.messages
+    assert contct.certify(beam, states[:2], closed=[[], []]).steps[1].pairs[0].state == "separated"
+    assert contct.certify(beam, states[:2], closed=[[], [1]]).certified is True
+
+
+def test_long_fractions_are_read():
+    p, q = 3**20001, 7**20000
+    import sys
+    limit = sys.get_int_max_str_digits()
+    sys.set_int_max_str_digits(0)
+    try:
+        text = f"-{p}/{q}"
+    finally:
+        sys.set_int_max_str_digits(limit)
+    assert len(text) > 2 * limit
+    assert contct._fraction(text) == Fraction(-p, q)
+    assert [contct._fraction(x) for x in ("0", "-7", "15/28")] == [0, -7, Fraction(15, 28)]
+
+
+def test_about():
+    found = contct.about()
+    assert {"fortran", "cpp", "fortran-r4", "cpp-r4", "corrected"} <= {kernel.name for kernel in found.kernels}
+    assert found.listing_sha256.startswith("c9f225f0") and "refactor" in found.engines

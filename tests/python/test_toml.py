@@ -1,0 +1,71 @@
+"""Dicts become TOML without losing a bit; what TOML does not have is refused with its place."""
+import array
+import math
+import random
+import struct
+import tomllib
+from decimal import Decimal
+from pathlib import Path
+
+import contct
+import pytest
+from conftest import ROOT
+
+
+def test_every_problem_of_the_project_survives():
+    files = sorted((ROOT / "reference").rglob("*.toml"))
+    for path in files:
+        with open(path, "rb") as file:
+            problem = tomllib.load(file)
+        assert tomllib.loads(contct.to_toml(problem)) == problem, path
+    assert len(files) >= 60
+
+
+def test_random_doubles_survive():
+    chosen = random.Random(1989)
+    numbers = [x for x in (struct.unpack("<d", chosen.randbytes(8))[0] for _ in range(20000)) if math.isfinite(x)]
+    numbers += [0.0, -0.0, 5e-324, 1.7976931348623157e308, 0.1, 1e16, 1e22, 1e-5, math.inf]
+    again = tomllib.loads(contct.to_toml({"x": numbers}))["x"]
+    assert struct.pack(f"{len(again)}d", *again) == struct.pack(f"{len(numbers)}d", *numbers)
+    assert len(again) > 19000 and all(type(x) is float for x in again)
+    assert math.isnan(tomllib.loads(contct.to_toml({"x": math.nan}))["x"])
+
+
+def test_kinds_stay_kinds():
+    problem = {"i": 3, "big": [-2**63, 2**63 - 1], "yes": True, "no": [False], "text": 'a "quoted" \\ \t\n\r\x01\x7f é \U0001f600',
+               "empty": [], "none": {}, "in": {"a": {"b": [1, [2.5, "x"]], "c": {}}}, "odd key.é\n": 1, "": 2,
+               "list": [{"a": 1}, {"b": {"c": [{"d": 1.0}]}}], "mixed": [{"a": 1}, 2]}
+    again = tomllib.loads(contct.to_toml(problem))
+    assert again == problem
+    assert type(again["i"]) is int and type(again["yes"]) is bool and type(again["no"][0]) is bool
+    assert tomllib.loads(contct.to_toml({"t": (1, 2), "r": range(3), "p": Path("K.mtx")})) == {"t": [1, 2], "r": [0, 1, 2], "p": "K.mtx"}
+    assert tomllib.loads(contct.to_toml({"a": array.array("d", [1.0, 2.0])})) == {"a": [1.0, 2.0]}
+
+
+def test_decimals_are_written_as_they_are():
+    assert contct.to_toml({"x": Decimal("0.1000000000000000000001")}) == "x = 0.1000000000000000000001\n"
+    third = {"beam": {"x": [0, 1, 2], "EI": 1}, "support": [{"node": 1, "fix": ["w", "theta"]}],
+             "step": [{"point": [{"node": 3, "w": Decimal("-0.100000000000000000000003")}]}]}
+    assert contct.exact(third).steps[0].reactions[0].value * 10**24 == 100000000000000000000003
+
+
+@pytest.mark.parametrize("value, words", [
+    (None, "found None"), ({1}, "found a set"), (2**63, "found 9223372036854775808"), (1j, "found a complex"),
+    (Decimal("nan"), r"found Decimal\('NaN'\)"), (b"x", "found a bytes"), (object(), "found a object"), (iter([1]), "found a list_iterator")])
+def test_what_toml_has_not_is_refused_with_its_place(value, words):
+    with pytest.raises(contct.InputError, match=rf"contact\[1\]\.face\[2\]: {words}; allowed: "):
+        contct.run({"contact": [{"face": 1}, {"face": [0, 1, value]}]})
+    with pytest.raises(contct.InputError, match="found the key 1; allowed: a text"):
+        contct.to_toml({"beam": {1: 2}})
+
+
+def test_numpy_may_stand_wherever_numbers_and_lists_may():
+    numpy = pytest.importorskip("numpy")
+    if not contct._numpy:
+        pytest.skip("NumPy is hidden")
+    problem = {"a": numpy.float64(0.1), "b": numpy.float32(0.5), "c": numpy.int64(7), "d": numpy.bool_(True), "e": numpy.arange(3),
+               "f": numpy.linspace(0, 1, 3), "g": numpy.array([[1.5, 2.5]]), "h": [numpy.float64(1.5)], "i": numpy.str_("x")}
+    assert tomllib.loads(contct.to_toml(problem)) == {"a": 0.1, "b": 0.5, "c": 7, "d": True, "e": [0, 1, 2], "f": [0.0, 0.5, 1.0],
+                                                      "g": [[1.5, 2.5]], "h": [1.5], "i": "x"}
+    with pytest.raises(contct.InputError, match="x: found a complex"):
+        contct.to_toml({"x": numpy.complex128(1)})
