@@ -24,6 +24,7 @@ done
 need_core
 need_program
 need "to test" catch2 pkgconf python3 groff-base
+need "to test contct.py" python3-pytest python3-numpy mypy || true  # those tests are skipped where they cannot be had
 
 # build NAME: configure and build the preset of that name, quietly unless it fails.
 build() {

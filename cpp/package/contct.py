@@ -473,13 +473,7 @@ class Replay(Record):
 
 
 class Judgement(Answer):
-    """What `judge` finds: reference/check-results.md has every key.
-
-    Beside the keys:
-    equal     True: every value of every call has the leading kernel's bits
-    level     the closest equality that holds: "bits", "ulps", "events", "certificate" or "none"
-    findings  the first mismatch, line by line; empty if there is none
-    """
+    """What `judge` finds: reference/check-results.md has every key."""
     kernels: list[str]
     calls: int
     problems: int
@@ -490,15 +484,18 @@ class Judgement(Answer):
 
     @property
     def equal(self) -> bool:
+        """True: every value of every call has the leading kernel's bits, and enough was compared to say so."""
         return self.exit == 0 and self.mismatches == 0 and self.values_compared > 0
 
     @property
     def level(self) -> str:
+        """The closest equality that holds: "bits", "ulps", "events", "certificate" or "none"."""
         rung: str = self.followers[0].rung
         return rung
 
     @property
     def findings(self) -> list[str]:
+        """The first mismatch, line by line; empty if there is none."""
         lines: list[str] = self.followers[0].findings
         return lines
 
@@ -745,7 +742,7 @@ def to_toml(problem: Mapping[str, Any]) -> str:
     for heading, where, table in tables:
         lines += ["", heading]
         lines += [f"{_toml_key(key, where)} = {_toml_value(value, f'{where}.{key}')}" for key, value in table.items()]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines).lstrip("\n") + "\n"
 
 
 def _kernel_list(kernels: Kernels) -> list[str]:
@@ -792,7 +789,7 @@ def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
           folder: Union[None, str, os.PathLike[str]] = None) -> Exact:
     """Follow the path in rational arithmetic, from the decimals as they are written: `contct exact`.
 
-    rule     "corrected", or "1989" for the listing's rule without rounding
+    rule     "corrected", or "1989" for the 1989 rule without rounding
     kernels  are compared with it: how many of their digits are right
     """
     source = _source(problem, ".toml", "problem", folder)
@@ -814,7 +811,7 @@ def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: 
 
 def certify(problem: Problem, displacement: Any, *, closed: Optional[Iterable[Iterable[int]]] = None,
             folder: Union[None, str, os.PathLike[str]] = None) -> Result:
-    """Bounds on the errors of states from elsewhere, such as another program's.
+    """Bounds on the errors of states that another program, or a formula, gives.
 
     displacement  for each of the first steps the displacement of every dof, under the step's whole load: a list of states,
                   an array with a row for each, or one state. Beams have w, theta of node 1, then of node 2, ..; plates w,

@@ -1,5 +1,7 @@
 """The text that a user can read, taken from sources: string literals of C++ and JavaScript, the text of HTML,
 the prose of Markdown. Each is a pair (line, text)."""
+import ast
+import json
 import re
 
 # One alternative a token; a comment or a literal ends where C++ says so, so neither hides in the other.
@@ -102,6 +104,26 @@ def markdown_lines(source):
         text += line + "\n"
     end()
     return [(line, re.sub(r"(`+).*?\1", "`code`", text, flags=re.DOTALL).replace("](", "] (")) for line, text in found]
+
+
+def python_texts(source):
+    """Docstrings and other literals; of an f-string its parts."""
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            found.append((node.lineno, re.sub(r"`[^`]*`", "`code`", node.value)))
+    return sorted(found)
+
+
+def notebook_texts(source):
+    """The prose of a notebook; a line is that of its cell's first one in the file, counted on."""
+    found, behind = [], 0
+    for cell in json.loads(source)["cells"]:
+        behind = source.index(f'"id": "{cell["id"]}"', behind)
+        if cell["cell_type"] == "markdown":
+            first = source.count("\n", 0, source.index('"source"', behind)) + 1
+            found += [(first + line, text) for line, text in markdown_lines("".join(cell["source"]))]
+    return found
 
 
 def toml_texts(source):

@@ -5,20 +5,21 @@ import os
 import re
 import sys
 
-from literals import cxx_literals, html_texts, js_literals, markdown_lines, toml_texts
+from literals import cxx_literals, html_texts, js_literals, markdown_lines, notebook_texts, python_texts, toml_texts
 
 ROOMS = ("app", "contct/certify", "contct/compare", "contct/exact", "contct/lab", "contct/outside", "contct/path", "contct/read",
          "contct/solve", "contct/structure", "contct/text", "contct/trace", "contct/write")
 READERS = {".cpp": cxx_literals, ".hpp": cxx_literals, ".js": js_literals, ".html": html_texts, ".md": markdown_lines,
-           ".toml": toml_texts}
+           ".toml": toml_texts, ".py": python_texts, ".ipynb": notebook_texts}
 
 
 def files_of(root):
-    found = ["README.md", "reference/verification.toml"]
+    found = ["README.md", "reference/verification.toml", "cpp/package/contct.py"]
     for room in ROOMS:
         found += glob.glob(f"cpp/{room}/*.[ch]pp", root_dir=root)
     found += glob.glob("cpp/contct/write/report/*.js", root_dir=root) + glob.glob("cpp/contct/write/report/*.html", root_dir=root)
     found += glob.glob("reference/**/*.md", root_dir=root, recursive=True)
+    found += glob.glob("reference/**/*.ipynb", root_dir=root, recursive=True)
     return sorted(found)
 
 
@@ -44,7 +45,7 @@ def main(root, phrases, least, *only):
     for name in only or files_of(root):
         with open(os.path.join(root, name), encoding="utf-8") as file:
             texts = READERS[os.path.splitext(name)[1]](file.read())
-        keys = name.endswith((".cpp", ".hpp", ".js"))
+        keys = name.endswith((".cpp", ".hpp", ".js", ".py"))
         for line, text in texts:
             if not re.search(r"[A-Za-z]{2}", text) or (keys and " " not in text.strip()):  # a key, a value, a file
                 continue

@@ -1,0 +1,71 @@
+"""reference/python.md: every example runs and prints what the page shows, and the page names every function."""
+import re
+
+import contct
+import pytest
+from blocks import blocks_of, printed
+from conftest import ROOT
+from page import difference, wildcards
+from run_page import doctored
+
+PAGE = ROOT / "reference/python.md"
+
+
+def first_difference(text, most_wild):
+    """The first example that does not print what is shown, in words; None where all do. Raises where it shows too little."""
+    names, compared, wild = {}, 0, 0
+    for code, line, shown in blocks_of(text):
+        found = printed(code, line, names, "python.md").splitlines()
+        assert shown is not None or not found, f"line {line}: found output, and no text block behind the example"
+        wrong = difference(shown.splitlines(), found) if shown is not None else None
+        if wrong:
+            return f"line {line}: {wrong}"
+        compared += len(found)
+        wild += wildcards(shown.splitlines()) if shown else 0
+    assert compared >= 50 and wild <= most_wild
+    return None
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    (tmp_path / "reference").symlink_to(ROOT / "reference")
+    monkeypatch.chdir(tmp_path)
+
+
+def test_every_example_prints_what_the_page_shows(folder):
+    text = PAGE.read_text()
+    assert len(list(blocks_of(text))) >= 14
+    assert first_difference(text, 1) is None
+
+
+def test_a_changed_line_is_noticed():
+    faults = 0
+    for _, line, shown in blocks_of(PAGE.read_text()):
+        lines = [row for row in (shown or "").splitlines() if "<...>" not in row]
+        for fault in doctored(lines):
+            faults += 1
+            assert difference(fault, lines) is not None
+    assert faults >= 120
+
+
+def test_a_doctored_example_is_noticed(folder):
+    text = PAGE.read_text()
+    assert "-0.003 45.348837" in text
+    wrong = first_difference(text.replace("-0.003 45.348837", "-0.003 45.348838"), 1)
+    assert wrong.startswith("line 9: output line 2:\n  shown -0.003 45.348838\n  found -0.003 45.348837")
+
+
+def test_the_page_has_an_example_of_every_function():
+    code = "".join(code for code, _, _ in blocks_of(PAGE.read_text()))
+    functions = [name for name in contct.__all__ if name[0].islower()]
+    assert len(functions) == 11
+    missing = [name for name in functions if not re.search(rf"contct\.{name}\b", code)]
+    assert missing == ["about"] and "contct.about()" in PAGE.read_text()  # in the block for the shell
+
+
+def test_every_public_name_is_documented():
+    names = [getattr(contct, name) for name in contct.__all__]
+    names += [value for kind in names if isinstance(kind, type) for key, value in vars(kind).items()
+              if not key.startswith("_") and (callable(value) or isinstance(value, property)) and key not in ("index", "count")]
+    assert len(names) >= 40
+    assert [name for name in names if not (name.__doc__ or "").strip()] == []
