@@ -32,6 +32,7 @@ import ctypes.util
 import html
 import importlib
 import json
+import operator
 import os
 import re
 import tomllib
@@ -626,12 +627,22 @@ def _result_of(answer: dict[str, Any]) -> dict[str, Any]:
     raise InputError(error["message"].removeprefix(before), *place)
 
 
+def _options(given: Mapping[str, Any]) -> bytes:
+    """As JSON, NumPy's numbers included."""
+    def plain(value: Any) -> Any:
+        if hasattr(value, "tolist"):
+            return value.tolist()
+        raise TypeError(f"found a {type(value).__name__} as an option; allowed: numbers, texts, lists")
+
+    return json.dumps(given, default=plain).encode()
+
+
 def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str, Any]:
     """One function of the library that takes a text and options. Options that are None are left to the library."""
     given = {key: value for key, value in options.items() if value is not None}
     given |= {"file": source.file, "folder": source.folder}
     try:
-        return _result_of(_answer_of(function, source.text, json.dumps(given, allow_nan=False).encode()))
+        return _result_of(_answer_of(function, source.text, _options(given)))
     except InputError as error:
         if error.line is not None and not source.on_disk and error.file == source.place:
             lines = source.text.decode(errors="replace").split("\n")
@@ -652,7 +663,7 @@ class _Source(NamedTuple):
 
     @property
     def place(self) -> str:
-        return os.path.join(self.folder, self.file)
+        return f"{self.folder}/{self.file}" if self.folder else self.file
 
 
 def _source(given: Any, ending: str, what: str, folder: Optional[Any]) -> _Source:
@@ -661,9 +672,9 @@ def _source(given: Any, ending: str, what: str, folder: Optional[Any]) -> _Sourc
         beside, name = os.path.split(os.fspath(given))
         source = _Source(Path(given).read_bytes(), name, beside, True)
     elif isinstance(given, str) and "\n" in given:
-        source = _Source(given.encode(), what, os.fspath(folder or ""), False)
+        source = _Source(given.encode(errors="surrogatepass"), what, os.fspath(folder or ""), False)
     elif isinstance(given, Mapping) and what == "problem":
-        source = _Source(to_toml(given).encode(), what, os.fspath(folder or ""), False)
+        source = _Source(to_toml(given).encode(errors="surrogatepass"), what, os.fspath(folder or ""), False)
     else:
         shown = repr(given) if isinstance(given, str) else f"a {type(given).__name__}"
         or_dict = ", or a dict" if what == "problem" else ""
@@ -719,7 +730,7 @@ def _toml_value(value: Any, where: str) -> str:
         inside = [f"{_toml_key(key, where)} = {_toml_value(item, f'{where}.{key}')}" for key, item in value.items()]
         return "{ " + ", ".join(inside) + " }" if inside else "{}"
     if isinstance(value, (list, tuple, range)):
-        return "[" + ", ".join(_toml_value(item, f"{where}[{i}]") for i, item in enumerate(value)) + "]"
+        return "[" + ", ".join(_toml_value(item, f"{where}[{i}]") for i, item in enumerate(value, 1)) + "]"
     shown = repr(value) if isinstance(value, (int, Decimal)) or value is None else f"a {type(value).__name__}"
     raise InputError(f"{where}: found {shown}; allowed: true, false, an int of 64 bits, a float, a Decimal, a text, a list, "
                      "a dict, an array")
@@ -729,14 +740,15 @@ def to_toml(problem: Mapping[str, Any]) -> str:
     """The text of a problem file for a dict; `run` reads this text, and its lines are those of an `InputError`.
 
     Exact: floats are written with all their digits, a `decimal.Decimal` as it is. NumPy's numbers and arrays may stand
-    wherever numbers and lists may. Whatever TOML does not have is refused, with its place: `contact[0].face`."""
+    wherever numbers and lists may. Whatever TOML does not have is refused, with its place: `contact[1].face`, counted from 1 as in
+    all messages of the program."""
     lines, tables = [], []
     for key, value in problem.items():
         name = _toml_key(key, "")
         if isinstance(value, Mapping):
             tables.append((f"[{name}]", key, value))
         elif isinstance(value, (list, tuple)) and value and all(isinstance(item, Mapping) for item in value):
-            tables += [(f"[[{name}]]", f"{key}[{i}]", item) for i, item in enumerate(value)]
+            tables += [(f"[[{name}]]", f"{key}[{i}]", item) for i, item in enumerate(value, 1)]
         else:
             lines.append(f"{name} = {_toml_value(value, key)}")
     for heading, where, table in tables:
@@ -827,7 +839,7 @@ def certify(problem: Problem, displacement: Any, *, closed: Optional[Iterable[It
     if not any(hasattr(state, "__iter__") for state in states):
         states = [states]
     options = {"displacement": [[_finite(x, i, j) for j, x in enumerate(state, 1)] for i, state in enumerate(states, 1)],
-               "closed": None if closed is None else [[int(pair) for pair in pairs] for pairs in closed]}
+               "closed": None if closed is None else [[operator.index(pair) for pair in pairs] for pairs in closed]}
     return Result(_ask(_library.contct_certify, source, options))
 
 
@@ -958,7 +970,7 @@ def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 
     pointer = _kernel_function(kernel)
     options = {"calls": calls, "problems": problems, "seed": seed, "leader": leader,
                "name": name or getattr(function, "__name__", "function")}
-    answer = _answer_of(_library.contct_judge, pointer, json.dumps(options).encode())
+    answer = _answer_of(_library.contct_judge, pointer, _options(options))
     if kernel.raised is not None:
         raise kernel.raised
     return Judgement(_result_of(answer))

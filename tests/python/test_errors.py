@@ -44,6 +44,7 @@ def test_a_text_has_a_place():
     assert (error.line, error.column) == (2, 7) and "code 0" in error.message
     error = refusal("[beam\n")
     assert (error.line, error.column) == (1, 6)
+    assert refusal("a = 1\nb = '\ud800'\n").line == 2  # no UTF-8
 
 
 def test_what_is_no_problem_is_refused():
@@ -64,6 +65,10 @@ def test_options_are_refused_by_name(beam):
     assert "rule" in refusal(beam, contct.exact, rule="1990").message
     assert "step" in refusal(beam, contct.explain, step=9).message
     assert "max_increments" in refusal(beam, contct.run, max_increments=-1).message
+    with pytest.raises(TypeError, match="found a set as an option"):
+        contct.run(beam, max_increments={1})
+    if contct._numpy:
+        assert contct.run(beam, max_increments=contct._numpy.int64(1)).exit == 5
     assert refusal(beam, contct.run, final_only=True, envelope=True).line is None
 
 

@@ -53,7 +53,7 @@ def test_decimals_are_written_as_they_are():
     (None, "found None"), ({1}, "found a set"), (2**63, "found 9223372036854775808"), (1j, "found a complex"),
     (Decimal("nan"), r"found Decimal\('NaN'\)"), (b"x", "found a bytes"), (object(), "found a object"), (iter([1]), "found a list_iterator")])
 def test_what_toml_has_not_is_refused_with_its_place(value, words):
-    with pytest.raises(contct.InputError, match=rf"contact\[1\]\.face\[2\]: {words}; allowed: "):
+    with pytest.raises(contct.InputError, match=rf"contact\[2\]\.face\[3\]: {words}; allowed: "):
         contct.run({"contact": [{"face": 1}, {"face": [0, 1, value]}]})
     with pytest.raises(contct.InputError, match="found the key 1; allowed: a text"):
         contct.to_toml({"beam": {1: 2}})
