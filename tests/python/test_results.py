@@ -131,6 +131,7 @@ def test_log_trace_and_proof_are_the_programs(ask, tmp_path):
     assert contct.replay(found.trace).calls == 8
     assert json.loads(found.proof) == json.loads(proof.read_text())
     assert found.svg.startswith("<svg")
+    assert "\nkernel cpp\n" in contct.run(path, kernels="cpp").trace  # its own options
 
 
 def test_options_of_a_run(beam, ask):
