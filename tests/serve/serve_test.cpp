@@ -163,6 +163,41 @@ TEST_CASE("states from elsewhere are certified, and a state that is wrong is not
             .find("closed: found 9") != std::string::npos);
 }
 
+TEST_CASE("every number of a problem is told with its place, and the pairs with the keys of theirs") {
+  const std::string text =
+      "title = \"\u00e4\"  # two bytes\n[beam]\nlength = 4.0\nelements = 4\nEI = 1e3\n"
+      "[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
+      "[[contact]]\nnodes = [2, 3]\nsurface = \"below\"\nface = [-0.1, -0.2]\nstiffness = 5\n"
+      "[[step]]\npoint = [{ node = 3, w = -1 }]\n";
+  const json checked = taken(contct_check(text.c_str(), R"({"places": true})"));
+  REQUIRE(checked.at("error").is_null());
+  const json& result = checked.at("result");
+  std::vector<std::string> lines;
+  for (std::size_t from = 0, to = 0; from < text.size(); from = to + 1) {
+    to = text.find('\n', from);
+    lines.push_back(text.substr(from, to - from));
+  }
+  CHECK(result.at("numbers").size() == 12);
+  for (const json& n : result.at("numbers")) {
+    const std::string& line = lines.at(n.at("line").get<std::size_t>() - 1);
+    const std::string literal = line.substr(n.at("column").get<std::size_t>() - 1, n.at("length"));
+    CAPTURE(n.dump());
+    CHECK(std::stod(literal) == n.at("value").get<double>());
+  }
+  CHECK(result.at("pair_list")[1].at("face_key") == "contact[1].face[2]");
+  CHECK(result.at("pair_list")[1].at("stiffness_key") == "contact[1].stiffness");
+  CHECK(result.at("node_list")[4] == json({4.0, 0.0}));
+  CHECK_FALSE(taken(contct_check(text.c_str(), nullptr)).at("result").contains("numbers"));
+}
+
+TEST_CASE("the states of a path are those that the page draws") {
+  const json answer = run(problem_text("pb07-three-gap-supports"), {{"states", true}});
+  const json states = json::parse(answer.at("states").get<std::string>());
+  REQUIRE(states.at("frames").size() == 9);  // the start and 8 increments
+  CHECK(states.at("frames")[1].at("watched").get<double>() < 0);
+  CHECK(answer.at("result").at("status") == "solved");
+}
+
 TEST_CASE("check, exact, explain and about answer as the program does") {
   const std::string text = problem_text("pb07-three-gap-supports");
   const json checked = taken(contct_check(text.c_str(), R"({"svg": true})"));

@@ -7,7 +7,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "contct/read/toml_reader.hpp"
 #include "contct/text/decimal.hpp"
 #include "contct/text/input_text.hpp"
 
@@ -113,7 +115,36 @@ class literal_reader {
   std::map<double, const toml::node*> kept_;  // the first of each value
 };
 
+/// The same, with each number's key.
+template <class Visit>
+void for_each_key(const toml::node& node, const std::string& key, const Visit& visit) {
+  if (const toml::table* const table = node.as_table()) {
+    for (const auto& entry : *table)
+      for_each_key(entry.second, (key.empty() ? "" : key + ".") + std::string(entry.first.str()), visit);
+  } else if (const toml::array* const array = node.as_array()) {
+    for (std::size_t i = 0; i < array->size(); ++i) for_each_key((*array)[i], indexed(key, i), visit);
+  } else if (node.is_number()) {
+    visit(node, key);
+  }
+}
+
 }  // namespace
+
+std::vector<placed_number> placed_numbers(const toml::table& document, std::string_view text) {
+  const document_text in(text);
+  std::vector<placed_number> numbers;
+  for_each_key(document, "", [&](const toml::node& node, const std::string& key) {
+    const toml::source_position& at = node.source().begin;
+    const double value =
+        node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
+    const auto length = static_cast<int>(in.number_at(at).size());
+    if (std::isfinite(value) && length > 0)
+      numbers.push_back(
+          {key, value, node.is_integer(), static_cast<int>(at.line), static_cast<int>(at.column), length});
+  });
+  std::ranges::sort(numbers, {}, [](const placed_number& n) { return std::pair(n.line, n.column); });
+  return numbers;
+}
 
 std::vector<written_number> written_numbers(const toml::table& document, std::string_view text,
                                             std::string_view file) {

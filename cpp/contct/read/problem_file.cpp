@@ -160,6 +160,8 @@ class problem_reader {
     for (std::size_t i = 0; i < at.size(); ++i) {
       problem_.pairs.push_back(pair_at(t, common, at[i], faces[faces.size() == 1 ? 0 : i], i));
       problem_.pairs.back().stiffness = stiffness[stiffness.size() == 1 ? 0 : i];
+      if (keep_ == literals::kept)
+        problem_.keys.push_back({t.full_name(t.name_of("face", i)), t.full_name(t.name_of("stiffness", i))});
       if (fixed_in_w(at[i]))
         problem_.warnings.push_back(fmt::format(
             "{}: {} is fixed{}; the pair cannot change the deflections, and its support takes its force, but "

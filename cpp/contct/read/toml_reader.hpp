@@ -108,12 +108,13 @@ class table_reader {
   void refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
                      std::string_view allowed) const;
 
+  /// A key with its table, as messages have it: "contact[2].face".
+  [[nodiscard]] std::string full_name(std::string_view name) const;
+
   /// Where this table is, for messages: "pb.toml:12: contact[2]".
   [[nodiscard]] std::string place() const;
 
  private:
-  [[nodiscard]] std::string full_name(std::string_view name) const;
-
   const toml::table* table_;
   std::string where_;
   std::string_view file_;

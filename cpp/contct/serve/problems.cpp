@@ -6,6 +6,8 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/read/number_literals.hpp"
+#include "contct/read/toml_reader.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/exact_run.hpp"
 #include "contct/serve/listing_kernels.hpp"
@@ -21,9 +23,41 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+/// Every number of the file with its place, every node, and what the pairs' numbers are called there.
+void put_places(json& out, const problem& p, const char* text, const std::string& file) {
+  const toml::table document = parse_toml(text, file);
+  json& numbers = out["numbers"] = json::array();
+  for (const placed_number& n : placed_numbers(document, text))
+    numbers.push_back({{"key", n.key},
+                       {"value", n.value},
+                       {"whole", n.is_whole},
+                       {"line", n.line},
+                       {"column", n.column},
+                       {"length", n.length}});
+  json& pairs = out["pair_list"] = json::array();
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
+    const contact_pair& at = p.pairs[i];
+    json pair = {{"pair", i + 1},
+                 {"node", at.node + 1},
+                 {"surface", surface_name(at.surface)},
+                 {"face", at.face},
+                 {"stiffness", at.stiffness}};
+    if (i < p.keys.size())
+      pair.update({{"face_key", p.keys[i].face}, {"stiffness_key", p.keys[i].stiffness}});
+    pairs.push_back(std::move(pair));
+  }
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return;
+  json& spots = out["node_list"] = json::array();
+  for (int node = 0; node < nodes(p.geometry); ++node) {
+    const place at = place_of_node(p.geometry, node);
+    spots.push_back({at.x, at.y});
+  }
+}
+
 void check(const char* text, const char* options, answer& a) {
-  const request r(options, {"file", "folder", "svg"});
-  const problem p = read_problem_text(text, r.file(), a);
+  const request r(options, {"file", "folder", "svg", "places"});
+  const bool places = r.flag("places");
+  const problem p = read_problem_text(text, r.file(), a, places ? literals::kept : literals::dropped);
   json out = {{"title", p.title},
               {"kind", std::holds_alternative<beam>(p.geometry.kind)    ? "beam"
                        : std::holds_alternative<plate>(p.geometry.kind) ? "plate"
@@ -36,6 +70,7 @@ void check(const char* text, const char* options, answer& a) {
               {"units", nullptr}};
   for (const load& step : p.steps) out["steps"].push_back(step.name);
   if (!p.units.length.empty()) out["units"] = {{"length", p.units.length}, {"force", p.units.force}};
+  if (places) put_places(out, p, text, r.file());
   a.result = out.dump();
   if (r.flag("svg")) a.texts.emplace_back("svg", problem_svg(p, r.file()));
 }

@@ -30,12 +30,14 @@ struct run_request {
   std::vector<std::string> kernels;  // the leader first; none: only the ends of the steps
   std::string engine;
   int max_increments;
-  bool envelope, page, svg, log, trace, proof;
+  bool envelope, page, svg, log, trace, proof, states;
+
+  [[nodiscard]] bool wants_frames() const { return page || svg || states || envelope; }
 };
 
 run_request read_run_request(const char* options) {
   const request r(options, {"file", "folder", "kernels", "engine", "final_only", "envelope", "max_increments",
-                            "page", "svg", "log", "trace", "proof"});
+                            "page", "svg", "log", "trace", "proof", "states"});
   constexpr int most_increments = 1'000'000'000;
   run_request wanted{r.file(),
                      r.texts("kernels", {"fortran", "cpp"}),
@@ -46,7 +48,8 @@ run_request read_run_request(const char* options) {
                      r.flag("svg"),
                      r.flag("log"),
                      r.flag("trace"),
-                     r.flag("proof")};
+                     r.flag("proof"),
+                     r.flag("states")};
   refuse_unknown_engine(wanted.engine);
   for (const std::string& name : wanted.kernels) {
     if (std::ranges::count(wanted.kernels, name) > 1)
@@ -86,13 +89,14 @@ class served_run {
     lockstep* const watched = wanted_.kernels.size() > 1 ? &compared : nullptr;
     engine_ = engine_for(leader->facts(), wanted_.engine, structure_);
     std::vector<observer*> all = observers(watched);
-    if (wanted_.page || wanted_.svg || wanted_.envelope) watch_states(all, watched, leader->facts());
+    if (wanted_.wants_frames()) watch_states(all, watched, leader->facts());
     log_keeper log(log_);
     if (wanted_.log) all.push_back(&log);
     std::optional<trace_recorder> trace;
     if (wanted_.trace) {
       trace_header h = header_for(leader->facts(), CONTCT_LISTING_SHA256, lapack_identity());
       h.about = {"every call of " + std::filesystem::path(wanted_.file).filename().string()};
+      if (!p_.title.empty()) h.about.push_back(on_one_line(p_.title));
       all.push_back(&trace.emplace(h, [this](std::string_view text) { trace_ += text; }));
     }
     const path_end end = follow(p_, structure_, engine_, *leader, all,
@@ -121,9 +125,9 @@ class served_run {
   path_end find_ends() {
     engine_ = "oracle";
     std::vector<observer*> all = observers(nullptr);
-    if (wanted_.page || wanted_.svg || wanted_.envelope)
+    if (wanted_.wants_frames())
       throw std::invalid_argument(
-          "options: found final_only with page, svg or envelope; allowed: these with a path");
+          "options: found final_only with page, svg, states or envelope; allowed: these with a path");
     return find_final_states(structure_, static_cast<int>(p_.steps.size()), loads_of(p_, structure_), all,
                              &judged_);
   }
@@ -144,7 +148,7 @@ class served_run {
     if (!solved) a_.messages.push_back(wanted_.file + ": " + words);
     for (const std::string& w : {solved ? digits_.warning() : "", passages_.warning()})
       if (!w.empty()) a_.messages.push_back("warning: " + w);
-    if (wanted_.page || wanted_.svg) draw({status, words, compared, equal, extremes});
+    if (wanted_.page || wanted_.svg || wanted_.states) draw({status, words, compared, equal, extremes});
     if (wanted_.log) a_.texts.emplace_back("log", std::move(log_));
     if (wanted_.trace) a_.texts.emplace_back("trace", std::move(trace_));
     if (wanted_.proof)
@@ -183,6 +187,7 @@ class served_run {
                          o.extremes};
     if (wanted_.page) a_.texts.emplace_back("page", run_page(r));
     if (wanted_.svg) a_.texts.emplace_back("svg", run_svg(r));
+    if (wanted_.states) a_.texts.emplace_back("states", page_data(r).dump());
   }
 
   void tell(const std::vector<std::string>& lines) {

@@ -4,16 +4,16 @@
  * is a JSON object, or null for none; an option that is not known is refused. Every function returns a JSON
  * object
  *
- *   { "format": "contct-answer-1",
- *     "exit": 0,          as the program's exit status: reference/README.md
- *     "messages": [],     warnings, and what the program prints on standard error, a text each
- *     "error": null,      or { "message": "..", "file": "problem", "line": 12, "column": 3 }; these three are
- * null where the message has no place "result": {..},     as the function says; null where there is an error
- *     .. }                and what its options ask for
+ *   "format"    "contct-answer-1"
+ *   "exit"      0: as the program's exit status (reference/running.md)
+ *   "messages"  []: warnings, and what the program prints on standard error, a text each
+ *   "error"     null, or { "message": "..", "file": "problem", "line": 12, "column": 3 }; the last three are
+ *               null where the message has no place
+ *   "result"    as the function says; null where there is an error
  *
- * as a text that is the caller's, who frees it by contct_free. Null is returned where memory does not suffice
- * for an answer. Nothing is printed, no exception leaves, and no file is written; files are read only where a
- * problem names them (stiffness = "K.mtx"), in `folder`.
+ * and what the options ask for, as a text that is the caller's, who frees it by contct_free. Null is returned
+ * where memory does not suffice for an answer. Nothing is printed, no exception leaves, and no file is
+ * written; files are read only where a problem names them (stiffness = "K.mtx"), in `folder`.
  *
  * Any function may be called from any thread. What calls the 1989 code waits for its turn, since COMMON /DOF/
  * and unit 26 belong to the whole process; contct_check, contct_certify and contct_exact without kernels do
@@ -21,7 +21,8 @@
  *
  * Options that all functions with a problem have:
  *   "file"    its name in messages and pages: "problem"
- *   "folder"  where files that it names are looked for: "" is where the process runs */
+ *   "folder"  in front of that name where it does not begin with "/", and where files that the problem names
+ *             are looked for; "": where the process runs */
 #ifndef CONTCT_SERVE_SERVE_H
 #define CONTCT_SERVE_SERVE_H
 
@@ -35,12 +36,14 @@
 extern "C" {
 #endif
 
+/* clang-format off: lists stay lists */
+
 /* The version of this interface. It changes when anything declared here does. */
 #define CONTCT_SERVE_VERSION 1
 CONTCT_SERVE_EXPORT int contct_serve_version(void);
 
-/* { "version": "0.2.0", "listing_sha256", "floating_point", "lapack", "kernels": [{ "name", "real_bytes",
- * "rule", "language", "compiler", "flags" }], "engines": ["auto", ..] } as "result". */
+/* "result": { "version": "0.2.0", "listing_sha256", "floating_point", "lapack", "kernels": [{ "name",
+ *   "real_bytes", "rule", "language", "compiler", "flags" }], "engines": ["auto", ..] }. */
 CONTCT_SERVE_EXPORT char* contct_about(void);
 
 /* contct run: follow the path of a problem. "result" is what --json writes (reference/result-file.md).
@@ -49,14 +52,18 @@ CONTCT_SERVE_EXPORT char* contct_about(void);
  *   "final_only"      false; true: no path, the equilibrium under each step's load
  *   "envelope"        false
  *   "max_increments"  0, the program's own limit
- *   "page", "svg", "log", "trace", "proof"  false; true: the answer has what --html, --svg, --log, --trace
- * and
- *                     --proof write, as a text under the same key */
+ *   "page", "svg", "log", "trace", "proof"
+ *                     false; true: the answer has what --html, --svg, --log, --trace and --proof write, as a
+ *                     text under the same key
+ *   "states"          false; true: what the page draws, as JSON in a text: every state of the path */
 CONTCT_SERVE_EXPORT char* contct_run(const char* problem, const char* options);
 
 /* contct check: read a problem, solve nothing. "result": { "title", "kind": "beam" | "plate" | "matrix",
- * "nodes", "dofs", "elements", "pairs", "steps": [names], "units": null or { "length", "force" } }. "svg"
- * false; true: the answer has a picture of the problem, as text */
+ *   "nodes", "dofs", "elements", "pairs", "steps": [names], "units": null or { "length", "force" } }.
+ *   "svg"     false; true: the answer has a picture of the problem, as a text
+ *   "places"  false; true: the result has where what is written too: "numbers": [{ "key": "contact[1].face",
+ *             "value", "whole", "line", "column", "length" }], with "pair_list", "node_list" and
+ * "support_list" */
 CONTCT_SERVE_EXPORT char* contct_check(const char* problem, const char* options);
 
 /* contct exact: the path in rational arithmetic. "result" is what contct exact --json writes.
@@ -95,13 +102,16 @@ typedef void contct_kernel_function(const double dd[], const double dtest[], con
  *   "calls"   20000; "problems" 40; "seed" 1989 */
 CONTCT_SERVE_EXPORT char* contct_judge(contct_kernel_function* kernel, const char* options);
 
-/* contct replay: a recorded trace, as text, put to a kernel. "result": { "calls", "values_compared",
- * "mismatches", "first": null or words }. "file"    "trace" "kernel"  the 1989 code in the trace's precision
- */
+/* contct replay: a recorded trace, as a text, put to a kernel. "result": { "kernel", "calls",
+ *   "values_compared", "mismatches", "first": null or words }.
+ *   "file"    "trace"
+ *   "kernel"  the 1989 code in the trace's precision */
 CONTCT_SERVE_EXPORT char* contct_replay(const char* trace, const char* options);
 
 /* Free what any of these returned; null is allowed. */
 CONTCT_SERVE_EXPORT void contct_free(char* text);
+
+/* clang-format on */
 
 #ifdef __cplusplus
 }

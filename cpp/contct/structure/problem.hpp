@@ -302,6 +302,11 @@ struct written_number {
   std::string literal;
 };
 
+/// The keys in a file that give a pair its face and its stiffness: "contact[2].face[3]".
+struct pair_keys {
+  std::string face, stiffness;
+};
+
 /// What a problem file says. Nodes, elements and pairs count from 0 here, from 1 in the file.
 struct problem {
   std::string title;
@@ -314,6 +319,8 @@ struct problem {
   std::vector<std::string> warnings;
   /// Of the file's own numbers, one for each value; only where the reader was asked for them.
   std::vector<written_number> written;
+  /// Of the pairs of every [[contact]] [pairs], likewise; those of beds have none.
+  std::vector<pair_keys> keys;
 };
 
 }  // namespace contct::structure
