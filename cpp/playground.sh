@@ -27,7 +27,6 @@ need "for the playground" emscripten cmake ninja-build f2c libf2c2-dev libboost-
 sources=$(pwd)/build/playground/sources
 lapack=$sources/lapack
 fetch_lapack || { echo "playground: SKIPPED: the source of LAPACK cannot be had" >&2; exit 77; }
-export NODE_PATH=/usr/share/nodejs # node's packages are Debian's, also where node is not
 echo "building in build/playground"
 log=$(mktemp)
 if ! { emcmake cmake -G Ninja -S cpp/playground -B build/playground -DLAPACK_SOURCE="$lapack" && cmake --build build/playground; } >"$log" 2>&1; then

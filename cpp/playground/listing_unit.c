@@ -1,10 +1,13 @@
 /* What f2c's translation of the listing needs besides itself: its calls, and unit 26. The listing's WRITE
  * statements use the descriptors X, I, E and text, which are all that is written here; numbers come out as
  * gfortran has them. */
-#include <f2c.h> /* last: it makes a macro of abs */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* clang-format off: behind the others, since it makes a macro of abs */
+#include <f2c.h>
+/* clang-format on */
 
 extern struct { integer indof, ndofpn; } dof_;
 
