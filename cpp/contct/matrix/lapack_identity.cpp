@@ -2,12 +2,15 @@
 
 #include <dlfcn.h>
 
+#include <cstddef>
 #include <filesystem>
 
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
 extern "C" {
-void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)();  // for its address
+// For its address; declared as in cholesky.cpp, since release builds compile both together.
+void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)(const char* uplo, const int* n, const int* kd, double* ab,
+                                      const int* ldab, int* info, std::size_t uplo_length);
 void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 }
 

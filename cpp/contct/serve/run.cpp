@@ -270,7 +270,7 @@ void certify_states(const char* text, const char* options, answer& a) {
   const given_states states = read_states(r, p, s);
   certifier judged(p, s);
   output_file out(&a.result);
-  result_json json(p, {}, "given", judged, out);
+  result_json written(p, {}, "given", judged, out);
   path_end end{path_status::solved, 0, 1.0, {}};
   for (std::size_t i = 0; i < states.displacement.size(); ++i) {
     const std::unique_ptr<stiffness_engine> factored = make_engine("refactor", s);
@@ -281,9 +281,9 @@ void certify_states(const char* text, const char* options, answer& a) {
     const step_state given{end.step, 1.0, states.displacement[i], states.isep[i],
                            factored->reciprocal_condition()};
     judged.step_ended(given);
-    json.step_ended(given);
+    written.step_ended(given);
   }
-  json.finish(status_name(end.status), end, nullptr);
+  written.finish(status_name(end.status), end, nullptr);
   const std::vector<std::string> complaints = certificate_complaints(p, judged, {});
   a.messages.insert(a.messages.end(), complaints.begin(), complaints.end());
   a.exit = judged.all_exact() ? exit_status::solved : exit_status::uncertified;
