@@ -161,7 +161,7 @@ function tell(messages) {
   byId("message").replaceChildren(...messages.slice(0, 6).map((words) => element("p", { class: "quiet" }, words)));
 }
 
-/** Everything from the text, except what can wait for a pause. */
+/** Everything from the text, but for what can wait for a pause. */
 function recompute({ asked = false } = {}) {
   const begun = performance.now();
   const checked = askAbout("check", { places: true });
@@ -181,7 +181,7 @@ function recompute({ asked = false } = {}) {
   showPairs();
   showEvents();
   showVerdict(answer);
-  show(shown);
+  show(shown, { explain: false });
   byId("time").textContent = `Recomputed in ${five(performance.now() - begun)} ms.`;
   window.contct = { answer, model, states, ask, milliseconds: performance.now() - begun };
   clearTimeout(later);
@@ -194,8 +194,9 @@ function waitForButton() {
   byId("message").replaceChildren(button);
 }
 
-/** The report and the link take longer than a frame. */
+/** The listing's story and the report take longer than a frame. */
 function afterPause() {
+  if (states && !dragging) explainState(states.frames[shown]);
   if (byId("report-details").open && model.dofs * model.steps.length <= patient) {
     const answer = askAbout("run", { kernels: kernelNames(), page: true });
     if (!answer.error) byId("report").srcdoc = answer.page;
@@ -228,7 +229,7 @@ function reachOf() {
 function drawBeam(f) {
   const width = Math.max(320, byId("stage").clientWidth || 600);
   const height = Math.max(240, Math.min(340, width * 0.5));
-  const xs = states.geometry.x;
+  const xs = states.x;
   const [least, most] = [Math.min(...xs), Math.max(...xs)];
   const reach = dragging ? scale.reach : reachOf() * 1.15;
   const X = (x) => margin + ((x - least) / (most - least || 1)) * (width - 2 * margin);
@@ -246,7 +247,7 @@ function drawBeam(f) {
 }
 
 const deflection = (f, x) => {
-  const xs = states.geometry.x;
+  const xs = states.x;
   let i = xs.findIndex((at) => at >= x);
   if (i <= 0) return f.w[Math.max(i, 0)];
   const share = (x - xs[i - 1]) / (xs[i] - xs[i - 1] || 1);
@@ -258,7 +259,7 @@ function drawSupports(root, f) {
     const [x, y] = [scale.X(s.x), scale.Y(deflection(f, s.x))];
     const clamped = s.dofs.length > 1;
     root.append(svg("path", { d: clamped ? `M${x} ${y - 14}v28` : `M${x} ${y}l-8 14h16z`, class: "support" },
-      svg("title", {}, `support at x = ${five(s.x)}: ${s.dofs.map(([dof]) => dof).join(", ")}`)));
+      svg("title", {}, `support at x = ${five(s.x)}: ${s.dofs.join(", ")}`)));
   }
 }
 
@@ -379,7 +380,7 @@ function drawOther() {
 
 function draw() {
   const f = states.frames[shown];
-  const isBeam = states.geometry.kind === "beam";
+  const isBeam = states.kind === "beam";
   if (isBeam || !dragging) byId("stage").replaceChildren(isBeam ? drawBeam(f) : drawOther());
 }
 
@@ -388,11 +389,11 @@ function draw() {
 function stateWords(f) {
   if (f.step === 0) return "At the start, without load.";
   const share = `step ${f.step}, ${five(100 * f.fraction)} % of its load: ${f.load}`;
-  const events = f.events.map(([pair, , , makes]) => `pair ${pair} ${makes ? "makes" : "breaks"} contact`);
+  const events = f.events.map((e) => `pair ${e.pair} ${e.change}s contact`);
   return `State ${shown} of ${states.frames.length - 1}: ${share}. ${events.length > 0 ? events.join(", ") : f.end ? "The step ends" : "No event"}.`;
 }
 
-function show(n) {
+function show(n, { explain = true } = {}) {
   shown = n;
   byId("slider").value = String(n);
   const f = states.frames[n];
@@ -400,14 +401,14 @@ function show(n) {
   byId("state").textContent = stateWords(f);
   draw();
   for (const row of byId("events").querySelectorAll("tr[data-frame]")) row.classList.toggle("current", Number(row.dataset.frame) === n);
-  if (!dragging) explainState(f);
+  if (explain && !dragging) explainState(f);
 }
 
 function showEvents() {
   const head = element("tr", {}, ...["Increment", "Share of the step", "w max", "Events"].map((words) => element("th", { scope: "col" }, words)));
   const rows = states.frames.slice(1, 400).map((f, i) => {
-    const events = f.events.map(([pair, , , makes]) => `pair ${pair} ${makes ? "makes" : "breaks"}`).join(", ");
-    const cells = [f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`, five(f.fraction), five(f.largest.w), events || "\u2013"];
+    const events = f.events.map((e) => `pair ${e.pair} ${e.change}s`).join(", ");
+    const cells = [f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`, five(f.fraction), five(f.largest), events || "\u2013"];
     const row = element("tr", { "data-frame": String(i + 1) }, ...cells.map((words) => element("td", {}, words)));
     row.addEventListener("click", () => show(i + 1));
     return row;

@@ -190,11 +190,20 @@ TEST_CASE("every number of a problem is told with its place, and the pairs with 
   CHECK_FALSE(taken(contct_check(text.c_str(), nullptr)).at("result").contains("numbers"));
 }
 
-TEST_CASE("the states of a path are those that the page draws") {
+TEST_CASE("the states of a path are told for a picture") {
   const json answer = run(problem_text("pb07-three-gap-supports"), {{"states", true}});
   const json states = json::parse(answer.at("states").get<std::string>());
   REQUIRE(states.at("frames").size() == 9);  // the start and 8 increments
-  CHECK(states.at("frames")[1].at("watched").get<double>() < 0);
+  const json& last = states.at("frames")[8];
+  REQUIRE(last.at("w").size() == states.at("x").size());
+  CHECK(states.at("x").size() > 200);
+  const auto deepest = std::ranges::min_element(last.at("w"))->get<double>();
+  CHECK(deepest ==
+        Approx(answer.at("result").at("steps")[3].at("extremes").at("w").at("min").at("value").get<double>())
+            .epsilon(1e-9));
+  CHECK(states.at("frames")[2].at("events").size() == 2);
+  CHECK(states.at("frames")[2].at("looks") == "fof");
+  CHECK(states.at("supports").size() == 2);
   CHECK(answer.at("result").at("status") == "solved");
 }
 

@@ -16,6 +16,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
+#include "contct/serve/states.hpp"
 #include "contct/write/pictures.hpp"
 #include "contct/write/proof_json.hpp"
 #include "contct/write/result_json.hpp"
@@ -187,7 +188,7 @@ class served_run {
                          o.extremes};
     if (wanted_.page) a_.texts.emplace_back("page", run_page(r));
     if (wanted_.svg) a_.texts.emplace_back("svg", run_svg(r));
-    if (wanted_.states) a_.texts.emplace_back("states", page_data(r).dump());
+    if (wanted_.states) a_.texts.emplace_back("states", states_json(r));
   }
 
   void tell(const std::vector<std::string>& lines) {

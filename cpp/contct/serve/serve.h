@@ -55,7 +55,7 @@ CONTCT_SERVE_EXPORT char* contct_about(void);
  *   "page", "svg", "log", "trace", "proof"
  *                     false; true: the answer has what --html, --svg, --log, --trace and --proof write, as a
  *                     text under the same key
- *   "states"          false; true: what the page draws, as JSON in a text: every state of the path */
+ *   "states"          false; true: the states of the path, as JSON in a text, for a picture */
 CONTCT_SERVE_EXPORT char* contct_run(const char* problem, const char* options);
 
 /* contct check: read a problem, solve nothing. "result": { "title", "kind": "beam" | "plate" | "matrix",
