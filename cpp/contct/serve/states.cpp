@@ -82,6 +82,18 @@ class states_writer {
     }
   }
 
+  /// At the places. A fine mesh is read at its nodes alone: lines inside elements cost more than the path.
+  [[nodiscard]] std::vector<double> deflections_of(const frame& f) const {
+    std::vector<double> w;
+    if (std::ranges::all_of(places_, [](const station& s) { return s.share == 0.0; })) {
+      for (const station& s : places_) w.push_back(deflection_of(p_, f, s.node));
+      return w;
+    }
+    const station_reader reader(*beam_, f.step == 0 ? load() : loads_.at(f.step, f.fraction), f.displacement);
+    for (const station& s : places_) w.push_back(reader.w(s));
+    return w;
+  }
+
   [[nodiscard]] json frame_of(const frame& f) const {
     json out = {{"step", f.step},
                 {"number", f.number},
@@ -97,10 +109,7 @@ class states_writer {
       looks += "ocf"[static_cast<int>(reading_of(p_, f, i).look)];
     out["looks"] = looks;
     if (beam_ == nullptr) return out;
-    const station_reader reader(*beam_, f.step == 0 ? load() : loads_.at(f.step, f.fraction), f.displacement);
-    std::vector<double> w;
-    for (const station& s : places_) w.push_back(reader.w(s));
-    out["w"] = w;
+    out["w"] = deflections_of(f);
     return out;
   }
 
