@@ -196,7 +196,7 @@ std::string page_from_markdown(const format_page& page) {
       ".TH {} 5 {} \"contct {}\" \"File Formats\"\n"
       ".nh\n.SH NAME\n{} \\- {}\n.SH DESCRIPTION\n{}"
       ".SH SEE ALSO\n.BR contct (1)\n",
-      roff(title), page_date, CONTCT_VERSION, roff(page.name), page.summary, writer.finish());
+      roff(title), CONTCT_DATE, CONTCT_VERSION, roff(page.name), page.summary, writer.finish());
 }
 
 }  // namespace contct::app

@@ -6,8 +6,6 @@
 
 namespace contct::app {
 
-inline constexpr const char* page_date = "2026-11-21";
-
 /// A word or a line as roff takes it: a hyphen that is typed is a minus, and no line begins a request.
 [[nodiscard]] std::string roff(std::string_view text);
 

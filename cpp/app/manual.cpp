@@ -182,13 +182,17 @@ if [[ $zsh_eval_context[-1] == loadautofunc ]]; then _contct "$@"; else compdef 
 
 std::string manual_page(const program_description& program) {
   std::string text =
-      fmt::format(".TH CONTCT 1 {} \"contct {}\" \"User Commands\"\n", page_date, CONTCT_VERSION);
-  text += ".SH NAME\ncontct \\- the 1989 contact subroutine in FORTRAN and C++, compared bit for bit\n";
-  text += ".SH SYNOPSIS\n.B contct\n.I COMMAND\n[\\fIOPTION\\fR]...\n.SH DESCRIPTION\n";
+      fmt::format(".TH CONTCT 1 {} \"contct {}\" \"User Commands\"\n", CONTCT_DATE, CONTCT_VERSION);
+  text +=
+      ".SH NAME\ncontct, contct\\-replay \\- the 1989 contact subroutine in FORTRAN and C++, "
+      "compared bit for bit\n"
+      ".SH SYNOPSIS\n.B contct\n.I COMMAND\n[\\fIOPTION\\fR]...\n.br\n.B contct\\-replay\n"
+      "[\\fIOPTION\\fR]... \\fITRACE\\fR...\n.SH DESCRIPTION\n";
   text += filled(
       "CONTCT is a FORTRAN subroutine that N. J. Salamon printed in 1989. It solves contact between "
       "structures and one-sided supports. This program follows the load path of a beam or a plate with "
-      "it and with a C++ reimplementation, and compares the two at every call, bit for bit.");
+      "it and with a C++ reimplementation, and compares the two at every call, bit for bit. "
+      "contct-replay is the command replay as a program of its own.");
   text += ".SH OPTIONS\n";
   for (const option_description& o : program.options) text += option_entry(o);
   text += ".SH COMMANDS\n";

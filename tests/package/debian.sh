@@ -1,0 +1,92 @@
+#!/bin/sh
+# The Debian packages: made, judged by lintian, then installed, used and removed in a bare Debian.
+# usage: sh tests/package/debian.sh [BUILD]
+# BUILD: a build of the preset "package" whose packages are taken; without it everything is built anew in build/package.
+# Exit 0: all is as it should be; 77: skipped, a tool cannot be had; 1 otherwise.
+# What is mounted is mounted in a namespace of this script's own, and is gone when it ends, however it ends.
+set -u
+if [ "${CONTCT_NAMESPACE:-}" != own ] && [ "$(id -u)" = 0 ]; then
+  unshare --mount true 2>/dev/null || { echo "Debian packages: SKIPPED: mounts of our own are not allowed"; exit 77; }
+  CONTCT_NAMESPACE=own exec unshare --mount --propagation private sh "$0" "$@"
+fi
+[ $# = 0 ] || given=$(cd "$1" && pwd) || exit 1
+here=$(cd "$(dirname "$0")" && pwd)
+cd "$here/../.." || exit 1
+. cpp/install.sh
+
+skip() { echo "Debian packages: SKIPPED: $1"; exit 77; }
+fail() { echo "Debian packages: $1" >&2; exit 1; }
+# value NAME: of what the system says of itself
+value() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}$/\1/p" /etc/os-release; }
+[ "$(value ID)" = debian ] || skip "this is no Debian, and has packages for itself only"
+[ "$(id -u)" = 0 ] || skip "only root can make a bare Debian"
+sources=/etc/apt/sources.list.d/debian.sources
+[ -f $sources ] || skip "$sources is not there"
+need "to make and check packages" dpkg-dev lintian debootstrap || skip "lintian or debootstrap cannot be had"
+need "for all that the packages offer" libsuitesparse-dev libgmp-dev || skip "libraries cannot be had"
+
+if [ $# = 0 ]; then
+  given=$PWD/build/package
+  rm -rf "$given"
+  log=$(mktemp)
+  cmake --workflow --preset package >"$log" 2>&1 || { tail -n 40 "$log"; rm -f "$log"; fail "they are not made"; }
+  rm -f "$log"
+fi
+set -- "$given"/*.deb
+[ $# -ge 2 ] || fail "found $# packages in $given, allowed: 2 or more"
+work=$given/bare
+mkdir -p "$work" || exit 1
+
+echo "-- packed again, they are the same to the byte"
+mkdir -p "$work/again"
+(cd "$given" && cpack -G DEB -B "$work/again" >"$work/said" 2>&1) || { cat "$work/said"; fail "they cannot be packed again"; }
+for package in "$@"; do cmp "$package" "$work/again/$(basename "$package")" || fail "$package differs when it is packed again"; done
+if grep -F -e "$PWD" -r "$work/again/_CPack_Packages/Linux/DEB" --include='*' -l | grep '/usr/' >&2; then
+  fail "the folder of the sources is named in what is installed (above)"
+fi
+
+echo "-- lintian"
+lintian --no-cfg --pedantic --display-info --display-experimental --tag-display-limit 0 --fail-on none "$@" >"$work/tags" 2>"$work/said" ||
+  { cat "$work/tags" "$work/said"; fail "lintian does not run"; }
+wrong=$(awk -v allowed="$here/lintian_allowed.txt" '
+  BEGIN { while ((getline line < allowed) > 0) if (line !~ /^(#|$)/) { sub(/ -> .+/, "", line); reasons[line] = 1 } }
+  /^[A-Z]: / { sub(/:$/, "", $2); name = $2 ": " $3; used[name] = 1; if (!(name in reasons)) print }
+  !/^[A-Z]: / { print "not understood: " $0 }
+  END { for (name in reasons) if (!(name in used)) print name ": allowed, but not found" }
+' "$work/tags")
+[ -z "$wrong" ] || { echo "$wrong"; fail "lintian's tags are not those of tests/package/lintian_allowed.txt"; }
+echo "$(grep -c '^[A-Z]: ' "$work/tags") tags, each allowed for a reason"
+
+# A bare Debian like this one: its base is kept for the next time, what is done in it is not.
+echo "-- a bare Debian $(value VERSION_CODENAME)"
+root=$work/root
+base=$given/../bare-$(value VERSION_CODENAME).tar
+remove_root() { rm -rf --one-file-system "$root"; }
+remove_root
+if [ ! -s "$base" ]; then
+  mirror=$(sed -n 's/^URIs: *//p' $sources | head -n 1)
+  debootstrap --variant=minbase --include=ca-certificates "$(value VERSION_CODENAME)" "$root" "$mirror" >"$work/said" 2>&1 ||
+    { tail -n 5 "$work/said"; skip "debootstrap finds no Debian at $mirror"; }
+  umount "$root/proc" "$root/sys" 2>/dev/null
+  tar -C "$root" --one-file-system -cf "$base.part" . && mv "$base.part" "$base" || exit 1
+else
+  mkdir -p "$root" && tar -C "$root" -xf "$base" || exit 1
+fi
+trap remove_root EXIT
+trap 'exit 1' HUP INT TERM
+# The network and apt are set up as they are here.
+cp /etc/hosts /etc/resolv.conf "$root/etc/" && rm -f "$root/etc/apt/sources.list" &&
+  cp $sources "$root/etc/apt/sources.list.d/" && cp -r /etc/apt/apt.conf.d "$root/etc/apt/" || exit 1
+[ ! -d /usr/local/share/ca-certificates ] || cp -r /usr/local/share/ca-certificates "$root/usr/local/share/"
+mount -t proc proc "$root/proc" && mount -t tmpfs tmpfs "$root/dev" || exit 1
+for device in null zero full random urandom tty; do cp -a "/dev/$device" "$root/dev/$device"; done
+ln -s /proc/self/fd "$root/dev/fd"
+
+mkdir "$root/given" && cp "$@" "$root/given/" && cp -r "$here" "$root/given/tests" &&
+  cp reference/problems/pb07-three-gap-supports.toml "$root/given/tests/pb07.toml" || exit 1
+env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+  chroot "$root" sh /given/tests/in_debian.sh >"$work/said" 2>&1 </dev/null
+status=$?
+grep -e '^-- ' "$work/said"
+[ $status = 0 ] || { tail -n 30 "$work/said"; fail "in a bare Debian: exit $status"; }
+echo "Debian packages: passed"

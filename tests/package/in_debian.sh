@@ -1,0 +1,110 @@
+# in_debian.sh: run by debian.sh inside a bare Debian that has the packages in /given and this folder in /given/tests.
+# Installs each package with apt, uses it, removes it, and compares the names of all files before and after.
+set -eu
+cd /given
+fail() { echo "$1" >&2; exit 1; }
+# files FILE: writes the names of all files but those that apt and the libraries' loader keep for themselves.
+files() {
+  find / -xdev \( -path /proc -o -path /dev -o -path /sys -o -path /tmp -o -path /given -o -path /var/cache -o \
+    -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print | sort >"$1"
+}
+quietly() { "$@" >/tmp/said 2>&1 || { cat /tmp/said; fail "$*: failed"; }; }
+install() { quietly apt-get install -y --no-install-recommends "$@"; }
+# remove PACKAGE..: with all that came along for them. Nothing may be left that was not there before.
+remove() {
+  quietly apt-get purge -y "$@"
+  quietly apt-get autoremove -y --purge
+  files /tmp/after
+  diff /tmp/before /tmp/after || fail "$*: files are left behind (>) or missing (<), above"
+  echo "-- $*: removed; the $(wc -l </tmp/after) names of files are those of before"
+}
+# come PACKAGE LEAST: as many files of it are there.
+come() {
+  count=$(dpkg -L "$1" | while read -r name; do [ ! -f "$name" ] || echo "$name"; done | wc -l)
+  [ "$count" -ge "$2" ] || fail "$1: found $count files, allowed: $2 or more"
+  echo "-- $1: $count files"
+}
+# says WORDS COMMAND..: what the command prints has a line with the words.
+says() {
+  words=$1
+  shift
+  said=$("$@" 2>&1) || { echo "$said"; fail "$*: failed"; }
+  echo "$said" | grep -qF -e "$words" || { echo "$said"; fail "$*: \"$words\" is not said"; }
+}
+quietly apt-get update
+quietly apt-get install -y ca-certificates
+problems=/usr/share/contct/reference/problems
+
+files /tmp/before
+install ./contct_*.deb
+come contct 150
+cd /tmp
+says "contact force 121.401           pair 1, node 5 below" contct run $problems/pb07-three-gap-supports.toml
+says "fortran and cpp are equal to the bit; 8 calls" contct run $problems/pb07-three-gap-supports.toml
+says "3/38" contct exact $problems/pb07-three-gap-supports.toml
+says "cholmod" contct run --help
+contct verify | tee verified | tail -n 4 | tr '\n' ' ' | grep -q '^6[0-9][0-9] numbers in 4[0-9] problems; .*; 0 failed ' ||
+  { tail -n 4 verified; fail "contct verify: failed"; }
+says "0 mismatches" contct-replay /usr/share/contct/reference/traces/ties.trace
+for link in problems structures traces; do [ -d /usr/share/doc/contct/reference/$link/. ] || fail "$link leads nowhere"; done
+[ -f /usr/share/doc/contct/reference/CHANGELOG.md ] || fail "the pages are not there"
+rm verified
+cd /given
+echo "-- contct: runs, verifies and replays"
+remove contct
+
+install man-db bash-completion zsh fish
+files /tmp/before
+install ./contct_*.deb
+for page in "1 contct" "1 contct-replay" "5 contct-problem" "5 contct-result"; do
+  # shellcheck disable=SC2086
+  says "/usr/share/man/man${page%% *}/contct" man -w $page
+done
+says "/usr/share/man/man1/contct.1.gz" man -w contct-replay
+says "-F _contct contct" bash -c '. /usr/share/bash-completion/bash_completion; _completion_loader contct; complete -p contct'
+says "_contct" zsh -fc 'autoload -Uz compinit; compinit -D; echo $_comps[contct]'
+says "verify" fish -c 'complete -C "contct ver"'
+echo "-- contct: man, bash, zsh and fish find what is theirs"
+remove contct
+
+install g++ cmake ninja-build pkgconf
+files /tmp/before
+install ./libcontct-dev_*.deb
+come libcontct-dev 60
+count=0
+for program in c cxx path plugin problem; do
+  CMAKE=cmake GENERATOR=Ninja quietly sh tests/consume.sh /given/tests/$program /tmp/$program /usr
+  rm -r /tmp/$program
+  count=$((count + 1))
+done
+cd /tmp
+quietly sh -c 'cc /given/tests/c/mine.c $(pkg-config --cflags --libs contct)'
+says "facts, 0 wrong" ./a.out
+quietly sh -c 'g++ -std=c++20 /given/tests/cxx/mine.cpp $(pkg-config --cflags --libs contct-cxx)'
+says "facts, 0 wrong" ./a.out
+rm a.out
+cd /given
+echo "-- libcontct-dev: $count programs find it by CMake, 2 by pkg-config"
+
+install gfortran
+quietly sh tests/consume.sh /given/tests/fortran /tmp/fortran /usr
+rm -r /tmp/fortran
+echo "-- libcontct-dev: a program in Fortran finds its module"
+remove libcontct-dev gfortran
+
+set -- ./python3-contct_*.deb
+if [ -f "$1" ]; then
+  install python3-minimal
+  files /tmp/before
+  install "$1"
+  come python3-contct 4
+  says "30.0" python3 -c "
+import contct
+problem = '$PWD/tests/pb07.toml'
+print(round(contct.run(problem).steps[1].pairs[0].force, 9))"
+  says "3/38" python3 -c "
+import contct
+print(contct.exact('$PWD/tests/pb07.toml').steps[1].increments[0].fraction)"
+  echo "-- python3-contct: runs, and gives exact numbers"
+  remove python3-contct
+fi
