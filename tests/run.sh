@@ -4,7 +4,7 @@
 # checked (gfortran's run-time checks), debug. --full has all of these but asan-core, which asan contains, and adds what
 # takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels,
 # the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors, the page in a browser, grids
-# read back by VTK, formatting and clang-tidy.
+# read back by VTK, Debian packages in a bare Debian, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -92,6 +92,7 @@ if [ "$full" = yes ]; then
   with_tool "other processors" emulated/run.sh
   with_tool "the page in a browser" browser/run.sh build/release
   with_tool "grids read back by VTK" vtk/run.sh build/release
+  with_tool "Debian packages" package/debian.sh
   sh tests/tree/tidy.sh
   [ -z "$skipped" ] || echo "== skipped, because a tool cannot be had: ${skipped#; }"
 fi

@@ -4,6 +4,9 @@ if(NOT CONTCT_BUILD_PROGRAM OR TARGET contct_flang OR TARGET contct_f2c)
   message(FATAL_ERROR "CONTCT_PACKAGES: packages have the program, and the listing as gfortran compiles it. "
                       "Use cmake --workflow --preset package")
 endif()
+if(NOT CONTCT_DATE)
+  message(FATAL_ERROR "reference/CHANGELOG.md: found no entry of version ${PROJECT_VERSION}")
+endif()
 set(CONTCT_MAINTAINER "The CONTCT project <contct@contct.invalid>" CACHE STRING
     "Name and mail address of who publishes the packages")
 find_program(CONTCT_GZIP gzip REQUIRED)

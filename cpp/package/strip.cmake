@@ -1,4 +1,5 @@
 # Run by cpack before it packs: removes from programs and libraries what neither running nor linking needs.
+cmake_minimum_required(VERSION 3.25)
 set(comments --remove-section=.comment --remove-section=.note)
 # strip(KIND HOW PATTERN...): there must be some.
 function(strip kind how)

@@ -1,7 +1,8 @@
 #!/bin/sh
 # The Debian packages: made, judged by lintian, then installed, used and removed in a bare Debian.
 # usage: sh tests/package/debian.sh [BUILD]
-# BUILD: a build of the preset "package" whose packages are taken; without it everything is built anew in build/package.
+# BUILD: a build of the preset "package", which is brought up to date and packed; without it everything is built anew in
+# build/package.
 # Exit 0: all is as it should be; 77: skipped, a tool cannot be had; 1 otherwise.
 # What is mounted is mounted in a namespace of this script's own, and is gone when it ends, however it ends.
 set -u
@@ -25,29 +26,36 @@ sources=/etc/apt/sources.list.d/debian.sources
 need "to make and check packages" dpkg-dev lintian debootstrap || skip "lintian or debootstrap cannot be had"
 need "for all that the packages offer" libsuitesparse-dev libgmp-dev || skip "libraries cannot be had"
 
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+trap 'exit 1' HUP INT TERM
 if [ $# = 0 ]; then
   given=$PWD/build/package
   rm -rf "$given"
-  log=$(mktemp)
-  cmake --workflow --preset package >"$log" 2>&1 || { tail -n 40 "$log"; rm -f "$log"; fail "they are not made"; }
-  rm -f "$log"
-fi
+  cmake --workflow --preset package >"$log" 2>&1
+else
+  rm -f "$given"/*.deb
+  { cmake --build "$given" && (cd "$given" && cpack -G DEB); } >"$log" 2>&1
+fi || { tail -n 40 "$log"; fail "they are not made"; }
 set -- "$given"/*.deb
 [ $# -ge 2 ] || fail "found $# packages in $given, allowed: 2 or more"
 work=$given/bare
-mkdir -p "$work" || exit 1
+mkdir -p "$work/again" || exit 1
 
 echo "-- packed again, they are the same to the byte"
-mkdir -p "$work/again"
-(cd "$given" && cpack -G DEB -B "$work/again" >"$work/said" 2>&1) || { cat "$work/said"; fail "they cannot be packed again"; }
+(cd "$given" && cpack -G DEB -B "$work/again" >"$log" 2>&1) || { cat "$log"; fail "they cannot be packed again"; }
 for package in "$@"; do cmp "$package" "$work/again/$(basename "$package")" || fail "$package differs when it is packed again"; done
-if grep -F -e "$PWD" -r "$work/again/_CPack_Packages/Linux/DEB" --include='*' -l | grep '/usr/' >&2; then
-  fail "the folder of the sources is named in what is installed (above)"
-fi
+installed=$work/installed
+rm -rf "$installed"
+for package in "$@"; do dpkg-deb -x "$package" "$installed" || exit 1; done
+count=$(find "$installed" -type f | wc -l)
+[ "$count" -ge 200 ] || fail "found $count files in the packages, allowed: 200 or more"
+if grep -rlF -e "$PWD" "$installed" >&2; then fail "the folder of the sources is named in what is installed (above)"; fi
+echo "$count files, none of which names $PWD"
 
 echo "-- lintian"
-lintian --no-cfg --pedantic --display-info --display-experimental --tag-display-limit 0 --fail-on none "$@" >"$work/tags" 2>"$work/said" ||
-  { cat "$work/tags" "$work/said"; fail "lintian does not run"; }
+lintian --no-cfg --pedantic --display-info --display-experimental --tag-display-limit 0 --fail-on none "$@" >"$work/tags" 2>"$log" ||
+  { cat "$work/tags" "$log"; fail "lintian does not run"; }
 wrong=$(awk -v allowed="$here/lintian_allowed.txt" '
   BEGIN { while ((getline line < allowed) > 0) if (line !~ /^(#|$)/) { sub(/ -> .+/, "", line); reasons[line] = 1 } }
   /^[A-Z]: / { sub(/:$/, "", $2); name = $2 ": " $3; used[name] = 1; if (!(name in reasons)) print }
@@ -61,19 +69,21 @@ echo "$(grep -c '^[A-Z]: ' "$work/tags") tags, each allowed for a reason"
 echo "-- a bare Debian $(value VERSION_CODENAME)"
 root=$work/root
 base=$given/../bare-$(value VERSION_CODENAME).tar
-remove_root() { rm -rf --one-file-system "$root"; }
+remove_root() {
+  umount "$root/proc" "$root/dev" 2>/dev/null
+  rm -rf --one-file-system "$root"
+}
 remove_root
 if [ ! -s "$base" ]; then
   mirror=$(sed -n 's/^URIs: *//p' $sources | head -n 1)
-  debootstrap --variant=minbase --include=ca-certificates "$(value VERSION_CODENAME)" "$root" "$mirror" >"$work/said" 2>&1 ||
-    { tail -n 5 "$work/said"; skip "debootstrap finds no Debian at $mirror"; }
-  umount "$root/proc" "$root/sys" 2>/dev/null
+  debootstrap --variant=minbase --include=ca-certificates "$(value VERSION_CODENAME)" "$root" "$mirror" >"$log" 2>&1 ||
+    { tail -n 5 "$log"; skip "debootstrap finds no Debian at $mirror"; }
+  umount "$root/proc" "$root/sys" 2>/dev/null  # what debootstrap leaves
   tar -C "$root" --one-file-system -cf "$base.part" . && mv "$base.part" "$base" || exit 1
 else
   mkdir -p "$root" && tar -C "$root" -xf "$base" || exit 1
 fi
-trap remove_root EXIT
-trap 'exit 1' HUP INT TERM
+trap 'rm -f "$log"; remove_root' EXIT
 # The network and apt are set up as they are here.
 cp /etc/hosts /etc/resolv.conf "$root/etc/" && rm -f "$root/etc/apt/sources.list" &&
   cp $sources "$root/etc/apt/sources.list.d/" && cp -r /etc/apt/apt.conf.d "$root/etc/apt/" || exit 1
@@ -85,8 +95,8 @@ ln -s /proc/self/fd "$root/dev/fd"
 mkdir "$root/given" && cp "$@" "$root/given/" && cp -r "$here" "$root/given/tests" &&
   cp reference/problems/pb07-three-gap-supports.toml "$root/given/tests/pb07.toml" || exit 1
 env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
-  chroot "$root" sh /given/tests/in_debian.sh >"$work/said" 2>&1 </dev/null
+  chroot "$root" sh /given/tests/in_debian.sh >"$log" 2>&1 </dev/null
 status=$?
-grep -e '^-- ' "$work/said"
-[ $status = 0 ] || { tail -n 30 "$work/said"; fail "in a bare Debian: exit $status"; }
+grep -e '^-- ' "$log"
+[ $status = 0 ] || { grep -v -e '^-- ' "$log" | tail -n 30; fail "in a bare Debian: exit $status"; }
 echo "Debian packages: passed"

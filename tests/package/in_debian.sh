@@ -2,6 +2,7 @@
 # Installs each package with apt, uses it, removes it, and compares the names of all files before and after.
 set -eu
 cd /given
+export CMAKE=cmake GENERATOR=Ninja
 fail() { echo "$1" >&2; exit 1; }
 # files FILE: writes the names of all files but those that apt and the libraries' loader keep for themselves.
 files() {
@@ -63,7 +64,7 @@ done
 says "/usr/share/man/man1/contct.1.gz" man -w contct-replay
 says "-F _contct contct" bash -c '. /usr/share/bash-completion/bash_completion; _completion_loader contct; complete -p contct'
 says "_contct" zsh -fc 'autoload -Uz compinit; compinit -D; echo $_comps[contct]'
-says "verify" fish -c 'complete -C "contct ver"'
+says "verify" env HOME=/tmp fish -c 'complete -C "contct ver"'
 echo "-- contct: man, bash, zsh and fish find what is theirs"
 remove contct
 
@@ -73,7 +74,7 @@ install ./libcontct-dev_*.deb
 come libcontct-dev 60
 count=0
 for program in c cxx path plugin problem; do
-  CMAKE=cmake GENERATOR=Ninja quietly sh tests/consume.sh /given/tests/$program /tmp/$program /usr
+  quietly sh tests/consume.sh /given/tests/$program /tmp/$program /usr
   rm -r /tmp/$program
   count=$((count + 1))
 done
