@@ -94,7 +94,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS contct)
 
 if(has_python)
   package(python python3-contct python
-"the contact solver CONTCT as a Python module
+"Python module of the contact solver CONTCT
 Runs problems of beams and plates on one-sided supports from Python: the load
 path, its exact form, explanations and certificates, with results as NumPy
 arrays where NumPy is installed. The module brings the solver as a library and
