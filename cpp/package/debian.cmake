@@ -1,5 +1,5 @@
-# Debian packages for cpack, one of each component: contct (program), libcontct-dev (dev) and, where it is built,
-# python3-contct (python). `cmake --workflow --preset package` makes them; tests/package/debian.sh checks and uses them.
+# Debian packages for cpack, one of each component: contct (program), libcontct-dev (dev) and python3-contct (python).
+# `cmake --workflow --preset package` makes them; tests/package/debian.sh checks and uses them.
 if(NOT CONTCT_BUILD_PROGRAM OR TARGET contct_flang OR TARGET contct_f2c)
   message(FATAL_ERROR "CONTCT_PACKAGES: packages have the program, and the listing as gfortran compiles it. "
                       "Use cmake --workflow --preset package")
@@ -92,19 +92,17 @@ list(JOIN needed ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS gfortran-mod-15)  # the format of contct_c.mod
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS contct)
 
-if(has_python)
-  package(python python3-contct python
+package(python python3-contct python
 "Python module of the contact solver CONTCT
 Runs problems of beams and plates on one-sided supports from Python: the load
 path, its exact form, explanations and certificates, with results as NumPy
 arrays where NumPy is installed. The module brings the solver as a library and
 needs no program beside it.")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11)")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "contct, python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python3-contct/postinst
-      ${CMAKE_CURRENT_LIST_DIR}/python3-contct/prerm)
-endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11)")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "contct, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python3-contct/postinst
+    ${CMAKE_CURRENT_LIST_DIR}/python3-contct/prerm)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

@@ -1,5 +1,4 @@
 # Run by cpack before it packs: removes from programs and libraries what neither running nor linking needs.
-cmake_minimum_required(VERSION 3.25)
 set(comments --remove-section=.comment --remove-section=.note)
 # strip(KIND HOW PATTERN...): there must be some.
 function(strip kind how)
@@ -16,7 +15,5 @@ function(strip kind how)
   endforeach()
 endfunction()
 strip(programs --strip-all program/usr/bin/*)
-if(python IN_LIST CPACK_COMPONENTS_ALL)
-  strip("shared library" --strip-unneeded python/usr/lib/*.so)
-endif()
+strip("shared library" --strip-unneeded python/usr/lib/*.so)
 strip(libraries "--strip-debug;--enable-deterministic-archives" dev/usr/*.a)
