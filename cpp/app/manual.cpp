@@ -184,7 +184,7 @@ std::string manual_page(const program_description& program) {
   std::string text =
       fmt::format(".TH CONTCT 1 {} \"contct {}\" \"User Commands\"\n", CONTCT_DATE, CONTCT_VERSION);
   text +=
-      ".SH NAME\ncontct, contct\\-replay \\- the 1989 contact subroutine in FORTRAN and C++, "
+      ".SH NAME\ncontct, contct\\-replay \\- the 1989 contact subroutine in FORTRAN and C++,\n"
       "compared bit for bit\n"
       ".SH SYNOPSIS\n.B contct\n.I COMMAND\n[\\fIOPTION\\fR]...\n.br\n.B contct\\-replay\n"
       "[\\fIOPTION\\fR]... \\fITRACE\\fR...\n.SH DESCRIPTION\n";
