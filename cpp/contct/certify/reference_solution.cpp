@@ -226,7 +226,8 @@ class reference_solver::search {
       const int sign = pressed ? -1 : 1;
       bends.push_back({at, sign * c.stiffness * dw * (w - c.face), sign * c.stiffness * dw * dw});
     }
-    std::sort(bends.begin(), bends.end(), [](const bend& a, const bend& b) { return a.at < b.at; });
+    // Pairs that meet their faces together are added up in their order, whoever's library sorts.
+    std::stable_sort(bends.begin(), bends.end(), [](const bend& a, const bend& b) { return a.at < b.at; });
     for (const bend& b : bends) {
       if (slope + b.at * growth >= 0) break;
       slope += b.slope;
