@@ -3,8 +3,8 @@
 # LEG: another preset that is built and tested first: core (without the program), asan and asan-core (sanitizers),
 # checked (gfortran's run-time checks), debug. --full has all of these but asan-core, which asan contains, and adds what
 # takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels,
-# the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors, the page in a browser, grids
-# read back by VTK, Debian packages in a bare Debian, formatting and clang-tidy.
+# the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors, the page in a browser, the
+# playground in a browser, grids read back by VTK, Debian packages in a bare Debian, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -91,6 +91,7 @@ if [ "$full" = yes ]; then
   with_tool "CalculiX as a peer" peer/run.sh build/release
   with_tool "other processors" emulated/run.sh
   with_tool "the page in a browser" browser/run.sh build/release
+  with_tool "the playground in a browser" playground/run.sh build/release
   with_tool "grids read back by VTK" vtk/run.sh build/release
   with_tool "Debian packages" package/debian.sh
   sh tests/tree/tidy.sh

@@ -1,6 +1,7 @@
-/* long double as x86-64 has it: every sum, product, quotient and root rounded to 64 significant bits. WebAssembly's
- * long double has 113, by functions of a library. With these in their place the rooms find the bits that the program
- * finds. Only the rooms get them (CMakeLists.txt): the C library reads and prints numbers by its own. */
+/* long double as x86-64 has it: every sum, product, quotient and root rounded to 64 significant bits.
+ * WebAssembly's long double has 113, by functions of a library. With these in their place the rooms find the
+ * bits that the program finds. Only the rooms get them (CMakeLists.txt): the C library reads and prints
+ * numbers by its own. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -26,8 +27,8 @@ struct number {
   uint64_t m;
 };
 
-/* m 2^exponent, m > 0, to 64 bits; ties go to the even number. `more`: a part of m's last bit follows, and m has
- * 66 bits or more. */
+/* m 2^exponent, m > 0, to 64 bits; ties go to the even number. `more`: a part of m's last bit follows, and m
+ * has 66 bits or more. */
 static struct number rounded(int sign, wide m, int exponent, int more) {
   const uint64_t top = (uint64_t)(m >> 64);
   const int shift = top != 0 ? __builtin_clzll(top) : 64 + __builtin_clzll((uint64_t)m);
@@ -55,7 +56,8 @@ static int read(quad x, struct number* n) {
   return exponent < most;
 }
 
-/* What is below the smallest normal number, 2^-16382, becomes 0: no sum or product of a few doubles gets there. */
+/* What is below the smallest normal number, 2^-16382, becomes 0: no sum or product of a few doubles gets
+ * there. */
 static quad written(struct number n) {
   const int exponent = n.exponent + 63 + bias;
   wide bits = (wide)n.sign << 127;

@@ -42,7 +42,7 @@ double dlamch_(const char* what, int length) {
   }
 }
 
-/* Adds the squares of x to *scale^2 * *sum, which neither overflow nor vanish. */
+/* Adds the squares of x to *scale^2 * *sum, which neither overflow nor vanish; in LAPACK's order. */
 void dlassq_(const int* n, const double* x, const int* incx, double* scale, double* sum) {
   double plain = 0.0, largest = *scale * (*sum > 0.0);
   for (int i = 0; i < *n; ++i) {
@@ -51,8 +51,8 @@ void dlassq_(const int* n, const double* x, const int* incx, double* scale, doub
   }
   const int is_plain = largest < 1e150 && largest > 1e-140;
   const double unit = is_plain || largest == 0.0 || !isfinite(largest) ? 1.0 : largest;
-  plain = (*scale / unit) * (*scale / unit) * *sum;
   for (int i = 0; i < *n; ++i) plain += (x[i * *incx] / unit) * (x[i * *incx] / unit);
+  if (*sum > 0.0) plain += (*scale / unit) * (*scale / unit) * *sum;
   *scale = unit;
   *sum = plain;
 }
@@ -63,21 +63,26 @@ double dnrm2_(const int* n, const double* x, const int* incx) {
   return scale * sqrt(sum);
 }
 
-/* c f + s g = r and c g - s f = 0. */
+/* c f + s g = r and c g - s f = 0. LAPACK squares numbers that are neither too small nor too large as they
+ * are. */
 void dlartg_(const double* f, const double* g, double* c, double* s, double* r) {
-  if (*g == 0.0) {
+  const double f1 = fabs(*f), g1 = fabs(*g), least = sqrt(DBL_MIN), most = sqrt(1 / DBL_MIN / 2);
+  if (g1 == 0.0) {
     *c = 1.0;
     *s = 0.0;
     *r = *f;
-  } else if (*f == 0.0) {
+  } else if (f1 == 0.0) {
     *c = 0.0;
     *s = copysign(1.0, *g);
-    *r = fabs(*g);
+    *r = g1;
   } else {
-    const double d = hypot(*f, *g);
-    *c = fabs(*f) / d;
+    const int is_plain = f1 > least && f1 < most && g1 > least && g1 < most;
+    const double unit = is_plain ? 1.0 : fmin(1 / DBL_MIN, fmax(DBL_MIN, fmax(f1, g1)));
+    const double fs = *f / unit, gs = *g / unit, d = sqrt(fs * fs + gs * gs);
+    *c = fabs(fs) / d;
     *r = copysign(d, *f);
-    *s = *g / *r;
+    *s = gs / *r;
+    *r *= unit;
   }
 }
 

@@ -1,0 +1,76 @@
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "catch.hpp"
+#include "contct/numeric/random.hpp"
+
+__extension__ using quad = __float128;
+
+// cpp/playground/extended.c
+extern "C" {
+quad __wrap___addtf3(quad a, quad b);
+quad __wrap___subtf3(quad a, quad b);
+quad __wrap___multf3(quad a, quad b);
+quad __wrap___divtf3(quad a, quad b);
+quad __wrap_sqrtl(quad a);
+}
+
+namespace {
+
+using contct::numeric::random_numbers;
+
+/// Zeros, infinities, NaN, and numbers of few or of all 64 bits, large and small.
+long double any_number(random_numbers& random) {
+  constexpr long double infinity = std::numeric_limits<long double>::infinity();
+  constexpr long double special[] = {0.0L, -0.0L, 1.0L, -1.0L, infinity, -infinity, std::nanl("")};
+  if (random.chance(0.05)) return special[random.whole(0, 6)];
+  std::uint64_t bits = random.bits();
+  if (random.chance(0.3)) bits &= ~std::uint64_t{0} << random.whole(0, 63);
+  if (random.chance(0.2)) bits |= ~std::uint64_t{0} >> random.whole(0, 63);
+  const long double x = std::ldexp(static_cast<long double>(bits), random.whole(-140, 40));
+  return random.chance(0.5) ? x : -x;
+}
+
+/// Where sums cancel and round up to a power of 2: a neighbour, or the number itself.
+long double beside(long double a, random_numbers& random) {
+  if (a == 0 || random.chance(0.8)) return any_number(random);
+  if (random.chance(0.3)) return -a;
+  return std::nextafter(a, random.chance(0.5) ? 2 * a : 0.0L);
+}
+
+bool same(long double expected, quad found) {
+  const auto narrow = static_cast<long double>(found);
+  if (std::isnan(expected)) return std::isnan(narrow);
+  return static_cast<quad>(narrow) == found && narrow == expected &&
+         std::signbit(narrow) == std::signbit(expected);
+}
+
+}  // namespace
+
+TEST_CASE("the page's long double rounds sums, products, quotients and roots as x86-64's does") {
+  static_assert(std::numeric_limits<long double>::digits == 64);
+  random_numbers random(1989);
+  int compared = 0, different = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    const long double a = any_number(random);
+    const long double b = beside(a, random);
+    for (const bool equal : {same(a + b, __wrap___addtf3(a, b)), same(a - b, __wrap___subtf3(a, b)),
+                             same(a * b, __wrap___multf3(a, b)), same(a / b, __wrap___divtf3(a, b)),
+                             same(std::sqrt(a), __wrap_sqrtl(a))}) {
+      ++compared;
+      if (!equal && different++ == 0) {
+        CAPTURE(i, a, b);
+        CHECK(equal);
+      }
+    }
+  }
+  CHECK(compared == 1'000'000);
+  CHECK(different == 0);
+}
+
+TEST_CASE("a literal of more than 64 bits is rounded to them before the page's long double uses it") {
+  const quad tenth = static_cast<quad>(1) / 10;
+  CHECK(same(0.1L * 1.0L, __wrap___multf3(tenth, 1)));
+  CHECK(static_cast<quad>(0.1L) != tenth);
+}
