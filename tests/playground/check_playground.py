@@ -260,5 +260,5 @@ if because:
 for name, least in LEAST.items():
     check(counted[name] >= least, f"{counted[name]} {name} were compared; allowed: at least {least}")
 print("   compared: " + ", ".join(f"{n} {name}" for name, n in counted.items()))
-print("playground: passed: " + ("events and statuses" if because else "every result to the bit") if not failures else f"   {len(failures)} failed")
+print(f"   {len(failures)} failed" if failures else "   equal: " + ("events and statuses" if because else "every result to the bit"))
 sys.exit(1 if failures else 0)
