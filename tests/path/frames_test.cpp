@@ -143,3 +143,18 @@ TEST_CASE("what never moved has two frames: the start, and the same as its end")
   CHECK(kept.frames().back().number == 0);
   CHECK(kept.frames().back().displacement == kept.frames().front().displacement);
 }
+
+TEST_CASE("a frame for a picture alone has the digits of one solve, and a step's end still is the path's") {
+  const stopped_beam b({-10.0, -0.3});
+  frame_limits quick;
+  quick.refined = false;
+  frame_keeper kept(b.structure, b.loads(), false);
+  frame_keeper quickly(b.structure, b.loads(), false, quick);
+  ends told;
+  observer* const observers[] = {&kept, &quickly, &told};
+  (void)follow_steps(b.geometry, b.structure, b.steps, "refactor", *make_kernel("cpp"), observers);
+  REQUIRE(kept.frames().size() == quickly.frames().size());
+  for (std::size_t i = 0; i < kept.frames().size(); ++i)
+    CHECK(largest_difference(kept.frames()[i].displacement, quickly.frames()[i].displacement) < 1e-11);
+  CHECK(quickly.frames().back().displacement == told.displacement.back());
+}

@@ -19,6 +19,7 @@ frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, b
     : structure_(s),
       total_load_(std::move(total_load)),
       forces_by_law_(forces_by_law),
+      refined_(limits.refined),
       most_frames_(
           std::max(fewest_frames,
                    std::min(limits.most_frames, limits.most_numbers / std::max<std::size_t>(s.dofs(), 1)))),
@@ -99,8 +100,12 @@ std::vector<double> frame_keeper::shape(double fraction) {
       const double by_law = isep_[p] == in_contact ? -at.stiffness * (d_[p] - at.face) : 0.0;
       forces[p] = (forces_by_law_ ? by_law : pair_force_[p]) + at.stiffness * d_[p];
     }
-    std::vector<double> u(load.size());
-    stiffness_->solve_refined(with_pair_forces(structure_, load, forces), u);
+    std::vector<double> u = with_pair_forces(structure_, load, forces);
+    if (refined_) {
+      stiffness_->solve_refined(std::vector(u), u);
+    } else {
+      stiffness_->solve(u);
+    }
     return u;
   } catch (const no_factor&) {
     unsolvable_ = true;

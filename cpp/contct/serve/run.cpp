@@ -116,7 +116,9 @@ class served_run {
   }
 
   void watch_states(std::vector<observer*>& all, const lockstep* compared, const kernel_facts& leader) {
-    all.push_back(&frames_.emplace(structure_, loads_of(p_, structure_), leader.rule != "listing"));
+    frame_limits limits;
+    limits.refined = wanted_.page || wanted_.svg || wanted_.envelope;
+    all.push_back(&frames_.emplace(structure_, loads_of(p_, structure_), leader.rule != "listing", limits));
     all.push_back(&record_.emplace(compared));
     if (!wanted_.envelope) return;
     extremes_.emplace(p_);
