@@ -7,13 +7,13 @@
 
 __extension__ using quad = __float128;
 
-// cpp/playground/extended.c
+// cpp/playground/extended.c, under the names that CMakeLists.txt gives
 extern "C" {
-quad __wrap___addtf3(quad a, quad b);
-quad __wrap___subtf3(quad a, quad b);
-quad __wrap___multf3(quad a, quad b);
-quad __wrap___divtf3(quad a, quad b);
-quad __wrap_sqrtl(quad a);
+quad page_sum(quad a, quad b);
+quad page_difference(quad a, quad b);
+quad page_product(quad a, quad b);
+quad page_quotient(quad a, quad b);
+quad page_root(quad a);
 }
 
 namespace {
@@ -23,7 +23,8 @@ using contct::numeric::random_numbers;
 /// Zeros, infinities, NaN, and numbers of few or of all 64 bits, large and small.
 long double any_number(random_numbers& random) {
   constexpr long double infinity = std::numeric_limits<long double>::infinity();
-  constexpr long double special[] = {0.0L, -0.0L, 1.0L, -1.0L, infinity, -infinity, std::nanl("")};
+  constexpr long double not_a_number = std::numeric_limits<long double>::quiet_NaN();
+  constexpr long double special[] = {0.0L, -0.0L, 1.0L, -1.0L, infinity, -infinity, not_a_number};
   if (random.chance(0.05)) return special[random.whole(0, 6)];
   std::uint64_t bits = random.bits();
   if (random.chance(0.3)) bits &= ~std::uint64_t{0} << random.whole(0, 63);
@@ -55,9 +56,9 @@ TEST_CASE("the page's long double rounds sums, products, quotients and roots as 
   for (int i = 0; i < 200'000; ++i) {
     const long double a = any_number(random);
     const long double b = beside(a, random);
-    for (const bool equal : {same(a + b, __wrap___addtf3(a, b)), same(a - b, __wrap___subtf3(a, b)),
-                             same(a * b, __wrap___multf3(a, b)), same(a / b, __wrap___divtf3(a, b)),
-                             same(std::sqrt(a), __wrap_sqrtl(a))}) {
+    for (const bool equal :
+         {same(a + b, page_sum(a, b)), same(a - b, page_difference(a, b)), same(a * b, page_product(a, b)),
+          same(a / b, page_quotient(a, b)), same(std::sqrt(a), page_root(a))}) {
       ++compared;
       if (!equal && different++ == 0) {
         CAPTURE(i, a, b);
@@ -71,6 +72,6 @@ TEST_CASE("the page's long double rounds sums, products, quotients and roots as 
 
 TEST_CASE("a literal of more than 64 bits is rounded to them before the page's long double uses it") {
   const quad tenth = static_cast<quad>(1) / 10;
-  CHECK(same(0.1L * 1.0L, __wrap___multf3(tenth, 1)));
+  CHECK(same(0.1L * 1.0L, page_product(tenth, 1)));
   CHECK(static_cast<quad>(0.1L) != tenth);
 }

@@ -20,7 +20,7 @@ using namespace contct::app;
 
 namespace {
 
-constexpr int calls = 4'000;
+constexpr std::int64_t calls = 4'000;
 
 /// Unit 26 of the page, in a file.
 class unit_26 {
@@ -71,7 +71,7 @@ void check_all(const std::string& name, Function procedure) {
   unit_26 unit;
   tally answers;
   std::int64_t lines = 0, different = 0;
-  for (int number = 1; number <= calls; ++number) {
+  for (std::int64_t number = 1; number <= calls; ++number) {
     const call_inputs<double>& in = source.at(number);
     const kernel_answer a = ask_page<Real>(procedure, in, unit);
     const kernel_answer b = ask_kernel(*gfortran, in);
