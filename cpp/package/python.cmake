@@ -5,6 +5,7 @@ if(CONTCT_PACKAGES)  # the folder of Debian's python3, whatever the processor; t
   install(FILES $<TARGET_FILE:contct_shared> DESTINATION ${python_folder} RENAME libcontct.so COMPONENT python)
 else()
   set(python_folder ${CMAKE_INSTALL_LIBDIR})
-  install(TARGETS contct_shared COMPONENT python)
+  install(TARGETS contct_shared EXPORT contct-serve-targets COMPONENT python INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT contct-serve-targets NAMESPACE contct:: DESTINATION ${cmake_files} COMPONENT python)
 endif()
 install(FILES contct.py DESTINATION ${python_folder} COMPONENT python)
