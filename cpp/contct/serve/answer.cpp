@@ -38,7 +38,8 @@ std::optional<message_place> place_in(std::string_view message) {
   };
   for (std::size_t colon = message.find(':'); colon != std::string_view::npos;
        colon = message.find(':', colon + 1)) {
-    std::size_t end = 0, behind = 0;
+    std::size_t end = 0;
+    std::size_t behind = 0;
     const int line = number_at(colon + 1, end);
     if (line > 0) return message_place{message.substr(0, colon), line, number_at(end + 1, behind)};
   }

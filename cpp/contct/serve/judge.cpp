@@ -12,7 +12,9 @@ namespace {
 void judge(contct_kernel_function* procedure, const char* options, answer& a) {
   const request r(options, {"leader", "name", "calls", "problems", "seed"});
   if (procedure == nullptr) throw std::invalid_argument("kernel: found null; allowed: a function");
-  constexpr int most_calls = 2'000'000'000, most_problems = 10'000'000, usual_calls = 20'000;
+  constexpr int most_calls = 2'000'000'000;
+  constexpr int most_problems = 10'000'000;
+  constexpr int usual_calls = 20'000;
   fuzz_request wanted;
   wanted.kernels = {r.text("leader", "fortran"), r.text("name", "function")};
   wanted.calls = r.whole("calls", usual_calls, 1, most_calls);

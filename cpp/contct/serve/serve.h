@@ -91,6 +91,7 @@ CONTCT_SERVE_EXPORT char* contct_call(const char* kernel, const double dd[], con
                                       int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof);
 
 /* A kernel of the caller's, as contct_kernel of contct/outside/plugin.h. It is called in this process. */
+/* NOLINTNEXTLINE(modernize-use-using): this is C */
 typedef void contct_kernel_function(const double dd[], const double dtest[], const double cc[], double ss[],
                                     double* smin, const int id[], int isep[], const int isurf[], int nc,
                                     int indof, int ndofpn, int ndof);
