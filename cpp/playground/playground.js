@@ -185,7 +185,7 @@ function recompute({ asked = false } = {}) {
   byId("time").textContent = `Recomputed in ${five(performance.now() - begun)} ms.`;
   window.contct = { answer, model, states, ask, milliseconds: performance.now() - begun };
   clearTimeout(later);
-  later = setTimeout(afterPause, 250);
+  later = setTimeout(afterPause, Math.max(250, 8 * (performance.now() - begun)));
 }
 
 function waitForButton() {
