@@ -126,12 +126,17 @@ struct one_end {
 }  // namespace
 
 TEST_CASE(
-    "bounds hold against exact paths of 40 random problems, refined and not, and refined ones are "
+    "bounds hold against exact paths of random problems, refined and not, and refined ones are "
     "certified") {
+#ifdef CONTCT_HAS_GMP
+  constexpr int problems = 40;
+#else
+  constexpr int problems = 4;  // Boost's own integers take minutes for a long one
+#endif
   int steps = 0;
   int compared = 0;
   int proved = 0;
-  for (std::uint64_t number = 0; number < 40; ++number) {
+  for (std::uint64_t number = 0; number < problems; ++number) {
     const lab::random_problem drawn = lab::make_random_problem(17, number, {.most_elements = 5});
     const problem p = lab::as_problem(drawn);
     const exact::exact_path truly = exact::follow_true_path(exact::exact_problem_of(p));
@@ -154,8 +159,8 @@ TEST_CASE(
       }
     }
   }
-  CHECK(steps > 100);
-  CHECK(compared > 400);
+  CHECK(steps > problems * 5 / 2);
+  CHECK(compared > problems * 10);
   CHECK(2 * proved > steps * 95 / 100);
 }
 
