@@ -38,11 +38,4 @@ struct path_progress {
   std::unique_ptr<observer> behind;  ///< shows it again
 };
 
-/// "8 calls, 64 values compared, 0 mismatches", of what compares the calls of a path.
-template <class Comparing>
-[[nodiscard]] std::string counts_of(const Comparing& c) {
-  return fmt::format("{} calls, {} values compared, {} mismatches", c.calls(), c.compared().values,
-                     c.compared().mismatches);
-}
-
 }  // namespace contct::app

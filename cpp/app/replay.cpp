@@ -10,12 +10,6 @@
 namespace contct::app {
 namespace {
 
-/// Who is meant where no --kernel says it: the 1989 code in the trace's precision.
-std::string usual_kernel(const trace_header& h) {
-  if (h.rule == "corrected") return "corrected";
-  return h.real_bytes == 4 ? "fortran-r4" : "fortran";
-}
-
 /// What a replay says. What a floating point that is not strict computes says nothing of a kernel.
 std::string verdict_of(const replay_report& r, const floating_point& fp) {
   if (r.compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";

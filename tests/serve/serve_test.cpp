@@ -2,6 +2,7 @@
 #include "contct/serve/serve.h"
 
 #include <atomic>
+#include <climits>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -200,7 +201,7 @@ TEST_CASE("the states of a path are told for a picture") {
   const auto deepest = std::ranges::min_element(last.at("w"))->get<double>();
   CHECK(deepest ==
         Approx(answer.at("result").at("steps")[3].at("extremes").at("w").at("min").at("value").get<double>())
-            .epsilon(1e-9));
+            .epsilon(1e-9));  // of one solve
   CHECK(states.at("frames")[2].at("events").size() == 2);
   CHECK(states.at("frames")[2].at("looks") == "fof");
   CHECK(states.at("supports").size() == 2);
@@ -247,6 +248,13 @@ TEST_CASE("one call of a kernel answers with its unit-26 text, and refuses a dof
   double ss[] = {0.0}, smin = 7.0;
   const int beyond[] = {2};
   CHECK(taken(contct_call("cpp", dd, dtest, cc, ss, &smin, beyond, isep, isurf, 1, 1, 2, 2)).at("exit") == 2);
+  // (2 - 1) * 2147483647 + 2147483647 is beyond INTEGER, and so is (0 - 1) * -2147483648, whose dof would
+  // be 1.
+  CHECK(taken(contct_call("cpp", dd, dtest, cc, ss, &smin, beyond, isep, isurf, 1, INT_MAX, INT_MAX, 2))
+            .at("exit") == 2);
+  const int before_all[] = {0};
+  CHECK(taken(contct_call("cpp", dd, dtest, cc, ss, &smin, before_all, isep, isurf, 1, -INT_MAX, INT_MIN, 2))
+            .at("exit") == 2);
   CHECK(smin == 7.0);
 }
 

@@ -146,6 +146,12 @@ struct replay_report {
 /// Can a kernel with these facts be compared with the trace? Not with another precision or rule.
 [[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
 
+/// Who is meant where no kernel is named: the 1989 code in the trace's precision, or the corrected rule.
+[[nodiscard]] inline std::string usual_kernel(const trace_header& h) {
+  if (h.rule == "corrected") return "corrected";
+  return h.real_bytes == 4 ? "fortran-r4" : "fortran";
+}
+
 /// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
 /// both have it, by what it means where one of them is f2c. `progress` gets the number of calls done, after
 /// each. Throws input_error where the trace is malformed.

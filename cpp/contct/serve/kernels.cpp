@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "contct/compare/compare.hpp"
 #include "contct/matrix/cholesky.hpp"
@@ -39,16 +41,18 @@ void tell_about(answer& a) {
   a.result = out.dump();
 }
 
-/// The dof of every pair must be there: no kernel looks. What else the listing takes, whatever it means, is
-/// taken.
+/// The dof of every pair must be there, and INTEGER must hold it on the way: no kernel looks. All else is the
+/// caller's, as in the listing.
 void refuse_outside(const call<double>& c) {
   const auto refuse = [](const std::string& what, std::int64_t found, const std::string& allowed) {
     throw std::invalid_argument(fmt::format("call: {}: found {}; allowed: {}", what, found, allowed));
   };
   const auto ndof = static_cast<std::int64_t>(c.dd.size());
   for (std::size_t i = 0; i < c.id.size(); ++i) {
-    const std::int64_t dof = (std::int64_t{c.id[i]} - 1) * c.dof.ndofpn + c.dof.indof;
-    if (dof < 1 || dof > ndof)
+    const std::int64_t before = (std::int64_t{c.id[i]} - 1) * c.dof.ndofpn;
+    const std::int64_t dof = before + c.dof.indof;
+    const bool is_held = std::in_range<int>(before) && c.id[i] > std::numeric_limits<int>::min();
+    if (dof < 1 || dof > ndof || !is_held)
       refuse(fmt::format("id[{}]", i + 1), c.id[i], fmt::format("a node whose dof is one of 1 to {}", ndof));
   }
 }
@@ -69,10 +73,7 @@ void replay_trace(const char* text, const char* options, answer& a) {
   if (text == nullptr) throw std::invalid_argument("trace: found null; allowed: the text of a trace");
   trace_reader calls(text, r.text("file", "trace"));
   const trace_header h = calls.read_header();
-  const std::string usual = h.rule == "corrected" ? "corrected"
-                            : h.real_bytes == 4   ? "fortran-r4"
-                                                  : "fortran";
-  const std::string name = r.text("kernel", usual);
+  const std::string name = r.text("kernel", usual_kernel(h));
   const std::scoped_lock mine(turn());
   const std::unique_ptr<kernel> k = make_kernel(name);
   if (!comparable(h, k->facts()))
