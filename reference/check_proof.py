@@ -7,13 +7,11 @@ import json
 import sys
 import tomllib
 from fractions import Fraction as F
-from math import comb
+from os.path import dirname
 
+from check_beam import beam, listed
+from check_matrix import matrix
 from check_plate import dot, plate
-
-
-def listed(x):
-    return x if isinstance(x, list) else [x]
 
 
 def up(x):
@@ -22,42 +20,17 @@ def up(x):
     return F(-((-x.numerator << shift) // x.denominator), 1 << shift)
 
 
-class Beam:
-    """An element of length h: dofs w and w' at its left end, w and w' at its right."""
-
-    def __init__(self, h, EI):
-        self.h, self.EI, c = h, EI, EI / h**3
-        self.stiffness = [[12 * c, 6 * h * c, -12 * c, 6 * h * c], [6 * h * c, 4 * h * h * c, -6 * h * c, 2 * h * h * c],
-                          [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, 2 * h * h * c, -6 * h * c, 4 * h * h * c]]
-
-    def load(self, q, left):
-        """Consistent forces of the polynomial q in x; q and the shapes become polynomials in t = (x - left) / h."""
-        shapes = [(1, 0, -3, 2), (0, self.h, -2 * self.h, self.h), (0, 0, 3, -2), (0, 0, -self.h, self.h)]
-        own = [sum(c * comb(k, i) * left**(k - i) for k, c in enumerate(q) if k >= i) * self.h**(i + 1) for i in range(len(q))]
-        return [sum(c * a / F(i + j + 1) for i, c in enumerate(own) for j, a in enumerate(shape)) for shape in shapes]
-
-    def values(self, u, work):
-        """(kind, value, square of its error per rho) of what is handed out, for its displacements and its own loads."""
-        v, m, w, n = [dot(row, u) - f for row, f in zip(self.stiffness, work)]
-        shear, moment = 12 * self.EI / self.h**3, 4 * self.EI / self.h
-        return [("shear", v, shear), ("shear", -w, shear), ("moment", -m, moment), ("moment", n, moment)]
-
-
-def beam(of):
-    """Names of dofs, nodes by place, how much of the length each has, and the elements with their dofs and left ends."""
-    x = [F(v) for v in of["x"]] if "x" in of else [F(of["length"]) * i / of["elements"] for i in range(of["elements"] + 1)]
-    EI = of["EI"] if isinstance(of["EI"], list) else [of["EI"]] * (len(x) - 1)
-    elements = [(Beam(x[e + 1] - x[e], F(k)), range(2 * e, 2 * e + 4), x[e]) for e, k in enumerate(EI)]
-    return ["w", "theta"], {v: i for i, v in enumerate(x)}, [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])], elements
-
-
 class Problem:
     """K by rows, supports, pairs and loads, as fractions."""
 
-    def __init__(self, t):
-        self.names, self.at, share, self.elements = plate(t["plate"]) if "plate" in t else beam(t["beam"])
-        self.steps, self.n = t["step"], len(share) * len(self.names)
-        self.K = [{i: F(0)} for i in range(self.n)]
+    def __init__(self, t, folder):
+        if "matrix" in t:
+            self.K, t = matrix(t["matrix"], t, folder)
+            self.names, self.at, share, self.elements = ["w"], {}, [F(1)] * len(self.K), []
+        else:
+            self.names, self.at, share, self.elements = plate(t["plate"]) if "plate" in t else beam(t["beam"], t)
+            self.K = [{i: F(0)} for i in range(len(share) * len(self.names))]
+        self.steps, self.n = t["step"], len(self.K)
         for element, dofs, _ in self.elements:
             for i, j, k in ((i, j, k) for i, row in zip(dofs, element.stiffness) for j, k in zip(dofs, row)):
                 self.K[i][j] = self.K[i].get(j, 0) + k
@@ -185,7 +158,7 @@ def main(problem, proof):
     where = "what the files hold"
     try:
         with open(problem, "rb") as file, open(proof, encoding="utf-8") as proofs:
-            p, steps = Problem(tomllib.load(file, parse_float=F)), json.load(proofs)["steps"]
+            p, steps = Problem(tomllib.load(file, parse_float=F), dirname(problem)), json.load(proofs)["steps"]
         for i, s in enumerate(steps):
             where = f"step {i + 1} of {len(p.steps)}"
             words = f"{check(p, p.steps[i], s)} numbers are within their bounds" if s["error"] else f"no bounds: {s['because']}"

@@ -319,12 +319,12 @@ TEST_CASE("nobody rescues a path under the listing's rule, nor one without an eq
   made_kernel k = endless();
   recorder r;
   CHECK(p.run(k, {&r}, none).status == path_status::cycle);
-  CHECK(asked == 2);  // for a state a little ahead, and at the end
+  CHECK(asked == 7);  // for a state ahead, at six distances, and at the end
   REQUIRE(r.steps.size() == 1);
   CHECK_FALSE(r.steps[0].from_fallback);
   made_kernel listing = endless("listing");
   CHECK(p.run(listing, {}, none).status == path_status::cycle);
-  CHECK(asked == 2);
+  CHECK(asked == 7);
 }
 
 TEST_CASE("after a rescue the path goes on from the equilibrium that it was given") {
@@ -473,4 +473,35 @@ TEST_CASE("a path that would toggle for ever goes on from a state a billionth of
   bool told = false;
   for (const auto& i : r.increments) told = told || i.fraction == 0x1p-30;
   CHECK(told);
+}
+
+TEST_CASE("where nothing is found a billionth ahead the path asks four times as far, to a millionth") {
+  const beam_problem p = cantilever_on_two();
+  made_kernel k = endless();
+  std::vector<double> asked_at;
+  const path_limits limits{
+      0, [&](int, double share, std::span<const double>) -> std::optional<equilibrium_state> {
+        asked_at.push_back(share);
+        return {};
+      }};
+  CHECK(p.run(k, {}, limits).status == path_status::cycle);
+  REQUIRE(asked_at.size() == 7);
+  for (int i = 0; i < 6; ++i) CHECK(asked_at[i] == std::ldexp(0x1p-30, 2 * i));
+  CHECK(asked_at[6] == 1.0);
+}
+
+TEST_CASE("where the path is no further than its last leap, the next one is longer") {
+  const beam_problem p = cantilever_on_two();
+  made_kernel k = endless();
+  std::vector<double> asked_at;
+  const path_limits limits{
+      0, [&](int, double share, std::span<const double>) -> std::optional<equilibrium_state> {
+        asked_at.push_back(share);
+        if (share == 1.0) return {};
+        return equilibrium_state{std::vector<double>(6), {0, 0}};
+      }};
+  CHECK(p.run(k, {}, limits).status == path_status::cycle);
+  REQUIRE(asked_at.size() == 7);
+  double share = 0.0;
+  for (int i = 0; i < 6; ++i) CHECK(asked_at[i] == Approx(share += std::ldexp(0x1p-30, 2 * i)).epsilon(1e-9));
 }

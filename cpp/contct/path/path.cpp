@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "contct/path/path_state.hpp"
@@ -27,22 +28,11 @@ class path {
   path_end follow_step(int step, const load_history& total_load) {
     begin_step(step, total_load);  // R* = the step's total load less the previous one's
     for (int number = 1; number <= increments_allowed_; ++number) {
-      const response w_star = policy_->respond();  // K w* = R*, with the springs of the pairs now in contact
-      double s_min = 0.0;
-      if (w_star != response::none) s_min = policy_->ask();  // the kernel gives s_min and toggles statuses
-      if (w_star == response::none || !policy_->accept(s_min)) {
-        if (policy_->go_on_ahead(number)) continue;
-        return set_free(step);
+      try {
+        if (const std::optional<path_end> end = follow_increment(step, number)) return *end;
+      } catch (const no_factor&) {
+        if (!policy_->go_on_ahead(number)) throw;
       }
-      const bool moved = now_.advance(s_min);                               // D <- D + s_min d*
-      if (w_star == response::elastic) now_.residual.share *= 1.0 - s_min;  // R* <- (1 - s_min) R*
-      now_.tell_increment(number, s_min, w_star == response::rigid);
-      if (!policy_->goes_on()) return stop(path_status::mechanism, step, now_.opened());
-      now_.switch_springs();  // of the pairs that the kernel toggled
-      if (s_min == 1.0) return end_step(step, number);
-      if (!cycles_.repeats(moved, now_.status, now_.events)) continue;
-      if (!policy_->go_on_ahead(++number)) return stop(path_status::cycle, step, cycles_.restless_pairs());
-      cycles_.reset();
     }
     return stop(path_status::iteration_limit, step, cycles_.restless_pairs());
   }
@@ -54,6 +44,27 @@ class path {
   }
 
  private:
+  /// One increment. An end where it is the last, or the path cannot go on; going on ahead counts as one more.
+  std::optional<path_end> follow_increment(int step, int& number) {
+    const response w_star = policy_->respond();  // K w* = R*, with the springs of the pairs now in contact
+    double s_min = 0.0;
+    if (w_star != response::none) s_min = policy_->ask();  // the kernel gives s_min and toggles statuses
+    if (w_star == response::none || !policy_->accept(s_min)) {
+      if (policy_->go_on_ahead(number)) return std::nullopt;
+      return set_free(step);
+    }
+    const bool moved = now_.advance(s_min);                               // D <- D + s_min d*
+    if (w_star == response::elastic) now_.residual.share *= 1.0 - s_min;  // R* <- (1 - s_min) R*
+    now_.tell_increment(number, s_min, w_star == response::rigid);
+    if (!policy_->goes_on()) return stop(path_status::mechanism, step, now_.opened());
+    now_.switch_springs();  // of the pairs that the kernel toggled
+    if (s_min == 1.0) return end_step(step, number);
+    if (!cycles_.repeats(moved, now_.status, now_.events)) return std::nullopt;
+    if (!policy_->go_on_ahead(++number)) return stop(path_status::cycle, step, cycles_.restless_pairs());
+    cycles_.reset();
+    return std::nullopt;
+  }
+
   void begin_step(int step, const load_history& total_load) {
     now_.begin_step(step, total_load);
     cycles_.reset();

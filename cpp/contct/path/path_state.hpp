@@ -58,6 +58,7 @@ struct path_state {
   const linear_structure& structure;
   stiffness_engine& engine;
   state_refiner refine = nullptr;        ///< see path_limits
+  bool held_in_doubles = false;          ///< only what doubles see counts as held
   int step = 0;                          ///< from 1
   std::vector<double> total;             ///< load at the end of the step [dofs]
   std::vector<double> increment;         ///< total less the previous step's [dofs]
@@ -174,7 +175,7 @@ struct path_state {
 
   /// The rigid-body motions that supports and pairs in contact stop, and whether these are all.
   [[nodiscard]] rigid_rank held_by() const {
-    return structure.held_by([this](std::size_t i) { return status[i] == in_contact; });
+    return structure.held_by([this](std::size_t i) { return status[i] == in_contact; }, held_in_doubles);
   }
   [[nodiscard]] bool held() const { return structure.is_held(held_by()); }
 

@@ -65,35 +65,30 @@ class stabilized_policy final : public path_policy {
     last_toggled_at_rest_ = -1;
   }
 
-  /// A billionth of the load further, the reference solution knows which pairs are in contact.
+  /// A billionth of the load further, the reference solution knows which pairs are in contact; or four times
+  /// as far, and so on, to a millionth. Where the path is no further than the last such leap, the next one is
+  /// longer.
   bool go_on_ahead(int number) override {
-    constexpr double ahead = 0x1p-30;
-    constexpr int most_a_step = 8;
-    if (went_ahead_in_ != now_.step) times_ahead_ = 0;
-    went_ahead_in_ = now_.step;
-    const double share = now_.residual.share;
-    if (!fallback_ || share <= 2 * ahead || ++times_ahead_ > most_a_step) return false;
-    now_.residual.share = share - ahead;
-    const std::optional<equilibrium_state> found = fallback_(now_.step, now_.fraction(), now_.applied_load());
-    if (!found) {
-      now_.residual.share = share;
-      return false;
+    constexpr int most_a_step = 16;
+    if (leapt_in_ != now_.step) times_leapt_ = 0;
+    if (leapt_in_ != now_.step || now_.residual.share < leapt_to_ - leap_) leap_ = shortest_leap / 4;
+    leapt_in_ = now_.step;
+    remove_holding_springs();
+    while (fallback_ && leap_ < longest_leap && ++times_leapt_ <= most_a_step) {
+      leap_ *= 4;
+      if (leap(number, std::min(leap_, now_.residual.share / 2))) return true;
     }
-    now_.take_over(found->closed);
-    put_pairs_at(found->displacement);
-    begin_step();
-    now_.tell_increment(number, ahead / share, false);
-    now_.switch_springs();
-    return true;
+    return false;
   }
 
+  /// Three pairs of a plate may be in line but for the sixteenth digit: held, and without a factor.
   response respond() override {
-    rigid_ = !now_.held() && rigid_snap(now_);
-    if (rigid_) return response::rigid;
-    if (!add_holding_springs()) return response::none;
-    now_.engine.respond(now_.residual, now_.d_star);
-    remove_holding_springs();
-    return response::elastic;
+    try {
+      return respond_as_held();
+    } catch (const no_factor&) {
+      if (std::exchange(now_.held_in_doubles, true)) throw;
+      return respond_as_held();
+    }
   }
 
   double ask() override {
@@ -179,6 +174,36 @@ class stabilized_policy final : public path_policy {
   }
 
  private:
+  response respond_as_held() {
+    rigid_ = !now_.held() && rigid_snap(now_);
+    if (rigid_) return response::rigid;
+    if (!add_holding_springs()) return response::none;
+    now_.engine.respond(now_.residual, now_.d_star);
+    remove_holding_springs();
+    return response::elastic;
+  }
+
+  /// Go on from the reference solution where `distance` more of the step's load is applied. False, and
+  /// nothing changed, when it has none.
+  bool leap(int number, double distance) {
+    const double share = now_.residual.share;
+    now_.residual.share = share - distance;
+    const std::optional<equilibrium_state> found =
+        now_.residual.share < share ? fallback_(now_.step, now_.fraction(), now_.applied_load())
+                                    : std::nullopt;
+    if (!found) {
+      now_.residual.share = share;
+      return false;
+    }
+    leapt_to_ = now_.residual.share;
+    now_.take_over(found->closed);
+    put_pairs_at(found->displacement);
+    begin_step();
+    now_.tell_increment(number, distance / share, false);
+    now_.switch_springs();
+    return true;
+  }
+
   /// Do the last pairs that hold the structure open exactly at full load, but for rounding? The load of the
   /// step then does no work on the motions that they free.
   [[nodiscard]] bool opens_at_full_load(double s_min) const {
@@ -259,13 +284,18 @@ class stabilized_policy final : public path_policy {
     for (std::size_t i = 0; i < now_.pairs(); ++i) now_.d[i] = u[now_.at_dof[i]];
   }
 
+  static constexpr double shortest_leap = 0x1p-30;
+  static constexpr double longest_leap = 0x1p-20;
+
   cycle_detector& cycles_;
   const fallback_solver& fallback_;
   bool rigid_ = false;                // the last response
   int at_rest_ = 0;                   // answers in a row with SMIN = 0
   int last_toggled_at_rest_ = -1;     // the pair that the last answer without progress toggled
-  int went_ahead_in_ = 0;             // the last step in which the path went on ahead
-  int times_ahead_ = 0;               // and how often it did there
+  int leapt_in_ = 0;                  // the last step in which the path went on ahead
+  int times_leapt_ = 0;               // how often it tried to there
+  double leap_ = 0.0;                 // how far it tried last, in shares of the step's load
+  double leapt_to_ = 0.0;             // the share of the load that was left then
   std::vector<int> kept_in_contact_;  // pairs that are not asked until the load advances
   std::vector<int> holding_;          // separated pairs whose springs hold the structure for a solve
   std::vector<double> d_test_;        // d* with 0 for the pairs kept in contact [pairs]
