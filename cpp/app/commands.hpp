@@ -92,6 +92,8 @@ struct fuzz_options {
   std::optional<std::int64_t> problems;  ///< by default one for 500 calls
   std::string shard;                     ///< "I/N"
   std::vector<std::string> merge;
+  std::string checkpoint;
+  bool resume = false;
   std::string json;
   std::string out;  ///< a folder
   report_options report;

@@ -31,14 +31,42 @@ std::string command_of(const fuzz_request& r) {
                      joined(r.kernels, ","), r.calls, r.problems, r.seed, r.shard, r.shards);
 }
 
-fuzz_run fuzzed(const fuzz_request& request, bool quiet) {
+void write_file(const std::string& name, const std::string& text) {
+  output_file file(name);
+  file.write(text);
+  file.finish();
+}
+
+/// A run that was ended may have come far: its checkpoint is not overwritten by another.
+fuzz_keeper keeper_for(const fuzz_options& options, const fuzz_request& request) {
+  const std::string& file = options.checkpoint;
+  if (options.resume && file.empty())
+    throw std::invalid_argument("--resume: found no --checkpoint; allowed: with --checkpoint FILE");
+  if (file.empty()) return {};
+  if (!options.merge.empty())
+    throw std::invalid_argument("--checkpoint: found beside --merge; allowed: for a run");
+  fuzz_keeper keeper;
+  if (std::filesystem::exists(file)) {
+    if (!options.resume)
+      throw std::invalid_argument("--checkpoint: found " + file +
+                                  ", which exists; allowed: with --resume, or another file");
+    keeper.from = checkpoint_from(file, request);
+  }
+  keeper.keep = [&file](const fuzz_checkpoint& reached) { write_file(file, checkpoint_json(reached)); };
+  return keeper;
+}
+
+fuzz_run fuzzed(const fuzz_request& request, const fuzz_keeper& keeper, bool quiet) {
   std::optional<progress> shown;
   const char* shown_what = nullptr;
-  return run_fuzz(request, [&](std::int64_t done, std::int64_t all, const char* what) {
-    if (shown_what != what) shown.emplace(all, what, quiet);
-    shown_what = what;
-    shown->reached(done);
-  });
+  return run_fuzz(
+      request,
+      [&](std::int64_t done, std::int64_t all, const char* what) {
+        if (shown_what != what) shown.emplace(all, what, quiet);
+        shown_what = what;
+        shown->reached(done);
+      },
+      keeper);
 }
 
 std::string follower_words(const fuzz_follower& f, const std::string& leader) {
@@ -106,9 +134,7 @@ std::vector<std::string> write_cases(const std::vector<found_case>& cases, const
     const std::pair<const char*, std::string> files[] = {
         {".trace", trace_of(c, header)}, {"_test.cpp", catch_test_of(c)}, {".f", fortran_main_of(c)}};
     for (const auto& [end, text] : files) {
-      output_file file(names.emplace_back(stem + end));
-      file.write(text);
-      file.finish();
+      write_file(names.emplace_back(stem + end), text);
     }
   }
   return names;
@@ -126,11 +152,13 @@ exit_status run_command(const fuzz_options& options) {
   const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
   std::vector<output_option> inputs;
   for (const std::string& file : options.merge) inputs.push_back({"a shard", file});
+  if (!options.checkpoint.empty()) inputs.push_back({"the checkpoint", options.checkpoint});
   refuse_shared_outputs(outputs, inputs);
+  const fuzz_keeper keeper = keeper_for(options, request);
   const output_files files(outputs);
   const bool merging = !options.merge.empty();
   const fuzz_run run =
-      merging ? fuzz_run{merged_fuzz(options.merge), {}} : fuzzed(request, options.report.quiet);
+      merging ? fuzz_run{merged_fuzz(options.merge), {}} : fuzzed(request, keeper, options.report.quiet);
   const fuzz_result& r = run.result;
   const std::string missed = floors_missed(r);
   if (!options.report.quiet && !takes_standard_output(outputs)) print_result(r);

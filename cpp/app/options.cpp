@@ -348,6 +348,8 @@ void declare_fuzz(option_parser& p) {
   p.add(c, takes::number, "--seed", o.request.seed, "Seed of the random numbers")->capture_default_str();
   p.add(c, takes::number, "--shard", o.shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
   p.add(c, takes::file, "--merge", o.merge, "Add up the --json files of all shards instead of running");
+  p.add_file(c, "--checkpoint", o.checkpoint, "Keep in this file how far the run has come");
+  c->add_flag("--resume", o.resume, "Go on from the checkpoint, if there is one");
   p.add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
   p.add_file(
       c, "--out", o.out,

@@ -170,6 +170,62 @@ TEST_CASE("shards are added up again, and a missing or doubled one is refused") 
   CHECK_THAT(fuzz(dir, {"--merge", "not.json"}).err, Contains("not.json: found no fuzz result"));
 }
 
+TEST_CASE("a run that is killed goes on from its checkpoint, and ends as one that was not") {
+  const scratch_folder dir;
+  const std::string faulty = variant("less_equal");
+  const std::vector<std::string> run = {
+      "--kernels", "cpp,fortran," + faulty, "--calls", "60000", "--problems", "40", "--shard", "2/2"};
+  const auto with = [&run](std::vector<std::string> more) {
+    more.insert(more.begin(), run.begin(), run.end());
+    return more;
+  };
+  const finished whole = fuzz(dir, with({"--json", "whole.json", "--out", "whole"}));
+  CHECK(whole.exit == 1);
+  // Killed as soon as there is a checkpoint, and again a little later, until nobody kills it any more.
+  std::string command = std::string(CONTCT_PROGRAM) + " fuzz";
+  for (const std::string& word :
+       with({"--checkpoint", "c.json", "--resume", "--json", "part.json", "--out", "part"}))
+    command += " '" + word + "'";
+  for (int wanted = 0, reached = 0; wanted < 2; ++wanted) {
+    const std::string kill_it =
+        "cd '" + dir.path().string() + "' && { " + command +
+        " >/dev/null 2>&1 & } ; p=$!; while kill -0 $p 2>/dev/null && ! grep -q up_to c.json "
+        "2>/dev/null; do sleep 0.01; done; kill -KILL $p; wait $p";
+    int exit = 0;
+    (void)output_of(kill_it, exit);
+    const int now = json_of(dir, "c.json").at("calls_up_to");
+    CHECK(now >= reached);
+    reached = now;
+    CHECK(reached > 0);
+  }
+  CHECK(
+      fuzz(dir, with({"--checkpoint", "c.json", "--resume", "--json", "part.json", "--out", "part"})).exit ==
+      1);
+  nlohmann::json expected = json_of(dir, "whole.json");
+  nlohmann::json found = json_of(dir, "part.json");
+  for (nlohmann::json* j : {&expected, &found}) j->erase("seconds");
+  CHECK(expected == found);
+  CHECK(found.at("followers").at(1).at("mismatches") > 0);
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(dir.path() / "whole")) {
+    const fs::path name = entry.path().filename();
+    CHECK(dir.read("whole" / name) == dir.read("part" / name));
+    ++files;
+  }
+  CHECK(files == 3);
+  // Once more: all is done, and the result is the same.
+  CHECK(fuzz(dir, with({"--checkpoint", "c.json", "--resume", "--json", "again.json"})).exit == 1);
+  CHECK(json_of(dir, "again.json").at("values_compared") == expected.at("values_compared"));
+
+  CHECK_THAT(fuzz(dir, with({"--checkpoint", "c.json"})).err,
+             Contains("which exists; allowed: with --resume"));
+  CHECK_THAT(fuzz(dir, with({"--checkpoint", "c.json", "--resume", "--seed", "3"})).err,
+             Contains("c.json: found the checkpoint of another run"));
+  CHECK_THAT(fuzz(dir, {"--resume"}).err, Contains("--resume: found no --checkpoint"));
+  CHECK_THAT(fuzz(dir, {"--merge", "whole.json", "--checkpoint", "d.json"}).err,
+             Contains("found beside --merge"));
+}
+
 TEST_CASE("a hunt that finds too little to compare fails") {
   const scratch_folder dir;
   CHECK(fuzz(dir, {"--calls", "0"}).exit == 2);

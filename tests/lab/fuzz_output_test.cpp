@@ -153,3 +153,45 @@ TEST_CASE("a case as a Catch2 test asks the follower and expects the leader's nu
   CHECK_THAT(test, Contains("CHECK(contct::outside::same_bits(asked.smin, 0x1p-1));"));
   CHECK_THAT(test, Contains("CHECK(contct::outside::same_bits(out.ss[2], 0x1p-1));"));
 }
+
+TEST_CASE("a checkpoint is read as it was written, and refused where its counts do not fit") {
+  const scratch_folder folder;
+  fuzz_checkpoint c;
+  c.result = shard(2, equality_level::bits);
+  c.result.followers[0].same_events = false;
+  c.calls_up_to = 20;
+  c.problems_up_to = 4;
+  c.result.problems = 2;
+  c.differing_problems = {2};
+  c.firsts = {{2, 17}};
+  const std::string file = folder.write("c.json", checkpoint_json(c));
+  const fuzz_checkpoint read = checkpoint_from(file, c.result.request);
+  CHECK(checkpoint_json(read) == checkpoint_json(c));
+  CHECK_FALSE(read.result.followers[0].same_events);
+  CHECK(read.result.followers[0].always_answered);
+  CHECK(read.firsts[0].call == 17);
+
+  fuzz_request other = c.result.request;
+  other.seed = 7;
+  CHECK_THROWS_WITH(checkpoint_from(file, other), Contains("the checkpoint of another run"));
+  const auto refused = [&](const char* key, const nlohmann::json& value) {
+    auto j = nlohmann::json::parse(checkpoint_json(c));
+    j[nlohmann::json::json_pointer(key)] = value;
+    const std::string doctored = folder.write("doctored.json", j.dump());
+    INFO(key << ": " << value);
+    CHECK_THROWS_AS(checkpoint_from(doctored, c.result.request), input_error);
+  };
+  refused("/format", "contct-fuzz-1");
+  refused("/calls_up_to", -1);
+  refused("/calls_up_to", 300'000);
+  refused("/calls_up_to", 199'999);  // with fewer calls in the result
+  refused("/problems_up_to", 6);
+  refused("/problems_up_to", 1000);
+  refused("/first/0/problem", 5);
+  refused("/first/0/call", -3);
+  refused("/first", nlohmann::json::array());
+  refused("/result/followers", nlohmann::json::array());
+  const std::string text = checkpoint_json(c);
+  const std::string cut = folder.write("cut.json", text.substr(0, text.size() / 2));
+  CHECK_THROWS_WITH(checkpoint_from(cut, c.result.request), Contains("found no checkpoint"));
+}

@@ -14,7 +14,7 @@
 namespace contct::lab {
 namespace {
 
-constexpr std::size_t calls_in_a_block = 2048;
+constexpr std::int64_t calls_in_a_block = 2048;
 constexpr std::int64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
 constexpr std::uint64_t few_ulps = 64;
 
@@ -30,6 +30,11 @@ call_inputs<double> inputs_of(const answered_call& c) {
   const auto owned = [](const auto& list) { return std::vector(list.begin(), list.end()); };
   return {owned(c.c.dd),        owned(c.c.dtest), owned(c.c.cc), owned(c.c.id),
           owned(c.isep_before), owned(c.c.isurf), c.c.dof};
+}
+
+/// The first number after `after` that is the shard's.
+std::int64_t next_of_shard(const fuzz_request& r, std::int64_t after) {
+  return after < r.shard ? r.shard : r.shard + ((after - r.shard) / r.shards + 1) * r.shards;
 }
 
 /// A leader and its followers, and what comes of the calls that they are put. Observes a path of the leader.
@@ -113,47 +118,106 @@ void compare_texts(contest& c, call_source& source, std::span<const std::int64_t
   }
 }
 
+/// With a keeper, how much is put before it is told; a multiple of a block, so that calls come in the same
+/// blocks as without.
+constexpr std::int64_t calls_to_a_checkpoint = 4 * calls_in_a_block;
+constexpr std::int64_t problems_to_a_checkpoint = 16;
+constexpr std::size_t most_differing_problems = 40;
+
 class fuzzing {
  public:
-  fuzzing(const fuzz_request& r, const fuzz_progress& progress) : request_(r), progress_(progress) {
-    run_.result.request = r;
+  fuzzing(const fuzz_request& r, const fuzz_progress& progress, const fuzz_keeper& keeper)
+      : request_(r), progress_(progress), keeper_(keeper) {
+    now_.result.request = r;
     for (const std::string& name : std::span(r.kernels).subspan(1))
-      run_.result.followers.emplace_back().name = name;
+      now_.result.followers.emplace_back().name = name;
+    now_.firsts.resize(now_.result.followers.size());
+    if (keeper.from) go_on_from(*keeper.from);
   }
 
   fuzz_run run() {
-    const auto started = std::chrono::steady_clock::now();
-    add(put_calls(request_, [this](std::int64_t done) {
-      if (progress_) progress_(done, request_.calls / request_.shards, "calls");
-    }));
-    compare_problems();
-    for (fuzz_follower& f : run_.result.followers) conclude(f);
-    run_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    started_ = std::chrono::steady_clock::now();
+    seconds_before_ = now_.result.seconds;
+    while (now_.calls_up_to < request_.calls) put_next_calls();
+    while (now_.problems_up_to < request_.problems) follow_next_problems();
+    for (fuzz_follower& f : now_.result.followers) conclude(f);
+    take_time();
+    run_.result = std::move(now_.result);
     return std::move(run_);
   }
 
  private:
-  void add(const campaign_result& r) {
-    run_.result.add(r);
-    for (std::size_t f = 0; f < r.each.size(); ++f) run_.result.followers[f].add(r.each[f]);
+  /// The mismatches are found once more: a checkpoint knows only where they are.
+  void go_on_from(const fuzz_checkpoint& from) {
+    now_ = from;
+    for (std::size_t f = 0; f < now_.firsts.size(); ++f) {
+      const auto [problem, call] = now_.firsts[f];
+      if (call == 0) continue;
+      const std::int64_t after = std::max<std::int64_t>(0, call - most_calls_before * request_.shards - 1);
+      campaign_result again =
+          problem > 0 ? follow_in_lockstep(request_, problem) : put_calls(request_, after, call);
+      now_.result.followers[f].first = std::move(again.each[f].first);
+      now_.result.followers[f].calls = std::move(again.each[f].calls);
+    }
   }
 
-  void compare_problems() {
-    for (std::int64_t number = request_.shard; number <= request_.problems; number += request_.shards) {
+  void put_next_calls() {
+    const std::int64_t done = now_.result.calls;
+    const std::int64_t last =
+        keeper_.keep ? std::min(request_.calls, now_.calls_up_to + calls_to_a_checkpoint * request_.shards)
+                     : request_.calls;
+    add(put_calls(request_, now_.calls_up_to, last,
+                  [&](std::int64_t more) {
+                    if (progress_) progress_(done + more, request_.calls / request_.shards, "calls");
+                  }),
+        0);
+    now_.calls_up_to = last;
+    keep();
+  }
+
+  void follow_next_problems() {
+    for (std::int64_t i = 0; i < problems_to_a_checkpoint; ++i) {
+      const std::int64_t number = next_of_shard(request_, now_.problems_up_to);
+      now_.problems_up_to = std::min(number, request_.problems);
+      if (number > request_.problems) break;
       const campaign_result p = follow_in_lockstep(request_, number);
-      add(p);
+      add(p, number);
       for (const follower_result& its : p.each)
-        if (its.first) differing_problems_.push_back(number);
-      ++run_.result.problems;
-      if (progress_) progress_(run_.result.problems, request_.problems / request_.shards, "problems");
+        if (its.first && now_.differing_problems.size() < most_differing_problems)
+          now_.differing_problems.push_back(number);
+      ++now_.result.problems;
+      if (progress_) progress_(now_.result.problems, request_.problems / request_.shards, "problems");
     }
+    keep();
+  }
+
+  /// The result of single calls, or of a problem's.
+  void add(const campaign_result& r, std::int64_t problem) {
+    now_.result.add(r);
+    for (std::size_t f = 0; f < r.each.size(); ++f) {
+      if (r.each[f].first && now_.firsts[f].call == 0) now_.firsts[f] = {problem, r.each[f].first->call};
+      now_.result.followers[f].add(r.each[f]);
+    }
+  }
+
+  void take_time() {
+    now_.result.seconds =
+        seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  }
+
+  void keep() {
+    if (!keeper_.keep) return;
+    take_time();
+    keeper_.keep(now_);
   }
 
   /// The result of a follower: its level of equality, and its first mismatch made small.
   void conclude(fuzz_follower& total) {
     total.highest = level_of(total);
-    if (!total.first) return;
     std::vector<std::string>& lines = total.mismatch_reports;
+    if (!total.first && total.compared.mismatches > 0)
+      lines = {"a mismatch before the checkpoint is not seen again: the kernel keeps state between calls"};
+    if (!total.first) return;
     lines = words_of(*total.first);
     const std::unique_ptr<kernel> leader = make_kernel(request_.kernels[0]);
     const std::string& field = total.first->where.field;
@@ -179,7 +243,7 @@ class fuzzing {
   bool certified_paths(const fuzz_follower& total) {
     constexpr std::int64_t enough = 20;
     if (request_.problems == 0 || !total.always_answered) return false;
-    std::vector<std::int64_t> asked = differing_problems_;
+    std::vector<std::int64_t> asked = now_.differing_problems;
     for (std::int64_t n = 1; n <= std::min(enough, request_.problems); ++n) asked.push_back(n);
     asked.resize(std::min<std::size_t>(asked.size(), 2 * enough));
     return std::all_of(asked.begin(), asked.end(),
@@ -188,7 +252,10 @@ class fuzzing {
 
   const fuzz_request& request_;
   const fuzz_progress& progress_;
-  std::vector<std::int64_t> differing_problems_;
+  const fuzz_keeper& keeper_;
+  std::chrono::steady_clock::time_point started_;
+  double seconds_before_ = 0.0;
+  fuzz_checkpoint now_;
   fuzz_run run_;
 };
 
@@ -238,26 +305,31 @@ void follower_result::add(const follower_result& other) {
 }
 
 campaign_result put_calls(const fuzz_request& r, const std::function<void(std::int64_t)>& progress) {
+  return put_calls(r, 0, r.calls, progress);
+}
+
+campaign_result put_calls(const fuzz_request& r, std::int64_t after, std::int64_t last,
+                          const std::function<void(std::int64_t)>& progress) {
   contest c(r.kernels);
   call_source source(r.seed, c.leader->facts().real_bytes);
   call_outputs outputs;
   std::vector<std::int64_t> block;  // numbers of the calls whose text is not yet compared
-  for (std::int64_t number = r.shard; number <= r.calls; number += r.shards) {
+  for (std::int64_t number = next_of_shard(r, after); number <= last; number += r.shards) {
     const call_inputs<double>& in = source.at(number);
     call<double> answered = outputs.prepare(in);
     c.leader->answer(answered);
     c.compare(number, answered, in.isep, std::nullopt);
     block.push_back(number);
-    if (block.size() < calls_in_a_block) continue;
+    if (std::ssize(block) < calls_in_a_block) continue;
     compare_texts(c, source, block);
     block.clear();
     if (progress) progress(c.result.calls);
   }
   compare_texts(c, source, block);
-  return c.conclude([&](std::int64_t last) {
+  return c.conclude([&](std::int64_t up_to) {
     call_sequence calls;
-    for (std::int64_t k = std::min(most_calls_before, (last - 1) / r.shards); k >= 0; --k)
-      calls.push_back(source.at(last - k * r.shards));
+    for (std::int64_t k = std::min(most_calls_before, (up_to - 1) / r.shards); k >= 0; --k)
+      calls.push_back(source.at(up_to - k * r.shards));
     return calls;
   });
 }
@@ -317,8 +389,8 @@ std::string floors_missed(const fuzz_result& r) {
          " each";
 }
 
-fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress) {
-  return fuzzing(r, progress).run();
+fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress, const fuzz_keeper& keeper) {
+  return fuzzing(r, progress, keeper).run();
 }
 
 }  // namespace contct::lab

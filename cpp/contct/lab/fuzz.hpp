@@ -99,6 +99,10 @@ struct fuzz_request {
 [[nodiscard]] campaign_result put_calls(const fuzz_request& r,
                                         const std::function<void(std::int64_t done)>& progress = nullptr);
 
+/// The same of the calls with numbers `after` < number <= `last` alone.
+[[nodiscard]] campaign_result put_calls(const fuzz_request& r, std::int64_t after, std::int64_t last,
+                                        const std::function<void(std::int64_t done)>& progress = nullptr);
+
 /// Follow problem `number` with the leader, and put every call to the followers.
 [[nodiscard]] campaign_result follow_in_lockstep(const fuzz_request& r, std::int64_t number);
 
@@ -149,9 +153,37 @@ struct fuzz_run {
 /// Progress: work done out of all, in calls or problems.
 using fuzz_progress = std::function<void(std::int64_t done, std::int64_t all, const char* what)>;
 
-/// Put the calls and problems of `r` to its kernels. Throws std::invalid_argument for kernels that cannot be
-/// compared.
-[[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr);
+/// How far a run has come: what another process needs to go on from there.
+struct fuzz_checkpoint {
+  /// Where a follower differed first: in a call of a problem, or in a single call.
+  struct mark {
+    std::int64_t problem = 0;  ///< 0: a single call
+    std::int64_t call = 0;     ///< 0: it did not differ
+  };
+
+  fuzz_result result;            ///< of all that is done, seconds too
+  std::int64_t calls_up_to = 0;  ///< calls to this number are done
+  std::int64_t problems_up_to = 0;
+  std::vector<std::int64_t> differing_problems;  ///< 40 at most
+  std::vector<mark> firsts;                      ///< [followers]
+};
+
+/// Where a run keeps how far it has come.
+struct fuzz_keeper {
+  std::optional<fuzz_checkpoint> from;                       ///< to go on from; of the same request
+  std::function<void(const fuzz_checkpoint& reached)> keep;  ///< called every few thousand calls
+};
+
+/// Put the calls and problems of `r` to its kernels. With a keeper the kernels are made anew between
+/// checkpoints. Throws std::invalid_argument for kernels that cannot be compared.
+[[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr,
+                                const fuzz_keeper& keeper = {});
+
+/// A checkpoint as JSON, format "contct-fuzz-checkpoint-1".
+[[nodiscard]] std::string checkpoint_json(const fuzz_checkpoint& c);
+
+/// Read the checkpoint of a run of `r`. Throws input_error where the file is none, or one of another run.
+[[nodiscard]] fuzz_checkpoint checkpoint_from(const std::string& file, const fuzz_request& r);
 
 /// The result as JSON, format "contct-fuzz-1".
 [[nodiscard]] std::string fuzz_json(fuzz_result r);

@@ -15,6 +15,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 constexpr const char* format = "contct-fuzz-1";
+constexpr const char* checkpoint_format = "contct-fuzz-checkpoint-1";
 
 /// Puts fields into a file's object.
 auto writer(json& object) {
@@ -69,20 +70,69 @@ void for_each_field(fuzz_result& r, const Field& field) {
   field("/shard/of", r.request.shards);
 }
 
+json json_of(fuzz_result& r) {
+  json document;
+  for_each_field(r, writer(document));
+  document["followers"] = json::array();
+  for (fuzz_follower& f : r.followers) for_each_field(f, writer(document["followers"].emplace_back()));
+  return document;
+}
+
+fuzz_result result_from(const json& document) {
+  fuzz_result r;
+  for_each_field(r, reader(document));
+  for (const json& f : document.at("followers")) for_each_field(r.followers.emplace_back(), reader(f));
+  return r;
+}
+
+/// What `take` makes of the JSON file, or an input_error that names it: it must have that format.
+template <class Take>
+auto read_document(const std::string& file, const char* what, const char* its_format, const char* from,
+                   const Take& take) {
+  try {
+    const json document = json::parse(read_input(file, what));
+    if (document.at("format") != its_format)
+      throw input_error(file + ": found another format; allowed: " + its_format);
+    return take(document);
+  } catch (const json::exception& e) {
+    throw input_error(fmt::format("{}: found no {}: {}; allowed: what {} wrote", file, what, e.what(), from));
+  }
+}
+
 /// A shard, or an input_error that names the file.
 fuzz_result shard_from(const std::string& file) {
-  try {
-    const json document = json::parse(read_input(file, "fuzz result"));
-    if (document.at("format") != format)
-      throw input_error(file + ": found another format; allowed: " + format);
-    fuzz_result r;
-    for_each_field(r, reader(document));
-    for (const json& f : document.at("followers")) for_each_field(r.followers.emplace_back(), reader(f));
-    return r;
-  } catch (const json::exception& e) {
-    throw input_error(
-        fmt::format("{}: found no fuzz result: {}; allowed: what --json wrote", file, e.what()));
+  return read_document(file, "fuzz result", format, "--json", result_from);
+}
+
+/// The fields of a checkpoint that a result does not have: `field(name, value)` writes or reads one.
+template <class Field>
+void for_each_field(fuzz_checkpoint& c, const Field& field) {
+  std::string its_format = checkpoint_format;
+  field("/format", its_format);
+  field("/calls_up_to", c.calls_up_to);
+  field("/problems_up_to", c.problems_up_to);
+  field("/differing_problems", c.differing_problems);
+  for (std::size_t f = 0; f < c.firsts.size(); ++f) {
+    field(fmt::format("/first/{}/problem", f), c.firsts[f].problem);
+    field(fmt::format("/first/{}/call", f), c.firsts[f].call);
+    field(fmt::format("/first/{}/same_events", f), c.result.followers[f].same_events);
+    field(fmt::format("/first/{}/always_answered", f), c.result.followers[f].always_answered);
   }
+}
+
+/// Could a run of `c.request` have come there?
+bool is_possible(const fuzz_checkpoint& c) {
+  const fuzz_request& r = c.result.request;
+  const auto count = [&](std::int64_t up_to) {
+    return up_to < r.shard ? 0 : (up_to - r.shard) / r.shards + 1;
+  };
+  const auto is_mark = [&](const fuzz_checkpoint::mark& m) {
+    return m.call >= 0 && m.problem >= 0 && m.problem <= c.problems_up_to &&
+           (m.problem > 0 || m.call <= c.calls_up_to);
+  };
+  return c.calls_up_to >= 0 && c.calls_up_to <= r.calls && c.problems_up_to >= 0 &&
+         c.problems_up_to <= r.problems && c.result.calls >= count(c.calls_up_to) &&
+         c.result.problems == count(c.problems_up_to) && std::ranges::all_of(c.firsts, is_mark);
 }
 
 bool same_run(const fuzz_request& a, fuzz_request b) {
@@ -190,11 +240,31 @@ std::string fortran_comment(const std::string& words) {
 }  // namespace
 
 std::string fuzz_json(fuzz_result r) {
+  return json_of(r).dump(1) + "\n";
+}
+
+std::string checkpoint_json(const fuzz_checkpoint& reached) {
+  fuzz_checkpoint c = reached;
   json document;
-  for_each_field(r, writer(document));
-  document["followers"] = json::array();
-  for (fuzz_follower& f : r.followers) for_each_field(f, writer(document["followers"].emplace_back()));
+  for_each_field(c, writer(document));
+  document["result"] = json_of(c.result);
   return document.dump(1) + "\n";
+}
+
+fuzz_checkpoint checkpoint_from(const std::string& file, const fuzz_request& r) {
+  return read_document(file, "checkpoint", checkpoint_format, "--checkpoint", [&](const json& document) {
+    fuzz_checkpoint c;
+    c.result = result_from(document.at("result"));
+    if (c.result.request != r)
+      throw input_error(file +
+                        ": found the checkpoint of another run; allowed: one with the same kernels, "
+                        "calls, problems, seed and shard");
+    c.firsts.resize(c.result.followers.size());
+    for_each_field(c, reader(document));
+    if (c.firsts.size() + 1 != r.kernels.size() || !is_possible(c))
+      throw input_error(file + ": found counts that do not fit each other; allowed: what --checkpoint wrote");
+    return c;
+  });
 }
 
 fuzz_result merged_fuzz(const std::vector<std::string>& files) {
