@@ -1,0 +1,111 @@
+"""repeat.py PROGRAM REPLAY ROOT [FAULT]: everything that every command prints and writes is the same bytes on every run.
+
+Each command runs in a folder of its own under the settings in SETTINGS; what differs is told with the first line that does. Durations and dates
+are cut off where they stand: DURATIONS. FAULT: `wrong` adds a setting that changes the answer, `few` a floor that is not met.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+program, replay, root = (Path(p).resolve() for p in sys.argv[1:4])
+fault = sys.argv[4] if len(sys.argv) > 4 else ""
+DURATIONS = [r'"seconds": [\d.e+-]+', r'(?<= )time="[\d.]+"', r"\b[\d.]+ s\b", r'timestamp="[^"]*"']
+OUTPUTS = ("json", "html", "svg", "csv", "vtu", "trace", "junit", "markdown", "log", "proof")
+PROBLEMS = ("problems/pb07-three-gap-supports.toml", "problems/pb11a-strip-footing-n20.toml", "problems/pp02a-settled-column-n4.toml",
+            "problems/divergences/%s", "structures/frame.toml")
+
+
+def run(problem, name, *options):
+    """`contct run` with every file that it can write."""
+    files = [word for output in OUTPUTS for word in (f"--{output}", f"{name}.{output}")]
+    files = files if "frame" not in problem else [w for w in files if w != "--vtu" and not w.endswith(".vtu")]
+    return [program, "run", f"reference/{problem}", *options, *files]
+
+
+def commands():
+    divergence = sorted((root / "reference/problems/divergences").glob("*.toml"))[0].name
+    problems = [p % divergence if "%" in p else p for p in PROBLEMS]
+    of_problem = [run(p, f"run{i}") for i, p in enumerate(problems)]
+    of_problem += [run(p, f"corrected{i}", "--kernels", "corrected", "--detail", "--envelope") for i, p in enumerate(problems)]
+    for p in problems:
+        of_problem += [[program, "check", f"reference/{p}", "--svg", "check.svg"], [program, "exact", f"reference/{p}", "--json", "exact.json"],
+                       [program, "explain", f"reference/{p}"], [program, "run", f"reference/{p}", "--final-only", "--json", "final.json"],
+                       [program, "run", f"reference/{p}", "--free-run", "--kernels", "fortran,corrected"]]
+    engines = [[program, "run", f"reference/{PROBLEMS[1]}", "--engine", e, "--json", f"{e}.json"] for e in ("refactor", "updated", "condensed", "auto")]
+    others = [[program, "verify", "--json", "verify.json", "--junit", "verify.xml", "--reference", "reference"],
+              [program, "fuzz", "--calls", "3000", "--json", "fuzz.json", "--junit", "fuzz.xml", "--markdown", "fuzz.md"],
+              [program, "atlas", "--problems", "1", "--csv", "atlas.csv", "--json", "atlas.json", "--svg", "atlas.svg"],
+              [program, "export", f"reference/{PROBLEMS[0]}", "deck.inp"], [program, "kernels"], [program, "man"], [program, "man", "problem"],
+              [program, "completion", "bash"], [program, "new", "beam", "-"], [program, "new", "plate", "-"], [program, "--version"], [program, "--help"],
+              [replay, "--kernel", "fortran,cpp", "reference/traces/full-load.trace"]]
+    return of_problem + engines + others
+
+
+def locales(folder):
+    """Locales with a decimal comma, and with another i; made here, for this test alone. Without their sources, none."""
+    made = []
+    for name in ("de_DE", "tr_TR"):
+        made_it = subprocess.run(["localedef", "-i", name, "-f", "UTF-8", Path(folder) / f"{name}.UTF-8"], capture_output=True).returncode == 0 \
+            if shutil.which("localedef") else False
+        made += [({"LOCPATH": str(folder), "LC_ALL": f"{name}.UTF-8"}, [])] if made_it else []
+    return made
+
+
+def settings(folder):
+    """(name, environment, words before the command)."""
+    plain = {"PATH": os.environ["PATH"], "SOURCE_DATE_EPOCH": "1700000000"}
+    found = [("once", plain, []), ("again", plain, []), ("memory that is not 0", plain | {"MALLOC_PERTURB_": "165"}, []),
+             ("another time zone, language and terminal", plain | {"TZ": "Asia/Kolkata", "LC_ALL": "C.UTF-8", "LANGUAGE": "de", "TERM": "dumb"}, [])]
+    if subprocess.run(["setarch", "-R", "true"], capture_output=True).returncode == 0:
+        found.append(("addresses that are not random", plain, ["setarch", "-R"]))
+    found += [(more["LC_ALL"], plain | more, before) for more, before in locales(folder)]
+    if fault == "wrong":
+        found.append(("another date", plain | {"SOURCE_DATE_EPOCH": "1800000000"}, []))
+    return found
+
+
+def told(folder, command, environment, before):
+    """{file: its bytes without durations}, of all that the command writes; standard streams and exit status are files, too."""
+    out = Path(folder)
+    out.mkdir(parents=True)
+    (out / "reference").symlink_to(root / "reference")
+    run = subprocess.run([*before, *map(str, command)], cwd=out, env=environment, capture_output=True)
+    texts = {"standard output": run.stdout, "standard error": run.stderr, "exit status": str(run.returncode).encode()}
+    texts |= {f.name: f.read_bytes() for f in out.iterdir() if f.is_file()}
+    shutil.rmtree(out)
+    cut = re.compile("|".join(DURATIONS).encode())
+    return {name: cut.sub(b"DURATION", text) for name, text in texts.items()}
+
+
+def difference(a, b):
+    pairs = zip(a.split(b"\n"), b.split(b"\n"))
+    number, (x, y) = next(((i, p) for i, p in enumerate(pairs, 1) if p[0] != p[1]), (0, (b"", b"more or fewer lines")))
+    return f"line {number}: {x[:150]!r} | {y[:150]!r}"
+
+
+def main():
+    different = compared = size = 0
+    with tempfile.TemporaryDirectory() as scratch:
+        ways = settings(Path(scratch) / "locales") if not (Path(scratch) / "locales").mkdir() else []
+        for number, command in enumerate(commands()[:2] if fault else commands()):
+            results = [told(Path(scratch) / f"folder {i} of {len(ways)}" / ("deep" if i % 2 else ".") / f"c{number}", command, *way[1:]) for i, way in enumerate(ways)]
+            for way, result in zip(ways[1:], results[1:]):
+                for name in sorted(results[0].keys() | result.keys()):
+                    a, b = results[0].get(name), result.get(name)
+                    compared, size = compared + 1, size + len(b or b"")
+                    if a is None or b is None or a != b:
+                        different += 1
+                        words = " ".join(str(w).rsplit("/", 1)[-1] for w in command[:4])
+                        print(f"{words}: {name} differs with {way[0]}: {difference(a or b'', b or b'')}")
+    print(f"{compared} files of {number + 1} commands, {size} bytes, compared under {len(ways)} settings ({', '.join(w[0] for w in ways)}); {different} differ")
+    least = 10**9 if fault == "few" else 700
+    if compared < least:
+        print(f"found {compared} files; allowed: {least} or more")
+    return 0 if different == 0 and compared >= least else 1
+
+
+sys.exit(main())
