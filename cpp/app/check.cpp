@@ -10,13 +10,13 @@ namespace contct::app {
 namespace {
 
 std::string structure_words(const problem& p) {
-  const std::string length = p.units.length.empty() ? "" : " " + p.units.length;
+  const std::string length = p.units.length.empty() ? "" : " " + on_one_line(p.units.length);
   if (const auto* b = std::get_if<beam>(&p.geometry.kind))
     return fmt::format("beam from x = {} to {}{}", b->x.front(), b->x.back(), length);
   if (const auto* flat = std::get_if<plate>(&p.geometry.kind))
     return fmt::format("plate from x = {} to {}, y = {} to {}{}", flat->x.front(), flat->x.back(),
                        flat->y.front(), flat->y.back(), length);
-  return "matrix " + std::get<assembled>(p.geometry.kind).name;
+  return "matrix " + on_one_line(std::get<assembled>(p.geometry.kind).name);
 }
 
 std::string mesh_words(const problem& p) {
@@ -64,7 +64,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
     facts.emplace_back(fmt::format("bed {}", i + 1), bed_words(p, p.beds[i]));
   for (std::size_t i = 0; i < p.steps.size(); ++i)
     facts.emplace_back(fmt::format("step {}", i + 1), step_words(p.steps[i]));
-  facts.emplace_back("units", p.units.length.empty() ? "none given" : p.units.length + ", " + p.units.force);
+  facts.emplace_back(
+      "units", p.units.length.empty() ? "none given" : on_one_line(p.units.length + ", " + p.units.force));
   facts.emplace_back("warnings", p.warnings.empty() ? "none" : std::to_string(p.warnings.size()));
   return facts;
 }

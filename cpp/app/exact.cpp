@@ -36,7 +36,7 @@ exit_status run_command(const exact_options& options) {
   flush_standard_output();
   if (output_file* const file = files["--json"]) write_exact_json(result, *file);
   if (path.status != path_status::solved)
-    complain("{}: step {}, at share {} of its load: {}", options.file, path.steps.size(),
+    complain("{}: step {}, at share {} of its load: {}", whole_line(options.file), path.steps.size(),
              short_words(path.steps.back().fraction, options.digits),
              path.status == path_status::mechanism ? "no equilibrium" : "the limit of increments is reached");
   return status_of(path.status);

@@ -130,7 +130,7 @@ exit_status run_command(const explain_options& options) {
   if (anything && text && options.kernels.size() > 1) print_comparison(options.kernels, told);
   if (anything) flush_standard_output();
   if (anything && told.first()) complain_of(words_of(*told.first()));
-  if (end.status != path_status::solved) complain("{}: {}", options.file, end_words(p, end));
+  if (end.status != path_status::solved) complain("{}: {}", whole_line(options.file), end_words(p, end));
   if (!anything) return nothing_told(options, wanted, end, told);
   const bool equal = told.compared().mismatches == 0;
   if (json) json->finish(equal ? status_name(end.status) : "kernels-disagree", told);

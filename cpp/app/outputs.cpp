@@ -22,10 +22,27 @@ std::string attribute(std::string_view name, std::string_view value) {
   return fmt::format(" {}=\"{}\"", name, escaped(markup_text(value), line_end));
 }
 
-/// Text in a cell of a Markdown table.
-std::string in_cell(std::string_view text) {
-  constexpr escape escapes[] = {{'|', "\\|"}, {'\\', "\\\\"}, {'`', "\\`"}, {'<', "\\<"}, {'\n', " "}};
-  return escaped(text, escapes);
+/// Text of one line in Markdown, also in a cell of a table: none of it is markup.
+std::string markdown_text(std::string_view text) {
+  constexpr std::string_view marks = "\\`*_{}[]<>#|!~&";
+  std::string out;
+  for (const char c : on_one_line(text)) {
+    if (marks.find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+/// Lines of text as a block of code in Markdown, fenced by more backticks than stand anywhere in it.
+std::string markdown_block(std::string_view lines) {
+  std::size_t longest = 2;
+  std::size_t run = 0;
+  for (const char c : lines) {
+    run = c == '`' ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  const std::string fence(longest + 1, '`');
+  return fmt::format("{0}\n{1}\n{0}\n", fence, terminal_text(lines));
 }
 
 /// Seconds before anything is shown: what CONTCT_PROGRESS_AFTER in the environment says, or 1.
@@ -46,7 +63,7 @@ bool waits_at_terminal(bool quiet) {
 
 /// Write over the line at which the cursor is.
 void put_line(std::string_view words) {
-  const std::string line = fmt::format("\r{}\033[K", words);
+  const std::string line = fmt::format("\r{}\033[K", on_one_line(words));
   (void)std::fputs(line.c_str(), stderr);
 }
 
@@ -66,7 +83,7 @@ void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& i
 }
 
 void complain_of(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) complain("{}", line);
+  for (const std::string& line : lines) complain("{}", whole_line(line));
 }
 
 std::int64_t check_report::count(outcome o) const {
@@ -100,14 +117,14 @@ std::string markdown(const check_report& r) {
   std::string text = fmt::format("## {}: {}\n\n{} passed, {} failed, {} skipped\n\n", r.command,
                                  failed == 0 ? "passed" : "failed", r.count(outcome::passed), failed,
                                  r.count(outcome::skipped));
-  for (const std::string& fact : r.facts) text += "- " + in_cell(fact) + "\n";
+  for (const std::string& fact : r.facts) text += "- " + markdown_text(fact) + "\n";
   text += "\n| what | result | |\n| --- | --- | --- |\n";
   for (const check_result& c : r.results)
-    text += fmt::format("| {} | {} | {} |\n", in_cell(c.name), words[static_cast<int>(c.what)],
-                        in_cell(c.summary));
+    text += fmt::format("| {} | {} | {} |\n", markdown_text(c.name), words[static_cast<int>(c.what)],
+                        markdown_text(c.summary));
   for (const check_result& c : r.results) {
     if (c.what == outcome::failed && !c.details.empty())
-      text += fmt::format("\n### {}\n\n```\n{}\n```\n", in_cell(c.name), c.details);
+      text += fmt::format("\n### {}\n\n{}", markdown_text(c.name), markdown_block(c.details));
   }
   return text;
 }

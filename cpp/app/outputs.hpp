@@ -15,6 +15,7 @@
 
 #include "app/commands.hpp"
 #include "contct/text/output_file.hpp"
+#include "contct/text/strings.hpp"
 #include "contct/text/terminal.hpp"
 
 namespace contct::app {
@@ -23,11 +24,18 @@ namespace contct::app {
 /// and, with it, what is printed.
 void hold_standard_streams();
 
-/// "contct: ..." on standard error. Where nobody can be told, the exit status still tells.
+/// "contct: ..." on standard error, as `terminal_text` has it. Where nobody can be told, the exit status
+/// still tells.
 template <class... Arguments>
 void complain(fmt::format_string<Arguments...> words, Arguments&&... arguments) {
-  const std::string line = "contct: " + fmt::format(words, std::forward<Arguments>(arguments)...) + "\n";
+  const std::string line =
+      "contct: " + terminal_text(fmt::format(words, std::forward<Arguments>(arguments)...)) + "\n";
   (void)std::fputs(line.c_str(), stderr);
+}
+
+/// A text whose line ends are escaped too: no name of a file begins a line of its own.
+[[nodiscard]] inline std::string whole_line(std::string_view text) {
+  return printable(text, std::string_view::npos);
 }
 
 /// The same, a line each.

@@ -58,7 +58,7 @@ problem read_with_progress(const std::string& file, bool quiet, literals keep) {
     const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
     return read_problem(file, keep);
   }();
-  for (const std::string& w : p.warnings) complain("warning: {}", w);
+  for (const std::string& w : p.warnings) complain("warning: {}", whole_line(w));
   return p;
 }
 

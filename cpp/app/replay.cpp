@@ -70,8 +70,10 @@ exit_status run_command(const replay_options& options) {
     for (const std::string& kernel : kernels) {
       check_result r = replay_one(file == "-" ? "standard input" : file, text, kernel, options.report.quiet);
       if (!silent)
-        print_text(fmt::format("{}: {}\n", r.name, painted(t, paints[static_cast<int>(r.what)], r.summary)));
-      if (!r.details.empty()) complain("{}: {}", r.name, r.details.substr(0, r.details.size() - 1));
+        print_text(fmt::format("{}: {}\n", whole_line(r.name),
+                               painted(t, paints[static_cast<int>(r.what)], r.summary)));
+      if (!r.details.empty())
+        complain("{}: {}", whole_line(r.name), r.details.substr(0, r.details.size() - 1));
       report.results.push_back(std::move(r));
     }
   }

@@ -165,8 +165,8 @@ struct log_writer final : observer {
 trace_header header_of_trace(const run_setup& run, const kernel_facts& leader) {
   trace_header h = header_for(leader, CONTCT_LISTING_SHA256, lapack_identity());
   const std::string& file = run.options.file;
-  h.about = {"every call of " +
-             (file == "-" ? "a problem from standard input" : fs::path(file).filename().string())};
+  h.about = {"every call of " + (file == "-" ? "a problem from standard input"
+                                             : on_one_line(fs::path(file).filename().string()))};
   if (!run.what.title.empty()) h.about.push_back(on_one_line(run.what.title));
   return h;
 }
@@ -210,7 +210,7 @@ std::vector<observer*> make_observers(observed_run& o) {
 
 void print_heading(const run_setup& run) {
   if (!run.prints) return;
-  for (const std::string& line : wrap({run.what.title}, run.screen.width))
+  for (const std::string& line : wrap({on_one_line(run.what.title)}, run.screen.width))
     if (!line.empty()) print_text(fmt::format("{}\n", painted(run.screen, paint::strong, line)));
   const std::vector<std::string> facts = {
       fmt::format("{}, {}, {}", counted(nodes(run.what.geometry), node_name(run.what.geometry)),
@@ -319,7 +319,7 @@ void complain_of_certificate(const observed_run& o) {
   complain_of(complaints);
   if (const std::string remedy = remedy_words(o.run.kernels, o.run.options.file);
       !complaints.empty() && !remedy.empty())
-    complain("{}", remedy);
+    complain("{}", whole_line(remedy));
 }
 
 /// The report for --junit and --markdown.
@@ -401,7 +401,7 @@ exit_status finish(observed_run& o, const path_end& end, const comparison& c) {
   flush_standard_output();                                       // the table before what is said about it
   complain_of_certificate(o);
   if (end.status != path_status::solved) {
-    complain("{}: {}", o.run.options.file, end_words(o.run.what, end));
+    complain("{}: {}", whole_line(o.run.options.file), end_words(o.run.what, end));
   } else if (const std::string w = o.digits.warning(); !w.empty()) {
     complain("warning: {}", w);
   }

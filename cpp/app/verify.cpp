@@ -260,7 +260,7 @@ exit_status run_command(const verify_options& options) {
       {"exact", json_of(all.exactly)},
       {"not_claimed", "the examples of the paper's reference [1], which are not available"},
       {"cases", judged}};
-  files.write("--json", document.dump(1) + "\n");
+  files.write("--json", json_text(document, 1) + "\n");
   files.write(report);
   return all.failed == 0 && all.numbers > 0 ? exit_status::solved : exit_status::kernels_differ;
 }

@@ -63,6 +63,42 @@ TEST_CASE("control characters are written out in messages, and UTF-8 stays") {
   CHECK(printable("").empty());
 }
 
+TEST_CASE(
+    "nothing that a terminal obeys is shown as it is: C0, DEL, C1, marks of direction, and what is no "
+    "UTF-8") {
+  CHECK(terminal_text("a\x1b[31m\x07\x7f\n") == "a\\x1b[31m\\x07\\x7f\n");
+  CHECK(terminal_text("\u009b31m\u202e\u2067x") == "\\xc2\\x9b31m\\xe2\\x80\\xae\\xe2\\x81\\xa7x");
+  for (const char* kept :
+       {"\u00a0\u00e9", "\u2029\u202f\u2065\u206a", "\U0001F600", "\u05d0", "\ud7ff\ue000"})
+    CHECK(terminal_text(kept) == kept);
+  // Cut short, overlong, a surrogate, beyond Unicode, and bytes that begin nothing.
+  CHECK(terminal_text("\xc3") == "\\xc3");
+  CHECK(terminal_text("\xe2\x80") == "\\xe2\\x80");
+  CHECK(terminal_text("\xc0\x9b") == "\\xc0\\x9b");
+  CHECK(terminal_text("\xe0\x82\x9b") == "\\xe0\\x82\\x9b");
+  CHECK(terminal_text("\xf0\x80\x82\x9b") == "\\xf0\\x80\\x82\\x9b");
+  CHECK(terminal_text("\xed\xa0\x80") == "\\xed\\xa0\\x80");
+  CHECK(terminal_text("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");
+  CHECK(terminal_text("\x9b\xff") == "\\x9b\\xff");
+}
+
+TEST_CASE("a title on one line has blanks for line ends, and JSON has escapes of its own") {
+  CHECK(on_one_line("two\nlines\r\tand \x1b") == "two lines  and \\x1b");
+  CHECK(json_escaped("{\"a\": \"\x7f\u0085\u202e\u00e9\"}\n") ==
+        "{\"a\": \"\\u007f\\u0085\\u202e\u00e9\"}\n");
+  CHECK(markup_text("\u009b\u2066\xff") == "\uFFFD\uFFFD\uFFFD");
+}
+
+TEST_CASE("of a field of a file a message shows what looks like a number, and of the rest the length") {
+  for (const char* number : {"12", "-1.5e+300", "1,5", "0x1p3", "NaN", "-inf", "1.5D0", "1 2"})
+    CHECK(field_words(number) == std::string("\"") + number + "\"");
+  CHECK(field_words("root:x:0:0") == "a word of 10 bytes");
+  CHECK(field_words("x\x1b") == "\"x\\x1b\"");  // short enough to be nothing else
+  CHECK(field_words("root") == "a word of 4 bytes");
+  CHECK(field_words("e d e", "a line") == "a line of 5 bytes");  // no digit
+  CHECK(field_words(std::string(33, '1')) == "\"" + std::string(32, '1') + "...\"");
+}
+
 TEST_CASE("long text is cut between characters") {
   CHECK(printable("abcdef", 6) == "abcdef");
   CHECK(printable("abcdef", 5) == "abcde...");

@@ -113,6 +113,17 @@ TEST_CASE("a field is quoted where a comma, a quote or a line end is in it") {
   CHECK(csv_field("a,b") == "\"a,b\"");
   CHECK(csv_field("say \"no\"") == "\"say \"\"no\"\"\"");
   CHECK(csv_field("two\nlines") == "\"two\nlines\"");
+  CHECK(csv_field("a\x1b[31m") == "a\\x1b[31m");
+}
+
+TEST_CASE("no text cell begins as a formula does, nor where blanks stand before it") {
+  for (const std::string formula : {"=1+1", "+1", "-2.x", "@SUM(1)", "\t=1", "\r=1", " =1", "\n=1", "\uff1d1",
+                                    "\uff0b1", "\uff0d1", "\uff20x"}) {
+    const std::string field = csv_field(formula);
+    INFO(field);
+    CHECK((field.starts_with("'") || field.starts_with("\"'")));
+  }
+  for (const std::string plain : {"", "185.3", "1-2", "a=b", "x+", "'=1"}) CHECK(csv_field(plain) == plain);
 }
 
 TEST_CASE("the table of increments has their numbers to the last digit, and their events") {

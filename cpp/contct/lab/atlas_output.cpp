@@ -340,7 +340,7 @@ std::string atlas_json(const atlas& a) {
                          {"seed", a.request.seed},
                          {"wrong_beyond", wrong_beyond},
                          {"cells", std::move(cells)}};
-  return document.dump(1) + "\n";
+  return json_text(document, 1) + "\n";
 }
 
 std::string atlas_table(const atlas& a, const terminal& t) {

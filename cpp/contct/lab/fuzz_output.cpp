@@ -240,7 +240,7 @@ std::string fortran_comment(const std::string& words) {
 }  // namespace
 
 std::string fuzz_json(fuzz_result r) {
-  return json_of(r).dump(1) + "\n";
+  return json_text(json_of(r), 1) + "\n";
 }
 
 std::string checkpoint_json(const fuzz_checkpoint& reached) {
@@ -248,7 +248,7 @@ std::string checkpoint_json(const fuzz_checkpoint& reached) {
   json document;
   for_each_field(c, writer(document));
   document["result"] = json_of(c.result);
-  return document.dump(1) + "\n";
+  return json_text(document, 1) + "\n";
 }
 
 fuzz_checkpoint checkpoint_from(const std::string& file, const fuzz_request& r) {

@@ -21,7 +21,7 @@ using json = nlohmann::ordered_json;
 
 /// Text that may be no UTF-8, as JSON.
 std::string as_json(const std::string& text) {
-  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+  return json_text(json(text));
 }
 
 /// Where a message says that it belongs: "pb.toml:12:3: ..", or without the column.
@@ -53,7 +53,7 @@ std::string error_json(const std::string& message) {
     error["line"] = at->line;
     if (at->column > 0) error["column"] = at->column;
   }
-  return error.dump(-1, ' ', false, json::error_handler_t::replace);
+  return json_text(error);
 }
 
 /// Results are written as text, and stay so: reading them again would cost more than the path.
@@ -89,9 +89,8 @@ request::request(const char* text, std::initializer_list<std::string_view> known
 }
 
 void request::refuse(std::string_view name, std::string_view allowed) const {
-  throw std::invalid_argument(fmt::format(
-      "options: {}: found {}; allowed: {}", name,
-      options_[std::string(name)].dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), allowed));
+  throw std::invalid_argument(fmt::format("options: {}: found {}; allowed: {}", name,
+                                          json_text(options_[std::string(name)]), allowed));
 }
 
 bool request::flag(std::string_view name) const {

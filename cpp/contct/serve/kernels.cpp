@@ -38,7 +38,7 @@ void tell_about(answer& a) {
                               {"flags", k.flags}});
   }
   for (const std::string& name : engine_names()) out["engines"].push_back(name);
-  a.result = out.dump();
+  a.result = json_text(out);
 }
 
 /// The dof of every pair must be there, and INTEGER must hold it on the way: no kernel looks. All else is the
@@ -89,7 +89,7 @@ void replay_trace(const char* text, const char* options, answer& a) {
               {"mismatches", found.compared.mismatches},
               {"first", nullptr}};
   if (found.first) out["first"] = words_of(*found.first);
-  a.result = out.dump();
+  a.result = json_text(out);
   a.exit = found.compared.mismatches == 0 ? write::exit_status::solved : write::exit_status::kernels_differ;
 }
 
@@ -130,7 +130,7 @@ char* contct_call(const char* kernel, const double dd[], const double dtest[], c
                                                          {isurf, pairs},
                                                          {indof, ndofpn}},
                                                         smin);
-    a.result = nlohmann::json{{"text", text}}.dump();
+    a.result = contct::text::json_text(nlohmann::json{{"text", text}});
   });
 }
 

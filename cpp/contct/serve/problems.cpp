@@ -71,7 +71,7 @@ void check(const char* text, const char* options, answer& a) {
   for (const load& step : p.steps) out["steps"].push_back(step.name);
   if (!p.units.length.empty()) out["units"] = {{"length", p.units.length}, {"force", p.units.force}};
   if (places) put_places(out, p, text, r.file());
-  a.result = out.dump();
+  a.result = json_text(out);
   if (r.flag("svg")) a.texts.emplace_back("svg", problem_svg(p, r.file()));
 }
 

@@ -96,7 +96,7 @@ class served_run {
     std::optional<trace_recorder> trace;
     if (wanted_.trace) {
       trace_header h = header_for(leader->facts(), CONTCT_LISTING_SHA256, lapack_identity());
-      h.about = {"every call of " + std::filesystem::path(wanted_.file).filename().string()};
+      h.about = {"every call of " + on_one_line(std::filesystem::path(wanted_.file).filename().string())};
       if (!p_.title.empty()) h.about.push_back(on_one_line(p_.title));
       all.push_back(&trace.emplace(h, [this](std::string_view text) { trace_ += text; }));
     }

@@ -124,7 +124,7 @@ class states_writer {
 }  // namespace
 
 std::string states_json(const finished_run& r) {
-  return states_writer(r).whole().dump();
+  return json_text(states_writer(r).whole());
 }
 
 }  // namespace contct::serve

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contct/structure/structure.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::structure {
 
@@ -179,7 +180,7 @@ struct model {
 /// A node in words: "node 3", or, where each dof is a node of its own, "dof 185.3". From 0.
 [[nodiscard]] inline std::string place_words(const model& m, int node) {
   const auto* a = std::get_if<assembled>(&m.kind);
-  return a != nullptr ? "dof " + a->label_of(node) : "node " + std::to_string(node + 1);
+  return a != nullptr ? "dof " + on_one_line(a->label_of(node)) : "node " + std::to_string(node + 1);
 }
 
 /// Assemble it on its supports. A plate is numbered along its shorter side (linear_structure::rows). Of a

@@ -11,6 +11,9 @@
 #include <string>
 #include <utility>
 
+#include "contct/text/strings.hpp"
+#include "contct/text/terminal.hpp"
+
 namespace contct::text {
 namespace {
 
@@ -158,7 +161,8 @@ void output_file::fail(int error) const {
                      ": cannot be written: " + std::strerror(error));
 }
 
-void print_text(std::string_view text) {
+void print_text(std::string_view raw) {
+  const std::string text = isatty(STDOUT_FILENO) != 0 ? shown_in_colour(raw) : terminal_text(raw);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && why_lost == 0) why_lost = errno;
 }
 
@@ -177,6 +181,9 @@ bool same_file(const std::string& a, const std::string& b) {
   const fs::file_type kind = fs::status(a, error).type();
   if (kind == fs::file_type::regular) return fs::equivalent(a, b, error);
   if (kind != fs::file_type::not_found || fs::exists(b, error)) return false;
+  const auto is_link = [&error](const fs::path& p) { return fs::is_symlink(fs::symlink_status(p, error)); };
+  // What follows costs more: a run with --vtu asks it of thousands of names.
+  if (fs::path(a).filename() != fs::path(b).filename() && !is_link(a) && !is_link(b)) return false;
   return followed(a) == followed(b);
 }
 

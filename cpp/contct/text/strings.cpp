@@ -1,12 +1,65 @@
 #include "contct/text/strings.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 namespace contct::text {
 namespace {
 
-bool is_control(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+/// The character of UTF-8 that a text begins with, and how many bytes it takes; 0 bytes where there is none.
+struct decoded {
+  char32_t character = 0;
+  std::size_t bytes = 0;
+};
+
+decoded first_character(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return {lead, 1};
+  const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // what as many bytes are needed for
+  if (lead < 0xc2 || lead > 0xf4 || bytes > text.size()) return {};
+  char32_t character = lead & (0x7fU >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80U) return {};
+    character = character << 6U | (byte(i) & 0x3fU);
+  }
+  const bool surrogate = character >= 0xd800 && character <= 0xdfff;
+  if (character < least[bytes] || character > 0x10ffff || surrogate) return {};
+  return {character, bytes};
+}
+
+/// Would a terminal obey this character, or write what follows it in another order?
+bool is_obeyed(char32_t c) {
+  const bool control = c < 0x20 || (c >= 0x7f && c <= 0x9f);
+  return control || (c >= 0x202a && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
+}
+
+/// `text` with `replacement(bytes)` for every character that is obeyed, but for those in `kept`, and for
+/// every byte that is no UTF-8.
+template <class Replacement>
+std::string replaced(std::string_view text, std::string_view kept, const Replacement& replacement) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    const decoded d = first_character(text);
+    const std::string_view bytes = text.substr(0, std::max<std::size_t>(d.bytes, 1));
+    const bool stays = d.bytes > 0 && (!is_obeyed(d.character) || kept.find(bytes) != std::string_view::npos);
+    out += stays ? std::string(bytes) : replacement(bytes);
+    text.remove_prefix(bytes.size());
+  }
+  return out;
+}
+
+std::string in_hexadecimal(std::string_view bytes) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    text.append("\\x").append(1, digits[byte / 16]).append(1, digits[byte % 16]);
+  }
+  return text;
 }
 
 /// Does a character of UTF-8 go on with this byte?
@@ -36,28 +89,50 @@ std::string escaped(std::string_view text, std::span<const escape> escapes) {
 
 std::string markup_text(std::string_view text) {
   constexpr escape references[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
-  std::string allowed;
-  for (const char& c : text) {
-    const bool forbidden = is_control(c) && c != '\t' && c != '\n' && c != '\r';
-    allowed += forbidden ? "\xEF\xBF\xBD" : std::string_view(&c, 1);
-  }
+  const std::string allowed =
+      replaced(text, "\t\n\r", [](std::string_view) { return std::string("\xEF\xBF\xBD"); });
   return escaped(allowed, references);
 }
 
+std::string terminal_text(std::string_view text) {
+  return replaced(text, "\n", in_hexadecimal);
+}
+
 std::string printable(std::string_view text, std::size_t longest) {
-  constexpr std::string_view digits = "0123456789abcdef";
   std::size_t end = std::min(text.size(), longest);
-  while (end > 0 && end < text.size() && continues_character(text[end])) --end;
-  std::string shown;
-  for (const char c : text.substr(0, end)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (is_control(c)) {
-      shown.append("\\x").append(1, digits[byte / 16]).append(1, digits[byte % 16]);
-    } else {
-      shown += c;
-    }
-  }
-  return end < text.size() ? shown + "..." : shown;
+  constexpr std::size_t most_back = 3;  // a character has no more bytes behind its first
+  for (std::size_t i = 0; i < most_back && end > 0 && end < text.size() && continues_character(text[end]);
+       ++i)
+    --end;
+  const std::string line = replaced(text.substr(0, end), "", in_hexadecimal);
+  return end < text.size() ? line + "..." : line;
+}
+
+std::string on_one_line(std::string_view text) {
+  constexpr escape blank[] = {{'\n', " "}, {'\r', " "}, {'\t', " "}};
+  return terminal_text(escaped(text, blank));
+}
+
+std::string field_words(std::string_view text, std::string_view kind) {
+  constexpr std::size_t longest = 32;
+  constexpr std::size_t no_secret = 3;
+  constexpr std::string_view of_numbers = "0123456789+-.,_eEdDxXpP \t";
+  constexpr escape lower[] = {{'A', "a"}, {'F', "f"}, {'I', "i"}, {'N', "n"}, {'+', ""}, {'-', ""}};
+  const std::string word = text.size() <= longest ? escaped(text, lower) : "";  // without its sign
+  const bool number_like = text.find_first_of("0123456789") < text.size() &&
+                           text.find_first_not_of(of_numbers) == std::string_view::npos;
+  if (number_like || text.size() <= no_secret || word == "nan" || word == "inf")
+    return "\"" + printable(text, longest) + "\"";
+  return std::string(kind) + " of " + std::to_string(text.size()) + (text.size() == 1 ? " byte" : " bytes");
+}
+
+std::string json_escaped(std::string_view json) {
+  return replaced(json, "\n", [](std::string_view bytes) {
+    std::array<char, 8> code{};
+    (void)std::snprintf(code.data(), code.size(), "\\u%04x",
+                        static_cast<unsigned>(first_character(bytes).character));
+    return std::string(code.data());
+  });
 }
 
 std::string in_quotes(std::string_view text) {

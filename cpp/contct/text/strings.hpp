@@ -22,16 +22,38 @@ struct escape {
 };
 [[nodiscard]] std::string escaped(std::string_view text, std::span<const escape> escapes);
 
-/// Text for between the tags and in the quoted attributes of HTML and XML. Control characters, which XML 1.0
-/// does not allow, become U+FFFD; tabs and line ends stay.
+/// Text for between the tags and in the quoted attributes of HTML and XML. What `terminal_text` escapes, of
+/// which XML 1.0 does not allow all, becomes U+FFFD; tabs and line ends stay.
 [[nodiscard]] std::string markup_text(std::string_view text);
 
-/// Text for a one-line message: every control character as \xNN, and at most the first `longest` bytes, cut
+/// Text that a terminal shows and does not obey: as \xNN stands every byte of a control character (C0, DEL,
+/// C1), of a mark that reorders what is written (U+202A to U+202E, U+2066 to U+2069), and of what is no
+/// UTF-8. Line ends stay.
+[[nodiscard]] std::string terminal_text(std::string_view text);
+
+/// The same for one line: line ends too are escaped, and at most the first `longest` bytes are shown, cut
 /// between characters, with "..." behind them.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t longest = 60);
 
-/// The same in quotation marks.
+/// The same for all of a title or a name: blanks stand for line ends and tabs.
+[[nodiscard]] std::string on_one_line(std::string_view text);
+
+/// `printable` in quotation marks.
 [[nodiscard]] std::string in_quotes(std::string_view text);
+
+/// A field or a line of a file for a message: the beginning, in quotation marks, of what looks like numbers or
+/// has at most 3 bytes; otherwise only how long it is, "a word of 5 bytes". A file that a problem names may
+/// hold what the message's reader must not see.
+[[nodiscard]] std::string field_words(std::string_view text, std::string_view kind = "a word");
+
+/// JSON in which characters that `terminal_text` escapes stand as \uNNNN: they can only be in its texts.
+[[nodiscard]] std::string json_escaped(std::string_view json);
+
+/// A JSON value as text, indented by so many blanks or on one line. What is no UTF-8 in it becomes U+FFFD.
+template <class Json>
+[[nodiscard]] std::string json_text(const Json& value, int indent = -1) {
+  return json_escaped(value.dump(indent, ' ', false, Json::error_handler_t::replace));
+}
 
 /// The least number of edits between two words (Damerau-Levenshtein): a character inserted, deleted or
 /// replaced, or two neighbours swapped. Case does not count.

@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
+
+#include "contct/text/strings.hpp"
 
 namespace contct::text {
 namespace {
@@ -14,6 +17,16 @@ namespace {
 std::string_view environment(const char* name) {
   const char* const value = std::getenv(name);
   return value == nullptr ? std::string_view() : value;
+}
+
+/// Of each `paint`, and behind it.
+constexpr std::array<std::string_view, 5> codes = {"\033[32m", "\033[1;31m", "\033[2m", "\033[1m", "\033[0m"};
+
+/// The code of colour that a text begins with; empty where it begins with something else.
+std::string_view leading_code(std::string_view text) {
+  const auto* const found =
+      std::ranges::find_if(codes, [text](std::string_view c) { return text.starts_with(c); });
+  return found == codes.end() ? std::string_view() : *found;
 }
 
 }  // namespace
@@ -37,9 +50,19 @@ terminal look_at_terminal() {
 }
 
 std::string painted(const terminal& t, paint p, std::string_view text) {
-  if (!t.color) return std::string(text);
-  constexpr const char* codes[] = {"\033[32m", "\033[1;31m", "\033[2m", "\033[1m"};  // as in `paint`
-  return codes[static_cast<int>(p)] + std::string(text) + "\033[0m";
+  if (!t.color) return terminal_text(text);
+  return std::string(codes[static_cast<std::size_t>(p)]).append(terminal_text(text)).append(codes.back());
+}
+
+std::string shown_in_colour(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::string_view code = leading_code(text);
+    const std::size_t plain = code.empty() ? text.find('\033', 1) : 0;
+    out.append(code).append(terminal_text(text.substr(0, plain)));
+    text.remove_prefix(code.empty() ? std::min(plain, text.size()) : code.size());
+  }
+  return out;
 }
 
 std::vector<std::string> wrap(const std::vector<std::string>& items, int width) {

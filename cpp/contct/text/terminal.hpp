@@ -21,8 +21,11 @@ struct terminal {
 
 enum class paint { good, bad, quiet, strong };
 
-/// `text` in colour where `t` has it.
+/// `text`, as `terminal_text` has it, in colour where `t` has that.
 [[nodiscard]] std::string painted(const terminal& t, paint p, std::string_view text);
+
+/// As `terminal_text`, but the codes of `painted` stay.
+[[nodiscard]] std::string shown_in_colour(std::string_view text);
 
 /// Items joined by "; ", in lines of at most `width` bytes. An item longer than a line is broken at blanks; a
 /// word longer than a line has one of its own.

@@ -69,7 +69,7 @@ class exact_printer {
       : r_(r), digits_(digits), terminal_(t) {}
 
   std::string text() {
-    for (const std::string& line : wrap({printable(r_.what.title, 1000)}, terminal_.width))
+    for (const std::string& line : wrap({on_one_line(r_.what.title)}, terminal_.width))
       if (!line.empty()) out_ += painted(terminal_, paint::strong, line) + "\n";
     for (std::size_t step = 0; step < r_.path.steps.size(); ++step) print_step(step);
     if (r_.path.mechanism) print_mechanism(*r_.path.mechanism);
@@ -101,7 +101,8 @@ class exact_printer {
   void print_step(std::size_t step) {
     const exact_step_end& s = r_.path.steps[step];
     const std::string& name = r_.what.steps[step].name;
-    const std::string title = fmt::format("step {}{}", step + 1, name.empty() ? "" : ", " + printable(name));
+    const std::string title =
+        fmt::format("step {}{}", step + 1, name.empty() ? "" : ", " + on_one_line(name));
     out_ += fmt::format("{}{}\n", out_.empty() ? "" : "\n", painted(terminal_, paint::strong, title));
     for (const exact_increment& i : s.increments) {
       std::vector<std::string> events;

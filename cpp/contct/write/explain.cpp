@@ -213,7 +213,7 @@ class increment_printer {
       : of_(of), terminal_(t), hex_(hex), i_(i), more_(more) {}
 
   std::string text(bool first) {
-    if (first && !of_.what.title.empty()) say(paint::strong, of_.what.title);
+    if (first && !of_.what.title.empty()) say(paint::strong, on_one_line(of_.what.title));
     if (first)
       say(paint::quiet,
           "On the left: line numbers of the listing, fortran/contct.f. On the right: equations of the "

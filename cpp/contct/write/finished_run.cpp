@@ -423,12 +423,6 @@ void run_record::incremented(const increment& i) {
   if (all_increments++ < most_increments) increments.emplace_back(i);
 }
 
-std::string on_one_line(std::string text) {
-  std::ranges::replace_if(
-      text, [](char ch) { return ch == '\n' || ch == '\r'; }, ' ');
-  return text;
-}
-
 std::string title_of(const problem& p, const std::string& file) {
   const bool named = p.title.find_first_not_of(" \t\r\n") != std::string::npos;
   if (named) return on_one_line(p.title);

@@ -299,7 +299,4 @@ struct shown_states {
   return title_of(r.what, r.file);
 }
 
-/// `text` with its line ends replaced by blanks.
-[[nodiscard]] std::string on_one_line(std::string text);
-
 }  // namespace contct::write

@@ -76,7 +76,7 @@ std::string proof_json(const problem& p, const std::string& file, const certify:
     steps.push_back(std::move(step));
   }
   const json all = {{"format", "contct-proof-1"}, {"problem", file}, {"steps", std::move(steps)}};
-  return all.dump() + "\n";
+  return json_text(all) + "\n";
 }
 
 }  // namespace contct::write

@@ -118,20 +118,20 @@ json lockstep_json(const lockstep& compared) {
 json_document::json_document(output_file& out, const json& members, std::string_view name) : out_(out) {
   out_.write("{");
   write_members(members, {}, 2);
-  out_.write(fmt::format(",\n  {}: [", json(name).dump()));
+  out_.write(fmt::format(",\n  {}: [", json_text(json(name))));
 }
 
 void json_document::write_members(const json& members, const std::vector<list>& lists, int indent) {
   std::string_view before;
   for (const auto& [name, value] : members.items()) {
-    out_.write(fmt::format("{}\n{:{}}{}: ", std::exchange(before, ","), "", indent, json(name).dump()));
+    out_.write(fmt::format("{}\n{:{}}{}: ", std::exchange(before, ","), "", indent, json_text(json(name))));
     const auto l = std::ranges::find(lists, std::string_view(name), &list::name);
     if (l == lists.end()) {
-      out_.write(value.dump());
+      out_.write(json_text(value));
     } else {
       out_.write("[");
       for (std::size_t i = 0; i < l->count; ++i)
-        out_.write(fmt::format("{}\n{:{}}{}", i == 0 ? "" : ",", "", indent + 2, l->entry(i).dump()));
+        out_.write(fmt::format("{}\n{:{}}{}", i == 0 ? "" : ",", "", indent + 2, json_text(l->entry(i))));
       out_.write(l->count == 0 ? "]" : fmt::format("\n{:{}}]", "", indent));
     }
   }

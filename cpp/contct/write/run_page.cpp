@@ -463,8 +463,7 @@ class page_writer {
 /// it is markup.
 std::string script_text(const json& data) {
   std::string safe;
-  for (const char c : data.dump(-1, ' ', false, json::error_handler_t::replace))
-    safe += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  for (const char c : json_text(data)) safe += c == '<' ? std::string("\\u003c") : std::string(1, c);
   return safe;
 }
 

@@ -106,7 +106,7 @@ std::string unit_words(const problem& p, std::string_view quantity) {
   const bool is_slope = quantity == "theta" || quantity == "wx" || quantity == "wy";
   if (is_slope) return "";
   if (quantity == "mx" || quantity == "my" || quantity == "mxy")
-    return fmt::format(" {0} {1}/{1}", p.units.force, p.units.length);
+    return on_one_line(fmt::format(" {0} {1}/{1}", p.units.force, p.units.length));
   return " " + unit_words(p.units, quantity == "w" ? 0 : 1, quantity == "w" || quantity == "moment" ? 1 : 0);
 }
 

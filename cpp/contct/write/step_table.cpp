@@ -66,11 +66,12 @@ std::string detail_tables(const problem& p, const step_state& s, const step_resu
   if (!r.pairs.empty())
     line("{:>8} {:>10}  {:<8} {:<10} {:>14} {:>14}", "pair", node, "surface", "state", "gap", "force");
   for (std::size_t i = 0; i < r.pairs.size(); ++i)
-    line("{:>8} {:>10}  {:<8} {:<10} {:>14.7g} {:>14.7g}", i + 1, place_name(p.geometry, p.pairs[i].node),
-         surface_name(p.pairs[i].surface), state_name(s.isep[i]), r.pairs[i].gap, r.pairs[i].force);
+    line("{:>8} {:>10}  {:<8} {:<10} {:>14.7g} {:>14.7g}", i + 1,
+         on_one_line(place_name(p.geometry, p.pairs[i].node)), surface_name(p.pairs[i].surface),
+         state_name(s.isep[i]), r.pairs[i].gap, r.pairs[i].force);
   if (!r.reactions.empty()) line("{:>19}  {:<8} {:>25}", node, "dof", "reaction");
   for (std::size_t i = 0; i < r.reactions.size(); ++i)
-    line("{:>19}  {:<8} {:>25.7g}", place_name(p.geometry, p.supports[i].node),
+    line("{:>19}  {:<8} {:>25.7g}", on_one_line(place_name(p.geometry, p.supports[i].node)),
          dof_names(p.geometry)[p.supports[i].dof], r.reactions[i]);
   if (r.elements.elements() == 0) return text;
   line("{:>8}  {:<8} {}", "element", "at its",

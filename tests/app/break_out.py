@@ -1,0 +1,195 @@
+"""python3 tests/app/break_out.py CONTCT: no text of a problem becomes markup, a row, a keyword or a formula in any output.
+
+A problem is run twice: with harmless texts, and with texts of the same length that end everything that can be ended. Each
+output is parsed again, and must have the same structure both times."""
+import csv
+import io
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+from html.parser import HTMLParser
+from pathlib import Path
+
+PROGRAM = Path(sys.argv[1]).resolve()
+TITLE = "=1+1</script><!--]]>--><![CDATA[\"'>`|**_[x](y)&amp;<b>\n*NODE\n| a | b |\n# head\n```\n\\| \\` \r\n*STEP,x\nkernel none\n"
+NAME = "@x</title></text></svg>]]>\"'`|**\n*NODE\n```\n"
+UNIT = "+m</td>]]>\"'|`"
+LABEL = "=H(\"x\"),'|`**</script></text>]]>-->&<b>*NODE"
+FILE = "=p<b>&\"'`|**]]>-->.toml"
+checks = 0
+
+
+def check(good: bool, what: str) -> None:
+    global checks
+    checks += 1
+    if not good:
+        raise SystemExit(f"break_out.py: {what}")
+
+
+def harmless(text: str) -> str:
+    return "x" * len(text)
+
+
+def contct(folder: Path, *arguments: str, allowed: tuple[int, ...] = (0,)) -> bytes:
+    done = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, env={"SOURCE_DATE_EPOCH": "0"})
+    check(done.returncode in allowed, f"{arguments}: exit {done.returncode}: {done.stderr!r}")
+    return done.stdout
+
+
+def beam(text) -> str:
+    toml = {key: json.dumps(text(value)) for key, value in (("title", TITLE), ("name", NAME), ("unit", UNIT))}
+    return (f"title = {toml['title']}\n[units]\nlength = {toml['unit']}\nforce = {toml['unit']}\n"
+            "[beam]\nx = [0.0, 1.0, 2.0]\nEI = 1.0e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+            "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n"
+            f"[[step]]\nname = {toml['name']}\npoint = [ {{ node = 3, w = -60.0 }} ]\n")
+
+
+def matrix(folder: Path, text) -> str:
+    label, title = text(LABEL), json.dumps(text(TITLE))
+    (folder / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n")
+    (folder / "K.dof").write_text("".join(f"{label}{i}.x\n" for i in (1, 2, 3)))
+    (folder / "K.xyz").write_text("".join(f"{label}{i} {i} 0\n" for i in (1, 2, 3)))
+    at = [json.dumps(f"{label}{i}.x") for i in (1, 2, 3)]
+    return (f"title = {title}\n[matrix]\nstiffness = \"K.mtx\"\ndofs = \"K.dof\"\ncoordinates = \"K.xyz\"\n"
+            f"[[support]]\ndof = {at[0]}\nspring = 1.0\n[[contact]]\ndof = {at[2]}\nsurface = \"above\"\nface = 0.5\n"
+            f"stiffness = 10.0\n[[step]]\nname = {json.dumps(text(NAME))}\npoint = [ {{ dof = {at[1]}, value = 2.0 }} ]\n")
+
+
+class Tags(HTMLParser):
+    """Tags with the names of their attributes, comments and declarations, and the text of scripts."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[tuple] = []
+        self.scripts: list[str] = []
+        self.in_script = False
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, *(name for name, _ in attrs)))
+        self.in_script = tag == "script"
+        if self.in_script:
+            self.scripts.append("")
+
+    def handle_endtag(self, tag):
+        self.tags.append(("/" + tag,))
+        self.in_script = False
+
+    def handle_data(self, data):
+        if self.in_script:
+            self.scripts[-1] += data
+
+    def handle_comment(self, data):
+        self.tags.append(("!--", data))
+
+    def handle_decl(self, decl):
+        self.tags.append(("!", decl))
+
+    def unknown_decl(self, data):
+        self.tags.append(("![", data))
+
+    def handle_pi(self, data):
+        self.tags.append(("?", data))
+
+
+def shape_of_html(data: bytes) -> list:
+    page = Tags(data.decode())
+    values = []
+    for script in page.scripts:
+        try:
+            values.append(json.loads(script))
+        except ValueError:
+            values.append(script)  # the page's own code
+    return [page.tags, [shape_of_json(v) if isinstance(v, (dict, list)) else v for v in values]]
+
+
+def shape_of_xml(data: bytes) -> list:
+    return [(e.tag, *e.attrib) for e in xml.fromstring(data.decode()).iter()]
+
+
+def shape_of_json(value):
+    if isinstance(value, bytes):
+        value = json.loads(value.decode())
+    if isinstance(value, dict):
+        return {key: shape_of_json(v) for key, v in value.items()}
+    if isinstance(value, list):
+        return [shape_of_json(v) for v in value]
+    return "text" if isinstance(value, str) else value
+
+
+def shape_of_csv(data: bytes) -> list:
+    rows = list(csv.reader(io.StringIO(data.decode(), newline=""), strict=True))
+    for row in rows:
+        for cell in row:
+            number = re.fullmatch(r"[+-]?[0-9.]+(e[+-]?[0-9]+)?|", cell)
+            check(bool(number) or cell[0] not in "=+-@\t\r", f"a cell begins as a formula: {cell!r}")
+    return [len(row) for row in rows]
+
+
+def shape_of_markdown(data: bytes) -> list:
+    """Of each line what is left of the marks of Markdown where no backslash stands before them."""
+    lines = data.decode().split("\n")
+    return [re.sub(r"[^`*_{}\[\]<>#|!~&]", "", re.sub(r"\\.", "", line)) for line in lines]
+
+
+def shape_of_trace(data: bytes) -> list:
+    return [line for line in data.decode().split("\n") if not line.startswith("about ")]
+
+
+def same(data: bytes) -> bytes:
+    return data
+
+
+def outputs_of(folder: Path, file: str, with_deck: bool) -> dict[str, bytes]:
+    """Every output of every command that a problem has."""
+    contct(folder, "run", file, "--quiet", "--html", "o.html", "--svg", "o.svg", "--csv", "o.csv", "--vtu", "o.vtu", "--json",
+           "o.json", "--log", "o.log", "--trace", "o.trace", "--proof", "o.proof", "--junit", "o.xml", "--markdown", "o.md")
+    contct(folder, "check", file, "--quiet", "--svg", "c.svg")
+    contct(folder, "explain", file, "--quiet", "--json", "e.json")
+    contct(folder, "exact", file, "--quiet", "--json", "x.json", "--kernels", "fortran")
+    contct(folder, "replay", "o.trace", "--quiet", "--junit", "r.xml", "--markdown", "r.md")
+    if with_deck:
+        contct(folder, "export", file, "--calculix", "d.inp")
+    return {path.name: path.read_bytes() for path in sorted(folder.iterdir()) if re.match(r"[ocexrd]\.", path.name)}
+
+
+SHAPES = {".html": shape_of_html, ".svg": shape_of_xml, ".vtu": shape_of_xml, ".pvd": shape_of_xml, ".xml": shape_of_xml,
+          ".json": shape_of_json, ".proof": shape_of_json, ".csv": shape_of_csv, ".md": shape_of_markdown,
+          ".trace": shape_of_trace, ".inp": same, ".log": same}
+
+
+def without_times(name: str, data: bytes) -> bytes:
+    return re.sub(rb'time="[0-9.]+"', b'time=""', data) if name.endswith(".xml") else data
+
+
+def compare(kind: str) -> None:
+    found = []
+    for text in (harmless, str):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = Path(scratch)
+            file = text(FILE) if text is str else harmless(FILE)
+            (folder / file).write_text(beam(text) if kind == "beam" else matrix(folder, text))
+            found.append(outputs_of(folder, file, kind == "beam"))
+    plain, hostile = found
+    check(list(plain) == list(hostile) and len(plain) >= 14, f"{kind}: files {list(plain)} and {list(hostile)}")
+    for name in plain:
+        shape = SHAPES[Path(name).suffix]
+        a, b = shape(without_times(name, plain[name])), shape(without_times(name, hostile[name]))
+        if a != b:
+            pairs = zip(a, b) if isinstance(a, list) else [(a, b)]
+            check(False, f"{kind}: {name} has another structure: {next((p for p in pairs if p[0] != p[1]), (len(a), len(b)))}")
+        check(True, name)
+    for name in ("o.json", "e.json", "x.json"):
+        check(json.loads(hostile[name])["title"] == TITLE, f"{kind}: {name} has another title")
+    check(b"head" in hostile["o.html"] and b"head" in hostile["o.svg"] and b"head" in hostile["o.trace"],
+          f"{kind}: the title does not stand in the page, the picture and the trace")
+
+
+compare("beam")
+compare("matrix")
+check(checks >= 50, f"only {checks} checks")
+print(f"{checks} checks: no text became anything else")

@@ -1,0 +1,244 @@
+// Files from strangers: whatever their texts hold, a terminal is shown characters and obeys none.
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "contct/text/strings.hpp"
+
+using namespace contct::app;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+using words = std::vector<std::string>;
+
+// ESC, BEL, DEL, a C1 control, marks that turn the direction of text. In a file of bytes also some that are
+// no UTF-8.
+const std::string hostile = "\x1b[31m\x07\x7f\u009b31m\u202e\u2067";
+const std::string hostile_bytes = hostile + "\xff\xc0\x9b";
+const std::string hostile_in_toml = R"(\u001b[31m\u0007\u007f\u009b31m\u202e\u2067)";
+
+/// Is every character one that a terminal shows? A carriage return may end a line of CSV.
+void check_shown(const finished& f, const words& arguments) {
+  std::string said = joined(arguments, " ");
+  for (const std::string* text : {&f.out, &f.err}) {
+    std::string plain = *text;
+    for (std::size_t at = plain.find("\r\n"); at != std::string::npos; at = plain.find("\r\n", at))
+      plain.erase(at, 1);
+    INFO(said << "\n" << terminal_text(plain));
+    CHECK(terminal_text(plain) == plain);
+  }
+  INFO(said << "\n" << terminal_text(f.err));
+  CHECK(f.exit >= 0);
+}
+
+/// Runs commands and counts them.
+class shown_runs {
+ public:
+  explicit shown_runs(const scratch_folder& dir) : dir_(dir) {}
+
+  finished run(const words& arguments, const process_options& options = {}) {
+    finished f = contct_program(dir_.path(), arguments, options);
+    check_shown(f, arguments);
+    ++count;
+    if (f.out.find("\\x1b") != std::string::npos || f.err.find("\\x1b") != std::string::npos) ++escaped;
+    return f;
+  }
+
+  int count = 0;    // runs
+  int escaped = 0;  // those that show an escaped ESC: the text did come to them
+
+ private:
+  const scratch_folder& dir_;
+};
+
+/// Everything that can be asked of a problem, each output in turn to standard output.
+std::vector<words> questions(const std::string& file) {
+  std::vector<words> all = {{"check", file},
+                            {"run", file},
+                            {"run", file, "--detail", "--kernels", "corrected"},
+                            {"run", file, "--final-only"},
+                            {"run", file, "--free-run", "--kernels", "fortran,corrected"},
+                            {"run", file, "--kernels", "fortran," + hostile_bytes},
+                            {"run", file, "--engine", hostile_bytes},
+                            {"run", file, "--node", hostile_bytes},
+                            {"run", file, "--json", hostile_bytes + "/x"},
+                            {"explain", file, "--all"},
+                            {"explain", file, "--exact", "--increment", "1.1"},
+                            {"explain", file, "--quiet", "--json", "-"},
+                            {"exact", file, "--kernels", "fortran"},
+                            {"exact", file, "--quiet", "--json", "-"},
+                            {"export", file, "--calculix", "-"},
+                            {"check", file, "--quiet", "--svg", "-"}};
+  for (const char* output :
+       {"--json", "--html", "--svg", "--csv", "--log", "--trace", "--proof", "--junit", "--markdown"})
+    all.push_back({"run", file, output, "-"});
+  return all;
+}
+
+const std::string beam_problem =
+    "title = \"Beam @\"\n[units]\nlength = \"m@\"\nforce = \"kN@\"\n"
+    "[beam]\nx = [0.0, 1.0, 2.0]\nEI = 1.0e4\n"
+    "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+    "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n"
+    "[[step]]\nname = \"load @\"\npoint = [ { node = 3, w = -60.0 } ]\n";
+
+/// `text` with `by` for every "@".
+std::string filled(std::string text, const std::string& by) {
+  for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + by.size()))
+    text.replace(at, 1, by);
+  return text;
+}
+
+/// A spring at a wall, whose three dofs and nodes are named as `name` says.
+void write_matrix_problem(const scratch_folder& dir, const std::string& name) {
+  dir.write("K.mtx",
+            "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n");
+  dir.write("K.dof", name + "1.x\n" + name + "2.x\n" + name + "3.x\n");
+  dir.write("K.xyz", name + "1 0 0\n" + name + "2 1 0\n" + name + "3 2 0\n");
+  std::string label;  // in a problem's TOML
+  for (const char c : name) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f)
+      label += std::string("\\u00") + digits[byte / 16] + digits[byte % 16];
+    else
+      label += c;
+  }
+  dir.write(
+      "m.toml",
+      "[matrix]\nstiffness = \"K.mtx\"\ndofs = \"K.dof\"\ncoordinates = \"K.xyz\"\n[[support]]\ndof = \"" +
+          label + "1.x\"\nspring = 1.0\n[[contact]]\ndof = \"" + label +
+          "3.x\"\nsurface = \"above\"\nface = 0.5\nstiffness = 10.0\n[[step]]\npoint = [ { dof = \"" + label +
+          "2.x\", value = 2.0 } ]\n");
+}
+
+}  // namespace
+
+TEST_CASE("no text of a problem makes a terminal do anything, whatever is asked of it") {
+  const scratch_folder dir;
+  shown_runs runs(dir);
+  const std::string name = "p" + hostile_bytes + "'\n.toml";
+  dir.write(name, filled(beam_problem, hostile_in_toml));
+  for (const words& w : questions(name)) runs.run(w);
+  write_matrix_problem(dir, hostile);
+  for (const words& w : questions("m.toml")) runs.run(w);
+  CHECK(runs.count >= 50);
+  CHECK(runs.escaped >= 25);
+}
+
+TEST_CASE("a refusal shows every text of a problem and obeys none: each key and each value in turn") {
+  const scratch_folder dir;
+  shown_runs runs(dir);
+  const std::string text =
+      filled(beam_problem, "") + "[[bed]]\nmodulus = 1.0\nnodes = \"2..3\"\nstate = \"separated\"\n";
+  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 1)) {
+    const std::size_t end = text.find('"', at + 1);
+    dir.write("p.toml", text.substr(0, end) + hostile_in_toml + text.substr(end));
+    runs.run({"check", "p.toml"});
+    at = end;
+  }
+  for (std::size_t at = text.find(" = "); at != std::string::npos; at = text.find(" = ", at + 1)) {
+    const std::size_t begin = text.find_last_of("\n{", at) + 1;
+    dir.write("p.toml", text.substr(0, begin) + "\"" + hostile_in_toml + "\"" + text.substr(at));
+    runs.run({"check", "p.toml"});
+    dir.write("p.toml", text.substr(0, begin) + hostile_bytes + text.substr(at));  // no TOML at all
+    runs.run({"check", "p.toml"});
+  }
+  CHECK(runs.count >= 40);
+  CHECK(runs.escaped >= 15);
+}
+
+TEST_CASE(
+    "nor does any text of the files that a problem names, of traces, of shards, of a folder of problems") {
+  const scratch_folder dir;
+  shown_runs runs(dir);
+  write_matrix_problem(dir, "n");
+  REQUIRE(runs.run({"run", "m.toml", "--quiet", "--trace", "calls.trace"}).exit == 0);
+  REQUIRE(runs.run({"fuzz", "--calls", "20", "--problems", "0", "--quiet", "--json", "shard.json"}).exit ==
+          0);
+  fs::create_directories(dir.path() / "set/problems");
+  dir.write("set/problems/p.toml", filled(beam_problem, hostile_in_toml));
+  dir.write(
+      "set/verification.toml",
+      "[[case]]\nfile = \"p.toml\"\ntitle = \"one\"\n[[case.check]]\nquantity = \"w\"\nnode = 3\nstep = 1\n"
+      "value = 0.0\ntolerance = 1e-9\nkind = \"closed form\"\nsource = \"here\"\nbecause = \"so\"\n");
+  const std::vector<std::pair<std::string, words>> files = {
+      {"K.mtx", {"run", "m.toml"}},
+      {"K.dof", {"run", "m.toml"}},
+      {"K.xyz", {"run", "m.toml", "--html", "-"}},
+      {"calls.trace", {"replay", "calls.trace"}},
+      {"shard.json", {"fuzz", "--merge", "shard.json"}},
+      {"set/verification.toml", {"verify", "--reference", "set"}}};
+  for (const auto& [file, arguments] : files) {
+    const std::string sound = dir.read(file);
+    const int before = runs.count;
+    // Behind every word, at most 60 of them.
+    constexpr std::string_view ends = " \n\"";
+    std::vector<std::size_t> places;
+    for (std::size_t at = sound.find_first_of(ends, 1); at != std::string::npos;
+         at = sound.find_first_of(ends, at + 1))
+      places.push_back(at);
+    const std::size_t every = places.size() / 60 + 1;
+    for (std::size_t i = 0; i < places.size(); i += every) {
+      dir.write(file, sound.substr(0, places[i]) + hostile_bytes + sound.substr(places[i]));
+      runs.run(arguments);
+      if (file.ends_with(".toml")) {
+        dir.write(file, sound.substr(0, places[i]) + hostile_in_toml + sound.substr(places[i]));
+        runs.run(arguments);
+      }
+    }
+    dir.write(file, sound);
+    INFO(file);
+    CHECK(runs.count >= before + 3);
+  }
+  CHECK(runs.count >= 200);
+  CHECK(runs.escaped >= 40);
+}
+
+TEST_CASE("a kernel that answers with control characters is told so in characters") {
+  const scratch_folder dir;
+  dir.write("p.toml", filled(beam_problem, ""));
+  dir.write("kernel.sh",
+            "while read line; do [ \"$line\" = ask ] && printf 'smin "
+            "\\033[31m\\007\\177\\302\\233\\377\\nend\\n'; done\n");
+  shown_runs runs(dir);
+  runs.run({"run", "p.toml", "--kernels", "cpp,pipe:sh kernel.sh"});
+  runs.run({"run", "p.toml", "--kernels", "pipe:sh kernel.sh"});
+  runs.run({"run", "p.toml", "--kernels", "plugin:./" + hostile_bytes});
+  runs.run({"fuzz", "--calls", "3", "--problems", "0", "--kernels", "cpp,pipe:sh kernel.sh"});
+  CHECK(runs.count == 4);
+  CHECK(runs.escaped >= 2);
+}
+
+TEST_CASE("on a terminal in colour only the program's own colours come through") {
+  const scratch_folder dir;
+  write_matrix_problem(dir, "\x1b[1;31mred\u009b");
+  dir.write("p.toml", filled(beam_problem, R"(\u001b[1;31mred)"));
+  process_options screen;
+  screen.environment = {{"TERM", "xterm"}};
+  screen.terminal = screen.error_terminal = true;
+  int seen = 0;
+  for (const char* const file : {"p.toml", "m.toml"}) {
+    for (const words& w : {words{"run", file},
+                           {"run", file, "--detail"},
+                           {"check", file},
+                           {"explain", file},
+                           {"exact", file}}) {
+      const finished f = contct_program(dir.path(), w, screen);
+      INFO(joined(w, " ") << "\n" << terminal_text(f.out));
+      CHECK(f.out.find("\x1b[1;31mred") == std::string::npos);
+      CHECK(f.out.find("\u009b") == std::string::npos);
+      if (f.out.find("\\x1b[1;31mred") != std::string::npos) ++seen;
+    }
+    CHECK_THAT(contct_program(dir.path(), {"run", file}, screen).out, Contains("\x1b[32m"));
+  }
+  CHECK(seen >= 9);
+}
