@@ -13,8 +13,8 @@
 
 #include "contct/lab/atlas.hpp"
 #include "contct/lab/fuzz.hpp"
-#include "contct/write/exit_status.hpp"
 #include "contct/write/calculix_deck.hpp"
+#include "contct/write/exit_status.hpp"
 
 namespace contct::app {
 
@@ -24,6 +24,11 @@ namespace contct::app {
 struct report_options {
   bool quiet = false;
   std::string junit, markdown;
+};
+
+/// What a problem from a stranger may do.
+struct problem_limits {
+  bool allow_outside = false;   ///< name files that are not below its own folder
 };
 
 /// What `contct run` draws and tabulates.
@@ -48,11 +53,13 @@ struct run_options {
   std::string
       watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
   int max_increments = 0;  ///< in a step; 0: the default limit
+  problem_limits limits = {};
 };
 
 struct check_options {
   std::string file, svg;
   bool quiet = false;
+  problem_limits limits = {};
 };
 
 struct explain_options {
@@ -66,6 +73,7 @@ struct explain_options {
   bool hex = false;    ///< with the bits of s and SMIN
   std::string json;
   bool quiet = false;
+  problem_limits limits = {};
 };
 
 struct exact_options {
@@ -75,6 +83,7 @@ struct exact_options {
   int digits = 20;
   std::string json;
   bool quiet = false;
+  problem_limits limits = {};
 };
 
 struct new_options {
@@ -114,6 +123,7 @@ struct atlas_options {
 struct export_options {
   std::string file, calculix;
   calculix_choice choice;
+  problem_limits limits = {};
 };
 
 struct kernels_options {};

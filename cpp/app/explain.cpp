@@ -96,7 +96,7 @@ exit_status run_command(const explain_options& options) {
   const increments_wanted wanted = wanted_of(options);
   refuse_engine_option(options.engine);
   refuse_other_rules(options.kernels);
-  const problem p = read_with_progress(options.file, options.quiet);
+  const problem p = read_with_progress(options.file, options.limits, options.quiet);
   refuse_beyond("--pair", options.pair, p.pairs.size(), "pair");
   refuse_beyond("--step", wanted.step > 0 ? wanted.step : options.step, p.steps.size(), "step");
   const std::vector<output_option> outputs = {{"--json", options.json}};

@@ -125,6 +125,10 @@ class option_parser {
   CLI::Option* add_problem_file(CLI::App* command, std::string& file) {
     return add_file(command, "FILE", file, "The problem (TOML); - reads standard input")->required();
   }
+  void add_limits(CLI::App* command, problem_limits& limits) {
+    command->add_flag("--allow-outside", limits.allow_outside,
+                      "The problem may name files that are not below its own folder");
+  }
   CLI::Option* add_kernels(CLI::App* command, const std::string& name, std::vector<std::string>& kernels,
                            const std::string& text) {
     return add(command, takes::kernels, name, kernels, text, kernel_names())->delimiter(',');
@@ -263,6 +267,7 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   p.add_file(c, "--log", o.log, "Write the leader's unit 26 to this file");
   p.add_file(c, "--proof", o.proof,
              "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
+  p.add_limits(c, o.limits);
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
                                 "--html", "--svg", "--csv", "--vtu", "--envelope", "--node"})
     final_only->excludes(c->get_option(of_a_path));
@@ -290,6 +295,7 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
+  p.add_limits(c, o.limits);
 }
 
 void declare_check(option_parser& p) {
@@ -298,6 +304,7 @@ void declare_check(option_parser& p) {
   p.add_problem_file(c, o.file);
   p.add_file(c, "--svg", o.svg, "Draw the structure before any load to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
+  p.add_limits(c, o.limits);
 }
 
 void declare_exact(option_parser& p) {
@@ -316,6 +323,7 @@ void declare_exact(option_parser& p) {
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write every number as \"p/q\" to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
+  p.add_limits(c, o.limits);
 }
 
 void declare_new(option_parser& p) {
@@ -392,6 +400,7 @@ void declare_export(option_parser& p) {
   p.add(c, takes::number, "--slenderness", o.choice.slenderness, "The structure's length over its thickness")
       ->check(CLI::Range(10.0, 10'000.0))
       ->capture_default_str();
+  p.add_limits(c, o.limits);
 }
 
 void declare_completion(option_parser& p) {

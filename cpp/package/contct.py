@@ -641,6 +641,8 @@ def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str
     """One function of the library that takes a text and options. Options that are None are left to the library."""
     given = {key: value for key, value in options.items() if value is not None}
     given |= {"file": source.file, "folder": source.folder}
+    if source.allow_outside:
+        given["allow_outside"] = True
     try:
         return _result_of(_answer_of(function, source.text, _options(given)))
     except InputError as error:
@@ -660,6 +662,7 @@ class _Source(NamedTuple):
     file: str
     folder: str
     on_disk: bool
+    allow_outside: bool = False
 
     @property
     def place(self) -> str:
@@ -766,7 +769,7 @@ def _kernel_list(kernels: Kernels) -> list[str]:
 
 def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None, final_only: bool = False,
         envelope: bool = False, max_increments: int = 0, strict: bool = False,
-        folder: Union[None, str, os.PathLike[str]] = None) -> Result:
+        folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Result:
     """Follow the path of a problem, all kernels in lockstep: `contct run`.
 
     kernels         names, or one text with commas; the first one leads
@@ -777,10 +780,11 @@ def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Opti
     strict          True: raise NotSolved unless all steps are solved and certified, and the kernels equal
     folder          where files that a text or a dict names are looked for; None: where the process runs. Of a problem file
                     it is the file's own
+    allow_outside   True: the problem may name files that are not below that folder; one from a stranger must not
 
     Raises InputError for a bad problem or a bad option, and OSError if the file cannot be read.
     """
-    source = _source(problem, ".toml", "problem", folder)
+    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
     options = {"kernels": None if final_only else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
                "envelope": envelope or None, "max_increments": max_increments or None}
     answer = _ask(_library.contct_run, source, options)
@@ -791,38 +795,38 @@ def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Opti
     return result
 
 
-def check(problem: Problem, *, folder: Union[None, str, os.PathLike[str]] = None) -> Check:
+def check(problem: Problem, *, folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Check:
     """Read a problem and solve nothing: `contct check`. Raises InputError if it is refused."""
-    source = _source(problem, ".toml", "problem", folder)
+    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
     return Check(_ask(_library.contct_check, source, {}), source)
 
 
 def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
-          folder: Union[None, str, os.PathLike[str]] = None) -> Exact:
+          folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Exact:
     """Follow the path in rational arithmetic, from the decimals as they are written: `contct exact`.
 
     rule     "corrected", or "1989" for the 1989 rule without rounding
     kernels  are compared with it: how many of their digits are right
     """
-    source = _source(problem, ".toml", "problem", folder)
+    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
     return Exact(_ask(_library.contct_exact, source, {"rule": rule, "kernels": _kernel_list(kernels) if kernels else None}))
 
 
 def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None,
             step: Optional[int] = None, increment: Optional[int] = None,
-            folder: Union[None, str, os.PathLike[str]] = None) -> Explanation:
+            folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Explanation:
     """What each line of the listing did, and why: `contct explain`.
 
     kernels          one or two of the 1989 rule
     step, increment  only these, from 1; None: all
     """
-    source = _source(problem, ".toml", "problem", folder)
+    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
     return Explanation(_ask(_library.contct_explain, source, {"kernels": _kernel_list(kernels), "engine": engine, "step": step,
                                                               "increment": increment}))
 
 
 def certify(problem: Problem, displacement: Any, *, closed: Optional[Iterable[Iterable[int]]] = None,
-            folder: Union[None, str, os.PathLike[str]] = None) -> Result:
+            folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Result:
     """Bounds on the errors of states that another program, or a formula, gives.
 
     displacement  for each of the first steps the displacement of every dof, under the step's whole load: a list of states,
@@ -833,7 +837,7 @@ def certify(problem: Problem, displacement: Any, *, closed: Optional[Iterable[It
 
     The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments.
     """
-    source = _source(problem, ".toml", "problem", folder)
+    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
     states = displacement.tolist() if hasattr(displacement, "tolist") else list(displacement)
     states = [state.tolist() if hasattr(state, "tolist") else state for state in states]
     if not any(hasattr(state, "__iter__") for state in states):

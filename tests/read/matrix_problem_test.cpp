@@ -11,6 +11,7 @@
 #include "contct/compare/lockstep.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/read/matrix_files.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/result_json.hpp"

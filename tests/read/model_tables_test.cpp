@@ -23,7 +23,7 @@ namespace {
 
 model model_in(const std::string& text) {
   const toml::table document = parse_toml(text, "m.toml");
-  return read_model(table_reader(document, "", "m.toml"), "");
+  return read_model(table_reader(document, "", "m.toml"), {"m.toml", reach::own_folder});
 }
 
 std::string refusal(const std::string& text) {
@@ -76,14 +76,6 @@ std::string message_of(const std::string& path) {
 const char* const a_step = "[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
 
 }  // namespace
-
-TEST_CASE("a file that a problem names is relative to the problem's folder, and never standard input") {
-  CHECK(beside("a/b", "K.mtx") == "a/b/K.mtx");
-  CHECK(beside("a/b", "../K.mtx") == "a/b/../K.mtx");
-  CHECK(beside("a/b", "/c/K.mtx") == "/c/K.mtx");
-  CHECK(beside("", "K.mtx") == "K.mtx");
-  CHECK(beside("", "-") == "./-");
-}
 
 TEST_CASE(
     "a matrix without labels has its dofs' numbers, and free_motions and storage are taken as they are") {

@@ -38,7 +38,7 @@ struct a_run {
 
   explicit a_run(const std::string& text, const std::vector<observer*>& more = {},
                  const frame_limits& limits = {})
-      : what(parse_problem(text, "pb.toml")),
+      : what(parse_problem(text, "pb.toml", literals::dropped, reach::anywhere)),
         structure(structure_of(what)),
         leader(make_kernel("fortran")),
         compared(make_lockstep(leader->facts(), std::vector<std::string>{"cpp"})),

@@ -81,7 +81,7 @@ TEST_CASE("fields are separated by any blanks, blank lines are skipped, and line
   CHECK(lines.field(0) == "a");
   CHECK(lines.field(2) == "c");
   CHECK_NOTHROW(lines.expect(3, "three"));
-  CHECK_THROWS_WITH(lines.expect(2, "two"), Contains("f:2: found \"  a\\x09b  c\\x0d\"; allowed: two"));
+  CHECK_THROWS_WITH(lines.expect(2, "two"), Contains("f:2: found a line of 9 bytes; allowed: two"));
   REQUIRE(lines.next());
   CHECK(lines.line() == 4);
   CHECK(lines.fields() == field_lines::most_fields + 1);

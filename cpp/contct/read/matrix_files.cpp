@@ -162,7 +162,9 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
                      same_word(lines.field(4), symmetry);
   const bool array = sound && may_be_array && same_word(lines.field(2), "array");
   if (!sound || (!array && !same_word(lines.field(2), "coordinate")))
-    lines.refuse(in_quotes(lines.here()), allowed);
+    lines.refuse(same_word(lines.field(0), "%%matrixmarket") ? in_quotes(lines.here())
+                                                             : field_words(lines.here(), "a line"),
+                 allowed);
   return array;
 }
 
@@ -206,7 +208,7 @@ void refuse_again(const field_lines& lines, std::string_view what, std::string_v
                   line_numbers& line_of) {
   const auto [before, is_new] = line_of.try_emplace(name, lines.line());
   if (!is_new)
-    lines.refuse(fmt::format("{} {} again, which line {} has", what, in_quotes(name), before->second),
+    lines.refuse(fmt::format("{} {} again, which line {} has", what, field_words(name), before->second),
                  fmt::format("each {} once", what));
 }
 
@@ -309,7 +311,7 @@ std::vector<std::string> parse_labels(std::string_view text, std::string_view fi
     lines.expect(1, "one label a line, without blanks");
     const std::string_view label = lines.field(0);
     if (label.size() > longest)
-      lines.refuse(in_quotes(label), fmt::format("a label of at most {} bytes", longest));
+      lines.refuse(field_words(label), fmt::format("a label of at most {} bytes", longest));
     refuse_again(lines, "label", label, line_of);
     labels.emplace_back(label);
   }
@@ -347,10 +349,10 @@ std::vector<placed_node> parse_coordinates(std::string_view text, std::string_vi
   while (lines.next()) {
     const std::size_t fields = fields_before_comment(lines);
     if (fields == 0) continue;
-    if (fields != 3 && fields != 4) lines.refuse(in_quotes(lines.here()), allowed);
+    if (fields != 3 && fields != 4) lines.refuse(field_words(lines.here(), "a line"), allowed);
     if (alike == 0) alike = fields;
     if (fields != alike)
-      lines.refuse(fmt::format("{} coordinates for node {}", fields - 1, in_quotes(lines.field(0))),
+      lines.refuse(fmt::format("{} coordinates for node {}", fields - 1, field_words(lines.field(0))),
                    fmt::format("{}, as the lines before have", alike - 1));
     refuse_again(lines, "node", lines.field(0), line_of);
     nodes.push_back({std::string(lines.field(0)),

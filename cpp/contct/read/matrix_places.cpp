@@ -165,7 +165,7 @@ void read_nodes(inp_lines& lines, node_list& list) {
   while (lines.next_data()) {
     const std::vector<std::string_view>& fields = lines.fields();
     const int number = lines.whole(fields[0], 1, any_number, "the node's number");
-    if (fields.size() < 2) lines.refuse(in_quotes(lines.data()), "number, x, y, z");
+    if (fields.size() < 2) lines.refuse(field_words(lines.data(), "a line"), "number, x, y, z");
     placed_node node{std::to_string(number), {}};
     // As CalculiX has it: a coordinate that is left out is 0.
     for (std::size_t i = 0; i < 3 && i + 1 < fields.size(); ++i)
@@ -193,7 +193,7 @@ solid_block read_solids(inp_lines& lines, const solid& type) {
     }
     for (std::size_t i = first; i < fields.size(); ++i) {
       if (i > first && whole_elements())
-        lines.refuse(in_quotes(lines.data()),
+        lines.refuse(field_words(lines.data(), "a line"),
                      fmt::format("{} nodes for an element of type {}", type.nodes(), type.type));
       block.nodes.push_back(lines.whole(fields[i], 1, any_number, "a node's number"));
     }
@@ -223,7 +223,7 @@ std::string type_in(const inp_lines& lines, const std::string& keyword_line) {
   const std::size_t from = at + parameter.size();
   std::string type =
       at == std::string::npos ? "" : keyword_line.substr(from, keyword_line.find(',', from) - from);
-  if (type.empty()) lines.refuse(in_quotes(lines.data()), "*ELEMENT, TYPE=..., as C3D8");
+  if (type.empty()) lines.refuse("*ELEMENT without TYPE", "*ELEMENT, TYPE=..., as C3D8");
   return type;
 }
 

@@ -238,6 +238,11 @@ void choose_storage(const table_reader& t, assembled& a) {
         t, a, fmt::format("{}, or {} in CHOLMOD's sparse factors", band_takes, bytes_words(sparse)), "");
 }
 
+/// A path for messages and pages: on one line, whatever it is.
+std::string shown_name(const std::string& path) {
+  return printable(path, std::string::npos);
+}
+
 std::vector<std::string> read_labels(const std::string& path) {
   return parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
 }
@@ -253,63 +258,62 @@ void finish(const table_reader& t, assembled& a) {
 void refuse_unknown_nodes(const table_reader& t, std::string_view key, const std::string& path,
                           const assembled& a) {
   if (a.places.known()) return;
-  t.refuse_key(key, fmt::format("no node in {} of any label, as {}", path, in_quotes(a.label_of(0))),
+  t.refuse_key(key,
+               fmt::format("no node in {} of any label, as {}", shown_name(path), in_quotes(a.label_of(0))),
                "labels NODE.DIRECTION: the name of a node, a dot, and x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
 /// The mesh that the table names, or else the one beside the job's matrix, where there is one.
-void find_mesh(const table_reader& t, const std::string& folder, const std::string& job, assembled& a) {
-  const std::string path = t.has("mesh") ? beside(folder, t.text("mesh")) : job + ".inp";
+void find_mesh(const table_reader& t, const named_files& files, assembled& a) {
+  const std::string path = t.has("mesh") ? files.path_of(t, "mesh") : files.path_of(t, "job", ".inp");
   if (!t.has("mesh") && !std::filesystem::exists(path)) return;
   a.places = places_from_inp(path, a);
   if (t.has("mesh")) refuse_unknown_nodes(t, "mesh", path, a);
 }
 
-assembled read_matrix(const table_reader& t, const std::string& folder, literals keep) {
+assembled read_matrix(const table_reader& t, const named_files& files, literals keep) {
   t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
   assembled a;
-  a.name = beside(folder, t.text("stiffness"));
-  a.stiffness = parse_symmetric(read_input(a.name, "Matrix Market file", largest_matrix_file), a.name,
+  const std::string path = files.path_of(t, "stiffness");
+  a.name = shown_name(path);
+  a.stiffness = parse_symmetric(read_input(path, "Matrix Market file", largest_matrix_file), a.name,
                                 keep == literals::kept ? &a.written : nullptr);
   if (t.has("dofs")) {
-    a.labels_from = beside(folder, t.text("dofs"));
-    a.labels = read_labels(a.labels_from);
+    const std::string of_labels = files.path_of(t, "dofs");
+    a.labels_from = shown_name(of_labels);
+    a.labels = read_labels(of_labels);
     if (a.labels.size() != static_cast<std::size_t>(a.dofs()))
       t.refuse_key("dofs", fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
                    fmt::format("{}, one for each row of {}", a.dofs(), a.name));
   }
   finish(t, a);
   if (t.has("coordinates")) {
-    const std::string path = beside(folder, t.text("coordinates"));
-    a.places = places_from_coordinates(path, a);
-    refuse_unknown_nodes(t, "coordinates", path, a);
+    const std::string of_places = files.path_of(t, "coordinates");
+    a.places = places_from_coordinates(of_places, a);
+    refuse_unknown_nodes(t, "coordinates", of_places, a);
   }
   return a;
 }
 
-assembled read_calculix(const table_reader& t, const std::string& folder, literals keep) {
+assembled read_calculix(const table_reader& t, const named_files& files, literals keep) {
   t.allow_only({"job", "mesh", "free_motions", "storage"});
-  const std::string job = beside(folder, t.text("job"));
   assembled a;
-  a.name = job + ".sti";
-  a.labels_from = job + ".dof";
-  a.labels = read_labels(a.labels_from);
+  const std::string path = files.path_of(t, "job", ".sti");
+  const std::string of_labels = files.path_of(t, "job", ".dof");
+  a.name = shown_name(path);
+  a.labels_from = shown_name(of_labels);
+  a.labels = read_labels(of_labels);
   a.stiffness = parse_calculix_stiffness(
-      read_input(a.name, "stiffness matrix of CalculiX", largest_matrix_file), a.name,
+      read_input(path, "stiffness matrix of CalculiX", largest_matrix_file), a.name,
       static_cast<int>(a.labels.size()), keep == literals::kept ? &a.written : nullptr);
   finish(t, a);
-  find_mesh(t, folder, job, a);
+  find_mesh(t, files, a);
   return a;
 }
 
 }  // namespace
 
-std::string beside(const std::string& folder, const std::string& name) {
-  const std::string path = (std::filesystem::path(folder) / name).string();
-  return path == "-" ? "./-" : path;  // a file of that name: standard input holds the problem, if anything
-}
-
-model read_model(const table_reader& top, const std::string& folder, literals keep) {
+model read_model(const table_reader& top, const named_files& files, literals keep) {
   const char* const allowed = "exactly one of [beam], [plate], [matrix] and [calculix]";
   const char* kind = nullptr;
   for (const char* other : {"beam", "plate", "matrix", "calculix"}) {
@@ -319,8 +323,8 @@ model read_model(const table_reader& top, const std::string& folder, literals ke
   }
   if (top.has("beam")) return {read_beam(top.table("beam"), top)};
   if (top.has("plate")) return {read_plate(top.table("plate"))};
-  if (top.has("matrix")) return {read_matrix(top.table("matrix"), folder, keep)};
-  if (top.has("calculix")) return {read_calculix(top.table("calculix"), folder, keep)};
+  if (top.has("matrix")) return {read_matrix(top.table("matrix"), files, keep)};
+  if (top.has("calculix")) return {read_calculix(top.table("calculix"), files, keep)};
   top.refuse("neither beam nor plate, matrix or calculix", allowed);
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -42,15 +41,15 @@ double rounded_down(double x) {
 /// Reads one file into one problem, table by table.
 class problem_reader {
  public:
-  problem_reader(const toml::table& document, std::string_view file, literals keep)
-      : keep_(keep), folder_(std::filesystem::path(file).parent_path().string()), top_(document, "", file) {}
+  problem_reader(const toml::table& document, std::string_view file, literals keep, reach allowed)
+      : keep_(keep), files_(file, allowed), top_(document, "", file) {}
 
   problem read() {
     top_.allow_only(
         {"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
     if (top_.has("title")) problem_.title = top_.text("title");
     if (top_.has("units")) read_units(top_.table("units"));
-    problem_.geometry = read_model(top_, folder_, keep_);
+    problem_.geometry = read_model(top_, files_, keep_);
     places_.emplace(problem_.geometry);
     fixed_.assign(dofs(problem_.geometry), 0);
     if (places_->on_matrix() && top_.has("bed"))
@@ -59,7 +58,7 @@ class problem_reader {
     for (const table_reader& t : top_.optional_tables("support")) read_support(t);
     for (const table_reader& t : top_.optional_tables("contact")) read_contact(t);
     for (const table_reader& t : top_.optional_tables("bed")) read_bed(t);
-    const step_reader steps(*places_, problem_.supports, folder_, keep_);
+    const step_reader steps(*places_, problem_.supports, files_, keep_);
     for (const table_reader& t : top_.tables("step")) problem_.steps.push_back(steps.read(t));
     return std::move(problem_);
   }
@@ -243,7 +242,7 @@ class problem_reader {
   }
 
   literals keep_;
-  std::string folder_;  // of the file
+  named_files files_;
   table_reader top_;
   problem problem_;
   std::optional<node_places> places_;  // of `problem_`, once its structure is known
@@ -253,16 +252,16 @@ class problem_reader {
 
 }  // namespace
 
-problem parse_problem(std::string_view text, std::string_view file, literals keep) {
+problem parse_problem(std::string_view text, std::string_view file, literals keep, reach allowed) {
   const toml::table document = parse_toml(text, file);
-  problem p = problem_reader(document, file, keep).read();
+  problem p = problem_reader(document, file, keep, allowed).read();
   if (keep == literals::kept) p.written = written_numbers(document, text, file);
   return p;
 }
 
-problem read_problem(const std::string& path, literals keep) {
+problem read_problem(const std::string& path, literals keep, reach allowed) {
   const std::string file = path == "-" ? "standard input" : path;
-  return parse_problem(read_input(path), file, keep);
+  return parse_problem(read_input(path), file, keep, allowed);
 }
 
 }  // namespace contct::read

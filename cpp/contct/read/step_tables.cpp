@@ -29,9 +29,9 @@ std::vector<double> read_polynomial(const table_reader& t, const model& m, std::
   return coefficients;
 }
 
-step_reader::step_reader(const node_places& places, const std::vector<support>& supports, std::string folder,
+step_reader::step_reader(const node_places& places, const std::vector<support>& supports, named_files files,
                          literals keep)
-    : places_(places), folder_(std::move(folder)), keep_(keep), held_(dofs(places.structure()), hold::none) {
+    : places_(places), files_(std::move(files)), keep_(keep), held_(dofs(places.structure()), hold::none) {
   for (const support& s : supports) {
     hold& here = held_[s.node * places_.dof_names().size() + s.dof];
     here = std::max(here, s.fixed ? hold::fixed : hold::spring);
@@ -57,7 +57,7 @@ load step_reader::read(const table_reader& t) const {
 }
 
 void step_reader::read_vector(const table_reader& t, load& l) const {
-  const std::string path = beside(folder_, t.text("load"));
+  const std::string path = files_.path_of(t, "load");
   std::vector<std::string> written;
   const std::vector<double> values =
       parse_vector(read_input(path, "Matrix Market file", largest_matrix_file), path,

@@ -1,9 +1,9 @@
 // The [[step]]s of a problem file: loads and settlements.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "contct/read/named_files.hpp"
 #include "contct/read/places.hpp"
 
 namespace contct::read {
@@ -19,8 +19,8 @@ inline constexpr std::size_t most_coefficients = 21;
 /// Reads one step after the other.
 class step_reader {
  public:
-  /// Files that a step names are in `folder`. `places` must outlive this object.
-  step_reader(const node_places& places, const std::vector<support>& supports, std::string folder,
+  /// `files` finds those that a step names. `places` must outlive this object.
+  step_reader(const node_places& places, const std::vector<support>& supports, named_files files,
               literals keep = literals::dropped);
 
   [[nodiscard]] load read(const table_reader& t) const;
@@ -36,7 +36,7 @@ class step_reader {
   void refuse_unfixed(const table_reader& t, int node, int dof) const;
 
   const node_places& places_;
-  std::string folder_;
+  named_files files_;
   literals keep_;
   std::vector<hold> held_;  // [dofs] by supports
 };

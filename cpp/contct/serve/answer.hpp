@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "contct/read/named_files.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/write/exit_status.hpp"
 
@@ -33,6 +34,9 @@ class request {
   /// The problem's name for messages: "file" in "folder".
   [[nodiscard]] std::string file() const;
 
+  /// "allow_outside": where files may be that the problem names.
+  [[nodiscard]] reach allowed() const { return flag("allow_outside") ? reach::anywhere : reach::own_folder; }
+
  private:
   [[noreturn]] void refuse(std::string_view name, std::string_view allowed) const;
 
@@ -47,8 +51,9 @@ struct answer {
   std::vector<std::pair<std::string, std::string>> texts;  ///< what else was asked for, by its key
 };
 
-/// The problem in a text; its warnings become messages. Throws as parse_problem does.
-[[nodiscard]] problem read_problem_text(const char* text, const std::string& file, answer& a,
+/// The problem in a text; its warnings become messages. Throws as parse_problem does. `file`, its name,
+/// and `allowed` are the request's.
+[[nodiscard]] problem read_problem_text(const char* text, const std::string& file, reach allowed, answer& a,
                                         literals keep = literals::dropped);
 
 /// Throws std::invalid_argument for what is no engine's name, nor "auto", nor empty.

@@ -70,8 +70,8 @@ given_states read_states(const request& r, const problem& p, const linear_struct
 }
 
 void certify_states(const char* text, const char* options, answer& a) {
-  const request r(options, {"file", "folder", "displacement", "closed"});
-  const problem p = read_problem_text(text, r.file(), a);
+  const request r(options, {"file", "folder", "allow_outside", "displacement", "closed"});
+  const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   const linear_structure s = structure_of(p);
   const given_states states = read_states(r, p, s);
   certifier judged(p, s);

@@ -55,9 +55,10 @@ void put_places(json& out, const problem& p, const char* text, const std::string
 }
 
 void check(const char* text, const char* options, answer& a) {
-  const request r(options, {"file", "folder", "svg", "places"});
+  const request r(options, {"file", "folder", "allow_outside", "svg", "places"});
   const bool places = r.flag("places");
-  const problem p = read_problem_text(text, r.file(), a, places ? literals::kept : literals::dropped);
+  const problem p =
+      read_problem_text(text, r.file(), r.allowed(), a, places ? literals::kept : literals::dropped);
   json out = {{"title", p.title},
               {"kind", std::holds_alternative<beam>(p.geometry.kind)    ? "beam"
                        : std::holds_alternative<plate>(p.geometry.kind) ? "plate"
@@ -76,13 +77,13 @@ void check(const char* text, const char* options, answer& a) {
 }
 
 void follow_exact_path(const char* text, const char* options, answer& a) {
-  const request r(options, {"file", "folder", "rule", "kernels"});
+  const request r(options, {"file", "folder", "allow_outside", "rule", "kernels"});
   const std::string rule = r.text("rule", "corrected");
   if (rule != "corrected" && rule != "1989")
     throw std::invalid_argument(fmt::format("options: rule: found \"{}\"; allowed: corrected, 1989", rule));
   const std::vector<std::string> names = r.texts("kernels", {});
   for (const std::string& name : names) (void)facts_of_kernel(name);
-  const problem p = read_problem_text(text, r.file(), a, literals::kept);
+  const problem p = read_problem_text(text, r.file(), r.allowed(), a, literals::kept);
   const exact_problem exactly = exactly_read(p, r.file());
   const exact_path path = follow_exactly(exactly, rule, r.file());
   std::vector<kernel_digits> kernels;
@@ -97,12 +98,12 @@ void follow_exact_path(const char* text, const char* options, answer& a) {
 }
 
 void explain_path(const char* text, const char* options, answer& a) {
-  const request r(options, {"file", "folder", "kernels", "engine", "step", "increment"});
+  const request r(options, {"file", "folder", "allow_outside", "kernels", "engine", "step", "increment"});
   const std::vector<std::string> names = r.texts("kernels", {"fortran", "cpp"});
   const std::string engine = r.text("engine", "refactor");
   refuse_unknown_engine(engine);
   refuse_other_rules(names);
-  const problem p = read_problem_text(text, r.file(), a);
+  const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   const increments_wanted wanted{r.whole("step", 0, 1, static_cast<int>(p.steps.size())),
                                  r.whole("increment", 0, 1, most_increments)};
   const std::scoped_lock mine(turn());

@@ -28,6 +28,7 @@ namespace {
 
 struct run_request {
   std::string file;
+  reach allowed;
   std::vector<std::string> kernels;  // the leader first; none: only the ends of the steps
   std::string engine;
   int max_increments;
@@ -37,10 +38,11 @@ struct run_request {
 };
 
 run_request read_run_request(const char* options) {
-  const request r(options, {"file", "folder", "kernels", "engine", "final_only", "envelope", "max_increments",
-                            "page", "svg", "log", "trace", "proof", "states"});
+  const request r(options, {"file", "folder", "allow_outside", "kernels", "engine", "final_only", "envelope",
+                            "max_increments", "page", "svg", "log", "trace", "proof", "states"});
   constexpr int most_increments = 1'000'000'000;
   run_request wanted{r.file(),
+                     r.allowed(),
                      r.texts("kernels", {"fortran", "cpp"}),
                      r.text("engine", ""),
                      r.whole("max_increments", 0, 0, most_increments),
@@ -218,7 +220,7 @@ using contct::serve::answered;
 char* contct_run(const char* text, const char* options) {
   return answered([&](answer& a) {
     const auto wanted = contct::serve::read_run_request(options);
-    const auto p = contct::serve::read_problem_text(text, wanted.file, a);
+    const auto p = contct::serve::read_problem_text(text, wanted.file, wanted.allowed, a);
     const std::scoped_lock mine(contct::serve::turn());
     contct::serve::served_run(wanted, p, a).go();
   });

@@ -22,7 +22,10 @@
  * Options that all functions with a problem have:
  *   "file"    its name in messages and pages: "problem"
  *   "folder"  in front of that name where it does not begin with "/", and where files that the problem names
- *             are looked for; "": where the process runs */
+ *             are looked for; "": where the process runs
+ *   "allow_outside"
+ *             false: a problem that names files which are not below that folder is refused, since a problem
+ *             from a stranger must not read what its user can; true: any file */
 #ifndef CONTCT_SERVE_SERVE_H
 #define CONTCT_SERVE_SERVE_H
 

@@ -61,7 +61,7 @@ int text_lines::whole(std::string_view field, std::int64_t least, std::int64_t m
                       std::string_view what) const {
   const auto value = number_in<std::int64_t>(without_plus(field));
   if (!value || *value < least || *value > most)
-    refuse(in_quotes(field).append(" for ").append(what),
+    refuse(field_words(field).append(" for ").append(what),
            "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<int>(*value);
 }
@@ -71,7 +71,7 @@ double text_lines::real(std::string_view field, std::string_view what, bool fort
   auto value = number_in<double>(without_plus(field));
   if (!value && fortran) value = number_in<double>(escaped(without_plus(field), exponents));
   if (!value || !std::isfinite(*value))
-    refuse(in_quotes(field).append(" for ").append(what),
+    refuse(field_words(field).append(" for ").append(what),
            "a finite number within the range of double precision, as 1.5 or -2e-3");
   return *value;
 }
@@ -82,7 +82,8 @@ void text_lines::refuse(std::string_view found, std::string_view allowed) const 
 
 void text_lines::refuse_unended() const {
   if (!ended_)
-    refuse(in_quotes(here_) + " without a line's end: the file may be cut short", "a line's end behind it");
+    refuse(field_words(here_, "a line") + " without a line's end: the file may be cut short",
+           "a line's end behind it");
 }
 
 bool field_lines::next() {
@@ -113,7 +114,7 @@ void field_lines::split() {
 }
 
 void field_lines::expect(std::size_t fields, std::string_view allowed) const {
-  if (count_ != fields) refuse(in_quotes(here()), allowed);
+  if (count_ != fields) refuse(field_words(here(), "a line"), allowed);
 }
 
 }  // namespace contct::text

@@ -1,0 +1,35 @@
+#include "contct/read/named_files.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace contct::read {
+
+namespace fs = std::filesystem;
+
+named_files::named_files(std::string_view problem_file, reach allowed)
+    : folder_(fs::path(problem_file).parent_path().string()), allowed_(allowed) {}
+
+std::string named_files::path_of(const table_reader& t, std::string_view key, std::string_view ending) const {
+  const std::string name = std::string(t.text(key)).append(ending);
+  const std::string path = (fs::path(folder_) / name).string();
+  if (allowed_ == reach::own_folder && !is_below(path))
+    t.refuse_key(key, in_quotes(name) + ", which is not below the folder of the problem file",
+                 "a file below it, or any with --allow-outside (\"allow_outside\" in the library)");
+  return path == "-" ? "./-" : path;  // a file of that name: standard input holds the problem, if anything
+}
+
+/// A path that cannot be resolved is not below it.
+bool named_files::is_below(const std::string& path) const {
+  std::error_code wrong;
+  const auto resolved = [&wrong](const fs::path& p) {
+    const fs::path absolute = wrong ? p : fs::absolute(p, wrong);
+    return wrong ? p : fs::weakly_canonical(absolute, wrong);
+  };
+  const fs::path folder = resolved(folder_.empty() ? "." : folder_);
+  const fs::path file = resolved(path);
+  return !wrong &&
+         std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+}  // namespace contct::read

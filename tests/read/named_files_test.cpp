@@ -1,0 +1,73 @@
+// A problem file names files below its own folder, and others only where that is allowed.
+#include "contct/read/named_files.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include "catch.hpp"
+#include "contct/text/input_text.hpp"
+#include "support/scratch_folder.hpp"
+
+using namespace contct::app;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The path of what `stiffness` names in the problem file at `file`.
+std::string path_of(const std::string& file, const std::string& name, reach allowed) {
+  const toml::table document = parse_toml("stiffness = '" + name + "'\n", file);
+  return named_files(file, allowed).path_of(table_reader(document, "", file), "stiffness");
+}
+
+}  // namespace
+
+TEST_CASE("a named file is relative to the folder of the problem file") {
+  CHECK(path_of("a/b/p.toml", "K.mtx", reach::own_folder) == "a/b/K.mtx");
+  CHECK(path_of("a/b/p.toml", "c/../K.mtx", reach::own_folder) == "a/b/c/../K.mtx");
+  CHECK(path_of("a/b/p.toml", "../K.mtx", reach::anywhere) == "a/b/../K.mtx");
+  CHECK(path_of("a/b/p.toml", "/c/K.mtx", reach::anywhere) == "/c/K.mtx");
+  CHECK(path_of("p.toml", "K.mtx", reach::own_folder) == "K.mtx");
+  CHECK(path_of("p.toml", "-", reach::own_folder) == "./-");  // a file of that name
+  CHECK(path_of("standard input", "-", reach::own_folder) == "./-");
+}
+
+TEST_CASE("a file outside that folder is refused, however it is named, with the way to allow it") {
+  const scratch_folder here;
+  fs::create_directories(here.path() / "own/below");
+  fs::create_directories(here.path() / "own-beside");
+  here.write("secret", "1\n");
+  here.write("own/K.mtx", "1\n");
+  here.write("own-beside/K.mtx", "1\n");
+  fs::create_symlink("../secret", here.path() / "own/link");
+  fs::create_directory_symlink("../..", here.path() / "own/below/up");
+  fs::create_symlink("K.mtx", here.path() / "own/inside");
+  const std::string file = here.at("own/p.toml");
+  for (const std::string& name :
+       {std::string("../secret"), std::string("/etc/passwd"), here.at("secret"), std::string("link"),
+        std::string("below/up/secret"), std::string("below/../../secret"), std::string("../own-beside/K.mtx"),
+        std::string("none/../../secret"), std::string("/proc/self/environ"), std::string("..")}) {
+    INFO(name);
+    CHECK_THROWS_WITH(path_of(file, name, reach::own_folder),
+                      Contains("p.toml:1:13: stiffness: found ") &&
+                          Contains("which is not below the folder of the problem file; allowed: ") &&
+                          Contains("--allow-outside"));
+    CHECK_NOTHROW(path_of(file, name, reach::anywhere));
+  }
+  for (const std::string& name :
+       {std::string("K.mtx"), std::string("./K.mtx"), std::string("inside"), std::string("below/../K.mtx"),
+        std::string("none"), here.at("own/K.mtx"), std::string("../own/K.mtx")}) {
+    INFO(name);
+    CHECK_NOTHROW(path_of(file, name, reach::own_folder));
+  }
+}
+
+TEST_CASE("a problem file that is reached through a link has the folder of the link") {
+  const scratch_folder here;
+  fs::create_directories(here.path() / "data");
+  fs::create_directory_symlink("data", here.path() / "current");
+  here.write("data/K.mtx", "1\n");
+  CHECK_NOTHROW(path_of(here.at("current/p.toml"), "K.mtx", reach::own_folder));
+  CHECK_NOTHROW(path_of(here.at("current/p.toml"), "../data/K.mtx", reach::own_folder));
+  CHECK_THROWS_AS(path_of(here.at("current/p.toml"), "../other", reach::own_folder), input_error);
+}
