@@ -29,6 +29,8 @@ struct report_options {
 /// What a problem from a stranger may do.
 struct problem_limits {
   bool allow_outside = false;   ///< name files that are not below its own folder
+  double max_seconds = 0.0;     ///< 0: any time
+  std::int64_t max_memory = 0;  ///< in MiB; 0: any
 };
 
 /// What `contct run` draws and tabulates.

@@ -1,30 +1,53 @@
 // The contct program.
 #include <csignal>
 #include <cstdio>
+#include <new>
+#include <optional>
+#include <stdexcept>
 #include <system_error>
 
+#include "app/limits.hpp"
 #include "app/outputs.hpp"
+#include "contct/numeric/rational.hpp"
 #include "contct/solve/engine.hpp"
 
 namespace contct::app {
 namespace {
 
+/// Nothing where the command line has no meaning, which is said.
+std::optional<command_options> asked_by(int argc, char** argv) {
+  try {
+    return parse_contct(argc, argv, engine_names());
+  } catch (const std::invalid_argument& e) {
+    complain("{}", e.what());  // lines
+  }
+  return {};
+}
+
 exit_status status_of_program(int argc, char** argv) {
   try {
-    const command_options asked = parse_contct(argc, argv, engine_names());
-    const exit_status status = std::visit([](const auto& options) { return run_command(options); }, asked);
+    const std::optional<command_options> asked = asked_by(argc, argv);
+    if (!asked) return exit_status::bad_input;
+    const exit_status status = std::visit(
+        [](const auto& options) {
+          if constexpr (requires { options.limits; }) start_limits(options.limits);
+          return run_command(options);
+        },
+        *asked);
     flush_standard_output();
     return status;
   } catch (const reader_gone&) {  // "contct run .. | head" ends as any filter does, its files written
     (void)std::signal(SIGPIPE, SIG_DFL);
     (void)std::raise(SIGPIPE);
   } catch (const kernel_failure& e) {
-    complain("the leading kernel gave no answer: {}", e.what());
+    complain("the leading kernel gave no answer: {}", whole_line(e.what()));
     return exit_status::kernels_differ;
   } catch (const std::system_error& e) {
-    complain("{}{}", std::ferror(stdout) != 0 ? "standard output: " : "", e.what());
+    complain("{}{}", std::ferror(stdout) != 0 ? "standard output: " : "", whole_line(e.what()));
+  } catch (const std::bad_alloc&) {
+    end_for_memory();
   } catch (const std::exception& e) {
-    complain("{}", e.what());
+    complain("{}", whole_line(e.what()));
   }
   return exit_status::bad_input;
 }
@@ -33,6 +56,8 @@ exit_status status_of_program(int argc, char** argv) {
 }  // namespace contct::app
 
 int main(int argc, char** argv) {
+  contct::app::end_where_memory_ends();
+  contct::numeric::allocate_as_new_does();
   contct::app::hold_standard_streams();
   (void)std::signal(SIGPIPE, SIG_IGN);
   return static_cast<int>(contct::app::status_of_program(argc, argv));

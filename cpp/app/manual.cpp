@@ -47,7 +47,9 @@ constexpr std::pair<const char*, const char*> exit_meanings[] = {
      "precision."},
     {"3", "solved, but a final state is not certified, under --strict."},
     {"4", "no equilibrium: the structure became a mechanism."},
-    {"5", "the path repeats the same events in a cycle, or the limit of increments is reached."}};
+    {"5",
+     "the path repeats the same events in a cycle, or a limit is reached: of increments, of time or of "
+     "memory."}};
 
 constexpr std::pair<const char*, const char*> variables[] = {
     {"COLUMNS", "Width of tables in columns, from 40 to 160."},

@@ -128,6 +128,12 @@ class option_parser {
   void add_limits(CLI::App* command, problem_limits& limits) {
     command->add_flag("--allow-outside", limits.allow_outside,
                       "The problem may name files that are not below its own folder");
+    add(command, takes::number, "--max-seconds", limits.max_seconds,
+        "Stop after so many seconds, with exit status 5")
+        ->check(CLI::Range(0.001, 1e9));
+    add(command, takes::number, "--max-memory", limits.max_memory,
+        "Stop where more memory than so many MiB is needed, with exit status 5")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
   }
   CLI::Option* add_kernels(CLI::App* command, const std::string& name, std::vector<std::string>& kernels,
                            const std::string& text) {

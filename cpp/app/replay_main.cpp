@@ -1,4 +1,7 @@
 // contct-replay: `contct replay` as a program of its own, without LAPACK and finite elements.
+#include <new>
+
+#include "app/limits.hpp"
 #include "app/outputs.hpp"
 
 namespace contct::app {
@@ -9,6 +12,8 @@ exit_status status_of_replay(int argc, char** argv) {
     const command_options asked = parse_contct_replay(argc, argv);
     if (const auto* options = std::get_if<replay_options>(&asked)) return run_command(*options);
     return run_command(std::get<printed_text>(asked));
+  } catch (const std::bad_alloc&) {
+    end_for_memory();
   } catch (const std::exception& e) {
     complain("{}", e.what());
   }
@@ -19,6 +24,7 @@ exit_status status_of_replay(int argc, char** argv) {
 }  // namespace contct::app
 
 int main(int argc, char** argv) {
+  contct::app::end_where_memory_ends();
   contct::app::hold_standard_streams();
   return static_cast<int>(contct::app::status_of_replay(argc, argv));
 }

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 #include <optional>
 
 #include "contct/text/decimal.hpp"
@@ -60,7 +61,36 @@ std::string decimal_words(std::string digits, int exponent) {
   return digits.insert(static_cast<std::size_t>(exponent) + 1, ".");
 }
 
+#ifdef CONTCT_HAS_GMP
+/// `got`, which malloc or realloc has returned.
+void* or_end(void* got) {
+  if (got != nullptr) return got;
+  if (const std::new_handler handler = std::get_new_handler(); handler != nullptr) handler();
+  std::abort();
+}
+
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): what GMP wants
+void* allocate(std::size_t bytes) {
+  return or_end(std::malloc(bytes));
+}
+
+void* reallocate(void* block, std::size_t /*before*/, std::size_t bytes) {
+  return or_end(std::realloc(block, bytes));
+}
+
+void release(void* block, std::size_t /*bytes*/) {
+  std::free(block);
+}
+// NOLINTEND(cppcoreguidelines-no-malloc)
+#endif
+
 }  // namespace
+
+void allocate_as_new_does() {
+#ifdef CONTCT_HAS_GMP
+  mp_set_memory_functions(allocate, reallocate, release);
+#endif
+}
 
 rational decimal_of(double x) {
   return value_of(shortest_decimal(x));
@@ -102,7 +132,8 @@ double error_in_ulps(double x, const rational& exactly, int real_bytes) {
   int exponent = real_bytes == 4 ? FLT_MIN_EXP : DBL_MIN_EXP;  // 2^(exponent - 1) <= |exactly| < 2^exponent
   if (exactly != 0) {
     const rational size = abs(exactly);
-    int found = static_cast<int>(length_in_bits(numerator(size))) - static_cast<int>(length_in_bits(denominator(size)));
+    int found = static_cast<int>(length_in_bits(numerator(size))) -
+                static_cast<int>(length_in_bits(denominator(size)));
     if (size >= two_to(found)) ++found;
     exponent = std::max(exponent, found);
   }

@@ -33,6 +33,10 @@ struct too_long : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// From now on GMP, which otherwise aborts the process without memory, does then what new does: it calls the
+/// new handler, which must not return.
+void allocate_as_new_does();
+
 /// The shortest decimal that reads as `x`: 0.1 is 1/10. This is the literal itself, where that has at most 15
 /// digits. `x` is finite.
 [[nodiscard]] rational decimal_of(double x);
