@@ -133,6 +133,11 @@ TEST_CASE(
   CHECK(verdict([] { (void)parse_toml("a = \"" + std::string(999, '.') + "\"\n", "f.toml"); }) == "accepted");
 }
 
+TEST_CASE("what is quoted of a file that is no TOML stays on the message's line") {
+  CHECK_THAT(verdict([] { (void)parse_toml("x = f\n", "f.toml"); }),
+             Contains("f.toml:1:5: not TOML: ") && Contains("\\x0a") && !Contains("\n"));
+}
+
 TEST_CASE("one number stands for all things, and an array has one for each") {
   const auto three = [](const table_reader& t) { return t.reals_for("n", any_real, 3, "thing"); };
   CHECK(value("n = 4", three) == std::vector<double>{4});

@@ -106,7 +106,9 @@ toml::table parse_toml(std::string_view text, std::string_view file) {
     return toml::parse(text, file);
   } catch (const toml::parse_error& e) {
     const toml::source_position at = e.source().begin;
-    throw input_error(fmt::format("{}: not TOML: {}{}", position(file, at), e.description(),
+    constexpr std::size_t longest = 300;  // it quotes the file, line ends included
+    throw input_error(fmt::format("{}: not TOML: {}{}", position(file, at),
+                                  printable(e.description(), longest),
                                   has_decimal_comma(line_of(text, at.line)) ? point_not_comma : ""));
   }
 }

@@ -1,0 +1,125 @@
+"""Runs the fuzzers of targets.txt, or measures what their inputs reach; tests/fuzz/run.sh builds them and says how.
+usage: fuzzers.py PROGRAMS CORPUS [SECONDS | --coverage] [NAME]..."""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+LEAST_COVERAGE = 90.0  # per cent of a source's lines
+LIMITS = ["-timeout=10", "-rss_limit_mb=2560"]
+
+
+class Target:
+    """A line of targets.txt."""
+
+    def __init__(self, line):
+        files, _, sources = line.partition("|")
+        self.name, longest, least_runs, *patterns = files.split()
+        self.longest = int(longest)
+        self.least_runs = int(least_runs)
+        self.seeds = [f for p in [*patterns, f"tests/fuzz/seeds/{self.name}/*"] for f in sorted(ROOT.glob(p))]
+        self.sources = sources.split()
+
+    def copy_seeds(self, folder):
+        """The seeds that are no longer than an input may be; libFuzzer would cut others in two."""
+        folder.mkdir(parents=True)
+        fitting = [f for f in self.seeds if f.stat().st_size <= self.longest]
+        for file in fitting:
+            shutil.copy(file, folder / str(file.relative_to(ROOT)).replace("/", "_"))
+        if not fitting:
+            sys.exit(f"{self.name}: found no seed of at most {self.longest} bytes; allowed: one or more")
+        return folder
+
+
+def read_targets(names):
+    lines = (HERE / "targets.txt").read_text(encoding="utf-8").splitlines()
+    targets = [Target(line) for line in lines if line.strip() and not line.startswith("#")]
+    built = {f.name.removesuffix("_fuzz.cpp") for f in HERE.glob("*_fuzz.cpp")}
+    if built != {t.name for t in targets}:
+        sys.exit(f"targets.txt: found other fuzzers than there are: {sorted(built ^ {t.name for t in targets})}")
+    unknown = [n for n in names if n not in built]
+    if unknown:
+        print(f"fuzzers: found {', '.join(unknown)}; allowed: {', '.join(sorted(built))}", file=sys.stderr)
+        sys.exit(2)
+    return [t for t in targets if not names or t.name in names]
+
+
+def fuzz(target, program, corpus, seconds, work):
+    """Run one fuzzer. What it finds stays beside its corpus. True where all is well."""
+    words = HERE / "dictionaries" / f"{target.name}.dict"
+    options = [f"-max_total_time={seconds}", f"-max_len={target.longest}", "-print_final_stats=1",
+               f"-artifact_prefix={corpus}-", *LIMITS]
+    if words.exists():
+        options.append(f"-dict={words}")
+    seeds = target.copy_seeds(work / "seeds")
+    environment = {**os.environ, "UBSAN_OPTIONS": "print_stacktrace=1"}
+    done = subprocess.run([program, *options, corpus, seeds], cwd=work, env=environment, stderr=subprocess.PIPE,
+                          stdout=subprocess.DEVNULL, text=True, errors="replace", check=False)
+    found = re.search(r"^stat::number_of_executed_units: *(\d+)", done.stderr, re.MULTILINE)
+    runs = int(found.group(1)) if found else 0
+    if done.returncode != 0:
+        lines = [line for line in done.stderr.splitlines() if not line.startswith("#")]
+        print("\n".join(lines[-60:]))
+        print(f"{target.name}: found an input that is not handled, after {runs} runs; it is beside {corpus}")
+        return False
+    least = target.least_runs * seconds // 60
+    if runs < least:
+        print(f"{target.name}: found {runs} runs in {seconds} s; allowed: at least {least}")
+        return False
+    print(f"{target.name}: {runs} runs in {seconds} s, nothing found", flush=True)
+    return True
+
+
+def covered_lines(target, program, corpus, work):
+    """{ source: (lines, of them reached) }, by the seeds and the corpus."""
+    raw, profile = work / "raw", work / "profile"
+    seeds = target.copy_seeds(work / "seeds")
+    subprocess.run([program, "-runs=0", f"-max_len={target.longest}", corpus, seeds], cwd=work, check=True,
+                   env={**os.environ, "LLVM_PROFILE_FILE": str(raw)}, capture_output=True)
+    subprocess.run(["llvm-profdata", "merge", "-sparse", raw, "-o", profile], check=True)
+    export = ["llvm-cov", "export", "-summary-only", f"-instr-profile={profile}", program,
+              *[ROOT / s for s in target.sources]]
+    told = json.loads(subprocess.run(export, check=True, capture_output=True).stdout)
+    counts = {f["filename"]: f["summary"]["lines"] for f in told["data"][0]["files"]}
+    return {s: (counts[str(ROOT / s)]["count"], counts[str(ROOT / s)]["covered"]) for s in target.sources}
+
+
+def cover(target, program, corpus, work):
+    good = True
+    for source, (lines, reached) in covered_lines(target, program, corpus, work).items():
+        share = 100.0 * reached / lines
+        is_enough = share >= LEAST_COVERAGE
+        print(f"{target.name}: {source}: {reached} of {lines} lines, {share:.1f} %"
+              f"{'' if is_enough else f'; allowed: at least {LEAST_COVERAGE:.0f} %'}", flush=True)
+        good = good and is_enough
+    return good
+
+
+def main():
+    programs, corpora, *rest = sys.argv[1:]
+    coverage = rest[:1] == ["--coverage"]
+    seconds = 60
+    if rest and (coverage or rest[0].isdigit()):
+        seconds = 0 if coverage else int(rest[0])
+        rest = rest[1:]
+    good = []
+    for target in read_targets(rest):
+        program = pathlib.Path(programs).resolve() / f"{target.name}_fuzz"
+        corpus = pathlib.Path(corpora).resolve() / target.name
+        corpus.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory() as work:
+            work = pathlib.Path(work)
+            good.append(cover(target, program, corpus, work) if coverage
+                        else fuzz(target, program, corpus, seconds, work))
+    print(f"fuzzers: {sum(good)} of {len(good)} {'are covered' if coverage else 'found nothing'}")
+    sys.exit(0 if all(good) else 1)
+
+
+main()
