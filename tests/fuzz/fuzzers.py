@@ -21,9 +21,11 @@ class Target:
 
     def __init__(self, line):
         files, _, sources = line.partition("|")
-        self.name, longest, least_runs, *patterns = files.split()
+        self.name, longest, least_runs, *words = files.split()
         self.longest = int(longest)
         self.least_runs = int(least_runs)
+        self.options = [w for w in words if w.startswith("-")]
+        patterns = [w for w in words if not w.startswith("-")]
         self.seeds = [f for p in [*patterns, f"tests/fuzz/seeds/{self.name}/*"] for f in sorted(ROOT.glob(p))]
         self.sources = sources.split()
 
@@ -55,7 +57,7 @@ def fuzz(target, program, corpus, seconds, work):
     """Run one fuzzer. What it finds stays beside its corpus. True where all is well."""
     words = HERE / "dictionaries" / f"{target.name}.dict"
     options = [f"-max_total_time={seconds}", f"-max_len={target.longest}", "-print_final_stats=1",
-               f"-artifact_prefix={corpus}-", *LIMITS]
+               f"-artifact_prefix={corpus}-", *LIMITS, *target.options]
     if words.exists():
         options.append(f"-dict={words}")
     seeds = target.copy_seeds(work / "seeds")

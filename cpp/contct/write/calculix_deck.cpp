@@ -202,8 +202,15 @@ constexpr double total_force = 1e6;
 /// field, would misplace the face of a stiff spring.
 constexpr double within = 4;
 
-/// CalculiX cuts a field after 20 characters; this has 19 at most.
+/// CalculiX cuts a field after 20 characters; this has 19 at most. A number that scaling took beyond doubles
+/// is refused.
 std::string field(double x) {
+  if (!std::isfinite(x))
+    throw std::invalid_argument(
+        fmt::format("found {}, scaled for CalculiX; allowed: numbers within the range of double precision. "
+                    "Choose units in which "
+                    "lengths and forces are nearer to 1",
+                    x));
   return fmt::format("{:.12e}", x);
 }
 
