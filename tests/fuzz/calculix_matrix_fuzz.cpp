@@ -1,0 +1,35 @@
+// The readers of the matrix that CalculiX writes, and of its labels: JOB.dof, a line =====, and JOB.sti.
+#include <cmath>
+
+#include "contct/read/matrix_files.hpp"
+#include "fuzz/fuzz.hpp"
+
+namespace {
+
+using namespace contct::fuzz;
+using namespace contct::read;
+
+void check(const assembled& a) {
+  const dof_index dofs(a);
+  for (int i = 0; i < a.dofs(); ++i) require(dofs.find(a.label_of(i)) == i, "a label is that of its dof");
+  require(!dofs.allowed().empty(), "messages say what labels there are");
+  for (const matrix_entry& e : a.stiffness.entries) {
+    require(e.column >= 0 && e.column <= e.row && e.row < a.dofs(), "an entry is in the lower triangle");
+    require(std::isfinite(e.value) && (e.row != e.column || e.value > 0.0), "an entry is a number");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto parts = parts_of(text_of(data, size), 2);
+  assembled a;
+  if (!is_read([&] { a.labels = parse_labels(parts[0], "job.dof"); }) || parts.size() < 2) return 0;
+  const int rows = static_cast<int>(a.labels.size());
+  const bool is_sound = is_read([&] { a.stiffness = parse_calculix_stiffness(parts[1], "job.sti", rows); });
+  const bool is_exact =
+      is_read([&] { (void)parse_calculix_stiffness(parts[1], "job.sti", rows, &a.written); });
+  require(is_sound || !is_exact, "what is read with its literals is read without them");
+  if (is_sound) check(a);
+  return 0;
+}

@@ -1,0 +1,51 @@
+// The reader of coordinates, and what finds the dofs of a matrix by them: coordinates, a line =====, and
+// labels.
+#include <cmath>
+#include <set>
+
+#include "contct/read/matrix_files.hpp"
+#include "contct/read/matrix_places.hpp"
+#include "fuzz/fuzz.hpp"
+
+namespace {
+
+using namespace contct::fuzz;
+using namespace contct::read;
+
+/// A matrix that couples each dof with the next.
+assembled chain_of(std::vector<std::string> labels) {
+  assembled a;
+  a.stiffness.order = static_cast<int>(labels.size());
+  a.labels = std::move(labels);
+  for (int i = 0; i < a.stiffness.order; ++i) {
+    if (i > 0) a.stiffness.entries.push_back({i, i - 1, -1.0});
+    a.stiffness.entries.push_back({i, i, 2.0});
+  }
+  return a;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto parts = parts_of(text_of(data, size), 2);
+  placed_nodes places;
+  if (!is_read([&] { places.nodes = parse_coordinates(parts[0], "k.xyz"); })) return 0;
+  std::set<std::string> names;
+  for (const placed_node& n : places.nodes) {
+    require(names.insert(n.name).second, "a node is there once", n.name);
+    for (const double x : n.at) require(std::isfinite(x), "a coordinate is a number", n.name);
+  }
+  std::vector<std::string> labels;
+  if (parts.size() < 2 || !is_read([&] { labels = parse_labels(parts[1], "k.dof"); })) return 0;
+  const assembled a = chain_of(labels);
+  if (!place_dofs(a, places)) return 0;
+  require(places.dofs.size() == labels.size(), "a place for each dof");
+  add_coupling_edges(a, places);
+  drop_idle_nodes(places);
+  for (const placed_dof& d : places.dofs)
+    require(d.node >= -1 && d.node < std::ssize(places.nodes) && d.direction >= 0 && d.direction <= 6,
+            "a dof's place");
+  for (const mesh_edge& e : places.edges)
+    require(e.from >= 0 && e.from < e.to && e.to < std::ssize(places.nodes), "an edge joins two nodes");
+  return 0;
+}

@@ -1,0 +1,50 @@
+// The reader of stiffness matrices in Matrix Market files: what it reads, written again, is the same matrix.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "contct/read/matrix_files.hpp"
+#include "fuzz/fuzz.hpp"
+
+namespace {
+
+using namespace contct::fuzz;
+using namespace contct::read;
+
+void check(const sparse_matrix& m) {
+  const matrix_entry* before = nullptr;
+  for (const matrix_entry& e : m.entries) {
+    require(e.column >= 0 && e.column <= e.row && e.row < m.order, "an entry is in the lower triangle");
+    require(std::isfinite(e.value) && e.value != 0.0, "an entry is a number other than 0");
+    require(e.row != e.column || e.value > 0.0, "the diagonal is positive");
+    require(before == nullptr || before->row != e.row || before->column != e.column, "a place is there once");
+    before = &e;
+  }
+}
+
+std::string written(const sparse_matrix& m) {
+  std::string text = fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{0} {0} {1}\n", m.order,
+                                 m.entries.size());
+  for (const matrix_entry& e : m.entries) text += fmt::format("{} {} {}\n", e.row + 1, e.column + 1, e.value);
+  return text;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text = text_of(data, size);
+  sparse_matrix read;
+  std::vector<std::string> literals;
+  const bool is_sound = is_read([&] { read = parse_symmetric(text, "k.mtx"); });
+  const bool is_exact = is_read([&] { (void)parse_symmetric(text, "k.mtx", &literals); });
+  require(is_sound || !is_exact, "what is read with its literals is read without them");
+  if (!is_sound) return 0;
+  check(read);
+  require(literals.empty() || literals.size() == read.entries.size(), "a literal for each entry");
+  const std::string again = written(read);
+  require(is_read([&] {
+            require(written(parse_symmetric(again, "again.mtx")) == again, "the same matrix", again);
+          }),
+          "a matrix that was written is read", again);
+  return 0;
+}
