@@ -61,7 +61,8 @@ def fuzz(target, program, corpus, seconds, work):
     if words.exists():
         options.append(f"-dict={words}")
     seeds = target.copy_seeds(work / "seeds")
-    environment = {**os.environ, "UBSAN_OPTIONS": "print_stacktrace=1"}
+    environment = {**os.environ, "UBSAN_OPTIONS": "print_stacktrace=1",
+                   "ASAN_OPTIONS": "malloc_context_size=6"}
     done = subprocess.run([program, *options, corpus, seeds], cwd=work, env=environment, stderr=subprocess.PIPE,
                           stdout=subprocess.DEVNULL, text=True, errors="replace", check=False)
     found = re.search(r"^stat::number_of_executed_units: *(\d+)", done.stderr, re.MULTILINE)

@@ -41,8 +41,8 @@ class problem_maker {
   }
 
  private:
-  /// One time in `of`.
-  bool chance(int of) { return bytes_.ConsumeIntegralInRange(1, of) == 1; }
+  /// One time in `of`; never where there are no bytes left.
+  bool chance(int of) { return bytes_.ConsumeIntegralInRange(1, of) == of; }
 
   /// A number without a sign, not 0: a round one, a multiple of 1/64, or, rarely, any that a double can be.
   double size() {
@@ -140,20 +140,25 @@ class problem_maker {
     made_.text += "coordinates = \"k.xyz\"\n";
   }
 
+  /// Mostly one that holds the structure, and some more.
   void add_supports() {
-    const int supports = bytes_.ConsumeIntegralInRange(0, 4);
-    for (int i = 0; i < supports; ++i) {
-      made_.text += fmt::format("[[support]]\n{}\n", place_key());
-      const std::string& dof = dofs_[i % dofs_.size()];
-      if (chance(5))
-        made_.text += on_matrix() ? fmt::format("spring = {}\n", size())
-                                  : fmt::format("spring = {{ {} = {} }}\n", dof, size());
-      else if (on_matrix())
-        made_.text += "fix = true\n";
-      else
-        made_.text += chance(2) ? fmt::format("fix = \"{}\"\n", dof)
-                                : "fix = [\"" + dofs_[0] + "\", \"" + dofs_[1] + "\"]\n";
-    }
+    if (!chance(5)) add_support(2);
+    const int others = bytes_.ConsumeIntegralInRange(0, 3);
+    for (int i = 0; i < others; ++i) add_support(bytes_.ConsumeIntegralInRange(0, 2));
+  }
+
+  /// Of kind 0 one that fixes the first dof of a node, of kind 1 a spring, of kind 2 one that fixes all dofs.
+  void add_support(int kind) {
+    const std::string at = place_key();
+    made_.text += "[[support]]\n" + at + "\n";
+    if (kind != 1) fixed_.push_back(at);
+    if (on_matrix())
+      made_.text += kind == 1 ? fmt::format("spring = {}\n", size()) : "fix = true\n";
+    else if (kind == 1)
+      made_.text += fmt::format("spring = {{ {} = {} }}\n", dofs_.back(), size());
+    else
+      made_.text += kind == 0 ? fmt::format("fix = \"{}\"\n", dofs_[0])
+                              : fmt::format("fix = [\"{}\"]\n", fmt::join(dofs_, "\", \""));
   }
 
   /// Behind the place: which side, and a face on that side.
@@ -178,8 +183,10 @@ class problem_maker {
     made_.text +=
         fmt::format("point = [ {{ {}, {} = {} }} ]\n", place_key(),
                     dofs_[bytes_.ConsumeIntegralInRange<std::size_t>(0, dofs_.size() - 1)], number());
-    if (chance(8))
-      made_.text += fmt::format("settlement = [ {{ {}, {} = {} }} ]\n", place_key(), dofs_[0], number());
+    if (!fixed_.empty() && chance(4))
+      made_.text += fmt::format("settlement = [ {{ {}, {} = {} }} ]\n",
+                                fixed_[bytes_.ConsumeIntegralInRange<std::size_t>(0, fixed_.size() - 1)],
+                                dofs_[0], number());
   }
 
   FuzzedDataProvider& bytes_;
@@ -187,6 +194,7 @@ class problem_maker {
   int nodes_ = 0;
   std::vector<std::string> dofs_;    // of a node
   std::vector<std::string> labels_;  // of a matrix
+  std::vector<std::string> fixed_;   // places of supports that fix a dof
 };
 
 }  // namespace

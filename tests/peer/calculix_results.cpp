@@ -64,7 +64,7 @@ std::vector<calculix_table> parse_calculix_dat(std::string_view text, std::strin
   }
   for (const calculix_table& t : tables)
     if (t.at.empty())
-      refuse_line(file, 0, fmt::format("no node in the table of {} for set {}", t.quantity, t.set),
+      refuse_line(file, 0, fmt::format("no node in the table of {} for set {}", t.quantity, in_quotes(t.set)),
                   "one or more");
   return tables;
 }
@@ -81,15 +81,16 @@ std::vector<std::array<double, 3>> values_at_end(const std::vector<calculix_tabl
     if (t.quantity == quantity && t.set == set && t.time == 1.0) table = &t;
   }
   if (table == nullptr) {
-    throw input_error(fmt::format(
-        "{}: found no {} for set {} at time 1: CalculiX did not reach the step's end", file, quantity, set));
+    throw input_error(
+        fmt::format("{}: found no {} for set {} at time 1: CalculiX did not reach the step's end", file,
+                    quantity, in_quotes(set)));
   }
   std::vector<std::array<double, 3>> values;
   for (int node = first; node < first + count; ++node) {
     const auto at = table->at.find(node);
     if (at == table->at.end()) {
       throw input_error(fmt::format("{}: found no {} of node {} for set {}; allowed: nodes {} to {}", file,
-                                    quantity, node, set, first, first + count - 1));
+                                    quantity, node, in_quotes(set), first, first + count - 1));
     }
     values.push_back(at->second);
   }

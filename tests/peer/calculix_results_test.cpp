@@ -74,6 +74,7 @@ TEST_CASE("what CalculiX does not write is refused with its line") {
   CHECK_THAT(refusal(captured.substr(0, captured.size() - 1)),
              Contains("job.dat:10: ") && Contains("cut short"));
   CHECK_THAT(refusal(captured.substr(0, captured.find("        18"))), Contains("found no node"));
+  CHECK_THAT(refusal(" forces (fx,fy,fz) for set \007\033 and time 1\n"), Contains("for set \"\\x07\\x1b\""));
 }
 
 TEST_CASE("every cut of a file is refused, or the nodes it lacks are missed") {

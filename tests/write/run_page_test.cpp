@@ -48,6 +48,20 @@ TEST_CASE("a title with markup stays text: no new element comes of it, and the d
   CHECK(embedded_in(page)["title"] == "</script><script>alert(1)</script> <b>& \"{{data}}\" <!--");
 }
 
+TEST_CASE(
+    "a problem with units has a page whatever its structure: only a plate has units of moments per length") {
+  const std::string units = "[units]\nlength = \"m\"\nforce = \"kN\"\n";
+  const auto of = [&units](const std::string& text) {
+    return embedded_in(run_page(a_run(units + text).finished()))["units"];
+  };
+  const auto on_matrix = of(portal_frame().substr(portal_frame().find("[matrix]")));
+  CHECK(on_matrix["w"] == "m");
+  CHECK(on_matrix["force"] == "kN");
+  CHECK(!on_matrix.contains("mx"));
+  CHECK(!of(good_problem).contains("mx"));
+  CHECK(of(good_plate)["mxy"] == "kN m/m");
+}
+
 TEST_CASE("the page names no other file and no network") {
   const std::string page = run_page(a_run(good_problem).finished());
   for (const char* way : {"src=", "@import", "fetch(", "<link", "<img", "XMLHttp"}) {

@@ -149,10 +149,11 @@ class page_writer {
   [[nodiscard]] json units() const {
     if (what_.units.force.empty()) return json::object();
     const auto unit = [this](int force, int length) { return unit_words(what_.units, force, length); };
-    const std::string plate_moment = unit_words(what_, "mx").substr(1);
-    return {{"w", unit(0, 1)},     {"force", unit(1, 0)},     {"moment", unit(1, 1)},
-            {"shear", unit(1, 0)}, {"mx", plate_moment},      {"my", plate_moment},
-            {"mxy", plate_moment}, {"pressure", unit(1, -2)}, {"per_length", unit(1, -1)}};
+    json out = {{"w", unit(0, 1)},     {"force", unit(1, 0)},     {"moment", unit(1, 1)},
+                {"shear", unit(1, 0)}, {"pressure", unit(1, -2)}, {"per_length", unit(1, -1)}};
+    if (plate_ != nullptr)
+      for (const char* moment : {"mx", "my", "mxy"}) out[moment] = unit_words(what_, moment).substr(1);
+    return out;
   }
 
   /// Stations along it, with the numbers of those that are nodes; from where to where a distributed load goes
