@@ -5,7 +5,7 @@
 
 #include "app/commands.hpp"
 #include "app/man_page.hpp"
-#include "contct/solve/engine.hpp"
+#include "app/problem_runs.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/text/terminal.hpp"
@@ -261,13 +261,13 @@ exit_status run_command(const manual_options& options) {
   } else if (options.page == "result") {
     print_text(page_from_markdown({"contct-result", "result files of contct", result_file_md}));
   } else {
-    print_text(manual_page(describe_contct(engine_names())));
+    print_text(manual_page(describe_contct(engine_choices())));
   }
   return exit_status::solved;
 }
 
 exit_status run_command(const completion_options& options) {
-  const program_description program = describe_contct(engine_names());
+  const program_description program = describe_contct(engine_choices());
   print_text(fmt::format("{}", options.shell == "bash"  ? bash_completion(program)
                                : options.shell == "zsh" ? zsh_completion(program)
                                                         : fish_completion(program)));

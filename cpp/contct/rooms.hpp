@@ -17,6 +17,9 @@ using namespace trace;
 namespace contct::matrix {
 using namespace numeric;
 }
+namespace contct::distributed {
+using namespace matrix;
+}
 namespace contct::structure {
 using namespace kernels;
 using namespace matrix;

@@ -108,6 +108,15 @@ void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double
   if (first < band_.order()) solve_block_from(band_, first, x);
 }
 
+void stiffness_factor::solve_units_at(std::span<const int> rows, std::span<const int> at,
+                                      std::vector<double>& x) {
+  if (sparse_ && sparse_->solve_units_at(rows, at, x)) return;
+  solve_units(rows, all_rows_);
+  x.resize(at.size() * block_width);
+  for (std::size_t i = 0; i < at.size(); ++i)
+    std::copy_n(&all_rows_[at[i] * block_width], block_width, &x[i * block_width]);
+}
+
 double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {
   const std::vector<double> diagonal = k_.diagonal_with(springs);
   if (!k_.is_band()) {

@@ -41,6 +41,10 @@ class stiffness_factor {
   /// `k` must outlive this object.
   explicit stiffness_factor(const stiffness_matrix& k);
 
+  /// By a factor of K that is at hand; `k` is no band.
+  stiffness_factor(const stiffness_matrix& k, std::unique_ptr<sparse_factor> of_k)
+      : k_(k), sparse_(std::move(of_k)) {}
+
   /// False when a pivot is not positive. Rounding can give a mechanism a factor, too.
   [[nodiscard]] bool factor(std::span<const spring_at> springs) {
     if (sparse_) return sparse_->factor(k_.diagonal_with(springs));
@@ -57,6 +61,9 @@ class stiffness_factor {
   /// Solve for the unit vectors of up to `block_width` rows in one pass over the factor:
   /// x[row * block_width + i] for the i-th. A row of -1 leaves zeros.
   void solve_units(std::span<const int> rows, std::vector<double>& x);
+
+  /// The same at some rows alone: x[i * block_width + j] at row `at[i]`.
+  void solve_units_at(std::span<const int> rows, std::span<const int> at, std::vector<double>& x);
 
   /// Products and sums that a factorisation takes.
   [[nodiscard]] double flops() const {
@@ -85,6 +92,7 @@ class stiffness_factor {
   const stiffness_matrix& k_;
   band_matrix band_;
   std::unique_ptr<sparse_factor> sparse_;  // of K where it is no band
+  std::vector<double> all_rows_;           // working space of solve_units_at
 };
 
 }  // namespace contct::matrix

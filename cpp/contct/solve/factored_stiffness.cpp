@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contct/distributed/ranks.hpp"
 #include "contct/matrix/block_solve.hpp"
 
 namespace contct::solve {
@@ -42,10 +43,30 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
   to_dofs(s, x, u);
 }
 
-factored_stiffness::factored_stiffness(const linear_structure& s, bool dissected)
+namespace {
+
+stiffness_factor factor_of(const stiffness_matrix& k, factored_by how) {
+  if (how != factored_by::ranks) return stiffness_factor(k);
+  distributed::ranks* const all = distributed::joined_ranks();
+  if (all == nullptr) throw std::logic_error("no ranks are joined that could factor a stiffness");
+  return {k, all->distribute(k.columns())};
+}
+
+}  // namespace
+
+factored_stiffness::factored_stiffness(const linear_structure& s, factored_by how)
     : structure_(s),
-      entries_(dissected ? entries_of_band(s) : std::nullopt),
-      factor_(entries_ ? *entries_ : s.stiffness) {}
+      how_(how),
+      entries_(how == factored_by::storage ? std::nullopt : entries_of_band(s)),
+      factor_(factor_of(entries_ ? *entries_ : s.stiffness, how)) {
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) rows_of_pairs_.push_back(s.row_of(s.dof_of_pair(i)));
+}
+
+void factored_stiffness::solve_units_at_pairs(std::span<const int> dofs, std::vector<double>& x) {
+  std::vector<int> rows;
+  for (const int dof : dofs) rows.push_back(structure_.fixed[dof] != 0 ? -1 : structure_.row_of(dof));
+  factor_.solve_units_at(rows, rows_of_pairs_, x);
+}
 
 void factored_stiffness::solve_unit(int dof, std::span<double> x) {
   if (structure_.fixed[dof] != 0) return;

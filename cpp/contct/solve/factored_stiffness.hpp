@@ -72,12 +72,16 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
   return columns_of(s.stiffness.band());
 }
 
+/// What factors K: LAPACK where it is stored as a band, and CHOLMOD where not; CHOLMOD in either case, in its
+/// own order; or all ranks of the MPI job that this process has joined.
+enum class factored_by { storage, cholmod, ranks };
+
 /// K with the springs of some pairs, and its Cholesky factor. Dofs and pairs are numbered from 0.
 /// Memory: the factor, besides the structure's own.
 class factored_stiffness {
  public:
-  /// `dissected`: by CHOLMOD, in its order, also where K is stored as a band.
-  explicit factored_stiffness(const linear_structure& s, bool dissected = false);
+  /// Throws std::logic_error where nothing of that kind is at hand.
+  explicit factored_stiffness(const linear_structure& s, factored_by how = factored_by::storage);
 
   /// Factor K with the springs of the pairs that are `closed` [pairs] (dpbtrf). Throws no_factor.
   void factor(std::span<const char> closed) {
@@ -96,13 +100,12 @@ class factored_stiffness {
   /// reads less of the factor than `solve`: see solve_from.
   void solve_unit(int dof, std::span<double> x);
 
-  /// The same for up to `block_width` dofs in one pass over the factor: x[row * block_width + i] for the
-  /// i-th, in the order of the structure's rows.
-  void solve_units(std::span<const int> dofs, std::vector<double>& x) {
-    std::vector<int> rows;
-    for (const int dof : dofs) rows.push_back(structure_.fixed[dof] != 0 ? -1 : structure_.row_of(dof));
-    factor_.solve_units(rows, x);
-  }
+  /// The same for up to `block_width` dofs in one pass over the factor, at the pairs alone:
+  /// x[pair * block_width + i] for the i-th.
+  void solve_units_at_pairs(std::span<const int> dofs, std::vector<double>& x);
+
+  /// Is a solution at the pairs alone quicker to come by than all of it?
+  [[nodiscard]] bool is_distributed() const { return how_ == factored_by::ranks; }
 
   /// Solve K u = load, corrected with the residual in long double until that no longer helps: u has the
   /// digits that the stored matrix has, or 3 more than LAPACK alone where its condition takes more.
@@ -122,7 +125,9 @@ class factored_stiffness {
 
  private:
   const linear_structure& structure_;
-  std::optional<stiffness_matrix> entries_;  // of a band that CHOLMOD factors
+  factored_by how_;
+  std::optional<stiffness_matrix> entries_;  // of a band that LAPACK does not factor
+  std::vector<int> rows_of_pairs_;           // [pairs]
   std::vector<spring_at> springs_;           // those in the factor
   stiffness_factor factor_;
 };

@@ -131,9 +131,15 @@ class inverse_columns {
   }
 
   void solve_alone(int pair) {
-    std::fill(dofs_.begin(), dofs_.end(), 0.0);
-    k0_.solve_unit(structure_.dof_of_pair(pair), dofs_);
-    gather_at_pairs(structure_, dofs_, column_);
+    const int dof = structure_.dof_of_pair(pair);
+    if (k0_.is_distributed()) {
+      k0_.solve_units_at_pairs({&dof, 1}, one_);
+      for (std::size_t i = 0; i < pairs_; ++i) column_[i] = one_[i * block_width];
+    } else {
+      std::fill(dofs_.begin(), dofs_.end(), 0.0);
+      k0_.solve_unit(dof, dofs_);
+      gather_at_pairs(structure_, dofs_, column_);
+    }
     correct(column_);
   }
 
@@ -141,15 +147,10 @@ class inverse_columns {
     std::vector<int> at_dofs;
     at_dofs.reserve(chosen.size());
     for (const int p : chosen) at_dofs.push_back(structure_.dof_of_pair(p));
-    k0_.solve_units(at_dofs, rows_);
     block& b = blocks_.emplace_back();
+    k0_.solve_units_at_pairs(at_dofs, b.entries);
     b.pairs = chosen;
     b.unused = chosen.size();
-    b.entries.resize(pairs_ * block_width);
-    for (std::size_t i = 0; i < pairs_; ++i) {
-      const int row = structure_.row_of(structure_.dof_of_pair(i));
-      std::copy_n(&rows_[row * block_width], block_width, &b.entries[i * block_width]);
-    }
     solved_ahead_ += chosen.size() - 1;
   }
 
@@ -190,8 +191,8 @@ class inverse_columns {
   std::vector<std::vector<double>> columns_;    // c_j [toggles][pairs]
   std::vector<std::vector<double>> at_toggle_;  // [j][l] = (c_l) at the pair of toggle j, l < j
   std::list<block> blocks_;
-  std::vector<double> column_;       // the last one asked for [pairs]
-  std::vector<double> dofs_, rows_;  // working space: one solution, a block of them
+  std::vector<double> column_;      // the last one asked for [pairs]
+  std::vector<double> dofs_, one_;  // working space: one solution [dofs], or a block at the pairs
   int passes_ = 0;
   std::size_t solved_ahead_ = 0, used_ahead_ = 0;
 };

@@ -105,9 +105,10 @@ class spring_engine : public stiffness_engine {
   std::vector<int> switched_;  // pairs that may differ
 };
 
-/// The engines that have a source of their own: see make_engine.
+/// The engines that have a source of their own: see make_engine. The first: "updated", "dissected" and
+/// "petsc".
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s,
-                                                                    bool dissected);
+                                                                    std::string_view name);
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& s);
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_cholmod_engine(const linear_structure& s);
 

@@ -33,16 +33,15 @@ std::size_t columns_worth_keeping(double flops_of_factor, std::size_t pairs) {
 /// its digits.
 class updated_engine final : public spring_engine {
  public:
-  /// `dissected`: with CHOLMOD's factor in place of a band's.
-  updated_engine(const linear_structure& s, bool dissected)
+  updated_engine(const linear_structure& s, std::string_view name, factored_by how)
       : spring_engine(s),
-        dissected_(dissected),
-        stiffness_(s, dissected),
+        name_(name),
+        stiffness_(s, how),
         columns_(s, stiffness_),
         most_toggles_(columns_worth_keeping(stiffness_.flops(), s.pairs.size())),
         response_(s.pairs.size()),
         work_(s.dofs()) {}
-  [[nodiscard]] std::string_view name() const override { return dissected_ ? "dissected" : "updated"; }
+  [[nodiscard]] std::string_view name() const override { return name_; }
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
     if (!has_factor_) factor_anew();
@@ -122,7 +121,7 @@ class updated_engine final : public spring_engine {
     return drift_.accepts(found);
   }
 
-  bool dissected_;
+  std::string name_;
   factored_stiffness stiffness_;
   inverse_columns columns_;
   bool has_factor_ = false;
@@ -135,8 +134,11 @@ class updated_engine final : public spring_engine {
 
 }  // namespace
 
-std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s, bool dissected) {
-  return std::make_unique<updated_engine>(s, dissected);
+std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s, std::string_view name) {
+  const factored_by how = name == "dissected" ? factored_by::cholmod
+                          : name == "petsc"   ? factored_by::ranks
+                                              : factored_by::storage;
+  return std::make_unique<updated_engine>(s, name, how);
 }
 
 }  // namespace contct::solve

@@ -1,0 +1,73 @@
+// A symmetric positive definite matrix that is distributed by rows, and its factor by MUMPS. Every function
+// is collective: all ranks call it, each for its own rows.
+#pragma once
+
+#include <petscmat.h>
+
+#include <span>
+#include <vector>
+
+namespace contct::distributed::petsc {
+
+/// Throws std::bad_alloc or std::runtime_error, with PETSc's words, where a call to PETSc has failed.
+void succeed(PetscErrorCode code);
+
+/// Which rows a rank has: neighbouring ones, as many as any other rank, or one more.
+struct own_rows {
+  own_rows(MPI_Comm job, int order);
+  int first = 0;  ///< from 0
+  int count = 0;
+};
+
+/// The upper triangle of some rows: row i has the columns `columns[starts[i]]` up to `starts[i + 1]`,
+/// ascending, its diagonal first. Columns are those of the whole matrix, from 0.
+struct upper_rows {
+  std::vector<PetscInt> starts = {0};
+  std::vector<PetscInt> columns;
+  std::vector<double> values;
+};
+
+/// How a factorisation came out; the same on every rank.
+enum class factored : int { yes, not_definite, no_memory, failed };
+
+class distributed_matrix {
+ public:
+  /// Analyses the matrix: finds the order in which it is factored.
+  distributed_matrix(MPI_Comm job, int order, const upper_rows& own);
+  ~distributed_matrix();
+  distributed_matrix(const distributed_matrix&) = delete;
+  distributed_matrix& operator=(const distributed_matrix&) = delete;
+
+  [[nodiscard]] const own_rows& rows() const { return rows_; }
+
+  /// Products and sums that a factorisation takes, and the bytes of the factor, both as MUMPS estimates them.
+  [[nodiscard]] double flops() const { return flops_; }
+  [[nodiscard]] double bytes() const { return bytes_; }
+
+  /// Factor the matrix with `diagonal` for its own [own rows].
+  [[nodiscard]] factored factor(std::span<const double> diagonal);
+  /// MUMPS' INFOG(1) and INFOG(2) of the last factorisation.
+  [[nodiscard]] std::pair<int, int> mumps_said() const;
+
+  /// Solve in place [own rows].
+  void solve(std::span<double> b);
+
+  /// Solve for the unit vectors of `units`, rows of the whole matrix; one of -1 leaves zeros. The solutions
+  /// at those rows of `at` that this rank has, in their order, for all units each: [own of at][width].
+  [[nodiscard]] std::vector<double> solve_units(std::span<const int> units, std::span<const int> at,
+                                                int width);
+
+ private:
+  void analyse();
+  [[nodiscard]] bool has(int row) const { return row >= rows_.first && row < rows_.first + rows_.count; }
+
+  MPI_Comm job_;
+  own_rows rows_;
+  double flops_ = 0.0, bytes_ = 0.0;
+  Mat matrix_ = nullptr;
+  Mat factor_ = nullptr;
+  Mat units_ = nullptr, solutions_ = nullptr;  // dense blocks, made when first asked for
+  Vec b_ = nullptr, x_ = nullptr;
+};
+
+}  // namespace contct::distributed::petsc

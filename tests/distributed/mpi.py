@@ -1,0 +1,250 @@
+"""mpi.py CASE CONTCT REFERENCE [MPIEXEC RANKS]: `contct run --engine petsc`, by one process and under mpirun.
+
+CASE:
+  equal      every plate, beam and matrix problem of REFERENCE, and mat-50, by RANKS ranks: its events, shares of the step
+             and statuses are those of one process on the default engine, and D is within the error bounds of both.
+  bad-input  what is refused is refused with one message and exit status 2, and leaves no file.
+  killed     a rank that is killed ends the job, with an exit status other than 0 and without a file.
+  engines    the tests of every engine, where rank 0 of RANKS runs them and petsc is among the engines.
+  absent     without its module the engine is refused with one message that says what is missing.
+  apart      the program itself links neither MPI nor PETSc.
+"""
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+LEAST = {"problems": 44, "increments": 300, "events": 900, "numbers": 20000}
+PATIENCE = 300  # seconds, that nothing here needs
+
+
+def mpi_environment():
+    """As root Open MPI wants to be told twice."""
+    return os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "ASAN_OPTIONS": "detect_leaks=0"}
+
+
+def mpirun(mpiexec, ranks):
+    said = subprocess.run([mpiexec, "--version"], capture_output=True, text=True, env=mpi_environment()).stdout
+    more = ["--oversubscribe", "--bind-to", "none"] if "Open MPI" in said or "OpenRTE" in said else []
+    return [mpiexec, *more, "-n", str(ranks)]
+
+
+def run(line, folder, status=0):
+    finished = subprocess.run(line, stdin=subprocess.DEVNULL, capture_output=True, text=True, env=mpi_environment(),
+                              cwd=folder, timeout=PATIENCE)
+    if status is not None and finished.returncode != status:
+        sys.exit(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stdout}{finished.stderr}")
+    return finished
+
+
+def messages(text):
+    return [line for line in text.splitlines() if line.startswith("contct: ") and not line.startswith("contct: warning")]
+
+
+def mat(n):
+    """mat-N of the benchmark: a free plate on a one-sided bed, pressed down and then lifted at one point."""
+    w = n * n / 256
+    lifted = n * 58 // 100 * (n + 1) + n * 37 // 100 + 1
+    return f"""[plate]
+size = [{n}, {n}]
+elements = [{n}, {n}]
+D = 1.0
+nu = 0.3
+[[bed]]
+modulus = 0.00390625
+face = 0.0
+[[step]]
+uniform = -0.00390625
+[[step]]
+uniform = -0.00390625
+point = [ {{ node = {lifted}, w = {0.25 * w}, wx = {0.137 * 0.25 * w}, wy = {0.311 * 0.25 * w} }} ]
+"""
+
+
+def solved(line, folder, name):
+    """The result, and the exit status."""
+    file = Path(folder) / name
+    finished = run([*line, "--json", file, "--quiet"], folder, None)
+    if not file.exists():
+        sys.exit(f"{line}: found no result, and exit status {finished.returncode}\n{finished.stdout}{finished.stderr}")
+    return json.loads(file.read_text()), finished.returncode
+
+
+def error_bound(step, largest):
+    """What D may be off, absolutely: as proved, or else as a certificate allows."""
+    proved = (step.get("error") or {}).get("w")
+    return proved if proved is not None else 1e-6 * largest
+
+
+def compare(one, many, counts):
+    """The first difference between two results, in words; None where there is none."""
+    if (one["status"], len(one["steps"])) != (many["status"], len(many["steps"])):
+        return f"status {one['status']} after {len(one['steps'])} steps, and {many['status']} after {len(many['steps'])}"
+    for a, b in zip(one["steps"], many["steps"]):
+        where = f"step {a['step']}"
+        if len(a["increments"]) != len(b["increments"]):
+            return f"{where}: {len(a['increments'])} increments and {len(b['increments'])}"
+        for i, j in zip(a["increments"], b["increments"]):
+            events = [[(e["pair"], e["change"]) for e in x["events"]] for x in (i, j)]
+            if events[0] != events[1]:
+                return f"{where}, increment {i['increment']}: events {events[0]} and {events[1]}"
+            if abs(i["fraction"] - j["fraction"]) > 1e-9:
+                return f"{where}, increment {i['increment']}: shares {i['fraction']} and {j['fraction']}"
+            counts["increments"] += 1
+            counts["events"] += len(events[0])
+        for p, q in zip(a["pairs"], b["pairs"], strict=True):
+            if p["state"] != q["state"]:
+                return f"{where}, pair {p['pair']}: {p['state']} and {q['state']}"
+        largest = max(map(abs, a["w"]), default=0.0)
+        allowed = error_bound(a, largest) + error_bound(b, largest)
+        for node, (u, v) in enumerate(zip(a["w"], b["w"], strict=True), 1):
+            if not abs(u - v) <= allowed:
+                return f"{where}, node {node}: w {u} and {v}, allowed: {allowed:.2g} apart"
+            counts["numbers"] += 1
+        if (a["certificate"] is None) != (b["certificate"] is None) or \
+                a["certificate"] and a["certificate"]["exact"] != b["certificate"]["exact"]:
+            return f"{where}: certificates {a['certificate']} and {b['certificate']}"
+    return None
+
+
+def equal(contct, reference, mpiexec, ranks):
+    counts = dict.fromkeys(LEAST, 0)
+    with tempfile.TemporaryDirectory() as folder:
+        large = Path(folder) / "mat-50.toml"
+        large.write_text(mat(50))
+        files = sorted([*reference.glob("problems/*.toml"), *reference.glob("problems/divergences/*.toml"),
+                        *reference.glob("structures/*.toml"), *reference.glob("structures/calculix/*.toml")])
+        wrong = []
+        for file in [*files, large]:
+            kernels = ["--kernels", "corrected"] if file == large else []
+            line = [contct, "run", file, *kernels]
+            one = solved(line, folder, "one.json")
+            many = solved([*mpirun(mpiexec, ranks), *line, "--engine", "petsc"], folder, "many.json")
+            difference = f"exit status {one[1]} and {many[1]}" if one[1] != many[1] else compare(one[0], many[0], counts)
+            if many[0]["engine"] != "petsc":
+                difference = f"engine {many[0]['engine']}"
+            if difference:
+                wrong.append(f"{file.name}: {difference}")
+            counts["problems"] += 1
+        if wrong:
+            sys.exit("\n".join(wrong))
+        doctored = json.loads(json.dumps(many[0]))
+        doctored["steps"][-1]["w"][0] += 1e-3
+        if not compare(one[0], doctored, dict.fromkeys(LEAST, 0)):
+            sys.exit("a deflection that is off by 0.001 is not noticed")
+    too_few = [f"{what}: found {n}, allowed: {LEAST[what]} or more" for what, n in counts.items() if n < LEAST[what]]
+    if too_few:
+        sys.exit("\n".join(too_few))
+    print(f"{ranks} ranks:", ", ".join(f"{n} {what}" for what, n in counts.items()), "are those of one process")
+
+
+def bad_input(contct, reference, mpiexec, ranks):
+    pb07 = reference / "problems/pb07-three-gap-supports.toml"
+    refused = 0
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "wrong.toml").write_text("[beam]\nlength = -1.0\n")
+        for arguments in (["no-such-file.toml"], ["wrong.toml"], [pb07, "--no-such-option"], [pb07, "--kernels", "warp"],
+                          [pb07, "--csv", "no-such-folder/out.csv"]):
+            line = [*mpirun(mpiexec, ranks), contct, "run", *arguments, "--engine", "petsc", "--json", "out.json"]
+            found = run(line, folder, 2)
+            if len(messages(found.stderr)) != 1 or found.stdout:
+                sys.exit(f"{line}: found {messages(found.stderr)} and {found.stdout!r}, allowed: one message")
+            if sorted(f.name for f in Path(folder).iterdir()) != ["wrong.toml"]:
+                sys.exit(f"{line}: found {list(Path(folder).iterdir())}, allowed: no file of a run")
+            refused += 1
+    print(f"{refused} command lines refused, with one message each")
+
+
+def engines(contct, reference, mpiexec, ranks, tests):
+    said = run([*mpirun(mpiexec, ranks), tests], reference).stdout
+    passed = re.search(r"\((\d+) assertions in (\d+) test cases\)", said)
+    if not passed or int(passed[1]) < 1000 or int(passed[2]) < 8:
+        sys.exit(f"{tests}: found {said!r}, allowed: 1000 assertions or more, passed, in 8 test cases")
+    print(said.strip().splitlines()[-1])
+
+
+def descendants(of):
+    """Processes and their parents, of those below `of`."""
+    parents = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            parents[int(stat.parent.name)] = int(stat.read_text().rsplit(")", 1)[1].split()[1])
+        except (OSError, ValueError):
+            continue
+    found, next_ones = [], [of]
+    while next_ones:
+        next_ones = [p for p, parent in parents.items() if parent in next_ones]
+        found += next_ones
+    return found
+
+
+def process_of_rank(job, rank):
+    """Its number, once it has loaded the module; None before."""
+    for process in descendants(job):
+        try:
+            if f"OMPI_COMM_WORLD_RANK={rank}\0".encode() in Path(f"/proc/{process}/environ").read_bytes() \
+                    and "contct_petsc.so" in Path(f"/proc/{process}/maps").read_text():
+                return process
+        except OSError:
+            continue
+    return None
+
+
+def killed(contct, reference, mpiexec, ranks):
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "mat.toml").write_text(mat(100))
+        line = [*mpirun(mpiexec, ranks), contct, "run", "mat.toml", "--engine", "petsc", "--json", "out.json"]
+        job = subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               env=mpi_environment(), cwd=folder)
+        begun = time.monotonic()
+        while not (victim := process_of_rank(job.pid, 1)):
+            if job.poll() is not None or time.monotonic() > begun + PATIENCE:
+                sys.exit(f"{line}: found no rank 1 to kill\n{job.communicate()}")
+            time.sleep(0.05)
+        os.kill(victim, signal.SIGKILL)
+        out, err = job.communicate(timeout=PATIENCE)
+        if job.returncode == 0:
+            sys.exit(f"{line}: found exit status 0 after rank 1 was killed\n{out}{err}")
+        if (Path(folder) / "out.json").exists():
+            sys.exit(f"{line}: found out.json after rank 1 was killed")
+    print(f"rank 1 of {ranks} killed: the job ended with exit status {job.returncode} and left no file")
+
+
+def absent(contct, reference, mpiexec=None, ranks=1):
+    pb07 = reference / "problems/pb07-three-gap-supports.toml"
+    with tempfile.TemporaryDirectory() as folder:
+        alone = shutil.copy(contct, folder)
+        for start in [[]] + ([mpirun(mpiexec, ranks)] if mpiexec else []):
+            for engine in (["--engine", "petsc"], ["--engine=petsc"]):
+                line = [*start, alone, "run", pb07, *engine, "--json", "out.json"]
+                found = run(line, folder, 2)
+                said = messages(found.stderr)
+                if len(said) != 1 or "contct_petsc.so" not in said[0] or "libpetsc-real-dev" not in said[0] or found.stdout:
+                    sys.exit(f"{line}: found {found.stderr!r} and {found.stdout!r}, allowed: one message that names the module")
+                if (Path(folder) / "out.json").exists():
+                    sys.exit(f"{line}: found out.json")
+        run([alone, "run", pb07], folder)
+    print("without its module the engine is refused, and the program runs")
+
+
+def apart(contct, reference):
+    linked = run(["ldd", contct], reference).stdout
+    if "liblapack" not in linked or any(name in linked for name in ("libmpi", "petsc", "mumps")):
+        sys.exit(f"ldd {contct}: found\n{linked}allowed: LAPACK, and neither MPI nor PETSc")
+    print(f"{len(linked.splitlines())} libraries are linked, and none is of MPI or PETSc")
+
+
+def main():
+    case, contct, reference = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
+    cases = {"equal": equal, "bad-input": bad_input, "killed": killed, "absent": absent, "apart": apart, "engines": engines}
+    cases[case](contct, reference, *sys.argv[4:])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,23 @@
+#include "contct/distributed/ranks.hpp"
+
+#include "catch.hpp"
+
+using namespace contct::distributed;
+
+TEST_CASE("a process has joined no ranks until it says so") {
+  struct : ranks {
+    [[nodiscard]] int own() const override { return 0; }
+    [[nodiscard]] job_facts facts() const override { return {1, "1 rank"}; }
+    void serve() override {}
+    [[nodiscard]] std::unique_ptr<contct::matrix::sparse_factor> distribute(
+        const contct::matrix::sparse_columns& /*a*/) override {
+      return nullptr;
+    }
+    void leave() noexcept override {}
+  } alone;
+  CHECK(joined_ranks() == nullptr);
+  set_joined_ranks(&alone);
+  CHECK(joined_ranks() == &alone);
+  set_joined_ranks(nullptr);
+  CHECK(joined_ranks() == nullptr);
+}
