@@ -38,6 +38,10 @@ need_core() {
   need "to build" g++ gfortran cmake ninja-build liblapack-dev libblas-dev libboost-dev
 }
 
+need_petsc() {
+  need "for the engine petsc, and to run it by several processes" libpetsc-real-dev openmpi-bin pkgconf
+}
+
 need_program() {
   need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
 }

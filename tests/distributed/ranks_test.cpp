@@ -7,7 +7,8 @@ using namespace contct::distributed;
 TEST_CASE("a process has joined no ranks until it says so") {
   struct : ranks {
     [[nodiscard]] int own() const override { return 0; }
-    [[nodiscard]] job_facts facts() const override { return {1, "1 rank"}; }
+    [[nodiscard]] int count() const override { return 1; }
+    [[nodiscard]] std::vector<long> peak_kib() override { return {0}; }
     void serve() override {}
     [[nodiscard]] std::unique_ptr<contct::matrix::sparse_factor> distribute(
         const contct::matrix::sparse_columns& /*a*/) override {

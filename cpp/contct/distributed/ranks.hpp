@@ -2,21 +2,14 @@
 // MPI nor PETSc: a module that is loaded on demand (contct/distributed/module.hpp) implements this.
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/rooms.hpp"
 
 namespace contct::distributed {
-
-/// What the ranks have come to.
-struct job_facts {
-  int ranks = 1;
-  std::string words;  ///< "2 ranks, PETSc 3.18.5, MUMPS 5.5.1"
-};
 
 /// All ranks of the job, as one of them sees them. Rank 0 runs the program; the others serve it: each keeps
 /// its rows of every matrix that rank 0 distributes, and its part of the factor. Any function may end the
@@ -29,7 +22,7 @@ class ranks {
   ranks& operator=(const ranks&) = delete;
 
   [[nodiscard]] virtual int own() const = 0;  ///< from 0
-  [[nodiscard]] virtual job_facts facts() const = 0;
+  [[nodiscard]] virtual int count() const = 0;
 
   /// Other ranks than 0: do what rank 0 says, until it leaves.
   virtual void serve() = 0;
@@ -39,6 +32,9 @@ class ranks {
   /// ranks know of.
   [[nodiscard]] virtual std::unique_ptr<matrix::sparse_factor> distribute(
       const matrix::sparse_columns& a) = 0;
+
+  /// Rank 0: the largest resident memory that each rank has had, in KiB.
+  [[nodiscard]] virtual std::vector<long> peak_kib() = 0;
 
   /// Rank 0: let the others go, and end MPI. Nothing else may be called after it.
   virtual void leave() noexcept = 0;

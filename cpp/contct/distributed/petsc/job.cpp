@@ -2,6 +2,7 @@
 // everything that all ranks do together.
 #include <petscmat.h>
 #include <petscsys.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@
 namespace contct::distributed::petsc {
 namespace {
 
-enum class verb : int { make, factor, solve, solve_units, watch, drop, leave };
+enum class verb : int { make, factor, solve, solve_units, watch, drop, measure, leave };
 
 /// What rank 0 wants of all ranks.
 struct command {
@@ -38,6 +39,7 @@ struct given {
   double* vector = nullptr;                  // a diagonal, or a right-hand side that becomes the solution
   const std::vector<int>* rows = nullptr;    // to be watched
   std::vector<double>* solutions = nullptr;  // at these
+  long* peaks = nullptr;                     // [ranks]
 };
 
 class petsc_ranks;
@@ -86,9 +88,7 @@ class petsc_ranks final : public ranks {
   }
 
   [[nodiscard]] int own() const override { return own_; }
-  [[nodiscard]] job_facts facts() const override {
-    return {count_, std::to_string(count_) + (count_ == 1 ? " rank" : " ranks")};
-  }
+  [[nodiscard]] int count() const override { return count_; }
 
   void serve() override {
     for (command c = next(); c.what != verb::leave; c = next()) (void)obey(c, {});
@@ -103,6 +103,12 @@ class petsc_ranks final : public ranks {
 
   [[nodiscard]] std::unique_ptr<matrix::sparse_factor> distribute(const matrix::sparse_columns& a) override {
     return std::make_unique<remote_factor>(*this, made_++, a);
+  }
+
+  [[nodiscard]] std::vector<long> peak_kib() override {
+    std::vector<long> peaks(static_cast<std::size_t>(count_));
+    (void)command_all({verb::measure}, {.peaks = peaks.data()});
+    return peaks;
   }
 
   /// Rank 0: all ranks do this; returns what `obey` does. `data` is what rank 0 gives or takes.
@@ -138,10 +144,19 @@ class petsc_ranks final : public ranks {
       case verb::drop:
         matrices_.erase(c.matrix);
         break;
+      case verb::measure:
+        gather_peaks(g.peaks);
+        break;
       case verb::leave:
         break;
     }
     return 0;
+  }
+
+  static void gather_peaks(long* peaks) {
+    rusage used{};
+    (void)getrusage(RUSAGE_SELF, &used);
+    MPI_Gather(&used.ru_maxrss, 1, MPI_LONG, peaks, 1, MPI_LONG, 0, MPI_COMM_WORLD);
   }
 
   /// What all ranks do, and where no rank may fail alone.
