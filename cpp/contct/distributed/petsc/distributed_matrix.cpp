@@ -31,6 +31,32 @@ double large(PetscInt number) {
   return number < 0 ? -1e6 * static_cast<double>(number) : static_cast<double>(number);
 }
 
+/// Unit vectors as the rows of a sparse matrix that rank 0 has whole: MUMPS then skips what stays zero.
+class unit_rows {
+ public:
+  unit_rows(MPI_Comm job, std::span<const int> units, PetscInt order, PetscInt width) {
+    int rank = 0;
+    MPI_Comm_rank(job, &rank);
+    const bool here = rank == 0;
+    succeed(MatCreate(job, &rows_));
+    succeed(MatSetSizes(rows_, here ? width : 0, here ? order : 0, width, order));
+    succeed(MatSetType(rows_, MATAIJ));
+    succeed(MatSeqAIJSetPreallocation(rows_, 1, nullptr));
+    succeed(MatMPIAIJSetPreallocation(rows_, 1, nullptr, 0, nullptr));
+    for (std::size_t i = 0; here && i < units.size(); ++i)
+      if (units[i] >= 0) succeed(MatSetValue(rows_, static_cast<PetscInt>(i), units[i], 1.0, INSERT_VALUES));
+    succeed(MatAssemblyBegin(rows_, MAT_FINAL_ASSEMBLY));
+    succeed(MatAssemblyEnd(rows_, MAT_FINAL_ASSEMBLY));
+  }
+  ~unit_rows() { (void)MatDestroy(&rows_); }
+  unit_rows(const unit_rows&) = delete;
+  unit_rows& operator=(const unit_rows&) = delete;
+  [[nodiscard]] Mat get() const { return rows_; }
+
+ private:
+  Mat rows_ = nullptr;
+};
+
 }  // namespace
 
 void succeed(PetscErrorCode code) {
@@ -68,7 +94,7 @@ distributed_matrix::distributed_matrix(MPI_Comm job, int order, const upper_rows
 distributed_matrix::~distributed_matrix() {
   (void)VecDestroy(&x_);
   (void)VecDestroy(&b_);
-  for (Mat* m : {&solutions_, &units_, &factor_, &matrix_}) (void)MatDestroy(m);
+  for (Mat* m : {&solutions_, &factor_, &matrix_}) (void)MatDestroy(m);
 }
 
 void distributed_matrix::analyse() {
@@ -121,18 +147,12 @@ void distributed_matrix::solve(std::span<double> b) {
 
 std::vector<double> distributed_matrix::solve_units(std::span<const int> units, std::span<const int> at,
                                                     int width) {
-  if (units_ == nullptr) {
-    PetscInt order = 0;
-    succeed(MatGetSize(matrix_, &order, nullptr));
-    for (Mat* m : {&units_, &solutions_})
-      succeed(MatCreateDense(job_, rows_.count, PETSC_DECIDE, order, width, nullptr, m));
-  }
-  succeed(MatZeroEntries(units_));
-  for (std::size_t i = 0; i < units.size(); ++i)
-    if (has(units[i])) succeed(MatSetValue(units_, units[i], static_cast<PetscInt>(i), 1.0, INSERT_VALUES));
-  succeed(MatAssemblyBegin(units_, MAT_FINAL_ASSEMBLY));
-  succeed(MatAssemblyEnd(units_, MAT_FINAL_ASSEMBLY));
-  succeed(MatMatSolve(factor_, units_, solutions_));
+  PetscInt order = 0;
+  succeed(MatGetSize(matrix_, &order, nullptr));
+  if (solutions_ == nullptr)
+    succeed(MatCreateDense(job_, rows_.count, PETSC_DECIDE, order, width, nullptr, &solutions_));
+  const unit_rows right_sides(job_, units, order, width);
+  succeed(MatMatTransposeSolve(factor_, right_sides.get(), solutions_));
   const double* columns = nullptr;
   PetscInt length = 0;
   succeed(MatDenseGetLDA(solutions_, &length));

@@ -66,7 +66,7 @@ class distributed_matrix {
   double flops_ = 0.0, bytes_ = 0.0;
   Mat matrix_ = nullptr;
   Mat factor_ = nullptr;
-  Mat units_ = nullptr, solutions_ = nullptr;  // dense blocks, made when first asked for
+  Mat solutions_ = nullptr;  // of a block of unit vectors; made when first asked for
   Vec b_ = nullptr, x_ = nullptr;
 };
 
