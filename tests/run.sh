@@ -81,6 +81,11 @@ if [ "$full" = yes ]; then
   build/release/tests/contct_campaign 200000 2026
   echo "== 20,000 random problems and their certificates against the exact path"
   build/release/tests/contct_referee 20000 2026
+  echo "== every call of the system and every allocation fails in turn"
+  for disturbed in faults disturbed; do
+    python3 "tests/faults/$disturbed.py" build/release/contct build/release/tests/libcontct_fail.so \
+      build/release/tests/plugins/libvariant_reassociated.so --all
+  done
   echo "== mutants of both kernels"
   build/release/tests/contct_mutants
   echo "== exact numbers of verification.toml"

@@ -1,10 +1,12 @@
 #include "contct/kernel/fortran.hpp"
 
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -56,14 +58,27 @@ std::mutex& process_wide() {
   return mutex;
 }
 
+namespace {
+
+/// gfortran's runtime crashes where it gets no memory. It takes little in a call: see that there is more.
+/// Throws std::bad_alloc.
+void see_to_memory() {
+  constexpr std::size_t more_than_enough = 1 << 15;
+  ::operator delete(::operator new(more_than_enough));
+}
+
+}  // namespace
+
 void contct(call<float>& c) {
   const std::scoped_lock lock(process_wide());
+  see_to_memory();
   contct_call_r4(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
                  c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
 }
 
 void contct(call<double>& c, const compiled_listing& by) {
   const std::scoped_lock lock(process_wide());
+  see_to_memory();
   by.call(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
           c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
 }
@@ -74,19 +89,50 @@ void forget_unit_26() {
   (void)gfortran.log.open(nowhere.data(), static_cast<int>(nowhere.size()));
 }
 
+namespace {
+
+/// A file without a name, and a path that opens it.
+struct unnamed_file {
+  int descriptor = -1;
+  std::string path;
+};
+
+/// In memory where the system has that: on a full disk the listing's runtime would lose lines without a word.
+/// The path is empty where it must be a file on the disk.
+unnamed_file file_in_memory() {
+  unnamed_file made;
+#ifdef MFD_CLOEXEC
+  made.descriptor = memfd_create("contct-unit26", MFD_CLOEXEC);
+  if (made.descriptor < 0) return made;
+  made.path = "/proc/self/fd/" + std::to_string(made.descriptor);
+  if (access(made.path.c_str(), R_OK | W_OK) == 0) return made;
+  close(made.descriptor);
+  made = {};
+#endif
+  return made;
+}
+
+}  // namespace
+
 unit_26::unit_26(compiled_listing& of) : listing_(of) {
   const std::scoped_lock lock(process_wide());
   if (listing_.log.is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
-  std::string path = (std::filesystem::temp_directory_path() / "contct-unit26-XXXXXX").string();
+  see_to_memory();
   const signals_wait until_unlinked;
-  file_ = mkstemp(path.data());
+  unnamed_file file = file_in_memory();
+  const bool on_disk = file.descriptor < 0;
+  if (on_disk) {
+    file.path = (std::filesystem::temp_directory_path() / "contct-unit26-XXXXXX").string();
+    file.descriptor = mkstemp(file.path.data());
+  }
+  file_ = file.descriptor;
   if (file_ < 0)
-    throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + path);
-  const int status = listing_.log.open(path.data(), static_cast<int>(path.size()));
-  unlink(path.c_str());  // both sides hold it open
+    throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + file.path);
+  const int status = listing_.log.open(file.path.data(), static_cast<int>(file.path.size()));
+  if (on_disk) unlink(file.path.c_str());  // both sides hold it open
   if (status != 0) {
     close(file_);
-    throw std::runtime_error("cannot connect unit 26 to " + path);
+    throw std::runtime_error("cannot connect unit 26 to " + file.path);
   }
   listing_.log.is_open = true;
 }

@@ -29,7 +29,9 @@ fs::path followed(fs::path path) {
   for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, ignored)); ++i)
     path = path.parent_path() / fs::read_symlink(path);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  return fs::weakly_canonical(folder, ignored) / path.filename();
+  std::error_code wrong;
+  const fs::path resolved = fs::weakly_canonical(folder, wrong);
+  return (wrong ? folder : resolved) / path.filename();
 }
 
 /// How temporary names begin: in the folder of `target`, since a link cannot leave its file system.

@@ -1,0 +1,382 @@
+/* A library to preload: it makes one call of the program fail, for tests.
+ *
+ *   FAULT_CALL   "memory": malloc, calloc, realloc and their kin; "new": of these what operator new and GMP
+ * ask for; "malloc": the others; or the name of a system call: "write", "openat", .. FAULT_AT     the number
+ * of the call that fails, from 1 at the beginning of main; 0: none FAULT_ERRNO  what the system call fails
+ * with: 28 (ENOSPC) where nothing is said FAULT_MORE   "1": all calls behind it fail too FAULT_SIGNAL a
+ * signal that the process gets at that call, which does not fail then FAULT_NO_LINK  "1": no file can be
+ * linked to a name, as on some file systems: files are copied FAULT_EVERY  K: every K-th allocation of "new"
+ * fails, each in a process of its own that is forked there and must end with exit status 2: any other ends
+ * the test with status 98 FAULT_COUNT  a file to which the number of calls is written at the end
+ *
+ * A system call is caught in the kernel (seccomp) and made again, or not, by the handler of SIGSYS: so calls
+ * inside the C library are counted too. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <link.h>
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+static const unsigned long let_pass = 0x636f6e74; /* as the sixth argument, which none of these calls has */
+
+static volatile int armed = 0;
+static long at = 0;
+static long error_number = ENOSPC;
+static int more = 0;
+static const char* count_file = NULL;
+static volatile long calls = 0;
+
+static int signal_instead = 0;
+
+static pid_t program = 0; /* not the processes that it starts */
+
+static int must_fail(void) {
+  if (getpid() != program) return 0;
+  const long number = __atomic_add_fetch(&calls, 1, __ATOMIC_SEQ_CST);
+  const int now = at > 0 && (number == at || (more && number > at));
+  if (!now || signal_instead == 0) return now;
+  (void)kill(getpid(), signal_instead);
+  return 0;
+}
+
+/* Memory. dlsym allocates before the real functions are known: from this block, which is never freed. */
+
+static char early[1 << 16];
+static size_t early_used = 0;
+
+static void* (*real_malloc)(size_t);
+static void* (*real_calloc)(size_t, size_t);
+static void* (*real_realloc)(void*, size_t);
+static void (*real_free)(void*);
+static void* (*real_aligned_alloc)(size_t, size_t);
+static int (*real_posix_memalign)(void**, size_t, size_t);
+
+static int is_early(const void* block) {
+  return (const char*)block >= early && (const char*)block < early + sizeof early;
+}
+
+static void find_memory(void) {
+  static int looking = 0;
+  if (looking) return;
+  looking = 1;
+  real_calloc = (void* (*)(size_t, size_t))dlsym(RTLD_NEXT, "calloc");
+  real_realloc = (void* (*)(void*, size_t))dlsym(RTLD_NEXT, "realloc");
+  real_free = (void (*)(void*))dlsym(RTLD_NEXT, "free");
+  real_aligned_alloc = (void* (*)(size_t, size_t))dlsym(RTLD_NEXT, "aligned_alloc");
+  real_posix_memalign = (int (*)(void**, size_t, size_t))dlsym(RTLD_NEXT, "posix_memalign");
+  real_malloc = (void* (*)(size_t))dlsym(RTLD_NEXT, "malloc");
+}
+
+static void* from_early(size_t bytes) {
+  const size_t begin = (early_used + 15) & ~(size_t)15;
+  if (begin + bytes > sizeof early) return NULL;
+  early_used = begin + bytes;
+  return early + begin;
+}
+
+enum { of_none, of_all, of_new, of_others };
+static int memory_fails = of_none;
+static long every = 0;
+
+/* Where code is that calls the new handler: libstdc++, with operator new in it, and the program, which
+ * allocates for GMP. */
+static char* begins[2];
+static char* ends[2];
+
+/* gfortran's runtime, which crashes without memory: the program sees to it that there is some, which is not
+ * tested here. */
+static char* runtime_begin = NULL;
+static char* runtime_end = NULL;
+
+static int find_code(struct dl_phdr_info* info, size_t size, void* at_new) {
+  static int is_program = 1; /* which comes first */
+  (void)size;
+  for (int i = 0; i < info->dlpi_phnum; ++i) {
+    const ElfW(Phdr)* const part = &info->dlpi_phdr[i];
+    char* const begin = (char*)info->dlpi_addr + part->p_vaddr;
+    char* const end = begin + part->p_memsz;
+    if (part->p_type != PT_LOAD || (part->p_flags & PF_X) == 0) continue;
+    if (strstr(info->dlpi_name, "libgfortran") != NULL) {
+      runtime_begin = begin;
+      runtime_end = end;
+    }
+    const int is_new = (char*)at_new >= begin && (char*)at_new < end;
+    if (!is_program && !is_new) continue;
+    begins[is_program] = begin;
+    ends[is_program] = end;
+  }
+  is_program = 0;
+  return 0;
+}
+
+static int calls_handler(const void* caller) {
+  for (int i = 0; i < 2; ++i)
+    if ((const char*)caller >= begins[i] && (const char*)caller < ends[i]) return 1;
+  return 0;
+}
+
+/* In a child of its own the allocation fails. */
+static int fails_in_child(void) {
+  int status = 0;
+  const pid_t child = fork();
+  if (child < 0) _exit(97);
+  if (child == 0) {
+    memory_fails = of_none;
+    return 1;
+  }
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 2) _exit(98);
+  return 0;
+}
+
+static int no_memory(const void* caller) {
+  if (!armed || memory_fails == of_none) return 0;
+  if ((const char*)caller >= runtime_begin && (const char*)caller < runtime_end) return 0;
+  const int by_new = calls_handler(caller);
+  if (memory_fails != of_all && (memory_fails == of_new) != by_new) return 0;
+  if (every > 0) {
+    if (++calls % every != 0 || !fails_in_child()) return 0;
+  } else if (!must_fail()) {
+    return 0;
+  }
+  errno = ENOMEM;
+  return 1;
+}
+
+void* malloc(size_t bytes) {
+  if (real_malloc == NULL) find_memory();
+  if (real_malloc == NULL) return from_early(bytes);
+  return no_memory(__builtin_return_address(0)) ? NULL : real_malloc(bytes);
+}
+
+void* calloc(size_t count, size_t bytes) {
+  if (real_malloc == NULL) find_memory();
+  if (real_malloc == NULL) return from_early(count * bytes); /* zero from the beginning */
+  return no_memory(__builtin_return_address(0)) ? NULL : real_calloc(count, bytes);
+}
+
+void* realloc(void* block, size_t bytes) {
+  if (real_malloc == NULL) find_memory();
+  if (is_early(block)) {
+    const size_t left = sizeof early - (size_t)((char*)block - early);
+    void* const moved = malloc(bytes);
+    if (moved != NULL) memcpy(moved, block, bytes < left ? bytes : left);
+    return moved;
+  }
+  return no_memory(__builtin_return_address(0)) ? NULL : real_realloc(block, bytes);
+}
+
+void free(void* block) {
+  if (is_early(block)) return;
+  if (real_malloc == NULL) find_memory();
+  if (real_free != NULL) real_free(block);
+}
+
+void* aligned_alloc(size_t alignment, size_t bytes) {
+  if (real_malloc == NULL) find_memory();
+  return no_memory(__builtin_return_address(0)) ? NULL : real_aligned_alloc(alignment, bytes);
+}
+
+/* Copies that gfortran's runtime makes are its own; else they would count as the C library's. */
+char* strndup(const char* text, size_t most) {
+  const size_t length = strnlen(text, most);
+  const char* const caller = __builtin_return_address(0);
+  if (real_malloc == NULL) find_memory();
+  if (no_memory(caller)) return NULL;
+  char* const copy = real_malloc == NULL ? from_early(length + 1) : real_malloc(length + 1);
+  if (copy == NULL) return NULL;
+  memcpy(copy, text, length);
+  copy[length] = '\0';
+  return copy;
+}
+
+int posix_memalign(void** block, size_t alignment, size_t bytes) {
+  if (real_malloc == NULL) find_memory();
+  return no_memory(__builtin_return_address(0)) ? ENOMEM : real_posix_memalign(block, alignment, bytes);
+}
+
+/* System calls. */
+
+static const struct {
+  const char* name;
+  int number;
+} known_calls[] = {
+    {"write", SYS_write},         {"read", SYS_read},         {"openat", SYS_openat},
+    {"close", SYS_close},         {"linkat", SYS_linkat},     {"fsync", SYS_fsync},
+    {"pread", SYS_pread64},       {"fcntl", SYS_fcntl},       {"readlinkat", SYS_readlinkat},
+    {"lseek", SYS_lseek},         {"fchmod", SYS_fchmod},     {"mkdirat", SYS_mkdirat},
+    {"renameat2", SYS_renameat2}, {"unlinkat", SYS_unlinkat},
+#ifdef SYS_rename /* older architectures have these, which glibc calls there */
+    {"rename", SYS_rename},       {"unlink", SYS_unlink},     {"mkdir", SYS_mkdir},
+    {"readlink", SYS_readlink},
+#endif
+};
+
+#if defined(__x86_64__)
+#define ARCHITECTURE AUDIT_ARCH_X86_64
+#elif defined(__aarch64__)
+#define ARCHITECTURE AUDIT_ARCH_AARCH64
+#endif
+
+#ifdef ARCHITECTURE
+static long make(int number, const unsigned long a[5]) {
+  const long answer = syscall(number, a[0], a[1], a[2], a[3], a[4], let_pass);
+  return answer < 0 ? -errno : answer;
+}
+
+/* A file in memory, as unit 26 has it, is on no disk that could be full; nor is a channel to a process of the
+ * program's own. */
+static int is_on_no_disk(int number, const unsigned long a[5]) {
+  char link[64];
+  char target[64] = "";
+  if (number != SYS_write && number != SYS_read && number != SYS_pread64 && number != SYS_lseek) return 0;
+  snprintf(link, sizeof link, "/proc/self/fd/%ld", (long)a[0]);
+  if (readlink(link, target, sizeof target - 1) <= 0) return 0;
+  const int is_channel = strncmp(target, "pipe:", 5) == 0 || strncmp(target, "socket:", 7) == 0;
+  return strncmp(target, "/memfd:", 7) == 0 || (is_channel && a[0] > STDERR_FILENO);
+}
+
+static void caught(int signal_number, siginfo_t* info, void* context) {
+  (void)signal_number;
+  const int before = errno;
+  ucontext_t* const u = context;
+#if defined(__x86_64__)
+  greg_t* const r = u->uc_mcontext.gregs;
+  const unsigned long a[5] = {(unsigned long)r[REG_RDI], (unsigned long)r[REG_RSI], (unsigned long)r[REG_RDX],
+                              (unsigned long)r[REG_R10], (unsigned long)r[REG_R8]};
+  r[REG_RAX] =
+      armed && !is_on_no_disk(info->si_syscall, a) && must_fail() ? -error_number : make(info->si_syscall, a);
+#else
+  unsigned long long* const r = u->uc_mcontext.regs;
+  const unsigned long a[5] = {r[0], r[1], r[2], r[3], r[4]};
+  r[0] = (unsigned long long)(armed && !is_on_no_disk(info->si_syscall, a) && must_fail()
+                                  ? -error_number
+                                  : make(info->si_syscall, a));
+#endif
+  errno = before;
+}
+
+static int catch_calls(int number) {
+  struct sigaction action;
+  memset(&action, 0, sizeof action);
+  action.sa_sigaction = caught;
+  action.sa_flags = SA_SIGINFO | SA_NODEFER;
+  if (sigaction(SIGSYS, &action, NULL) != 0) return -1;
+  struct sock_filter filter[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, arch)),
+                                 BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 0, 5),
+                                 BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
+                                 BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (unsigned)number, 0, 3),
+                                 BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, args[5])),
+                                 BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (unsigned)let_pass, 1, 0),
+                                 BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_TRAP),
+                                 BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+  struct sock_fprog program = {sizeof filter / sizeof filter[0], filter};
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return -1;
+  return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+}
+#else
+static int catch_calls(int number) {
+  (void)number;
+  return -1;
+}
+#endif
+
+/* Where SIGSYS is blocked, a call that is caught would end the process. */
+int pthread_sigmask(int how, const sigset_t* set, sigset_t* before) {
+  sigset_t without;
+  if (set != NULL) {
+    without = *set;
+    if (how != SIG_UNBLOCK) sigdelset(&without, SIGSYS);
+  }
+  return sigprocmask(how, set != NULL ? &without : NULL, before) == 0 ? 0 : errno;
+}
+
+/* A child process of the program sets its signals back; this one is the library's. */
+void (*signal(int number, void (*handler)(int)))(int) {
+  struct sigaction action;
+  struct sigaction before;
+  if (number == SIGSYS) return SIG_DFL;
+  memset(&action, 0, sizeof action);
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  return sigaction(number, &action, &before) == 0 ? before.sa_handler : SIG_ERR;
+}
+
+int linkat(int from, const char* old_name, int to, const char* new_name, int flags) {
+  if (getenv("FAULT_NO_LINK") != NULL) {
+    errno = EPERM;
+    return -1;
+  }
+  return (int)syscall(SYS_linkat, from, old_name, to, new_name, flags);
+}
+
+/* The beginning and the end of main. */
+
+static int (*real_main)(int, char**, char**);
+
+static void write_count(void) {
+  armed = 0;
+  if (count_file == NULL) return;
+  char text[32];
+  const int length = snprintf(text, sizeof text, "%ld\n", calls);
+  const int file = open(count_file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) return;
+  if (write(file, text, (size_t)length) != length) (void)close(file);
+}
+
+static int counted_main(int argc, char** argv, char** environment) {
+  const char* const call = getenv("FAULT_CALL");
+  const char* text = getenv("FAULT_AT");
+  if (text != NULL) at = atol(text);
+  text = getenv("FAULT_ERRNO");
+  if (text != NULL) error_number = atol(text);
+  text = getenv("FAULT_SIGNAL");
+  if (text != NULL) signal_instead = atoi(text);
+  more = getenv("FAULT_MORE") != NULL;
+  count_file = getenv("FAULT_COUNT");
+  if (call == NULL) return real_main(argc, argv, environment);
+  memory_fails = strcmp(call, "memory") == 0   ? of_all
+                 : strcmp(call, "new") == 0    ? of_new
+                 : strcmp(call, "malloc") == 0 ? of_others
+                                               : of_none;
+  text = getenv("FAULT_EVERY");
+  if (text != NULL) every = atol(text);
+  void* const at_new = dlsym(RTLD_DEFAULT, "_Znwm");
+  if (at_new != NULL) (void)dl_iterate_phdr(find_code, at_new);
+  int number = -1;
+  for (size_t i = 0; i < sizeof known_calls / sizeof known_calls[0]; ++i)
+    if (strcmp(call, known_calls[i].name) == 0) number = known_calls[i].number;
+  if (memory_fails == of_none && (number < 0 || catch_calls(number) != 0)) {
+    fprintf(stderr, "fail.c: %s cannot be caught here\n", call);
+    return 99;
+  }
+  program = getpid();
+  atexit(write_count);
+  armed = 1;
+  return real_main(argc, argv, environment);
+}
+
+int __libc_start_main(int (*program)(int, char**, char**), int argc, char** argv,
+                      int (*init)(int, char**, char**), void (*fini)(void), void (*rtld_fini)(void),
+                      void* stack_end) {
+  int (*const real)(int (*)(int, char**, char**), int, char**, int (*)(int, char**, char**), void (*)(void),
+                    void (*)(void), void*) =
+      (int (*)(int (*)(int, char**, char**), int, char**, int (*)(int, char**, char**), void (*)(void),
+               void (*)(void), void*))dlsym(RTLD_NEXT, "__libc_start_main");
+  real_main = program;
+  return real(counted_main, argc, argv, init, fini, rtld_fini, stack_end);
+}
