@@ -16,7 +16,7 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from commands import ALL, OUTPUTS, PROBLEM, PROGRAM, commands
+from commands import ALL, LIBRARY, OUTPUTS, PROBLEM, PROGRAM, commands
 
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGUSR1, signal.SIGALRM]
 checks = 0
@@ -84,6 +84,28 @@ def signals_at_moments() -> None:
             check({f.name for f in folder.iterdir()} == names, f"{which.name}: files {sorted(f.name for f in folder.iterdir())}")
             for name in names - {"p.toml"}:
                 check(untimed((folder / name).read_bytes()) in (whole[name], b"before\n"), f"{which.name}: half of {name}")
+
+
+def limits_at_moments() -> None:
+    """--max-seconds at moments of a run whose files get their names by a copy: none has a temporary name behind it."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        (folder / "p.toml").write_text(PROBLEM)
+        begun = time.monotonic()
+        status, _, said = contct(folder, "run", "p.toml", "--quiet", *OUTPUTS)
+        lasts = time.monotonic() - begun
+        whole = {f.name: untimed(f.read_bytes()) for f in folder.iterdir()}
+        for _ in range(100 if ALL else 40):
+            for name in whole.keys() - {"p.toml"}:
+                (folder / name).write_bytes(b"before\n")
+            status, _, said = contct(folder, "run", "p.toml", "--quiet", *OUTPUTS, "--max-seconds",
+                                     f"{random.uniform(0.001, lasts):.6f}",
+                                     environment={"LD_PRELOAD": str(LIBRARY), "FAULT_NO_LINK": "1"})
+            check(status in (0, 5) and said.count(b"\n") == (status == 5), f"--max-seconds: exit {status}: {said!r}")
+            check({f.name for f in folder.iterdir()} == whole.keys(),
+                  f"--max-seconds: files {sorted(f.name for f in folder.iterdir())}")
+            for name in whole.keys() - {"p.toml"}:
+                check(untimed((folder / name).read_bytes()) in (whole[name], b"before\n"), f"--max-seconds: half of {name}")
 
 
 def untimed(content: bytes) -> bytes:
@@ -223,6 +245,7 @@ locales()
 memory_steps()
 changing_files()
 signals_at_moments()
+limits_at_moments()
 signals_at_calls(commands())
 print(f"{checks} checks, {len(complaints)} wrong")
 if complaints or checks < 1000:

@@ -136,3 +136,17 @@ def test_files_of_a_problem_are_looked_for_beside_it_or_in_the_folder(tmp_path, 
     assert contct.run(problem) == found
     (tmp_path / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 x\n2 2 2.0\n")
     assert "K.mtx" in refusal(tmp_path / "p.toml", contct.run).file
+
+
+def test_a_problem_names_files_outside_its_folder_only_where_that_is_allowed(tmp_path):
+    (tmp_path / "own").mkdir()
+    (tmp_path / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n")
+    problem = {"matrix": {"stiffness": "../K.mtx"}, "contact": [{"dof": "2", "surface": "above", "face": 0.5, "stiffness": 10.0}],
+               "step": [{"point": [{"dof": "1", "value": 3.0}]}]}
+    state = [[2.0, 1.0]]
+    for ask in (contct.run, contct.check, contct.exact, contct.explain, lambda p, **more: contct.certify(p, state, **more)):
+        with pytest.raises(contct.InputError, match="not below the folder of the problem file") as caught:
+            ask(problem, folder=tmp_path / "own")
+        assert "allow_outside" in str(caught.value)
+        assert ask(problem, folder=tmp_path / "own", allow_outside=True) is not None
+    assert contct.check(problem, folder=tmp_path / "own", allow_outside=True).svg is None  # asks once more
