@@ -22,11 +22,22 @@ void check(const sparse_matrix& m) {
   }
 }
 
+/// Every row has its diagonal in such a file, 0 or not.
 std::string written(const sparse_matrix& m) {
-  std::string text = fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{0} {0} {1}\n", m.order,
-                                 m.entries.size());
-  for (const matrix_entry& e : m.entries) text += fmt::format("{} {} {}\n", e.row + 1, e.column + 1, e.value);
-  return text;
+  std::string lines;
+  std::vector<char> has_diagonal(m.order, 0);
+  for (const matrix_entry& e : m.entries) {
+    lines += fmt::format("{} {} {}\n", e.row + 1, e.column + 1, e.value);
+    if (e.row == e.column) has_diagonal[e.row] = 1;
+  }
+  std::size_t count = m.entries.size();
+  for (int row = 0; row < m.order; ++row) {
+    if (has_diagonal[row] != 0) continue;
+    lines += fmt::format("{0} {0} 0\n", row + 1);
+    ++count;
+  }
+  return fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{0} {0} {1}\n{2}", m.order, count,
+                     lines);
 }
 
 }  // namespace

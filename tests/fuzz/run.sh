@@ -2,8 +2,8 @@
 # Feeds every reader and a whole run with inputs that libFuzzer makes up, under AddressSanitizer and
 # UndefinedBehaviorSanitizer: sh tests/fuzz/run.sh [SECONDS] [NAME]...
 # SECONDS: for each fuzzer, 60 unless given; NAME: of tests/fuzz/targets.txt, all unless given.
-#     sh tests/fuzz/run.sh --coverage [NAME]...
-# tells which share of the lines of each reader's sources the inputs so far reach, and fails below 90 %.
+#     sh tests/fuzz/run.sh --coverage
+# tells which share of the lines of each reader (readers.txt) the inputs so far reach, and fails below 90 %.
 # Inputs are kept in build/fuzz-corpus; CONTCT_CORPUS in the environment names another folder.
 # Exit 0: nothing found; 1: an input that is not handled, takes 10 s or 2.5 GiB, a fuzzer with too few runs, or lines that
 # are not reached; 2: usage; 77: skipped, clang or libFuzzer cannot be had.

@@ -74,6 +74,32 @@ double number(const std::string& field) {
 
 }  // namespace
 
+TEST_CASE("a path that goes on ahead before any call has a table, without SMIN where no kernel was asked") {
+  // Nothing holds the corner's slope: the corrected rule goes on from the reference solution's state.
+  const problem p = parse_problem(
+      "[plate]\nsize = [2, 2]\nelements = [2, 2]\nnu = 0\nD = 1\n[[support]]\nnode = 8\nspring = { wy = 1 }\n"
+      "[[contact]]\nnode = 9\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
+      "[[step]]\npoint = [ { node = 9, wy = 0.84375 } ]\n",
+      "pb.toml");
+  const scratch_folder folder;
+  output_file increments(folder.at("run.csv")), pairs(folder.at("run.pairs.csv"));
+  const auto leader = make_kernel("corrected");
+  const linear_structure s = structure_of(p);
+  frame_keeper states(s, loads_of(p, s), true);
+  states.solve_each();
+  run_csv csv(p, nullptr, states, 1, increments, &pairs);
+  const path_end end =
+      follow(p, s, "refactor", *leader, {&states, &csv}, {0, fallback_to_reference(s, loads_of(p, s))});
+  csv.finish();
+  CHECK(end.status == path_status::solved);
+  const std::vector<row> rows = rows_of(folder.read("run.csv"));
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[1][2] == "load");
+  CHECK(rows[1][10].empty());  // smin
+  CHECK(rows[2][2] == "rescue");
+  CHECK(rows_of(folder.read("run.pairs.csv")).size() == 3);
+}
+
 TEST_CASE("the terminal's width comes from COLUMNS, within reason, and a pipe has no colour") {
   setenv("COLUMNS", "120", 1);
   CHECK(look_at_terminal().width == 120);

@@ -51,6 +51,7 @@ void frame_keeper::incremented(const increment& i) {
     if (isep_[p] == in_contact) pair_force_[p] -= structure_.pairs[p].stiffness * (i.s * d_star_[p]);
     d_[p] += i.s * d_star_[p];
   }
+  if (!i.ahead.empty()) d_.assign(i.ahead.begin(), i.ahead.end());
   for (const event& e : i.events) isep_[e.pair] = e.what == change::make ? in_contact : separated;
   last_ = {.at = increments_,
            .step = i.step,

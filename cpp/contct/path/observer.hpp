@@ -26,6 +26,8 @@ struct increment {
   double fraction;                ///< share of the step's load consumed by now
   std::span<const event> events;  ///< in order of pairs
   bool snaps = false;             ///< a rigid motion to the next face, at constant load
+  /// D at each pair [pairs], where the path went on ahead to a state that no call led to; empty otherwise.
+  std::span<const double> ahead = {};
 };
 
 /// Numbers of the end of a step that are more accurate than what its displacements, rounded to doubles, give.

@@ -206,8 +206,8 @@ struct path_state {
   }
 
   /// Tell the observers.
-  void tell_increment(int number, double s_min, bool rigid) const {
-    for (observer* o : observers_) o->incremented({step, number, s_min, fraction(), events, rigid});
+  void tell_increment(int number, double s_min, bool rigid, std::span<const double> ahead = {}) const {
+    for (observer* o : observers_) o->incremented({step, number, s_min, fraction(), events, rigid, ahead});
   }
 
   /// The same of the end of a step, refined where it reached its load.

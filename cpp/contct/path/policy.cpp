@@ -199,7 +199,7 @@ class stabilized_policy final : public path_policy {
     now_.take_over(found->closed);
     put_pairs_at(found->displacement);
     begin_step();
-    now_.tell_increment(number, distance / share, false);
+    now_.tell_increment(number, distance / share, false, now_.d);
     now_.switch_springs();
     return true;
   }

@@ -192,6 +192,7 @@ run_csv::run_csv(const problem& p, const lockstep* compared, const frame_keeper&
       pairs_(pairs),
       d_(p.pairs.size()),
       d_star_(p.pairs.size()) {
+  for (const contact_pair& of : p.pairs) isep_.push_back(of.closed ? in_contact : separated);
   increments_.write("step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w\r\n");
   if (pairs_ != nullptr) pairs_->write("step,increment,pair,node,surface,state,look,w,gap,force\r\n");
 }
@@ -216,6 +217,12 @@ void run_csv::incremented(const increment& i) {
     last_.watched = deflection_of(problem_, now, watched_);
   for (std::size_t p = 0; p < d_.size(); ++p) last_.w[p] += i.s * d_star_[p];
   for (const event& e : i.events) last_.isep[e.pair] = e.what == change::make ? in_contact : separated;
+  if (!i.ahead.empty()) {  // without a call
+    last_.w.assign(i.ahead.begin(), i.ahead.end());
+    isep_ = last_.isep;
+    smin_.reset();
+    agreement_ = "";
+  }
   pending_ = true;
 }
 
@@ -245,7 +252,7 @@ void run_csv::write_pending() {
   increments_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number,
                                 last_.kind, called ? fmt::format("{}", last_.s) : "", last_.fraction, force,
                                 csv_field(fmt::format("{}", fmt::join(events, ", "))), n.closed, n.open,
-                                n.at_face, called ? fmt::format("{}", smin_) : "", agreement_,
+                                n.at_face, called && smin_ ? fmt::format("{}", *smin_) : "", agreement_,
                                 csv_field(place_name(problem_.geometry, watched_)),
                                 last_.watched ? fmt::format("{}", *last_.watched) : ""));
   if (pairs_ == nullptr) return;
