@@ -4,7 +4,8 @@
 # checked (gfortran's run-time checks), debug. --full has all of these but asan-core, which asan contains, and adds what
 # takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels,
 # the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors, the page in a browser, the
-# playground in a browser, grids read back by VTK, Debian packages in a bare Debian, formatting and clang-tidy.
+# playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian packages in a bare Debian,
+# formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -99,6 +100,7 @@ if [ "$full" = yes ]; then
   with_tool "the page in a browser" browser/run.sh build/release
   with_tool "the playground in a browser" playground/run.sh build/release
   with_tool "grids read back by VTK" vtk/run.sh build/release
+  with_tool "fuzzers" fuzz/run.sh 60
   with_tool "Debian packages" package/debian.sh
   sh tests/tree/tidy.sh
   [ -z "$skipped" ] || echo "== skipped, because a tool cannot be had: ${skipped#; }"

@@ -125,6 +125,16 @@ TEST_CASE("options that are not known, or of another type, are refused by name")
   CHECK(taken(contct_run(nullptr, nullptr)).at("exit") == 2);
 }
 
+TEST_CASE("options of values in values are refused before writing them overflows the stack") {
+  constexpr std::size_t deep = 200'000;
+  const std::string problem = problem_text("pb07-three-gap-supports");
+  const std::string options = "{\"engine\": " + std::string(deep, '[') + std::string(deep, ']') + "}";
+  const json answer = taken(contct_run(problem.c_str(), options.c_str()));
+  CHECK(answer.at("exit") == 2);
+  CHECK_THAT(answer.at("error").at("message").get<std::string>(),
+             Catch::Matchers::Contains("more than 16 deep; allowed: at most 16"));
+}
+
 TEST_CASE("a path that ends in a mechanism answers with exit 4, the result and why") {
   const json answer =
       run("[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n"

@@ -71,12 +71,23 @@ std::string text_of(const answer& a, const std::optional<std::string>& error) {
   return text + "}";
 }
 
+/// What is refused is written by recursion, which values in values without end would overflow.
+void refuse_deep(int depth) {
+  constexpr int deepest = 16;
+  if (depth > deepest)
+    throw std::invalid_argument(
+        fmt::format("options: found values more than {0} deep; allowed: at most {0}", deepest));
+}
+
 }  // namespace
 
 request::request(const char* text, std::initializer_list<std::string_view> known) {
   if (text == nullptr) return;
   try {
-    options_ = nlohmann::json::parse(text);
+    options_ = nlohmann::json::parse(text, [](int depth, auto /*event*/, const auto& /*value*/) {
+      refuse_deep(depth);
+      return true;
+    });
   } catch (const nlohmann::json::exception& e) {
     throw std::invalid_argument(fmt::format("options: found no JSON: {}; allowed: an object", e.what()));
   }
