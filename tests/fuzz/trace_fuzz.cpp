@@ -1,5 +1,7 @@
-// The reader of traces: what it reads and what is written of that are the same.
-#include "contct/numeric/bits.hpp"
+// The reader of traces: what it reads and what is written of that are the same. Its calls as what `contct
+// fuzz` writes of calls that it found.
+#include "contct/lab/fuzz.hpp"
+#include "contct/text/input_text.hpp"
 #include "contct/trace/trace.hpp"
 #include "fuzz/fuzz.hpp"
 
