@@ -8,7 +8,8 @@
 
 namespace bench {
 
-/// "rail-50", "mat-100", "grid-50", "stops-100": the family and its size. Throws std::invalid_argument for others.
+/// "rail-50", "mat-100", "grid-50", "stops-100": the family and its size. Throws std::invalid_argument for
+/// others.
 [[nodiscard]] contct::app::problem make_problem(const std::string& name);
 
 /// The problems of the benchmark, smallest first.

@@ -6,6 +6,8 @@ CASE:
   bad-input  what is refused is refused with one message and exit status 2, and leaves no file.
   killed     a rank that is killed ends the job, with an exit status other than 0 and without a file.
   engines    the tests of every engine, where rank 0 of RANKS runs them and petsc is among the engines.
+  factor     a matrix that RANKS ranks share: its factors and solutions, and what has no factor.
+  scaling    the benchmark of the ranks: the events of one process, a time, and the memory of each rank.
   absent     without its module the engine is refused with one message that says what is missing.
   apart      the program itself links neither MPI nor PETSc.
 """
@@ -170,6 +172,26 @@ def engines(contct, reference, mpiexec, ranks, tests):
     print(said.strip().splitlines()[-1])
 
 
+def factor(contct, reference, mpiexec, ranks, tests):
+    said = run([*mpirun(mpiexec, ranks), tests, "*ranks*,*no factor*,*matrices*"], reference).stdout
+    passed = re.search(r"\((\d+) assertions in (\d+) test cases\)", said)
+    if not passed or int(passed[1]) < 100 or int(passed[2]) != 3:
+        sys.exit(f"{tests}: found {said!r}, allowed: 100 assertions or more, passed, in 3 test cases")
+    print(said.strip().splitlines()[-1])
+
+
+def scaling(contct, reference, mpiexec, ranks, program):
+    rows = {}
+    for engine, start in (("updated", []), ("petsc", []), ("petsc ranks", mpirun(mpiexec, ranks))):
+        row = json.loads(run([*start, program, "stops-12", engine.split()[0]], reference).stdout)
+        rows[engine] = row
+        if row["events"] != rows["updated"]["events"] or row["events"] < 60 or row["dofs"] != 3 * 13 * 13:
+            sys.exit(f"{engine}: found {row}, allowed: the 60 events or more of updated, {rows['updated']['events']}")
+        if not row["ms_per_event"] > 0 or len(row["peak_mib"]) != (int(ranks) if start else 1) or min(row["peak_mib"]) < 5:
+            sys.exit(f"{engine}: found {row}, allowed: a time, and the memory of each rank")
+    print(f"{rows['updated']['events']} events by each of {len(rows)} engines")
+
+
 def descendants(of):
     """Processes and their parents, of those below `of`."""
     parents = {}
@@ -243,7 +265,7 @@ def apart(contct, reference):
 
 def main():
     case, contct, reference = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
-    cases = {"equal": equal, "bad-input": bad_input, "killed": killed, "absent": absent, "apart": apart, "engines": engines}
+    cases = {"equal": equal, "bad-input": bad_input, "killed": killed, "absent": absent, "apart": apart, "engines": engines, "factor": factor, "scaling": scaling}
     cases[case](contct, reference, *sys.argv[4:])
 
 

@@ -98,6 +98,7 @@ distributed_matrix::~distributed_matrix() {
 }
 
 void distributed_matrix::analyse() {
+  succeed(MatDestroy(&factor_));
   succeed(MatGetFactor(matrix_, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor_));
   succeed(MatMumpsSetIcntl(factor_, root_by_one_process, 1));
   succeed(MatMumpsSetIcntl(factor_, compress_blocks, 0));
@@ -116,6 +117,7 @@ factored distributed_matrix::factor(std::span<const double> diagonal) {
   succeed(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   constexpr PetscInt most_space = 1000;
   for (PetscInt space = 0;; space = std::max<PetscInt>(2 * space, 50)) {
+    if (mumps_said().first < 0) analyse();  // PETSc factors no more once MUMPS has failed
     if (space > 0) succeed(MatMumpsSetIcntl(factor_, more_space_percent, space));
     MatFactorInfo info;
     succeed(MatFactorInfoInitialize(&info));
