@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs what is missing, builds, and passes all tests: sh tests/run.sh [--full] [LEG]...
 # LEG: another preset that is built and tested first: core (without the program), asan and asan-core (sanitizers),
-# checked (gfortran's run-time checks), debug. --full has all of these but asan-core, which asan contains, and adds what
+# checked (gfortran's run-time checks), tsan (threads), debug. --full has all of these but asan-core, which asan contains, and adds what
 # takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels,
 # the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors, the page in a browser, the
 # playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian packages in a bare Debian,
@@ -16,11 +16,11 @@ legs=""
 for argument in "$@"; do
   case $argument in
     --full) full=yes ;;
-    core | asan | asan-core | checked | debug) legs="$legs $argument" ;;
-    *) echo "usage: sh tests/run.sh [--full] [core] [asan] [asan-core] [checked] [debug]" >&2; exit 2 ;;
+    core | asan | asan-core | checked | debug | tsan) legs="$legs $argument" ;;
+    *) echo "usage: sh tests/run.sh [--full] [core] [asan] [asan-core] [checked] [debug] [tsan]" >&2; exit 2 ;;
   esac
 done
-[ "$full" = no ] || legs="core asan checked debug"
+[ "$full" = no ] || legs="core asan checked debug tsan"
 
 need_core
 need_program

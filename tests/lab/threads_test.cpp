@@ -1,0 +1,42 @@
+// Paths, certificates and kernels in many threads at once. Under ThreadSanitizer (preset tsan) a data race
+// fails the test.
+#include <atomic>
+#include <thread>
+
+#include "catch.hpp"
+#include "contct/lab/random_problem.hpp"
+#include "contct/outside/registry.hpp"
+
+using namespace contct::app;
+
+TEST_CASE("sixteen threads follow paths of their own, and each gets the answer of one thread") {
+  constexpr std::size_t threads = 16;
+  constexpr std::size_t problems = 6;
+  const char* const kernels[] = {"fortran", "cpp", "corrected"};
+  const char* const engines[] = {"refactor", "updated"};
+  random_problem_kind kind;
+  kind.most_elements = 8;
+  kind.most_lines = 3;
+  // What thread t makes of its problem i, with a kernel and an engine that go round.
+  const auto result_of = [&](std::size_t t, std::size_t i) {
+    const random_problem p = make_random_problem(2026, t * problems + i + 1, kind);
+    return try_problem(p, *make_kernel(kernels[(t + i) % 3]), engines[i % 2]);
+  };
+  std::vector<problem_result> expected;
+  for (std::size_t n = 0; n < threads * problems; ++n)
+    expected.push_back(result_of(n / problems, n % problems));
+  std::atomic<int> right = 0;
+  std::vector<std::thread> all;
+  for (std::size_t t = 0; t < threads; ++t)
+    all.emplace_back([&, t] {
+      for (std::size_t i = 0; i < problems; ++i) {
+        const problem_result found = result_of(t, i);
+        const problem_result& wanted = expected[t * problems + i];
+        if (found.came_to == wanted.came_to && found.increments == wanted.increments &&
+            found.displacement_error == wanted.displacement_error)
+          ++right;
+      }
+    });
+  for (std::thread& t : all) t.join();
+  CHECK(right == threads * problems);
+}
