@@ -92,7 +92,7 @@ def cover(programs, profiles, work):
     profile = work / "all"
     subprocess.run(["llvm-profdata", "merge", "-sparse", *profiles, "-o", profile], check=True)
     sources = [s for s in (HERE / "readers.txt").read_text(encoding="utf-8").split("\n") if s and s[0] != "#"]
-    objects = [f"-object={p}" for p in programs]
+    objects = [programs[0], *[f"-object={p}" for p in programs[1:]]]
     export = ["llvm-cov", "export", "-summary-only", f"-instr-profile={profile}", *objects, *[ROOT / s for s in sources]]
     told = json.loads(subprocess.run(export, check=True, capture_output=True).stdout)
     counts = {f["filename"]: f["summary"]["lines"] for f in told["data"][0]["files"]}

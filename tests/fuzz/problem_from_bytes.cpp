@@ -200,6 +200,22 @@ class problem_maker {
 }  // namespace
 
 std::string words_from(FuzzedDataProvider& bytes) {
+  // What ends a text, or begins something else, in one of the files that the program writes.
+  constexpr std::array breaking = {"</script><script>",
+                                   "<!--",
+                                   "\",\"\"",
+                                   "'\"><b>&amp;",
+                                   "]]>",
+                                   "| a | b |",
+                                   "```",
+                                   "=1+1",
+                                   "*STEP",
+                                   "**/",
+                                   "-->",
+                                   "\\",
+                                   "</title>",
+                                   "{{data}}"};
+  if (bytes.ConsumeIntegralInRange(1, 6) == 6) return bytes.PickValueInArray(breaking);
   constexpr std::size_t longest = 24;
   std::string words = bytes.ConsumeRandomLengthString(longest);
   for (char& c : words) c = static_cast<char>(' ' + static_cast<unsigned char>(c) % ('~' - ' ' + 1));

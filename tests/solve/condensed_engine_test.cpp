@@ -90,3 +90,17 @@ TEST_CASE("when a spring opens that is 1e18 times as stiff, the response is as i
     CHECK((relative_difference(before, after) <= 1e-12) != closed);
   }
 }
+
+TEST_CASE("a beam too ill-conditioned to be condensed has an engine, and no factor at its first response") {
+  // Elements of 1 beside elements of 1e7, as a mechanism: its path asks for no response.
+  beam b;
+  b.x = {-1, 0, 1, 2, 3, 4, 10000004, 20000004, 30000004};
+  b.EI.assign(8, 1e7);
+  const support turning{7, 1, false, 1e7, false};
+  const linear_structure s = build(b, std::vector{turning}, {{7, 1, 1e7, 1e7, false}});
+  const auto engine = make_engine("condensed", s);
+  const std::vector<double> load(s.dofs(), 1.0);
+  std::vector<double> d_star(1);
+  CHECK_THROWS_AS(engine->respond({load, 1.0, 1}, d_star), no_factor);
+  CHECK_THROWS_AS(engine->respond({load, 1.0, 1}, d_star), no_factor);
+}

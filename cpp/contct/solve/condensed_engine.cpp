@@ -102,11 +102,11 @@ class condensed_engine final : public spring_engine {
     x_.resize(kept_.size());
     load_.resize(kept_.size());
     column_.resize(kept_.size());
-    condense();
   }
   [[nodiscard]] std::string_view name() const override { return "condensed"; }
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
+    if (!is_condensed_) condense();
     // Without a response the springs that are applied need not hold the structure yet: no sweep before all
     // are.
     bool has_response = response_to_ == residual.version;
@@ -157,9 +157,13 @@ class condensed_engine final : public spring_engine {
     }
   }
 
+  /// At the first response, not before: a path that asks for none needs no factor. Throws no_factor.
   void condense() {
     const std::size_t n = kept_.size();
     e_.assign(n, {});
+    d_.clear();
+    reach_.clear();
+    without_springs_.clear();
     for (const int node : kept_) {
       d_.push_back(block(structure_.stiffness.band(), node, node));
       reach_.push_back(std::sqrt(d_.back().tt / d_.back().ww));
@@ -174,6 +178,7 @@ class condensed_engine final : public spring_engine {
     right_.assign(n, {});
     go_left_.assign(n, {});
     go_right_.assign(n, {});
+    is_condensed_ = true;
   }
 
   /// Those of the pairs now in contact; summed anew, since what a stiff spring rounds away does not come back
@@ -302,6 +307,7 @@ class condensed_engine final : public spring_engine {
     return drift_.accepts(found);
   }
 
+  bool is_condensed_ = false;
   std::vector<std::size_t> place_;               // of each pair's node among the kept ones [pairs]
   std::vector<int> kept_;                        // nodes with pairs, from 0, in order
   std::vector<std::vector<int>> pairs_at_;       // [kept nodes]
