@@ -12,15 +12,15 @@ using namespace contct::app;
 TEST_CASE("sixteen threads follow paths of their own, and each gets the answer of one thread") {
   constexpr std::size_t threads = 16;
   constexpr std::size_t problems = 6;
-  const char* const kernels[] = {"fortran", "cpp", "corrected"};
   const char* const engines[] = {"refactor", "updated"};
   random_problem_kind kind;
   kind.most_elements = 8;
   kind.most_lines = 3;
-  // What thread t makes of its problem i, with a kernel and an engine that go round.
+  // What thread t makes of its problem i. Unit 26 belongs to the whole process: one thread has the listing.
   const auto result_of = [&](std::size_t t, std::size_t i) {
     const random_problem p = make_random_problem(2026, t * problems + i + 1, kind);
-    return try_problem(p, *make_kernel(kernels[(t + i) % 3]), engines[i % 2]);
+    const char* const leader = t == 0 ? "fortran" : (t + i) % 2 == 0 ? "cpp" : "corrected";
+    return try_problem(p, *make_kernel(leader), engines[i % 2]);
   };
   std::vector<problem_result> expected;
   for (std::size_t n = 0; n < threads * problems; ++n)
