@@ -8,6 +8,7 @@
 - The comparison of keys must notice each row of the manual's tables that is left out, and each key that is renamed.
 """
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -80,7 +81,7 @@ class contct:
         structures = root / "reference/structures"
         for file in [*structures.iterdir(), *(structures / "calculix").iterdir()]:
             if file.is_file():
-                (self.folder / file.name).symlink_to(file.resolve())
+                shutil.copy(file, self.folder)
 
     def __call__(self, command, text):
         """The exit status for a problem file of this text, and what standard error says."""
