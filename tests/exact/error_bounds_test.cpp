@@ -331,3 +331,17 @@ TEST_CASE("a load that is out of balance by one part in 1e13 is not balanced: th
   CHECK(e.end.numbers.pair_forces[2] == Approx(1e-13).epsilon(1e-6));
   CHECK(certified(e.end.bounds));
 }
+
+TEST_CASE(
+    "a residual that underflows is not taken for none: a stiffness of 1e-300 proves no slope of 1e-24") {
+  const problem p = parse_problem(
+      "[beam]\nlength = 2.5\nelements = 1\nEI = 1e-300\n[[support]]\nnode = 1\nfix = \"w\"\n"
+      "[[support]]\nnode = 2\nfix = [\"w\", \"theta\"]\n[[step]]\npoint = [ { node = 1, w = -1 } ]\n",
+      "pb.toml");
+  const linear_structure s = structure_of(p);
+  error_prover prover(p, s);
+  const std::vector<double> displacement = {0.0, 1.5e-24, 0.0, 0.0};  // truly 0: the load is at a support
+  const error_bounds b = prover.bound({1, displacement, {}, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}});
+  const std::optional<double> slope = b.error[quantity::slope];
+  CHECK((!slope || *slope >= 1.5e-24));
+}

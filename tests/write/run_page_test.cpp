@@ -62,6 +62,19 @@ TEST_CASE(
   CHECK(of(good_plate)["mxy"] == "kN m/m");
 }
 
+TEST_CASE("a page of moments that are no numbers is written, without colours for them") {
+  // A spring of 1.6e308 beside a stiffness of 1e-9: where both act, the state between the ends is not finite.
+  const std::string contact = "surface = \"below\"\nstate = \"separated\"\n";
+  const a_run r(
+      "[plate]\nsize = [1.953125, 0.1]\nelements = [2, 1]\nnu = 0.3125\nE = 10\nthickness = 0.001\n"
+      "[[support]]\nnode = 3\nfix = [\"w\", \"wx\", \"wy\"]\n"
+      "[[contact]]\nnode = 4\nface = -0.125\nstiffness = 0.3333333333333333\n" +
+      contact + "[[contact]]\nnode = 6\nface = -0.5\nstiffness = 1.6452542856298016e+308\n" + contact +
+      "[[contact]]\nnode = 5\nsurface = \"above\"\nface = 0.0625\nstiffness = 0.46875\n"
+      "[[step]]\npoint = [ { node = 1, wy = 1.375 } ]\n[[step]]\npoint = [ { node = 5, wx = -1 } ]\n");
+  CHECK(embedded_in(run_page(r.finished())).contains("frames"));
+}
+
 TEST_CASE("the page names no other file and no network") {
   const std::string page = run_page(a_run(good_problem).finished());
   for (const char* way : {"src=", "@import", "fetch(", "<link", "<img", "XMLHttp"}) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "contct/path/solve_problem.hpp"
@@ -76,13 +77,15 @@ error_prover::residual error_prover::residual_of(std::span<const double_double> 
   for (std::size_t dof = 0; dof < n; ++dof) {
     double_double sum = -l.force[dof];
     double size = l.size[dof];
+    bool moves = false;
     for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
       const int column = true_.k.columns[at];
       sum += true_.k.values[at] * u[column];
+      moves = moves || u[column].hi != 0.0;
       size += true_.root[dof] * true_.root[column] * std::abs(u[column].hi);
     }
     r.needed[dof] = sum;
-    r.slack[dof] = size;
+    r.slack[dof] = moves ? std::max(size, std::numeric_limits<double>::min()) : size;  // it may underflow
   }
   for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
     const true_pair& p = true_.pairs[i];

@@ -37,8 +37,9 @@ json extreme_json(const placed_value& v) {
   return {{"value", v.value}, {"x", v.x}, {"node", v.node < 0 ? json(nullptr) : json(v.node + 1)}};
 }
 
-/// A number for a colour: four digits are enough, and keep the page small.
+/// A number for a colour: four digits are enough, and keep the page small. None has no colour.
 json for_colour(double x) {
+  if (!std::isfinite(x)) return nullptr;
   return json::parse(fmt::format("{:.4g}", x));
 }
 
