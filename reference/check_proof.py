@@ -84,10 +84,14 @@ class Problem:
         return f, settled, own
 
 
+def zeros(rows):
+    return [[0] * len(row) for row in rows]
+
+
 def reach_of(p, s, springs):
     """s_i^2 / mu with S K_A S >= mu I; mu is the shift less Gershgorin's discs of S K_A S - shift I - L L'."""
     S = [F(2)**k for k in s["scale"]]
-    rows = [[F(x) for x in row] for row in s["L"]]
+    rows = [[F(x) + F(low) for x, low in zip(*two)] for two in zip(s["L"], s.get("L_low", zeros(s["L"])))]
     unit = max(x.denominator for row in rows for x in row)
     whole = [[int(x * unit) for x in row] for row in rows]
     first = [i + 1 - len(row) for i, row in enumerate(rows)]

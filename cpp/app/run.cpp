@@ -8,6 +8,8 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
 #include "contct/compare/lockstep.hpp"
+#include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/lapack_identity.hpp"
 #include "contct/numeric/probe.hpp"
@@ -177,7 +179,7 @@ struct observed_run {
   const run_setup& run;
   lockstep* compared;  // null where nothing is compared
   output_files files{run.outputs};
-  certifier judged{run.what, run.structure};
+  certifier judged{run.what, run.structure, exact::exact_residual_of(run.what)};
   early_toggles early{};
   digit_watch digits{};
   passage_watch passages{run.what};
@@ -235,7 +237,8 @@ void print_legend(observed_run& o) {
 }
 
 path_limits limits_of(const run_setup& run, certifier& judged) {
-  return {run.options.max_increments, judged.fallback(), judged.refiner()};
+  return {run.options.max_increments, judged.fallback(), judged.refiner(),
+          exact::exact_follower_of(run.what)};
 }
 
 /// The leader's path, observed by all that was asked for, and by `recorded` where that is not null.
@@ -414,7 +417,8 @@ exit_status final_states(const run_setup& run) {
   observed_run o{run, nullptr};
   print_heading(run);
   const path_end end = find_final_states(run.structure, static_cast<int>(run.what.steps.size()),
-                                         loads_of(run.what, run.structure), make_observers(o), &o.judged);
+                                         loads_of(run.what, run.structure), make_observers(o), &o.judged,
+                                         exact::exact_follower_of(run.what));
   o.shown.line.erase();
   print_legend(o);
   print_verdict(o, paint::quiet,
@@ -442,7 +446,7 @@ exit_status free_run(const run_setup& run) {
   comparison c;
   for (const std::string& name : std::span(run.kernels).subspan(1)) {
     path_record own;
-    certifier judged(run.what, run.structure);
+    certifier judged(run.what, run.structure, exact::exact_residual_of(run.what));
     own.end =
         follow(run.what, run.structure, engine_for(facts_of_kernel(name), run.options.engine, run.structure),
                *make_kernel(name), {&judged, &own}, limits_of(run, judged));

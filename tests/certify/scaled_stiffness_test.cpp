@@ -52,6 +52,25 @@ TEST_CASE("the least eigenvalue of a chain is bounded from below, and by no less
   }
 }
 
+TEST_CASE("what doubles cannot factor is proved in 32 digits, with L as a sum of two") {
+  true_system t = chain(20);
+  t.k.values.front() = double_double(1.0) + 0x1p-60;  // free at both ends but for a soft spring
+  t.k.values.back() = 1.0;
+  t.root.front() = t.root.back() = 1 + 1e-15;
+  scaled_stiffness k(t, in_order(20), 1);
+  k.keep_proof();
+  REQUIRE(k.factor({}));
+  const double mu = k.least_eigenvalue();
+  CHECK(k.has_32_digits());
+  CHECK(mu > 0x1p-60 / 20 / 8 / 100);
+  CHECK(mu < 0x1p-60 / 20);
+  REQUIRE(k.proof());
+  CHECK(k.proof()->factor_low);
+
+  t.k.values.front() = double_double(1.0) - 0x1p-60;
+  CHECK((!k.factor({}) || k.least_eigenvalue() == 0.0));
+}
+
 TEST_CASE("what is not definite has no bound, however little it is short of it") {
   for (const double less : {-1e-3, -1e-9, -1e-14}) {
     const int n = 20;

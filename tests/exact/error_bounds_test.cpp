@@ -6,6 +6,7 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
+#include "contct/exact/elements.hpp"
 #include "contct/read/problem_file.hpp"
 #include "exact/random_comparison.hpp"
 #include "support/beams.hpp"
@@ -46,6 +47,42 @@ double off(double told, const exact::rational& true_value) {
   return std::abs(exact::rounded(exact::binary_value(told) - true_value));
 }
 
+/// Moments of a plate under u in 32 digits.
+exact::vector plate_values(const problem& p, int step, const exact::vector& u) {
+  long_vector rounded;
+  for (const exact::rational& x : u) {
+    const double high = exact::rounded(x);
+    rounded.push_back({high, exact::rounded(x - exact::binary_value(high))});
+  }
+  exact::vector all;
+  for (const element_value& v : true_system_of(p).element_values(step, rounded))
+    all.push_back(exact::binary_value(v.value.hi) + exact::binary_value(v.value.lo));
+  return all;
+}
+
+/// Shear at both ends and moment at both ends of each element of a beam.
+exact::vector beam_values(const problem& p, const beam& b, int step, const exact::vector& u) {
+  exact::vector all;
+  for (int e = 0; e < b.elements(); ++e) {
+    const auto at = static_cast<std::size_t>(e);
+    const exact::rational left = exact::decimal_of(b.x[at]);
+    const exact::rational h = exact::decimal_of(b.x[at + 1]) - left;
+    const auto k = exact::beam_stiffness(exact::decimal_of(b.EI[at]), h);
+    std::array<exact::rational, 4> f;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j) f[i] += k[i][j] * u[2 * at + j];
+    for (const distributed_load& d : p.steps[static_cast<std::size_t>(step) - 1].distributed) {
+      if (!d.elements.empty() && std::ranges::find(d.elements, e) == d.elements.end()) continue;
+      exact::vector q;
+      for (const double a : d.polynomial) q.push_back(exact::decimal_of(a));
+      const auto work = exact::beam_load(q, left, h);
+      for (std::size_t i = 0; i < 4; ++i) f[i] -= work[i];
+    }
+    all.insert(all.end(), {f[0], -f[2], -f[1], f[3]});
+  }
+  return all;
+}
+
 /// The largest error of each kind in a told end.
 by_quantity errors_of(const problem& p, const exact::exact_step_end& truly, const told_end& told) {
   by_quantity worst;
@@ -58,15 +95,12 @@ by_quantity errors_of(const problem& p, const exact::exact_step_end& truly, cons
   for (std::size_t i = 0; i < p.supports.size(); ++i)
     worst.take(p.supports[i].dof == 0 ? quantity::reaction : quantity::moment,
                off(told.numbers.reactions[i], truly.reactions[i]));
-  long_vector u;
-  for (const exact::rational& x : truly.displacement) {
-    const double high = exact::rounded(x);
-    u.push_back({high, exact::rounded(x - exact::binary_value(high))});
-  }
-  const std::vector<element_value> values = true_system_of(p).element_values(told.numbers.step, u);
+  const beam* const b = std::get_if<beam>(&p.geometry.kind);
+  const exact::vector values = b != nullptr ? beam_values(p, *b, told.numbers.step, truly.displacement)
+                                            : plate_values(p, told.numbers.step, truly.displacement);
   for (std::size_t i = 0; i < values.size(); ++i)
-    worst.take(values[i].moment ? quantity::moment : quantity::shear,
-               std::abs((double_double(told.numbers.element_values[i]) - values[i].value).hi));
+    worst.take(b != nullptr && i % 4 < 2 ? quantity::shear : quantity::moment,
+               off(told.numbers.element_values[i], values[i]));
   return worst;
 }
 

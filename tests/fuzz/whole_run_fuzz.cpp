@@ -14,6 +14,8 @@
 
 #include "app/outputs.hpp"
 #include "contct/compare/explanation.hpp"
+#include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/matrix/lapack_identity.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -64,7 +66,8 @@ class captured_output {
 
 /// The ends of the steps that a path reached, each with its certificate.
 struct certified_ends final : observer {
-  certified_ends(const problem& p, const linear_structure& s) : what(p), judged(p, s) {}
+  certified_ends(const problem& p, const linear_structure& s)
+      : what(p), judged(p, s, exact::exact_residual_of(p)) {}
 
   void step_ended(const step_state& s) override {
     displacement.emplace_back(s.displacement.begin(), s.displacement.end());
@@ -146,7 +149,7 @@ class whole_run {
 
  private:
   [[nodiscard]] path_limits limits(certifier& judged) const {
-    return {most_increments, judged.fallback(), judged.refiner()};
+    return {most_increments, judged.fallback(), judged.refiner(), exact::exact_follower_of(p_)};
   }
 
   void follow_and_write();

@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include "contct/certify/certificate.hpp"
+#include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/exact/kernel_digits.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -37,6 +39,7 @@ struct state_keeper final : observer {
 
   void step_ended(const step_state& s) override {
     lost = lost || s.from_fallback;
+    exact = exact || s.from_exact_path;
     states.push_back({s.step,
                       {s.displacement.begin(), s.displacement.end()},
                       {s.isep.begin(), s.isep.end()},
@@ -46,7 +49,7 @@ struct state_keeper final : observer {
 
   const problem& what;
   std::vector<kept_state> states;
-  bool lost = false;
+  bool lost = false, exact = false;
 };
 
 double size_of(const rational& x) {
@@ -204,10 +207,12 @@ class comparing {
 path_end solve(const problem& p, const linear_structure& s, way how, const std::vector<observer*>& observers,
                certifier& judged) {
   if (how == way::final_only)
-    return find_final_states(s, static_cast<int>(p.steps.size()), loads_of(p, s), observers, &judged);
+    return find_final_states(s, static_cast<int>(p.steps.size()), loads_of(p, s), observers, &judged,
+                             exact_follower_of(p));
   const auto leader = outside::make_kernel(how == way::listing ? "cpp" : "corrected");
   const std::string engine(how == way::default_engine ? quickest_engine(s) : "refactor");
-  return path::follow(p, s, engine, *leader, observers, {0, judged.fallback(), judged.refiner()});
+  return path::follow(p, s, engine, *leader, observers,
+                      {0, judged.fallback(), judged.refiner(), exact_follower_of(p)});
 }
 
 struct true_end {
@@ -238,9 +243,9 @@ std::string_view name_of(way w) {
 }
 
 std::string_view name_of(fault f) {
-  constexpr std::string_view names[] = {"out-w",      "out-slope", "out-force", "out-react", "off-w",
-                                        "off-slope",  "off-force", "off-react", "digits",    "solved!",
-                                        "mechanism!", "refused",   "other-end", "events",    "fallback"};
+  constexpr std::string_view names[] = {
+      "out-w",  "out-slope", "out-force",  "out-react", "off-w",     "off-slope", "off-force", "off-react",
+      "digits", "solved!",   "mechanism!", "refused",   "other-end", "events",    "fallback",  "exactly"};
   return names[static_cast<int>(f)];
 }
 
@@ -262,7 +267,7 @@ namespace {
 struct judged_run {
   judged_run(const structure::problem& p, way how, const std::vector<observer*>& watching,
              const linear_structure& s, judgement& j)
-      : kept(p), judged(p, s) {
+      : kept(p), judged(p, s, exact_residual_of(p)) {
     std::vector<observer*> observers = {&kept, &judged};
     observers.insert(observers.end(), watching.begin(), watching.end());
     try {
@@ -274,6 +279,7 @@ struct judged_run {
   }
 
   void note_lost_path(judgement& j) const {
+    if (kept.exact) j.findings.push_back({fault::exactly, 1.0, "followed in rational numbers"});
     if (kept.lost) j.findings.push_back({fault::fallback, 1.0, "the path was lost"});
   }
 

@@ -39,8 +39,9 @@ enum class fault {
   other_end,        ///< a cycle, the limit of increments, or a mechanism in another step
   other_events,     ///< in another order than exactly, ties aside
   fallback,         ///< the path could not reach the end of a step: its state is the reference solution's
+  exactly,          ///< nor could it, in doubles: from some share on it is the exact path
 };
-inline constexpr int faults = 15;
+inline constexpr int faults = 16;
 [[nodiscard]] std::string_view name_of(fault f);
 
 /// A problem and its exact path.

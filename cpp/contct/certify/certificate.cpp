@@ -79,9 +79,10 @@ certifier::certifier(const linear_structure& s, load_history total_load)
   }
 }
 
-certifier::certifier(const problem& p, const linear_structure& s) : certifier(s, loads_of(p, s)) {
+certifier::certifier(const problem& p, const linear_structure& s, exact_residual exactly)
+    : certifier(s, loads_of(p, s)) {
   problem_ = &p;  // NOLINT(cppcoreguidelines-prefer-member-initializer): a delegating constructor has none
-  if (can_be_proved(s)) prover_ = std::make_unique<error_prover>(p, s);
+  if (can_be_proved(s)) prover_ = std::make_unique<error_prover>(p, s, std::move(exactly));
 }
 
 state_refiner certifier::refiner() {
@@ -153,7 +154,13 @@ void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
 }
 
 void certifier::prove(const step_state& s, certificate& c) {
-  const error_bounds b = prover_->bound(handed_out_at(*problem_, s));
+  const handed_out handed = handed_out_at(*problem_, s);
+  take(prover_->bound(handed), c);
+  if (!c.proved || c.exact) return;
+  if (const std::optional<error_bounds> closer = prover_->bound_closely(handed)) take(*closer, c);
+}
+
+void certifier::take(const error_bounds& b, certificate& c) {
   c.proof_tried = true;
   c.unique = b.unique;
   c.tolerance = certified_share;
@@ -194,7 +201,8 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
   }
-  if (c.problem.empty() && c.proof_tried) c.problem = of_proof;
+  // What is proved, but not closely enough, is nearer to the truth than a comparison.
+  if (c.problem.empty() || (c.proved && !c.unfounded && !of_proof.empty())) c.problem = of_proof;
   c.exact = c.problem.empty();
 }
 
@@ -300,8 +308,20 @@ bool certifier::search(int step, double share, std::span<double> displacement, s
   return prover_ && prover_->search(step, share, displacement, isep);
 }
 
+namespace {
+
+void take_exact_end(std::optional<followed_step> end, reference_answer& found) {
+  if (!end || end->status != path_status::solved) return;
+  found.displacement = std::move(end->displacement);
+  found.pressed = std::move(end->closed);
+  found.how = outcome::found;
+}
+
+}  // namespace
+
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
-                           std::span<observer* const> observers, certifier* helper) {
+                           std::span<observer* const> observers, certifier* helper,
+                           const exact_follower& exactly) {
   const state_refiner refine = helper != nullptr ? helper->refiner() : nullptr;
   reference_solver finds(s);
   factored_stiffness stiffness(s);
@@ -310,7 +330,8 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
   for (int step = 1; step <= steps; ++step) {
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
-    const reference_answer found = solve_for(finds, total, total_load.work(step), step, 1.0, helper);
+    reference_answer found = solve_for(finds, total, total_load.work(step), step, 1.0, helper);
+    if (found.how == outcome::not_found && exactly) take_exact_end(exactly(step), found);
     end.work.factors += found.factorisations;
     if (found.how == outcome::no_equilibrium) return {path_status::mechanism, step, 0.0, {}, end.work};
     if (found.how != outcome::found) return {path_status::not_factored, step, 0.0, {}, end.work};

@@ -68,8 +68,9 @@ class certifier final : public observer {
   certifier(const linear_structure& s, load_history total_load);
 
   /// Of a problem: every step is judged by proved bounds, where its stiffness is stored as a band; otherwise
-  /// as above. `p` and `s` must outlive this object.
-  certifier(const problem& p, const linear_structure& s);
+  /// as above. `p` and `s` must outlive this object. `exactly`: where 32 digits are too few; see
+  /// error_prover.
+  certifier(const problem& p, const linear_structure& s, exact_residual exactly = nullptr);
 
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
@@ -98,6 +99,7 @@ class certifier final : public observer {
  private:
   [[nodiscard]] certificate judge(const step_state& s);
   void prove(const step_state& s, certificate& c);
+  void take(const error_bounds& b, certificate& c);
   void compare(const step_state& s, std::span<const double> load, certificate& c);
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
   void find_pulling_pair(const step_state& s, certificate& c) const;
@@ -132,8 +134,9 @@ class certifier final : public observer {
 /// arrive. A handful of factorisations a step; no increments, no events.
 ///
 /// Ends as `mechanism` at the first step whose load nothing carries, and as `not_factored` where no
-/// answer is found in double precision; that step is not told.
+/// answer is found in double precision, nor by `helper` and `exactly`; that step is not told.
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
-                           std::span<observer* const> observers, certifier* helper = nullptr);
+                           std::span<observer* const> observers, certifier* helper = nullptr,
+                           const exact_follower& exactly = nullptr);
 
 }  // namespace contct::certify

@@ -59,10 +59,13 @@ struct error_bounds {
 /// Bounds errors of states of a problem.
 class error_prover {
  public:
-  /// Both must outlive this object.
-  error_prover(const problem& p, const linear_structure& s);
+  /// Both must outlive this object. `exactly` gives residuals where only 32 digits factor K_A: those in 32
+  /// digits would be too coarse there.
+  error_prover(const problem& p, const linear_structure& s, exact_residual exactly = nullptr);
 
   [[nodiscard]] error_bounds bound(const handed_out& state);
+  /// The same with exact residuals where there are any, which takes longer; otherwise nothing.
+  [[nodiscard]] std::optional<error_bounds> bound_closely(const handed_out& state);
 
   /// A state_refiner: corrections with this residual, as long as each makes it smaller. Nothing where nothing
   /// certain holds the structure. What is left over from doubles is kept for `bound`.
@@ -95,11 +98,16 @@ class error_prover {
   /// How deep a pair is beyond its face under `u`.
   [[nodiscard]] double_double depth(std::size_t pair, std::span<const double_double> u) const;
   [[nodiscard]] residual residual_of(std::span<const double_double> u, const true_loads& l) const;
+  [[nodiscard]] bool has_exact_residual(const true_loads& l) const;
+  void put_forces(residual& r) const;
   /// `displacement`, with settlements as they are prescribed; of the state refined last with what doubles
   /// leave over.
   [[nodiscard]] long_vector long_displacement(int step, std::span<const double> displacement,
                                               const true_loads& l) const;
   [[nodiscard]] bool correct(const true_loads& l, long_vector& u);
+  [[nodiscard]] long_vector residual_of_set(const residual& r, std::span<const double_double> u,
+                                            const std::vector<int>& closed) const;
+  [[nodiscard]] double correct_once(const long_vector& force, std::vector<double>& correction) const;
   void settle_statuses(std::span<const double_double> u, const true_loads& l, std::span<int> isep) const;
   [[nodiscard]] end_numbers numbers_of(std::span<const double_double> u, std::span<const int> isep) const;
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
@@ -121,6 +129,8 @@ class error_prover {
   /// The pairs that may not be in contact leave `closed`; false where there are none.
   bool erase_doubtful(std::span<const double_double> u, double rho, std::vector<int>& closed) const;
   [[nodiscard]] true_loads loads_at(int step, double share) const;
+  /// At the end of a step, from 1; kept until another step is asked for.
+  [[nodiscard]] const true_loads& loads_of(int step);
   /// How far rounding can put a pair's depth off.
   [[nodiscard]] double doubt(std::size_t pair, std::span<const double_double> u) const;
   /// Not in contact, in any state within rho of u.
@@ -145,6 +155,9 @@ class error_prover {
   scaled_stiffness stiffness_;
   std::optional<std::vector<int>> factored_;  // the pairs in the last factor
   double mu_ = 0.0, inverse_root_mu_ = 0.0;
+  exact_residual exactly_;
+  bool closely_ = false;  // residuals are exact though doubles factor K_A
+  true_loads loads_;
   int refined_step_ = 0;
   long_vector refined_;
   residual residual_;                  // of the state refined or bounded last

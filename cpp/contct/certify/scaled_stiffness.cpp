@@ -82,7 +82,7 @@ void scaled_stiffness::each_entry(double shift, Put put) const {
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
     const int row = row_of_[dof];
     if (true_.fixed[dof] != 0) {
-      put(row, row, 1.0 - shift);
+      put(row, row, double_double(1.0) - shift);
       continue;
     }
     for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
@@ -92,21 +92,27 @@ void scaled_stiffness::each_entry(double shift, Put put) const {
       if (column == static_cast<int>(dof)) entry += springs_[dof];
       entry = entry * (scale_[dof] * scale_[column]);
       if (column == static_cast<int>(dof)) entry -= shift;
-      put(row, row_of_[column], entry.hi);
+      put(row, row_of_[column], entry);
     }
   }
 }
 
 band_matrix scaled_stiffness::band(double shift) const {
   band_matrix all(static_cast<int>(true_.dofs()), *subdiagonals_);
-  each_entry(shift, [&all](int row, int column, double value) { all.at(row, column) = value; });
+  each_entry(shift, [&all](int row, int column, const double_double& x) { all.at(row, column) = x.hi; });
+  return all;
+}
+
+long_band scaled_stiffness::band_of_32_digits(double shift) const {
+  long_band all(static_cast<int>(true_.dofs()), *subdiagonals_);
+  each_entry(shift, [&all](int row, int column, const double_double& x) { all.at(row, column) = x; });
   return all;
 }
 
 matrix::sparse_columns scaled_stiffness::columns(double shift) const {
   matrix::sparse_matrix all{static_cast<int>(true_.dofs()), {}};
-  each_entry(shift, [&all](int row, int column, double value) {
-    all.entries.push_back({row, column, value});
+  each_entry(shift, [&all](int row, int column, const double_double& x) {
+    all.entries.push_back({row, column, x.hi});
   });
   return matrix::columns_of(all);
 }
@@ -119,6 +125,11 @@ bool scaled_stiffness::factor(std::span<const int> pairs) {
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
     if (true_.fixed[dof] == 0) scale_[dof] = root_scale(true_.root[dof] * true_.root[dof] + springs_[dof].hi);
   }
+  return factor_in_doubles() || factor_in_32_digits();
+}
+
+bool scaled_stiffness::factor_in_doubles() {
+  long_.reset();
   if (!subdiagonals_) {
     matrix::sparse_columns all = columns(0.0);
     const std::vector<double> diagonal = diagonal_of(all);
@@ -129,7 +140,19 @@ bool scaled_stiffness::factor(std::span<const int> pairs) {
   return matrix::factor(factor_);
 }
 
+bool scaled_stiffness::factor_in_32_digits() {
+  if (!subdiagonals_ || !can_be_factored_long(static_cast<int>(true_.dofs()), *subdiagonals_)) return false;
+  long_ = band_of_32_digits(0.0);
+  return certify::factor(*long_);
+}
+
 void scaled_stiffness::solve_rows(std::span<double> x) const {
+  if (long_) {
+    long_vector y(x.begin(), x.end());
+    solve_with(*long_, y);
+    std::ranges::transform(y, x.begin(), &double_double::hi);
+    return;
+  }
   if (sparse_) return sparse_->solve(x);
   matrix::solve_with(factor_, x);
 }
@@ -223,8 +246,29 @@ std::optional<double> scaled_stiffness::error_of_band(double shift) {
   band_matrix l = band(shift);
   if (!matrix::factor(l)) return std::nullopt;
   const double error = largest_row_of_error(l, shift);
-  if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l)};
+  if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l), {}};
   return error;
+}
+
+std::optional<double> scaled_stiffness::error_of_long_band(double shift) {
+  const long_band a = band_of_32_digits(shift);
+  long_band l = a;
+  if (!certify::factor(l)) return std::nullopt;
+  if (keeps_proof_) proof_ = proof_of(l, shift);
+  return certify::largest_row_of_error(a, l, true_rounding);
+}
+
+/// L as a sum of two.
+stiffness_proof scaled_stiffness::proof_of(const long_band& l, double shift) const {
+  stiffness_proof p{scale_, row_of_, shift, band_matrix(l.order(), l.subdiagonals()),
+                    band_matrix(l.order(), l.subdiagonals())};
+  for (int i = 0; i < l.order(); ++i) {
+    for (int j = l.first(i); j <= i; ++j) {
+      p.factor.at(i, j) = l.at(i, j).hi;
+      p.factor_low->at(i, j) = l.at(i, j).lo;
+    }
+  }
+  return p;
 }
 
 std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
@@ -239,11 +283,18 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
 }
 
 double scaled_stiffness::least_eigenvalue() {
+  if (const double mu = proved_below_estimate(); mu > 0.0 || long_) return mu;
+  return factor_in_32_digits() ? proved_below_estimate() : 0.0;
+}
+
+double scaled_stiffness::proved_below_estimate() {
   const double highest = least_estimate() / 2;
   for (int tries = 0; tries < 3; ++tries) {
     const double shift = std::ldexp(highest, -4 * tries);
     if (!(shift > 0.0)) break;
-    const std::optional<double> error = subdiagonals_ ? error_of_band(shift) : error_of_columns(shift);
+    const std::optional<double> error = long_           ? error_of_long_band(shift)
+                                        : subdiagonals_ ? error_of_band(shift)
+                                                        : error_of_columns(shift);
     if (!error) continue;
     const double mu = (shift - *error) * (1 - 0x1p-50);
     if (mu > 0.0) return mu;  // and a number

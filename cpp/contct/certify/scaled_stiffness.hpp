@@ -1,5 +1,5 @@
-// K_A, the stiffness with the springs of some pairs: its factor in doubles, and a proof of its least
-// eigenvalue (reference/certificate.md).
+// K_A, the stiffness with the springs of some pairs: its factor, in doubles or where these are too short in
+// 32 digits, and a proof of its least eigenvalue (reference/certificate.md).
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contct/certify/long_factor.hpp"
 #include "contct/certify/step_proof.hpp"
 #include "contct/certify/true_system.hpp"
 #include "contct/matrix/sparse_factor.hpp"
@@ -28,7 +29,10 @@ class scaled_stiffness {
   /// mu with S K_A S >= mu I; 0 where none can be proved. Takes a factorisation or more, and four solves.
   [[nodiscard]] double least_eigenvalue();
 
-  /// K_A^-1 b in doubles, for b [dofs] that is 0 at fixed ones.
+  /// Did the last factor take 32 digits?
+  [[nodiscard]] bool has_32_digits() const { return long_.has_value(); }
+
+  /// K_A^-1 b, rounded to doubles, for b [dofs] that is 0 at fixed ones.
   void solve(std::span<double> b) const;
 
   /// K_A x.
@@ -44,13 +48,19 @@ class scaled_stiffness {
  private:
   /// S K_A S - shift I, in rows of the band, or by columns.
   [[nodiscard]] matrix::band_matrix band(double shift) const;
+  [[nodiscard]] long_band band_of_32_digits(double shift) const;
   [[nodiscard]] matrix::sparse_columns columns(double shift) const;
   template <class Put>
   void each_entry(double shift, Put put) const;
   void solve_rows(std::span<double> x) const;
+  [[nodiscard]] bool factor_in_doubles();
+  bool factor_in_32_digits();
+  [[nodiscard]] double proved_below_estimate();
   [[nodiscard]] double least_estimate() const;
   /// How far L L' is from S K_A S - shift I, in norm; nothing where there is no factor.
   [[nodiscard]] std::optional<double> error_of_band(double shift);
+  [[nodiscard]] std::optional<double> error_of_long_band(double shift);
+  [[nodiscard]] stiffness_proof proof_of(const long_band& l, double shift) const;
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
   [[nodiscard]] double largest_row_of_error(const matrix::band_matrix& factor, double shift) const;
 
@@ -61,6 +71,7 @@ class scaled_stiffness {
   std::vector<double> scale_;  // S [dofs]
   matrix::band_matrix factor_;
   std::unique_ptr<matrix::sparse_factor> sparse_;  // in place of it
+  std::optional<long_band> long_;                  // in place of both
   bool keeps_proof_ = false;
   std::optional<stiffness_proof> proof_;
 };

@@ -15,7 +15,8 @@ struct stiffness_proof {
   std::vector<double> scale;  ///< S [dofs], powers of two
   std::vector<int> row_of;    ///< the row of each dof in L [dofs], from 0
   double shift = 0.0;
-  matrix::band_matrix factor;  ///< L
+  matrix::band_matrix factor;                     ///< L
+  std::optional<matrix::band_matrix> factor_low;  ///< what is added to it, where doubles are too short for L
 };
 
 struct step_proof {

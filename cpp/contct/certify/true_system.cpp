@@ -65,6 +65,8 @@ class sparse_rows {
   /// The entry, which is 0 at first.
   double_double& at(int row, int column) {
     auto& entries = rows_[row];
+    constexpr std::size_t of_a_beam = 6;
+    if (entries.empty()) entries.reserve(of_a_beam);
     const auto place = std::ranges::lower_bound(entries, column, {}, &entry::column);
     if (place != entries.end() && place->column == column) return place->value;
     return entries.insert(place, {column, {}})->value;
@@ -106,13 +108,17 @@ class true_beam {
   }
 
   void assemble(sparse_rows& k) const {
-    for (std::size_t e = 0; e < line_.h.size(); ++e)
-      add_element(k, formulas::beam_stiffness(EI_[e], line_.h[e]), dofs_of(e));
+    std::array<std::array<double_double, 4>, 4> matrix;
+    for (std::size_t e = 0; e < line_.h.size(); ++e) {
+      if (!is_like_the_last(e)) matrix = formulas::beam_stiffness(EI_[e], line_.h[e]);
+      add_element(k, matrix, dofs_of(e));
+    }
   }
 
   void add_distributed(const load& l, true_loads& f) const {
+    uniform_load last;
     for_each_loaded_element(l, beam_.elements(), [&](int e, std::span<const double> polynomial) {
-      const element_loads work = load_on(e, polynomial);
+      const element_loads work = load_on(e, polynomial, last);
       const std::array<int, 4> dofs = dofs_of(e);
       for (std::size_t i = 0; i < 4; ++i) {
         f.force[dofs[i]] += work.force[i];
@@ -124,26 +130,35 @@ class true_beam {
   /// From the rotations relative to the chord: the rigid motion of an element may be large.
   [[nodiscard]] std::vector<element_value> values(const load& l, std::span<const double_double> u) const {
     std::vector<element_value> all;
+    all.reserve(4 * line_.h.size());
+    double_double inverse;
+    double_double stiffness;
+    double of_shear = 0.0;
+    double of_moment = 0.0;
     for (std::size_t e = 0; e < line_.h.size(); ++e) {
-      const double_double stiffness = 2 * EI_[e] / line_.h[e];
-      const double_double chord = (u[2 * e + 2] - u[2 * e]) / line_.h[e];
+      if (!is_like_the_last(e)) {
+        inverse = double_double(1.0) / line_.h[e];
+        stiffness = 2 * EI_[e] * inverse;
+        of_shear = std::sqrt(6 * stiffness.hi) / line_.h[e].hi;
+        of_moment = std::sqrt(2 * stiffness.hi);
+      }
+      const double_double chord = (u[2 * e + 2] - u[2 * e]) * inverse;
       const double_double left = u[2 * e + 1] - chord;
       const double_double right = u[2 * e + 3] - chord;
       const double_double m1 = stiffness * (2 * left + right);
       const double_double m2 = stiffness * (left + 2 * right);
-      const double_double v = (m1 + m2) / line_.h[e];
+      const double_double v = (m1 + m2) * inverse;
       const double m =
           3 * stiffness.hi * (std::abs(u[2 * e + 1].hi) + std::abs(u[2 * e + 3].hi) + 2 * std::abs(chord.hi));
-      const double of_shear = std::sqrt(6 * stiffness.hi) / line_.h[e].hi;
-      const double of_moment = std::sqrt(2 * stiffness.hi);
       const double q = 2 * m / line_.h[e].hi;
       all.insert(all.end(), {{v, q, of_shear, false},
                              {v, q, of_shear, false},
                              {-m1, m, of_moment, true},
                              {m2, m, of_moment, true}});
     }
+    uniform_load last;
     for_each_loaded_element(l, beam_.elements(), [&](int e, std::span<const double> polynomial) {
-      const element_loads work = load_on(e, polynomial);
+      const element_loads work = load_on(e, polynomial, last);
       const std::array<double_double, 4> added = {-work.force[0], work.force[2], work.force[1],
                                                   -work.force[3]};
       element_value* const of_element = &all[4 * static_cast<std::size_t>(e)];
@@ -168,6 +183,26 @@ class true_beam {
     std::array<double_double, 4> force;
     double size = 0.0;
   };
+  /// A constant load, and what it comes to on an element of some length.
+  struct uniform_load {
+    double q = 0.0;
+    double_double h;
+    element_loads work;
+  };
+
+  [[nodiscard]] bool is_like_the_last(std::size_t e) const {
+    return e > 0 && line_.h[e] == line_.h[e - 1] && EI_[e] == EI_[e - 1];
+  }
+
+  /// `last`: of the element before, which is often the same.
+  [[nodiscard]] element_loads load_on(std::size_t e, std::span<const double> polynomial,
+                                      uniform_load& last) const {
+    if (polynomial.size() != 1) return load_on(e, polynomial);
+    if (last.q != polynomial[0] || !(last.h == line_.h[e]))
+      last = {polynomial[0], line_.h[e], load_on(e, polynomial)};
+    return last.work;
+  }
+
   [[nodiscard]] element_loads load_on(std::size_t e, std::span<const double> polynomial) const {
     long_vector q;
     double size = 0.0;
@@ -365,7 +400,7 @@ template <class Kind>
 true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
   const std::size_t n = dofs(p.geometry);
   const int per_node = dofs_per_node(p.geometry);
-  true_loads f{long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
+  true_loads f{step, long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
   const load l = in_parts(p.steps[step - 1]);
   for (const point_load& q : l.points) {
     f.force[q.node * per_node + q.dof] += long_decimal(q.value);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct true_pair {
 
 /// What acts at the end of a step.
 struct true_loads {
+  int step = 0;              ///< at whose end they act, from 1; 0 in between
   long_vector force;         ///< [dofs] consistent loads
   std::vector<double> size;  ///< [dofs] the sum of their parts' magnitudes
   long_vector settlement;    ///< [dofs] what fixed dofs are moved to; 0 at all others
@@ -50,6 +52,11 @@ struct element_value {
   double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate.md
   bool moment = true;   ///< otherwise a shear
 };
+
+/// K u less the loads and what pairs beyond their faces press with, at every dof, each number rounded once:
+/// of double_doubles u [dofs] at the end of a step, from 1. At fixed dofs u is the prescribed displacement.
+/// Nothing where that would take too long.
+using exact_residual = std::function<std::optional<long_vector>(int step, std::span<const double_double> u)>;
 
 struct true_system {
   long_matrix k;               ///< of elements and elastic supports, rows of fixed dofs too

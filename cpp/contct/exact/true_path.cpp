@@ -130,16 +130,23 @@ class true_path {
       settle_statuses();
       const bool driven = !is_zero(response_[0]);
       if (std::vector<event> events = at_.events_since(before); !events.empty() || driven)
-        increments_.push_back({at_.fraction, std::move(events), driven});
+        keep_increment(std::move(events), driven);
       if (driven) {
         if (!snap()) return path_status::mechanism;
       } else if (!advance()) {
-        increments_.push_back({at_.fraction, {}, false});
+        keep_increment({}, false);
         return path_status::solved;
       }
     }
     fill_in();
     return path_status::iteration_limit;
+  }
+
+  void keep_increment(std::vector<event> events, bool snaps) {
+    exact_increment i{at_.fraction, std::move(events), snaps};
+    for (const exact_pair& c : at_.problem.pairs)
+      i.at.push_back(numeric::rounded(at_.u[static_cast<std::size_t>(c.dof)]));
+    increments_.push_back(std::move(i));
   }
 
   /// Which of the pairs at their faces are in contact from here on: those statuses for which the response

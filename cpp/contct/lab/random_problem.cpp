@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -301,11 +303,12 @@ problem_result try_structure(const random_problem& p, const linear_structure& s,
   increment_counter counted;
   const problem what = as_problem(p);
   const load_history total = loads_of(what, s);
-  certifier judged(what, s);
+  certifier judged(what, s, exact::exact_residual_of(what));
   watching.insert(watching.end(), {&counted, &judged});
   path_limits limits;
   limits.fallback = judged.fallback();
   limits.refine = judged.refiner();
+  limits.exactly = exact::exact_follower_of(what);
   const path_end end = follow_steps(p.geometry, s, p.steps, engine, leader, watching, limits);
   for (const auto& c : judged.steps())
     if (c) t.add(*c);

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "contct/compare/lockstep.hpp"
+#include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/lab/printed_number.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -354,16 +356,17 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   out.title = p.title;
   const linear_structure s = structure_of(p);
   measurement listing(p);
-  certifier judged(p, s);
+  certifier judged(p, s, exact::exact_residual_of(p));
   const auto fortran = make_kernel("fortran");
   const std::string followers[] = {"cpp"};
   lockstep compared = make_lockstep(fortran->facts(), followers);
   const path_end end = follow(p, s, "refactor", *fortran, {&compared, &judged, &listing});
   measurement corrected(p);
-  certifier judged_corrected(p, s);
+  certifier judged_corrected(p, s, exact::exact_residual_of(p));
   path_limits limits;
   limits.fallback = judged_corrected.fallback();
   limits.refine = judged_corrected.refiner();
+  limits.exactly = exact::exact_follower_of(p);
   const path_end corrected_end =
       follow(p, s, "refactor", *make_kernel("corrected"), {&judged_corrected, &corrected}, limits);
 

@@ -46,6 +46,8 @@ struct step_state {
   double rcond;                          ///< of the equilibrated stiffness; 0 when it has no factor
   bool from_fallback = false;            ///< the path could not reach it
   bool from_reference = false;  ///< it is the reference solution's own: a fallback's, or a final state's
+  bool from_exact_path =
+      false;  ///< doubles could not follow the path: from some share on it is the exact one
   const end_numbers* numbers = nullptr;  ///< null: there are none
 };
 

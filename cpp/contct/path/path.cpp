@@ -20,7 +20,8 @@ class path {
       : increments_allowed_(increments_allowed(limits, s.pairs.size())),
         now_(s, engine, observers, leader.facts().rule == "listing"),
         cycles_(s.pairs.size()),
-        policy_(make_policy(now_, leader, cycles_, limits.fallback)) {
+        limits_(limits),
+        policy_(make_policy(now_, leader, cycles_, limits_)) {
     if (leader.facts().rule != "listing") now_.refine = limits.refine;
   }
 
@@ -31,6 +32,7 @@ class path {
       try {
         if (const std::optional<path_end> end = follow_increment(step, number)) return *end;
       } catch (const no_factor&) {
+        if (const std::optional<path_end> end = without_rounding()) return *end;
         if (!policy_->go_on_ahead(number)) throw;
       }
     }
@@ -39,7 +41,7 @@ class path {
 
   /// The stiffness has no factor.
   path_end not_factored(int step) {
-    if (policy_->fall_back(step)) return {path_status::solved, step, 1.0, {}};
+    if (const std::optional<path_end> end = by_other_means()) return *end;
     return {truly(path_status::not_factored), step, now_.fraction(), {}};
   }
 
@@ -50,6 +52,7 @@ class path {
     double s_min = 0.0;
     if (w_star != response::none) s_min = policy_->ask();  // the kernel gives s_min and toggles statuses
     if (w_star == response::none || !policy_->accept(s_min)) {
+      if (std::optional<path_end> end = without_rounding()) return end;
       if (policy_->go_on_ahead(number)) return std::nullopt;
       return set_free(step);
     }
@@ -60,6 +63,7 @@ class path {
     now_.switch_springs();  // of the pairs that the kernel toggled
     if (s_min == 1.0) return end_step(step, number);
     if (!cycles_.repeats(moved, now_.status, now_.events)) return std::nullopt;
+    if (std::optional<path_end> end = without_rounding()) return end;
     if (!policy_->go_on_ahead(++number)) return stop(path_status::cycle, step, cycles_.restless_pairs());
     cycles_.reset();
     return std::nullopt;
@@ -88,7 +92,7 @@ class path {
 
   /// Nothing holds the structure from the start: it has not moved, and nothing can be solved.
   path_end never_held(int step) {
-    if (policy_->fall_back(step)) return {path_status::solved, step, 1.0, {}};
+    if (const std::optional<path_end> end = by_other_means()) return *end;
     const std::vector<double> u(now_.total.size());
     now_.tell_end({step, 0.0, u, now_.status, 0.0});
     return {truly(path_status::mechanism), step, 0.0, {}};
@@ -105,12 +109,26 @@ class path {
     return s.is_held(s.held_by([](std::size_t) { return true; })) ? path_status::not_factored : seems;
   }
 
+  /// What is left of the step where rounding may be what ended it: where there is an equilibrium at its end,
+  /// or only rounding would decide that.
+  std::optional<path_end> without_rounding() {
+    if (policy_->can_stand() == false) return std::nullopt;
+    return policy_->follow_exactly();
+  }
+
+  /// The end of a step that the path does not reach: without rounding, or at the reference solution.
+  std::optional<path_end> by_other_means() {
+    if (std::optional<path_end> end = without_rounding()) return end;
+    if (policy_->fall_back(now_.step)) return path_end{path_status::solved, now_.step, 1.0, {}};
+    return std::nullopt;
+  }
+
   /// Tell the state reached, and end.
   path_end stop(path_status status, int step, std::vector<int> pairs) {
     const path_status seemed = std::exchange(status, truly(status));
     if (status != seemed) pairs = now_.last_opened;
-    if (status != path_status::solved && policy_->fall_back(step))
-      return {path_status::solved, step, 1.0, {}};
+    if (status != path_status::solved)
+      if (const std::optional<path_end> end = by_other_means()) return *end;
     std::vector<double> u(now_.total.size());
     policy_->displace(u);
     if (!std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); }))
@@ -122,6 +140,7 @@ class path {
   int increments_allowed_;
   path_state now_;
   cycle_detector cycles_;
+  path_limits limits_;
   std::unique_ptr<path_policy> policy_;
 };
 

@@ -72,11 +72,33 @@ struct equilibrium_state {
 using fallback_solver =
     std::function<std::optional<equilibrium_state>(int step, double share, std::span<const double> load)>;
 
+/// An increment that no kernel was asked for.
+struct followed_increment {
+  double fraction;            ///< of the step's load
+  std::vector<event> events;  ///< in order of pairs
+  bool snaps;                 ///< a rigid motion at constant load led to it
+  std::vector<double> d;      ///< D at each pair [pairs]
+};
+
+/// A step that was followed by other means than doubles.
+struct followed_step {
+  path_status status;  ///< solved or mechanism
+  std::vector<followed_increment> increments;
+  double fraction;                   ///< of the step's load that was reached
+  std::vector<double> displacement;  ///< [dofs]
+  std::vector<char> closed;          ///< [pairs] 1 in contact
+};
+
+/// Follows a step, from 1, in arithmetic that does not round; nothing where that would take too long.
+using exact_follower = std::function<std::optional<followed_step>(int step)>;
+
 struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
   // Used only when the leader's rule is not the listing's:
   fallback_solver fallback = nullptr;
   state_refiner refine = nullptr;
+  exact_follower exactly =
+      nullptr;  ///< asked before `fallback`, for all of a step that doubles cannot follow
 };
 
 /// Most increments of a step that anybody may ask for.

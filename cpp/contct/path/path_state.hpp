@@ -60,6 +60,7 @@ struct path_state {
   state_refiner refine = nullptr;        ///< see path_limits
   bool held_in_doubles = false;          ///< only what doubles see counts as held
   int step = 0;                          ///< from 1
+  int increments = 0;                    ///< of this step that the observers were told
   std::vector<double> total;             ///< load at the end of the step [dofs]
   std::vector<double> increment;         ///< total less the previous step's [dofs]
   residual_load residual{};              ///< R*
@@ -85,6 +86,7 @@ struct path_state {
   /// R* becomes the load of step `number` less the previous one's.
   void begin_step(int number, const load_history& total_load) {
     step = number;
+    increments = 0;
     for (std::size_t i = 0; i < total.size(); ++i) increment[i] = -total[i];
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
@@ -206,7 +208,8 @@ struct path_state {
   }
 
   /// Tell the observers.
-  void tell_increment(int number, double s_min, bool rigid, std::span<const double> ahead = {}) const {
+  void tell_increment(int number, double s_min, bool rigid, std::span<const double> ahead = {}) {
+    increments = number;
     for (observer* o : observers_) o->incremented({step, number, s_min, fraction(), events, rigid, ahead});
   }
 

@@ -57,8 +57,8 @@ bool rigid_snap(path_state& now) {
 /// rounding left out of balance is put to the kernel once more. A path that cannot go on ends by `fallback`.
 class stabilized_policy final : public path_policy {
  public:
-  stabilized_policy(path_state& now, kernel& leader, cycle_detector& cycles, const fallback_solver& fallback)
-      : path_policy(now, leader), cycles_(cycles), fallback_(fallback) {}
+  stabilized_policy(path_state& now, kernel& leader, cycle_detector& cycles, const path_limits& limits)
+      : path_policy(now, leader), cycles_(cycles), fallback_(limits.fallback), exactly_(limits.exactly) {}
 
   void begin_step() override {
     kept_in_contact_.clear();
@@ -154,6 +154,30 @@ class stabilized_policy final : public path_policy {
     return can;
   }
 
+  std::optional<path_end> follow_exactly() override {
+    const std::optional<followed_step> found = exactly_ ? exactly_(now_.step) : std::nullopt;
+    if (!found) return std::nullopt;
+    remove_holding_springs();
+    tell_rest(*found);
+    for (std::size_t i = 0; i < now_.pairs(); ++i)
+      now_.status[i] = found->closed[i] != 0 ? in_contact : separated;
+    const bool freed = found->status == path_status::mechanism;
+    if (freed)  // the state reached is the one in which the pairs that opened last were about to
+      for (const int pair : now_.last_opened) now_.status[pair] = in_contact;
+    now_.adopt_statuses();
+    put_pairs_at(found->displacement);
+    std::vector<double> u = found->displacement;
+    now_.tell_end(step_state{.step = now_.step,
+                             .fraction = found->fraction,
+                             .displacement = u,
+                             .isep = now_.status,
+                             .rcond = reciprocal_condition(),
+                             .from_fallback = false,
+                             .from_reference = false,
+                             .from_exact_path = true});
+    return path_end{found->status, now_.step, found->fraction, freed ? now_.last_opened : std::vector<int>()};
+  }
+
   bool fall_back(int step) override {
     if (!fallback_) return false;
     const std::optional<equilibrium_state> found = fallback_(step, 1.0, now_.total);
@@ -181,6 +205,45 @@ class stabilized_policy final : public path_policy {
     now_.engine.respond(now_.residual, now_.d_star);
     remove_holding_springs();
     return response::elastic;
+  }
+
+  /// Tell the increments of an exact step behind the share that the path has reached. Where its pairs are not
+  /// those that are in contact there, they become so first.
+  void tell_rest(const followed_step& exactly) {
+    const std::vector<followed_increment>& all = exactly.increments;
+    std::vector<char> closed = exactly.closed;
+    for (std::size_t i = all.size(); i-- > 0;)
+      for (const event& e : all[i].events) closed[e.pair] = e.what == change::make ? 0 : 1;
+    double reached = now_.fraction();
+    std::size_t next = 0;
+    for (; next < all.size() && all[next].fraction < reached; ++next) toggle(all[next].events, closed);
+    now_.take_over(closed);
+    if (!now_.events.empty() && next > 0 && next < all.size()) {
+      const followed_increment& from = all[next - 1];
+      const followed_increment& to = all[next];
+      const double way = (reached - from.fraction) / (to.fraction - from.fraction);
+      for (std::size_t i = 0; i < now_.pairs(); ++i) now_.d[i] = from.d[i] + way * (to.d[i] - from.d[i]);
+      tell_exact_increment(0.0, false);
+    }
+    for (; next < all.size(); ++next) {
+      const followed_increment& i = all[next];
+      toggle(i.events, closed);
+      now_.take_over(closed);
+      now_.d = i.d;
+      const double s = i.snaps || reached == 1.0 ? 0.0 : (i.fraction - reached) / (1.0 - reached);
+      now_.residual.share = 1.0 - i.fraction;
+      reached = i.fraction;
+      tell_exact_increment(s, i.snaps);
+    }
+  }
+
+  void tell_exact_increment(double s, bool snaps) {
+    now_.tell_increment(now_.increments + 1, s, snaps, now_.d);
+    now_.switch_springs();
+  }
+
+  static void toggle(std::span<const event> events, std::vector<char>& closed) {
+    for (const event& e : events) closed[e.pair] = e.what == change::make ? 1 : 0;
   }
 
   /// Go on from the reference solution where `distance` more of the step's load is applied. False, and
@@ -289,6 +352,7 @@ class stabilized_policy final : public path_policy {
 
   cycle_detector& cycles_;
   const fallback_solver& fallback_;
+  const exact_follower& exactly_;
   bool rigid_ = false;                // the last response
   int at_rest_ = 0;                   // answers in a row with SMIN = 0
   int last_toggled_at_rest_ = -1;     // the pair that the last answer without progress toggled
@@ -304,9 +368,9 @@ class stabilized_policy final : public path_policy {
 }  // namespace
 
 std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader, cycle_detector& cycles,
-                                         const fallback_solver& fallback) {
+                                         const path_limits& limits) {
   if (leader.facts().rule == "listing") return std::make_unique<policy_1989>(now, leader);
-  return std::make_unique<stabilized_policy>(now, leader, cycles, fallback);
+  return std::make_unique<stabilized_policy>(now, leader, cycles, limits);
 }
 
 }  // namespace contct::path

@@ -63,6 +63,10 @@ class path_policy {
   /// Is there an equilibrium at the end of the step? Nothing where that is not certain.
   [[nodiscard]] virtual std::optional<bool> can_stand() const { return std::nullopt; }
 
+  /// The path cannot reach the end of the step: follow what is left of it without rounding, and tell the
+  /// observers. Nothing when there is no such means.
+  virtual std::optional<path_end> follow_exactly() { return std::nullopt; }
+
   /// The path cannot reach the end of `step`: put the state at its equilibrium by other means, and tell the
   /// observers. False when there is no such means, or no equilibrium.
   virtual bool fall_back(int /*step*/) { return false; }
@@ -91,9 +95,8 @@ class path_policy {
 };
 
 /// The 1989 driver's policy for a leader whose rule is the listing's, or else the stabilized one, which the
-/// corrected rule takes. All must outlive it; `fallback` may be empty.
+/// corrected rule takes, with the means that `limits` has. All must outlive it.
 [[nodiscard]] std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader,
-                                                       cycle_detector& cycles,
-                                                       const fallback_solver& fallback);
+                                                       cycle_detector& cycles, const path_limits& limits);
 
 }  // namespace contct::path

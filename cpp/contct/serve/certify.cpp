@@ -1,12 +1,13 @@
 // contct_certify: bounds on the errors of states from elsewhere.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
@@ -37,11 +38,11 @@ std::vector<int> statuses_at(const problem& p, const linear_structure& s,
 std::vector<int> statuses_in(const problem& p, const std::vector<double>& closed) {
   std::vector<int> isep(p.pairs.size(), separated);
   for (const double number : closed) {
-    const auto pair = static_cast<std::size_t>(std::max(number, 0.0));
-    if (static_cast<double>(pair) != number || pair < 1 || pair > p.pairs.size())
+    // Compared before it is converted: a double beyond the integers has no integer to convert to.
+    if (!(number >= 1 && number <= static_cast<double>(p.pairs.size())) || std::floor(number) != number)
       throw std::invalid_argument(
           fmt::format("options: closed: found {}; allowed: pairs from 1 to {}", number, p.pairs.size()));
-    isep[pair - 1] = in_contact;
+    isep[static_cast<std::size_t>(number) - 1] = in_contact;
   }
   return isep;
 }
@@ -74,7 +75,7 @@ void certify_states(const char* text, const char* options, answer& a) {
   const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   const linear_structure s = structure_of(p);
   const given_states states = read_states(r, p, s);
-  certifier judged(p, s);
+  certifier judged(p, s, exact::exact_residual_of(p));
   output_file out(&a.result);
   result_json written(p, {}, "given", judged, out);
   path_end end{path_status::solved, 0, 1.0, {}};

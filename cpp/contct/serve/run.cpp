@@ -9,6 +9,8 @@
 
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
+#include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/lapack_identity.hpp"
 #include "contct/numeric/probe.hpp"
@@ -81,7 +83,7 @@ struct log_keeper final : observer {
 class served_run {
  public:
   served_run(const run_request& wanted, const problem& p, answer& a)
-      : wanted_(wanted), p_(p), a_(a), judged_(p, structure_) {
+      : wanted_(wanted), p_(p), a_(a), judged_(p, structure_, exact::exact_residual_of(p)) {
     if (wanted.proof) judged_.keep_proofs();
   }
 
@@ -102,8 +104,9 @@ class served_run {
       if (!p_.title.empty()) h.about.push_back(on_one_line(p_.title));
       all.push_back(&trace.emplace(h, [this](std::string_view text) { trace_ += text; }));
     }
-    const path_end end = follow(p_, structure_, engine_, *leader, all,
-                                {wanted_.max_increments, judged_.fallback(), judged_.refiner()});
+    const path_end end =
+        follow(p_, structure_, engine_, *leader, all,
+               {wanted_.max_increments, judged_.fallback(), judged_.refiner(), exact::exact_follower_of(p_)});
     finish(end, watched);
   }
 
@@ -134,7 +137,7 @@ class served_run {
       throw std::invalid_argument(
           "options: found final_only with page, svg, states or envelope; allowed: these with a path");
     return find_final_states(structure_, static_cast<int>(p_.steps.size()), loads_of(p_, structure_), all,
-                             &judged_);
+                             &judged_, exact::exact_follower_of(p_));
   }
 
   void finish(const path_end& end, const lockstep* compared) {

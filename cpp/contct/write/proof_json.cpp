@@ -36,6 +36,7 @@ void put_stiffness(json& step, const certify::stiffness_proof& s) {
   step["row_of"] = s.row_of;
   step["shift"] = s.shift;
   step["L"] = rows_of(s.factor);
+  if (s.factor_low) step["L_low"] = rows_of(*s.factor_low);
 }
 
 json step_json(const certify::step_proof& s) {

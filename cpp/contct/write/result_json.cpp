@@ -254,6 +254,7 @@ void result_json::step_ended(const step_state& s) {
                   {"extremes", extremes_json(m, r.ranges)},
                   {"extremes_at", ranges_are_at(m)}};
   if (s.from_fallback) members["ended_by"] = "oracle";
+  if (s.from_exact_path) members["ended_by"] = "exact";
   const std::optional<certificate>& judged = judged_.steps().back();
   members.update({{"rcond", s.rcond},
                   {"digits", judged ? digits_of(*judged) : digits_left(s.rcond)},

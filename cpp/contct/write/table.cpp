@@ -145,6 +145,7 @@ void table::step_ended(const step_state& s) {
   if (const std::string& name = problem_.steps[s.step - 1].name; !name.empty())
     items.insert(items.begin(), on_one_line(name));
   if (s.from_fallback) items.emplace_back("from the reference solution");
+  if (s.from_exact_path) items.emplace_back("followed in rational numbers");
   for (const std::string& line : wrap(items, width)) {
     print_text(fmt::format("{}\n", label + line));
     label.assign(label.size(), ' ');

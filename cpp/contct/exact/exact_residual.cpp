@@ -1,0 +1,79 @@
+#include "contct/exact/exact_residual.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+namespace contct::exact {
+namespace {
+
+using numeric::double_double;
+
+int subdiagonals(const exact_problem& p) {
+  int most = 0;
+  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
+    for (const auto& [column, k] : p.stiffness[dof])
+      most = std::max(most, std::abs(p.place[dof] - p.place[static_cast<std::size_t>(column)]));
+  return most;
+}
+
+vector exactly(const exact_problem& p, const exact_step& s, std::span<const double_double> u) {
+  vector all;
+  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
+    all.push_back(p.fixed[dof] != 0
+                      ? s.settlement[dof]
+                      : rational(numeric::binary_value(u[dof].hi) + numeric::binary_value(u[dof].lo)));
+  return all;
+}
+
+vector residual(const exact_problem& p, const exact_step& s, const vector& u) {
+  vector needed(p.dofs());
+  for (std::size_t dof = 0; dof < p.dofs(); ++dof) {
+    needed[dof] = -s.load[dof];
+    for (const auto& [column, k] : p.stiffness[dof]) needed[dof] += k * u[static_cast<std::size_t>(column)];
+  }
+  for (const exact_pair& c : p.pairs) {
+    const auto dof = static_cast<std::size_t>(c.dof);
+    const rational off = u[dof] - c.face;
+    if (c.surface * off > 0) needed[dof] += c.stiffness * off;
+  }
+  return needed;
+}
+
+double_double rounded_twice(const rational& x) {
+  const double high = numeric::rounded(x);
+  return {high, numeric::rounded(rational(x - numeric::binary_value(high)))};
+}
+
+}  // namespace
+
+std::optional<exact_problem> small_exact_problem_of(const problem& p) {
+  if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
+  try {
+    std::optional<exact_problem> exactly = exact_problem_of(p);
+    if (subdiagonals(*exactly) > most_subdiagonals_beside_doubles) exactly.reset();
+    return exactly;
+  } catch (const std::runtime_error&) {  // a number is too long
+    return std::nullopt;
+  } catch (const std::invalid_argument&) {  // a face is inside the structure
+    return std::nullopt;
+  }
+}
+
+std::function<std::optional<std::vector<double_double>>(int, std::span<const double_double>)>
+exact_residual_of(const problem& p) {
+  return [&p, made = std::shared_ptr<const std::optional<exact_problem>>()](
+             int step, std::span<const double_double> u) mutable {
+    if (!made) made = std::make_shared<const std::optional<exact_problem>>(small_exact_problem_of(p));
+    std::optional<std::vector<double_double>> all;
+    if (!*made) return all;
+    const exact_problem& exact = **made;
+    const exact_step& s = exact.steps[static_cast<std::size_t>(step) - 1];
+    all.emplace();
+    for (const rational& x : residual(exact, s, exactly(exact, s, u))) all->push_back(rounded_twice(x));
+    return all;
+  };
+}
+
+}  // namespace contct::exact
