@@ -172,6 +172,11 @@ TEST_CASE("states from elsewhere are certified, and a state that is wrong is not
             .at("message")
             .get<std::string>()
             .find("closed: found 9") != std::string::npos);
+  for (const char* closed : {"1e300", "-1e300", "0", "1.5"})  // what no pair's number can be converted from
+    CHECK(taken(contct_certify(text.c_str(), ("{\"displacement\": " + json(states).dump() +
+                                              ", \"closed\": [[" + closed + "], [], [], []]}")
+                                                 .c_str()))
+              .at("exit") == 2);
 }
 
 TEST_CASE("every number of a problem is told with its place, and the pairs with the keys of theirs") {
