@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -89,7 +90,7 @@ int events_of_refactor(const options& o, const std::string& problem) {
 /// C++ against FORTRAN, one call; a ratio above 1 means that C++ is the quicker.
 json bench_kernels(int rounds) {
   json rows = json::array();
-  for (const std::size_t pairs : {std::size_t{10}, std::size_t{1000}, std::size_t{1'000'000}}) {
+  for (const std::size_t pairs : std::to_array<std::size_t>({10, 100, 1000, 10'000, 100'000, 1'000'000})) {
     show(fmt::format("kernels: {} pairs", pairs));
     const bench::seconds_of_a_call t = bench::time_kernels(pairs, 5 * rounds);
     show("");
