@@ -2,9 +2,9 @@
 // own, with CONTCT_LANES and CONTCT_TARGET, the attribute of a function that may use them. What is called
 // from here has it too, and is inlined.
 
-constexpr std::size_t lanes = CONTCT_LANES;
+inline constexpr std::size_t lanes = CONTCT_LANES;
 // A minimum over thousands of numbers is limited by latency: two chains of them take half of the time.
-constexpr std::size_t chains = 2;
+inline constexpr std::size_t chains = 2;
 
 using reals = double __attribute__((vector_size(8 * lanes)));
 using truths = std::int64_t __attribute__((vector_size(8 * lanes)));  // -1: true
@@ -25,7 +25,7 @@ CONTCT_PART void store(const reals& p, double* to) {
 /// Absolute values.
 CONTCT_PART reals size_of(const reals& x) {
   constexpr std::int64_t all_but_sign = std::numeric_limits<std::int64_t>::max();
-  return reinterpret_cast<reals>(reinterpret_cast<truths>(x) & all_but_sign);
+  return __builtin_bit_cast(reals, __builtin_bit_cast(truths, x) & all_but_sign);
 }
 
 /// What `of` has at the places at(0), at(1), ..
@@ -52,7 +52,7 @@ CONTCT_PART reals at_pairs(const double* of, const pair_arrays& a, std::size_t i
 /// i_sep n of the pairs from i on. As integers: their product is exact.
 CONTCT_PART reals signs(const pair_arrays& a, std::size_t i) {
   const auto product = load<unsigneds>(a.i_sep + i) * load<unsigneds>(a.i_surf + i);
-  return __builtin_convertvector(reinterpret_cast<wholes>(product), reals);
+  return __builtin_convertvector(__builtin_bit_cast(wholes, product), reals);
 }
 
 /// The least s > 0 of each lane.
@@ -86,7 +86,7 @@ CONTCT_PART bool is_any(const truths& t) {
   return any != 0;
 }
 
-CONTCT_TARGET bool counts_up(const int* id, std::size_t n) {
+CONTCT_TARGET inline bool counts_up(const int* id, std::size_t n) {
   std::size_t i = 1;
   wholes off{};
   for (; i + 4 * lanes <= n; i += 4 * lanes)
@@ -121,7 +121,7 @@ CONTCT_PART void listing_step(const pair_arrays& a, std::size_t i, least_of_lane
 }
 
 template <placing Placed>
-CONTCT_TARGET least_s listing_of(const pair_arrays a) {
+CONTCT_TARGET inline least_s listing_of(const pair_arrays a) {
   least_of_lanes least[chains];
   for (std::size_t i = 0; i + chains * lanes <= a.n; i += chains * lanes) {
     listing_step<Placed>(a, i, least[0]);
@@ -130,7 +130,8 @@ CONTCT_TARGET least_s listing_of(const pair_arrays a) {
   return least_of(least, a.n);
 }
 
-CONTCT_TARGET std::size_t near(const double* s, std::size_t from, std::size_t n, double s_min, double bound) {
+CONTCT_TARGET inline std::size_t near(const double* s, std::size_t from, std::size_t n, double s_min,
+                                      double bound) {
   constexpr std::size_t stretch = 4 * lanes;
   std::size_t i = from;
   for (; i + stretch <= n; i += stretch) {
@@ -147,7 +148,7 @@ CONTCT_TARGET std::size_t near(const double* s, std::size_t from, std::size_t n,
 // --- the corrected rule: scale_factor and the loops of corrected.cpp, without a branch ---
 
 template <placing Placed>
-CONTCT_TARGET double largest_response_of(const pair_arrays a) {
+CONTCT_TARGET inline double largest_response_of(const pair_arrays a) {
   reals largest[chains]{};
   for (std::size_t i = 0; i + chains * lanes <= a.n; i += chains * lanes) {
     for (std::size_t j = 0; j < chains; ++j) {
@@ -184,7 +185,7 @@ CONTCT_PART void corrected_step(const pair_arrays& a, std::size_t i, double quie
 }
 
 template <placing Placed>
-CONTCT_TARGET least_s corrected_of(const pair_arrays a, double quiet) {
+CONTCT_TARGET inline least_s corrected_of(const pair_arrays a, double quiet) {
   least_of_lanes least[chains];
   for (std::size_t i = 0; i + chains * lanes <= a.n; i += chains * lanes) {
     corrected_step<Placed>(a, i, quiet, least[0]);
@@ -195,19 +196,19 @@ CONTCT_TARGET least_s corrected_of(const pair_arrays a, double quiet) {
 
 // --- by the placing of the dofs ---
 
-CONTCT_TARGET least_s listing(const pair_arrays& a) {
+CONTCT_TARGET inline least_s listing(const pair_arrays& a) {
   if (a.placed == placing::side_by_side) return listing_of<placing::side_by_side>(a);
   if (a.placed == placing::evenly) return listing_of<placing::evenly>(a);
   return listing_of<placing::anyhow>(a);
 }
 
-CONTCT_TARGET double largest_response(const pair_arrays& a) {
+CONTCT_TARGET inline double largest_response(const pair_arrays& a) {
   if (a.placed == placing::side_by_side) return largest_response_of<placing::side_by_side>(a);
   if (a.placed == placing::evenly) return largest_response_of<placing::evenly>(a);
   return largest_response_of<placing::anyhow>(a);
 }
 
-CONTCT_TARGET least_s corrected(const pair_arrays& a, double quiet) {
+CONTCT_TARGET inline least_s corrected(const pair_arrays& a, double quiet) {
   if (a.placed == placing::side_by_side) return corrected_of<placing::side_by_side>(a, quiet);
   if (a.placed == placing::evenly) return corrected_of<placing::evenly>(a, quiet);
   return corrected_of<placing::anyhow>(a, quiet);
