@@ -94,15 +94,22 @@ json bench_kernels(int rounds) {
     show(fmt::format("kernels: {} pairs", pairs));
     const bench::seconds_of_a_call t = bench::time_kernels(pairs, 5 * rounds);
     show("");
+    const double alone = t.fortran + t.text;
     fmt::print(
         "kernels alone, {:>7} pairs: FORTRAN {:>10.3f} us a call (and {:.2f} us for its line of text), C++ "
-        "{:>10.3f} us, x{:.2f}\n",
-        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp);
+        "{:>10.3f} us, x{:.2f}\n"
+        "      in lockstep {:>10.3f} us, x{:.2f} of FORTRAN with its text; on a path {:.3f} us, x{:.2f}\n",
+        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp, 1e6 * t.lockstep,
+        t.lockstep / alone, 1e6 * t.lockstep_on_path, t.lockstep_on_path / alone);
     rows.push_back({{"pairs", pairs},
                     {"fortran_us", 1e6 * t.fortran},
                     {"text_us", 1e6 * t.text},
                     {"cpp_us", 1e6 * t.cpp},
-                    {"ratio", t.fortran / t.cpp}});
+                    {"ratio", t.fortran / t.cpp},
+                    {"lockstep_us", 1e6 * t.lockstep},
+                    {"lockstep_ratio", t.lockstep / alone},
+                    {"lockstep_on_path_us", 1e6 * t.lockstep_on_path},
+                    {"lockstep_on_path_ratio", t.lockstep_on_path / alone}});
   }
   return rows;
 }

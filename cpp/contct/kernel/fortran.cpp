@@ -144,20 +144,27 @@ unit_26::~unit_26() {
   listing_.log.is_open = false;
 }
 
-std::string unit_26::take() const {
+std::string unit_26::take() {
   const std::scoped_lock lock(process_wide());
   listing_.log.flush();
   std::string text;
-  char block[1 << 16];
-  ssize_t got = 0;
-  while ((got = pread(file_, block, sizeof block, static_cast<off_t>(text.size()))) > 0) {
+  char block[1 << 13];
+  ssize_t got = sizeof block;
+  while (got == sizeof block) {  // less than that: it was the last
+    got = pread(file_, block, sizeof block, taken_ + static_cast<off_t>(text.size()));
+    if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
     text.append(block, got);
   }
-  if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
+  taken_ += static_cast<off_t>(text.size());
+  if (taken_ >= longest_file) begin_anew();
+  return text;
+}
+
+void unit_26::begin_anew() {
   listing_.log.rewind();
   if (ftruncate(file_, 0) != 0)
     throw std::system_error(errno, std::generic_category(), "cannot empty unit 26's file");
-  return text;
+  taken_ = 0;
 }
 
 }  // namespace contct::kernels::fortran

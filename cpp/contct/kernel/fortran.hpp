@@ -1,6 +1,7 @@
 // The 1989 code itself, called through ISO_C_BINDING (fortran/contct_c.f90), and its unit 26.
 #pragma once
 
+#include <cstddef>
 #include <mutex>
 #include <string>
 
@@ -56,11 +57,17 @@ class unit_26 {
   unit_26& operator=(const unit_26&) = delete;
 
   /// All text written since the last take, and forget it.
-  [[nodiscard]] std::string take() const;
+  [[nodiscard]] std::string take();
 
  private:
+  /// Emptying the file takes several times as long as reading a line from it.
+  static constexpr std::ptrdiff_t longest_file = 1 << 20;
+
+  void begin_anew();
+
   compiled_listing& listing_;
   int file_ = -1;
+  std::ptrdiff_t taken_ = 0;  // of the file, from its beginning
 };
 
 }  // namespace contct::kernels::fortran
