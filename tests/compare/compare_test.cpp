@@ -63,7 +63,7 @@ replay_report replayed(const std::string& trace) {
 
 }  // namespace
 
-TEST_CASE("equal bytes are counted as compared; a NaN of another payload is equal, and counted too") {
+TEST_CASE("equal bytes are counted as compared, and a NaN of another payload is equal, and counted too") {
   tally t;
   const std::vector<int> isep = {1, -1};
   const auto compare = [&](double a, double b) {
