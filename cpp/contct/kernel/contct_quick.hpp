@@ -9,9 +9,6 @@
 
 namespace contct::kernels {
 
-/// With fewer pairs the plain loops are as quick.
-inline constexpr std::size_t many_pairs = 32;
-
 /// One call of CONTCT, as contct() answers it, by that scan.
 int contct_wide(call<double>& c, std::span<event> events, const wide_scan& scan = widest_scan()) noexcept;
 
@@ -22,7 +19,7 @@ int contct_quick(call<Real>& c, std::span<event> events) noexcept {
 }
 template <>
 inline int contct_quick(call<double>& c, std::span<event> events) noexcept {
-  return c.cc.size() < many_pairs ? contct(c, events) : contct_wide(c, events);
+  return c.cc.size() < widest_scan().many_pairs ? contct(c, events) : contct_wide(c, events);
 }
 
 /// The arrays of `c`, with their placing among the dofs.

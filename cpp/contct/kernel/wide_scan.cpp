@@ -40,21 +40,22 @@ namespace avx512 {
 }  // namespace avx512
 #endif
 
-#define CONTCT_SCAN(name, set)                                                                       \
-  wide_scan {                                                                                        \
-    name, set::lanes, set::counts_up, set::listing, set::near, set::largest_response, set::corrected \
+#define CONTCT_SCAN(name, many_pairs, set)                                                        \
+  wide_scan {                                                                                     \
+    name, set::lanes, many_pairs, set::counts_up, set::listing, set::near, set::largest_response, \
+        set::corrected                                                                            \
   }
 
 /// All that are built in, narrowest first.
 constexpr std::array all_scans = {
 #ifdef __x86_64__
-    CONTCT_SCAN("SSE2", two_lanes),
-    CONTCT_SCAN("AVX2", avx2),
-    CONTCT_SCAN("AVX-512", avx512),
+    CONTCT_SCAN("SSE2", 10'000, two_lanes),
+    CONTCT_SCAN("AVX2", 32, avx2),
+    CONTCT_SCAN("AVX-512", 32, avx512),
 #elif defined(__aarch64__)
-    CONTCT_SCAN("NEON", two_lanes),
+    CONTCT_SCAN("NEON", 32, two_lanes),
 #else
-    CONTCT_SCAN("two lanes", two_lanes),
+    CONTCT_SCAN("two lanes", 10'000, two_lanes),
 #endif
 };
 

@@ -42,6 +42,9 @@ struct least_s {
 struct wide_scan {
   const char* name;   ///< of the instructions
   std::size_t lanes;  ///< pairs that one instruction takes
+  /// With fewer pairs the plain loops of the 1989 rule are as quick. SSE2 has no instruction that chooses
+  /// between two numbers, and gains only where there are too many branches to be guessed.
+  std::size_t many_pairs;
   /// Does ID count up by one from pair to pair? It looks at all pairs.
   bool (*counts_up)(const int* id, std::size_t n);
   /// The 1989 rule: sets s of each pair; the least s > 0. Its `pair` is not set.

@@ -9,7 +9,6 @@ inline constexpr std::size_t chains = 2;
 using reals = double __attribute__((vector_size(8 * lanes)));
 using truths = std::int64_t __attribute__((vector_size(8 * lanes)));  // -1: true
 using wholes = int __attribute__((vector_size(4 * lanes)));
-using unsigneds = unsigned __attribute__((vector_size(4 * lanes)));
 
 template <class Pack, class Number>
 CONTCT_PART Pack load(const Number* from) {
@@ -49,10 +48,10 @@ CONTCT_PART reals at_pairs(const double* of, const pair_arrays& a, std::size_t i
     return collected(of, [&a, i](std::ptrdiff_t k) { return a.dof_0 + a.id[i + k] * a.step; });
 }
 
-/// i_sep n of the pairs from i on. As integers: their product is exact.
-CONTCT_PART reals signs(const pair_arrays& a, std::size_t i) {
-  const auto product = load<unsigneds>(a.i_sep + i) * load<unsigneds>(a.i_surf + i);
-  return __builtin_convertvector(__builtin_bit_cast(wholes, product), reals);
+/// Statuses or sides of the pairs from i on. The product of two is exact, and where it is a zero its sign has
+/// no say.
+CONTCT_PART reals as_reals(const int* of, std::size_t i) {
+  return __builtin_convertvector(load<wholes>(of + i), reals);
 }
 
 /// The least s > 0 of each lane.
@@ -115,7 +114,7 @@ CONTCT_PART reals listing_s(const reals& d, const reals& d_star, const reals& c,
 template <placing Placed>
 CONTCT_PART void listing_step(const pair_arrays& a, std::size_t i, least_of_lanes& least) {
   const reals s = listing_s(at_pairs<Placed>(a.d, a, i), at_pairs<Placed>(a.d_star, a, i),
-                            load<reals>(a.c + i), signs(a, i));
+                            load<reals>(a.c + i), as_reals(a.i_sep, i) * as_reals(a.i_surf, i));
   store(s, a.s + i);
   least.include(s, s > 0.0, i);
 }
@@ -176,10 +175,10 @@ CONTCT_PART reals corrected_s(const reals& d, const reals& d_star, const reals& 
 
 template <placing Placed>
 CONTCT_PART void corrected_step(const pair_arrays& a, std::size_t i, double quiet, least_of_lanes& least) {
-  const reals i_sep = __builtin_convertvector(load<wholes>(a.i_sep + i), reals);
+  const reals i_sep = as_reals(a.i_sep, i);
   const reals theta = i_sep == double{separated} ? reals{} + quiet : reals{};
   const reals s = corrected_s(at_pairs<Placed>(a.d, a, i), at_pairs<Placed>(a.d_star, a, i),
-                              load<reals>(a.c + i), signs(a, i), theta);
+                              load<reals>(a.c + i), i_sep * as_reals(a.i_surf, i), theta);
   store(s, a.s + i);
   least.include(s, truths{} + -1, i);
 }
