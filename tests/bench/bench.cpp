@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -89,19 +90,26 @@ int events_of_refactor(const options& o, const std::string& problem) {
 /// C++ against FORTRAN, one call; a ratio above 1 means that C++ is the quicker.
 json bench_kernels(int rounds) {
   json rows = json::array();
-  for (const std::size_t pairs : {std::size_t{10}, std::size_t{1000}, std::size_t{1'000'000}}) {
+  for (const std::size_t pairs : std::to_array<std::size_t>({10, 100, 1000, 10'000, 100'000, 1'000'000})) {
     show(fmt::format("kernels: {} pairs", pairs));
     const bench::seconds_of_a_call t = bench::time_kernels(pairs, 5 * rounds);
     show("");
+    const double alone = t.fortran + t.text;
     fmt::print(
         "kernels alone, {:>7} pairs: FORTRAN {:>10.3f} us a call (and {:.2f} us for its line of text), C++ "
-        "{:>10.3f} us, x{:.2f}\n",
-        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp);
+        "{:>10.3f} us, x{:.2f}\n"
+        "      in lockstep {:>10.3f} us, x{:.2f} of FORTRAN with its text; on a path {:.3f} us, x{:.2f}\n",
+        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp, 1e6 * t.lockstep,
+        t.lockstep / alone, 1e6 * t.lockstep_on_path, t.lockstep_on_path / alone);
     rows.push_back({{"pairs", pairs},
                     {"fortran_us", 1e6 * t.fortran},
                     {"text_us", 1e6 * t.text},
                     {"cpp_us", 1e6 * t.cpp},
-                    {"ratio", t.fortran / t.cpp}});
+                    {"ratio", t.fortran / t.cpp},
+                    {"lockstep_us", 1e6 * t.lockstep},
+                    {"lockstep_ratio", t.lockstep / alone},
+                    {"lockstep_on_path_us", 1e6 * t.lockstep_on_path},
+                    {"lockstep_on_path_ratio", t.lockstep_on_path / alone}});
   }
   return rows;
 }

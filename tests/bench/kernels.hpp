@@ -1,4 +1,5 @@
-// One call of the listing against one of the C++ kernel, without the structure and without text.
+// One call of the listing against one of the C++ kernel, without the structure and without text; and both in
+// lockstep.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,9 @@ namespace bench {
 struct seconds_of_a_call {
   double fortran;
   double cpp;
-  double text;  ///< the listing's call without pairs
+  double text;      ///< the listing's call without pairs
+  double lockstep;  ///< both kernels' answers compared; the texts in blocks of calls, as campaigns do it
+  double lockstep_on_path;  ///< the same with the text of each call compared by itself, as on a path
 };
 [[nodiscard]] seconds_of_a_call time_kernels(std::size_t pairs, int rounds);
 

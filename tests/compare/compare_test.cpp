@@ -2,6 +2,7 @@
 // compared by bytes or by meaning. No f2c is needed for its traces.
 #include "contct/compare/compare.hpp"
 
+#include <bit>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -61,6 +62,25 @@ replay_report replayed(const std::string& trace) {
 }
 
 }  // namespace
+
+TEST_CASE("equal bytes are counted as compared, and a NaN of another payload is equal, and counted too") {
+  tally t;
+  const std::vector<int> isep = {1, -1};
+  const auto compare = [&](double a, double b) {
+    const std::vector<double> leader = {0.5, a};
+    const std::vector<double> follower = {0.5, b};
+    return compare_answers<double>({0.5, leader, isep}, {0.5, follower, isep}, t);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(compare(0.25, 0.25));
+  CHECK_FALSE(compare(nan, nan));
+  CHECK_FALSE(compare(nan, -nan));
+  CHECK_FALSE(compare(nan, std::bit_cast<double>(std::bit_cast<std::uint64_t>(nan) + 1)));
+  CHECK(t.values == 20);
+  CHECK(t.mismatches == 0);
+  CHECK(compare(0.0, -0.0));
+  CHECK(t.mismatches == 1);
+}
 
 TEST_CASE("equal answers are counted, value by value") {
   tally t;

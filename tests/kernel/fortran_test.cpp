@@ -73,6 +73,28 @@ TEST_CASE("text longer than any buffer comes back whole") {
   CHECK(std::count(text.begin(), text.end(), '\n') == 2L * calls);
 }
 
+TEST_CASE(
+    "take after take hands back each call's text, though the file behind unit 26 is emptied now and then") {
+  fortran::unit_26 log;
+  auto c = small_call<double>({{0.0, 0.0, 0.25, separated, face_above}});
+  call<double> arguments = c.arguments();
+  const std::string line = "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n";
+  std::size_t characters = 0;
+  for (int take = 0; take < 3000; ++take) {
+    // A power of two now and then: a whole number of the blocks in which the file is read.
+    const int calls = take % 1000 == 999 ? 8192 : take % 20;
+    std::string written;
+    for (int i = 0; i < calls; ++i) {
+      fortran::contct(arguments);
+      written += line;
+    }
+    INFO(take);
+    REQUIRE(log.take() == written);
+    characters += written.size();
+  }
+  CHECK(characters > 2'500'000);
+}
+
 TEST_CASE("unit 26 belongs to the whole process: it cannot be opened twice") {
   {
     const fortran::unit_26 log;

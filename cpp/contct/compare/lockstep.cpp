@@ -14,7 +14,7 @@ namespace {
 follower_answer measured(const call<double>& leader, const follower& f, const tally& before) {
   follower_answer m{f.compared.values - before.values, f.compared.mismatches - before.mismatches, 0, 0,
                     !f.answered()};
-  if (m.failed) return m;
+  if (m.failed || m.mismatches == 0) return m;
   m.smin_ulps = ulps_between(leader.smin, f.answer().smin);
   for (std::size_t i = 0; i < leader.ss.size(); ++i)
     m.ss_ulps = std::max(m.ss_ulps, ulps_between(leader.ss[i], f.answer().ss[i]));

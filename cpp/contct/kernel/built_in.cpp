@@ -2,7 +2,7 @@
 #include <functional>
 #include <utility>
 
-#include "contct/kernel/contct.hpp"
+#include "contct/kernel/contct_quick.hpp"
 #include "contct/kernel/corrected.hpp"
 #include "contct/kernel/fortran.hpp"
 #include "contct/kernel/kernel.hpp"
@@ -74,7 +74,7 @@ class cpp_kernel final : public built_in {
   template <class Real>
   void answer_in_precision(call<Real>& c) {
     if (events_.size() < c.cc.size()) events_.resize(c.cc.size());
-    const int happened = contct(c, std::span<event>(events_));
+    const int happened = contct_quick(c, std::span<event>(events_));
     append_log_text(c, std::span<const event>(events_.data(), happened), text_);
   }
 

@@ -12,8 +12,9 @@ double response(const call<double>& c, std::size_t i) {
   return c.dtest[c.dof.dof_of(c.id[i]) - 1];
 }
 
-/// Rules 1 and 2: s of pair `i`, or 1 where it has no event ahead. `m` is the largest |d*|.
-double scale_factor(const call<double>& c, std::size_t i, double m) {
+}  // namespace
+
+double corrected_scale_factor(const call<double>& c, std::size_t i, double m) noexcept {
   const double d = c.dd[c.dof.dof_of(c.id[i]) - 1];
   const double sigma_n = c.isep[i] * c.isurf[i];
   const double theta = c.isep[i] == separated ? quiet_share * m : 0.0;
@@ -22,14 +23,12 @@ double scale_factor(const call<double>& c, std::size_t i, double m) {
   return std::min(std::max(0.0, sigma_n * (c.cc[i] - d)) / sigma_v, 1.0);
 }
 
-}  // namespace
-
 void contct_corrected(call<double>& c) noexcept {
   double m = 0.0;
   for (std::size_t i = 0; i < c.cc.size(); ++i) m = std::max(m, std::abs(response(c, i)));
   c.smin = 1.0;
   for (std::size_t i = 0; i < c.cc.size(); ++i) {
-    c.ss[i] = scale_factor(c, i, m);
+    c.ss[i] = corrected_scale_factor(c, i, m);
     c.smin = std::min(c.smin, c.ss[i]);
   }
   if (c.smin == 1.0) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contct/kernel/call.hpp"
+#include "contct/kernel/wide_scan.hpp"
 
 namespace contct::kernels {
 
@@ -20,7 +21,10 @@ inline constexpr double quiet_share = 1e-10;
 /// decides between the two choices at SMIN = 0.
 void contct_corrected(call<double>& c) noexcept;
 
-/// The same to the bit, for thousands of pairs: nothing branches, and two pairs are divided at once.
-void contct_corrected_quick(call<double>& c) noexcept;
+/// Rules 1 and 2: s of pair `i`, or 1 where it has no event ahead. `m` is the largest |d*|.
+[[nodiscard]] double corrected_scale_factor(const call<double>& c, std::size_t i, double m) noexcept;
+
+/// The same call to the bit, for thousands of pairs: nothing branches, and several pairs are divided at once.
+void contct_corrected_quick(call<double>& c, const wide_scan& scan = widest_scan()) noexcept;
 
 }  // namespace contct::kernels

@@ -48,14 +48,17 @@ node_matrix negative(const node_matrix& a) {
   return {-a.ww, -a.wt, -a.tw, -a.tt};
 }
 
+[[noreturn, gnu::noinline]] void refuse_pivot() {
+  throw no_factor(
+      "the structure is held, but its condensed stiffness matrix is too ill-conditioned for double "
+      "precision");
+}
+
 /// A^-1 B for a symmetric positive definite A. Throws no_factor where A is not.
-node_matrix solved(const node_matrix& a, const node_matrix& b) {
+[[gnu::always_inline]] inline node_matrix solved(const node_matrix& a, const node_matrix& b) {
   const double ratio = a.tw / a.ww;
   const double pivot = a.tt - ratio * a.wt;
-  if (!(a.ww > 0.0) || !(pivot > 0.0))
-    throw no_factor(
-        "the structure is held, but its condensed stiffness matrix is too ill-conditioned for double "
-        "precision");
+  if (!(a.ww > 0.0) || !(pivot > 0.0)) refuse_pivot();
   const double tw = (b.tw - ratio * b.ww) / pivot;
   const double tt = (b.tt - ratio * b.wt) / pivot;
   return {(b.ww - a.wt * tw) / a.ww, (b.wt - a.wt * tt) / a.ww, tw, tt};
@@ -97,6 +100,7 @@ class condensed_engine final : public spring_engine {
       place_.push_back(std::lower_bound(kept_.begin(), kept_.end(), s.pairs[i].node) - kept_.begin());
       spring_factor_.push_back(s.fixed[s.dof_of_pair(i)] != 0 ? 0.0 : 1.0);
     }
+    for (std::size_t i = 0; i < place_.size(); ++i) in_order_ = in_order_ && place_[i] == i;
     pairs_at_.resize(kept_.size());
     for (std::size_t i = 0; i < place_.size(); ++i) pairs_at_[place_[i]].push_back(static_cast<int>(i));
     x_.resize(kept_.size());
@@ -116,7 +120,7 @@ class condensed_engine final : public spring_engine {
       return true;
     });
     if (!has_response || (drift_.is_due() && !refine_response())) respond_anew(residual);
-    for (std::size_t i = 0; i < place_.size(); ++i) d_star[i] = residual.share * x_[place_[i]].w;
+    give_response(residual.share, d_star);
   }
 
   void recover(std::span<const double> load, std::span<const double> pair_forces,
@@ -129,6 +133,14 @@ class condensed_engine final : public spring_engine {
   [[nodiscard]] double reciprocal_condition() override { return stiffness_.reciprocal_condition(wanted_); }
 
  private:
+  void give_response(double share, std::span<double> d_star) const {
+    if (in_order_) {
+      for (std::size_t i = 0; i < d_star.size(); ++i) d_star[i] = share * x_[i].w;
+    } else {
+      for (std::size_t i = 0; i < d_star.size(); ++i) d_star[i] = share * x_[place_[i]].w;
+    }
+  }
+
   /// Eliminate the nodes between two kept ones; node -1 and node `nodes` stand for the beam's ends.
   void eliminate_between(int left_node, int right_node, std::size_t left) {
     const band_matrix& k = structure_.stiffness.band();
@@ -202,38 +214,63 @@ class condensed_engine final : public spring_engine {
   }
 
   /// After a change of D_at: the sweeps from there on, as far as they give something else than before.
+  /// Neither needs the other, and each is a chain of divisions that wait for each other: side by side they
+  /// take little longer than one.
   void sweep_from(std::size_t at) {
-    for (std::size_t i = at; i < d_.size(); ++i) {
+    const auto changes_right = [this](std::size_t i) {
       const node_matrix before = left_[i];
       step_right(i);
-      if (i > at && before == left_[i]) break;
-    }
-    for (std::size_t i = at + 1; i-- > 0;) {
+      return before != left_[i];
+    };
+    const auto changes_left = [this](std::size_t i) {
       const node_matrix before = right_[i];
       step_left(i);
-      if (i < at && before == right_[i]) break;
+      return before != right_[i];
+    };
+    step_right(at);
+    step_left(at);
+    std::size_t right = at + 1;  // the next of each sweep; `left` is one more
+    std::size_t left = at;
+    const std::size_t n = d_.size();
+    bool goes_right = right < n;
+    bool goes_left = left > 0;
+    while (goes_right && goes_left) {
+      goes_right = changes_right(right) && ++right < n;
+      goes_left = changes_left(left - 1) && --left > 0;
     }
+    while (goes_right) goes_right = changes_right(right) && ++right < n;
+    while (goes_left) goes_left = changes_left(left - 1) && --left > 0;
   }
 
-  /// Column of the inverse at place `at`, from first_ to last_.
-  void inverse_column(std::size_t at) {
-    column_[at] = solved(left_[at] + right_[at] - d_[at], node_vector{1.0, 0.0});
-    const auto size = [this](std::size_t i) {
-      return std::abs(column_[i].w) + reach_[i] * std::abs(column_[i].theta);
+  /// x -= factor c, where c is the column of the inverse at place `at`, whose own entry is `peak`, from there
+  /// to where it is below rounding; to both sides at once, as the sweeps.
+  void subtract_column(std::size_t at, const node_vector& peak, double factor) {
+    const auto subtract = [this, factor](std::size_t i, const node_vector& c) {
+      x_[i] = {x_[i].w - factor * c.w, x_[i].theta - factor * c.theta};
+      return std::abs(c.w) + reach_[i] * std::abs(c.theta);
     };
-    const double negligible = below_rounding * size(at);
-    first_ = at;
-    while (first_ > 0) {
-      --first_;
-      column_[first_] = go_left_[first_] * column_[first_ + 1];
-      if (size(first_) < negligible) break;
+    const double negligible = below_rounding * subtract(at, peak);
+    const std::size_t n = d_.size();
+    std::size_t left = at;
+    std::size_t right = at;
+    node_vector c_left = peak;
+    node_vector c_right = peak;
+    const auto goes_left = [&] {
+      c_left = go_left_[left - 1] * c_left;
+      return subtract(--left, c_left) >= negligible && left > 0;
+    };
+    const auto goes_right = [&] {
+      c_right = go_right_[right + 1] * c_right;
+      return subtract(++right, c_right) >= negligible && right + 1 < n;
+    };
+    bool more_left = left > 0;
+    bool more_right = right + 1 < n;
+    while (more_left && more_right) {
+      more_left = goes_left();
+      more_right = goes_right();
     }
-    last_ = at;
-    while (last_ + 1 < d_.size()) {
-      ++last_;
-      column_[last_] = go_right_[last_] * column_[last_ - 1];
-      if (size(last_) < negligible) break;
-    }
+    while (more_left) more_left = goes_left();
+    while (more_right) more_right = goes_right();
   }
 
   /// The response with one more spring, or one less. The column c is that of the new K', K' c = e, so that
@@ -245,12 +282,11 @@ class condensed_engine final : public spring_engine {
     const double sigma_k = applied_[pair] != 0 ? k : -k;
     if (k == 0.0) return true;
     sweep_from(at);
-    if (!is_definite(left_[at] + right_[at] - d_[at])) return false;
-    inverse_column(at);
-    if (-sigma_k * column_[at].w > stiff) drift_.check_next();
-    const double factor = sigma_k * x_[at].w;
-    for (std::size_t i = first_; i <= last_; ++i)
-      x_[i] = {x_[i].w - factor * column_[i].w, x_[i].theta - factor * column_[i].theta};
+    const node_matrix middle = left_[at] + right_[at] - d_[at];
+    if (!is_definite(middle)) return false;
+    const node_vector peak = solved(middle, node_vector{1.0, 0.0});
+    if (-sigma_k * peak.w > stiff) drift_.check_next();
+    subtract_column(at, peak, sigma_k * x_[at].w);
     return true;
   }
 
@@ -309,6 +345,7 @@ class condensed_engine final : public spring_engine {
 
   bool is_condensed_ = false;
   std::vector<std::size_t> place_;               // of each pair's node among the kept ones [pairs]
+  bool in_order_ = true;                         // each pair's place is its own number
   std::vector<int> kept_;                        // nodes with pairs, from 0, in order
   std::vector<std::vector<int>> pairs_at_;       // [kept nodes]
   std::vector<double> without_springs_;          // D_ww of no pair in contact [kept nodes]
@@ -317,8 +354,8 @@ class condensed_engine final : public spring_engine {
   std::vector<node_matrix> left_, right_;        // L_i, R_i
   std::vector<node_matrix> go_left_, go_right_;  // -L_i^-1 E_i; -R_i^-1 E_{i-1}^T
   std::vector<double> reach_;                    // sqrt(D_tt / D_ww): a rotation's weight as a length
-  std::vector<node_vector> x_, load_, column_;
-  std::size_t first_ = 0, last_ = 0;  // of the column
+  std::vector<node_vector> x_, load_;
+  std::vector<node_vector> column_;  // the residual, and what it corrects
   std::uint64_t response_to_ = 0;
   drift_monitor drift_{{32, 512, 1e-11, 1e-11 / 4}};
   factored_stiffness stiffness_;
