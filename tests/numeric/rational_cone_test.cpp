@@ -75,3 +75,20 @@ TEST_CASE("in a cone or not, as every choice of its parts has it") {
   CHECK(inside > 300);
   CHECK(tried - inside > 300);
 }
+
+TEST_CASE("of thousands of parts in a square, its edge is the cone's to the thirtieth digit") {
+  std::vector<numbers> parts;
+  for (int i = -30; i <= 30; ++i)
+    for (int j = -30; j <= 30; ++j) parts.push_back({1, rational(i, 30), rational(j, 30)});
+  rational tiny = 1;
+  for (int i = 0; i < 30; ++i) tiny /= 10;
+  const rational third(1, 3);
+  for (const rational& along : {rational(0), third, rational(1)}) {
+    CHECK(is_in_cone({2, 2, 2 * along}, parts));  // on the edge
+    CHECK(is_in_cone({1, rational(1 - tiny), along}, parts));
+    CHECK_FALSE(is_in_cone({1, rational(1 + tiny), along}, parts));
+    CHECK_FALSE(is_in_cone({1, along, rational(-1 - tiny)}, parts));
+  }
+  CHECK_FALSE(is_in_cone({rational(-tiny), 0, 0}, parts));
+  CHECK(is_in_cone({tiny, 0, 0}, parts));
+}

@@ -201,8 +201,11 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
   }
-  // What is proved, but not closely enough, is nearer to the truth than a comparison.
-  if (c.problem.empty() || (c.proved && !c.unfounded && !of_proof.empty())) c.problem = of_proof;
+  // What is proved, but not closely enough, is nearer to the truth than a reference solution beyond that bound.
+  const bool reference_is_off =
+      answer.how == outcome::not_found ||
+      c.displacement_error * largest_length() > c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
+  if (c.problem.empty() || (c.proved && !c.unfounded && reference_is_off)) c.problem = of_proof;
   c.exact = c.problem.empty();
 }
 

@@ -1,6 +1,8 @@
 #include "contct/numeric/rational_cone.hpp"
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -19,11 +21,13 @@ class phase_one {
       inverse_[i][i] = sum[i] < 0 ? -1 : 1;
       shares_[i] = abs(sum[i]);
     }
+    rounded_.reserve(parts.size());
+    for (const vector& part : parts) rounded_.push_back(in_doubles(part));
   }
 
   bool reaches_zero() {
     while (cost() != 0) {
-      const std::optional<std::size_t> enters = first_that_helps();
+      const std::optional<std::size_t> enters = one_that_helps();
       if (!enters) return false;
       exchange(*enters);
     }
@@ -40,17 +44,42 @@ class phase_one {
     return sum;
   }
 
-  /// Bland: the first part that lowers the cost.
-  [[nodiscard]] std::optional<std::size_t> first_that_helps() const {
+  static std::vector<double> in_doubles(const vector& x) {
+    std::vector<double> all;
+    for (const rational& number : x) all.push_back(rounded(number));
+    return all;
+  }
+
+  /// A part that lowers the cost: the one that does so most, in doubles. Where the last exchange lowered
+  /// nothing, Bland's, which is the first. A sign that rounding may decide is looked at exactly.
+  [[nodiscard]] std::optional<std::size_t> one_that_helps() const {
     vector price(shares_.size());
     for (std::size_t i = 0; i < shares_.size(); ++i)
       for (std::size_t j = 0; is_artificial(i) && j < price.size(); ++j) price[j] += inverse_[i][j];
+    const std::vector<double> near_price = in_doubles(price);
+    std::optional<std::size_t> best;
+    double most = 0.0;
     for (std::size_t part = 0; part < parts_.size(); ++part) {
-      rational gain;
-      for (std::size_t j = 0; j < price.size(); ++j) gain += price[j] * parts_[part][j];
-      if (gain > 0) return part;
+      double gain = 0.0;
+      double size = std::numeric_limits<double>::min();
+      for (std::size_t j = 0; j < price.size(); ++j) {
+        gain += near_price[j] * rounded_[part][j];
+        size += std::abs(near_price[j] * rounded_[part][j]);
+      }
+      const double off = 16 * std::numeric_limits<double>::epsilon() * size;
+      if (gain < -off || (best && gain <= most)) continue;
+      if (!(gain > off) && (best || !gains_exactly(price, part))) continue;
+      if (stalled_) return part;
+      best = part;
+      most = gain;
     }
-    return std::nullopt;
+    return best;
+  }
+
+  [[nodiscard]] bool gains_exactly(const vector& price, std::size_t part) const {
+    rational gain;
+    for (std::size_t j = 0; j < price.size(); ++j) gain += price[j] * parts_[part][j];
+    return gain > 0;
   }
 
   /// It enters for the row that limits it; of several, artificial ones first, then the first part.
@@ -78,12 +107,15 @@ class phase_one {
       shares_[i] -= column[i] * least;
     }
     in_basis_[leaves] = enters;
+    stalled_ = least == 0;
   }
 
   std::span<const vector> parts_;
+  std::vector<std::vector<double>> rounded_;          // the parts
   std::vector<vector> inverse_;                       // of the basis
   vector shares_;                                     // none is negative
   std::vector<std::optional<std::size_t>> in_basis_;  // the part of each row; none: its artificial one
+  bool stalled_ = false;                              // the last exchange lowered no cost
 };
 
 }  // namespace
