@@ -9,79 +9,14 @@ import tomllib
 from fractions import Fraction as F
 from os.path import dirname
 
-from check_beam import beam, listed
-from check_matrix import matrix
-from check_plate import dot, plate
+from check_plate import dot
+from check_problem import Problem
 
 
 def up(x):
     """x, or a little more (2^-200 of it), with a short denominator."""
     shift = max(0, 200 + x.denominator.bit_length() - abs(x.numerator).bit_length())
     return F(-((-x.numerator << shift) // x.denominator), 1 << shift)
-
-
-class Problem:
-    """K by rows, supports, pairs and loads, as fractions."""
-
-    def __init__(self, t, folder):
-        if "matrix" in t:
-            self.K, t = matrix(t["matrix"], t, folder)
-            self.names, self.at, share, self.elements = ["w"], {}, [F(1)] * len(self.K), []
-        else:
-            self.names, self.at, share, self.elements = plate(t["plate"]) if "plate" in t else beam(t["beam"], t)
-            self.K = [{i: F(0)} for i in range(len(share) * len(self.names))]
-        self.steps, self.n = t["step"], len(self.K)
-        for element, dofs, _ in self.elements:
-            for i, j, k in ((i, j, k) for i, row in zip(dofs, element.stiffness) for j, k in zip(dofs, row)):
-                self.K[i][j] = self.K[i].get(j, 0) + k
-        self.supports = []  # (dof, its spring; None: fixed)
-        for s in t.get("support", []):
-            springs = [(name, F(s["spring"][name])) for name in self.names if name in s.get("spring", {})]
-            for name, spring in [(name, None) for name in listed(s.get("fix", []))] + springs:
-                self.supports += [(self.dof(node, name), spring) for node in self.nodes(s, len(share))]
-        for dof, spring in self.supports:
-            self.K[dof][dof] += spring or 0
-        self.fixed = {dof for dof, spring in self.supports if spring is None}
-        self.pairs = []  # (dof, n, face, stiffness)
-        for c in t.get("contact", []) + t.get("bed", []):
-            for i, node in enumerate(self.nodes(c, len(share))):
-                face, k = (v[i] if isinstance(v, list) else v for v in (c["face"], c.get("stiffness", c.get("modulus"))))
-                face = face if not isinstance(face, dict) else sum(
-                    F(a) * list(self.at)[node]**power for power, a in enumerate(face["polynomial"]))
-                k = F(k) * (share[node] if "modulus" in c else 1)
-                if "modulus" not in c or self.dof(node, "w") not in self.fixed:
-                    self.pairs.append((self.dof(node, "w"), 1 if c.get("surface") == "above" else -1, F(face), k))
-
-    def dof(self, node, name):
-        return node * len(self.names) + self.names.index(name)
-
-    def nodes(self, t, count):
-        """Nodes from 0 of a table: node, nodes, x or at; a bed's are all that no support fixes, by default all."""
-        if "x" in t or "at" in t:
-            places = listed(t["x"]) if "x" in t else t["at"] if isinstance(t["at"][0], list) else [t["at"]]
-            return [self.at[tuple(place) if "at" in t else place] for place in places]
-        which = t.get("nodes", t.get("node", "all"))
-        if isinstance(which, str):
-            first, last = ("1", count) if which == "all" else which.split("..")
-            return list(range(int(first) - 1, int(last)))
-        return [node - 1 for node in listed(which)]
-
-    def loads(self, step):
-        """Loads [dofs], the settlement of each fixed dof, and each element's own loads."""
-        f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * len(dofs) for _, dofs, _ in self.elements]
-        for part in listed(step.get("uniform", [])):
-            part = part if isinstance(part, dict) else {"value": part}
-            q = [F(c) for c in part.get("polynomial", [part.get("value")])]
-            for e in self.nodes({"nodes": part.get("elements", "all")}, len(own)):
-                own[e] = [a + b for a, b in zip(own[e], self.elements[e][0].load(q, self.elements[e][2]))]
-        for dof, force in ((dof, force) for (_, dofs, _), work in zip(self.elements, own) for dof, force in zip(dofs, work)):
-            f[dof] += force
-        given = [(part, f) for part in step.get("point", [])] + [(part, settled) for part in step.get("settlement", [])]
-        for part, into in given:
-            for node in self.nodes(part, 0):
-                for name in part.keys() & set(self.names):
-                    into[self.dof(node, name)] += F(part[name])
-        return f, settled, own
 
 
 def zeros(rows):
@@ -114,9 +49,8 @@ def reach_of(p, s, springs):
     return [x * x / mu for x in S]
 
 
-def check(p, step, s):
-    """Raises ValueError where a bound does not hold; gives the number of numbers that were looked at."""
-    f, settled, own = p.loads(step)
+def bounded(p, f, settled, s):
+    """The state, what K needs beyond the loads, the pairs' depths, A, and squares: of rho, and of each dof's error per rho."""
     u = [settled.get(dof, F(hi) + F(lo)) for dof, (hi, lo) in enumerate(s["u"])]
     deep = [n * (u[dof] - face) for dof, n, face, _ in p.pairs]
     need = [dot(row.values(), [u[j] for j in row]) - f[i] for i, row in enumerate(p.K)]
@@ -139,6 +73,35 @@ def check(p, step, s):
     if sorted(set(closed) & set(range(len(p.pairs)))) != closed or any(deep[i] <= 0 or p.pairs[i][0] in p.fixed or
             deep[i]**2 <= min(reach[p.pairs[i][0]], 1 / p.pairs[i][3]) * rho2 for i in closed):
         raise ValueError("a pair is taken as closed that may be open")
+    return u, need, deep, closed, rho2, reach
+
+
+def statuses(p, s):
+    """The pairs that are certainly in contact (True) or separated (False) at a share of a step's load."""
+    if s["step"] == 1 and s["share"] <= 0:
+        return p.at_first
+    x, (f, settled, _) = F(s["share"]), p.loads(p.steps[s["step"] - 1])
+    f0, settled0, _ = p.loads(p.steps[s["step"] - 2] if s["step"] > 1 else {})
+    f, settled = [a + x * (b - a) for a, b in zip(f0, f)], {i: settled0[i] + x * (settled[i] - settled0[i]) for i in settled}
+    _, _, deep, closed, rho2, reach = bounded(p, f, settled, s)
+    apart = [d < 0 and d * d > reach[dof] * rho2 and dof not in p.fixed for (dof, _, _, _), d in zip(p.pairs, deep)]
+    return [True if i in closed else False if apart[i] else None for i in range(len(apart))]
+
+
+def check_share(p, step, s):
+    """Raises ValueError where an event may happen further from its share than the bound says."""
+    for side, after in zip(s["sides"], (False, True), strict=True):
+        if abs(side["step"] - step + F(side["share"]) - F(s["fraction"])) > F(s["error"]):
+            raise ValueError(f"increment {s['increment']}: a side is further off than the bound")
+        known = statuses(p, side)
+        if not s["events"] or any(known[e["pair"] - 1] is not ((e["change"] == "make") == after) for e in s["events"]):
+            raise ValueError(f"increment {s['increment']}: an event is not certain")
+
+
+def check(p, step, s):
+    """Raises ValueError where a bound does not hold; gives the number of numbers that were looked at."""
+    f, settled, own = p.loads(step)
+    u, need, deep, closed, rho2, reach = bounded(p, f, settled, s)
     per, held = len(p.names), {dof: (need[dof], p.K[dof][dof]) for dof in p.fixed}
     spread = [0 if dof in p.fixed else reach[dof] for dof in range(p.n)]  # squares per rho: of displacements, then of forces
     claims = [("slope" if dof % per else "w", true, spread[dof]) for dof, true in enumerate(u)]
@@ -166,7 +129,10 @@ def main(problem, proof):
         for i, s in enumerate(steps):
             where = f"step {i + 1} of {len(p.steps)}"
             words = f"{check(p, p.steps[i], s)} numbers are within their bounds" if s["error"] else f"no bounds: {s['because']}"
-            print(f"{where}: {words}")
+            for share in s.get("shares", []):
+                check_share(p, i + 1, share)
+            shares = f", and {len(s['shares'])} shares within theirs" if s.get("shares") else ""
+            print(f"{where}: {words}{shares}")
     except (OSError, AttributeError, LookupError, ValueError, TypeError, ArithmeticError) as why:
         print(f"{where}: REFUSED: {why!r}")
         return 1

@@ -1,9 +1,11 @@
 // A proof has what its checker needs, and says why where there is none.
 #include "contct/write/proof_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "contct/exact/exact_follower.hpp"
 #include "contct/kernel/call.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -21,6 +23,7 @@ nlohmann::json proof_of(const std::string& text) {
   judged.keep_proofs();
   path_limits limits;
   limits.refine = judged.refiner();
+  limits.exactly = contct::exact::exact_follower_of(p);
   const auto k = make_kernel("corrected");
   (void)follow(p, s, "refactor", *k, {&judged}, limits);
   return nlohmann::json::parse(proof_json(p, "b.toml", judged));
@@ -54,6 +57,37 @@ TEST_CASE("a proof has the state, the closed pairs, the factor and the bounds of
   CHECK(unloaded["closed"].empty());
   CHECK(unloaded["z"].empty());
   CHECK(unloaded["L"].size() == 10);
+}
+
+TEST_CASE("an event's share has a state on both sides of it, as near as its bound") {
+  const nlohmann::json proof = proof_of(stopped_beam);
+  const nlohmann::json& shares = proof["steps"][0]["shares"];
+  REQUIRE(shares.size() == 1);
+  CHECK(shares[0]["increment"] == 1);
+  CHECK(shares[0]["events"] == nlohmann::json::array({{{"pair", 1}, {"change", "make"}}}));
+  REQUIRE(shares[0]["sides"].size() == 2);
+  for (const int after : {0, 1}) {
+    const nlohmann::json& side = shares[0]["sides"][after];
+    CHECK(side["step"] == 1);
+    CHECK((side["share"].get<double>() > shares[0]["fraction"].get<double>()) == (after == 1));
+    CHECK(std::abs(side["share"].get<double>() - shares[0]["fraction"].get<double>()) <=
+          shares[0]["error"].get<double>());
+    CHECK(side["closed"].size() == static_cast<std::size_t>(after));
+    for (const char* each_dof : {"u", "z", "scale", "row_of", "L"}) CHECK(side[each_dof].size() == 10);
+  }
+  REQUIRE(proof["steps"][1]["shares"].size() == 1);
+  CHECK(proof["steps"][1]["shares"][0]["events"][0]["change"] == "break");
+}
+
+TEST_CASE("what doubles cannot factor has L as a sum of two") {
+  const nlohmann::json proof = proof_of(
+      "[beam]\nx = [0, 0.008, 7.008, 7.00802, 7.02802, 12.02802]\nEI = 92\n[[support]]\nnode = 1\n"
+      "fix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e5\n"
+      "[[step]]\npoint = [ { node = 2, w = -94 } ]\n");
+  const nlohmann::json& step = proof["steps"][0];
+  REQUIRE(step.contains("L_low"));
+  CHECK(step["L_low"].size() == step["L"].size());
+  CHECK(step["L_low"][11].size() == step["L"][11].size());
 }
 
 TEST_CASE("where nothing is proved, a proof says why") {

@@ -107,6 +107,14 @@ void certifier::incremented(const increment& i) {
   if (!shares_) return;
   share_errors_.resize(i.step);
   share_errors_.back().push_back(shares_->bound(i));
+  share_proofs_.resize(i.step);
+  if (std::optional<share_proof> proof = shares_->take_proof())
+    share_proofs_.back().push_back(std::move(*proof));
+}
+
+std::span<const share_proof> certifier::share_proofs(int step) const {
+  if (step > static_cast<int>(share_proofs_.size())) return {};
+  return share_proofs_[step - 1];
 }
 
 std::span<const std::optional<double>> certifier::share_errors(int step) const {
@@ -201,10 +209,11 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
   }
-  // What is proved, but not closely enough, is nearer to the truth than a reference solution beyond that bound.
-  const bool reference_is_off =
-      answer.how == outcome::not_found ||
-      c.displacement_error * largest_length() > c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
+  // What is proved, but not closely enough, is nearer to the truth than a reference solution beyond that
+  // bound.
+  const bool reference_is_off = answer.how == outcome::not_found ||
+                                c.displacement_error * largest_length() >
+                                    c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
   if (c.problem.empty() || (c.proved && !c.unfounded && reference_is_off)) c.problem = of_proof;
   c.exact = c.problem.empty();
 }

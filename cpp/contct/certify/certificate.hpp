@@ -88,6 +88,9 @@ class certifier final : public observer {
   /// In the order of steps(); none where nothing is proved, or none are kept.
   [[nodiscard]] const std::vector<std::optional<step_proof>>& proofs() const { return proofs_; }
 
+  /// What proves the bounds on shares of a step, from 1; none of sparse factors.
+  [[nodiscard]] std::span<const share_proof> share_proofs(int step) const;
+
   /// How far off the share of each increment of a step, from 1, can be; none where that is not proved. Empty
   /// unless proofs are kept.
   [[nodiscard]] std::span<const std::optional<double>> share_errors(int step) const;
@@ -122,6 +125,7 @@ class certifier final : public observer {
   std::vector<std::optional<step_proof>> proofs_;
   std::unique_ptr<share_prover> shares_;                          // null unless proofs are kept
   std::vector<std::vector<std::optional<double>>> share_errors_;  // [steps][increments]
+  std::vector<std::vector<share_proof>> share_proofs_;            // [steps]
 };
 
 /// A fallback for `s`, which must outlive it: the reference solution as the end of a step that a path cannot

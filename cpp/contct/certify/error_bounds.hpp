@@ -86,6 +86,10 @@ class error_prover {
     keeps_proof_ = true;
     stiffness_.keep_proof();
   }
+  /// What proves the last certain_statuses; none of a sparse factor, or unless proofs are kept.
+  [[nodiscard]] std::optional<status_proof> take_status_proof() {
+    return std::exchange(status_proof_, std::nullopt);
+  }
   /// Of the last `bound` that proved anything; none before, or unless it is kept.
   [[nodiscard]] std::optional<step_proof> take_proof() { return std::exchange(proof_, std::nullopt); }
 
@@ -165,6 +169,7 @@ class error_prover {
   long_vector z_;                      // about K_A^-1 r
   bool keeps_proof_ = false;
   std::optional<step_proof> proof_;
+  std::optional<status_proof> status_proof_;
 };
 
 }  // namespace contct::certify

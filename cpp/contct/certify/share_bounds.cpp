@@ -25,13 +25,20 @@ share_prover::share_prover(const linear_structure& s, const load_history& total_
 }
 
 std::optional<double> share_prover::bound(const path::increment& i) {
+  proof_.reset();
   if (i.events.empty()) return i.fraction == 1.0 ? std::optional(0.0) : std::nullopt;
   for (const double distance : distances) {
     const double before = i.fraction - distance;
     const double after = std::min(i.fraction + distance, 1.0);
-    if (have_statuses(i.events, statuses_at(i.step, after), true) &&
-        have_statuses(i.events, statuses_at(i.step, before), false))
-      return distance + of_shares;
+    if (!have_statuses(i.events, statuses_at(i.step, after), true)) continue;
+    std::optional<status_proof> behind = std::move(of_statuses_);
+    if (!have_statuses(i.events, statuses_at(i.step, before), false)) continue;
+    const double error = distance + of_shares;
+    if (behind && of_statuses_)
+      proof_ = share_proof{
+          i.number,          i.fraction, error, {i.events.begin(), i.events.end()}, std::move(*of_statuses_),
+          std::move(*behind)};
+    return error;
   }
   return std::nullopt;
 }
@@ -39,8 +46,18 @@ std::optional<double> share_prover::bound(const path::increment& i) {
 /// Certain statuses [pairs]; 0 for a pair that has none. Before the load of a step begins to act, that of the
 /// step before acts; before that of the first one, pairs have the statuses that the problem gives them.
 std::vector<int> share_prover::statuses_at(int step, double share) {
-  if (share <= 0.0 && step == 1) return at_first_;
-  if (share <= 0.0) return statuses_at(step - 1, 1.0 + share);
+  if (share <= 0.0 && step > 1) return statuses_at(step - 1, 1.0 + share);
+  if (share <= 0.0) {
+    of_statuses_ =
+        status_proof{.step = step, .share = share, .state = {}, .closed = {}, .z = {}, .of_stiffness = {}};
+    return at_first_;
+  }
+  std::vector<int> certain = statuses_under_load(step, share);
+  of_statuses_ = prover_.take_status_proof();
+  return certain;
+}
+
+std::vector<int> share_prover::statuses_under_load(int step, double share) {
   std::vector<double> load(structure_.dofs());
   if (step > 1) total_load_(step - 1, load);
   std::vector<double> full(load.size());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "contct/certify/error_bounds.hpp"
@@ -23,15 +24,20 @@ class share_prover {
   /// of the step before counts as share 0: the least of a few distances that is proved. 0 where the increment
   /// ends its step without an event. Nothing where nothing is proved.
   [[nodiscard]] std::optional<double> bound(const path::increment& i);
+  /// Of the last bound that was not 0; none of sparse factors, or where nothing was proved.
+  [[nodiscard]] std::optional<share_proof> take_proof() { return std::exchange(proof_, std::nullopt); }
 
  private:
   [[nodiscard]] std::vector<int> statuses_at(int step, double share);
+  [[nodiscard]] std::vector<int> statuses_under_load(int step, double share);
 
   const linear_structure& structure_;
   const load_history& total_load_;
   error_prover& prover_;
   reference_solver reference_;
-  std::vector<int> at_first_;  // statuses [pairs]
+  std::vector<int> at_first_;                // statuses [pairs]
+  std::optional<status_proof> of_statuses_;  // of the last statuses_at
+  std::optional<share_proof> proof_;
 };
 
 }  // namespace contct::certify
