@@ -309,6 +309,73 @@ TEST_CASE("a path that cannot go on is rescued by an equilibrium from elsewhere,
   }
 }
 
+TEST_CASE("a path that cannot go on is followed by other means from the share that it has reached") {
+  // The endless kernel toggles both pairs at share 0; exactly, only pair 1 is in contact there.
+  made_kernel k = endless();
+  beam_problem p = cantilever_on_two();
+  int asked = 0;
+  path_limits limits;
+  limits.exactly = [&](int step) -> std::optional<followed_step> {
+    ++asked;
+    followed_step s{path_status::solved, {}, 1.0, {0, 0, -1, -2, -3, -4}, {1, 1}};
+    if (step == 1)
+      s.increments = {{0.25, {{1, change::make}}, false, {-0.5, -1.5}},
+                      {0.5, {{0, change::break_}}, true, {-0.75, -2.0}},
+                      {0.5, {{0, change::make}}, false, {-0.75, -2.0}}};
+    s.increments.push_back({1.0, {}, false, {-1, -3}});
+    return s;
+  };
+  recorder r;
+  CHECK(p.run(k, {&r}, limits).status == path_status::solved);
+  CHECK(asked == 2);
+  REQUIRE(r.steps.size() == 2);
+  CHECK_FALSE(r.steps[0].from_fallback);
+  CHECK(r.steps[0].isep == std::vector<int>{in_contact, in_contact});
+  std::vector<recorder::seen_increment> told;
+  for (const auto& i : r.increments)
+    if (i.step == 1 && i.fraction > 0.0) told.push_back(i);
+  REQUIRE(told.size() == 4);
+  CHECK(told[0].s == 0.25);
+  CHECK(told[1].snaps);
+  CHECK(told[1].s == 0.0);  // a rigid-body motion at constant load
+  CHECK(told[1].events == std::vector<event>{{0, change::break_}});
+  CHECK(told[3].fraction == 1.0);
+  CHECK(told[3].s == 1.0);
+  CHECK(told[3].number == told[0].number + 3);
+  // Every status is told as it changes: the events lead from the first to the last ones.
+  std::vector<int> isep = {in_contact, separated};
+  for (const auto& i : r.increments)
+    for (const event& e : i.events) {
+      CHECK((e.what == change::make) == (isep[e.pair] == separated));
+      isep[e.pair] = e.what == change::make ? in_contact : separated;
+    }
+  CHECK(isep == std::vector<int>{in_contact, in_contact});
+}
+
+TEST_CASE("what is followed by other means may end in a mechanism, at a pair's opening") {
+  made_kernel k = endless();
+  path_limits limits;
+  limits.exactly = [](int) -> std::optional<followed_step> {
+    return followed_step{path_status::mechanism,
+                         {{0.125, {{1, change::make}}, false, {0, 0}},
+                          {0.5, {{0, change::break_}}, false, {-1, -1}},
+                          {0.75, {{1, change::break_}}, false, {-1, -1}}},
+                         0.75,
+                         {0, 0, 0, 0, -1, 0},
+                         {0, 0}};
+  };
+  recorder r;
+  const beam_problem p = cantilever_on_two();
+  const path_end end = p.run(k, {&r}, limits);
+  CHECK(end.status == path_status::mechanism);
+  CHECK(end.fraction == 0.75);
+  CHECK(end.pairs == std::vector<int>{1});
+  REQUIRE(r.steps.size() == 1);
+  CHECK(r.steps[0].isep == std::vector<int>{separated, in_contact});  // as it was about to open
+  made_kernel listing = endless("listing");
+  CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule goes its own way
+}
+
 TEST_CASE("nobody rescues a path under the listing's rule, nor one without an equilibrium") {
   const beam_problem p = cantilever_on_two();
   int asked = 0;

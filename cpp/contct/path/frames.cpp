@@ -78,6 +78,7 @@ void frame_keeper::step_ended(const step_state& s) {
   frame f =
       after_increment ? last_ : frame{.at = increments_, .step = s.step, .from_fallback = s.from_fallback};
   f.step_end = true;
+  f.from_exact_path = s.from_exact_path;
   f.fraction = s.fraction;
   f.displacement.assign(s.displacement.begin(), s.displacement.end());
   f.isep.assign(s.isep.begin(), s.isep.end());

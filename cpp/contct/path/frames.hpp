@@ -21,14 +21,15 @@ enum class pair_look { open, closed, at_face };
 
 /// The structure after one increment.
 struct frame {
-  int at = 0;                  ///< increments since the start of the path; 0: nothing is loaded yet
-  int step = 0;                ///< from 1; 0 before the first
-  int number = 0;              ///< of the increment within its step, from 1; 0: there was none
-  double fraction = 0.0;       ///< share of the step's load consumed
-  double s = 0.0;              ///< of the increment
-  bool snaps = false;          ///< the increment was a rigid motion at constant load
-  bool step_end = false;       ///< the state that the step ended in, exactly
-  bool from_fallback = false;  ///< that came from elsewhere
+  int at = 0;                    ///< increments since the start of the path; 0: nothing is loaded yet
+  int step = 0;                  ///< from 1; 0 before the first
+  int number = 0;                ///< of the increment within its step, from 1; 0: there was none
+  double fraction = 0.0;         ///< share of the step's load consumed
+  double s = 0.0;                ///< of the increment
+  bool snaps = false;            ///< the increment was a rigid motion at constant load
+  bool step_end = false;         ///< the state that the step ended in, exactly
+  bool from_fallback = false;    ///< that came from elsewhere
+  bool from_exact_path = false;  ///< that the exact path led to
   std::vector<event> events = {};
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]

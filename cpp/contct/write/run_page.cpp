@@ -431,6 +431,7 @@ class page_writer {
                 {"snap", f.snaps},
                 {"end", f.step_end},
                 {"rescued", f.from_fallback},
+                {"exact", f.from_exact_path},
                 {"load", f.step == 0 ? "none" : loads_.words_at(f.step, f.fraction, load_words_width)},
                 {"force", loads_.force_at(f.step, f.fraction)},
                 {"largest", largest_json(ranges)},

@@ -980,7 +980,8 @@ function stateWords(f) {
   const place = f.step === 0 ? "Before any load."
     : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid-body motion at constant load; " : ""}load: ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
   const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
-  const rescued = f.rescued ? " This state is the reference solution: the path could not reach it." : "";
+  const rescued = f.rescued ? " This state is the reference solution: the path could not reach it."
+    : f.exact ? " Doubles have too few digits to follow this step to its end: its last increments are those of the exact path." : "";
   const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} in contact, ${open} separated, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
   return `${place}${event}${rescued}${pairs} Largest ${moves} ${short(f.largest.w)} at ${placeOf(f.largest)}.`;
 }
