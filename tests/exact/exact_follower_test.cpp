@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/exact_residual.hpp"
+#include "contct/exact/path.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
@@ -21,8 +22,8 @@ struct kept_path final : observer {
     last_s = i.s;
   }
   void step_ended(const step_state& s) override {
-    exactly.push_back(s.from_exact_path);
-    lost.push_back(s.from_fallback);
+    exactly.push_back(s.from_exact_path ? 1 : 0);
+    lost.push_back(s.from_fallback ? 1 : 0);
     w.assign(s.displacement.begin(), s.displacement.end());
     isep.assign(s.isep.begin(), s.isep.end());
   }
