@@ -142,6 +142,11 @@ class option_parser {
   static void add_quiet(CLI::App* command, bool& quiet) {
     command->add_flag("--quiet", quiet, "Print only warnings and errors");
   }
+  void add_jobs(CLI::App* command, int& jobs) {
+    add(command, takes::number, "--jobs", jobs,
+        "Number of processes; results do not depend on it [one for each processor]")
+        ->check(CLI::Range(1, 1024));
+  }
   void add_reports(CLI::App* command, report_options& o) {
     add_quiet(command, o.quiet);
     add_file(command, "--junit", o.junit, "Write a JUnit report to this file (- is standard output)");
@@ -345,6 +350,7 @@ void declare_verify(option_parser& p) {
       "verify",
       "Solve every problem in reference/ and compare it with published, closed-form and recomputed numbers");
   p.add_file(c, "--reference", o.reference, "The folder with verification.toml and problems/");
+  p.add_jobs(c, o.jobs);
   p.add_file(c, "--json", o.json, "Write all numbers to this file (- is standard output)");
   p.add_reports(c, o.report);
 }
@@ -361,6 +367,7 @@ void declare_fuzz(option_parser& p) {
       ->check(CLI::Range(std::int64_t{0}, most_random_cases));
   p.add(c, takes::number, "--seed", o.request.seed, "Seed of the random numbers")->capture_default_str();
   p.add(c, takes::number, "--shard", o.shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
+  p.add_jobs(c, o.jobs);
   p.add(c, takes::file, "--merge", o.merge, "Add up the --json files of all shards instead of running");
   p.add_file(c, "--checkpoint", o.checkpoint, "Keep in this file how far the run has come");
   c->add_flag("--resume", o.resume, "Go on from the checkpoint, if there is one");
@@ -386,6 +393,7 @@ void declare_atlas(option_parser& p) {
   p.add(c, takes::number, "--seed", o.request.seed, "Seed of the random numbers")
       ->check(not_negative)
       ->capture_default_str();
+  p.add_jobs(c, o.jobs);
   p.add_file(c, "--csv", o.csv, "Write the cells to this file (- is standard output)");
   p.add_file(c, "--json", o.json, "Write the cells to this file (- is standard output)");
   p.add_file(c, "--svg", o.svg, "Draw the picture to this file (- is standard output)");
