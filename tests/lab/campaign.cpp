@@ -1,6 +1,6 @@
-// The corrected kernel on random problems, by the hundred thousand: contct_campaign [PROBLEMS] [SEED] [JOBS],
-// in as many processes as there are processors unless --jobs says otherwise. Prints the verdicts, and fails
-// when a structure that its supports hold is not certified, when an answer needed more tolerance than
+// The corrected kernel on random problems, by the hundred thousand: contct_campaign [PROBLEMS [SEED]] [--jobs
+// N], in as many processes as there are processors unless --jobs says otherwise. Prints the verdicts, and
+// fails when a structure that its supports hold is not certified, when an answer needed more tolerance than
 // promised, or when too little was tried.
 #include <algorithm>
 #include <array>

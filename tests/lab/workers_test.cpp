@@ -7,6 +7,7 @@
 #include <csignal>
 #include <new>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include "catch.hpp"
@@ -45,7 +46,7 @@ std::string thrown_by(int jobs, const task_work& work) {
   } catch (const Thrown& e) {
     words = e.what();
   }
-  CHECK(before == 5);
+  if (!std::is_same_v<Thrown, std::bad_alloc>) CHECK(before == 5);  // a worker without memory says nothing
   CHECK(has_no_child());
   return words;
 }

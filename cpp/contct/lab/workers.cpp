@@ -26,8 +26,8 @@
 namespace contct::lab {
 namespace {
 
-/// The exit status of a worker that gets no memory: it cannot even say so.
-constexpr int out_of_memory = 77;
+/// The exit status of a worker that gets no memory, as of the whole program; the parent says so.
+constexpr int out_of_memory = 2;
 
 enum class came_to : char { result, kernel_failed, failed };
 
@@ -183,7 +183,8 @@ void take_result(const task_taker& take, std::int64_t number, const task_result&
 /// Hands tasks out to whoever has none, and takes results in the order of tasks.
 class crew {
  public:
-  crew(int jobs, std::int64_t tasks, const task_work& work) : tasks_(tasks), most_ahead_(16 * jobs) {
+  crew(int jobs, std::int64_t tasks, const task_work& work)
+      : tasks_(tasks), most_ahead_(std::int64_t{16} * jobs) {
     for (int j = 0; j < jobs; ++j) workers_.emplace_back(work, workers_);
   }
 

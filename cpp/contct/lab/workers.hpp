@@ -20,8 +20,8 @@ using task_taker = std::function<void(std::int64_t number, const std::string& re
 ///
 /// No kernel of this process may be alive: it would share its unit 26 with all workers. What `work` throws
 /// is thrown here in its turn: a kernel_failure as that, any other exception as std::runtime_error with its
-/// words, std::bad_alloc where a worker had too little memory. A worker that is ended from outside is a
-/// std::runtime_error, too. No worker is left in any case.
+/// words. At once come std::bad_alloc, where a worker had too little memory, and a std::runtime_error, where
+/// one was killed. No worker is left in any case.
 void do_tasks(int jobs, std::int64_t tasks, const task_work& work, const task_taker& take);
 
 }  // namespace contct::lab
