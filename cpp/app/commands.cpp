@@ -161,7 +161,7 @@ exit_status run_command(const atlas_options& options) {
   progress shown(static_cast<std::int64_t>(a.cells.size()) * options.request.problems, "problems",
                  options.quiet);
   std::int64_t done = 0;
-  for (atlas_cell& c : a.cells) fill(c, options.request, [&] { shown.reached(++done); });
+  fill(a.cells, options.request, options.jobs, [&](std::int64_t more) { shown.reached(done += more); });
   shown.erase();
   if (!options.quiet && !takes_standard_output(outputs))
     print_text(fmt::format("{}", atlas_table(a, look_at_terminal())));

@@ -94,6 +94,7 @@ struct new_options {
 
 struct verify_options {
   std::string reference;  ///< a folder
+  int jobs = 0;           ///< one for each processor
   std::string json;
   report_options report;
 };
@@ -102,6 +103,7 @@ struct fuzz_options {
   fuzz_request request;
   std::optional<std::int64_t> problems;  ///< by default one for 500 calls
   std::string shard;                     ///< "I/N"
+  int jobs = 0;                          ///< one for each processor
   std::vector<std::string> merge;
   std::string checkpoint;
   bool resume = false;
@@ -118,6 +120,7 @@ struct replay_options {
 
 struct atlas_options {
   atlas_request request;
+  int jobs = 0;  ///< one for each processor
   std::string csv, json, svg;
   bool quiet = false;
 };

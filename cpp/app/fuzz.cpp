@@ -56,7 +56,7 @@ fuzz_keeper keeper_for(const fuzz_options& options, const fuzz_request& request)
   return keeper;
 }
 
-fuzz_run fuzzed(const fuzz_request& request, const fuzz_keeper& keeper, bool quiet) {
+fuzz_run fuzzed(const fuzz_request& request, const fuzz_keeper& keeper, int jobs, bool quiet) {
   std::optional<progress> shown;
   const char* shown_what = nullptr;
   return run_fuzz(
@@ -66,7 +66,7 @@ fuzz_run fuzzed(const fuzz_request& request, const fuzz_keeper& keeper, bool qui
         shown_what = what;
         shown->reached(done);
       },
-      keeper);
+      keeper, jobs);
 }
 
 std::string follower_words(const fuzz_follower& f, const std::string& leader) {
@@ -157,8 +157,8 @@ exit_status run_command(const fuzz_options& options) {
   const fuzz_keeper keeper = keeper_for(options, request);
   const output_files files(outputs);
   const bool merging = !options.merge.empty();
-  const fuzz_run run =
-      merging ? fuzz_run{merged_fuzz(options.merge), {}} : fuzzed(request, keeper, options.report.quiet);
+  const fuzz_run run = merging ? fuzz_run{merged_fuzz(options.merge), {}}
+                               : fuzzed(request, keeper, options.jobs, options.report.quiet);
   const fuzz_result& r = run.result;
   const std::string missed = floors_missed(r);
   if (!options.report.quiet && !takes_standard_output(outputs)) print_result(r);

@@ -142,6 +142,11 @@ class option_parser {
   static void add_quiet(CLI::App* command, bool& quiet) {
     command->add_flag("--quiet", quiet, "Print only warnings and errors");
   }
+  void add_jobs(CLI::App* command, int& jobs) {
+    add(command, takes::number, "--jobs", jobs,
+        "Number of processes; results do not depend on it [one for each processor]")
+        ->check(CLI::Range(1, 1024));
+  }
   void add_reports(CLI::App* command, report_options& o) {
     add_quiet(command, o.quiet);
     add_file(command, "--junit", o.junit, "Write a JUnit report to this file (- is standard output)");
@@ -345,6 +350,7 @@ void declare_verify(option_parser& p) {
       "verify",
       "Solve every problem in reference/ and compare it with published, closed-form and recomputed numbers");
   p.add_file(c, "--reference", o.reference, "The folder with verification.toml and problems/");
+  p.add_jobs(c, o.jobs);
   p.add_file(c, "--json", o.json, "Write all numbers to this file (- is standard output)");
   p.add_reports(c, o.report);
 }
@@ -361,6 +367,7 @@ void declare_fuzz(option_parser& p) {
       ->check(CLI::Range(std::int64_t{0}, most_random_cases));
   p.add(c, takes::number, "--seed", o.request.seed, "Seed of the random numbers")->capture_default_str();
   p.add(c, takes::number, "--shard", o.shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
+  p.add_jobs(c, o.jobs);
   p.add(c, takes::file, "--merge", o.merge, "Add up the --json files of all shards instead of running");
   p.add_file(c, "--checkpoint", o.checkpoint, "Keep in this file how far the run has come");
   c->add_flag("--resume", o.resume, "Go on from the checkpoint, if there is one");
@@ -386,6 +393,7 @@ void declare_atlas(option_parser& p) {
   p.add(c, takes::number, "--seed", o.request.seed, "Seed of the random numbers")
       ->check(not_negative)
       ->capture_default_str();
+  p.add_jobs(c, o.jobs);
   p.add_file(c, "--csv", o.csv, "Write the cells to this file (- is standard output)");
   p.add_file(c, "--json", o.json, "Write the cells to this file (- is standard output)");
   p.add_file(c, "--svg", o.svg, "Draw the picture to this file (- is standard output)");
@@ -426,13 +434,6 @@ void declare_manual(option_parser& p) {
       ->check(CLI::IsMember(pages));
 }
 
-/// The commands that print what the program knows of itself.
-void declare_texts(option_parser& p) {
-  p.command<kernels_options>("kernels", "What is built in, and how this machine computes");
-  declare_completion(p);
-  declare_manual(p);
-}
-
 /// Each command's examples stand under its --help, and the first of each under the program's.
 void add_examples(CLI::App& program) {
   std::string first_ones;
@@ -449,32 +450,58 @@ void add_examples(CLI::App& program) {
   program.footer("Examples:" + first_ones + "\ncontct COMMAND --help says more of each.");
 }
 
-/// It stays where it is made: the callbacks of its commands refer to it.
-std::unique_ptr<option_parser> contct_parser(std::vector<std::string> engines) {
+using declare_command = void (*)(option_parser& p, const std::vector<std::string>& engines);
+
+constexpr std::pair<const char*, declare_command> all_commands[] = {
+    {"run", declare_run},
+    {"check", [](option_parser& p, const auto&) { declare_check(p); }},
+    {"explain", declare_explain},
+    {"exact", [](option_parser& p, const auto&) { declare_exact(p); }},
+    {"new", [](option_parser& p, const auto&) { declare_new(p); }},
+    {"verify", [](option_parser& p, const auto&) { declare_verify(p); }},
+    {"fuzz", [](option_parser& p, const auto&) { declare_fuzz(p); }},
+    {"replay",
+     [](option_parser& p, const auto&) {
+       declare_replay(
+           p, p.program.add_subcommand("replay", "Repeat recorded calls with a kernel; needs no LAPACK"));
+     }},
+    {"atlas", [](option_parser& p, const auto&) { declare_atlas(p); }},
+    {"export", [](option_parser& p, const auto&) { declare_export(p); }},
+    {"kernels",
+     [](option_parser& p, const auto&) {
+       p.command<kernels_options>("kernels", "What is built in, and how this machine computes");
+     }},
+    {"completion", [](option_parser& p, const auto&) { declare_completion(p); }},
+    {"man", [](option_parser& p, const auto&) { declare_manual(p); }},
+};
+
+/// It stays where it is made: the callbacks of its commands refer to it. With `only` it has that one command:
+/// the options of all take longer to declare than most paths to follow.
+std::unique_ptr<option_parser> contct_parser(std::vector<std::string> engines, std::string_view only = "") {
   auto made = std::make_unique<option_parser>(
       "contct", "CONTCT: the 1989 contact subroutine in FORTRAN and C++, compared bit for bit.");
   option_parser& p = *made;
   engines.insert(engines.begin(), "auto");
   p.program.require_subcommand(1);
-  declare_run(p, engines);
-  declare_check(p);
-  declare_explain(p, engines);
-  declare_exact(p);
-  declare_new(p);
-  declare_verify(p);
-  declare_fuzz(p);
-  declare_replay(p,
-                 p.program.add_subcommand("replay", "Repeat recorded calls with a kernel; needs no LAPACK"));
-  declare_atlas(p);
-  declare_export(p);
-  declare_texts(p);
+  for (const auto& [name, declare] : all_commands)
+    if (only.empty() || only == name) declare(p, engines);
   add_examples(p.program);
   return made;
+}
+
+bool is_command(std::string_view word) {
+  return std::ranges::any_of(all_commands, [&](const auto& c) { return word == c.first; });
 }
 
 }  // namespace
 
 command_options parse_contct(int argc, const char* const* argv, const std::vector<std::string>& engines) {
+  if (argc > 1 && is_command(argv[1])) {
+    try {
+      return contct_parser(engines, argv[1])->parse(argc, argv);
+    } catch (const std::invalid_argument&) {  // the message may name other commands
+    }
+  }
   return contct_parser(engines)->parse(argc, argv);
 }
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/outputs.hpp"
-#include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/strings.hpp"
@@ -239,15 +238,17 @@ exit_status run_command(const verify_options& options) {
   json judged = json::array();
   progress shown(static_cast<std::int64_t>(cases.size()), "problems", options.report.quiet);
   if (!silent) print_legend(t);
-  for (const verification_case& c : cases) {
-    shown.reached(all.cases);
-    const verified_case verified = verify_case(c, read_problem((reference / "problems" / c.file).string()));
+  shown.reached(0);
+  const auto take = [&](const verified_case& verified) {
     shown.erase();
     if (!silent) print(t, verified);
     all.add(verified);
     report.results.push_back(result_of(verified));
     judged.push_back(json_of(verified));
-  }
+    shown.reached(all.cases);
+  };
+  verify_cases(cases, (reference / "problems").string(), options.jobs, take);
+  shown.erase();
   if (!silent) print(t, all.exactly);
   if (!silent) print(t, all);
   flush_standard_output();

@@ -65,6 +65,19 @@ TEST_CASE("the same seed draws the same atlas, and table, CSV, JSON and picture 
   CHECK(contct_program(dir.path(), {"atlas", "--problems", "3", "--seed", "8"}).out != first.out);
 }
 
+TEST_CASE("the atlas is the same to the byte with one job and with three") {
+  const scratch_folder dir;
+  std::vector<std::string> expected;
+  for (const char* jobs : {"1", "3"}) {
+    const finished f = contct_program(dir.path(), {"atlas", "--problems", "18", "--csv", "a.csv", "--json",
+                                                   "a.json", "--svg", "a.svg", "--jobs", jobs});
+    CHECK(f.exit == 0);
+    const std::vector<std::string> found = {f.out, dir.read("a.csv"), dir.read("a.json"), dir.read("a.svg")};
+    if (expected.empty()) expected = found;
+    CHECK(found == expected);
+  }
+}
+
 TEST_CASE("an output of the atlas may be standard output, alone") {
   const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"atlas", "--problems", "1", "--json", "-"});

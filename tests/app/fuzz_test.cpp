@@ -1,14 +1,19 @@
 // contct fuzz: what it says of kernels that agree, and of plug-ins with a fault.
+#include <sys/wait.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "app/process.hpp"
 #include "catch.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -226,11 +231,88 @@ TEST_CASE("a run that is killed goes on from its checkpoint, and ends as one tha
              Contains("found beside --merge"));
 }
 
+namespace {
+
+/// What a run prints and writes, without its duration.
+std::vector<std::string> all_of(const scratch_folder& dir, const finished& f, const std::string& folder) {
+  nlohmann::json j = json_of(dir, (folder + "/f.json").c_str());
+  j.erase("seconds");
+  std::vector<std::string> all = {std::regex_replace(f.out, std::regex(R"(, [\d.]+ s\b)"), ""), f.err,
+                                  j.dump()};
+  for (const auto& entry : fs::directory_iterator(dir.path() / folder))
+    if (entry.path().filename() != "f.json") all.push_back(dir.read(folder / entry.path().filename()));
+  std::sort(all.begin() + 3, all.end());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("one job and three give the same bytes: counts, the first mismatch and what it is shrunk to") {
+  const scratch_folder dir;
+  for (const char* kernels : {"fortran,cpp", "cpp,fortran,PLUGIN"}) {
+    std::string chosen = kernels;
+    if (const auto at = chosen.find("PLUGIN"); at != std::string::npos)
+      chosen.replace(at, 6, variant("less_equal"));
+    std::vector<std::string> expected;
+    for (const char* jobs : {"1", "3"}) {
+      const std::string folder = std::string("jobs") + jobs;
+      fs::remove_all(dir.path() / folder);
+      fs::create_directory(dir.path() / folder);
+      finished f = fuzz(dir, {"--kernels", chosen, "--calls", "60000", "--problems", "70", "--jobs", jobs,
+                              "--json", folder + "/f.json", "--out", folder});
+      f.err = std::regex_replace(f.err, std::regex(folder), "FOLDER");
+      CHECK(f.exit == (chosen == kernels ? 0 : 1));
+      std::vector<std::string> found = all_of(dir, f, folder);
+      CHECK(found.size() == (chosen == kernels ? 3 : 6));
+      if (expected.empty()) expected = found;
+      CHECK(found == expected);
+    }
+  }
+}
+
+TEST_CASE("a run of three jobs goes on from the checkpoint of one job, and ends as one job does") {
+  const scratch_folder dir;
+  const auto run = [&dir](std::vector<std::string> more) {
+    const std::vector<std::string> all = {"--calls", "100000", "--problems", "50", "--shard", "1/2"};
+    more.insert(more.begin(), all.begin(), all.end());
+    return fuzz(dir, more).exit;
+  };
+  CHECK(run({"--jobs", "1", "--checkpoint", "c.json", "--json", "whole.json"}) == 0);
+  CHECK(run({"--jobs", "3", "--checkpoint", "d.json", "--json", "three.json"}) == 0);
+  nlohmann::json one = json_of(dir, "c.json");
+  nlohmann::json three = json_of(dir, "d.json");
+  for (nlohmann::json* j : {&one, &three}) j->at("result").erase("seconds");
+  CHECK(one == three);
+  CHECK(run({"--jobs", "3", "--checkpoint", "c.json", "--resume", "--json", "again.json"}) == 0);
+  nlohmann::json whole = json_of(dir, "whole.json");
+  for (const char* name : {"three.json", "again.json"}) {
+    nlohmann::json its = json_of(dir, name);
+    its["seconds"] = whole["seconds"];
+    CHECK(its == whole);
+  }
+}
+
+TEST_CASE("a worker that is killed ends the run with one message, exit 2 and no file") {
+  const scratch_folder dir;
+  int exit = 0;
+  const std::string said =
+      output_of("cd '" + dir.path().string() + "' && { " + std::string(CONTCT_PROGRAM) +
+                    " fuzz --calls 1000000000 --jobs 2 --json f.json --junit f.xml 2>&1 & } ; p=$!; "
+                    "while c=$(cat /proc/$p/task/$p/children) && [ -z \"$c\" ]; do sleep 0.01; done; "
+                    "kill -KILL ${c%% *}; wait $p",
+                exit);
+  CHECK(WEXITSTATUS(exit) == 2);
+  CHECK_THAT(said, StartsWith("contct: a worker process was ended by signal 9 (Killed)"));
+  CHECK(std::count(said.begin(), said.end(), '\n') == 1);
+  CHECK(dir.files().empty());
+}
+
 TEST_CASE("a hunt that finds too little to compare fails") {
   const scratch_folder dir;
   CHECK(fuzz(dir, {"--calls", "0"}).exit == 2);
   CHECK(fuzz(dir, {"--kernels", "fortran"}).exit == 2);
   CHECK(fuzz(dir, {"--shard", "3/2"}).exit == 2);
+  CHECK(fuzz(dir, {"--jobs", "0"}).exit == 2);
   CHECK(fuzz(dir, {"--shard", "1/2x"}).exit == 2);
   // Shard 5 of 9 has no call when there are four.
   const finished f = fuzz(dir, {"--calls", "4", "--problems", "0", "--shard", "5/9"});

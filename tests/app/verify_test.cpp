@@ -58,6 +58,22 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
   CHECK(uncertified <= 68);
 }
 
+TEST_CASE("verify gives the same bytes with one job and with three") {
+  const scratch_folder dir;
+  const auto run = [&dir](const char* jobs) {
+    return contct_program(
+        dir.path(), {"verify", "--json", "v.json", "--junit", "v.xml", "--markdown", "v.md", "--jobs", jobs});
+  };
+  const finished one = run("1");
+  const std::vector<std::string> expected = {dir.read("v.json"), dir.read("v.xml"), dir.read("v.md")};
+  const finished three = run("3");
+  CHECK(one.exit == 0);
+  CHECK(three.exit == 0);
+  CHECK(three.out == one.out);
+  CHECK(expected[0].size() > 100'000);
+  CHECK(std::vector<std::string>{dir.read("v.json"), dir.read("v.xml"), dir.read("v.md")} == expected);
+}
+
 namespace {
 
 /// contct verify with one text of the table replaced.

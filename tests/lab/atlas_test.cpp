@@ -162,10 +162,12 @@ TEST_CASE("the same seed gives the same counts, another seed others") {
 TEST_CASE("more problems keep the first ones, and every one tried is told") {
   const atlas_cell asked{"fortran-r4", printed_epsmul, 1e-6, false};
   const atlas_cell few = filled(asked, 20);
-  atlas_cell more = asked;
-  int told = 0;
-  fill(more, {40, 1}, [&told] { ++told; });
-  CHECK(told == 40);
+  std::vector<atlas_cell> cells = {asked, filled(asked, 0)};
+  std::int64_t told = 0;
+  fill(cells, {40, 1}, 2, [&told](std::int64_t tried) { told += tried; });
+  CHECK(told == 2 * 40);
+  const atlas_cell& more = cells[0];
+  CHECK(cells[1].errors == more.errors);
   CHECK(more.problems == 40);
   CHECK(more.wrong >= few.wrong);
   CHECK(std::includes(more.errors.begin(), more.errors.end(), few.errors.begin(), few.errors.end()));

@@ -1,14 +1,19 @@
-// The corrected kernel on random problems, by the hundred thousand: contct_campaign [PROBLEMS] [SEED].
-// Prints the verdicts, and fails when a structure that its supports hold is not certified, when
-// an answer needed more tolerance than promised, or when too little was tried.
+// The corrected kernel on random problems, by the hundred thousand: contct_campaign [PROBLEMS [SEED]] [--jobs
+// N], in as many processes as there are processors unless --jobs says otherwise. Prints the verdicts, and
+// fails when a structure that its supports hold is not certified, when an answer needed more tolerance than
+// promised, or when too little was tried.
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "contct/certify/certificate.hpp"
+#include "contct/lab/packed.hpp"
 #include "contct/lab/random_problem.hpp"
+#include "contct/lab/workers.hpp"
 #include "contct/outside/registry.hpp"
 #include "support/tried_problem.hpp"
 
@@ -16,23 +21,50 @@ using namespace contct::app;
 
 namespace {
 
+/// What came of a problem.
+struct tried {
+  verdict came_to;
+  face_layout layout;
+  bool held, is_plate, from_fallback, snapped, at_rest;
+  int events;
+  double needed;
+};
+
 /// The verdicts on the problems of one kind.
 struct verdict_counts {
   std::array<long, verdicts> came_to{};
   long problems = 0, from_fallback = 0, snapped = 0, at_rest = 0, events = 0, needed_more = 0;
   double worst = 0.0;
 
-  void add(const problem_result& t, const path_counts& counted) {
+  void add(const tried& t) {
     ++problems;
     ++came_to[static_cast<int>(t.came_to)];
-    from_fallback += counted.fallbacks > 0 ? 1 : 0;
-    snapped += counted.snaps > 0 ? 1 : 0;
-    at_rest += counted.at_rest > 0 ? 1 : 0;
-    needed_more += needed_by(t) > 1e-8 ? 1 : 0;
-    events += counted.makes + counted.breaks;
-    worst = std::max(worst, needed_by(t));
+    from_fallback += t.from_fallback ? 1 : 0;
+    snapped += t.snapped ? 1 : 0;
+    at_rest += t.at_rest ? 1 : 0;
+    needed_more += t.needed > 1e-8 ? 1 : 0;
+    events += t.events;
+    worst = std::max(worst, t.needed);
   }
 };
+
+constexpr long problems_in_a_task = 64;
+
+/// The problems of one task.
+std::vector<tried> try_some(long task, long problems, long seed) {
+  const auto corrected = make_kernel("corrected");
+  std::vector<tried> all;
+  const long first = task * problems_in_a_task;
+  for (long number = first; number < std::min(problems, first + problems_in_a_task); ++number) {
+    const random_problem p = make_random_problem(seed, number);
+    path_counts counted;
+    const problem_result t = try_and_count(p, *corrected, counted);
+    all.push_back({t.came_to, p.layout, p.held, std::holds_alternative<plate>(p.geometry.kind),
+                   counted.fallbacks > 0, counted.snaps > 0, counted.at_rest > 0,
+                   counted.makes + counted.breaks, needed_by(t)});
+  }
+  return all;
+}
 
 void print(const std::string& name, const verdict_counts& t) {
   std::printf("%-24s %8ld", name.c_str(), t.problems);
@@ -58,25 +90,33 @@ bool expect(bool holds, const char* what) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool says_jobs = argc > 2 && std::string_view(argv[argc - 2]) == "--jobs";
+  const long jobs = says_jobs ? as_number(argv[argc - 1]) : 0;
+  if (says_jobs) argc -= 2;
   const long problems = argc > 1 ? as_number(argv[1]) : 200000;
   const long seed = argc > 2 ? as_number(argv[2]) : 2026;
-  const auto corrected = make_kernel("corrected");
   std::array<verdict_counts, 2> by_hold;
   std::array<std::array<verdict_counts, face_layouts>, 2> by_layout;
   verdict_counts plates;
-  for (long number = 0; number < problems; ++number) {
-    const random_problem p = make_random_problem(seed, number);
-    path_counts counted;
-    const problem_result t = try_and_count(p, *corrected, counted);
-    const std::size_t held = p.held ? 0 : 1;
-    by_hold[held].add(t, counted);
-    by_layout[held][static_cast<int>(p.layout)].add(t, counted);
-    if (std::holds_alternative<plate>(p.geometry.kind)) plates.add(t, counted);
-    if (t.came_to != verdict::certified && t.came_to != verdict::no_equilibrium) {
+  long number = 0;
+  const auto take = [&](const tried& t) {
+    const std::size_t held = t.held ? 0 : 1;
+    by_hold[held].add(t);
+    by_layout[held][static_cast<int>(t.layout)].add(t);
+    if (t.is_plate) plates.add(t);
+    if (t.came_to != verdict::certified && t.came_to != verdict::no_equilibrium)
       std::printf("problem %ld: %s, needed %.2e\n", number, std::string(name_of(t.came_to)).c_str(),
-                  needed_by(t));
-    }
-  }
+                  t.needed);
+    ++number;
+  };
+  do_tasks(
+      static_cast<int>(std::min(jobs, 1024L)), (problems - 1) / problems_in_a_task + 1,
+      [&](std::int64_t task) { return packed(try_some(task, problems, seed)); },
+      [&](std::int64_t, const std::string& result) {
+        std::vector<tried> all;
+        unpack(result, all);
+        for (const tried& t : all) take(t);
+      });
 
   std::printf("\n%ld problems, seed %ld\n%-24s %8s", problems, seed, "", "problems");
   for (int v = 0; v < verdicts; ++v)

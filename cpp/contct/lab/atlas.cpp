@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "contct/kernel/fortran.hpp"
+#include "contct/lab/packed.hpp"
+#include "contct/lab/workers.hpp"
 #include "contct/outside/registry.hpp"
 
 extern "C" {
@@ -18,6 +20,13 @@ void contct_call_epsmul(int variant, const double* dd, const double* dtest, cons
 }
 
 namespace contct::lab {
+
+template <class Visit>
+void pack(Visit& visit, atlas_cell& c) {
+  visit(c.kernel, c.epsmul, c.unit, c.held, c.problems, c.wrong, c.false_equilibrium, c.false_mechanism,
+        c.never_held, c.no_end, c.uncertified, c.errors);
+}
+
 namespace {
 
 class epsmul_variant final : public kernel {
@@ -51,6 +60,17 @@ std::unique_ptr<kernel> kernel_of(const atlas_cell& c) {
   return make_epsmul_variant(at - known.begin());
 }
 
+/// Try the problems `from` to `to` - 1 of a cell.
+void try_some(atlas_cell& c, const atlas_request& r, int from, int to) {
+  random_problem_kind kind;
+  kind.least_unit = kind.most_unit = c.unit;
+  kind.free_share = c.held ? 0.0 : 1.0;
+  for (int number = from; number < to; ++number) {
+    const std::unique_ptr<kernel> fresh = kernel_of(c);  // a kernel may keep state between calls
+    c.add(try_problem(make_random_problem(r.seed, number, kind), *fresh));
+  }
+}
+
 }  // namespace
 
 std::vector<double> epsmul_of_variants() {
@@ -78,6 +98,15 @@ void atlas_cell::add(const problem_result& t) {
   errors.insert(std::upper_bound(errors.begin(), errors.end(), t.displacement_error), t.displacement_error);
 }
 
+void atlas_cell::add(const atlas_cell& part) {
+  for (int atlas_cell::*count :
+       {&atlas_cell::problems, &atlas_cell::wrong, &atlas_cell::false_equilibrium,
+        &atlas_cell::false_mechanism, &atlas_cell::never_held, &atlas_cell::no_end, &atlas_cell::uncertified})
+    this->*count += part.*count;
+  const auto middle = errors.insert(errors.end(), part.errors.begin(), part.errors.end());
+  std::inplace_merge(errors.begin(), middle, errors.end());
+}
+
 confidence wilson(int hits, int tried) {
   constexpr double z = 1.959963984540054;  // the normal distribution has 95 % between -z and z
   const double n = tried;
@@ -102,15 +131,27 @@ std::vector<atlas_cell> atlas_cells() {
   return cells;
 }
 
-void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried) {
-  random_problem_kind kind;
-  kind.least_unit = kind.most_unit = c.unit;
-  kind.free_share = c.held ? 0.0 : 1.0;
-  for (int number = 0; number < r.problems; ++number) {
-    const std::unique_ptr<kernel> fresh = kernel_of(c);  // a kernel may keep state between calls
-    c.add(try_problem(make_random_problem(r.seed, number, kind), *fresh));
-    if (tried) tried();
-  }
+void fill(atlas_cell& c, const atlas_request& r) {
+  try_some(c, r, 0, r.problems);
+}
+
+void fill(std::vector<atlas_cell>& cells, const atlas_request& r, int jobs,
+          const std::function<void(std::int64_t more)>& tried) {
+  constexpr int problems_in_a_task = 16;
+  const int parts = (r.problems - 1) / problems_in_a_task + 1;  // of a cell
+  const auto work = [&](std::int64_t task) {
+    const atlas_cell& c = cells[task / parts];
+    const int from = static_cast<int>(task % parts) * problems_in_a_task;
+    atlas_cell part{c.kernel, c.epsmul, c.unit, c.held};
+    try_some(part, r, from, std::min(r.problems, from + problems_in_a_task));
+    return packed(part);
+  };
+  do_tasks(jobs, std::ssize(cells) * parts, work, [&](std::int64_t task, const std::string& result) {
+    atlas_cell part;
+    unpack(result, part);
+    cells[task / parts].add(part);
+    if (tried) tried(part.problems);
+  });
 }
 
 }  // namespace contct::lab

@@ -46,6 +46,8 @@ struct atlas_cell {
 
   /// Count the result of one problem.
   void add(const problem_result& t);
+  /// Add what came of other problems in the same cell.
+  void add(const atlas_cell& part);
   /// The middle and the last of the errors; 0 when there is none.
   [[nodiscard]] double median_error() const { return errors.empty() ? 0.0 : errors[errors.size() / 2]; }
   [[nodiscard]] double worst_error() const { return errors.empty() ? 0.0 : errors.back(); }
@@ -79,8 +81,13 @@ struct atlas {
 };
 
 /// Try the problems of a cell, numbers 0 and up of the seed: in every cell of a kind they are the same
-/// problems in another unit. `tried` is called after each.
-void fill(atlas_cell& c, const atlas_request& r, const std::function<void()>& tried = nullptr);
+/// problems in another unit.
+void fill(atlas_cell& c, const atlas_request& r);
+
+/// The same of all cells, in `jobs` processes (0: one for each processor); `tried` is told after some more
+/// how many problems that were.
+void fill(std::vector<atlas_cell>& cells, const atlas_request& r, int jobs,
+          const std::function<void(std::int64_t more)>& tried = nullptr);
 
 /// As CSV: a line a cell, and one of names before them.
 [[nodiscard]] std::string atlas_csv(const atlas& a);

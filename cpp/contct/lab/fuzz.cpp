@@ -6,12 +6,37 @@
 #include <iterator>
 
 #include "contct/kernel/contct.hpp"
+#include "contct/lab/packed.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/lab/random_problem.hpp"
+#include "contct/lab/workers.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct::lab {
+
+// What a worker sends of its part; found where it is packed, so in no namespace of this source alone.
+template <class Visit>
+void pack(Visit& visit, mismatch& m) {
+  visit(m.field, m.index, m.leader, m.follower, m.ulps);
+}
+template <class Visit>
+void pack(Visit& visit, mismatch_report& r) {
+  visit(r.call, r.leader, r.follower, r.where, r.decisions);
+}
+template <class Visit>
+void pack(Visit& visit, call_inputs<double>& in) {
+  visit(in.dd, in.dtest, in.cc, in.id, in.isep, in.isurf, in.dof);
+}
+template <class Visit>
+void pack(Visit& visit, follower_result& r) {
+  visit(r.compared, r.most_ulps, r.same_events, r.always_answered, r.first, r.calls);
+}
+template <class Visit>
+void pack(Visit& visit, campaign_result& r) {
+  visit(static_cast<campaign_counts&>(r), r.each);
+}
+
 namespace {
 
 constexpr std::int64_t calls_in_a_block = 2048;
@@ -118,16 +143,41 @@ void compare_texts(contest& c, call_source& source, std::span<const std::int64_t
   }
 }
 
-/// With a keeper, how much is put before it is told; a multiple of a block, so that calls come in the same
-/// blocks as without.
-constexpr std::int64_t calls_to_a_checkpoint = 4 * calls_in_a_block;
-constexpr std::int64_t problems_to_a_checkpoint = 16;
+/// What is one task, and what is put between two checkpoints. Kernels are made anew for each, so that the
+/// result depends neither on checkpoints nor on the number of jobs.
+constexpr std::int64_t calls_in_a_task = 4 * calls_in_a_block;
+constexpr std::int64_t problems_in_a_task = 16;
 constexpr std::size_t most_differing_problems = 40;
+
+/// Calls or problems of a task: `after` < number <= `last`, those of the shard.
+struct stretch {
+  bool of_problems;
+  std::int64_t after, last;
+};
+
+/// What came of a problem, or of calls: problem 0.
+struct part_result {
+  std::int64_t problem = 0;
+  campaign_result result;
+
+  template <class Visit>
+  friend void pack(Visit& visit, part_result& p) {
+    visit(p.problem, p.result);
+  }
+};
+
+std::vector<part_result> parts_of(const fuzz_request& r, const stretch& s) {
+  std::vector<part_result> parts;
+  if (!s.of_problems) parts.push_back({0, put_calls(r, s.after, s.last)});
+  std::int64_t number = s.of_problems ? next_of_shard(r, s.after) : s.last + 1;
+  for (; number <= s.last; number += r.shards) parts.push_back({number, follow_in_lockstep(r, number)});
+  return parts;
+}
 
 class fuzzing {
  public:
-  fuzzing(const fuzz_request& r, const fuzz_progress& progress, const fuzz_keeper& keeper)
-      : request_(r), progress_(progress), keeper_(keeper) {
+  fuzzing(const fuzz_request& r, const fuzz_progress& progress, const fuzz_keeper& keeper, int jobs)
+      : request_(r), progress_(progress), keeper_(keeper), jobs_(jobs) {
     now_.result.request = r;
     for (const std::string& name : std::span(r.kernels).subspan(1))
       now_.result.followers.emplace_back().name = name;
@@ -138,8 +188,7 @@ class fuzzing {
   fuzz_run run() {
     started_ = std::chrono::steady_clock::now();
     seconds_before_ = now_.result.seconds;
-    while (now_.calls_up_to < request_.calls) put_next_calls();
-    while (now_.problems_up_to < request_.problems) follow_next_problems();
+    do_all();
     for (fuzz_follower& f : now_.result.followers) conclude(f);
     take_time();
     run_.result = std::move(now_.result);
@@ -161,34 +210,47 @@ class fuzzing {
     }
   }
 
-  void put_next_calls() {
-    const std::int64_t done = now_.result.calls;
-    const std::int64_t last =
-        keeper_.keep ? std::min(request_.calls, now_.calls_up_to + calls_to_a_checkpoint * request_.shards)
-                     : request_.calls;
-    add(put_calls(request_, now_.calls_up_to, last,
-                  [&](std::int64_t more) {
-                    if (progress_) progress_(done + more, request_.calls / request_.shards, "calls");
-                  }),
-        0);
-    now_.calls_up_to = last;
+  /// What is left to do, in tasks of `step` numbers; the last of them ends at `most`.
+  struct tasks {
+    bool of_problems;
+    std::int64_t done, most, step;
+    [[nodiscard]] std::int64_t count() const { return done < most ? (most - done - 1) / step + 1 : 0; }
+    [[nodiscard]] stretch at(std::int64_t task) const {
+      const std::int64_t after = done + task * step;
+      return {of_problems, after, std::min(most, after + step)};
+    }
+  };
+
+  void do_all() {
+    const tasks calls{false, now_.calls_up_to, request_.calls, calls_in_a_task * request_.shards};
+    const tasks problems{true, now_.problems_up_to, request_.problems, problems_in_a_task * request_.shards};
+    const auto at = [&](std::int64_t task) {
+      return task < calls.count() ? calls.at(task) : problems.at(task - calls.count());
+    };
+    const auto work = [&](std::int64_t task) { return packed(parts_of(request_, at(task))); };
+    do_tasks(jobs_, calls.count() + problems.count(), work,
+             [&](std::int64_t task, const std::string& result) { take(at(task), result); });
+  }
+
+  void take(const stretch& done, const std::string& result) {
+    std::vector<part_result> parts;
+    unpack(result, parts);
+    for (const part_result& p : parts) add(p.result, p.problem);
+    (done.of_problems ? now_.problems_up_to : now_.calls_up_to) = done.last;
+    if (done.of_problems) take_problems(parts);
+    if (progress_ && done.of_problems)
+      progress_(now_.result.problems, request_.problems / request_.shards, "problems");
+    if (progress_ && !done.of_problems)
+      progress_(now_.result.calls, request_.calls / request_.shards, "calls");
     keep();
   }
 
-  void follow_next_problems() {
-    for (std::int64_t i = 0; i < problems_to_a_checkpoint; ++i) {
-      const std::int64_t number = next_of_shard(request_, now_.problems_up_to);
-      now_.problems_up_to = std::min(number, request_.problems);
-      if (number > request_.problems) break;
-      const campaign_result p = follow_in_lockstep(request_, number);
-      add(p, number);
-      for (const follower_result& its : p.each)
+  void take_problems(const std::vector<part_result>& parts) {
+    now_.result.problems += std::ssize(parts);
+    for (const part_result& p : parts)
+      for (const follower_result& its : p.result.each)
         if (its.first && now_.differing_problems.size() < most_differing_problems)
-          now_.differing_problems.push_back(number);
-      ++now_.result.problems;
-      if (progress_) progress_(now_.result.problems, request_.problems / request_.shards, "problems");
-    }
-    keep();
+          now_.differing_problems.push_back(p.problem);
   }
 
   /// The result of single calls, or of a problem's.
@@ -253,6 +315,7 @@ class fuzzing {
   const fuzz_request& request_;
   const fuzz_progress& progress_;
   const fuzz_keeper& keeper_;
+  int jobs_;
   std::chrono::steady_clock::time_point started_;
   double seconds_before_ = 0.0;
   fuzz_checkpoint now_;
@@ -304,12 +367,11 @@ void follower_result::add(const follower_result& other) {
   calls = other.calls;
 }
 
-campaign_result put_calls(const fuzz_request& r, const std::function<void(std::int64_t)>& progress) {
-  return put_calls(r, 0, r.calls, progress);
+campaign_result put_calls(const fuzz_request& r) {
+  return put_calls(r, 0, r.calls);
 }
 
-campaign_result put_calls(const fuzz_request& r, std::int64_t after, std::int64_t last,
-                          const std::function<void(std::int64_t)>& progress) {
+campaign_result put_calls(const fuzz_request& r, std::int64_t after, std::int64_t last) {
   contest c(r.kernels);
   call_source source(r.seed, c.leader->facts().real_bytes);
   call_outputs outputs;
@@ -323,7 +385,6 @@ campaign_result put_calls(const fuzz_request& r, std::int64_t after, std::int64_
     if (std::ssize(block) < calls_in_a_block) continue;
     compare_texts(c, source, block);
     block.clear();
-    if (progress) progress(c.result.calls);
   }
   compare_texts(c, source, block);
   return c.conclude([&](std::int64_t up_to) {
@@ -389,8 +450,8 @@ std::string floors_missed(const fuzz_result& r) {
          " each";
 }
 
-fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress, const fuzz_keeper& keeper) {
-  return fuzzing(r, progress, keeper).run();
+fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress, const fuzz_keeper& keeper, int jobs) {
+  return fuzzing(r, progress, keeper, jobs).run();
 }
 
 }  // namespace contct::lab

@@ -96,12 +96,10 @@ struct fuzz_request {
 /// Put the calls of `r`. SMIN, SS and ISEP are compared at once, the unit-26 text in blocks: reading it back
 /// after every call would cost several times the call. Throws std::invalid_argument for kernels that are
 /// unknown, or of another precision or rule.
-[[nodiscard]] campaign_result put_calls(const fuzz_request& r,
-                                        const std::function<void(std::int64_t done)>& progress = nullptr);
+[[nodiscard]] campaign_result put_calls(const fuzz_request& r);
 
 /// The same of the calls with numbers `after` < number <= `last` alone.
-[[nodiscard]] campaign_result put_calls(const fuzz_request& r, std::int64_t after, std::int64_t last,
-                                        const std::function<void(std::int64_t done)>& progress = nullptr);
+[[nodiscard]] campaign_result put_calls(const fuzz_request& r, std::int64_t after, std::int64_t last);
 
 /// Follow problem `number` with the leader, and put every call to the followers.
 [[nodiscard]] campaign_result follow_in_lockstep(const fuzz_request& r, std::int64_t number);
@@ -174,10 +172,11 @@ struct fuzz_keeper {
   std::function<void(const fuzz_checkpoint& reached)> keep;  ///< called every few thousand calls
 };
 
-/// Put the calls and problems of `r` to its kernels. With a keeper the kernels are made anew between
-/// checkpoints. Throws std::invalid_argument for kernels that cannot be compared.
+/// Put the calls and problems of `r` to its kernels, in `jobs` processes (0: one for each processor); the
+/// kernels are made anew every few thousand calls. Neither `jobs` nor a keeper changes the result. Throws
+/// std::invalid_argument for kernels that cannot be compared.
 [[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr,
-                                const fuzz_keeper& keeper = {});
+                                const fuzz_keeper& keeper = {}, int jobs = 1);
 
 /// A checkpoint as JSON, format "contct-fuzz-checkpoint-1".
 [[nodiscard]] std::string checkpoint_json(const fuzz_checkpoint& c);

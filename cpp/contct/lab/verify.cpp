@@ -4,17 +4,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "contct/compare/lockstep.hpp"
 #include "contct/exact/exact_follower.hpp"
 #include "contct/exact/exact_residual.hpp"
+#include "contct/lab/packed.hpp"
 #include "contct/lab/printed_number.hpp"
+#include "contct/lab/workers.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
 #include "contct/read/toml_reader.hpp"
 
 namespace contct::lab {
+
+template <class Visit>
+void pack(Visit& visit, certificate& c) {
+  visit(c.exact, c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension, c.rcond,
+        c.tolerance, c.independent, c.unique, c.unfounded, c.proof_tried, c.proved, c.error, c.allowed,
+        c.worst_share, c.problem, c.pulling, c.pull);
+}
+template <class Visit>
+void pack(Visit& visit, verified_number& n) {  // without what was expected
+  visit(n.computed, n.corrected, n.certified, n.passed, n.apart, n.exact_comparisons);
+}
+template <class Visit>
+void pack(Visit& visit, verified_case& c) {
+  visit(c.file, c.title, c.numbers, c.certificates, c.calls, c.mismatches, c.failure);
+}
+
 namespace {
 
 constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
@@ -381,6 +401,21 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   for (const expected_number& e : c.checks)
     out.numbers.push_back(judged_number(e, {listing, judged}, {corrected, judged_corrected}));
   return out;
+}
+
+void verify_cases(const std::vector<verification_case>& cases, const std::string& folder, int jobs,
+                  const std::function<void(const verified_case& verified)>& take) {
+  const auto work = [&](std::int64_t task) {
+    const verification_case& c = cases[task];
+    return packed(verify_case(c, read_problem((std::filesystem::path(folder) / c.file).string())));
+  };
+  do_tasks(jobs, std::ssize(cases), work, [&](std::int64_t task, const std::string& result) {
+    verified_case verified;
+    unpack(result, verified);
+    for (std::size_t i = 0; i < verified.numbers.size(); ++i)
+      verified.numbers[i].expected = cases[task].checks[i];
+    take(verified);
+  });
 }
 
 }  // namespace contct::lab

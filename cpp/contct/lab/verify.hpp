@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -124,5 +125,10 @@ struct verified_case {
 /// their certificates allow, which the table's numbers must agree with, too (see exact_disagreement). Not a
 /// bit may differ between FORTRAN and C++, and the corrected kernel's states must be certified.
 [[nodiscard]] verified_case verify_case(const verification_case& c, const problem& p);
+
+/// The same of all cases, whose problems are in `folder`, in `jobs` processes (0: one for each processor).
+/// `take` is told them in their order.
+void verify_cases(const std::vector<verification_case>& cases, const std::string& folder, int jobs,
+                  const std::function<void(const verified_case& verified)>& take);
 
 }  // namespace contct::lab
