@@ -276,7 +276,9 @@ class reference_solver::search {
         for (std::size_t i = 0; i < p.size(); ++i) p[i] = target[i] - u_[i];
       } else {
         put(*driven, p);
-        if (nothing_stops(p)) return end(outcome::no_equilibrium, false);
+        // Where an equilibrium exists, rounding has put a pair on the wrong side.
+        if (nothing_stops(p))
+          return end(exists_ == true ? outcome::not_found : outcome::no_equilibrium, false);
       }
       const long double alpha = driven ? best_step(p, -driven->work(), 0.0L) : best_step(p);
       if (!std::isfinite(alpha)) return end(why_endless(p), false);

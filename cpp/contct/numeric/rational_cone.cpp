@@ -50,7 +50,7 @@ class phase_one {
     return all;
   }
 
-  /// A part that lowers the cost: the one that does so most, in doubles. Where the last exchange lowered
+  /// A part that lowers the cost: the one that does so most, in doubles. Where many exchanges lowered
   /// nothing, Bland's, which is the first. A sign that rounding may decide is looked at exactly.
   [[nodiscard]] std::optional<std::size_t> one_that_helps() const {
     vector price(shares_.size());
@@ -69,7 +69,7 @@ class phase_one {
       const double off = 16 * std::numeric_limits<double>::epsilon() * size;
       if (gain < -off || (best && gain <= most)) continue;
       if (!(gain > off) && (best || !gains_exactly(price, part))) continue;
-      if (stalled_) return part;
+      if (stalled_ > patience) return part;
       best = part;
       most = gain;
     }
@@ -107,7 +107,7 @@ class phase_one {
       shares_[i] -= column[i] * least;
     }
     in_basis_[leaves] = enters;
-    stalled_ = least == 0;
+    stalled_ = least == 0 ? stalled_ + 1 : 0;
   }
 
   std::span<const vector> parts_;
@@ -115,7 +115,8 @@ class phase_one {
   std::vector<vector> inverse_;                       // of the basis
   vector shares_;                                     // none is negative
   std::vector<std::optional<std::size_t>> in_basis_;  // the part of each row; none: its artificial one
-  bool stalled_ = false;                              // the last exchange lowered no cost
+  static constexpr int patience = 32;
+  int stalled_ = 0;  // exchanges in a row that lowered no cost
 };
 
 }  // namespace
