@@ -65,7 +65,7 @@ const std::vector<stated_problem>& stated_problems() {
        102,
        {{exactly, 2}, {other_events, 2}}},
       {"held-by-a-hair", solved, {force(1, 2, "1e-16"), deflection(1, 4, "-1.88235")}, 33, {{exactly, 2}}},
-      {"plate-set-free",
+      {"plate-on-five-pairs",
        solved,
        {force(2, 1, "50.1722"), force(2, 4, "2519.36")},
        192,
