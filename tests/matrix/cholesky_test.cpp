@@ -1,5 +1,4 @@
 #include "contct/matrix/cholesky.hpp"
-#include "contct/matrix/lapack_identity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/matrix/lapack_identity.hpp"
 #include "contct/structure/problem.hpp"
 #include "support/matrices.hpp"
 

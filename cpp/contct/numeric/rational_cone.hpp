@@ -8,9 +8,9 @@
 
 namespace contct::numeric {
 
-/// Is `sum` [n] the sum of `parts`, each n numbers, with shares of which none is negative? The simplex method,
-/// by Bland's rule (1977) where it stalls, which does not cycle, on n equations. The parts may be many, and n is
-/// small.
+/// Is `sum` [n] the sum of `parts`, each n numbers, with shares of which none is negative? The simplex
+/// method, by Bland's rule (1977) where it stalls, which does not cycle, on n equations. The parts may be
+/// many, and n is small.
 [[nodiscard]] bool is_in_cone(const std::vector<rational>& sum, std::span<const std::vector<rational>> parts);
 
 }  // namespace contct::numeric

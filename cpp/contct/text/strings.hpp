@@ -41,9 +41,9 @@ struct escape {
 /// `printable` in quotation marks.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// A field or a line of a file for a message: the beginning, in quotation marks, of what looks like numbers or
-/// has at most 3 bytes; otherwise only how long it is, "a word of 5 bytes". A file that a problem names may
-/// hold what the message's reader must not see.
+/// A field or a line of a file for a message: the beginning, in quotation marks, of what looks like numbers
+/// or has at most 3 bytes; otherwise only how long it is, "a word of 5 bytes". A file that a problem names
+/// may hold what the message's reader must not see.
 [[nodiscard]] std::string field_words(std::string_view text, std::string_view kind = "a word");
 
 /// JSON in which characters that `terminal_text` escapes stand as \uNNNN: they can only be in its texts.

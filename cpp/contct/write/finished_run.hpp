@@ -155,7 +155,8 @@ inline constexpr std::array<structure_view, 4> all_views = {{
 /// One increment of the path, with events of its own: the path's are gone when it goes on.
 struct increment_record : increment {
   explicit increment_record(const increment& i)
-      : increment{i.step, i.number, i.s, i.fraction, {}, i.snaps, {}}, events(i.events.begin(), i.events.end()) {}
+      : increment{i.step, i.number, i.s, i.fraction, {}, i.snaps, {}},
+        events(i.events.begin(), i.events.end()) {}
 
   std::vector<event> events;
 };
