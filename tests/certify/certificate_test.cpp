@@ -535,3 +535,24 @@ TEST_CASE("unloaded, what only lies on its faces may stand anywhere above them, 
     CHECK_FALSE(c.steps()[0]->unique);
   }
 }
+
+TEST_CASE(
+    "a structure that lies beyond a face is not certified, whether or not there is a reference solution") {
+  for (const double shortest : {0.5, 1e-9}) {  // the reference solution has no factor for the second
+    problem p;
+    beam b;
+    b.x = {0, 1, 1 + shortest, 3};
+    b.EI = {92, 92, 92};
+    p.geometry.kind = b;
+    p.pairs = {{0, face_below, 0.0, 1e5, true}, {3, face_below, 0.0, 1e5, true}};
+    p.steps = {{}};
+    const linear_structure s = structure_of(p);
+    certifier judged(p, s);
+    const std::vector<double> u = {-1, 0, -1, 0, -1, 0, -1, 0};
+    const std::vector<int> isep = {separated, separated};
+    judged.step_ended({1, 1.0, u, isep, 1e-3});
+    CAPTURE(shortest, judged.steps()[0]->problem);
+    CHECK_FALSE(judged.steps()[0]->exact);
+    CHECK_FALSE(judged.steps()[0]->problem.empty());
+  }
+}

@@ -270,6 +270,23 @@ TEST_CASE("dropped from 100 lengths, a stiff beam has forces that carry its load
   CHECK(certified(e.end.bounds));
 }
 
+TEST_CASE("displacements that are rounding of nothing become 0, so that a held structure is certified") {
+  const one_end e(
+      "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = \"w\"\n[[contact]]\nnode = 2\n"
+      "surface = \"below\"\nface = -1\nstiffness = 1e5\n[[step]]\npoint = [ { node = 3, w = -7 } ]\n");
+  std::vector<double> u = {0.0, 3e-178, -2e-178, 1e-178, 0.0, -4e-178};
+  std::vector<int> isep = {separated};
+  error_prover prover(e.what, e.structure);
+  const std::optional<end_numbers> numbers = prover.refine(1, u, isep);
+  REQUIRE(numbers);
+  CHECK(u == std::vector<double>(6, 0.0));
+  CHECK(numbers->reactions[1] == 7.0);
+  const error_bounds b =
+      prover.bound({1, u, numbers->pair_forces, numbers->reactions, numbers->element_values});
+  CHECK(b.error[quantity::w] == 0.0);
+  CHECK(certified(b));
+}
+
 TEST_CASE("a beam at x = 1e8 has the moments of one at 0") {
   const one_end e(
       "[beam]\nx = [100000000, 100000000.1, 100000000.2]\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", "

@@ -43,7 +43,7 @@ TEST_CASE("a count above its ceiling, and one below its floor, is a breach") {
 }
 
 TEST_CASE("ceilings are those of one count and seed, and a row that is cut short is refused") {
-  const std::string row = "drops 1 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 7\n";
+  const std::string row = "drops 1 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 7\n";
   std::istringstream two("[10 1]\n" + row + "[20 1]\n" + row + "pairs-alone" + row.substr(5));
   CHECK(read_ceilings(two, 20, 1).size() == 2);
   two.clear();
@@ -53,7 +53,7 @@ TEST_CASE("ceilings are those of one count and seed, and a row that is cut short
   two.seekg(0);
   CHECK(read_ceilings(two, 30, 1).empty());
   for (const char* wrong :
-       {"[10 1]\ndrops 1 2 0 0\n", "[10 1]\ndrops 1 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 7 8\n"}) {
+       {"[10 1]\ndrops 1 2 0 0\n", "[10 1]\ndrops 1 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 7 8\n"}) {
     std::istringstream file(wrong);
     CHECK_THROWS_WITH(read_ceilings(file, 10, 1), Contains("line 2"));
   }

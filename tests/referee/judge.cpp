@@ -105,8 +105,8 @@ double share(double error, double size) {
 /// Compares the states of one run with the exact ones.
 class comparing {
  public:
-  comparing(const problem& p, const exact_answer& exactly, judgement& j)
-      : p_(p), exactly_(exactly), result_(j) {}
+  comparing(const problem& p, const exact_answer& exactly, way how, judgement& j)
+      : p_(p), exactly_(exactly), is_refined_(how != way::listing), result_(j) {}
 
   void compare(const kept_state& k, const certificate& c) {
     const auto step = static_cast<std::size_t>(k.step - 1);
@@ -123,6 +123,7 @@ class comparing {
     compare_forces();
     compare_reactions();
     compare_digits();
+    compare_bounds(exactly_.unique[step] != 0);
   }
 
  private:
@@ -194,8 +195,15 @@ class comparing {
                                             claimed, there, judged_->exact ? ", certified" : "")});
   }
 
+  void compare_bounds(bool unique) {
+    if (!unique || !is_refined_ || !judged_->proved || judged_->exact) return;
+    result_.findings.push_back(
+        {fault::loose, judged_->worst_share, fmt::format("step {}: {}", kept_->step, judged_->problem)});
+  }
+
   const problem& p_;
   const exact_answer& exactly_;
+  bool is_refined_;
   judgement& result_;
   const exact_step_end* state_ = nullptr;  // of the step that is compared, as are those below
   const kept_state* kept_ = nullptr;
@@ -243,9 +251,10 @@ std::string_view name_of(way w) {
 }
 
 std::string_view name_of(fault f) {
-  constexpr std::string_view names[] = {
-      "out-w",  "out-slope", "out-force",  "out-react", "off-w",     "off-slope", "off-force", "off-react",
-      "digits", "solved!",   "mechanism!", "refused",   "other-end", "events",    "fallback",  "exactly"};
+  constexpr std::string_view names[] = {"out-w",     "out-slope",  "out-force", "out-react", "off-w",
+                                        "off-slope", "off-force",  "off-react", "loose",     "digits",
+                                        "solved!",   "mechanism!", "refused",   "other-end", "events",
+                                        "fallback",  "exactly"};
   return names[static_cast<int>(f)];
 }
 
@@ -307,7 +316,7 @@ judgement judge(const structure::problem& p, const exact_answer& exactly, way ho
   digit_counter counter(p, exactly.path);
   const judged_run run(p, how, {&counter}, *s, j);
   if (run.refused) return j;
-  comparing compared(p, exactly, j);
+  comparing compared(p, exactly, how, j);
   for (std::size_t i = 0; i < run.kept.states.size(); ++i)
     if (run.judged.steps()[i]) compared.compare(run.kept.states[i], *run.judged.steps()[i]);
   if (how == way::listing) return j;

@@ -22,7 +22,8 @@ inline constexpr int ways = 3;  ///< of the corrected rule
 /// What can be wrong with a run. `outside`: a number of a certified step is further off than the tolerance of
 /// its certificate, measured as that does: deflections and slopes by the largest that the path has seen, pair
 /// forces and reactions by the largest of the path. `beyond`: it is off by more than 1e-6 of the largest of
-/// its kind in its own state; a state of no load is measured by the largest of the path.
+/// its kind in its own state; a state of no load is measured by the largest of the path. `loose`: the bounds
+/// of a step are proved, but are too large to certify it, though it ends in the only equilibrium.
 enum class fault {
   outside_deflection,
   outside_slope,
@@ -32,6 +33,7 @@ enum class fault {
   beyond_slope,
   beyond_force,
   beyond_reaction,
+  loose,
   digits,           ///< a step claims at least half a digit more than its worst number has
   false_solution,   ///< solved where there is no equilibrium
   false_mechanism,  ///< no equilibrium found where there is one
@@ -41,7 +43,7 @@ enum class fault {
   fallback,         ///< the path could not reach the end of a step: its state is the reference solution's
   exactly,          ///< nor could it, in doubles: from some share on it is the exact path
 };
-inline constexpr int faults = 16;
+inline constexpr int faults = 17;
 [[nodiscard]] std::string_view name_of(fault f);
 
 /// A problem and its exact path.

@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
+#include "referee/hard_problems.hpp"
 
 using namespace contct::referee;
 using contct::exact::rational;
@@ -132,6 +133,17 @@ TEST_CASE("a matrix that is refused is noticed") {
   p.supports.clear();
   const judgement j = judge(p, exactly, way::default_engine);
   CHECK(count(j, fault::refused) == 1);
+}
+
+TEST_CASE("bounds that are proved but too large to certify are noticed") {
+  // Four masses in a row, held by 1e-14 alone, which could be the rounding of what is written as 1.
+  const contct::structure::problem p = make_hard_problem(2026, 69 / 2 / hard_kinds, hard_kind::soft_matrices);
+  const exact_answer exactly(p);
+  CHECK(count(judge(p, exactly, way::default_engine), fault::loose) == 1);
+  CHECK(count(judge(p, exactly, way::listing), fault::loose) == 0);
+  contct::structure::problem held = p;
+  std::get<contct::structure::assembled>(held.geometry.kind).free_motions = 0;
+  CHECK(judge(held, exactly, way::default_engine).findings.empty());
 }
 
 TEST_CASE("an event that is not exact is noticed") {

@@ -214,7 +214,8 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
   const bool reference_is_off = answer.how == outcome::not_found ||
                                 c.displacement_error * largest_length() >
                                     c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
-  if (c.problem.empty() || (c.proved && !c.unfounded && reference_is_off)) c.problem = of_proof;
+  const bool of_bounds = c.proved && !of_proof.empty();
+  if (c.problem.empty() || (of_bounds && !c.unfounded && reference_is_off)) c.problem = of_proof;
   c.exact = c.problem.empty();
 }
 

@@ -111,7 +111,7 @@ class error_prover {
   [[nodiscard]] bool correct(const true_loads& l, long_vector& u);
   [[nodiscard]] long_vector residual_of_set(const residual& r, std::span<const double_double> u,
                                             const std::vector<int>& closed) const;
-  [[nodiscard]] double correct_once(const long_vector& force, std::vector<double>& correction) const;
+  [[nodiscard]] double correction_for(const long_vector& force, std::vector<double>& correction) const;
   void settle_statuses(std::span<const double_double> u, const true_loads& l, std::span<int> isep) const;
   [[nodiscard]] end_numbers numbers_of(std::span<const double_double> u, std::span<const int> isep) const;
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
