@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "contct/distributed/ranks.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
@@ -62,7 +63,8 @@ std::string chosen_engine(const std::string& name, const linear_structure& s) {
 problem read_with_progress(const std::string& file, const problem_limits& limits, bool quiet, literals keep) {
   problem p = [&] {
     const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
-    return read_problem(file, keep, limits.allow_outside ? reach::anywhere : reach::own_folder);
+    return read_problem(file, keep, limits.allow_outside ? reach::anywhere : reach::own_folder,
+                        distributed::joined_ranks());
   }();
   for (const std::string& w : p.warnings) complain("warning: {}", whole_line(w));
   return p;
@@ -70,7 +72,7 @@ problem read_with_progress(const std::string& file, const problem_limits& limits
 
 linear_structure build_with_progress(const problem& p, bool quiet) {
   const std::jthread here = shown_activity("building the structure", quiet);
-  return structure_of(p);
+  return structure_of(p, distributed::joined_ranks());
 }
 
 path_progress::path_progress(std::size_t steps, bool quiet)

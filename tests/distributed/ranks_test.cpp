@@ -14,6 +14,15 @@ TEST_CASE("a process has joined no ranks until it says so") {
         const contct::matrix::sparse_columns& /*a*/) override {
       return nullptr;
     }
+    [[nodiscard]] std::unique_ptr<contct::matrix::remote_matrix> stiffness_of(
+        const contct::structure::plate& /*p*/) override {
+      return nullptr;
+    }
+    [[nodiscard]] std::unique_ptr<contct::matrix::remote_matrix> read_stiffness(const std::string& /*path*/,
+                                                                                const std::string& /*name*/,
+                                                                                int /*rows*/) override {
+      return nullptr;
+    }
     void leave() noexcept override {}
   } alone;
   CHECK(joined_ranks() == nullptr);

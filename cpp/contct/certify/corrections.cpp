@@ -155,14 +155,19 @@ true_loads error_prover::loads_at(int step, double share) const {
     return l;
   }
   const true_loads before = true_.loads(step - 1);
+  long_vector moved(true_.dofs());
+  bool any = false;
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
     l.force[dof] = before.force[dof] + (l.force[dof] - before.force[dof]) * share;
     l.size[dof] += before.size[dof];
     const double moves = std::abs(l.settlement[dof].hi) + std::abs(before.settlement[dof].hi);
     l.settlement[dof] = before.settlement[dof] + (l.settlement[dof] - before.settlement[dof]) * share;
-    if (moves == 0.0) continue;
-    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at)  // what cancels in the sum
-      l.size[true_.k.columns[at]] += true_.root[dof] * true_.root[true_.k.columns[at]] * moves;
+    moved[dof] = moves;
+    any = any || moves != 0.0;
+  }
+  if (any) {  // what cancels in the sum
+    long_vector none(true_.dofs());
+    true_.add_product(moved, none, l.size);
   }
   return l;
 }

@@ -48,7 +48,7 @@ handed_out handed_out_at(const problem& p, const step_state& s) {
 error_prover::error_prover(const problem& p, const linear_structure& s, exact_residual exactly)
     : problem_(p),
       structure_(s),
-      true_(true_system_of(p)),
+      true_(true_system_of(p, s.stiffness.is_remote() ? &s.stiffness.others() : nullptr)),
       stiffness_(true_, rows_of(s),
                  s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt),
       exactly_(std::move(exactly)) {}
@@ -94,19 +94,12 @@ error_prover::residual error_prover::residual_of(std::span<const double_double> 
       return r;
     }
   }
-  for (std::size_t dof = 0; dof < n; ++dof) {
-    double_double sum = -l.force[dof];
-    double size = l.size[dof];
-    bool moves = false;
-    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
-      const int column = true_.k.columns[at];
-      sum += true_.k.values[at] * u[column];
-      moves = moves || u[column].hi != 0.0;
-      size += true_.root[dof] * true_.root[column] * std::abs(u[column].hi);
-    }
-    r.needed[dof] = sum;
-    r.slack[dof] = moves ? std::max(size, std::numeric_limits<double>::min()) : size;  // it may underflow
-  }
+  for (std::size_t dof = 0; dof < n; ++dof) r.needed[dof] = -l.force[dof];
+  r.slack = l.size;
+  true_.add_product(u, r.needed, r.slack);
+  if (std::ranges::any_of(u, [](const double_double& x) { return x.hi != 0.0; }))
+    for (double& size : r.slack)
+      size = std::max(size, std::numeric_limits<double>::min());  // it may underflow
   for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
     const true_pair& p = true_.pairs[i];
     const double_double deep = depth(i, u);
@@ -126,11 +119,13 @@ std::optional<double> error_prover::norm_of(const residual& r, double mu) {
   std::vector<double> e(n);
   long_vector left = r.force;
   long_vector product;
+  std::vector<double> sizes;  // of the products in row i
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t dof = 0; dof < n; ++dof) e[dof] = left[dof].hi;
     stiffness_.solve(e);
     for (std::size_t dof = 0; dof < n; ++dof) z[dof] += e[dof];
-    product = stiffness_.times(z);
+    if (pass == 1) sizes.assign(n, 0.0);
+    product = stiffness_.times(z, sizes);
     for (std::size_t dof = 0; dof < n; ++dof)
       left[dof] = true_.fixed[dof] != 0 ? double_double(0.0) : r.force[dof] - product[dof];
   }
@@ -140,9 +135,7 @@ std::optional<double> error_prover::norm_of(const residual& r, double mu) {
   for (std::size_t dof = 0; dof < n; ++dof) {
     if (true_.fixed[dof] != 0) continue;
     work += z[dof] * (r.force[dof] + left[dof]);
-    double size = 0.0;
-    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at)
-      size += true_.root[dof] * true_.root[true_.k.columns[at]] * std::abs(z[true_.k.columns[at]].hi);
+    double size = sizes[dof];
     const double root = 1.0 / stiffness_.scale(dof);
     size += root * root * std::abs(z[dof].hi) * 2;  // the springs of A
     const double off = r.slack[dof] + 2 * true_rounding * size;
@@ -199,7 +192,9 @@ bool error_prover::proves(const std::vector<int>& closed) {
 
 bool error_prover::last_digits_decide() const {
   const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
-  if (a == nullptr || a->free_motions || a->stiffness.last_digits.empty()) return false;
+  if (a == nullptr || a->free_motions) return false;
+  if (a->remote) return remote_digits_decide(*a->remote);
+  if (a->stiffness.last_digits.empty()) return false;
   std::vector<double> rows(true_.dofs());  // of S H S, where H has the half units
   for (std::size_t i = 0; i < a->stiffness.entries.size(); ++i) {
     const matrix_entry& e = a->stiffness.entries[i];
@@ -211,12 +206,25 @@ bool error_prover::last_digits_decide() const {
   return !(std::ranges::max(rows) * (1 + of_sums) < mu_);
 }
 
+bool error_prover::remote_digits_decide(matrix::remote_matrix& k) const {
+  std::vector<double> scale(true_.dofs());
+  for (std::size_t dof = 0; dof < scale.size(); ++dof)
+    scale[dof] = true_.fixed[dof] != 0 ? 0.0 : stiffness_.scale(dof);
+  const std::vector<double> units = k.half_units(scale);
+  double largest = 0.0;
+  for (std::size_t dof = 0; dof < scale.size(); ++dof) largest = std::max(largest, scale[dof] * units[dof]);
+  return !(largest * (1 + of_sums) < mu_);
+}
+
 /// A: at first all pairs beyond their faces; those that are not so for certain leave it again.
 bool error_prover::find_closed(std::span<const double_double> u, const residual& r, error_bounds& b) {
   b.closed = pressed(u);
   for (int tries = 0; tries < 3; ++tries) {
     if (!proves(b.closed)) {
-      b.not_proved = "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
+      b.not_proved =
+          stiffness_.has_no_factor()
+              ? "the stiffness has no factor, which multigrid does without"
+              : "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
       return false;
     }
     if (last_digits_decide()) {

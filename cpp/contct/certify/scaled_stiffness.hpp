@@ -2,6 +2,7 @@
 // 32 digits, and a proof of its least eigenvalue (reference/certificate.md).
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,14 +30,19 @@ class scaled_stiffness {
   /// mu with S K_A S >= mu I; 0 where none can be proved. Takes a factorisation or more, and four solves.
   [[nodiscard]] double least_eigenvalue();
 
+  /// Does multigrid alone solve with it?
+  [[nodiscard]] bool has_no_factor() const {
+    return true_.remote && sparse_ && std::isinf(sparse_->most_entries());
+  }
+
   /// Did the last factor take 32 digits?
   [[nodiscard]] bool has_32_digits() const { return long_.has_value(); }
 
   /// K_A^-1 b, rounded to doubles, for b [dofs] that is 0 at fixed ones.
   void solve(std::span<double> b) const;
 
-  /// K_A x.
-  [[nodiscard]] long_vector times(std::span<const double_double> x) const;
+  /// K_A x; `sizes` as true_system::add_product has them.
+  [[nodiscard]] long_vector times(std::span<const double_double> x, std::span<double> sizes = {}) const;
 
   /// What least_eigenvalue finds has its proof kept, which takes one more band. Of sparse columns none is.
   void keep_proof() { keeps_proof_ = true; }
@@ -54,6 +60,7 @@ class scaled_stiffness {
   void each_entry(double shift, Put put) const;
   void solve_rows(std::span<double> x) const;
   [[nodiscard]] bool factor_in_doubles();
+  [[nodiscard]] bool factor_remotely(double shift);
   bool factor_in_32_digits();
   [[nodiscard]] double proved_below_estimate();
   [[nodiscard]] double least_estimate() const;
@@ -62,6 +69,7 @@ class scaled_stiffness {
   [[nodiscard]] std::optional<double> error_of_long_band(double shift);
   [[nodiscard]] stiffness_proof proof_of(const long_band& l, double shift) const;
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
+  [[nodiscard]] std::optional<double> error_of_remote(double shift);
   [[nodiscard]] double largest_row_of_error(const matrix::band_matrix& factor, double shift) const;
 
   const true_system& true_;

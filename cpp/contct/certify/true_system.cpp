@@ -5,56 +5,21 @@
 #include <optional>
 
 #include "contct/structure/element_formulas.hpp"
+#include "contct/structure/true_plate.hpp"
 
 namespace contct::certify {
 namespace {
 
 namespace formulas = structure::formulas;
 
-/// The points of a line, and the intervals between them, which are not differences of rounded points.
-struct line {
-  long_vector x, h;
-};
-
-/// Equal parts of the file's lengths where it gives lengths, otherwise number by number.
-line line_of(std::span<const double> x, std::span<const even_run> runs) {
-  line exactly;
-  exactly.x.push_back(long_decimal(x.front()));
-  if (runs.empty()) {
-    for (std::size_t i = 1; i < x.size(); ++i) {
-      exactly.x.push_back(long_decimal(x[i]));
-      exactly.h.push_back(decimal_difference(x[i], x[i - 1]));
-    }
-  }
-  double start = x.front();
-  for (const even_run& run : runs) {
-    const double_double from = exactly.x.back();
-    const double_double length = decimal_difference(run.end, start);
-    for (int i = 1; i <= run.elements; ++i) {
-      exactly.x.push_back(from + length * i / run.elements);
-      exactly.h.push_back(length / run.elements);
-    }
-    start = run.end;
-  }
-  return exactly;
-}
-
 /// Half of each interval beside a point.
-long_vector tributary(const line& l) {
+long_vector tributary(const long_line& l) {
   long_vector lengths(l.x.size());
   for (std::size_t i = 0; i < l.h.size(); ++i) {
     lengths[i] += l.h[i] / 2;
     lengths[i + 1] += l.h[i] / 2;
   }
   return lengths;
-}
-
-/// D, or E t^3 / 12 (1 - nu^2) where the file has these.
-double_double stiffness_of(const plate& p) {
-  if (p.E == 0.0) return long_decimal(p.D);
-  const double_double t = long_decimal(p.thickness);
-  const double_double nu = long_decimal(p.nu);
-  return long_decimal(p.E) * t * t * t / (12 * (1 - nu * nu));
 }
 
 /// Collects entries row by row.
@@ -220,7 +185,7 @@ class true_beam {
   }
 
   const beam& beam_;
-  line line_;
+  long_line line_;
   long_vector EI_;
 };
 
@@ -234,15 +199,8 @@ class true_plate {
         nu_(long_decimal(p.nu)) {}
 
   void assemble(sparse_rows& k) const {
-    std::optional<halves> last;
-    std::array<std::array<double_double, 12>, 12> matrix;
-    for (int e = 0; e < plate_.elements(); ++e) {
-      const halves size = halves_of(e);
-      if (!last || !(last->a == size.a && last->b == size.b))
-        matrix = formulas::plate_stiffness(size.a, size.b, D_, nu_);
-      last = size;
-      add_element(k, matrix, plate_.dofs_of(e));
-    }
+    true_element_stiffness stiffness(plate_);
+    for (int e = 0; e < plate_.elements(); ++e) add_element(k, stiffness(e), plate_.dofs_of(e));
   }
 
   void add_distributed(const load& l, true_loads& f) const {
@@ -330,7 +288,7 @@ class true_plate {
   }
 
   const plate& plate_;
-  line x_, y_;
+  long_line x_, y_;
   double_double D_, nu_;
 };
 
@@ -412,23 +370,48 @@ true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
   return f;
 }
 
+/// K here, with the elastic supports.
 template <class Kind>
-void fill(const problem& p, const Kind& kind, true_system& t) {
+void assemble(const problem& p, const Kind& kind, true_system& t) {
+  const int per_node = dofs_per_node(p.geometry);
+  sparse_rows rows(t.dofs());
+  kind.assemble(rows);
+  for (const support& s : p.supports)
+    if (const int dof = s.node * per_node + s.dof; !s.fixed) rows.at(dof, dof) += long_decimal(s.spring);
+  for (int dof = 0; dof < static_cast<int>(t.dofs()); ++dof) t.diagonal.push_back(rows.at(dof, dof));
+  t.k = rows.packed();
+}
+
+/// K on the ranks of a job, and the elastic supports here.
+void assemble_remotely(const problem& p, matrix::remote_matrix& k, true_system& t) {
+  const auto* const a = std::get_if<assembled>(&p.geometry.kind);
+  t.remote = a != nullptr ? a->remote->truth() : k.truth();
+  t.diagonal = t.remote->diagonal();
+  t.supports.assign(t.dofs(), 0.0);
+  for (const support& s : p.supports) {
+    if (s.fixed) continue;
+    const int dof = s.node * dofs_per_node(p.geometry) + s.dof;
+    t.supports[dof] += long_decimal(s.spring);
+    t.diagonal[dof] += long_decimal(s.spring);
+  }
+}
+
+template <class Kind>
+void fill(const problem& p, const Kind& kind, matrix::remote_matrix* remote, true_system& t) {
   const std::size_t n = dofs(p.geometry);
   const int per_node = dofs_per_node(p.geometry);
-  sparse_rows rows(n);
-  kind.assemble(rows);
   t.fixed.assign(n, 0);
-  for (const support& s : p.supports) {
-    const int dof = s.node * per_node + s.dof;
-    if (s.fixed) t.fixed[dof] = 1;
-    if (!s.fixed) rows.at(dof, dof) += long_decimal(s.spring);
+  for (const support& s : p.supports)
+    if (s.fixed) t.fixed[s.node * per_node + s.dof] = 1;
+  if (remote != nullptr) {
+    assemble_remotely(p, *remote, t);
+  } else {
+    assemble(p, kind, t);
   }
   for (int dof = 0; dof < static_cast<int>(n); ++dof) {
-    t.root.push_back(std::sqrt(rows.at(dof, dof).hi) * (1 + 0x1p-50));
+    t.root.push_back(std::sqrt(t.diagonal[dof].hi) * (1 + 0x1p-50));
     t.deflects.push_back(dof % per_node == 0 ? 1 : 0);
   }
-  t.k = rows.packed();
   t.span = kind.span();
   add_pairs(p, kind, t);
   t.loads = [&p, kind](int step) { return loads_of_step(p, kind, step); };
@@ -437,11 +420,39 @@ void fill(const problem& p, const Kind& kind, true_system& t) {
   };
 }
 
+/// Row i: K u, and where `sizes` is wanted sqrt(K_ii K_jj) |u_j|, added to what is there.
+void add_local_product(const true_system& t, std::span<const double_double> u, std::span<double_double> sum,
+                       std::span<double> sizes) {
+  for (std::size_t dof = 0; dof < t.dofs(); ++dof) {
+    double_double of_row = sum[dof];
+    double size = 0.0;
+    for (std::size_t at = t.k.starts[dof]; at < t.k.starts[dof + 1]; ++at) {
+      const int column = t.k.columns[at];
+      of_row += t.k.values[at] * u[column];
+      if (!sizes.empty()) size += t.root[column] * std::abs(u[column].hi);
+    }
+    sum[dof] = of_row;
+    if (!sizes.empty()) sizes[dof] += t.root[dof] * size;
+  }
+}
+
 }  // namespace
 
-true_system true_system_of(const problem& p) {
+void true_system::add_product(std::span<const double_double> u, std::span<double_double> sum,
+                              std::span<double> sizes) const {
+  if (!remote) return add_local_product(*this, u, sum, sizes);
+  const long_vector product = remote->times(u);
+  for (std::size_t dof = 0; dof < dofs(); ++dof) sum[dof] += product[dof] + supports[dof] * u[dof];
+  if (sizes.empty()) return;
+  std::vector<double> magnitudes(dofs());
+  for (std::size_t dof = 0; dof < dofs(); ++dof) magnitudes[dof] = root[dof] * std::abs(u[dof].hi);
+  magnitudes = remote->sums(magnitudes);
+  for (std::size_t dof = 0; dof < dofs(); ++dof) sizes[dof] += root[dof] * magnitudes[dof];
+}
+
+true_system true_system_of(const problem& p, matrix::remote_matrix* remote) {
   true_system t;
-  std::visit([&](const auto& geometry) { fill(p, truly(geometry), t); }, p.geometry.kind);
+  std::visit([&](const auto& geometry) { fill(p, truly(geometry), remote, t); }, p.geometry.kind);
   return t;
 }
 

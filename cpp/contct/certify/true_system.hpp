@@ -4,10 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "contct/matrix/remote_matrix.hpp"
 #include "contct/numeric/double_double.hpp"
 #include "contct/structure/problem.hpp"
 
@@ -59,10 +61,13 @@ struct element_value {
 using exact_residual = std::function<std::optional<long_vector>(int step, std::span<const double_double> u)>;
 
 struct true_system {
-  long_matrix k;               ///< of elements and elastic supports, rows of fixed dofs too
-  std::vector<double> root;    ///< [dofs] sqrt(K_ii), rounded up
-  std::vector<char> fixed;     ///< [dofs]
-  std::vector<char> deflects;  ///< [dofs] 1: a deflection, 0: a slope
+  long_matrix k;                                 ///< of elements and elastic supports, rows of fixed dofs too
+  std::unique_ptr<matrix::remote_truth> remote;  ///< of elements, in place of k: see linear_structure
+  long_vector supports;                          ///< [dofs] elastic ones, where K is remote
+  long_vector diagonal;                          ///< [dofs] of K
+  std::vector<double> root;                      ///< [dofs] sqrt(K_ii), rounded up
+  std::vector<char> fixed;                       ///< [dofs]
+  std::vector<char> deflects;                    ///< [dofs] 1: a deflection, 0: a slope
   std::vector<true_pair> pairs;
   double span = 0.0;  ///< the largest side of the structure; 0 where it has none
   /// Loads at the end of a step, from 1.
@@ -71,9 +76,14 @@ struct true_system {
   std::function<std::vector<element_value>(int step, std::span<const double_double> u)> element_values;
 
   [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
+
+  /// sum += K u; and sizes_i += the sum of sqrt(K_ii K_jj) |u_j| over the entries of row i, unless `sizes` is
+  /// empty. All [dofs].
+  void add_product(std::span<const double_double> u, std::span<double_double> sum,
+                   std::span<double> sizes = {}) const;
 };
 
-/// `p` must outlive it.
-[[nodiscard]] true_system true_system_of(const problem& p);
+/// `p` must outlive it. `remote`: the structure's stiffness where the ranks of a job have it.
+[[nodiscard]] true_system true_system_of(const problem& p, matrix::remote_matrix* remote = nullptr);
 
 }  // namespace contct::certify

@@ -3,11 +3,17 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "contct/matrix/remote_matrix.hpp"
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/rooms.hpp"
+
+namespace contct::structure {
+struct plate;
+}
 
 namespace contct::distributed {
 
@@ -32,6 +38,17 @@ class ranks {
   /// ranks know of.
   [[nodiscard]] virtual std::unique_ptr<matrix::sparse_factor> distribute(
       const matrix::sparse_columns& a) = 0;
+
+  /// Rank 0: a plate's stiffness, of which each rank assembles its own rows. Throws std::invalid_argument
+  /// where a number of it is not finite. What comes back must be destroyed before `leave`.
+  [[nodiscard]] virtual std::unique_ptr<matrix::remote_matrix> stiffness_of(const structure::plate& p) = 0;
+
+  /// Rank 0: the stiffness in a file, of which each rank reads a part: a Matrix Market file, or where `rows`
+  /// is not 0 one of CalculiX of so many rows. Throws input_error, with `name` for the file, as one process
+  /// would.
+  [[nodiscard]] virtual std::unique_ptr<matrix::remote_matrix> read_stiffness(const std::string& path,
+                                                                              const std::string& name,
+                                                                              int rows) = 0;
 
   /// Rank 0: the largest resident memory that each rank has had, in KiB.
   [[nodiscard]] virtual std::vector<long> peak_kib() = 0;

@@ -93,7 +93,11 @@ int digits_left(double rcond) {
 }
 
 stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
-  if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
+  if (k_.is_remote()) {
+    sparse_ = k_.others().make_factor();
+  } else if (!k_.is_band()) {
+    sparse_ = sparse_factor::make(k_.columns());
+  }
 }
 
 void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {

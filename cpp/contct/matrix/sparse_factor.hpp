@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -62,6 +63,10 @@ class sparse_factor {
 
   /// Products and sums that a factorisation takes.
   [[nodiscard]] virtual double flops() const = 0;
+
+  /// No fewer than the entries of L that the last factorisation computed, each as a sum of products in some
+  /// order. Infinite where that is not known.
+  [[nodiscard]] virtual double most_entries() const { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace contct::matrix

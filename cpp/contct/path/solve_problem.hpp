@@ -32,13 +32,14 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
 }
 
 /// The structure that a problem describes; the supports that its steps move are built to settle.
-[[nodiscard]] inline linear_structure structure_of(const problem& p) {
+/// `among`: as build has it.
+[[nodiscard]] inline linear_structure structure_of(const problem& p, distributed::ranks* among = nullptr) {
   std::vector<support> supports = p.supports;
   std::set<std::pair<int, int>> settling;
   for (const load& l : p.steps)
     for (const prescribed_displacement& g : l.settlements) settling.emplace(g.node, g.dof);
   for (support& s : supports) s.settles = s.fixed && settling.contains({s.node, s.dof});
-  return build(p.geometry, supports, p.pairs);
+  return build(p.geometry, supports, p.pairs, among);
 }
 
 /// The loads of a problem's steps, as follow_path takes them. `p` and its structure must outlive them.

@@ -335,6 +335,11 @@ bool place_dofs(const assembled& a, placed_nodes& places) {
 }
 
 void add_coupling_edges(const assembled& a, placed_nodes& places) {
+  if (a.remote) {
+    places.said.emplace_back(
+        "No edges are drawn, only nodes: several processes have the matrix, each its rows.");
+    return;
+  }
   std::vector<std::pair<int, int>> couples;
   for (const matrix_entry& e : a.stiffness.entries) {
     const int one = places.dofs[e.row].node;

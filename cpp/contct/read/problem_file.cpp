@@ -41,15 +41,16 @@ double rounded_down(double x) {
 /// Reads one file into one problem, table by table.
 class problem_reader {
  public:
-  problem_reader(const toml::table& document, std::string_view file, literals keep, reach allowed)
-      : keep_(keep), files_(file, allowed), top_(document, "", file) {}
+  problem_reader(const toml::table& document, std::string_view file, literals keep, reach allowed,
+                 distributed::ranks* among)
+      : keep_(keep), among_(among), files_(file, allowed), top_(document, "", file) {}
 
   problem read() {
     top_.allow_only(
         {"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
     if (top_.has("title")) problem_.title = top_.text("title");
     if (top_.has("units")) read_units(top_.table("units"));
-    problem_.geometry = read_model(top_, files_, keep_);
+    problem_.geometry = read_model(top_, files_, keep_, among_);
     places_.emplace(problem_.geometry);
     fixed_.assign(dofs(problem_.geometry), 0);
     if (places_->on_matrix() && top_.has("bed"))
@@ -242,6 +243,7 @@ class problem_reader {
   }
 
   literals keep_;
+  distributed::ranks* among_;
   named_files files_;
   table_reader top_;
   problem problem_;
@@ -252,16 +254,17 @@ class problem_reader {
 
 }  // namespace
 
-problem parse_problem(std::string_view text, std::string_view file, literals keep, reach allowed) {
+problem parse_problem(std::string_view text, std::string_view file, literals keep, reach allowed,
+                      distributed::ranks* among) {
   const toml::table document = parse_toml(text, file);
-  problem p = problem_reader(document, file, keep, allowed).read();
+  problem p = problem_reader(document, file, keep, allowed, among).read();
   if (keep == literals::kept) p.written = written_numbers(document, text, file);
   return p;
 }
 
-problem read_problem(const std::string& path, literals keep, reach allowed) {
+problem read_problem(const std::string& path, literals keep, reach allowed, distributed::ranks* among) {
   const std::string file = path == "-" ? "standard input" : path;
-  return parse_problem(read_input(path), file, keep, allowed);
+  return parse_problem(read_input(path), file, keep, allowed, among);
 }
 
 }  // namespace contct::read

@@ -46,7 +46,7 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
 namespace {
 
 stiffness_factor factor_of(const stiffness_matrix& k, factored_by how) {
-  if (how != factored_by::ranks) return stiffness_factor(k);
+  if (how != factored_by::ranks || k.is_remote()) return stiffness_factor(k);
   distributed::ranks* const all = distributed::joined_ranks();
   if (all == nullptr) throw std::logic_error("no ranks are joined that could factor a stiffness");
   return {k, all->distribute(k.columns())};

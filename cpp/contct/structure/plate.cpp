@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "contct/distributed/ranks.hpp"
 #include "contct/structure/plate_element.hpp"
+#include "contct/structure/plate_rows.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct::structure {
@@ -242,12 +245,30 @@ std::array<curvature, 4> curvatures_at_corners(const plate_element& e, const ele
   return at;
 }
 
-linear_structure build(const plate& p, std::span<const support> supports, std::vector<contact_pair> pairs) {
+matrix::full_rows<double> stiffness_rows(const plate& p, int first, int count) {
+  element_matrix12 k{};
+  matrix::full_rows<double> all = rows_of<double>(p, first, count, [&](int e) -> const element_matrix12& {
+    k = stiffness_of(element_of(p, e));
+    for (std::size_t i = 0; i < 12; ++i)
+      for (std::size_t j = i + 1; j < 12; ++j) k[i][j] = k[j][i];
+    return k;
+  });
+  if (!std::ranges::all_of(all.values, [](double x) { return std::isfinite(x); }))
+    throw std::invalid_argument("the stiffness of an element is not a finite number");
+  return all;
+}
+
+linear_structure build(const plate& p, std::span<const support> supports, std::vector<contact_pair> pairs,
+                       distributed::ranks* among) {
   linear_structure s;
   s.dofs_per_node = plate::dofs_per_node;
-  s.stiffness = band_matrix(p.dofs(), 3 * (std::min(p.columns(), p.rows()) + 1) + 2);
-  s.rows = rows_along_shorter_side(p);
-  assemble_elements(p, s);
+  if (among != nullptr) {
+    s.stiffness = matrix::remote_rows(among->stiffness_of(p));
+  } else {
+    s.stiffness = band_matrix(p.dofs(), 3 * (std::min(p.columns(), p.rows()) + 1) + 2);
+    s.rows = rows_along_shorter_side(p);
+    assemble_elements(p, s);
+  }
   s.rigid_motions = 3;
   s.rigid_rows = rigid_rows_of(p);
   s.truth = std::make_shared<rigid_truth>(p);

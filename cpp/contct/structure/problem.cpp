@@ -39,7 +39,9 @@ std::array<double, 2> place_of(const assembled& /*a*/, int /*node*/) {
 
 }  // namespace
 
-linear_structure build(const model& m, std::span<const support> supports, std::vector<contact_pair> pairs) {
+linear_structure build(const model& m, std::span<const support> supports, std::vector<contact_pair> pairs,
+                       distributed::ranks* among) {
+  if (const auto* p = std::get_if<plate>(&m.kind)) return build(*p, supports, std::move(pairs), among);
   return std::visit([&](const auto& kind) { return build(kind, supports, std::move(pairs)); }, m.kind);
 }
 

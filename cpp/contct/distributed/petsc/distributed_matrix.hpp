@@ -1,8 +1,9 @@
-// A symmetric positive definite matrix that is distributed by rows, and its factor by MUMPS. Every function
+// A symmetric positive definite matrix that is distributed by rows, and its factor by MUMPS; or, where that
+// is too large, conjugate gradients with algebraic multigrid. Every function
 // is collective: all ranks call it, each for its own rows.
 #pragma once
 
-#include <petscmat.h>
+#include <petscksp.h>
 
 #include <span>
 #include <vector>
@@ -27,13 +28,17 @@ struct upper_rows {
   std::vector<double> values;
 };
 
+/// What motions that a structure has without its supports do at own rows [motions][own rows].
+using own_motions = std::vector<std::vector<double>>;
+
 /// How a factorisation came out; the same on every rank.
 enum class factored : int { yes, not_definite, no_memory, failed };
 
 class distributed_matrix {
  public:
-  /// Analyses the matrix: finds the order in which it is factored.
-  distributed_matrix(MPI_Comm job, int order, const upper_rows& own);
+  /// Analyses the matrix: finds the order in which it is factored. Where the factor would take more memory
+  /// than there is, no factor is made: `solve` takes conjugate gradients with algebraic multigrid.
+  distributed_matrix(MPI_Comm job, int order, const upper_rows& own, const own_motions& motions = {});
   ~distributed_matrix();
   distributed_matrix(const distributed_matrix&) = delete;
   distributed_matrix& operator=(const distributed_matrix&) = delete;
@@ -46,11 +51,15 @@ class distributed_matrix {
 
   /// Factor the matrix with `diagonal` for its own [own rows].
   [[nodiscard]] factored factor(std::span<const double> diagonal);
+  /// No fewer than the entries of the last factor; infinite where there is none.
+  [[nodiscard]] double entries() const;
   /// MUMPS' INFOG(1) and INFOG(2) of the last factorisation.
   [[nodiscard]] std::pair<int, int> mumps_said() const;
 
-  /// Solve in place [own rows].
+  /// Solve in place [own rows]. By conjugate gradients, until the residual is `residual_share` of b; throws
+  /// std::runtime_error where it does not become so small.
   void solve(std::span<double> b);
+  static constexpr double residual_share = 1e-10;
 
   /// Solve for the unit vectors of `units`, rows of the whole matrix; one of -1 leaves zeros. The solutions
   /// at those rows of `at` that this rank has, in their order, for all units each: [own of at][width].
@@ -59,13 +68,22 @@ class distributed_matrix {
 
  private:
   void analyse();
+  [[nodiscard]] bool fits() const;
+  void prepare_multigrid(const own_motions& motions);
+  [[nodiscard]] bool set_up_multigrid();
+  void solve_iteratively();
+  [[nodiscard]] std::vector<double> solve_units_iteratively(std::span<const int> units,
+                                                            std::span<const int> at, int width);
   [[nodiscard]] bool has(int row) const { return row >= rows_.first && row < rows_.first + rows_.count; }
 
   MPI_Comm job_;
   own_rows rows_;
   double flops_ = 0.0, bytes_ = 0.0;
   Mat matrix_ = nullptr;
-  Mat factor_ = nullptr;
+  Mat factor_ = nullptr;     // by MUMPS
+  KSP iterative_ = nullptr;  // in its place
+  Mat all_entries_ = nullptr;
+  MatNullSpace motions_ = nullptr;
   Mat solutions_ = nullptr;  // of a block of unit vectors; made when first asked for
   Vec b_ = nullptr, x_ = nullptr;
 };

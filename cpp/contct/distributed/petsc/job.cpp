@@ -17,60 +17,18 @@
 #include <string>
 #include <vector>
 
-#include "contct/distributed/petsc/shared_matrix.hpp"
+#include "contct/distributed/petsc/matrix_file.hpp"
+#include "contct/distributed/petsc/own_matrix.hpp"
+#include "contct/distributed/petsc/packed_plate.hpp"
+#include "contct/distributed/petsc/remote.hpp"
 #include "contct/distributed/ranks.hpp"
+#include "contct/text/input_text.hpp"
 
 namespace contct::distributed::petsc {
 namespace {
 
-enum class verb : int { make, factor, solve, solve_units, watch, drop, measure, leave };
-
-/// What rank 0 wants of all ranks.
-struct command {
-  verb what;
-  int matrix = 0;  // which
-  int count = 0;   // its order; rows to be watched
-  std::array<int, matrix::block_width> units = {};
-};
-
-/// What rank 0 gives with a command, or takes; null on other ranks.
-struct given {
-  const matrix::sparse_columns* matrix = nullptr;
-  double* vector = nullptr;                  // a diagonal, or a right-hand side that becomes the solution
-  const std::vector<int>* rows = nullptr;    // to be watched
-  std::vector<double>* solutions = nullptr;  // at these
-  long* peaks = nullptr;                     // [ranks]
-};
-
-class petsc_ranks;
-
-/// A distributed matrix in the hands of rank 0.
-class remote_factor final : public matrix::sparse_factor {
- public:
-  remote_factor(petsc_ranks& all, int number, const matrix::sparse_columns& a);
-  ~remote_factor() override;
-  [[nodiscard]] std::int64_t bytes() const override { return static_cast<std::int64_t>(bytes_); }
-  [[nodiscard]] bool factor(std::span<const double> diagonal) override;
-  void solve(std::span<double> b) override;
-  void solve_units(std::span<const int> rows, std::vector<double>& x) override;
-  [[nodiscard]] bool solve_units_at(std::span<const int> rows, std::span<const int> at,
-                                    std::vector<double>& x) override;
-  [[nodiscard]] bool update(int /*row*/, double /*k*/, bool /*add*/) override { return false; }
-  [[nodiscard]] matrix::sparse_columns lower() const override { throw no_such(); }
-  [[nodiscard]] const std::vector<int>& places() const override { throw no_such(); }
-  [[nodiscard]] double flops() const override { return flops_; }
-
- private:
-  [[nodiscard]] static std::logic_error no_such() {
-    return std::logic_error("a distributed factor cannot be read");
-  }
-  petsc_ranks& all_;
-  int number_;
-  double flops_ = 0.0, bytes_ = 0.0;
-};
-
 /// The job. What fails on a rank alone ends the job: the others wait for it.
-class petsc_ranks final : public ranks {
+class petsc_ranks final : public ranks, public commander {
  public:
   petsc_ranks() {
     MPI_Init(nullptr, nullptr);
@@ -102,7 +60,27 @@ class petsc_ranks final : public ranks {
   }
 
   [[nodiscard]] std::unique_ptr<matrix::sparse_factor> distribute(const matrix::sparse_columns& a) override {
-    return std::make_unique<remote_factor>(*this, made_++, a);
+    return std::make_unique<remote_factor>(*this, new_number(), a);
+  }
+
+  [[nodiscard]] std::unique_ptr<matrix::remote_matrix> stiffness_of(const structure::plate& p) override {
+    const std::vector<double> sent = packed(p);
+    std::string refused;
+    const int number = new_number();
+    (void)command_all({verb::assemble, number}, {.doubles = sent, .refused = &refused});
+    if (!refused.empty()) throw std::invalid_argument(refused);
+    return std::make_unique<remote_stiffness>(*this, number, p.dofs());
+  }
+
+  [[nodiscard]] std::unique_ptr<matrix::remote_matrix> read_stiffness(const std::string& path,
+                                                                      const std::string& name,
+                                                                      int rows) override {
+    const std::string names = path + '\0' + name;
+    std::string refused;
+    const int number = new_number();
+    const int order = command_all({verb::read, number, 0, rows}, {.marks = names, .refused = &refused});
+    if (!refused.empty()) throw text::input_error(refused);
+    return std::make_unique<remote_stiffness>(*this, number, order);
   }
 
   [[nodiscard]] std::vector<long> peak_kib() override {
@@ -111,12 +89,12 @@ class petsc_ranks final : public ranks {
     return peaks;
   }
 
-  /// Rank 0: all ranks do this; returns what `obey` does. `data` is what rank 0 gives or takes.
-  int command_all(command c, const given& g) {
+  int command_all(command c, const given& g) override {
     tell(c);
     return obey(c, g);
   }
-  [[nodiscard]] shared_matrix& at(int number) { return *matrices_.at(number); }
+  [[nodiscard]] shared_matrix& at(int number) override { return *matrices_.at(number); }
+  [[nodiscard]] int new_number() override { return made_++; }
 
  private:
   int obey(const command& c, const given& g) {
@@ -126,6 +104,8 @@ class petsc_ranks final : public ranks {
   }
 
   int act(const command& c, const given& g) {
+    if (c.what >= verb::make_truth && c.what <= verb::drop_truth) return act_on_truth(c, g);
+    if (c.what >= verb::assemble && c.what <= verb::drop_stiffness) return act_on_stiffness(c, g);
     switch (c.what) {
       case verb::make:
         matrices_[c.matrix] = std::make_unique<shared_matrix>(MPI_COMM_WORLD, c.count, g.matrix);
@@ -147,9 +127,136 @@ class petsc_ranks final : public ranks {
       case verb::measure:
         gather_peaks(g.peaks);
         break;
-      case verb::leave:
+      default:
         break;
     }
+    return 0;
+  }
+
+  int act_on_stiffness(const command& c, const given& g) {
+    if (c.what == verb::assemble) return assemble(c, g);
+    if (c.what == verb::read) return read(c, g);
+    own_matrix& own = stiffnesses_.at(c.from);
+    const auto give = [this](const auto& part, auto* found) {
+      auto all = gathered(MPI_COMM_WORLD, std::span(part));
+      if (found != nullptr) *found = std::move(all);
+    };
+    switch (c.what) {
+      case verb::copy:
+        stiffnesses_[c.matrix] = own;
+        break;
+      case verb::scale:
+        own.scale(everywhere(g.doubles));
+        break;
+      case verb::diagonal:
+        give(own.diagonal(), g.found);
+        break;
+      case verb::entries_in:
+        give(own.entries_in(everywhere(g.marks)), g.entries);
+        break;
+      case verb::times:
+        give(own.times(everywhere(g.longs)), g.found_longs);
+        break;
+      case verb::magnitudes:
+        give(own.magnitudes(everywhere(g.doubles)), g.found);
+        break;
+      case verb::half_units:
+        give(own.half_units(everywhere(g.doubles)), g.found);
+        break;
+      case verb::sums:
+        give(own.sums(everywhere(g.doubles)), g.found);
+        break;
+      case verb::to_factor: {
+        const std::vector<double> d = everywhere(g.doubles);
+        share(c.matrix, static_cast<int>(d.size()), upper_of(own.rows, d), own.rigid_motions(d));
+        break;
+      }
+      case verb::drop_stiffness:
+        stiffnesses_.erase(c.from);
+        break;
+      default:
+        break;
+    }
+    return 0;
+  }
+
+  int act_on_truth(const command& c, const given& g) {
+    if (c.what == verb::make_truth) {
+      truths_[c.matrix] = stiffnesses_.at(c.from).truth();
+      return 0;
+    }
+    const own_truth& own = truths_.at(c.from);
+    const auto give = [this](const auto& part, auto* found) {
+      auto all = gathered(MPI_COMM_WORLD, std::span(part));
+      if (found != nullptr) *found = std::move(all);
+    };
+    int widest = own.widest_row();
+    switch (c.what) {
+      case verb::true_diagonal:
+        give(own.diagonal(), g.found_decimals);
+        break;
+      case verb::true_times:
+        give(own.times(everywhere(g.decimals)), g.found_decimals);
+        break;
+      case verb::true_sums:
+        give(own.sums(everywhere(g.doubles)), g.found);
+        break;
+      case verb::widest_row:
+        MPI_Allreduce(MPI_IN_PLACE, &widest, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+        return widest;
+      case verb::truth_to_factor: {
+        const std::vector<double> d = everywhere(g.doubles);
+        share(c.matrix, static_cast<int>(d.size()), upper_of(own.rows, d), {});
+        break;
+      }
+      case verb::drop_truth:
+        truths_.erase(c.from);
+        break;
+      default:
+        break;
+    }
+    return 0;
+  }
+
+  template <class Number>
+  [[nodiscard]] static std::vector<Number> everywhere(std::span<const Number> whole) {
+    return from_rank_0(MPI_COMM_WORLD, whole);
+  }
+
+  void share(int number, int order, const upper_rows& own, const own_motions& motions) {
+    matrices_[number] = std::make_unique<shared_matrix>(MPI_COMM_WORLD, order, own, motions);
+  }
+
+  /// The order.
+  int read(const command& c, const given& g) {
+    const std::vector<char> names = everywhere(g.marks);
+    const auto end = std::find(names.begin(), names.end(), '\0');
+    try {
+      const own_matrix& own = stiffnesses_[c.matrix] =
+          read_own(MPI_COMM_WORLD, {{names.begin(), end}, {end + 1, names.end()}, c.count});
+      int order = own.rows.count();
+      MPI_Allreduce(MPI_IN_PLACE, &order, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+      return order;
+    } catch (const text::input_error& e) {  // on every rank, with the same words
+      stiffnesses_.erase(c.matrix);
+      if (g.refused != nullptr) *g.refused = e.what();
+      return 0;
+    }
+  }
+
+  /// A number that is not finite is refused by whichever rank finds it.
+  int assemble(const command& c, const given& g) {
+    const auto p = std::make_shared<const structure::plate>(unpacked(everywhere(g.doubles)));
+    std::string why;
+    try {
+      stiffnesses_[c.matrix] = matrix_of(p, own_rows(MPI_COMM_WORLD, p->dofs()));
+    } catch (const std::invalid_argument& e) {
+      why = e.what();
+    }
+    const std::vector<char> all = gathered_everywhere(MPI_COMM_WORLD, std::span<const char>(why));
+    if (all.empty()) return 0;
+    stiffnesses_.erase(c.matrix);
+    if (g.refused != nullptr) *g.refused = why.empty() ? std::string(all.begin(), all.end()) : why;
     return 0;
   }
 
@@ -204,6 +311,8 @@ class petsc_ranks final : public ranks {
 
   void end() {
     matrices_.clear();
+    stiffnesses_.clear();
+    truths_.clear();
     (void)PetscFinalize();
     MPI_Barrier(MPI_COMM_WORLD);  // mpirun ends a job as soon as a rank ends with another status than 0
     MPI_Finalize();
@@ -211,51 +320,9 @@ class petsc_ranks final : public ranks {
 
   int own_ = 0, count_ = 1, made_ = 0;
   std::map<int, std::unique_ptr<shared_matrix>> matrices_;
+  std::map<int, own_matrix> stiffnesses_;
+  std::map<int, own_truth> truths_;
 };
-
-remote_factor::remote_factor(petsc_ranks& all, int number, const matrix::sparse_columns& a)
-    : all_(all), number_(number) {
-  (void)all_.command_all({verb::make, number_, a.order()}, {.matrix = &a});
-  flops_ = all_.at(number_).own().flops();
-  bytes_ = all_.at(number_).own().bytes();
-}
-
-remote_factor::~remote_factor() {
-  (void)all_.command_all({verb::drop, number_}, {});
-}
-
-bool remote_factor::factor(std::span<const double> diagonal) {
-  std::vector<double> copy(diagonal.begin(), diagonal.end());
-  const auto found =
-      static_cast<factored>(all_.command_all({verb::factor, number_}, {.vector = copy.data()}));
-  if (found == factored::no_memory) throw std::bad_alloc();
-  if (found != factored::failed) return found == factored::yes;
-  const auto [code, detail] = all_.at(number_).own().mumps_said();
-  throw std::runtime_error("MUMPS cannot factor the stiffness: INFOG(1) = " + std::to_string(code) +
-                           ", INFOG(2) = " + std::to_string(detail));
-}
-
-void remote_factor::solve(std::span<double> b) {
-  (void)all_.command_all({verb::solve, number_}, {.vector = b.data()});
-}
-
-bool remote_factor::solve_units_at(std::span<const int> rows, std::span<const int> at,
-                                   std::vector<double>& x) {
-  if (!all_.at(number_).watches(at)) {
-    std::vector<int> watched(at.begin(), at.end());
-    (void)all_.command_all({verb::watch, number_, static_cast<int>(watched.size())}, {.rows = &watched});
-  }
-  command c{verb::solve_units, number_, static_cast<int>(rows.size())};
-  std::copy(rows.begin(), rows.end(), c.units.begin());
-  (void)all_.command_all(c, {.solutions = &x});
-  return true;
-}
-
-void remote_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
-  std::vector<int> all(static_cast<std::size_t>(all_.at(number_).order()));
-  std::iota(all.begin(), all.end(), 0);
-  (void)solve_units_at(rows, all, x);
-}
 
 }  // namespace
 }  // namespace contct::distributed::petsc

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contct/distributed/petsc/distributed_matrix.hpp"
+#include "contct/distributed/petsc/messages.hpp"
 #include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
@@ -15,29 +16,6 @@ namespace contct::distributed::petsc {
 
 /// Right-hand sides that are solved for together.
 inline constexpr int width = static_cast<int>(matrix::block_width);
-
-/// The parts of a vector that the ranks have, in entries, and where they begin; on rank 0.
-struct parts {
-  std::vector<int> counts, starts;
-
-  void gather_counts(MPI_Comm job, int own) {
-    int ranks = 0;
-    MPI_Comm_size(job, &ranks);
-    counts.resize(static_cast<std::size_t>(ranks));
-    MPI_Gather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, job);
-    starts.assign(counts.size(), 0);
-    for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  }
-  [[nodiscard]] int all() const { return starts.back() + counts.back(); }
-};
-
-/// Sends to each rank its part of what rank 0 has in `all`.
-template <class Number>
-std::vector<Number> scattered(MPI_Comm job, const Number* all, const parts& p, int own, MPI_Datatype type) {
-  std::vector<Number> part(static_cast<std::size_t>(own));
-  MPI_Scatterv(all, p.counts.data(), p.starts.data(), type, part.data(), own, type, 0, job);
-  return part;
-}
 
 /// A matrix as its ranks have it, and what rank 0 knows of them.
 class shared_matrix {
@@ -48,16 +26,21 @@ class shared_matrix {
     rows_.gather_counts(job, rows.count);
     own_.emplace(job, order, own_part(rows, a));
   }
+  /// Of rows that every rank has already.
+  shared_matrix(MPI_Comm job, int order, const upper_rows& own, const own_motions& motions) : job_(job) {
+    rows_.gather_counts(job, static_cast<int>(own.starts.size()) - 1);
+    own_.emplace(job, order, own, motions);
+  }
 
   [[nodiscard]] distributed_matrix& own() { return *own_; }
   [[nodiscard]] int order() const { return rows_.all(); }  // on rank 0
 
   [[nodiscard]] factored factor(const double* diagonal) {
-    return own_->factor(scattered(job_, diagonal, rows_, own_->rows().count, MPI_DOUBLE));
+    return own_->factor(scattered(job_, diagonal, rows_, own_->rows().count));
   }
 
   void solve(double* b) {
-    std::vector<double> part = scattered(job_, b, rows_, own_->rows().count, MPI_DOUBLE);
+    std::vector<double> part = scattered(job_, b, rows_, own_->rows().count);
     own_->solve(part);
     MPI_Gatherv(part.data(), own_->rows().count, MPI_DOUBLE, b, rows_.counts.data(), rows_.starts.data(),
                 MPI_DOUBLE, 0, job_);
@@ -106,13 +89,13 @@ class shared_matrix {
       }
     }
     upper_rows own;
-    for (const int length : scattered(job_, lengths.data(), rows_, rows.count, MPI_INT))
+    for (const int length : scattered(job_, lengths.data(), rows_, rows.count))
       own.starts.push_back(own.starts.back() + length);
     const int count = static_cast<int>(own.starts.back());
     entries.gather_counts(job_, count);
-    const auto columns = scattered(job_, a != nullptr ? a->rows.data() : nullptr, entries, count, MPI_INT);
+    const auto columns = scattered(job_, a != nullptr ? a->rows.data() : nullptr, entries, count);
     own.columns.assign(columns.begin(), columns.end());
-    own.values = scattered(job_, a != nullptr ? a->values.data() : nullptr, entries, count, MPI_DOUBLE);
+    own.values = scattered(job_, a != nullptr ? a->values.data() : nullptr, entries, count);
     return own;
   }
 

@@ -1,0 +1,311 @@
+#include "contct/distributed/petsc/matrix_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "contct/distributed/petsc/messages.hpp"
+#include "contct/read/matrix_entries.hpp"
+
+namespace contct::distributed::petsc {
+namespace {
+
+using read::entry_format;
+using read::matrix_head;
+using read::read_entry;
+using text::input_error;
+
+/// Something wrong with the file, and which of what ranks find comes first.
+struct refusal {
+  std::int64_t place;
+  std::string words;
+};
+
+int rank_in(MPI_Comm job) {
+  int rank = 0;
+  MPI_Comm_rank(job, &rank);
+  return rank;
+}
+
+int ranks_in(MPI_Comm job) {
+  int ranks = 0;
+  MPI_Comm_size(job, &ranks);
+  return ranks;
+}
+
+/// Every rank throws the first refusal of any.
+void agree(MPI_Comm job, const std::optional<refusal>& own) {
+  struct {
+    long place;
+    int rank;
+  } first{own ? own->place : std::numeric_limits<long>::max(), rank_in(job)};
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LONG_INT, MPI_MINLOC, job);
+  if (first.place == std::numeric_limits<long>::max()) return;
+  std::string words = own ? own->words : "";
+  int size = static_cast<int>(words.size());
+  MPI_Bcast(&size, 1, MPI_INT, first.rank, job);
+  words.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(words.data(), size, MPI_CHAR, first.rank, job);
+  throw input_error(words);
+}
+
+/// The same where `work` may throw an input_error; those of lower ranks come first.
+template <class Work>
+void agree_on(MPI_Comm job, const Work& work) {
+  std::optional<refusal> own;
+  try {
+    work();
+  } catch (const input_error& e) {
+    own = {rank_in(job), e.what()};
+  }
+  agree(job, own);
+}
+
+/// A file that is open.
+class open_file {
+ public:
+  explicit open_file(const matrix_file& f)
+      : name_(f.name), file_(open(f.path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    struct stat is {};
+    if (file_ < 0 || fstat(file_, &is) != 0)
+      throw input_error(name_ + ": cannot be read: " + std::strerror(errno));
+    if (!S_ISREG(is.st_mode))
+      text::refuse_line(name_, 0, S_ISDIR(is.st_mode) ? "a directory" : "no regular file",
+                        "a regular file, of which each rank reads a part");
+    size_ = static_cast<std::size_t>(is.st_size);
+  }
+  ~open_file() {
+    if (file_ >= 0) (void)close(file_);
+  }
+  open_file(const open_file&) = delete;
+  open_file& operator=(const open_file&) = delete;
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// As many bytes from `at` on as there are, at most `count`.
+  [[nodiscard]] std::string bytes(std::size_t at, std::size_t count) const {
+    std::string text(std::min(count, size_ - std::min(at, size_)), '\0');
+    for (std::size_t got = 0; got < text.size();) {
+      const ssize_t n = pread(file_, text.data() + got, text.size() - got, static_cast<off_t>(at + got));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) throw input_error(name_ + ": cannot be read to its end");
+      got += static_cast<std::size_t>(n);
+    }
+    return text;
+  }
+  /// The first byte behind the line that byte `at` is in.
+  [[nodiscard]] std::size_t end_of_line(std::size_t at) const {
+    constexpr std::size_t block = 4096;
+    for (; at < size_; at += block) {
+      const std::size_t end = bytes(at, block).find('\n');
+      if (end != std::string::npos) return at + end + 1;
+    }
+    return size_;
+  }
+
+ private:
+  std::string name_;
+  int file_;
+  std::size_t size_ = 0;
+};
+
+/// Comments may be long: more of the file is read until the size has been found.
+matrix_head head_of(const open_file& f, const matrix_file& what) {
+  if (what.rows > 0) return {what.rows, 0, 0, 0};
+  for (std::size_t count = 1 << 16;; count *= 4) {
+    const std::string text = f.bytes(0, count);
+    try {
+      return read::parse_matrix_head(text, what.name);
+    } catch (const input_error&) {
+      if (text.size() == f.size()) throw;
+    }
+  }
+}
+
+/// A rank's part of the lines behind the head.
+std::string own_text(MPI_Comm job, const open_file& f, std::size_t begins) {
+  const auto edge = [&](int rank) {
+    const std::size_t at = begins + (f.size() - begins) / static_cast<std::size_t>(ranks_in(job)) *
+                                        static_cast<std::size_t>(rank);
+    return at == begins ? begins : f.end_of_line(at - 1);
+  };
+  const std::size_t from = edge(rank_in(job));
+  const std::size_t to = rank_in(job) + 1 == ranks_in(job) ? f.size() : edge(rank_in(job) + 1);
+  return f.bytes(from, to - from);
+}
+
+std::int64_t sum_before(MPI_Comm job, std::int64_t own) {
+  std::int64_t before = 0;
+  MPI_Exscan(&own, &before, 1, MPI_INT64_T, MPI_SUM, job);
+  return rank_in(job) == 0 ? 0 : before;
+}
+
+std::int64_t sum_of(MPI_Comm job, std::int64_t own) {
+  MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_INT64_T, MPI_SUM, job);
+  return own;
+}
+
+/// What a rank has read of the file, up to the first line that is wrong.
+struct read_part {
+  std::vector<read_entry> entries;
+  std::optional<refusal> wrong;
+};
+
+read_part parse(const std::string& text, const matrix_file& what, int rows, std::int64_t lines_before) {
+  read_part part;
+  text::field_lines lines(text, what.name, lines_before);
+  const entry_format format = what.rows > 0 ? entry_format::calculix : entry_format::matrix_market;
+  try {
+    while (lines.next()) part.entries.push_back(read::parse_entry(lines, rows, format));
+  } catch (const input_error& e) {
+    part.wrong = {lines.line(), e.what()};
+  }
+  return part;
+}
+
+/// Too many lines, or too few, as read_lines in read/matrix_files.cpp refuses them.
+void check_count(MPI_Comm job, const matrix_file& what, const matrix_head& head, std::int64_t all_lines,
+                 read_part& part) {
+  if (what.rows > 0) return;
+  const auto own = static_cast<std::int64_t>(part.entries.size());
+  const std::int64_t before = sum_before(job, own);
+  const std::int64_t all = sum_of(job, own);
+  const auto refused = [&](std::int64_t line, const std::string& found, const std::string& allowed) {
+    try {
+      text::refuse_line(what.name, line, found, allowed);
+    } catch (const input_error& e) {
+      if (!part.wrong || line < part.wrong->place) part.wrong = {line, e.what()};
+    }
+  };
+  if (before <= head.entries && before + own > head.entries)
+    refused(part.entries[static_cast<std::size_t>(head.entries - before)].line, "more entries than that",
+            fmt::format("{}, as line {} says", head.entries, head.line));
+  const bool any_wrong = sum_of(job, part.wrong ? 1 : 0) > 0;  // before the end, then
+  if (all < head.entries && !any_wrong && rank_in(job) == 0)
+    refused(head.line + all_lines, fmt::format("the end of the file after {} of {}", all, head.entries),
+            fmt::format("as many as line {} says", head.line));
+}
+
+/// Which rank has which rows.
+class owners {
+ public:
+  owners(MPI_Comm job, const own_rows& own) : starts_(static_cast<std::size_t>(ranks_in(job))) {
+    MPI_Allgather(&own.first, 1, MPI_INT, starts_.data(), 1, MPI_INT, job);
+  }
+  [[nodiscard]] std::size_t of(int row) const {
+    return static_cast<std::size_t>(std::upper_bound(starts_.begin(), starts_.end(), row) - starts_.begin()) -
+           1;
+  }
+  [[nodiscard]] std::size_t count() const { return starts_.size(); }
+
+ private:
+  std::vector<int> starts_;
+};
+
+/// Each entry to the rank that `to` says; those that came, from rank 0 on.
+template <class To>
+std::vector<read_entry> exchanged(MPI_Comm job, const owners& all, std::vector<read_entry> entries,
+                                  const To& to) {
+  std::vector<int> counts(all.count());
+  for (const read_entry& e : entries) ++counts[to(e)];
+  std::vector<int> starts(all.count());
+  for (std::size_t r = 1; r < starts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<read_entry> sent(entries.size());
+  std::vector<int> next = starts;
+  for (const read_entry& e : entries) sent[static_cast<std::size_t>(next[to(e)]++)] = e;
+  entries = {};
+  std::vector<int> coming(all.count());
+  MPI_Alltoall(counts.data(), 1, MPI_INT, coming.data(), 1, MPI_INT, job);
+  std::vector<int> places(all.count());
+  for (std::size_t r = 1; r < places.size(); ++r) places[r] = places[r - 1] + coming[r - 1];
+  std::vector<read_entry> came(static_cast<std::size_t>(places.back() + coming.back()));
+  const mpi_type<read_entry> type;
+  MPI_Alltoallv(sent.data(), counts.data(), starts.data(), type.get(), came.data(), coming.data(),
+                places.data(), type.get(), job);
+  return came;
+}
+
+read::written_digits digits_of(MPI_Comm job, std::span<const read_entry> entries) {
+  read::written_digits written;
+  for (const read_entry& e : entries) written.include(e);
+  constexpr int none = std::numeric_limits<int>::max();
+  int least = written.lowest.value_or(none);
+  int most[2] = {written.highest.value_or(-none), written.most_digits};
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_INT, MPI_MIN, job);
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_INT, MPI_MAX, job);
+  if (least == none) return {};
+  return {most[1], least, most[0]};
+}
+
+/// The rows of both triangles, from the lower one by columns.
+own_matrix rows_of(MPI_Comm job, const owners& all, const own_rows& own, std::vector<read_entry> lower) {
+  const read::written_digits written = digits_of(job, lower);
+  std::erase_if(lower, [](const read_entry& e) { return e.value == 0; });
+  std::vector<read_entry> below = lower;
+  std::erase_if(below, [](const read_entry& e) { return e.row == e.column; });
+  std::vector<read_entry> rows =
+      exchanged(job, all, std::move(below), [&](const read_entry& e) { return all.of(e.row); });
+  for (read_entry& e : rows) std::swap(e.row, e.column);  // sorted by what is their row
+  rows.insert(rows.end(), lower.begin(), lower.end());
+  lower = {};
+  read::sort_entries(rows, own.first, own.count);
+  own_matrix m;
+  m.rows.first = own.first;
+  auto next = rows.begin();
+  for (int row = own.first; row < own.first + own.count; ++row) {
+    for (; next != rows.end() && next->column == row; ++next) {
+      m.rows.columns.push_back(next->row);
+      m.rows.values.push_back(next->value);
+      if (written.lowest) m.last_digits.push_back(static_cast<std::int16_t>(written.last_digit_of(*next)));
+    }
+    m.rows.starts.push_back(m.rows.columns.size());
+  }
+  return m;
+}
+
+void check(MPI_Comm job, const matrix_file& what, const own_rows& own, std::span<const read_entry> entries) {
+  agree_on(job, [&] { read::refuse_repeated(entries, what.name); });
+  agree_on(job, [&] { read::refuse_negative(entries, what.name); });
+  std::vector<char> stiff(static_cast<std::size_t>(own.count));
+  for (const read_entry& e : entries)
+    if (e.row == e.column && e.value != 0) stiff[static_cast<std::size_t>(e.row - own.first)] = 1;
+  const std::vector<char> all = gathered_everywhere(job, std::span<const char>(stiff));
+  agree_on(job, [&] { read::refuse_bare(entries, all, what.name); });
+}
+
+}  // namespace
+
+own_matrix read_own(MPI_Comm job, const matrix_file& what) {
+  std::optional<open_file> file;
+  matrix_head head;
+  agree_on(job, [&] { file.emplace(what); });
+  agree_on(job, [&] { head = head_of(*file, what); });
+  std::string text;
+  agree_on(job, [&] { text = own_text(job, *file, head.begins); });
+  const std::int64_t lines = std::count(text.begin(), text.end(), '\n');
+  read_part part = parse(text, what, head.rows, head.line + sum_before(job, lines));
+  text = {};
+  check_count(job, what, head, sum_of(job, lines), part);
+  agree(job, part.wrong);
+  const std::int64_t entries = sum_of(job, static_cast<std::int64_t>(part.entries.size()));
+  agree_on(job, [&] {
+    if (head.rows > entries)
+      text::refuse_line(what.name, 0, fmt::format("{} rows and {} entries", head.rows, entries),
+                        "an entry on the diagonal of every row");
+  });
+  const own_rows own(job, head.rows);
+  const owners all(job, own);
+  std::vector<read_entry> lower =
+      exchanged(job, all, std::move(part.entries), [&](const read_entry& e) { return all.of(e.column); });
+  read::sort_entries(lower, own.first, own.count);
+  check(job, what, own, lower);
+  return rows_of(job, all, own, std::move(lower));
+}
+
+}  // namespace contct::distributed::petsc
