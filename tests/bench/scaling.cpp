@@ -58,7 +58,7 @@ json peaks() {
 }
 
 json measured(const std::string& name, const std::string& engine, int most_increments) {
-  const app::problem p = bench::make_problem(name);
+  const app::problem p = bench::make_problem(name, distributed::joined_ranks());
   const app::linear_structure s = app::structure_of(p, distributed::joined_ranks());
   const auto leader = app::make_kernel("corrected");
   event_clock watch;
