@@ -132,6 +132,11 @@ struct export_options {
 };
 
 struct kernels_options {};
+struct convert_options {
+  std::string input, output;
+  bool quiet = false;
+};
+
 struct manual_options {
   std::string page;  ///< "problem" or "result"; empty: the program's own
 };
@@ -146,9 +151,10 @@ struct printed_text {
 };
 
 /// What a command line asks for: one command, or a text.
-using command_options = std::variant<printed_text, run_options, check_options, explain_options, exact_options,
-                                     new_options, verify_options, fuzz_options, replay_options, atlas_options,
-                                     export_options, kernels_options, completion_options, manual_options>;
+using command_options =
+    std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
+                 verify_options, fuzz_options, replay_options, atlas_options, export_options, convert_options,
+                 kernels_options, completion_options, manual_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -216,6 +222,7 @@ exit_status run_command(const replay_options& options);
 exit_status run_command(const atlas_options& options);
 exit_status run_command(const export_options& options);
 exit_status run_command(const kernels_options& options);
+exit_status run_command(const convert_options& options);
 exit_status run_command(const completion_options& options);
 exit_status run_command(const manual_options& options);
 inline exit_status run_command(const printed_text& t) {

@@ -30,6 +30,7 @@ constexpr example all_examples[] = {
     {"contct check beam.toml", "a summary of a problem, without solving it"},
     {"contct check beam.toml --quiet --svg beam.svg", "the structure before any load"},
     {"contct export beam.toml --calculix beam.inp", "the end of the last step, for CalculiX to solve"},
+    {"contct convert K.mtx K.petsc", "a stiffness matrix in PETSc's binary, whose doubles are equal"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
     {"contct explain beam.toml --all --hex", "every increment of a long run, with the bits of s"},
@@ -422,6 +423,17 @@ void declare_completion(option_parser& p) {
       p.command<completion_options>("completion", "Print a script for command completion in bash");
   const std::vector<std::string> shells = {"bash", "zsh", "fish"};
   p.add(c, takes::word, "SHELL", o.shell, "bash, zsh or fish", shells)
+void declare_convert(option_parser& p) {
+  const auto [c, o] = p.command<convert_options>(
+      "convert", "Turn a stiffness matrix in Matrix Market into PETSc's binary, or back");
+  p.add_file(c, "INPUT", o.input,
+             "The matrix in either format, told by its first bytes; - reads standard input")
+      ->required();
+  p.add_file(c, "OUTPUT", o.output, "The file to write, in the other format (- is standard output)")
+      ->required();
+  option_parser::add_quiet(c, o.quiet);
+}
+
       ->required()
       ->check(CLI::IsMember(shells));
 }
@@ -472,6 +484,7 @@ constexpr std::pair<const char*, declare_command> all_commands[] = {
        p.command<kernels_options>("kernels", "What is built in, and how this machine computes");
      }},
     {"completion", [](option_parser& p, const auto&) { declare_completion(p); }},
+    {"convert", [](option_parser& p, const auto&) { declare_convert(p); }},
     {"man", [](option_parser& p, const auto&) { declare_manual(p); }},
 };
 
