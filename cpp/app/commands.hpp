@@ -50,8 +50,9 @@ struct run_options {
   bool free_run = false;
   bool final_only = false;
   bool strict = false;
-  bool detail = false;    ///< all numbers on the terminal
-  bool envelope = false;  ///< in the result
+  bool detail = false;        ///< all numbers on the terminal
+  bool envelope = false;      ///< in the result
+  bool displacement = false;  ///< in the result of an MPI job too: every dof, and not only w
   std::string
       watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
   int max_increments = 0;  ///< in a step; 0: the default limit

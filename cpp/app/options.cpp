@@ -268,6 +268,9 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
               "more solve for each increment");
   p.add(c, takes::number, "--node", o.watched,
         "The node whose deflection --csv writes: its number, \"x = 4.5\" along a beam, or a dof's label [the "
+  c->add_flag("--displacement", o.displacement,
+              "With --engine petsc: add the displacement of every dof to the result of --json, which has w "
+              "alone then; results of other engines always have it");
         "one that deflects most at the ends of steps]")
       ->type_name("NODE");
   p.add(c, takes::number, "--max-increments", o.max_increments, "Limit of increments in a step")

@@ -203,7 +203,9 @@ std::vector<observer*> make_observers(observed_run& o) {
   if (run.prints)
     all.push_back(&o.rows.emplace(run.what, o.compared, o.judged, run.screen, run.options.detail));
   if (output_file* const file = o.files["--json"])
-    all.push_back(&o.json.emplace(run.what, run.kernels, run.engine, o.judged, *file));
+    all.push_back(&o.json.emplace(
+        run.what, run.kernels, run.engine, o.judged, *file,
+        run.engine == "petsc" && !run.options.displacement ? displacements::only_w : displacements::all));
   if (output_file* const file = o.files["--log"]) all.push_back(&o.log.emplace(*file));
   all.insert(all.end(), {&o.digits, &o.passages, o.shown.behind.get()});
   std::erase(all, nullptr);
