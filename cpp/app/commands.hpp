@@ -132,12 +132,12 @@ struct export_options {
   problem_limits limits = {};
 };
 
-struct kernels_options {};
 struct convert_options {
   std::string input, output;
   bool quiet = false;
 };
 
+struct kernels_options {};
 struct manual_options {
   std::string page;  ///< "problem" or "result"; empty: the program's own
 };
@@ -222,8 +222,8 @@ exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
 exit_status run_command(const atlas_options& options);
 exit_status run_command(const export_options& options);
-exit_status run_command(const kernels_options& options);
 exit_status run_command(const convert_options& options);
+exit_status run_command(const kernels_options& options);
 exit_status run_command(const completion_options& options);
 exit_status run_command(const manual_options& options);
 inline exit_status run_command(const printed_text& t) {

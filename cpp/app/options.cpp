@@ -242,7 +242,9 @@ void declare_pictures(option_parser& p, CLI::App* c, picture_options& o) {
   p.add_file(c, "--vtu", o.vtu,
              "For ParaView: write the final state to this file, and beside F.vtu the files F.000.vtu, "
              "F.001.vtu, .. for the start and each kept increment, with every step's final state, and F.pvd, "
-             "which lists them. A structure given by its matrix must have coordinates");
+             "which lists them. A structure given by its matrix must have coordinates. With --engine petsc a "
+             "name F.pvtu is allowed: it lists one file a rank, at most 256, F_0.vtu, F_1.vtu, .., of the "
+             "final state");
 }
 
 void declare_run(option_parser& p, const std::vector<std::string>& engines) {
@@ -266,11 +268,11 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   c->add_flag("--envelope", o.envelope,
               "Add to the result of --json the least and largest values over all increments; this takes one "
               "more solve for each increment");
-  p.add(c, takes::number, "--node", o.watched,
-        "The node whose deflection --csv writes: its number, \"x = 4.5\" along a beam, or a dof's label [the "
   c->add_flag("--displacement", o.displacement,
               "With --engine petsc: add the displacement of every dof to the result of --json, which has w "
               "alone then; results of other engines always have it");
+  p.add(c, takes::number, "--node", o.watched,
+        "The node whose deflection --csv writes: its number, \"x = 4.5\" along a beam, or a dof's label [the "
         "one that deflects most at the ends of steps]")
       ->type_name("NODE");
   p.add(c, takes::number, "--max-increments", o.max_increments, "Limit of increments in a step")
@@ -421,11 +423,6 @@ void declare_export(option_parser& p) {
   p.add_limits(c, o.limits);
 }
 
-void declare_completion(option_parser& p) {
-  const auto [c, o] =
-      p.command<completion_options>("completion", "Print a script for command completion in bash");
-  const std::vector<std::string> shells = {"bash", "zsh", "fish"};
-  p.add(c, takes::word, "SHELL", o.shell, "bash, zsh or fish", shells)
 void declare_convert(option_parser& p) {
   const auto [c, o] = p.command<convert_options>(
       "convert", "Turn a stiffness matrix in Matrix Market into PETSc's binary, or back");
@@ -437,6 +434,11 @@ void declare_convert(option_parser& p) {
   option_parser::add_quiet(c, o.quiet);
 }
 
+void declare_completion(option_parser& p) {
+  const auto [c, o] =
+      p.command<completion_options>("completion", "Print a script for command completion in bash");
+  const std::vector<std::string> shells = {"bash", "zsh", "fish"};
+  p.add(c, takes::word, "SHELL", o.shell, "bash, zsh or fish", shells)
       ->required()
       ->check(CLI::IsMember(shells));
 }
@@ -482,12 +484,12 @@ constexpr std::pair<const char*, declare_command> all_commands[] = {
      }},
     {"atlas", [](option_parser& p, const auto&) { declare_atlas(p); }},
     {"export", [](option_parser& p, const auto&) { declare_export(p); }},
+    {"convert", [](option_parser& p, const auto&) { declare_convert(p); }},
     {"kernels",
      [](option_parser& p, const auto&) {
        p.command<kernels_options>("kernels", "What is built in, and how this machine computes");
      }},
     {"completion", [](option_parser& p, const auto&) { declare_completion(p); }},
-    {"convert", [](option_parser& p, const auto&) { declare_convert(p); }},
     {"man", [](option_parser& p, const auto&) { declare_manual(p); }},
 };
 
