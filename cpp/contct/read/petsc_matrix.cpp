@@ -55,7 +55,7 @@ class petsc_file {
  private:
   static constexpr std::int64_t header = 4 * bytes_of_int;
 
-  [[nodiscard]] std::int64_t place_of_length(int row) const { return header + bytes_of_int * row; }
+  [[nodiscard]] static std::int64_t place_of_length(int row) { return header + bytes_of_int * row; }
   [[nodiscard]] std::int64_t place_of_column(int entry) const {
     return header + bytes_of_int * (std::int64_t{rows_} + entry);
   }

@@ -38,7 +38,7 @@ std::string section(std::string_view name, std::string_view attributes, std::str
 /// Numbers at all points, or all cells.
 struct data_array {
   std::string name;
-  std::size_t components;
+  std::size_t components = 1;
   std::variant<std::vector<double>, std::vector<int>, std::vector<std::uint8_t>> values;
 };
 
@@ -247,7 +247,7 @@ std::vector<grid_part> parts_of(const model& m, const grid& g, std::size_t count
     parts[part_of[g.cells[cell].front()]].cells.push_back(static_cast<int>(cell));
   for (grid_part& part : parts) {
     std::ranges::sort(part.points);
-    part.points.erase(std::ranges::unique(part.points).begin(), part.points.end());
+    part.points.erase(std::unique(part.points.begin(), part.points.end()), part.points.end());
   }
   return parts;
 }
