@@ -195,7 +195,7 @@ TEST_CASE("PETSc's binary with any byte changed is refused, or read as a symmetr
 
 TEST_CASE("a million entries of PETSc's binary are read in their order") {
   constexpr int side = 450;
-  std::vector<petsc_row> rows(side * side);
+  std::vector<petsc_row> rows(std::size_t{side} * side);
   const auto couple = [&rows](int a, int b) {
     rows[a].emplace_back(b, -1.0);
     rows[b].emplace_back(a, -1.0);
