@@ -108,9 +108,9 @@ std::string zsh_arguments(const command_description& c) {
   std::string text = "_arguments";
   for (const option_description& o : c.options)
     text += " \\\n        " + shell_quoted(fmt::format("{}[{}]{}", o.name, zsh_text(o.text), zsh_action(o)));
-  for (const option_description& p : c.positionals) {
-    const char* const any_number = p.kind == takes::file ? "*" : "1";
-    text += " \\\n        " + shell_quoted(any_number + zsh_action(p));
+  for (const option_description& p : c.positionals) {  // the last may be many files
+    const bool any_number = p.kind == takes::file && &p == &c.positionals.back();
+    text += " \\\n        " + shell_quoted((any_number ? "*" : "1") + zsh_action(p));
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
 #include "contct/compare/lockstep.hpp"
+#include "contct/distributed/ranks.hpp"
 #include "contct/exact/exact_follower.hpp"
 #include "contct/exact/exact_residual.hpp"
 #include "contct/matrix/cholesky.hpp"
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 constexpr const char* csv_pairs = "--csv (its pairs)";
 constexpr const char* vtu_collection = "--vtu (its collection)";
 constexpr const char* vtu_increments = "--vtu (its increments)";
+constexpr const char* vtu_pieces = "--vtu (its pieces)";
 
 /// A file in the folder of `file`: its name without the extension, and `end`.
 std::string beside(const std::string& file, const std::string& end) {
@@ -44,19 +46,43 @@ std::string pairs_table(const std::string& csv) {
   return beside(csv, ".pairs" + fs::path(csv).extension().string());
 }
 
+/// Is the grid in pieces, each a file?
+bool is_in_pieces(const std::string& vtu) {
+  return fs::path(vtu).extension() == ".pvtu";
+}
+
+/// One for each rank of the MPI job, as long as so many files can be open at once.
+std::size_t pieces_of_grid() {
+  constexpr std::size_t most_open = 256;
+  const distributed::ranks* const all = distributed::joined_ranks();
+  return all == nullptr ? 1 : std::min(static_cast<std::size_t>(all->count()), most_open);
+}
+
+/// Every file of --vtu.
+void add_grid_files(const run_options& o, std::vector<output_option>& all) {
+  const std::string& vtu = o.pictures.vtu;
+  const bool in_pieces = is_in_pieces(vtu) && o.engine == "petsc";
+  if (!in_pieces && fs::path(vtu).extension() != ".vtu")
+    throw std::invalid_argument(fmt::format(
+        "--vtu: found \"{}\"; allowed: a file that ends in .vtu, or with --engine petsc in .pvtu", vtu));
+  all.push_back({"--vtu", vtu});
+  if (in_pieces) {
+    for (std::size_t i = 0; i < pieces_of_grid(); ++i)
+      all.push_back({vtu_pieces, beside(vtu, name_of_piece("", i)), true});
+    return;
+  }
+  all.push_back({vtu_collection, beside(vtu, ".pvd")});
+  for (std::size_t i = 0; i < frame_limits{}.most_frames; ++i)
+    all.push_back({vtu_increments, beside(vtu, name_of_frame("", i)), true});
+}
+
 /// Every file that these options may write. Throws std::invalid_argument for names that cannot be theirs.
 std::vector<output_option> outputs_of(const run_options& o) {
   const auto& [html, svg, csv, vtu] = o.pictures;
   std::vector<output_option> all = {
       {"--json", o.json}, {"--log", o.log}, {"--trace", o.trace},          {"--html", html},
       {"--svg", svg},     {"--csv", csv},   {csv_pairs, pairs_table(csv)}, {"--proof", o.proof}};
-  if (vtu.empty()) return with_reports(std::move(all), o.report);
-  if (fs::path(vtu).extension() != ".vtu")
-    throw std::invalid_argument(fmt::format("--vtu: found \"{}\"; allowed: a file that ends in .vtu", vtu));
-  all.push_back({"--vtu", vtu});
-  all.push_back({vtu_collection, beside(vtu, ".pvd")});
-  for (std::size_t i = 0; i < frame_limits{}.most_frames; ++i)
-    all.push_back({vtu_increments, beside(vtu, name_of_frame("", i)), true});
+  if (!vtu.empty()) add_grid_files(o, all);
   return with_reports(std::move(all), o.report);
 }
 
@@ -203,7 +229,9 @@ std::vector<observer*> make_observers(observed_run& o) {
   if (run.prints)
     all.push_back(&o.rows.emplace(run.what, o.compared, o.judged, run.screen, run.options.detail));
   if (output_file* const file = o.files["--json"])
-    all.push_back(&o.json.emplace(run.what, run.kernels, run.engine, o.judged, *file));
+    all.push_back(&o.json.emplace(
+        run.what, run.kernels, run.engine, o.judged, *file,
+        run.engine == "petsc" && !run.options.displacement ? displacements::only_w : displacements::all));
   if (output_file* const file = o.files["--log"]) all.push_back(&o.log.emplace(*file));
   all.insert(all.end(), {&o.digits, &o.passages, o.shown.behind.get()});
   std::erase(all, nullptr);
@@ -241,6 +269,14 @@ path_limits limits_of(const run_setup& run, certifier& judged) {
           exact::exact_follower_of(run.what)};
 }
 
+/// A grid in pieces is the final state alone: for that nothing must be solved by one process.
+frame_limits frames_of(const run_options& o) {
+  const picture_options& p = o.pictures;
+  frame_limits limits;
+  limits.only_ends = is_in_pieces(p.vtu) && p.html.empty() && p.svg.empty() && p.csv.empty() && !o.envelope;
+  return limits;
+}
+
 /// The leader's path, observed by all that was asked for, and by `recorded` where that is not null.
 path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
   const run_setup& run = o.run;
@@ -252,7 +288,8 @@ path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
   output_file* const csv = o.files["--csv"];
   if (run.options.pictures.wants_frames() || run.options.envelope || csv != nullptr) {
     const bool forces_by_law = leader.facts().rule != "listing";
-    observers.push_back(&o.frames.emplace(run.structure, loads_of(run.what, run.structure), forces_by_law));
+    observers.push_back(&o.frames.emplace(run.structure, loads_of(run.what, run.structure), forces_by_law,
+                                          frames_of(run.options)));
     observers.push_back(&o.record.emplace(o.compared));
     if (run.options.envelope) o.frames->show_each_to([&o](const frame& f) { o.extremes->take(f); });
   }
@@ -356,6 +393,24 @@ void write_grids(const output_files& files, const std::string& vtu, const finish
   files.write(vtu_collection, pvd_of_frames(fs::path(vtu).stem().string(), frames.size()));
 }
 
+/// All are written before any gets its name, so that a full disk leaves none. The file that lists the pieces
+/// is named last: whoever sees it finds them.
+void write_pieces(const output_files& files, const std::string& vtu, const finished_run& r) {
+  const std::size_t count = pieces_of_grid();
+  const grid_pieces all = pieces_of_frame(r.what, r.kept.frames().back(), count);
+  std::vector<std::unique_ptr<output_file>> pieces;
+  for (std::size_t i = 0; i < count; ++i) {
+    pieces.push_back(std::make_unique<output_file>(beside(vtu, name_of_piece("", i))));
+    pieces.back()->write(all.piece(i));
+    pieces.back()->flush();
+  }
+  output_file& list = *files["--vtu"];
+  list.write(all.index(fs::path(vtu).stem().string()));
+  list.flush();
+  for (const auto& piece : pieces) piece->finish();
+  list.finish();
+}
+
 /// Complete and name all files.
 void write_files(observed_run& o, const path_end& end, const comparison& c) {
   const run_setup& run = o.run;
@@ -385,7 +440,9 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
                          o.extremes ? &*o.extremes : nullptr};
     if (o.files["--html"] != nullptr) o.files.write("--html", run_page(r));
     if (o.files["--svg"] != nullptr) o.files.write("--svg", run_svg(r));
-    if (o.files["--vtu"] != nullptr) write_grids(o.files, run.options.pictures.vtu, r);
+    if (o.files["--vtu"] != nullptr)
+      (is_in_pieces(run.options.pictures.vtu) ? write_pieces : write_grids)(o.files, run.options.pictures.vtu,
+                                                                            r);
   }
   o.files.write(check_report_of(o, end, c));
 }

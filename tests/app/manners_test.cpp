@@ -8,6 +8,7 @@
 #include "app/process.hpp"
 #include "catch.hpp"
 #include "read/bad_inputs.hpp"
+#include "read/small_matrix.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -55,6 +56,7 @@ void prepare(const scratch_folder& dir, bool with_problems) {
   if (!with_problems) return;
   REQUIRE(contct_program(dir.path(), {"new", "beam", "beam.toml"}).exit == 0);
   REQUIRE(contct_program(dir.path(), {"run", "beam.toml", "--quiet", "--trace", "calls.trace"}).exit == 0);
+  dir.write("K.mtx", small_matrix);
   fs::create_symlink(CONTCT_PLUGINS "/libvariant_right.so", dir.path() / "mine.so");
 }
 

@@ -54,6 +54,13 @@ TEST_CASE("what zsh reads in a description is escaped") {
   CHECK_THAT(text, Contains("'*:file:_files'"));
 }
 
+TEST_CASE("of several files zsh takes any number for the last alone") {
+  program_description p = small_program();
+  p.commands[0].positionals = {{"INPUT", "TEXT", "From where", "", takes::file, {}, true},
+                               {"OUTPUT", "TEXT", "Where to", "", takes::file, {}, true}};
+  CHECK_THAT(zsh_completion(p), Contains("'1:file:_files' \\\n        '*:file:_files'"));
+}
+
 TEST_CASE("fish knows which option takes a file, a word, or nothing") {
   const std::string text = fish_completion(small_program());
   const std::string seen = "complete -c contct -n '__fish_seen_subcommand_from pull' ";

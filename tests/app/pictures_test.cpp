@@ -190,7 +190,8 @@ TEST_CASE(
                            {"--vtu", "out.vtu", "--log", "out.119.vtu"},
                            {"--html", "-", "--csv", "-"},
                            {"--vtu", "-"},
-                           {"--vtu", "out"}}) {
+                           {"--vtu", "out"},
+                           {"--vtu", "out.pvtu"}}) {
     INFO(two[0] << " " << two[1]);
     const finished f = contct_program(dir.path(), run_of(two));
     CHECK(f.exit == 2);

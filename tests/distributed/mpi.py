@@ -9,6 +9,10 @@ CASE:
   killed     a rank that is killed ends the job, with an exit status other than 0 and without a file.
   engines    the tests of every engine, where rank 0 of RANKS runs them and petsc is among the engines.
   factor     a matrix that RANKS ranks share: its factors and solutions, and what has no factor.
+  pieces     --vtu F.pvtu by RANKS ranks: pieces that have every cell of F.vtu once and every point with its numbers; the JSON
+             has the displacement of every dof where --displacement asks for it, and in results of other engines.
+  naming     the files of --vtu F.pvtu where one of them cannot get its name: F.pvtu is the last to get its own.
+  binary     what contct convert writes is read by PETSc itself, which writes the same bytes.
   scaling    the benchmark of the ranks: the events of one process, a time, and the memory of each rank.
   absent     without its module the engine is refused with one message that says what is missing.
   apart      the program itself links neither MPI nor PETSc.
@@ -23,6 +27,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 LEAST = {"problems": 28, "increments": 300, "events": 900, "numbers": 12500}
 PATIENCE = 1200  # seconds, after which something hangs
@@ -303,6 +308,174 @@ def factor(contct, reference, mpiexec, ranks, tests):
     print(said.strip().splitlines()[-1])
 
 
+def grid_of(file):
+    """A .vtu: {place: {name: numbers}}, {(places, pair): {name: numbers}} of its cells, and how many of each it has."""
+    piece = ElementTree.parse(file).getroot().find("UnstructuredGrid/Piece")
+    counts = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
+
+    def rows(part, count):
+        table = [{} for _ in range(count)]
+        for array in piece.find(part):
+            k, numbers = int(array.get("NumberOfComponents")), [float(x) for x in (array.text or "").split()]
+            if len(numbers) != k * count:
+                sys.exit(f"{file}: {array.get('Name')}: found {len(numbers)} numbers, allowed: {k} for each of {count}")
+            for row, at in zip(table, range(0, len(numbers), k)):
+                row[array.get("Name")] = tuple(numbers[at:at + k])
+        return table
+
+    at = [row["points"] for row in rows("Points", counts[0])]
+    connectivity, ends, types = ([int(x) for x in (a.text or "").split()] for a in piece.find("Cells"))
+    if len(ends) != counts[1] or len(types) != counts[1] or (ends[-1] if ends else 0) != len(connectivity):
+        sys.exit(f"{file}: found {len(ends)} cells that end at {ends[-1:]}, allowed: {counts[1]} and {len(connectivity)}")
+    cells = {}
+    for begin, end, kind, row in zip([0, *ends], ends, types, rows("CellData", counts[1])):
+        cells[(*(at[n] for n in connectivity[begin:end]), row["pair"])] = row | {"type": (kind,)}
+    return dict(zip(at, rows("PointData", counts[0]))), cells, counts
+
+
+def is_close(found, wanted, largest):
+    """Are rows equal, as far as the digits go that differ from run to run?"""
+    return found.keys() == wanted.keys() and all(
+        len(found[name]) == len(wanted[name]) and all(abs(x - y) <= 1e-7 * abs(y) + 1e-9 * largest[name] for x, y in zip(found[name], wanted[name]))
+        for name in wanted)
+
+
+def wrong_in_pieces(folder, whole_file):
+    """What differs between the pieces of F.pvtu and the grid as one file, in words, or None; and the counts of each piece."""
+    whole = grid_of(folder / whole_file)
+    largest = [{name: max(abs(x) for row in part.values() for x in row[name]) for name in next(iter(part.values()))} for part in whole[:2]]
+    listed = ElementTree.parse(folder / "F.pvtu").getroot().find("PUnstructuredGrid")
+    sources = [piece.get("Source") for piece in listed.findall("Piece")]
+    names = [[a.get("Name") for a in listed.find(part)] for part in ("PPointData", "PCellData", "PPoints")]
+    if names != [list(largest[0]), [n for n in largest[1] if n != "type"], ["points"]]:
+        return f"F.pvtu declares {names}", []
+    points, cells, sizes = {}, {}, []
+    for source in sources:
+        own = grid_of(folder / source)
+        sizes.append(own[2])
+        for place, row in own[0].items():
+            if points.setdefault(place, row) != row:
+                return f"{source}, point {place}: {row}, and {points[place]} in another piece", sizes
+        if again := own[1].keys() & cells.keys():
+            return f"{source}: a cell of another piece: {again}", sizes
+        cells |= own[1]
+    for what, found, wanted, size in (("point", points, whole[0], largest[0]), ("cell", cells, whole[1], largest[1])):
+        if found.keys() != wanted.keys():
+            return f"{len(found)} {what}s, {len(wanted)} in the whole", sizes
+        for place, row in wanted.items():
+            if not is_close(found[place], row, size):
+                return f"{what} {place}: {found[place]}, {row} in the whole", sizes
+    if sources != [f"F_{i}.vtu" for i in range(len(sources))] or sum(size[1] for size in sizes) != whole[2][1]:
+        return f"{sources} of {sizes} points and cells, {whole[2]} in the whole", sizes
+    return None, sizes
+
+
+def displacements_in(folder, file, w):
+    """Does every step of a result have the displacement of every dof? Ends the test where only some have it, or w is another."""
+    steps = json.loads((folder / file).read_text())["steps"]
+    has = {"displacement" in step for step in steps}
+    if len(has) != 1 or [len(step["w"]) for step in steps] != [w] * len(steps):
+        sys.exit(f"{file}: found {has} for displacement, and {[len(s['w']) for s in steps]} deflections")
+    return has.pop()
+
+
+def pieces(contct, reference, mpiexec, ranks):
+    ranks, compared = int(ranks), 0
+    plate = mat(10).replace("elements = [10, 10]", "elements = [6, 10]")
+    frame = reference / "structures/frame.toml"
+    with tempfile.TemporaryDirectory() as scratch:
+        for text, name in ((plate, "plate.toml"), (None, frame)):
+            folder = Path(tempfile.mkdtemp(dir=scratch))
+            if text:
+                (folder / name).write_text(text)
+            line = [contct, "run", name, "--kernels", "corrected", "--engine", "petsc", "--quiet"]
+            page = [] if text else ["--html", "F.html"]  # which needs every increment: the pieces alone do not
+            # One run writes both: with several ranks the last digits differ from run to run.
+            run([*mpirun(mpiexec, ranks), *line, "--vtu", "F.pvtu", "--json", "w.json", *page], folder)
+            expected = sorted(["F.pvtu", "w.json", *page[1:], *[f"F_{i}.vtu" for i in range(ranks)], *([name] if text else [])])
+            if sorted(f.name for f in folder.iterdir()) != expected:
+                sys.exit(f"{line}: found {sorted(f.name for f in folder.iterdir())}, allowed: {expected}")
+            compared += compare_pieces(contct, line, folder, mpiexec, ranks, bool(text))
+        refused = run([contct, "run", frame, "--vtu", "G.pvtu"], scratch, 2)
+        if "allowed: a file that ends in .vtu, or with --engine petsc in .pvtu" not in refused.stderr:
+            sys.exit(f"--vtu G.pvtu without --engine petsc: found {refused.stderr!r}")
+        shared = run([*mpirun(mpiexec, ranks), contct, "run", frame, "--engine", "petsc", "--vtu", "F.pvtu", "--svg", "F_0.vtu"], scratch, 2)
+        if "found the file of --" not in shared.stderr or (Path(scratch) / "F_0.vtu").exists():
+            sys.exit(f"--svg F_0.vtu beside --vtu F.pvtu: found {shared.stderr!r}")
+        (Path(scratch) / "F_0.vtu").mkdir()
+        (Path(scratch) / "plate.toml").write_text(plate)
+        run([*mpirun(mpiexec, ranks), contct, "run", "plate.toml", "--kernels", "corrected", "--engine", "petsc", "--vtu", "F.pvtu"],
+            scratch, 2)
+        if any((Path(scratch) / f).exists() for f in ("F.pvtu", "F_1.vtu", "F_2.vtu")):
+            sys.exit(f"found {list(Path(scratch).iterdir())} though F_0.vtu cannot be written; allowed: no file of the grid")
+    print(f"{ranks} ranks: {compared} points and cells of pieces are those of the whole grid")
+    if compared < 200:
+        sys.exit(f"found {compared} points and cells, allowed: 200 or more")
+
+
+def w_in_pieces(folder, ranks):
+    """The deflection of each node of a plate, from its pieces, in the order of nodes."""
+    points = {}
+    for i in range(ranks):
+        points |= grid_of(folder / f"F_{i}.vtu")[0]
+    return [points[place]["w"][0] for place in sorted(points, key=lambda at: (at[1], at[0]))]
+
+
+def compare_pieces(contct, line, folder, mpiexec, ranks, is_plate):
+    """How many points and cells are those of the whole grid."""
+    w = 77 if is_plate else 33
+    if displacements_in(folder, "w.json", w):
+        sys.exit(f"{line}: found displacement in the result, which --displacement did not ask for")
+    run([*mpirun(mpiexec, ranks), *line, "--vtu", "whole.vtu", "--json", "all.json", "--displacement"], folder)
+    run([contct, "run", line[2], "--quiet", "--json", "other.json"], folder)
+    if not displacements_in(folder, "all.json", w) or not displacements_in(folder, "other.json", w):
+        sys.exit(f"{line}: found no displacement in all.json or other.json")
+    wrong, sizes = wrong_in_pieces(folder, "whole.vtu")
+    if wrong or len(sizes) != ranks:
+        sys.exit(f"{line}: pieces of {sizes} points and cells: {wrong}")
+    if is_plate:
+        if w_in_pieces(folder, ranks) != json.loads((folder / "w.json").read_text())["steps"][-1]["w"]:
+            sys.exit(f"{line}: w of the pieces is not that of the same run's result")
+        rows = [10 * (i + 1) // ranks - 10 * i // ranks for i in range(ranks)]
+        if sorted(7 * (r + 1) for r in rows) != sorted(size[0] for size in sizes):
+            sys.exit(f"{line}: found pieces of {sizes} points and cells, allowed: {rows} rows of elements")
+    doctored = folder / f"F_{ranks - 1}.vtu"
+    right = doctored.read_text()
+    for name in ("displacement", "force"):
+        fault = re.sub(rf'(Name="{name}"[^>]*>\n)\S+', r"\g<1>7", right, count=1)
+        doctored.write_text(fault)
+        if fault == right or not wrong_in_pieces(folder, "whole.vtu")[0]:
+            sys.exit(f"{doctored}: a changed number in {name} is not noticed")
+    return sum(map(sum, sizes))
+
+
+def naming(contct, reference, fail):
+    """`fail` is tests/faults/fail.c, preloaded: the first, or the second, file cannot get its name."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "plate.toml").write_text(mat(3))
+        for number, status, left in ((0, 0, ["F.pvtu", "F_0.vtu"]), (1, 2, []), (2, 2, ["F_0.vtu"])):
+            line = ["env", f"LD_PRELOAD={fail}", "FAULT_NO_LINK=1", "FAULT_CALL=rename", f"FAULT_AT={number}", "FAULT_ERRNO=28",
+                    contct, "run", "plate.toml", "--engine", "petsc", "--kernels", "corrected", "--quiet", "--vtu", "F.pvtu"]
+            run(line, folder, status)
+            if (found := sorted(f.name for f in Path(folder).iterdir())) != [*left, "plate.toml"]:
+                sys.exit(f"{line}: found {found}, allowed: {left} and the problem")
+            for name in left:
+                (Path(folder) / name).unlink()
+    print("F.pvtu gets its name when every piece has one")
+
+
+def binary(contct, reference, load):
+    with tempfile.TemporaryDirectory() as folder:
+        for matrix in [reference / "structures/frame.mtx"]:
+            run([contct, "convert", matrix, "K.petsc"], folder)
+            run([load, "K.petsc", "again.petsc"], folder)
+            written, again = ((Path(folder) / name).read_bytes() for name in ("K.petsc", "again.petsc"))
+            if written != again or len(written) < 1000:
+                sys.exit(f"{matrix}: found {len(written)} bytes, of which PETSc makes {len(again)} others")
+            run([contct, "convert", "again.petsc", "K.mtx"], folder)
+    print(f"{len(written)} bytes are PETSc's own")
+
+
 def scaling(contct, reference, mpiexec, ranks, program):
     rows = {}
     for engine, start in (("updated", []), ("petsc", []), ("petsc ranks", mpirun(mpiexec, ranks))):
@@ -388,7 +561,9 @@ def apart(contct, reference):
 
 def main():
     case, contct, reference = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
-    cases = {"equal": equal, "bad-input": bad_input, "killed": killed, "parts": parts, "multigrid": multigrid, "absent": absent, "apart": apart, "engines": engines, "factor": factor, "scaling": scaling}
+    cases = {"equal": equal, "bad-input": bad_input, "killed": killed, "parts": parts, "multigrid": multigrid, "absent": absent,
+             "apart": apart, "engines": engines, "factor": factor, "scaling": scaling, "pieces": pieces, "binary": binary,
+             "naming": naming}
     cases[case](contct, reference, *sys.argv[4:])
 
 

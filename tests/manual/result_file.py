@@ -121,6 +121,8 @@ def main(program, root, plugin):
             result = result_of(program, Path(folder), problem, options, status)
             if fault := check.fault(result):
                 return f"{problem} {options}: {fault}"
+            if without := [step["step"] for step in result["steps"] if "displacement" not in step]:
+                return f"{problem} {options}: found steps {without} without displacement; allowed: only with --engine petsc"
             count += 1
             new = len(seen)
             seen_keys(schema, result, schema, seen)

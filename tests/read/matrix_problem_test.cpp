@@ -346,7 +346,7 @@ TEST_CASE(
       {small_with("stiffness = \"K.mtx\"", ""), "p.toml:1:1: matrix.stiffness", "missing", "text"},
       {small_with("stiffness = \"K.mtx\"", "stiffness = 3"), "p.toml:2:13: matrix.stiffness", "3", "text"},
       {small_with("K.mtx", "none.mtx"), "none.mtx: cannot be read", "No such file", ""},
-      {small_with("K.mtx", "."), "a directory", "found a directory", "Matrix Market file"},
+      {small_with("K.mtx", "."), "a directory", "found a directory", "stiffness matrix"},
       {small_with("K.mtx", "bad.mtx"), "bad.mtx:3", "\"x\" for an entry", "finite"},
       {small_with("K.dof", "two.dof"), "p.toml:3:8: matrix.dofs", "2 labels in", "3, one for each row"},
       {small_with("dofs = \"K.dof\"\n", "labels = \"K.dof\"\n"), "p.toml:3:1: matrix.labels", "unknown",

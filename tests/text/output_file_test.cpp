@@ -167,6 +167,19 @@ TEST_CASE("a device is written directly") {
   CHECK(fs::is_character_file("/dev/null"));
 }
 
+TEST_CASE("what is flushed is with the system, and has no name before it is finished") {
+  const scratch dir;
+  output_file out((dir.path / "x").string());
+  out.write("all of it");
+  out.flush();
+  CHECK(dir.files() == 0);
+  out.finish();
+  CHECK(contents(dir.path / "x") == "all of it");
+  output_file full("/dev/full");
+  full.write("little");
+  CHECK_THROWS_AS(full.flush(), output_error);
+}
+
 TEST_CASE("a full device is an error, not a short file") {
   output_file out("/dev/full");
   CHECK_THROWS_AS((out.write(std::string(1 << 20, 'x')), out.finish()), output_error);

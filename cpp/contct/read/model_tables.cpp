@@ -13,6 +13,7 @@
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/matrix_places.hpp"
 #include "contct/read/mesh.hpp"
+#include "contct/read/petsc_matrix.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/memory.hpp"
 
@@ -290,7 +291,7 @@ assembled read_matrix(const table_reader& t, const named_files& files, literals 
   if (among != nullptr) {
     read_remotely(path, 0, *among, a);
   } else {
-    a.stiffness = parse_symmetric(read_input(path, "Matrix Market file", largest_matrix_file), a.name,
+    a.stiffness = parse_stiffness(read_input(path, "stiffness matrix", largest_matrix_file), a.name,
                                   keep == literals::kept ? &a.written : nullptr);
   }
   if (t.has("dofs")) {

@@ -106,10 +106,15 @@ void output_file::write(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail(errno);
 }
 
-void output_file::finish() {
+void output_file::flush() {
   if (kept_ != nullptr) return;
   if (is_standard_output()) return flush_standard_output();
   if (std::fflush(file_) != 0) fail(errno);
+}
+
+void output_file::finish() {
+  flush();
+  if (kept_ != nullptr || is_standard_output()) return;
   if (!target_.empty()) give_name();
   std::FILE* const file = std::exchange(file_, nullptr);
   if (std::fclose(file) != 0) fail(errno);

@@ -59,6 +59,9 @@ class output_file {
   output_file& operator=(const output_file&) = delete;
 
   void write(std::string_view text);
+  /// Hand all to the system, without the name: `finish` cannot fail for a full disk then, where the name is a
+  /// link.
+  void flush();
   void finish();
   [[nodiscard]] bool is_standard_output() const { return path_ == "-"; }
 

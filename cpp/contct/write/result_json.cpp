@@ -225,9 +225,10 @@ void put_place(json& entry, const model& m, int node) {
 }
 
 result_json::result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
-                         const certifier& judged, output_file& out)
+                         const certifier& judged, output_file& out, displacements shown)
     : problem_(p),
       judged_(judged),
+      shown_(shown),
       loads_(p),
       document_(out,
                 {{"format", "contct-result-1"},
@@ -246,13 +247,13 @@ void result_json::step_ended(const step_state& s) {
                   {"name", problem_.steps[s.step - 1].name},
                   {"fraction", s.fraction},
                   {"increments", nullptr},
-                  {"w", w},
-                  {"displacement", s.displacement},
-                  {"pairs", nullptr},
+                  {"w", w}};
+  if (shown_ == displacements::all) members["displacement"] = s.displacement;
+  members.update({{"pairs", nullptr},
                   {"reactions", nullptr},
                   {"elements", nullptr},
                   {"extremes", extremes_json(m, r.ranges)},
-                  {"extremes_at", ranges_are_at(m)}};
+                  {"extremes_at", ranges_are_at(m)}});
   if (s.from_fallback) members["ended_by"] = "oracle";
   if (s.from_exact_path) members["ended_by"] = "exact";
   const std::optional<certificate>& judged = judged_.steps().back();

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <type_traits>
+#include <utility>
+#include <variant>
 
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
@@ -31,15 +35,47 @@ std::string section(std::string_view name, std::string_view attributes, std::str
   return fmt::format("      <{0}{1}>\n{2}      </{0}>\n", name, attributes, arrays);
 }
 
-template <class Number>
-std::string array(std::string_view name, std::size_t components, const std::vector<Number>& values) {
-  constexpr std::string_view type = std::is_same_v<Number, double> ? "Float64"
-                                    : std::is_same_v<Number, int>  ? "Int32"
-                                                                   : "UInt8";
-  return fmt::format(
-      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n        "
-      "</DataArray>\n",
-      type, markup_text(name), components, fmt::join(values, " "));
+/// Numbers at all points, or all cells.
+struct data_array {
+  std::string name;
+  std::size_t components = 1;
+  std::variant<std::vector<double>, std::vector<int>, std::vector<std::uint8_t>> values;
+};
+
+constexpr std::string_view type_of(const data_array& a) {
+  constexpr std::string_view types[] = {"Float64", "Int32", "UInt8"};  // as in the variant
+  return types[a.values.index()];
+}
+
+std::string attributes_of(const data_array& a) {
+  return fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}")", type_of(a), markup_text(a.name),
+                     a.components);
+}
+
+std::string text_of(const data_array& a) {
+  return std::visit(
+      [&a](const auto& values) {
+        return fmt::format("        <DataArray {} format=\"ascii\">\n{}\n        </DataArray>\n",
+                           attributes_of(a), fmt::join(values, " "));
+      },
+      a.values);
+}
+
+/// Of these points or cells alone.
+data_array chosen(const data_array& a, const std::vector<int>& at) {
+  data_array part{a.name, a.components, {}};
+  std::visit(
+      [&](const auto& values) {
+        std::remove_cvref_t<decltype(values)> own;
+        own.reserve(at.size() * a.components);
+        for (const int i : at) {
+          const auto first = values.begin() + static_cast<std::ptrdiff_t>(a.components) * i;
+          own.insert(own.end(), first, first + static_cast<std::ptrdiff_t>(a.components));
+        }
+        part.values = std::move(own);
+      },
+      a.values);
+  return part;
 }
 
 /// A pair that has a cell, at a node, and what the cell says.
@@ -63,7 +99,7 @@ std::vector<placed_pair> placed_pairs(const problem& p, const frame& f) {
   return list;
 }
 
-std::string points_of(const problem& p) {
+data_array points_of(const problem& p) {
   std::vector<double> at;
   if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) {
     for (const placed_node& n : a->places.nodes) at.insert(at.end(), n.at.begin(), n.at.end());
@@ -73,23 +109,7 @@ std::string points_of(const problem& p) {
       at.insert(at.end(), {where.x, where.y, 0.0});
     }
   }
-  return section("Points", "", array("points", 3, at));
-}
-
-std::string cells_of(const std::vector<std::vector<int>>& elements, const std::vector<placed_pair>& pairs) {
-  std::vector<int> connectivity;
-  std::vector<int> offsets;
-  std::vector<std::uint8_t> types;
-  const auto add = [&](const std::vector<int>& at, std::uint8_t type) {
-    connectivity.insert(connectivity.end(), at.begin(), at.end());
-    offsets.push_back(static_cast<int>(connectivity.size()));
-    types.push_back(type);
-  };
-  for (const auto& corners : elements) add(corners, corners.size() == 2 ? vtk_line : vtk_quad);
-  for (const placed_pair& at : pairs) add({at.node}, vtk_vertex);
-  return section(
-      "Cells", "",
-      array("connectivity", 1, connectivity) + array("offsets", 1, offsets) + array("types", 1, types));
+  return {"points", 3, std::move(at)};
 }
 
 /// The reaction at each dof; 0 where nothing holds it.
@@ -102,8 +122,14 @@ std::vector<double> reactions_at_dofs(const problem& p, const frame& f) {
   return at;
 }
 
+/// What the points have, and which of it a viewer shows first.
+struct point_arrays {
+  std::string_view attributes;
+  std::vector<data_array> arrays;
+};
+
 /// Displacements and reactions, and rotations where there are any.
-std::string mesh_point_data(const problem& p, const placed_nodes& places, const frame& f) {
+point_arrays mesh_point_data(const problem& p, const placed_nodes& places, const frame& f) {
   const frame reacting{.displacement = reactions_at_dofs(p, f)};
   std::vector<double> displacement;
   std::vector<double> rotation;
@@ -118,12 +144,13 @@ std::string mesh_point_data(const problem& p, const placed_nodes& places, const 
     reaction.insert(reaction.end(), force.begin(), force.end());
     turns = turns || of.about != dofs_of_node{}.about;
   }
-  return section("PointData", R"( Vectors="displacement")",
-                 array("displacement", 3, displacement) + (turns ? array("rotation", 3, rotation) : "") +
-                     array("reaction", 3, reaction));
+  point_arrays all{R"( Vectors="displacement")", {{"displacement", 3, std::move(displacement)}}};
+  if (turns) all.arrays.push_back({"rotation", 3, std::move(rotation)});
+  all.arrays.push_back({"reaction", 3, std::move(reaction)});
+  return all;
 }
 
-std::string point_data(const problem& p, const frame& f) {
+point_arrays point_data(const problem& p, const frame& f) {
   if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) return mesh_point_data(p, a->places, f);
   const auto names = dof_names(p.geometry);
   std::vector<double> displacement;
@@ -132,39 +159,117 @@ std::string point_data(const problem& p, const frame& f) {
     displacement.insert(displacement.end(), {0.0, 0.0, f.displacement[i]});
     for (std::size_t dof = 0; dof < names.size(); ++dof) by_dof[dof].push_back(f.displacement[i + dof]);
   }
-  std::string arrays = array("displacement", 3, displacement);
-  for (std::size_t dof = 0; dof < names.size(); ++dof) arrays += array(names[dof], 1, by_dof[dof]);
-  arrays += array("reaction", names.size(), reactions_at_dofs(p, f));
-  if (!p.beds.empty()) arrays += array("pressure", 1, bed_pressure(p, f));
-  return section("PointData", R"( Vectors="displacement" Scalars="w")", arrays);
+  point_arrays all{R"( Vectors="displacement" Scalars="w")", {{"displacement", 3, std::move(displacement)}}};
+  for (std::size_t dof = 0; dof < names.size(); ++dof)
+    all.arrays.push_back({names[dof], 1, std::move(by_dof[dof])});
+  all.arrays.push_back({"reaction", names.size(), reactions_at_dofs(p, f)});
+  if (!p.beds.empty()) all.arrays.push_back({"pressure", 1, bed_pressure(p, f)});
+  return all;
 }
 
 /// A column has a number for each element, the same for all, then one for each pair; then comes what the
 /// elements read, with zeros for the pairs behind them.
-std::string cell_data(const problem& p, const frame& f, std::size_t elements,
-                      const std::vector<placed_pair>& pairs) {
-  const auto column = [&](std::string_view name, auto of_elements, auto of_pair) {
+std::vector<data_array> cell_data(const problem& p, const frame& f, std::size_t elements,
+                                  const std::vector<placed_pair>& pairs) {
+  const auto column = [&](const char* name, auto of_elements, auto of_pair) {
     std::vector<decltype(of_elements)> values(elements, of_elements);
     for (const placed_pair& at : pairs) values.push_back(at.*of_pair);
-    return array(name, 1, values);
+    return data_array{name, 1, std::move(values)};
   };
-  std::string arrays = column("pair", 0, &placed_pair::number) + column("state", -1, &placed_pair::look) +
-                       column("surface", 0, &placed_pair::surface) +
-                       column("direction", 0, &placed_pair::direction) +
-                       column("face", 0.0, &placed_pair::face) + column("gap", 0.0, &placed_pair::gap) +
-                       column("force", 0.0, &placed_pair::force);
+  std::vector<data_array> arrays = {
+      column("pair", 0, &placed_pair::number),     column("state", -1, &placed_pair::look),
+      column("surface", 0, &placed_pair::surface), column("direction", 0, &placed_pair::direction),
+      column("face", 0.0, &placed_pair::face),     column("gap", 0.0, &placed_pair::gap),
+      column("force", 0.0, &placed_pair::force)};
   const load now = load_path(p).at(f.step, f.fraction);
   const element_results results = elements_in(p, now, f);
+  const auto places = static_cast<std::size_t>(results.places);
   for (std::size_t name = 0; name < results.names.size(); ++name) {
     std::vector<double> values;
     for (std::size_t e = 0; e < elements; ++e) {
       const auto at = results.at(e, name);
       values.insert(values.end(), at.begin(), at.end());
     }
-    values.resize((elements + pairs.size()) * results.places);
-    arrays += array(results.names[name], results.places, values);
+    values.resize((elements + pairs.size()) * places);
+    arrays.push_back({std::string(results.names[name]), places, std::move(values)});
   }
-  return section("CellData", "", arrays);
+  return arrays;
+}
+
+/// A frame as numbers.
+struct grid {
+  grid(const problem& p, const frame& f)
+      : pairs(placed_pairs(p, f)), cells(elements_of(p.geometry)), elements(cells.size()) {
+    of_points = point_data(p, f);
+    of_cells = cell_data(p, f, elements, pairs);
+    points = points_of(p);
+    for (const placed_pair& at : pairs) cells.push_back({at.node});
+  }
+  [[nodiscard]] std::size_t point_count() const {
+    return std::get<std::vector<double>>(points.values).size() / points.components;
+  }
+
+  std::vector<placed_pair> pairs;
+  std::vector<std::vector<int>> cells;  ///< the nodes of elements, then those of pairs
+  std::size_t elements;
+  point_arrays of_points;
+  std::vector<data_array> of_cells;
+  data_array points;
+};
+
+/// Points and cells of a grid, rising.
+struct grid_part {
+  std::vector<int> points, cells;
+};
+
+/// The elements in `count` parts of like size, with their points; a plate's by rows of elements. A pair, and
+/// a point of no element, is in one part.
+std::vector<grid_part> parts_of(const model& m, const grid& g, std::size_t count) {
+  std::vector<grid_part> parts(count);
+  std::vector<std::size_t> part_of(g.point_count(), count);  // the first that has the point
+  const auto* const on_plate = std::get_if<plate>(&m.kind);
+  const std::size_t in_row = on_plate == nullptr ? 1 : static_cast<std::size_t>(on_plate->columns() - 1);
+  for (std::size_t cell = 0; cell < g.elements; ++cell) {
+    const std::size_t number = cell / in_row * count / (g.elements / in_row);
+    parts[number].cells.push_back(static_cast<int>(cell));
+    for (const int node : g.cells[cell]) {
+      parts[number].points.push_back(node);
+      part_of[node] = std::min(part_of[node], number);
+    }
+  }
+  const auto lonely = static_cast<std::size_t>(std::ranges::count(part_of, count));
+  for (std::size_t node = 0, passed = 0; node < part_of.size(); ++node) {
+    if (part_of[node] < count) continue;
+    part_of[node] = passed++ * count / lonely;
+    parts[part_of[node]].points.push_back(static_cast<int>(node));
+  }
+  for (std::size_t cell = g.elements; cell < g.cells.size(); ++cell)
+    parts[part_of[g.cells[cell].front()]].cells.push_back(static_cast<int>(cell));
+  for (grid_part& part : parts) {
+    std::ranges::sort(part.points);
+    part.points.erase(std::unique(part.points.begin(), part.points.end()), part.points.end());
+  }
+  return parts;
+}
+
+/// The cells of a grid, or of a part of it.
+std::string cells_of(const grid& g, const grid_part* part) {
+  std::vector<int> connectivity;
+  std::vector<int> offsets;
+  std::vector<std::uint8_t> types;
+  const std::size_t count = part == nullptr ? g.cells.size() : part->cells.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<int>& at = g.cells[part == nullptr ? i : static_cast<std::size_t>(part->cells[i])];
+    for (const int node : at)
+      connectivity.push_back(part == nullptr ? node
+                                             : static_cast<int>(std::ranges::lower_bound(part->points, node) -
+                                                                part->points.begin()));
+    offsets.push_back(static_cast<int>(connectivity.size()));
+    types.push_back(at.size() == 1 ? vtk_vertex : at.size() == 2 ? vtk_line : vtk_quad);
+  }
+  return section("Cells", "",
+                 text_of({"connectivity", 1, std::move(connectivity)}) +
+                     text_of({"offsets", 1, std::move(offsets)}) + text_of({"types", 1, std::move(types)}));
 }
 
 std::string field_data(const frame& f) {
@@ -186,19 +291,61 @@ std::string file_of(std::string_view type, std::string_view content) {
       type, content);
 }
 
+/// A grid, or a part of it, as a file.
+std::string vtu_of(const grid& g, const std::string& field, const grid_part* part) {
+  const auto arrays = [](const std::vector<data_array>& all, const std::vector<int>* at) {
+    std::string text;
+    for (const data_array& a : all) text += at == nullptr ? text_of(a) : text_of(chosen(a, *at));
+    return text;
+  };
+  const std::vector<int>* const points = part == nullptr ? nullptr : &part->points;
+  const std::vector<int>* const cells = part == nullptr ? nullptr : &part->cells;
+  return file_of("UnstructuredGrid",
+                 field +
+                     fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                                 points == nullptr ? g.point_count() : points->size(),
+                                 cells == nullptr ? g.cells.size() : cells->size()) +
+                     section("PointData", g.of_points.attributes, arrays(g.of_points.arrays, points)) +
+                     section("CellData", "", arrays(g.of_cells, cells)) +
+                     section("Points", "", arrays({g.points}, points)) + cells_of(g, part) +
+                     "    </Piece>\n");
+}
+
+/// The file that lists `count` pieces of a grid.
+std::string list_of_pieces(const grid& g, std::size_t count, const std::string& stem) {
+  const auto declared = [](std::string_view name, std::string_view attributes,
+                           const std::vector<data_array>& arrays) {
+    std::string text = fmt::format("    <{}{}>\n", name, attributes);
+    for (const data_array& a : arrays) text += fmt::format("      <PDataArray {}/>\n", attributes_of(a));
+    return text + fmt::format("    </{}>\n", name);
+  };
+  std::string text = declared("PPointData", g.of_points.attributes, g.of_points.arrays) +
+                     declared("PCellData", "", g.of_cells) + declared("PPoints", "", {g.points});
+  for (std::size_t i = 0; i < count; ++i)
+    text += fmt::format("    <Piece Source=\"{}\"/>\n", markup_text(name_of_piece(stem, i)));
+  return file_of("PUnstructuredGrid", text);
+}
+
 }  // namespace
 
 std::string vtu_of_frame(const problem& p, const frame& f) {
-  const auto elements = elements_of(p.geometry);
-  const auto pairs = placed_pairs(p, f);
-  const auto* a = std::get_if<assembled>(&p.geometry.kind);
-  const auto points = a != nullptr ? std::ssize(a->places.nodes) : nodes(p.geometry);
-  return file_of("UnstructuredGrid",
-                 field_data(f) +
-                     fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points,
-                                 elements.size() + pairs.size()) +
-                     point_data(p, f) + cell_data(p, f, elements.size(), pairs) + points_of(p) +
-                     cells_of(elements, pairs) + "    </Piece>\n");
+  return vtu_of(grid(p, f), field_data(f), nullptr);
+}
+
+grid_pieces pieces_of_frame(const problem& p, const frame& f, std::size_t count) {
+  struct all_parts {
+    grid whole;
+    std::string field;
+    std::vector<grid_part> parts;
+  };
+  const auto all = std::make_shared<all_parts>(all_parts{grid(p, f), field_data(f), {}});
+  all->parts = parts_of(p.geometry, all->whole, count);
+  return {[all](std::size_t number) { return vtu_of(all->whole, all->field, &all->parts[number]); },
+          [all](const std::string& stem) { return list_of_pieces(all->whole, all->parts.size(), stem); }};
+}
+
+std::string name_of_piece(const std::string& stem, std::size_t number) {
+  return fmt::format("{}_{}.vtu", stem, number);
 }
 
 std::string pvd_of_frames(const std::string& stem, std::size_t count) {
