@@ -80,6 +80,11 @@ json measured(const std::string& name, const std::string& engine, int most_incre
   row["factors"] = solves->counts().factors;
   row["solves"] = solves->counts().solves;
   row["peak_mib"] = peaks();
+  if (s.stiffness.is_remote()) {
+    const auto again = s.stiffness.others().make_factor();
+    row["factor_mib"] = static_cast<double>(again->bytes()) / 0x1p20;
+    row["factor_gflop"] = 1e-9 * again->flops();
+  }
   return row;
 }
 

@@ -22,6 +22,7 @@ import os
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -214,6 +215,20 @@ BAD = {
 }
 
 
+def binaries(good):
+    """PETSc's binary of CHAIN, 40 rows and 118 entries, with one thing wrong each."""
+    columns, values = 16 + 4 * 40, 16 + 4 * 40 + 4 * 118
+    put = lambda at, form, value: good[:at] + struct.pack(form, value) + good[at + struct.calcsize(form):]
+    return {
+        "cut short": good[:-8], "longer": good + b"\0" * 8, "no rows": put(4, ">i", 0), "no square": put(8, ">i", 41),
+        "a row without entries": put(16 + 4 * 30, ">i", 0), "a long row": put(16 + 4 * 30, ">i", 4),
+        "a column too far": put(columns + 4 * 90, ">i", 40), "a negative column": put(columns + 4 * 5, ">i", -1),
+        "a place twice": put(columns + 4 * 60, ">i", struct.unpack_from(">i", good, columns + 4 * 59)[0]),
+        "not a number": put(values + 8 * 100, ">d", float("nan")), "no symmetry": put(values + 8 * 81, ">d", -1.5),
+        "a negative diagonal": put(values, ">d", -2.5), "0 on a diagonal": put(values, ">d", 0.0),
+    }
+
+
 def parts(contct, reference, mpiexec, ranks):
     refused = 0
     with tempfile.TemporaryDirectory() as folder:
@@ -227,10 +242,20 @@ def parts(contct, reference, mpiexec, ranks):
             if one != many or len(one) != 1 or (Path(folder) / "out.json").exists():
                 sys.exit(f"{what}: found {many}, and a file: {(Path(folder) / 'out.json').exists()}; allowed: {one} and no file")
             refused += 1
+        matrix.write_text(market(CHAIN))
+        run([contct, "convert", "K.mtx", "K.petsc"], folder)
+        good = (Path(folder) / "K.petsc").read_bytes()
+        for what, content in binaries(good).items():
+            matrix.write_bytes(content)
+            one = messages(run(line, folder, 2).stderr)
+            many = messages(run([*mpirun(mpiexec, ranks), *line, "--engine", "petsc"], folder, 2).stderr)
+            if one != many or len(one) != 1 or (Path(folder) / "out.json").exists():
+                sys.exit(f"{what}: found {many}; allowed: {one}")
+            refused += 1
         comments = "%%MatrixMarket matrix coordinate real symmetric\n" + "% a long comment\n" * 20000
         for text in (market(CHAIN), market([list(reversed(CHAIN))[i * 37 % 79] for i in range(79)]), market(CHAIN, comments[:-1]),
-                     market([*CHAIN, [9, 3, 0.0]]).replace("\n", " \n\n \n", 30)):
-            matrix.write_text(text)
+                     market([*CHAIN, [9, 3, 0.0]]).replace("\n", " \n\n \n", 30), good):
+            matrix.write_bytes(text if text is good else text.encode())
             one = solved(line[:-3], folder, "one.json")
             many = solved([*mpirun(mpiexec, ranks), *line[:-3], "--engine", "petsc"], folder, "many.json")
             counts = dict.fromkeys(LEAST, 0)

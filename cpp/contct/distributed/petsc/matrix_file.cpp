@@ -1,18 +1,15 @@
 #include "contct/distributed/petsc/matrix_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <limits>
 #include <optional>
 
-#include "contct/distributed/petsc/messages.hpp"
+#include "contct/distributed/petsc/file_parts.hpp"
+#include "contct/distributed/petsc/petsc_file.hpp"
 #include "contct/read/matrix_entries.hpp"
+#include "contct/read/petsc_matrix.hpp"
 
 namespace contct::distributed::petsc {
 namespace {
@@ -20,100 +17,6 @@ namespace {
 using read::entry_format;
 using read::matrix_head;
 using read::read_entry;
-using text::input_error;
-
-/// Something wrong with the file, and which of what ranks find comes first.
-struct refusal {
-  std::int64_t place;
-  std::string words;
-};
-
-int rank_in(MPI_Comm job) {
-  int rank = 0;
-  MPI_Comm_rank(job, &rank);
-  return rank;
-}
-
-int ranks_in(MPI_Comm job) {
-  int ranks = 0;
-  MPI_Comm_size(job, &ranks);
-  return ranks;
-}
-
-/// Every rank throws the first refusal of any.
-void agree(MPI_Comm job, const std::optional<refusal>& own) {
-  struct {
-    long place;
-    int rank;
-  } first{own ? own->place : std::numeric_limits<long>::max(), rank_in(job)};
-  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LONG_INT, MPI_MINLOC, job);
-  if (first.place == std::numeric_limits<long>::max()) return;
-  std::string words = own ? own->words : "";
-  int size = static_cast<int>(words.size());
-  MPI_Bcast(&size, 1, MPI_INT, first.rank, job);
-  words.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(words.data(), size, MPI_CHAR, first.rank, job);
-  throw input_error(words);
-}
-
-/// The same where `work` may throw an input_error; those of lower ranks come first.
-template <class Work>
-void agree_on(MPI_Comm job, const Work& work) {
-  std::optional<refusal> own;
-  try {
-    work();
-  } catch (const input_error& e) {
-    own = {rank_in(job), e.what()};
-  }
-  agree(job, own);
-}
-
-/// A file that is open.
-class open_file {
- public:
-  explicit open_file(const matrix_file& f)
-      : name_(f.name), file_(open(f.path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    struct stat is {};
-    if (file_ < 0 || fstat(file_, &is) != 0)
-      throw input_error(name_ + ": cannot be read: " + std::strerror(errno));
-    if (!S_ISREG(is.st_mode))
-      text::refuse_line(name_, 0, S_ISDIR(is.st_mode) ? "a directory" : "no regular file",
-                        "a regular file, of which each rank reads a part");
-    size_ = static_cast<std::size_t>(is.st_size);
-  }
-  ~open_file() {
-    if (file_ >= 0) (void)close(file_);
-  }
-  open_file(const open_file&) = delete;
-  open_file& operator=(const open_file&) = delete;
-
-  [[nodiscard]] std::size_t size() const { return size_; }
-  /// As many bytes from `at` on as there are, at most `count`.
-  [[nodiscard]] std::string bytes(std::size_t at, std::size_t count) const {
-    std::string text(std::min(count, size_ - std::min(at, size_)), '\0');
-    for (std::size_t got = 0; got < text.size();) {
-      const ssize_t n = pread(file_, text.data() + got, text.size() - got, static_cast<off_t>(at + got));
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw input_error(name_ + ": cannot be read to its end");
-      got += static_cast<std::size_t>(n);
-    }
-    return text;
-  }
-  /// The first byte behind the line that byte `at` is in.
-  [[nodiscard]] std::size_t end_of_line(std::size_t at) const {
-    constexpr std::size_t block = 4096;
-    for (; at < size_; at += block) {
-      const std::size_t end = bytes(at, block).find('\n');
-      if (end != std::string::npos) return at + end + 1;
-    }
-    return size_;
-  }
-
- private:
-  std::string name_;
-  int file_;
-  std::size_t size_ = 0;
-};
 
 /// Comments may be long: more of the file is read until the size has been found.
 matrix_head head_of(const open_file& f, const matrix_file& what) {
@@ -138,17 +41,6 @@ std::string own_text(MPI_Comm job, const open_file& f, std::size_t begins) {
   const std::size_t from = edge(rank_in(job));
   const std::size_t to = rank_in(job) + 1 == ranks_in(job) ? f.size() : edge(rank_in(job) + 1);
   return f.bytes(from, to - from);
-}
-
-std::int64_t sum_before(MPI_Comm job, std::int64_t own) {
-  std::int64_t before = 0;
-  MPI_Exscan(&own, &before, 1, MPI_INT64_T, MPI_SUM, job);
-  return rank_in(job) == 0 ? 0 : before;
-}
-
-std::int64_t sum_of(MPI_Comm job, std::int64_t own) {
-  MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_INT64_T, MPI_SUM, job);
-  return own;
 }
 
 /// What a rank has read of the file, up to the first line that is wrong.
@@ -190,45 +82,6 @@ void check_count(MPI_Comm job, const matrix_file& what, const matrix_head& head,
   if (all < head.entries && !any_wrong && rank_in(job) == 0)
     refused(head.line + all_lines, fmt::format("the end of the file after {} of {}", all, head.entries),
             fmt::format("as many as line {} says", head.line));
-}
-
-/// Which rank has which rows.
-class owners {
- public:
-  owners(MPI_Comm job, const own_rows& own) : starts_(static_cast<std::size_t>(ranks_in(job))) {
-    MPI_Allgather(&own.first, 1, MPI_INT, starts_.data(), 1, MPI_INT, job);
-  }
-  [[nodiscard]] std::size_t of(int row) const {
-    return static_cast<std::size_t>(std::upper_bound(starts_.begin(), starts_.end(), row) - starts_.begin()) -
-           1;
-  }
-  [[nodiscard]] std::size_t count() const { return starts_.size(); }
-
- private:
-  std::vector<int> starts_;
-};
-
-/// Each entry to the rank that `to` says; those that came, from rank 0 on.
-template <class To>
-std::vector<read_entry> exchanged(MPI_Comm job, const owners& all, std::vector<read_entry> entries,
-                                  const To& to) {
-  std::vector<int> counts(all.count());
-  for (const read_entry& e : entries) ++counts[to(e)];
-  std::vector<int> starts(all.count());
-  for (std::size_t r = 1; r < starts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<read_entry> sent(entries.size());
-  std::vector<int> next = starts;
-  for (const read_entry& e : entries) sent[static_cast<std::size_t>(next[to(e)]++)] = e;
-  entries = {};
-  std::vector<int> coming(all.count());
-  MPI_Alltoall(counts.data(), 1, MPI_INT, coming.data(), 1, MPI_INT, job);
-  std::vector<int> places(all.count());
-  for (std::size_t r = 1; r < places.size(); ++r) places[r] = places[r - 1] + coming[r - 1];
-  std::vector<read_entry> came(static_cast<std::size_t>(places.back() + coming.back()));
-  const mpi_type<read_entry> type;
-  MPI_Alltoallv(sent.data(), counts.data(), starts.data(), type.get(), came.data(), coming.data(),
-                places.data(), type.get(), job);
-  return came;
 }
 
 read::written_digits digits_of(MPI_Comm job, std::span<const read_entry> entries) {
@@ -285,6 +138,7 @@ own_matrix read_own(MPI_Comm job, const matrix_file& what) {
   std::optional<open_file> file;
   matrix_head head;
   agree_on(job, [&] { file.emplace(what); });
+  if (what.rows == 0 && read::is_petsc_matrix(file->bytes(0, 8))) return read_own_binary(job, *file, what);
   agree_on(job, [&] { head = head_of(*file, what); });
   std::string text;
   agree_on(job, [&] { text = own_text(job, *file, head.begins); });
