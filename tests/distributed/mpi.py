@@ -224,7 +224,7 @@ def binaries(good):
         "a row without entries": put(16 + 4 * 30, ">i", 0), "a long row": put(16 + 4 * 30, ">i", 4),
         "a column too far": put(columns + 4 * 90, ">i", 40), "a negative column": put(columns + 4 * 5, ">i", -1),
         "a place twice": put(columns + 4 * 60, ">i", struct.unpack_from(">i", good, columns + 4 * 59)[0]),
-        "not a number": put(values + 8 * 100, ">d", float("nan")), "no symmetry": put(values + 8 * 81, ">d", -1.5),
+        "not a number": put(values + 8 * 100, ">d", float("nan")), "no symmetry": put(values + 8 * 80, ">d", -1.5),
         "a negative diagonal": put(values, ">d", -2.5), "0 on a diagonal": put(values, ">d", 0.0),
     }
 

@@ -51,6 +51,27 @@ std::vector<double> waves(int n) {
   return x;
 }
 
+/// The least eigenvalue of S K_A S, from above, by inverse iteration.
+double least_by_iteration(const certify::scaled_stiffness& a, const true_system& t) {
+  std::vector<double> x = waves(static_cast<int>(t.dofs()));
+  double least = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    std::vector<double> y = x;
+    for (std::size_t dof = 0; dof < x.size(); ++dof) y[dof] = t.fixed[dof] != 0 ? 0.0 : x[dof] / a.scale(dof);
+    a.solve(y);
+    double product = 0.0;
+    double norm = 0.0;
+    for (std::size_t dof = 0; dof < x.size(); ++dof) {
+      y[dof] = t.fixed[dof] != 0 ? 0.0 : y[dof] / a.scale(dof);
+      product += x[dof] * y[dof];
+      norm += y[dof] * y[dof];
+    }
+    least = product / norm;
+    for (std::size_t dof = 0; dof < x.size(); ++dof) x[dof] = y[dof] / std::sqrt(norm);
+  }
+  return least;
+}
+
 }  // namespace
 
 TEST_CASE("a plate's stiffness on the ranks has the entries of one process's, to the bit") {
@@ -147,8 +168,9 @@ TEST_CASE("in 32 digits the ranks have what one process has, and their bound on 
     REQUIRE(by_band.factor(pairs));
     REQUIRE(by_ranks.factor(pairs));
     const double mu = by_ranks.least_eigenvalue();
-    CHECK(mu > 0.0);
-    CHECK(mu == Approx(by_band.least_eigenvalue()).epsilon(1e-3));
+    const double least = least_by_iteration(by_ranks, one);
+    CHECK(mu < 0.76 * least);  // it is tried at 0.75 of an estimate
+    CHECK(mu > 0.74 * least);
     std::vector<double> a = waves(static_cast<int>(x.size()));
     for (std::size_t dof = 0; dof < a.size(); ++dof) a[dof] *= one.fixed[dof] != 0 ? 0.0 : 1.0;
     std::vector<double> b = a;

@@ -222,8 +222,11 @@ bool error_prover::find_closed(std::span<const double_double> u, const residual&
   for (int tries = 0; tries < 3; ++tries) {
     if (!proves(b.closed)) {
       b.not_proved =
-          stiffness_.has_no_factor()
-              ? "the stiffness has no factor, which multigrid does without"
+          stiffness_.has_no_factor() ? "the stiffness has no factor, which multigrid does without"
+          : stiffness_.is_remote()
+              ? "the stiffness is too ill-conditioned for a factor of so many entries, or it is not certain "
+                "that "
+                "the structure is held"
               : "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
       return false;
     }

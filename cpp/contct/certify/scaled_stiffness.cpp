@@ -123,7 +123,11 @@ bool scaled_stiffness::factor(std::span<const int> pairs) {
   for (const int i : pairs) springs_[true_.pairs[i].dof] += true_.pairs[i].stiffness;
   scale_.assign(true_.dofs(), 1.0);
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
-    if (true_.fixed[dof] == 0) scale_[dof] = root_scale(true_.root[dof] * true_.root[dof] + springs_[dof].hi);
+    if (true_.fixed[dof] != 0) continue;
+    const double diagonal = true_.root[dof] * true_.root[dof] + springs_[dof].hi;
+    // The bound on a remote factor's rounding grows with the diagonal: this makes it at most 1, and nearly
+    // so.
+    scale_[dof] = true_.remote ? (1 - 0x1p-40) / std::sqrt(diagonal) : root_scale(diagonal);
   }
   return factor_in_doubles() || factor_in_32_digits();
 }
@@ -300,20 +304,29 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
 }
 
 /// L L', or L D L', of a matrix with entries t_i in row i of L is off by at most (t_i + 8) 2^-53 times the
-/// diagonal's root in row i and column j each (S. M. Rump 2006), in whatever order its products are summed:
-/// in norm by the sum over all rows. The diagonal is at most 1.
-std::optional<double> scaled_stiffness::error_of_remote(double shift) {
-  if (!factor_remotely(shift)) return std::nullopt;
+/// roots of the diagonal in row i and column j each (S. M. Rump 2006), in whatever order its products are
+/// summed: in norm by the sum over all rows. The diagonal is at most 1; its rounding, and that of the
+/// entries, is added.
+double scaled_stiffness::rounding_of_remote() const {
   constexpr double of_a_row = 8;
-  const auto n = static_cast<double>(true_.dofs());
-  const double entries = sparse_->most_entries() + of_a_row * n;
-  const double of_the_matrix = true_.remote->widest_row() * (0x1p-53 + true_rounding);
-  const bool restored = factor_remotely(0.0);
-  if (!restored) return std::nullopt;
+  const double entries = sparse_->most_entries() + of_a_row * static_cast<double>(true_.dofs());
+  const double of_the_matrix = true_.remote->widest_row() * (0x1p-52 + true_rounding);
   return (entries * 0x1p-53 + of_the_matrix) * (1 + 0x1p-20);
 }
 
+/// K_A is factored once more without the shift: solutions are wanted.
+double scaled_stiffness::least_of_remote() {
+  constexpr double below_estimate = 0.75;
+  const double shift = below_estimate * least_estimate();
+  const double rounding = rounding_of_remote();
+  if (!(shift > rounding)) return 0.0;
+  const bool proved = factor_remotely(shift) && shift > rounding_of_remote();
+  const double mu = proved ? (shift - rounding_of_remote()) * (1 - 0x1p-50) : 0.0;
+  return factor_remotely(0.0) ? mu : 0.0;
+}
+
 double scaled_stiffness::least_eigenvalue() {
+  if (true_.remote) return least_of_remote();
   if (const double mu = proved_below_estimate(); mu > 0.0 || long_) return mu;
   return factor_in_32_digits() ? proved_below_estimate() : 0.0;
 }
@@ -324,7 +337,6 @@ double scaled_stiffness::proved_below_estimate() {
     const double shift = std::ldexp(highest, -4 * tries);
     if (!(shift > 0.0)) break;
     const std::optional<double> error = long_           ? error_of_long_band(shift)
-                                        : true_.remote  ? error_of_remote(shift)
                                         : subdiagonals_ ? error_of_band(shift)
                                                         : error_of_columns(shift);
     if (!error) continue;

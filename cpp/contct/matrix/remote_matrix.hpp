@@ -42,7 +42,7 @@ class remote_truth {
   [[nodiscard]] virtual std::vector<double> sums(std::span<const double> x) = 0;
   /// The most entries that a row has.
   [[nodiscard]] virtual int widest_row() = 0;
-  /// The factor of D K D, its entries rounded once; D diagonal: powers of two, or 0 [rows].
+  /// The factor of D K D, its entries rounded once; D diagonal: `d` [rows].
   [[nodiscard]] virtual std::unique_ptr<sparse_factor> make_factor(std::span<const double> d) = 0;
 };
 

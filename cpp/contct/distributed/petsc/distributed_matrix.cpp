@@ -210,7 +210,7 @@ factored distributed_matrix::factor(std::span<const double> diagonal) {
 
 double distributed_matrix::entries() const {
   if (iterative_ != nullptr) return std::numeric_limits<double>::infinity();
-  constexpr double to_be_sure = 2.0;  // what it counts is not said to the last entry
+  constexpr double to_be_sure = 1.1;  // what it counts is not said to the last entry
   return to_be_sure *
          std::max(large(infog(factor_, space_of_factor)), large(infog(factor_, entries_of_factor)));
 }
