@@ -316,13 +316,16 @@ double scaled_stiffness::rounding_of_remote() const {
 
 /// K_A is factored once more without the shift: solutions are wanted.
 double scaled_stiffness::least_of_remote() {
-  constexpr double below_estimate = 0.75;
-  const double shift = below_estimate * least_estimate();
-  const double rounding = rounding_of_remote();
-  if (!(shift > rounding)) return 0.0;
-  const bool proved = factor_remotely(shift) && shift > rounding_of_remote();
-  const double mu = proved ? (shift - rounding_of_remote()) * (1 - 0x1p-50) : 0.0;
-  return factor_remotely(0.0) ? mu : 0.0;
+  const double estimate = least_estimate();
+  double mu = 0.0;
+  bool any = false;
+  for (const double below : {0.75, 0.25, 0.0625}) {
+    const double shift = below * estimate;
+    if (mu > 0.0 || !(shift > rounding_of_remote())) break;
+    any = true;
+    if (factor_remotely(shift)) mu = std::max(0.0, (shift - rounding_of_remote()) * (1 - 0x1p-50));
+  }
+  return !any || factor_remotely(0.0) ? mu : 0.0;
 }
 
 double scaled_stiffness::least_eigenvalue() {
