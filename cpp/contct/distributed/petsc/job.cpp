@@ -34,11 +34,12 @@ class petsc_ranks final : public ranks, public commander {
     MPI_Init(nullptr, nullptr);
     MPI_Comm_rank(MPI_COMM_WORLD, &own_);
     MPI_Comm_size(MPI_COMM_WORLD, &count_);
-    char name[] = "contct", signals[] = "-no_signal_handler", file[] = "-skip_petscrc";
-    char left[] = "-options_left", no[] = "no";
-    char* words[] = {name, signals, file, left, no, nullptr};
-    char** argv = words;
-    int argc = 5;
+    std::string words[] = {"contct", "-no_signal_handler", "-skip_petscrc", "-options_left", "no"};
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    int argc = static_cast<int>(pointers.size());
+    pointers.push_back(nullptr);
+    char** argv = pointers.data();
     together([&] {
       succeed(PetscInitialize(&argc, &argv, nullptr, nullptr));
       succeed(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
@@ -263,7 +264,8 @@ class petsc_ranks final : public ranks, public commander {
   static void gather_peaks(long* peaks) {
     rusage used{};
     (void)getrusage(RUSAGE_SELF, &used);
-    MPI_Gather(&used.ru_maxrss, 1, MPI_LONG, peaks, 1, MPI_LONG, 0, MPI_COMM_WORLD);
+    const long peak = used.ru_maxrss;  // NOLINT(cppcoreguidelines-pro-type-union-access): glibc's
+    MPI_Gather(&peak, 1, MPI_LONG, peaks, 1, MPI_LONG, 0, MPI_COMM_WORLD);
   }
 
   /// What all ranks do, and where no rank may fail alone.
@@ -278,7 +280,7 @@ class petsc_ranks final : public ranks, public commander {
     }
   }
 
-  [[noreturn]] void abandon(const std::string& why) {
+  [[noreturn]] void abandon(const std::string& why) const {
     const std::string line = "contct: rank " + std::to_string(own_) + ": " + why + "\n";
     (void)std::fputs(line.c_str(), stderr);
     constexpr int bad_input = 2;
@@ -286,24 +288,26 @@ class petsc_ranks final : public ranks, public commander {
     _exit(bad_input);
   }
 
-  void tell(command& c) {
+  static void tell(command& c) {
     MPI_Request sent = MPI_REQUEST_NULL;
     MPI_Ibcast(&c, sizeof c, MPI_BYTE, 0, MPI_COMM_WORLD, &sent);
     MPI_Wait(&sent, MPI_STATUS_IGNORE);
   }
 
   /// Waits for rank 0, which may be long about something else: the longer, the less often this asks.
-  command next() {
+  static command next() {
     command c{verb::leave};
     MPI_Request coming = MPI_REQUEST_NULL;
     MPI_Ibcast(&c, sizeof c, MPI_BYTE, 0, MPI_COMM_WORLD, &coming);
     using clock = std::chrono::steady_clock;
     const auto begun = clock::now();
     for (int arrived = 0;;) {
-      MPI_Test(&coming, &arrived, MPI_STATUS_IGNORE);
+      MPI_Test(&coming, &arrived,
+               MPI_STATUS_IGNORE);  // NOLINT(clang-analyzer-optin.mpi.MPI-Checker): it waits
       if (arrived != 0) return c;
       const auto waited = std::chrono::duration_cast<std::chrono::microseconds>(clock::now() - begun);
-      constexpr std::int64_t patience = 2000, longest = 1000;  // microseconds
+      constexpr std::int64_t patience = 2000;  // microseconds
+      constexpr std::int64_t longest = 1000;
       if (waited.count() > patience)
         (void)usleep(static_cast<useconds_t>(std::min(waited.count() / 64, longest)));
     }

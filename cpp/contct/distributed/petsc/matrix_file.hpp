@@ -15,6 +15,6 @@ struct matrix_file {
 
 /// Collective: own rows. Throws text::input_error on every rank, with the words that one process would refuse
 /// the file with.
-[[nodiscard]] own_matrix read_own(MPI_Comm job, const matrix_file& file);
+[[nodiscard]] own_matrix read_own(MPI_Comm job, const matrix_file& what);
 
 }  // namespace contct::distributed::petsc

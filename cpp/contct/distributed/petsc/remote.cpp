@@ -8,18 +8,16 @@
 namespace contct::distributed::petsc {
 
 remote_factor::remote_factor(commander& all, int number, const matrix::sparse_columns& a)
-    : all_(all), number_(number) {
-  (void)all_.command_all({verb::make, number_, 0, a.order()}, {.matrix = &a});
-  flops_ = all_.at(number_).own().flops();
-  bytes_ = all_.at(number_).own().bytes();
-}
+    : remote_factor(all, {verb::make, number, 0, a.order()}, {.matrix = &a}) {}
 
 remote_factor::remote_factor(commander& all, int number, verb how, int from, std::span<const double> d)
-    : all_(all), number_(number) {
-  (void)all_.command_all({how, number_, from}, {.doubles = d});
-  flops_ = all_.at(number_).own().flops();
-  bytes_ = all_.at(number_).own().bytes();
-}
+    : remote_factor(all, {how, number, from}, {.doubles = d}) {}
+
+remote_factor::remote_factor(commander& all, const command& made_by, const given& g)
+    : all_(all),
+      number_((static_cast<void>(all.command_all(made_by, g)), made_by.matrix)),
+      flops_(all_.at(number_).own().flops()),
+      bytes_(all_.at(number_).own().bytes()) {}
 
 double remote_factor::most_entries() const {
   return all_.at(number_).own().entries();

@@ -33,9 +33,11 @@ class remote_factor final : public matrix::sparse_factor {
   [[nodiscard]] static std::logic_error no_such() {
     return std::logic_error("a distributed factor cannot be read");
   }
+  remote_factor(commander& all, const command& made_by, const given& g);
+
   commander& all_;
   int number_;
-  double flops_ = 0.0, bytes_ = 0.0;
+  double flops_, bytes_;
 };
 
 /// A stiffness in 32 digits, likewise.
