@@ -2,10 +2,10 @@
 # Installs what is missing, builds, and passes all tests: sh tests/run.sh [--full] [LEG]...
 # LEG: another preset that is built and tested first: core (without the program), asan and asan-core (sanitizers),
 # checked (gfortran's run-time checks), tsan (threads), debug. --full has all of these but asan-core, which asan contains, and adds what
-# takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels,
-# the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors, the page in a browser, the
-# playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian packages in a bare Debian,
-# formatting and clang-tidy.
+# takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels
+# and of the rooms above them, the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors,
+# the page in a browser, the playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian
+# packages in a bare Debian, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -89,6 +89,8 @@ if [ "$full" = yes ]; then
   done
   echo "== mutants of both kernels"
   build/release/tests/contct_mutants
+  echo "== mutants of the rooms above them"
+  python3 tests/mutants/rooms/rooms.py build/mutants --draw 400 --seed 21
   echo "== exact numbers of verification.toml"
   python3 tests/lab/write_exact.py build/release/contct reference --check --least 646
   echo "== proofs of all reference problems"

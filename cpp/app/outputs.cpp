@@ -138,7 +138,9 @@ std::string utc_now() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
   const char* const said = std::getenv("SOURCE_DATE_EPOCH");
   constexpr std::int64_t most = 253'402'300'799;  // the end of the year 9999
-  const auto seconds = said == nullptr ? std::int64_t{std::time(nullptr)} : number_in<std::int64_t>(said);
+  // A clock that was never set may say any year: that is no reason to lose a page.
+  const auto seconds =
+      said == nullptr ? std::clamp<std::int64_t>(std::time(nullptr), 0, most) : number_in<std::int64_t>(said);
   if (!seconds || *seconds < 0 || *seconds > most)
     throw std::invalid_argument(
         fmt::format("SOURCE_DATE_EPOCH: found \"{}\"; allowed: seconds since 1970, 0 to {}", said, most));

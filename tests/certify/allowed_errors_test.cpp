@@ -64,3 +64,18 @@ TEST_CASE("a bound where nothing is allowed is the worst of all, and so is one t
   CHECK(std::isinf(worst_share(error, allowed)));
   CHECK_FALSE(worst_bound(error, allowed).empty());
 }
+
+TEST_CASE(
+    "forces of a state that has none are measured by its moments over the span, or without a span by the "
+    "loads") {
+  error_bounds b;
+  b.unloaded = true;
+  b.error[quantity::force] = 0.0;
+  b.size[quantity::moment] = 40.0;
+  b.beside[quantity::moment] = 60.0;
+  b.beside[quantity::force] = 2.0;
+  allowed_errors of_beam;
+  CHECK(of_beam.of(b, 10.0)[quantity::force] == Approx(6e-6));  // 60 / 10
+  allowed_errors of_matrix;
+  CHECK(of_matrix.of(b, 0.0)[quantity::force] == Approx(2e-6));
+}

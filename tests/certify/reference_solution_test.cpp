@@ -464,3 +464,18 @@ TEST_CASE("a load beyond the range of double precision is no answer, and no word
   CHECK(after.how == outcome::found);
   CHECK(after.displacement[4] == Approx(-10 * 8.0 / 3 / 1e4).epsilon(1e-14));
 }
+
+TEST_CASE(
+    "a beam that is pinned at one end turns onto the stop at its other end, and its pin stays where it is") {
+  const beam_problem p{
+      even_beam(2.0, 2, 1e4), {{0, 0, true}}, {{2, face_below, -0.1, 1e3, false}}, {tip_load(1, -10)}};
+  const linear_structure s = p.structure();
+  reference_solver o(s);
+  const reference_answer a = o.solve(forces_of(p.geometry, p.steps[0]));
+  CHECK(a.how == outcome::found);
+  CHECK(a.unique);
+  CHECK(a.displacement[0] == 0.0);
+  const double tip = -0.1 - 5.0 / 1e3;
+  CHECK(a.displacement[4] == Approx(tip).epsilon(1e-13));
+  CHECK(a.displacement[2] == Approx(tip / 2 - 10.0 * 8 / 48 / 1e4).epsilon(1e-13));
+}

@@ -124,9 +124,21 @@ TEST_CASE("springs of pairs hold what supports do not, and a wide band is bounde
   std::iota(all.begin(), all.end(), 0);
   REQUIRE(k.factor(all));
   CHECK(k.least_eigenvalue() > 1e-8);
+  CHECK_FALSE(k.has_32_digits());  // doubles are enough
 
   std::vector<double> b(t.dofs(), 1.0);
   k.solve(b);
   const long_vector x(b.begin(), b.end());
   for (const double_double& back : k.times(x)) CHECK(back.hi == Approx(1.0).margin(1e-6));
+}
+
+TEST_CASE("a chain that is fixed at some nodes is proved in doubles, as one that is not") {
+  for (const int fixed : {0, 3, 9}) {
+    true_system t = chain(10);
+    t.fixed[fixed] = 1;
+    scaled_stiffness k(t, in_order(10), 1);
+    REQUIRE(k.factor({}));
+    CHECK(k.least_eigenvalue() > 0.0);
+    CHECK_FALSE(k.has_32_digits());
+  }
 }

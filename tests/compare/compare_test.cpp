@@ -233,3 +233,13 @@ TEST_CASE("a trace that names a kernel which is not known here is compared by by
   CHECK(replayed(trace_of("another", " 0.5000E+00")).compared.mismatches == 0);
   CHECK(replayed(trace_of("another", "  .5000E+00")).compared.mismatches == 1);
 }
+
+TEST_CASE(
+    "an answer that has every s and every status of its own is a mismatch in each, though SMIN is the same") {
+  tally t;
+  const std::optional<mismatch> first = differ(0.5, {0.25, 1.0}, {-1, 1}, t);
+  REQUIRE(first);
+  CHECK(first->field == "SS");
+  CHECK(first->index == 1);
+  CHECK(t.mismatches == 4);
+}

@@ -145,3 +145,32 @@ TEST_CASE("every line that explanations cite holds its statement, and none is ci
     CHECK(times == 1);
   }
 }
+
+TEST_CASE(
+    "the explanation of a call has its precision, GAP in that precision, and nothing of what no IF "
+    "computed") {
+  // Before and behind its face, and without a response.
+  small_call<double> c({{0.1, 1.0, 0.4, separated, face_above},
+                        {0.4, 1.0, 0.1, separated, face_above},
+                        {0.0, 0.0, 1.0, separated, face_above}});
+  const std::vector<int> before = c.isep;
+  c.ask();
+  call<double> answered = c.arguments();
+  answered.smin = c.smin;
+  double largest = 0.0;
+  for (const int bytes : {8, 4}) {
+    const explained_call e = explain(answered, before, bytes, largest);
+    CHECK(e.real_bytes == bytes);
+    CHECK(e.pairs[0].gap == (bytes == 8 ? 0.4 - 0.1 : static_cast<double>(0.4F - 0.1F)));
+    CHECK(e.pairs[1].gap < 0.0);
+    const explained_pair& quiet = e.pairs[2];
+    CHECK(quiet.way == way_to_s::no_response);
+    CHECK(quiet.gap == 1.0);
+    CHECK(quiet.s_chk == 0.0);
+    CHECK(quiet.at(branch::no_response).reached);
+    CHECK_FALSE(quiet.at(branch::stationary).reached);
+    CHECK_FALSE(quiet.at(branch::check_positive).reached);
+    CHECK_FALSE(quiet.at(branch::was_separated).reached);
+    CHECK_FALSE(e.pairs[1].at(branch::s_is_smallest).reached);  // its s is negative
+  }
+}

@@ -13,6 +13,8 @@ using namespace contct::app;
 
 namespace {
 
+using call_of_double = call<double>;
+
 /// A C++ kernel with a fault put in on purpose.
 class faulty_kernel final : public kernel {
  public:
@@ -143,4 +145,22 @@ TEST_CASE("kernels of different precision cannot be compared in lockstep, and th
   followers.push_back(make_kernel("cpp-r4"));
   const auto leader = make_kernel("fortran");
   CHECK_THROWS_WITH(lockstep(leader->facts(), std::move(followers)), Catch::Matchers::Contains("--free-run"));
+}
+
+TEST_CASE("of several followers the mismatch of the earliest call is told, whichever of them comes first") {
+  const auto wrong_from = [](int call, double by) -> std::unique_ptr<kernel> {
+    return std::make_unique<faulty_kernel>([call, by, n = 0](call_of_double& c, std::string&) mutable {
+      if (++n >= call) c.smin += by;
+    });
+  };
+  for (const bool early_first : {true, false}) {
+    const auto leader = make_kernel("fortran");
+    std::vector<std::unique_ptr<kernel>> followers;
+    followers.push_back(wrong_from(early_first ? 2 : 4, early_first ? 0.25 : 0.5));
+    followers.push_back(wrong_from(early_first ? 4 : 2, early_first ? 0.5 : 0.25));
+    lockstep compared(leader->facts(), std::move(followers));
+    cantilever_over_a_stop().run(*leader, {&compared});
+    REQUIRE(compared.first());
+    CHECK(compared.first()->call == 2);
+  }
 }

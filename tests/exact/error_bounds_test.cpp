@@ -325,6 +325,40 @@ TEST_CASE(
   CHECK(*b.error[quantity::force] == 0.0);
 }
 
+TEST_CASE(
+    "unloaded, any number that is not 0 is off by itself, at whichever pair, support or element it is") {
+  const problem p = parse_problem(
+      "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
+      "[[contact]]\nnodes = [2, 3]\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n[[step]]\nuniform = "
+      "0\n",
+      "b.toml");
+  const linear_structure s = structure_of(p);
+  error_prover prover(p, s);
+  const auto errors_with = [&](std::size_t where, double value) {
+    const std::vector<double> at_rest(10, 0.0);
+    handed_out told{1, at_rest, std::vector<double>(2), std::vector<double>(2), std::vector<double>(16)};
+    if (where < 2)
+      told.pair_forces[where] = value;
+    else if (where < 4)
+      told.reactions[where - 2] = value;
+    else
+      told.element_values[where - 4] = value;
+    return prover.bound(told).error;
+  };
+  for (std::size_t where = 0; where < 20; ++where) {
+    const by_quantity error = errors_with(where, -0.25);
+    // Of each element: shear at both ends, moment at both ends.
+    const quantity q = where < 2             ? quantity::force
+                       : where < 4           ? quantity::reaction
+                       : (where - 4) % 4 < 2 ? quantity::shear
+                                             : quantity::moment;
+    CAPTURE(where);
+    CHECK(*error[q] == 0.25);
+    for (const quantity other : {quantity::force, quantity::reaction, quantity::shear, quantity::moment})
+      if (other != q) CHECK(*error[other] == 0.0);
+  }
+}
+
 TEST_CASE("what nothing holds for certain is not proved, and says so") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = "
@@ -395,4 +429,47 @@ TEST_CASE(
   const error_bounds b = prover.bound({1, displacement, {}, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}});
   const std::optional<double> slope = b.error[quantity::slope];
   CHECK((!slope || *slope >= 1.5e-24));
+}
+
+TEST_CASE(
+    "last digits that each could not, and all of a row together could free the structure, prove nothing") {
+  // An arrow: dof 1 is coupled with all others by entries that are written with 6 digits.
+  const auto proved = [](int others) {
+    problem p;
+    assembled a;
+    a.name = "arrow.mtx";
+    const int n = others + 1;
+    a.stiffness.order = n;
+    for (int i = 0; i < n; ++i) {
+      a.stiffness.entries.push_back({i, i, 1.0});
+      a.stiffness.last_digits.push_back(sparse_matrix::exact_entry);
+    }
+    for (int i = 1; i < n; ++i) {
+      a.stiffness.entries.push_back({i, 0, -0.0001});
+      a.stiffness.last_digits.push_back(-2);  // half a unit: 0.005
+    }
+    a.rows.resize(n);
+    for (int i = 0; i < n; ++i) a.rows[i] = i;
+    p.geometry = {a};
+    p.pairs = {{0, face_above, 10.0, 1.0, false}};
+    p.steps = {{{{n - 1, 0, 1.0}}, {}}};
+    const linear_structure s = structure_of(p);
+    error_prover prover(p, s);
+    std::vector<double> u(n, 0.0);
+    std::vector<int> isep = {separated};
+    (void)prover.refine(1, u, isep);
+    return prover.bound({1, u, {0.0}, {}, {}}).not_proved.empty();
+  };
+  CHECK(proved(20));         // 20 * 0.005 < 1
+  CHECK_FALSE(proved(250));  // 250 * 0.005 > 1
+}
+
+TEST_CASE("an elastic support without a force is no doubt about the reactions") {
+  const one_end e(
+      "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+      "[[support]]\nnode = 1\nspring = { w = 5 }\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.1\nstiffness = 10\n"
+      "[[step]]\npoint = [{ node = 3, w = -1 }]\n");
+  CHECK(e.end.numbers.reactions[2] == 0.0);
+  CHECK(certified(e.end.bounds));
 }

@@ -51,6 +51,10 @@ int compare(const problem& p) {
   return compared;
 }
 
+double x_of(const problem& p, std::size_t node) {
+  return std::get<beam>(p.geometry.kind).x[node];
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -98,4 +102,70 @@ TEST_CASE(
   CHECK(off(v[2].value, 6) <= 64 * true_rounding * v[2].size);
   CHECK(off(v[3].value, 6) <= 64 * true_rounding * v[3].size);
   CHECK(v[2].size < 1e12);
+}
+
+TEST_CASE(
+    "no displacement of a beam's element has more shear or moment than its share of the square root of its "
+    "energy") {
+  // Elements as long as the one before, and as the one behind.
+  for (const char* mesh : {"[0.0, 0.4, 0.8, 2.8]\nEI = [5.0, 5.0, 7.0]", "[0.0, 0.4, 2.4, 4.4]\nEI = 5.0",
+                           "[0.0, 2.0, 4.0, 4.4]\nEI = [5.0, 7.0, 7.0]"}) {
+    const problem p =
+        parse_problem("[beam]\nx = " + std::string(mesh) + "\n[[step]]\nuniform = 0.0\n", "b.toml");
+    const true_system t = true_system_of(p);
+    const beam& b = std::get<beam>(p.geometry.kind);
+    const auto energy_of = [&](const long_vector& u) {  // u' K u
+      double_double sum;
+      for (std::size_t row = 0; row < t.dofs(); ++row)
+        for (std::size_t at = t.k.starts[row]; at < t.k.starts[row + 1]; ++at)
+          sum += u[row] * t.k.values[at] * u[t.k.columns[at]];
+      return sum.hi;
+    };
+    for (std::size_t e = 0; e < 3; ++e) {
+      // Both ends turn alike, which is all shear, and the element's line is continued unbent to either side.
+      long_vector sheared(8);
+      for (std::size_t node = 0; node < 4; ++node) {
+        if (node <= e) sheared[2 * node] = x_of(p, node) - x_of(p, e);
+        if (node > e) sheared[2 * node] = x_of(p, node) - x_of(p, e + 1);
+        sheared[2 * node + 1] = 1.0;
+      }
+      const std::vector<element_value> v = t.element_values(1, sheared);
+      const double root = std::sqrt(energy_of(sheared));
+      CAPTURE(e, root);
+      CHECK(std::abs(v[4 * e].value.hi) ==
+            Approx(v[4 * e].energy * root).epsilon(1e-12));  // the bound is reached
+      CHECK(std::abs(v[4 * e].value.hi) ==
+            Approx(12 * b.EI[e] / std::pow(b.length_of(static_cast<int>(e)), 2)));
+      CHECK(std::abs(v[4 * e + 1].value.hi) == Approx(v[4 * e + 1].energy * root).epsilon(1e-12));
+      CHECK(std::abs(v[4 * e + 2].value.hi) <= v[4 * e + 2].energy * root);
+      CHECK(std::abs(v[4 * e + 3].value.hi) <= v[4 * e + 3].energy * root);
+    }
+  }
+}
+
+TEST_CASE("two even loads on elements of one length act with their own sizes, in either order") {
+  for (const double second : {-1.0, 3.0}) {
+    problem p =
+        parse_problem("[beam]\nx = [0.0, 2.0, 4.0, 6.0]\nEI = 1.0\n[[step]]\nuniform = -4.0\n", "b.toml");
+    p.steps[0].distributed.push_back({{second}, {0, 1, 2}});
+    const true_system t = true_system_of(p);
+    const true_loads l = t.loads(1);
+    double sum = 0.0;
+    for (std::size_t node = 0; node < 4; ++node) sum += l.force[2 * node].hi;
+    CHECK(sum == Approx(6 * (second - 4.0)).epsilon(1e-14));
+    const std::vector<element_value> v =
+        t.element_values(1, long_vector(8));  // all fixed: q h / 2, q h^2 / 12
+    for (std::size_t e = 0; e < 3; ++e) {
+      CHECK(std::abs(v[4 * e].value.hi) == Approx(std::abs(second - 4.0)).epsilon(1e-14));
+      CHECK(std::abs(v[4 * e + 2].value.hi) == Approx(std::abs(second - 4.0) / 3).epsilon(1e-14));
+    }
+  }
+}
+
+TEST_CASE("the span of a structure is its length, wherever it begins") {
+  const char* const rest = "\nEI = 1.0\n[[step]]\nuniform = 0.0\n";
+  CHECK(true_system_of(parse_problem(std::string("[beam]\nx = [5.0, 6.0, 7.5]") + rest, "b.toml")).span ==
+        2.5);
+  CHECK(true_system_of(parse_problem(std::string("[beam]\nx = [-3.0, 0.0, 1.0]") + rest, "b.toml")).span ==
+        4.0);
 }

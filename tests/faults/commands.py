@@ -51,6 +51,7 @@ class Command:
         new = self.made.keys() - prepared.keys()
         if self.status not in (0, 1) or not new:
             raise SystemExit(f"faults: {name}: exit {self.status}, files {sorted(self.made)}: {self.said}")
+        self.replaced = len(new) if before else 0
         if before:
             self.prepared |= dict.fromkeys(new, b"before\n")
 

@@ -155,6 +155,30 @@ def locales() -> None:
         print("locales that are installed:", ", ".join(sorted(n for n in there if n[:5] in ("de_DE", "tr_TR"))) or "none but C")
 
 
+def clocks() -> None:
+    """A clock that jumps by hours and by centuries: the same results but for dates, and no limit is reached by it."""
+    commands_and_files = [(["run", "p.toml", *OUTPUTS, "--max-seconds", "100"], OUTPUTS[1::2]),
+                          (["fuzz", "--calls", "300", "--problems", "1", "--seed", "3", "--json", "f.json"], ["f.json"])]
+    for arguments, made in commands_and_files:
+        found = []
+        for jumps in [{}] + [{"LD_PRELOAD": str(LIBRARY), "FAULT_CLOCK": str(first)} for first in range(6)]:
+            with tempfile.TemporaryDirectory() as scratch:
+                folder = Path(scratch)
+                (folder / "p.toml").write_text(PROBLEM)
+                done = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, timeout=600,
+                                      env={"PATH": "/usr/bin:/bin"} | jumps)
+                files = {f.name: dateless(f.read_bytes()) for f in folder.iterdir()}
+                check(done.returncode == 0 and not done.stderr, f"clock: {arguments[0]}: exit {done.returncode}: {done.stderr!r}")
+                check(set(made) <= files.keys(), f"clock: {arguments[0]}: files {sorted(files)}")
+                found.append((dateless(done.stdout), files))
+        check(all(f == found[0] for f in found), f"clock: {arguments[0]}: other results where it jumps")
+
+
+def dateless(content: bytes) -> bytes:
+    content = re.sub(rb"\d{4}-\d\d-\d\d[ T]\d\d:\d\d(:\d\d)?( UTC|Z)?", b"", untimed(content))
+    return re.sub(rb'("seconds": |after |in )[0-9.e-]+( s)?', b"", content)
+
+
 def names() -> None:
     """Names with line ends, quotes, blanks, a leading dash and bytes that are no UTF-8: in messages one line, and files as named."""
     odd = [b"a\nb", b"q\"u'o`te", b" blank ", b"\xff\xfe\x80", b"\x1b[31m", "\u202edcba".encode(), b"$(touch x);&|", b"%s%n", b"*",
@@ -242,6 +266,7 @@ random.seed(21)
 full_and_closed()
 names()
 locales()
+clocks()
 memory_steps()
 changing_files()
 signals_at_moments()

@@ -48,6 +48,9 @@ def main() -> None:
             print(complaints[-1], flush=True)
         for kind, error in KINDS.items():
             count = command.calls(kind)
+            if kind == "fsync" and count < command.replaced:
+                complaints.append(f"{command.name}: {count} calls of fsync; allowed: one for each of {command.replaced} files that are replaced")
+                print(complaints[-1], flush=True)
             here = 0
             for number in chosen(count, kind):
                 for more in ((), ("FAULT_MORE",)):

@@ -1,8 +1,12 @@
 #include "contct/path/path_state.hpp"
 
+#include <limits>
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/solve/engine.hpp"
+#include "support/beams.hpp"
+#include "support/made_kernel.hpp"
 
 using namespace contct::app;
 
@@ -45,4 +49,27 @@ TEST_CASE("pairs that toggled once are not restless, old toggles are forgotten")
   watch.repeats(true, status, first);
   watch.reset();
   CHECK(watch.restless_pairs().empty());
+}
+
+TEST_CASE("a response that is not finite at any one pair is not put to the kernel") {
+  beam_problem p{even_beam(9.0, 9, 1e4), {{0, 0, true}, {0, 1, true}}, {}, {}};
+  for (int node = 1; node <= 9; ++node) p.pairs.push_back({node, face_below, -1.0, 1.0, false});
+  const linear_structure s = p.structure();
+  const auto engine = make_engine("refactor", s);
+  for (const double bad : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::quiet_NaN()}) {
+    for (std::size_t pair = 0; pair < 9; ++pair) {
+      path_state now(s, *engine, {}, false);
+      int calls = 0;
+      made_kernel k([&calls](call<double>& c) {
+        ++calls;
+        c.smin = 1.0;
+      });
+      CHECK(now.ask(k, now.d_star, -1) == 1.0);
+      now.d_star[pair] = bad;
+      CAPTURE(bad, pair);
+      CHECK_THROWS_AS(now.ask(k, now.d_star, -1), no_factor);
+      CHECK(calls == 1);
+    }
+  }
 }

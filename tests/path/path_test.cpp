@@ -102,3 +102,15 @@ TEST_CASE("the state told at a step's end is in equilibrium") {
     for (std::size_t i = 0; i < f.size(); ++i) CHECK(ku[i] == Approx(f[i]).margin(1e-9));
   }
 }
+
+TEST_CASE("at the end of a step a support is where the step moves it, and the beam with it") {
+  problem p;
+  p.geometry = {even_beam(2.0, 2, 1e4)};
+  p.supports = {{0, 0, true}, {2, 0, true}};
+  p.steps = {{{}, {}, {{2, 0, -0.5}}}};
+  recorder r;
+  CHECK(follow(p, structure_of(p), "refactor", *make_kernel("fortran"), {&r}).status == path_status::solved);
+  REQUIRE(r.steps.size() == 1);
+  CHECK(r.steps[0].u[4] == -0.5);
+  CHECK(r.steps[0].u[2] == Approx(-0.25));
+}

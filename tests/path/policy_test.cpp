@@ -1,7 +1,9 @@
 // What the driver does for a leader whose rule is not the listing's.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "catch.hpp"
 #include "contct/kernel/corrected.hpp"
@@ -571,4 +573,85 @@ TEST_CASE("where the path is no further than its last leap, the next one is long
   REQUIRE(asked_at.size() == 7);
   double share = 0.0;
   for (int i = 0; i < 6; ++i) CHECK(asked_at[i] == Approx(share += std::ldexp(0x1p-30, 2 * i)).epsilon(1e-9));
+}
+
+TEST_CASE(
+    "a path that goes over to the exact one between two of its increments is told where that one is there") {
+  struct places final : observer {
+    std::vector<std::vector<double>> at_half;
+    void incremented(const increment& i) override {
+      if (i.fraction != 0.5 || i.ahead.empty()) return;
+      CHECK_FALSE(i.snaps);
+      at_half.emplace_back(i.ahead.begin(), i.ahead.end());
+    }
+  };
+  const beam_problem p = cantilever_on_two();
+  int told = 0;
+  for (const bool first : {false, true}) {
+    for (const bool second : {false, true}) {  // which pairs are in contact there, exactly
+      made_kernel k([calls = 0](call<double>& c) mutable {
+        c.smin = calls == 0 ? 0.5 : 0.0;  // half of the load, and then for ever the same two events
+        const std::size_t i = calls++ % 2 == 0 ? 0 : 1;
+        c.isep[i] = -c.isep[i];
+      });
+      path_limits limits;
+      limits.exactly = [&](int /*step*/) -> std::optional<followed_step> {
+        followed_step s{path_status::solved, {}, 1.0, {0, 0, -1, -2, -3, -4}, {first ? '\1' : '\0', '\1'}};
+        s.increments.push_back({0.25, {}, false, {-0.5, -1.5}});
+        if (second)
+          s.increments.push_back({0.75, {}, false, {-0.75, -2.5}});
+        else
+          s.increments.push_back({0.75, {{1, change::make}}, false, {-0.75, -2.5}});
+        s.increments.push_back({1.0, {}, false, {-1, -3}});
+        return s;
+      };
+      places seen;
+      CHECK(p.run(k, {&seen}, limits).status == path_status::solved);
+      for (const std::vector<double>& d : seen.at_half) {
+        CHECK(d == std::vector<double>{-0.625, -2.0});  // half of the way from 1/4 to 3/4
+        ++told;
+      }
+    }
+  }
+  CHECK(told >= 2);
+}
+
+TEST_CASE("a separated pair that is exactly on its face where nothing moves is on its right side") {
+  beam_problem p = cantilever_over_a_stop();
+  p.pairs[0].face = 0.0;
+  p.steps = {tip_load(2, 0.0)};
+  int calls = 0;
+  made_kernel k([&calls](call<double>& c) {
+    ++calls;
+    contct_corrected(c);
+  });
+  recorder r;
+  CHECK(p.run(k, {&r}).status == path_status::solved);
+  CHECK(calls == 1);  // there is nothing to settle at the end of the step
+  REQUIRE(r.steps.size() == 1);
+  CHECK(r.steps[0].isep == std::vector<int>{separated});
+}
+
+TEST_CASE("a path that advances and toggles for ever by turns goes on ahead sixteen times in a step") {
+  const beam_problem p = cantilever_on_two();
+  bool advances = true;
+  made_kernel k([&advances, calls = 0](call<double>& c) mutable {
+    if (std::exchange(advances, false)) {
+      c.smin = 0.01;
+      return;
+    }
+    c.smin = 0.0;
+    const std::size_t i = calls++ % 2 == 0 ? 0 : 1;
+    c.isep[i] = -c.isep[i];
+  });
+  int asked = 0;
+  const path_limits limits{
+      0, [&](int, double share, std::span<const double>) -> std::optional<equilibrium_state> {
+        if (share == 1.0) return {};
+        ++asked;
+        advances = true;
+        return equilibrium_state{std::vector<double>(6), {0, 0}};
+      }};
+  CHECK(p.run(k, {}, limits).status == path_status::cycle);
+  CHECK(asked == 16);
 }

@@ -452,3 +452,14 @@ TEST_CASE("a mesh of 60,000 bricks is read whole: its edges are those of the gri
   CHECK(bricks == 59200);
   CHECK(m.edges.size() == std::size_t{40} * 41 * 38 * 2 + std::size_t{41} * 41 * 37);
 }
+
+TEST_CASE("two nodes that several dofs couple have one edge, in whatever order the entries come") {
+  const assembled a =
+      with_labels({"a.x", "b.x", "c.x", "a.y", "b.y", "c.y"},
+                  {{1, 0, -1.0}, {2, 0, -1.0}, {4, 3, -1.0}, {5, 3, -1.0}, {4, 0, -1.0}, {5, 0, -1.0}});
+  placed_nodes places;
+  places.nodes.resize(3);
+  places.dofs = {{0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}};
+  add_coupling_edges(a, places);
+  CHECK(edges_of(places) == std::vector<edge>{{0, 1, 1}, {0, 2, 1}});
+}

@@ -89,6 +89,9 @@ TEST_CASE("when a spring opens that is 1e18 times as stiff, the response is as i
     engine->respond({load, 1.0, 1}, after);
     CHECK((relative_difference(before, after) <= 1e-12) != closed);
   }
+  const engine_counts counts = engine->counts();
+  CHECK(counts.checks >= 1);
+  CHECK(counts.solves == counts.factors + counts.checks);  // each response by a factor, and each check of one
 }
 
 TEST_CASE("a beam too ill-conditioned to be condensed has an engine, and no factor at its first response") {

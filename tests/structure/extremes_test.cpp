@@ -131,3 +131,74 @@ TEST_CASE("A plate's moments are largest at corners of elements, with their node
   CHECK(range_named(all, "my").most.value == Approx(6.0));
   CHECK(range_named(all, "mxy").largest().value == Approx(0.0).margin(1e-12));
 }
+
+TEST_CASE("the place of a plate's largest and least deflection has both coordinates of its node") {
+  const plate p{{0, 1, 3}, {0, 2, 5, 9}, 10.0, 0.3};
+  std::vector<double> u(p.dofs(), 0.0);
+  u[3 * 7] = 2.0;   // the middle node of the third line
+  u[3 * 5] = -1.0;  // the last node of the second one
+  const value_range w = range_named(ranges_of({p}, {}, u, {}), "w");
+  CHECK((w.most.node == 7 && w.most.x == 1.0 && w.most.y == 5.0));
+  CHECK((w.least.node == 5 && w.least.x == 3.0 && w.least.y == 2.0));
+}
+
+TEST_CASE("a plate's moment that grows along x is least at one side of an element and largest at the other") {
+  const plate p{{0, 2}, {0, 3}, 10.0, 0.0};
+  std::vector<double> u(p.dofs(), 0.0);
+  for (std::size_t node = 0; node < 4; ++node) {  // w = x^3: mx = 6 D x
+    const double x = p.x[node % 2];
+    u[3 * node] = x * x * x;
+    u[3 * node + 1] = 3 * x * x;
+  }
+  const value_range mx = range_named(ranges_of({p}, {}, u, {}), "mx");
+  CHECK(mx.least.value == Approx(0.0).margin(1e-10));
+  CHECK(mx.least.x == 0.0);
+  CHECK(mx.most.value == Approx(6 * 10.0 * 2));
+  CHECK(mx.most.x == 2.0);
+}
+
+TEST_CASE("between two nodes the deflection that rises to the last one is largest there") {
+  const beam b{{0, 1, 2, 4}, {1.0, 1.0, 1.0}};
+  std::vector<double> u;
+  for (const double x : b.x) u.insert(u.end(), {x * x, 2 * x});
+  const beam_lines lines(b, {}, u);
+  const value_range w = deflections_between(b, lines, u, 1, 3);
+  CHECK(w.least.value == 1.0);
+  CHECK(w.least.node == 1);
+  CHECK(w.most.value == 16.0);
+  CHECK(w.most.x == 4.0);
+  CHECK(w.most.node == 3);
+}
+
+TEST_CASE("the lines of all elements begin with the shears and moments that they are given") {
+  const beam b{{0, 1, 2, 3}, {1.0, 1.0, 1.0}};
+  const std::vector<double> given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  const beam_lines lines(b, {}, std::vector<double>(8, 0.0), given);
+  for (int e = 0; e < 3; ++e) {
+    CHECK(lines.at(e).shear[0] == given[4 * e]);
+    CHECK(lines.at(e).moment[0] == given[4 * e + 2]);
+    CHECK(lines.ends(e).moment[1] == given[4 * e + 3]);
+  }
+}
+
+TEST_CASE("where a moment is the same along all of a beam, its first node has the place") {
+  const beam b{{0, 1, 2, 4}, {1.0, 1.0, 1.0}};
+  std::vector<double> u;
+  for (const double x : b.x) u.insert(u.end(), {x * x, 2 * x});  // M = 2 everywhere
+  const value_range m = range_named(ranges_of({b}, {}, u, {}), "moment");
+  CHECK((m.least.value == 2.0 && m.most.value == 2.0));
+  CHECK((m.least.node == 0 && m.most.node == 0));
+  CHECK((m.least.x == 0.0 && m.most.x == 0.0));
+}
+
+TEST_CASE("a deflection that is largest just before the end of an element is found there") {
+  // w = -0.24 + 0.91 t - 0.24 t^4, which is bent by a load of -24 * 0.24 alone.
+  const beam b{{0, 1}, {1.0}};
+  const std::vector<double> u = {-0.24, 0.91, 0.43, 0.91 - 4 * 0.24};
+  const value_range w = range_named(ranges_of({b}, even(-24 * 0.24), u, {}), "w");
+  const double t = std::cbrt(0.91 / 0.96);
+  CHECK(w.most.node == -1);
+  CHECK(w.most.x == Approx(t).epsilon(1e-6));
+  CHECK(w.most.value == Approx(-0.24 + 0.91 * t - 0.24 * std::pow(t, 4)).epsilon(1e-12));
+  CHECK(w.most.value > 0.43);
+}

@@ -129,3 +129,15 @@ TEST_CASE("free motions are found without a band as with one") {
   body.stiffness.entries.front().value = -1e5;
   CHECK_THROWS_WITH(build(body, {}, {}), Catch::Matchers::Contains("K: "));
 }
+
+TEST_CASE("a point that hangs on a spring 1e22 times softer than the others moves with them all the same") {
+  const int n = 100;
+  band_matrix k = chain(n);
+  const double soft = 1e-22;
+  k.at(n - 1, n - 1) = soft;
+  k.at(n - 1, n - 2) = -soft;
+  k.at(n - 2, n - 2) = 1.0 + soft;
+  const free_motions f = find_free_motions(k, 1);
+  REQUIRE(f.count == 1);
+  CHECK(f.rows[n - 1][0] == Approx(f.rows[0][0]).epsilon(1e-2));
+}

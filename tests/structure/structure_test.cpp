@@ -132,3 +132,18 @@ TEST_CASE("n points integrate every polynomial up to degree 2 n - 1, and not bey
     if (n <= 4) CHECK(std::abs(integral(2 * n) - 1.0 / (2 * n + 1)) > 1e-6);
   }
 }
+
+TEST_CASE("a support that settles onto a spring holds what the spring pushes back with") {
+  const std::vector<support> supports = {{1, 0, true}, {1, 0, false, 4.0}};
+  const load l{{{1, 0, -3.0}}, {}, {{1, 0, 0.5}}};
+  const auto need = [](int /*node*/, int /*dof*/) { return 0.0; };  // the elements are not bent
+  const std::vector<double> r = reactions_of(supports, l, std::vector<double>{0, 0, 0.5, 0}, 2, need);
+  CHECK(r == std::vector<double>{5.0, -2.0});  // together they carry the 3
+}
+
+TEST_CASE("a prescribed displacement of a dof that no support fixes names the dof, counted from 1") {
+  linear_structure s = four_dofs();
+  s.settles = {0, 0, 0, 1};
+  std::vector<double> f(4);
+  CHECK_THROWS_WITH(add_settlements(s, {{}, {}, {{1, 0, 0.5}}}, f), "dof 3 was not built to settle");
+}

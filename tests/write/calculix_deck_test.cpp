@@ -162,3 +162,68 @@ TEST_CASE("Between nodes of an edge that settles, a plate's edge follows the cub
   CHECK(m.settled.at({middle, 4}) == Approx(1.5 * -0.1 - 0.2 / 4));
   CHECK(m.settled.at({middle, 5}) == Approx(-0.15));
 }
+
+TEST_CASE("a plate's edge along x that is clamped at its nodes is clamped between them") {
+  std::string text = plate_text;
+  text.replace(text.find("[1, 4]"), 6, "[1, 2, 3]");
+  const calculix_mesh m = calculix_mesh_of(parse_problem(text, "pb.toml"), 2, 0);
+  int on_edge = 0;
+  for (std::size_t i = 0; i < m.nodes.size(); ++i) {
+    const bool edge = m.nodes[i].y == 0.0;
+    on_edge += edge ? 1 : 0;
+    for (const int direction : {3, 4, 5}) CHECK(fixes(m, static_cast<int>(i), direction) == edge);
+  }
+  CHECK(on_edge == 9);
+}
+
+TEST_CASE("a deck's elements, springs and loads name nodes as CalculiX counts them, from 1") {
+  std::string text = beam_text;
+  text.insert(text.find("[[contact]]"), "[[support]]\nnode = 2\nspring = { w = 7 }\n");
+  const calculix_deck deck = deck_of(text, {.refine = 1});
+  const auto lines = lines_of(deck.text);
+  const auto behind = [&](const std::string& keyword) {
+    const auto at = std::find_if(lines.begin(), lines.end(),
+                                 [&](const std::string& l) { return l.rfind(keyword, 0) == 0; });
+    REQUIRE(at != lines.end());
+    return at + 1;
+  };
+  // Two elements of three nodes each: the problem's nodes 1 to 3, then the middles 4 and 5.
+  const auto elements = behind("*ELEMENT,TYPE=B32R");
+  CHECK(elements[0] == "1,1,4,2");
+  CHECK_THAT(deck.text, Contains("\n2,2,5,3\n"));
+  CHECK(deck.nodes == 5);
+  // The pair at node 3 and the elastic support at node 2 are springs 3 and 4, to ground nodes 6 and 7.
+  CHECK_THAT(deck.text, Contains("\n3,3,6\n") && Contains("\n4,2,7\n"));
+  const auto loads = behind("*CLOAD");
+  CHECK(loads[0] == fmt::format("2,5,{:.12e}",
+                                -4 * deck.force_scale * deck.displacement_scale / deck.displacement_scale));
+  CHECK(loads[1] == fmt::format("3,3,{:.12e}", -60 * deck.force_scale));
+}
+
+TEST_CASE("an elastic support pulls and pushes, and a pair's spring has no force where it is separated") {
+  std::string text = beam_text;
+  text.insert(text.find("[[contact]]"), "[[support]]\nnode = 2\nspring = { w = 7 }\n");
+  const auto lines = lines_of(deck_of(text).text);
+  std::vector<std::vector<std::pair<double, double>>> tables;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].rfind("*SPRING,", 0) != 0) continue;
+    auto& table = tables.emplace_back();
+    for (std::size_t k = i + 1; k < lines.size() && lines[k][0] != '*'; ++k)
+      table.emplace_back(std::stod(lines[k]), std::stod(lines[k].substr(lines[k].find(',') + 1)));
+  }
+  REQUIRE(tables.size() == 2);
+  int both_ways = 0;
+  for (const auto& table : tables) {
+    const bool pulls = table.back().first > 0.0;
+    both_ways += pulls ? 1 : 0;
+    REQUIRE(table.size() == (pulls ? 3U : 4U));
+    const double face = pulls ? 0.0 : table[2].second;
+    // One slope from far away to near the face.
+    const double slope = table[0].first / (table[0].second - face);
+    CHECK(table[1].first / (table[1].second - face) == Approx(slope).epsilon(1e-9));
+    CHECK(std::abs(table[0].second - face) > 2 * std::abs(table[1].second - face));
+    if (pulls) CHECK(table[2].first / table[2].second == Approx(slope).epsilon(1e-9));
+    if (!pulls) CHECK((table[2].first == 0.0 && table[3].first == 0.0));
+  }
+  CHECK(both_ways == 1);
+}

@@ -171,3 +171,85 @@ TEST_CASE("one pair alone is written when it alone is wanted") {
     CHECK(i["pairs"][0]["pair"] == 2);
   }
 }
+
+TEST_CASE("an event exactly at the full load is none for the listing, and the explanation says so") {
+  // The face is where the tip sinks to, to the last bit.
+  problem p = parse_problem(two_pairs, "pb.toml");
+  p.pairs[0].face = -10.0;
+  std::vector<double> end;
+  struct last_end final : observer {
+    explicit last_end(std::vector<double>& u) : u_(u) {}
+    void called(const answered_call& c) override { u_.assign(c.c.dtest.begin(), c.c.dtest.end()); }
+    std::vector<double>& u_;
+  } keeps(end);
+  (void)explain_run(
+      p, [](const explained_increment&) {}, &keeps);
+  p.pairs[0].face = end.at(2);
+  const std::string text = printed([&] {
+    explain_text all({p, {"fortran", "cpp"}, 8, 0}, {100, false}, {});
+    explain_run(p, [&](const explained_increment& i) { all.print(i); });
+    all.finish();
+  });
+  CHECK_THAT(text, Contains("Exactly at the full load: the listing takes this for no event."));
+  CHECK_THAT(explained_text(0, 100), !Contains("Exactly at the full load"));
+}
+
+TEST_CASE("the text names the pair that wins, the equation, and how each pair was toggled") {
+  const std::string text = explained_text(0, 100);
+  CHECK_THAT(text, Contains("not 1. Pair 1 wins."));
+  CHECK_THAT(text, Contains("(9)\n") && Contains("(4)\n"));
+  CHECK_THAT(text, Contains("DIFF = 0: s is SMIN.") && Contains("ISEP = -1: in contact. Make."));
+}
+
+TEST_CASE("a pair that leaves its face is told as a break, with the listing's line") {
+  const std::string up = std::string(two_pairs) + "[[step]]\npoint = [ { node = 2, w = 3 } ]\n";
+  CHECK_THAT(explained_text(0, 100, up),
+             Contains("ISEP is not 1: it was in contact.") && Contains("ISEP = 1: separated. Break."));
+  const nlohmann::json calls = explained_json(up)["increments"];
+  bool breaks = false;
+  for (const auto& call : calls)
+    for (const auto& sentence : call["pairs"][0]["story"])
+      breaks = breaks || (sentence["words"] == "ISEP = 1: separated. Break." && sentence.contains("line") &&
+                          sentence.contains("statement"));
+  CHECK(breaks);
+}
+
+TEST_CASE("a sentence that no line of the listing says has no line in JSON") {
+  const nlohmann::json call = explained_json(two_pairs)["increments"][0];
+  const nlohmann::json& runner_up = call["story"][1];
+  CHECK(runner_up["words"] == "No other pair has an event ahead of it.");
+  CHECK_FALSE(runner_up.contains("line"));
+  CHECK_FALSE(runner_up.contains("statement"));
+  CHECK(call["narrowest"].contains("ulps"));
+  CHECK(call["narrowest"].contains("outcome"));
+  CHECK(call["narrowest"]["if"].is_string());
+}
+
+TEST_CASE(
+    "where the second kernel differs, its value stands under its own name, and a line of unit 26 in full") {
+  const problem p = parse_problem(two_pairs, "pb.toml");
+  const auto told = [&](const mismatch& apart) {
+    const scratch_folder folder;
+    output_file out(folder.at("x.json"));
+    explain_json json({p, {"fortran", "cpp"}, 8, 0}, out);
+    std::string text;
+    explained_path path = explain_run(p, [&](explained_increment i) {
+      i.apart = apart;
+      json.write(i);
+      text += printed([&] {
+        explain_text all({p, {"fortran", "cpp"}, 8, 0}, {100, false}, {});
+        all.print(i);
+        all.finish();
+      });
+    });
+    json.finish("solved", path);
+    return std::pair(text, nlohmann::json::parse(folder.read("x.json"))["increments"][0]["apart"]);
+  };
+  const auto [of_text, text_apart] = told({"text", 3, "one", "two", 0});
+  CHECK_THAT(of_text, Contains(R"(Unit 26, line 3: fortran wrote "one", cpp wrote "two")"));
+  CHECK(text_apart == nlohmann::json({{"field", "text"}, {"index", 3}, {"fortran", "one"}, {"cpp", "two"}}));
+  const auto [of_smin, smin_apart] = told({"SMIN", 0, "0x1p-2", "0x1p-1", 5});
+  CHECK_THAT(of_smin, !Contains("Unit 26, line"));
+  CHECK(smin_apart ==
+        nlohmann::json({{"field", "SMIN"}, {"index", 0}, {"fortran", "0x1p-2"}, {"cpp", "0x1p-1"}}));
+}

@@ -301,3 +301,37 @@ TEST_CASE("elements are a run when they follow one another upwards") {
   CHECK_FALSE(is_run({4, 6}));
   CHECK_FALSE(is_run({6, 5, 4}));
 }
+
+TEST_CASE("the share of a load that rounding has left of it is told as none") {
+  const problem p = parse_problem(good_problem, "pb.toml");
+  const load_path loads(p);
+  CHECK(loads.words_at(1, 1e-18, 80) == loads.words_at(1, 0.0, 80));
+  CHECK(loads.words_at(1, 1e-3, 80) != loads.words_at(1, 0.0, 80));
+}
+
+TEST_CASE("a node has the dof of each of its directions, the first dof of all among them") {
+  placed_nodes places;
+  places.nodes.resize(2);
+  places.dofs = {{0, 1}, {0, 3}, {0, 5}, {1, 2}, {-1, 1}, {1, 4}};
+  const std::vector<dofs_of_node> of = dofs_of_nodes(places);
+  REQUIRE(of.size() == 2);
+  CHECK(of[0].along == std::array<int, 3>{0, -1, 1});
+  CHECK(of[0].about == std::array<int, 3>{-1, 2, -1});
+  CHECK(of[1].along == std::array<int, 3>{-1, 3, -1});
+  CHECK(of[1].about == std::array<int, 3>{5, -1, -1});
+}
+
+TEST_CASE("of a long beam the node that deflects most is drawn, once, and fixed supports in order") {
+  std::string text =
+      "[beam]\nlength = 100.0\nelements = 30000\nEI = 1e6\n[[support]]\nnodes = [1, 20002, 30001]\nfix = "
+      "\"w\"\n"
+      "[[contact]]\nnode = 2000\nsurface = \"below\"\nface = -1e9\nstiffness = 1.0\n"
+      "[[step]]\npoint = [ { node = 11778, w = -1.0 } ]\n";
+  const a_run r(text);
+  const shown_parts shown = choose_parts(r.finished());
+  CHECK(std::ssize(shown.nodes) < 30001);
+  CHECK(std::ranges::is_sorted(shown.nodes));
+  CHECK(std::ranges::adjacent_find(shown.nodes) == shown.nodes.end());
+  for (const int node : {0, 20001, 30000, shown.watched})
+    CHECK(std::ranges::binary_search(shown.nodes, node));
+}

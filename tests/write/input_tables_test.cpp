@@ -7,6 +7,7 @@
 #include "contct/write/pictures.hpp"
 #include "support/a_run.hpp"
 #include "support/page_rows.hpp"
+#include "support/structures.hpp"
 
 using namespace contct::app;
 
@@ -31,9 +32,21 @@ TEST_CASE("the input is on the page: stiffness by pieces, supports, pairs, beds 
   CHECK(rows_of(input, "Candidate pairs") ==
         nlohmann::json({{"1", "5", 4.0, "below", -0.1, 7.0, "separated"}}));
   CHECK(rows_of(input, "Beds") == nlohmann::json({{"2..5", 4, "1 to 4", "below", -0.2, 3.0}}));
+  for (const auto& t : input)
+    if (t["title"] == "Beds")
+      CHECK(t["head"].back() == "Modulus [kN/m²]");  // force per length and deflection
   CHECK(rows_of(input, "Loads") ==
         nlohmann::json({{"1, dead load", "per length [kN/m]", "all elements", -0.01},
                         {"1, dead load", "settlement w [m]", "node 1, x = 0", -0.25}}));
   CHECK(data["units"]["moment"] == "kN m");
   CHECK(data["ends"][0]["rows"][0][0] == "1, dead load");
+}
+
+TEST_CASE("of a structure given by its matrix the page has the file and the number of dofs") {
+  const a_run r(portal_frame());
+  const nlohmann::json data = page_data(r.finished());
+  const auto& a = std::get<assembled>(r.what.geometry.kind);
+  CHECK(rows_of(data["input"], "Structure from a matrix") ==
+        nlohmann::json::array({nlohmann::json::array({"Stiffness matrix", a.name}),
+                               nlohmann::json::array({"Dofs", a.dofs()})}));
 }

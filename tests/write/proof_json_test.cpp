@@ -41,6 +41,8 @@ TEST_CASE("a proof has the state, the closed pairs, the factor and the bounds of
   CHECK(proof["format"] == "contct-proof-1");
   CHECK(proof["problem"] == "b.toml");
   REQUIRE(proof["steps"].size() == 2);
+  CHECK(proof["steps"][0]["step"] == 1);
+  CHECK(proof["steps"][1]["step"] == 2);
   const nlohmann::json& loaded = proof["steps"][0];
   CHECK(loaded["certified"] == true);
   CHECK(loaded["closed"] == nlohmann::json::array({1}));

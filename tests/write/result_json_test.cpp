@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
@@ -12,6 +13,7 @@
 #include "read/bad_inputs.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
+#include "support/a_run.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace contct::app;
@@ -244,4 +246,36 @@ TEST_CASE("a plate's result: slopes and moments by name, reactions that balance,
   CHECK(force == Approx(0.0).margin(1e-10));
   CHECK(along_x == Approx(0.0).margin(1e-10));
   CHECK(along_y == Approx(0.0).margin(1e-10));
+}
+
+TEST_CASE("bounds are there for what a problem has: contact forces for pairs, reactions for supports") {
+  const auto keys_of = [](const nlohmann::json& result) {
+    std::set<std::string> keys;
+    for (const auto& [key, value] : result["steps"][0]["error"].items()) keys.insert(key);
+    return keys;
+  };
+  CHECK(keys_of(result_of(good_problem)) ==
+        std::set<std::string>{"w", "slope", "force", "reaction", "moment", "shear"});
+  CHECK(keys_of(result_of(propped_cantilever)) ==
+        std::set<std::string>{"w", "slope", "reaction", "moment", "shear"});
+  CHECK(keys_of(result_of("[beam]\nlength = 2\nelements = 2\nEI = 1e4\n[[bed]]\nmodulus = 10\nface = 0\n"
+                          "[[step]]\nuniform = -1\n")) ==
+        std::set<std::string>{"w", "slope", "force", "moment", "shear"});
+}
+
+TEST_CASE("the envelope names pairs and supports from 1 on") {
+  const a_run r(loaded_and_freed);
+  envelope all(r.what);
+  for (const frame& f : r.kept.frames()) all.take(f);
+  const scratch_folder folder;
+  output_file out(folder.at("result.json"));
+  const linear_structure s = structure_of(r.what);
+  certifier judged(r.what, s);
+  result_json json(r.what, {"fortran"}, "refactor", judged, out);
+  const path_end end = follow(r.what, s, "refactor", *make_kernel("fortran"), {&judged, &json});
+  json.finish(status_name(end.status), end, nullptr, &all);
+  const nlohmann::json envelope_of = nlohmann::json::parse(folder.read("result.json"))["envelope"];
+  REQUIRE(envelope_of["pairs"].size() == 2);
+  CHECK(envelope_of["pairs"][0]["pair"] == 1);
+  CHECK(envelope_of["pairs"][1]["pair"] == 2);
 }

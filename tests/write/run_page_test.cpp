@@ -9,7 +9,9 @@
 #include "contct/write/pictures.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
+#include "read/small_matrix.hpp"
 #include "support/a_run.hpp"
+#include "support/scratch_folder.hpp"
 #include "support/structures.hpp"
 
 using namespace contct::app;
@@ -278,4 +280,28 @@ TEST_CASE("a plate's frame has moments and the bed's pressure for contours, to f
   const auto moments = moments_in_elements(std::get<plate>(r.what.geometry.kind), f.displacement);
   CHECK(end["mx"][0].get<double>() == Approx(moments[0].mx[0]).epsilon(1e-3));
   CHECK(end["mx"][1].get<double>() == Approx((moments[0].mx[1] + moments[1].mx[0]) / 2).epsilon(1e-3));
+}
+
+TEST_CASE("point loads are drawn at their nodes, and a support's force is that on its deflection") {
+  const a_run r(good_problem);
+  const nlohmann::json data = embedded_in(run_page(r.finished()));
+  const auto& last = data["frames"].back();
+  CHECK(last["points"][0][4] == 3);  // from 1
+  CHECK(last["points"][0][0] == 2.0);
+  const frame& end = r.kept.frames().back();
+  const std::vector<double> all = reactions(r.what, load_path(r.what).at(1, 1.0), end.displacement, end.isep);
+  REQUIRE(r.what.supports[0].dof == 0);
+  CHECK(last["reactions"][0] == all[0]);  // and not the moment all[1]
+}
+
+TEST_CASE("a matrix whose dofs all turn has a page, whose largest deflection is none") {
+  const scratch_folder folder;
+  std::ofstream(folder.at("K.mtx")) << small_matrix;
+  std::ofstream(folder.at("K.dof")) << "a.4\na.5\na.6\n";
+  std::ofstream(folder.at("K.xyz")) << "a 0 0\n";
+  const a_run r("[matrix]\nstiffness = \"" + folder.at("K.mtx") + "\"\ndofs = \"" + folder.at("K.dof") +
+                "\"\ncoordinates = \"" + folder.at("K.xyz") +
+                "\"\n[[step]]\npoint = [ { dof = \"a.5\", value = 2.0 } ]\n");
+  const nlohmann::json data = embedded_in(run_page(r.finished()));
+  CHECK(data["frames"].back()["largest"]["w"] == 0.0);
 }

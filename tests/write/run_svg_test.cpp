@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@
 #include "contct/write/pictures.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
+#include "read/small_matrix.hpp"
 #include "support/a_run.hpp"
+#include "support/scratch_folder.hpp"
 #include "support/structures.hpp"
 #include "support/well_formed.hpp"
 
@@ -260,6 +263,86 @@ TEST_CASE("The picture of a plate has maps of its moments and of a bed's pressur
        {">mx kN m/m<", ">my kN m/m<", ">mxy kN m/m<", ">pressure of the bed kN/m²<", "rings: reactions"})
     CHECK_THAT(svg, Contains(name));
   CHECK_THAT(svg, Contains("class=\"reaction\""));
+  // Two beside each other: the first of them on the left.
+  const auto left_of = [&svg](const char* name) {
+    return numbers_from(svg, svg.rfind("<text x=\"", svg.find(name)), 1)[0];
+  };
+  CHECK(left_of(">mx kN m/m<") < 300.0);
+  CHECK(left_of(">my kN m/m<") > 400.0);
   const a_run beam(loaded_and_freed);
   CHECK_THAT(run_svg(beam.finished()), !Contains("reaction\""));
+}
+
+TEST_CASE(
+    "a face of a frame stands as far beside its node as the gap is, magnified as the frame's displacements "
+    "are") {
+  const a_run r(portal_frame());
+  const std::string svg = run_svg(r.finished());
+  // The left column, 3 m high: no higher than the page has room.
+  const std::size_t was = svg.find("\" class=\"was\"/>");
+  const std::vector<double> column = numbers_from(svg, svg.rfind("d=\"", was), 12);
+  const double metre = (column[1] - column[11]) / 3;
+  CHECK(metre > 60.0);
+  CHECK(3 * metre < 400.0);
+  const auto center_of_face = [&](std::size_t at) {
+    const std::vector<double> ends =
+        numbers_from(svg, svg.rfind("d=\"", svg.rfind("class=\"surface\"", at)), 4);
+    return std::pair((ends[0] + ends[2]) / 2, (ends[1] + ends[3]) / 2);
+  };
+  const auto node_of = [&](const std::string& pair) {
+    const std::size_t mark = svg.rfind("<circle", svg.find("<title>" + pair));
+    REQUIRE(mark != std::string::npos);
+    return std::pair(mark, numbers_from(svg, mark, 2));
+  };
+  // Unloaded at the end: a face 0.001 below dof 6.y, and one 0.0005 beyond dof 8.x, 200 times as far.
+  const auto [below, at_6] = node_of("pair 1, dof 6.y, face below at -0.001, separated: gap 0.001<");
+  CHECK(center_of_face(below).first == Approx(at_6[0]).margin(0.11));
+  CHECK(center_of_face(below).second == Approx(at_6[1] + 200 * 0.001 * metre).margin(0.3));
+  const auto [beyond, at_8] = node_of("pair 2, dof 8.x, face above at 0.0005, separated: gap 0.0005<");
+  CHECK(center_of_face(beyond).first == Approx(at_8[0] + 200 * 0.0005 * metre).margin(0.3));
+  CHECK(center_of_face(beyond).second == Approx(at_8[1]).margin(0.11));
+}
+
+TEST_CASE(
+    "faces of a body that is seen from above are as far from their nodes as they are drawn foreshortened") {
+  const a_run r(structure_problem("calculix/", "console"));
+  const std::string svg = run_svg(r.finished());
+  std::vector<double> pixels_of_gap;
+  for (std::size_t i = 0; i < r.what.pairs.size(); ++i) {
+    const std::size_t title = svg.find(fmt::format("<title>pair {}, ", i + 1));
+    const std::size_t mark = svg.rfind("<circle", title);
+    const std::vector<double> node = numbers_from(svg, mark, 2);
+    const std::vector<double> face =
+        numbers_from(svg, svg.rfind("d=\"", svg.rfind("class=\"surface\"", mark)), 4);
+    const std::vector<double> gap = numbers_from(svg, svg.find("gap ", title), 1);
+    pixels_of_gap.push_back((face[1] - node[1]) / gap[0]);
+  }
+  // An upright edge of the body, on the page and in space.
+  const auto& places = std::get<assembled>(r.what.geometry.kind).places;
+  const mesh_edge& edge = places.edges.front();
+  double length = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    length += std::abs(places.nodes[edge.to].at[axis] - places.nodes[edge.from].at[axis]);
+  const std::vector<double> drawn = numbers_from(svg, svg.rfind("d=\"", svg.find("\" class=\"was\"")), 4);
+  REQUIRE(drawn[0] == drawn[2]);
+  const double unit = std::abs(drawn[3] - drawn[1]) / length;
+  for (const double of_gap : pixels_of_gap) CHECK(of_gap == Approx(50 * unit).epsilon(0.05));
+}
+
+TEST_CASE("a structure that is high or wide is drawn as large as the page has room, and no larger") {
+  for (const bool wide : {false, true}) {
+    const scratch_folder folder;
+    std::ofstream(folder.at("K.mtx")) << small_matrix;
+    std::ofstream(folder.at("K.dof")) << "a.x\nb.x\nc.x\n";
+    std::ofstream(folder.at("K.xyz")) << (wide ? "a 0 0\nb 50 0\nc 100 0\n" : "a 0 0\nb 0 50\nc 0 100\n");
+    const a_run r("[matrix]\nstiffness = \"" + folder.at("K.mtx") + "\"\ndofs = \"" + folder.at("K.dof") +
+                  "\"\ncoordinates = \"" + folder.at("K.xyz") +
+                  "\"\n[[step]]\npoint = [ { dof = \"b.x\", value = 0.0 } ]\n");
+    const std::string svg = run_svg(r.finished());
+    const std::vector<double> half = numbers_from(svg, svg.rfind("d=\"", svg.find("\" class=\"was\"/>")), 4);
+    const double length = std::hypot(half[2] - half[0], half[3] - half[1]);
+    CAPTURE(wide, length);
+    CHECK(length > 100.0);
+    CHECK(length < (wide ? 450.0 : 250.0));
+  }
 }

@@ -1,6 +1,8 @@
 // The tables of what a run came to: the ends of steps, and the envelope.
 #include "contct/write/run_tables.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
@@ -101,4 +103,54 @@ TEST_CASE("a path of which not all states are kept says whose envelope the page 
   finished_run with_all = few.finished();
   with_all.all_increments = &all;
   CHECK_THAT(omissions_of(with_all), !Catch::Matchers::Contains("The envelope is that of the"));
+}
+
+TEST_CASE("a quantity that is 0 everywhere has one value in its cell, and one of two signs has two") {
+  const a_run r(std::string(propped_cantilever) + "[[step]]\nuniform = 0.0\n");
+  const nlohmann::json rows = page_data(r.finished())["ends"][0]["rows"];
+  CHECK(rows[0][3].size() == 2);  // the moment under load
+  CHECK(rows[1][3].size() == 1);
+  CHECK(rows[1][2].size() == 1);
+}
+
+TEST_CASE("a path of which a single state is not kept says whose envelope the page has") {
+  int of_one_or_two = 0;
+  std::string often = loaded_and_freed;
+  for (int more = 0; more < 6; ++more) {
+    const std::size_t states = a_run(often).kept.frames().size();
+    for (std::size_t most = 4; most <= states; ++most) {
+      const a_run r(often, {}, {.most_frames = most});
+      std::string all;
+      const nlohmann::json data = page_data(r.finished());
+      for (const auto& words : data["thinned"]) all += words.get<std::string>();
+      const std::size_t missing = states - r.kept.frames().size();
+      CAPTURE(states, most, missing);
+      CHECK((all.find("The envelope is that of the") != std::string::npos) == (missing > 0));
+      of_one_or_two += missing == 1 || missing == 2 ? 1 : 0;
+    }
+    often += "[[step]]\npoint = [ { node = 3, w = -60 } ]\n[[step]]\npoint = [ { node = 3, w = 60 } ]\n";
+  }
+  CHECK(of_one_or_two >= 1);
+}
+
+TEST_CASE("pairs without a force at any end are counted where as many have one as a table has rows") {
+  for (const int pressed : {39, 40, 41}) {
+    std::string text =
+        "[beam]\nlength = 50.0\nelements = 50\nEI = 1e-3\n[[support]]\nnodes = [1, 51]\nfix = [\"w\", "
+        "\"theta\"]\n"
+        "[[contact]]\nnodes = \"2..50\"\nsurface = \"below\"\nface = 0\nstiffness = 1e3\n"
+        "[[step]]\npoint = [";
+    for (int node = 2; node < 2 + pressed; ++node)
+      text += fmt::format("{}{{ node = {}, w = -1 }}", node == 2 ? "" : ", ", node);
+    const a_run r(text + "]\n");
+    int with_force = 0;
+    const frame& end = r.kept.frames().back();
+    for (int i = 0; i < 49; ++i) with_force += reading_of(r.what, end, i).force != 0.0 ? 1 : 0;
+    const nlohmann::json data = page_data(r.finished());
+    std::string thinned;
+    for (const auto& words : data["thinned"]) thinned += words.get<std::string>() + "\n";
+    CAPTURE(pressed, with_force, thinned);
+    const std::string zeros = fmt::format("{} that are 0 at all of these ends have no row", 49 - with_force);
+    CHECK((thinned.find(zeros) != std::string::npos) == (with_force < 49));
+  }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/write/run_words.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
@@ -87,6 +88,12 @@ TEST_CASE("A beam that sags through a face between two pairs is told, a flatter 
   CHECK(soft.through->x == Approx(6.0).epsilon(1e-6));
   CHECK(soft.through->depth == Approx(500.0 * 256 / (1920 * 1e4)).epsilon(1e-3));  // q L^4 / (1920 EI)
   CHECK_FALSE(ended(beam_over_stops(-10.0, -1.0)).through);
+  problem backwards = beam_over_stops(0.0, -500.0);  // named from the right to the left
+  std::ranges::reverse(backwards.pairs);
+  const ended same(backwards);
+  REQUIRE(same.through);
+  CHECK(same.through->x == soft.through->x);
+  CHECK(same.through->first == backwards.pairs.size() - 1);
   problem other_face = beam_over_stops(0.0, -500.0);
   other_face.pairs[1].face = -1e-9;
   other_face.pairs[1].closed = false;
@@ -138,4 +145,13 @@ TEST_CASE("Places and units are in words: nodes with coordinates, places between
   const problem plate = parse_problem(good_plate, "plate.toml");
   CHECK(place_words(plate.geometry, placed_value{1.0, 1.0, 0.5, 2}) == "node 3, (1, 0.5)");
   CHECK(ranges_are_at(plate.geometry) == "nodes and corners of elements");
+}
+
+TEST_CASE("the warning of a beam that sags through a face names both pairs, from 1, and the step") {
+  const problem p = beam_over_stops(0.0, -500.0);
+  const linear_structure s = structure_of(p);
+  passage_watch watch(p);
+  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&watch});
+  CHECK_THAT(watch.warning(),
+             Catch::Matchers::StartsWith("step 1: between pairs 1 and 2 the beam passes through"));
 }

@@ -40,6 +40,7 @@ TEST_CASE("The detailed tables have every pair, reaction and end of an element, 
   const step_state s{1, 1.0, e.last.displacement, e.last.isep, 1.0};
   const std::string text = detail_tables(e.run.what, s, e.read);
   CHECK_THAT(text, Contains("       1          3  below    contact                 0       41.86047"));
+  CHECK_THAT(text, Contains("               node  dof                       reaction\n"));
   CHECK_THAT(text, Contains("w                         18.13953"));
   CHECK_THAT(text, Contains("theta                     36.27907"));
   CHECK_THAT(text, Contains("       2  shear") && Contains("          moment"));

@@ -1,6 +1,9 @@
 // The run as tables; what a whole one looks like on the terminal is tested on the program itself (tests/app).
 #include "contct/write/table.hpp"
 
+#include <unistd.h>
+
+#include <cstdio>
 #include <cstdlib>
 
 #include "catch.hpp"
@@ -233,4 +236,55 @@ TEST_CASE("labels that are no plain words stay text in pictures and fields in ta
   CHECK(why_not_well_formed(run_svg(r.finished())).empty());
   CHECK_THAT(run_svg(r.finished()), Contains("&lt;b&gt;,&quot;&amp;.x"));
   CHECK(csv_field(place_name(r.what.geometry, 0)) == "\"<b>,\"\"&.x\"");
+}
+
+namespace {
+
+/// What a table without kernels beside prints of a path.
+std::string printed_rows(const std::string& text) {
+  const problem p = parse_problem(text, "pb.toml");
+  const linear_structure s = structure_of(p);
+  certifier judged(p, s);
+  const scratch_folder folder;
+  (void)std::fflush(stdout);
+  const int kept = dup(STDOUT_FILENO);
+  std::FILE* const file = std::fopen(folder.at("out").c_str(), "w");
+  dup2(fileno(file), STDOUT_FILENO);
+  table rows(p, nullptr, judged, {100, false}, false);
+  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&judged, &rows});
+  (void)std::fflush(stdout);
+  dup2(kept, STDOUT_FILENO);
+  close(kept);
+  (void)std::fclose(file);
+  return folder.read("out");
+}
+
+/// A beam of so many elements that lies on springs, pressed at its middle.
+std::string lying_beam(int elements) {
+  return "[beam]\nlength = 10.0\nelements = " + std::to_string(elements) +
+         "\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = \"below\"\nface = 0\nstiffness = 1e3\n"
+         "[[step]]\npoint = [ { node = " +
+         std::to_string(elements / 2 + 1) + ", w = -1.0 } ]\n";
+}
+
+}  // namespace
+
+TEST_CASE("many pairs that open as the load begins to act share one row, and a few are named in theirs") {
+  const std::string many = printed_rows(lying_beam(40));
+  CHECK_THAT(many, Contains(" at first load"));
+  const std::string few = printed_rows(lying_beam(3));
+  CHECK_THAT(few, Contains("break 4: node 4 below") && !Contains(" at first load"));
+}
+
+TEST_CASE("the column of kernels is explained where there is one, and not where one kernel runs alone") {
+  const auto legend_of = [](bool beside) {
+    const a_run r(good_problem);
+    table rows(r.what, beside ? &r.compared : nullptr, r.judged, {100, false}, false);
+    rows.incremented({1, 1, 1.0, 1.0, {}});
+    std::string all;
+    for (const std::string& words : rows.legend()) all += words + "\n";
+    return all;
+  };
+  CHECK_THAT(legend_of(true), Contains("kernels: whether their bits are equal"));
+  CHECK_THAT(legend_of(false), !Contains("kernels:") && Contains("share:"));
 }

@@ -39,6 +39,16 @@ std::string temporary_prefix(const std::string& target) {
   return (fs::path(target).parent_path() / ".contct-partial").string();
 }
 
+/// Waits until what was written is on the disk; 0, or what went wrong. Some file systems have nothing to wait
+/// for.
+int sync_to_disk(int descriptor) {
+  int error = 0;
+  do {
+    error = fsync(descriptor) == 0 ? 0 : errno;
+  } while (error == EINTR);
+  return error == EINVAL || error == ENOSYS || error == EROFS ? 0 : error;
+}
+
 /// Copy all of one file to another; 0, or what went wrong.
 int copy_all(int from, int to) {
   char block[1 << 16];
@@ -121,9 +131,10 @@ void output_file::finish() {
 }
 
 /// A file without a name can be linked to a free name only. To replace a file it takes a temporary name
-/// first.
+/// first. It is on the disk before it replaces another: otherwise a loss of power could leave neither.
 void output_file::give_name() {
   if (link_to(target_)) return;
+  if (const int error = sync_to_disk(fileno(file_)); error != 0) fail(error);
   const signals_wait until_named;
   std::string temporary;
   int error = link_beside(temporary) ? 0 : copy_beside(temporary);
@@ -157,7 +168,8 @@ int output_file::copy_beside(std::string& name) const {
   const mode_t removed = umask(0);
   umask(removed);
   fchmod(copy, 0666 & ~removed);  // as any new file
-  const int error = copy_all(fileno(file_), copy);
+  int error = copy_all(fileno(file_), copy);
+  if (error == 0) error = sync_to_disk(copy);
   return close(copy) != 0 && error == 0 ? errno : error;
 }
 
