@@ -1,7 +1,7 @@
 """scaling.py PROGRAM PLATES RANKS [MPIEXEC]: the rows of reference/scaling.md, as PROGRAM (contct_scaling) measures them.
 
 PLATES: elements a side, as 100,200; RANKS: as 1,2. `dissected` comes first where one process can have the whole band. Messages
-are Open MPI's own count of a whole run less those of one of a single increment; they cost time, so that they have runs of
+are Open MPI's own count of a run of 40 increments less those of one of two; counting costs time, so that these are runs of
 their own.
 """
 import json
@@ -56,7 +56,7 @@ def main():
             if engine == "petsc" and count > 1:
                 with tempfile.TemporaryDirectory() as folder:
                     few, few_bytes, few_events = sent([*line, "2"], folder)
-                    many, many_bytes, many_events = sent(line, folder)
+                    many, many_bytes, many_events = sent([*line, "40"], folder)
                     messages = f"{(many - few) / (many_events - few_events):.0f}"
                     size = f"{1e-6 * (many_bytes - few_bytes) / (many_events - few_events):.2f}"
             factor = f"{row['factor_mib']:.0f}" if "factor_mib" in row else ""
