@@ -80,6 +80,14 @@ TEST_CASE("a plate's equations are those in rational numbers, elements of every 
   CHECK(compare(p) > 500);
 }
 
+TEST_CASE("a plate's D is that of its modulus, thickness and Poisson's ratio, without their rounding") {
+  const problem p = parse_problem(
+      "[plate]\nx = [0.0, 0.3, 1.0]\ny = [0.0, 0.7]\nE = 210.3\nthickness = 0.1\nnu = 0.3\n[[support]]\n"
+      "nodes = [1, 2, 3]\nfix = [\"w\"]\n[[step]]\nuniform = -0.1\n",
+      "p.toml");
+  CHECK(compare(p) > 250);
+}
+
 TEST_CASE("equal parts of a length are exact parts: thirds, not what doubles make of them") {
   const problem p =
       parse_problem("[beam]\nlength = 1.0\nelements = 3\nEI = 1.0\n[[step]]\nuniform = -1.0\n", "b.toml");

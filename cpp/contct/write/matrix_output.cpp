@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -53,7 +54,7 @@ struct strictly_lower_rows {
         for (int i = k.starts[column] + 1; i < k.starts[column + 1]; ++i) visit(k.rows[i], column, i);
     };
     for_each([&](int row, int /*column*/, int /*entry*/) { ++starts[row + std::size_t{1}]; });
-    for (std::size_t row = 1; row < starts.size(); ++row) starts[row] += starts[row - 1];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
     std::vector<int> next(starts.begin(), starts.end() - 1);
     columns.resize(static_cast<std::size_t>(starts.back()));
     entries.resize(columns.size());
