@@ -173,7 +173,8 @@ TEST_CASE("between two nodes the deflection that rises to the last one is larges
 TEST_CASE("the lines of all elements begin with the shears and moments that they are given") {
   const beam b{{0, 1, 2, 3}, {1.0, 1.0, 1.0}};
   const std::vector<double> given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
-  const beam_lines lines(b, {}, std::vector<double>(8, 0.0), given);
+  const std::vector<double> u(8, 0.0);
+  const beam_lines lines(b, {}, u, given);
   for (int e = 0; e < 3; ++e) {
     CHECK(lines.at(e).shear[0] == given[4 * e]);
     CHECK(lines.at(e).moment[0] == given[4 * e + 2]);
