@@ -37,8 +37,10 @@ TEST_CASE("the rows of a plate, in however many parts, are those that are assemb
             const int column = rows.columns[i];
             CHECK(column > before);
             before = column;
-            const auto [low, high] = std::minmax(whole.row_of(static_cast<std::size_t>(first + row)),
-                                                 whole.row_of(static_cast<std::size_t>(column)));
+            const int one = whole.row_of(static_cast<std::size_t>(first + row));
+            const int other = whole.row_of(static_cast<std::size_t>(column));
+            const int low = std::min(one, other);
+            const int high = std::max(one, other);
             CHECK(rows.values[i] ==
                   whole.stiffness.band().at(static_cast<std::size_t>(high), static_cast<std::size_t>(low)));
             ++compared;
