@@ -5,6 +5,7 @@ CASE:
              and statuses are those of one process on the default engine, and D is within the error bounds of both.
   bad-input  what is refused is refused with one message and exit status 2, and leaves no file.
   parts      a matrix of which each of RANKS ranks reads a part: bad ones are refused in the words of one process.
+  torn       the file's parts that one rank of two cannot read: one message, exit status 2 and no file.
   multigrid  without room for a factor the events are the same, nothing is certified, and the residual is told.
   killed     a rank that is killed ends the job, with an exit status other than 0 and without a file.
   engines    the tests of every engine, where rank 0 of RANKS runs them and petsc is among the engines.
@@ -46,9 +47,9 @@ def mpirun(mpiexec, ranks):
     return [mpiexec, *more, "-n", str(ranks)]
 
 
-def run(line, folder, status=0):
+def run(line, folder, status=0, patience=PATIENCE):
     finished = subprocess.run(line, stdin=subprocess.DEVNULL, capture_output=True, text=True, env=mpi_environment(),
-                              cwd=folder, timeout=PATIENCE)
+                              cwd=folder, timeout=patience)
     if status is not None and finished.returncode != status:
         sys.exit(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stdout}{finished.stderr}")
     return finished
@@ -229,28 +230,50 @@ def binaries(good):
     }
 
 
+def petsc_binary(contct, folder):
+    """CHAIN in PETSc's binary."""
+    (Path(folder) / "good.mtx").write_text(market(CHAIN))
+    run([contct, "convert", "good.mtx", "good.petsc"], folder)
+    return (Path(folder) / "good.petsc").read_bytes()
+
+
+def torn(contct, reference, mpiexec, fail):
+    refused = 0
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "chain.toml").write_text(MATRIX)
+        line = [contct, "run", "chain.toml", "--kernels", "corrected", "--engine", "petsc", "--json", "out.json", "--quiet"]
+        for content in (market(CHAIN).encode(), petsc_binary(contct, folder)):
+            (Path(folder) / "K.mtx").write_bytes(content)
+            for number in range(1, 5):
+                fault = ["env", f"LD_PRELOAD={fail}", "FAULT_CALL=pread", f"FAULT_AT={number}", "FAULT_ERRNO=5"]
+                job = [*mpirun(mpiexec, 1), *line, ":", "-n", "1", *fault, *line]
+                found = run(job, folder, None, 120)
+                said = messages(found.stderr)
+                if found.returncode == 0 and not said:
+                    (Path(folder) / "out.json").unlink()
+                    continue
+                if found.returncode != 2 or said != ["contct: K.mtx: cannot be read to its end"] or (Path(folder) / "out.json").exists():
+                    sys.exit(f"{job}: found exit status {found.returncode} and {said}; allowed: 2 and one message")
+                refused += 1
+    if refused < 5:
+        sys.exit(f"found {refused} runs of which a rank cannot read a part, allowed: 5 or more")
+    print(f"{refused} runs of which a rank cannot read a part end with one message")
+
+
 def parts(contct, reference, mpiexec, ranks):
     refused = 0
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "chain.toml").write_text(MATRIX)
         matrix = Path(folder) / "K.mtx"
         line = [contct, "run", "chain.toml", "--kernels", "corrected", "--json", "out.json", "--quiet"]
-        for what, text in BAD.items():
-            matrix.write_text(text)
-            one = messages(run(line, folder, 2).stderr)
-            many = messages(run([*mpirun(mpiexec, ranks), *line, "--engine", "petsc"], folder, 2).stderr)
-            if one != many or len(one) != 1 or (Path(folder) / "out.json").exists():
-                sys.exit(f"{what}: found {many}, and a file: {(Path(folder) / 'out.json').exists()}; allowed: {one} and no file")
-            refused += 1
-        matrix.write_text(market(CHAIN))
-        run([contct, "convert", "K.mtx", "K.petsc"], folder)
-        good = (Path(folder) / "K.petsc").read_bytes()
-        for what, content in binaries(good).items():
+        good = petsc_binary(contct, folder)
+        bad = {what: text.encode() for what, text in BAD.items()} | binaries(good)
+        for what, content in bad.items():
             matrix.write_bytes(content)
             one = messages(run(line, folder, 2).stderr)
             many = messages(run([*mpirun(mpiexec, ranks), *line, "--engine", "petsc"], folder, 2).stderr)
             if one != many or len(one) != 1 or (Path(folder) / "out.json").exists():
-                sys.exit(f"{what}: found {many}; allowed: {one}")
+                sys.exit(f"{what}: found {many}, and a file: {(Path(folder) / 'out.json').exists()}; allowed: {one} and no file")
             refused += 1
         comments = "%%MatrixMarket matrix coordinate real symmetric\n" + "% a long comment\n" * 20000
         for text in (market(CHAIN), market([list(reversed(CHAIN))[i * 37 % 79] for i in range(79)]), market(CHAIN, comments[:-1]),
@@ -586,7 +609,7 @@ def apart(contct, reference):
 
 def main():
     case, contct, reference = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
-    cases = {"equal": equal, "bad-input": bad_input, "killed": killed, "parts": parts, "multigrid": multigrid, "absent": absent,
+    cases = {"equal": equal, "bad-input": bad_input, "killed": killed, "parts": parts, "torn": torn, "multigrid": multigrid, "absent": absent,
              "apart": apart, "engines": engines, "factor": factor, "scaling": scaling, "pieces": pieces, "binary": binary,
              "naming": naming}
     cases[case](contct, reference, *sys.argv[4:])

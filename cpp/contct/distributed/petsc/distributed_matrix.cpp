@@ -1,7 +1,10 @@
 #include "contct/distributed/petsc/distributed_matrix.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -64,6 +67,13 @@ class unit_rows {
   Mat rows_ = nullptr;
 };
 
+/// Of this process; 0 where the system does not tell.
+double bytes_in_use() {
+  long pages = 0;
+  std::ifstream("/proc/self/statm").ignore(std::numeric_limits<std::streamsize>::max(), ' ') >> pages;
+  return static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
 
 void succeed(PetscErrorCode code) {
@@ -108,15 +118,16 @@ distributed_matrix::~distributed_matrix() {
   for (Mat* m : {&solutions_, &factor_, &all_entries_, &matrix_}) (void)MatDestroy(m);
 }
 
-/// In the memory of each rank, of which one machine may have several.
+/// In the memory of the machine, of which all its ranks have taken some: for the engine's factor, when this is
+/// the certificate's.
 bool distributed_matrix::fits() const {
-  MPI_Comm machine = MPI_COMM_NULL;
-  int ranks = 1;
-  MPI_Comm_split_type(job_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-  MPI_Comm_size(machine, &ranks);
-  MPI_Comm_free(&machine);
   const double takes = 0x1p20 * static_cast<double>(infog(factor_, most_mib_of_a_rank));
-  int fits = takes * ranks <= static_cast<double>(text::memory_limit()) ? 1 : 0;
+  double all = takes + bytes_in_use();
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(job_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_DOUBLE, MPI_SUM, machine);
+  MPI_Comm_free(&machine);
+  int fits = all <= static_cast<double>(text::memory_limit()) ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, job_);
   if (fits == 0 && rows_.first == 0 && rows_.count > 0)
     (void)std::fprintf(

@@ -70,7 +70,20 @@ void agree_on(MPI_Comm job, const Work& work) {
   agree(job, own);
 }
 
-/// A file that is open.
+/// What rank 0 finds, on every rank; what it refuses, every rank refuses.
+template <class Find>
+auto found_by_rank_0(MPI_Comm job, const Find& find) {
+  decltype(find()) found{};
+  agree_on(job, [&] {
+    if (rank_in(job) == 0) found = find();
+  });
+  const mpi_type<decltype(found)> type;
+  MPI_Bcast(&found, 1, type.get(), 0, job);
+  return found;
+}
+
+/// A file that is open. Its members may throw on one rank alone: whatever else waits for the others stands outside
+/// of the agree_on that they are called in.
 class open_file {
  public:
   explicit open_file(const matrix_file& f)
@@ -90,6 +103,10 @@ class open_file {
   open_file& operator=(const open_file&) = delete;
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// A file that grows or shrinks has one size for all ranks. Collective.
+  void agree_on_size(MPI_Comm job) {
+    size_ = found_by_rank_0(job, [this] { return size_; });
+  }
   /// As many bytes from `at` on as there are, at most `count`.
   [[nodiscard]] std::string bytes(std::size_t at, std::size_t count) const {
     std::string text(std::min(count, size_ - std::min(at, size_)), '\0');

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "contct/distributed/petsc/file_parts.hpp"
 #include "contct/distributed/petsc/matrix_file.hpp"
 #include "contct/distributed/petsc/own_matrix.hpp"
 #include "contct/distributed/petsc/packed_plate.hpp"
@@ -138,10 +139,6 @@ class petsc_ranks final : public ranks, public commander {
     if (c.what == verb::assemble) return assemble(c, g);
     if (c.what == verb::read) return read(c, g);
     own_matrix& own = stiffnesses_.at(c.from);
-    const auto give = [this](const auto& part, auto* found) {
-      auto all = gathered(MPI_COMM_WORLD, std::span(part));
-      if (found != nullptr) *found = std::move(all);
-    };
     switch (c.what) {
       case verb::copy:
         stiffnesses_[c.matrix] = own;
@@ -187,11 +184,6 @@ class petsc_ranks final : public ranks, public commander {
       return 0;
     }
     const own_truth& own = truths_.at(c.from);
-    const auto give = [this](const auto& part, auto* found) {
-      auto all = gathered(MPI_COMM_WORLD, std::span(part));
-      if (found != nullptr) *found = std::move(all);
-    };
-    int widest = own.widest_row();
     switch (c.what) {
       case verb::true_diagonal:
         give(own.diagonal(), g.found_decimals);
@@ -202,9 +194,11 @@ class petsc_ranks final : public ranks, public commander {
       case verb::true_sums:
         give(own.sums(everywhere(g.doubles)), g.found);
         break;
-      case verb::widest_row:
+      case verb::widest_row: {
+        int widest = own.widest_row();
         MPI_Allreduce(MPI_IN_PLACE, &widest, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
         return widest;
+      }
       case verb::truth_to_factor: {
         const std::vector<double> d = everywhere(g.doubles);
         share(c.matrix, static_cast<int>(d.size()), upper_of(own.rows, d), {});
@@ -217,6 +211,13 @@ class petsc_ranks final : public ranks, public commander {
         break;
     }
     return 0;
+  }
+
+  /// The parts of all ranks to where rank 0 takes them.
+  template <class Number>
+  static void give(const std::vector<Number>& part, std::vector<Number>* found) {
+    std::vector<Number> all = gathered(MPI_COMM_WORLD, std::span<const Number>(part));
+    if (found != nullptr) *found = std::move(all);
   }
 
   template <class Number>
@@ -248,17 +249,23 @@ class petsc_ranks final : public ranks, public commander {
   /// A number that is not finite is refused by whichever rank finds it.
   int assemble(const command& c, const given& g) {
     const auto p = std::make_shared<const structure::plate>(unpacked(everywhere(g.doubles)));
-    std::string why;
     try {
-      stiffnesses_[c.matrix] = matrix_of(p, own_rows(MPI_COMM_WORLD, p->dofs()));
-    } catch (const std::invalid_argument& e) {
-      why = e.what();
+      const own_rows own(MPI_COMM_WORLD, p->dofs());
+      agree_on(MPI_COMM_WORLD, [&] { stiffnesses_[c.matrix] = own_matrix_of(p, own); });
+    } catch (const text::input_error& e) {  // on every rank, with the same words
+      stiffnesses_.erase(c.matrix);
+      if (g.refused != nullptr) *g.refused = e.what();
     }
-    const std::vector<char> all = gathered_everywhere(MPI_COMM_WORLD, std::span<const char>(why));
-    if (all.empty()) return 0;
-    stiffnesses_.erase(c.matrix);
-    if (g.refused != nullptr) *g.refused = why.empty() ? std::string(all.begin(), all.end()) : why;
     return 0;
+  }
+
+  /// The agreement is on errors in what is read.
+  static own_matrix own_matrix_of(const std::shared_ptr<const structure::plate>& p, const own_rows& own) {
+    try {
+      return matrix_of(p, own);
+    } catch (const std::invalid_argument& e) {
+      throw text::input_error(e.what());
+    }
   }
 
   static void gather_peaks(long* peaks) {

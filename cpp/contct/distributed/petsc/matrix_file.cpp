@@ -136,10 +136,12 @@ void check(MPI_Comm job, const matrix_file& what, const own_rows& own, std::span
 
 own_matrix read_own(MPI_Comm job, const matrix_file& what) {
   std::optional<open_file> file;
-  matrix_head head;
   agree_on(job, [&] { file.emplace(what); });
-  if (what.rows == 0 && read::is_petsc_matrix(file->bytes(0, 8))) return read_own_binary(job, *file, what);
-  agree_on(job, [&] { head = head_of(*file, what); });
+  file->agree_on_size(job);
+  const bool is_binary =
+      found_by_rank_0(job, [&] { return what.rows == 0 && read::is_petsc_matrix(file->bytes(0, 8)); });
+  if (is_binary) return read_own_binary(job, *file, what);
+  const matrix_head head = found_by_rank_0(job, [&] { return head_of(*file, what); });
   std::string text;
   agree_on(job, [&] { text = own_text(job, *file, head.begins); });
   const std::int64_t lines = std::count(text.begin(), text.end(), '\n');

@@ -29,8 +29,13 @@ std::vector<int> ints_at(const open_file& f, std::size_t at, std::size_t count) 
   return numbers_at<std::int32_t, std::uint32_t>(f, at, count);
 }
 
-/// Rows, and entries of the whole; nothing where the header cannot be.
-std::optional<std::pair<int, int>> header_of(const open_file& f) {
+/// Of the whole matrix.
+struct matrix_header {
+  int rows, entries;
+};
+
+/// Nothing where it cannot be.
+std::optional<matrix_header> header_of(const open_file& f) {
   const std::vector<int> header = ints_at(f, 0, 4);
   if (header.size() < 4 || header[0] != static_cast<int>(read::petsc_matrix_id)) return std::nullopt;
   const auto [rows, columns, entries] = std::tuple(header[1], header[2], header[3]);
@@ -40,7 +45,7 @@ std::optional<std::pair<int, int>> header_of(const open_file& f) {
   const std::size_t all = bytes_of_header + bytes_of_int * static_cast<std::size_t>(rows) +
                           (bytes_of_int + bytes_of_value) * static_cast<std::size_t>(entries);
   if (f.size() != all) return std::nullopt;
-  return std::pair(rows, entries);
+  return matrix_header{rows, entries};
 }
 
 struct place {
@@ -51,13 +56,15 @@ struct place {
 /// Own rows, in the order of the columns.
 class own_part {
  public:
-  own_part(MPI_Comm job, const open_file& f, const own_rows& own, int rows, int entries)
-      : own_(own), rows_(rows) {
+  own_part(MPI_Comm job, const open_file& f, const own_rows& own, matrix_header whole) : own_(own) {
+    const auto [rows, entries] = whole;
     const auto n = static_cast<std::size_t>(rows);
-    const std::vector<int> lengths =
-        ints_at(f, bytes_of_header + bytes_of_int * static_cast<std::size_t>(own.first),
-                static_cast<std::size_t>(own.count));
-    const bool possible = std::ranges::all_of(lengths, [rows](int x) { return x >= 1 && x <= rows; });
+    std::vector<int> lengths;
+    agree_on(job, [&] {
+      lengths = ints_at(f, bytes_of_header + bytes_of_int * static_cast<std::size_t>(own.first),
+                        static_cast<std::size_t>(own.count));
+    });
+    const bool possible = std::ranges::all_of(lengths, [n = whole.rows](int x) { return x >= 1 && x <= n; });
     const std::int64_t count =
         possible ? std::accumulate(lengths.begin(), lengths.end(), std::int64_t{0}) : 0;
     const auto before = static_cast<std::size_t>(sum_before(job, count));
@@ -66,16 +73,20 @@ class own_part {
     const std::size_t columns = bytes_of_header + bytes_of_int * n;
     const std::size_t values = columns + bytes_of_int * static_cast<std::size_t>(entries);
     const auto size = static_cast<std::size_t>(count);
-    const std::vector<int> column = ints_at(f, columns + bytes_of_int * before, size);
-    const auto value = numbers_at<double, std::uint64_t>(f, values + bytes_of_value * before, size);
+    std::vector<int> column;
+    std::vector<double> value;
+    agree_on(job, [&] {
+      column = ints_at(f, columns + bytes_of_int * before, size);
+      value = numbers_at<double, std::uint64_t>(f, values + bytes_of_value * before, size);
+    });
     places_.reserve(size);
     std::size_t next = 0;
     for (int row = 0; row < own.count; ++row)
       for (int i = 0; i < lengths[static_cast<std::size_t>(row)]; ++i, ++next)
         places_.push_back({own.first + row, column[next], value[next]});
     std::ranges::sort(places_, before_in_order);
-    is_sound_ = std::ranges::all_of(places_, [rows](const place& p) {
-      return p.column >= 0 && p.column < rows && std::isfinite(p.value);
+    is_sound_ = std::ranges::all_of(places_, [n = whole.rows](const place& p) {
+      return p.column >= 0 && p.column < n && std::isfinite(p.value);
     });
     for (std::size_t i = 1; i < size; ++i)
       is_sound_ =
@@ -124,7 +135,6 @@ class own_part {
     return a.row != b.row ? a.row < b.row : a.column < b.column;
   }
   own_rows own_;
-  int rows_;
   bool is_sound_ = false;
   std::vector<place> places_;
 };
@@ -140,11 +150,11 @@ class own_part {
 }  // namespace
 
 own_matrix read_own_binary(MPI_Comm job, const open_file& file, const matrix_file& what) {
-  const std::optional<std::pair<int, int>> header = header_of(file);
-  if (sum_of(job, header ? 0 : 1) > 0) refuse(job, file, what);
-  const own_rows own(job, header->first);
+  const auto header = found_by_rank_0(job, [&] { return header_of(file); });
+  if (!header) refuse(job, file, what);
+  const own_rows own(job, header->rows);
   const owners all(job, own);
-  const own_part part(job, file, own, header->first, header->second);
+  const own_part part(job, file, own, *header);
   if (sum_of(job, part.is_sound() ? 0 : 1) > 0) refuse(job, file, what);
   const bool symmetric = part.is_symmetric(job, all);
   const bool semidefinite = part.may_be_semidefinite(job);
