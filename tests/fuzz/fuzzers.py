@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -78,6 +79,18 @@ def fuzz(target, program, corpus, seconds, work):
     return True
 
 
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def hours_with(ledger, name, began):
+    """Of all fuzzers with this corpus, in processor hours; what has just run is added to the ledger."""
+    with open(ledger, "a", encoding="utf-8") as file:
+        file.write(f"{name} {processor_seconds() - began:.0f}\n")
+    return sum(int(line.split()[1]) for line in ledger.read_text(encoding="utf-8").splitlines()) / 3600.0
+
+
 def profile_of(target, program, corpus, work):
     """What the seeds and the corpus of a fuzzer reach, as a file."""
     raw = work / "raw"
@@ -128,10 +141,12 @@ def main():
             if coverage:
                 profiles[program] = profile_of(target, program, corpus, own)
             else:
+                began = processor_seconds()
                 good.append(fuzz(target, program, corpus, seconds, own))
+                hours = hours_with(corpus.parent / "ran.txt", target.name, began)
         if coverage:
             sys.exit(0 if cover(list(profiles), profiles.values(), pathlib.Path(work)) else 1)
-    print(f"fuzzers: {sum(good)} of {len(good)} found nothing")
+    print(f"fuzzers: {sum(good)} of {len(good)} found nothing; {hours:.1f} processor hours with this corpus")
     sys.exit(0 if all(good) else 1)
 
 

@@ -1,26 +1,13 @@
 // The reader of stiffness matrices in Matrix Market files: what it reads, written again, is the same matrix.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "contct/read/matrix_files.hpp"
-#include "fuzz/fuzz.hpp"
+#include "fuzz/sound_matrix.hpp"
 
 namespace {
 
 using namespace contct::fuzz;
 using namespace contct::read;
-
-void check(const sparse_matrix& m) {
-  const matrix_entry* before = nullptr;
-  for (const matrix_entry& e : m.entries) {
-    require(e.column >= 0 && e.column <= e.row && e.row < m.order, "an entry is in the lower triangle");
-    require(std::isfinite(e.value) && e.value != 0.0, "an entry is a number other than 0");
-    require(e.row != e.column || e.value > 0.0, "the diagonal is positive");
-    require(before == nullptr || before->row != e.row || before->column != e.column, "a place is there once");
-    before = &e;
-  }
-}
 
 /// Every row has its diagonal in such a file, 0 or not.
 std::string written(const sparse_matrix& m) {
@@ -50,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_exact = is_read([&] { (void)parse_symmetric(text, "k.mtx", &literals); });
   require(is_sound || !is_exact, "what is read with its literals is read without them");
   if (!is_sound) return 0;
-  check(read);
+  require_sound(read);
   require(literals.empty() || literals.size() == read.entries.size(), "a literal for each entry");
   const std::string again = written(read);
   require(is_read([&] {

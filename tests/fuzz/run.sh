@@ -4,7 +4,8 @@
 # SECONDS: for each fuzzer, 60 unless given; NAME: of tests/fuzz/targets.txt, all unless given.
 #     sh tests/fuzz/run.sh --coverage
 # tells which share of the lines of each reader (readers.txt) the inputs so far reach, and fails below 90 %.
-# Inputs are kept in build/fuzz-corpus; CONTCT_CORPUS in the environment names another folder.
+# Inputs are kept in build/fuzz-corpus, and what ran how long in its ran.txt; CONTCT_CORPUS in the environment names
+# another folder.
 # Exit 0: nothing found; 1: an input that is not handled, takes 10 s or 2.5 GiB, a fuzzer with too few runs, or lines that
 # are not reached; 2: usage; 77: skipped, clang or libFuzzer cannot be had.
 set -u

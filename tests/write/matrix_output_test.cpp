@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/petsc_matrix.hpp"
+#include "support/equal_matrices.hpp"
 #include "support/matrices.hpp"
 #include "support/petsc_bytes.hpp"
 
@@ -26,15 +27,6 @@ std::string petsc(const sparse_matrix& a) {
   output_file out(&bytes);
   (void)write_petsc_matrix(a, out);
   return bytes;
-}
-
-/// The same bits of every number at the same place.
-bool equal(const sparse_matrix& a, const sparse_matrix& b) {
-  return a.order == b.order && std::equal(a.entries.begin(), a.entries.end(), b.entries.begin(),
-                                          b.entries.end(), [](const matrix_entry& x, const matrix_entry& y) {
-                                            return x.row == y.row && x.column == y.column &&
-                                                   x.value == y.value;
-                                          });
 }
 
 }  // namespace
