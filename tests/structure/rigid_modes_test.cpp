@@ -1,5 +1,7 @@
 #include "contct/structure/rigid_modes.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "catch.hpp"
@@ -96,6 +98,16 @@ TEST_CASE("the scale of the matrix, and of single dofs, does not matter") {
   // K becomes D K D, so its free motion becomes D^-1 times the old one; the largest entry is 1.
   CHECK(std::abs(f.rows[0][0]) == Approx(1.0).epsilon(1e-9));
   CHECK(std::abs(f.rows[4][0]) <= 1e-10);
+}
+
+TEST_CASE("a dof on the least stiffness that there is leaves the other motions as they were") {
+  band_matrix k(10, 1);
+  for (int i = 0; i < 9; ++i)
+    for (int j = std::max(i - 1, 0); j <= i; ++j) k.at(i, j) = chain(9).at(i, j);
+  k.at(9, 9) = std::numeric_limits<double>::denorm_min();
+  const free_motions f = find_free_motions(k, {});
+  REQUIRE(f.count == 1);
+  CHECK(f.rows[9][0] == 0.0);
 }
 
 TEST_CASE("what is said of the free motions must be so") {

@@ -179,12 +179,12 @@ void stiffness_matrix::fix(std::span<const double> pivots) {
 
 void stiffness_matrix::scale(std::span<const double> d) {
   if (is_remote()) {
-    for (std::size_t row = 0; row < d.size(); ++row) diagonal_at(row) *= d[row] * d[row];
+    for (std::size_t row = 0; row < d.size(); ++row) diagonal_at(row) = diagonal_at(row) * d[row] * d[row];
     return others().scale(d);
   }
   each_entry(
-      stored_, [d](std::size_t i, double& value) { value *= d[i] * d[i]; },
-      [d](std::size_t row, std::size_t column, double& value) { value *= d[row] * d[column]; });
+      stored_, [d](std::size_t i, double& value) { value = value * d[i] * d[i]; },  // d * d may overflow
+      [d](std::size_t row, std::size_t column, double& value) { value = value * d[row] * d[column]; });
 }
 
 template <class Real>

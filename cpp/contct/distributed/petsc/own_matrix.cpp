@@ -90,10 +90,13 @@ int own_truth::widest_row() const {
 }
 
 void own_matrix::scale(std::span<const double> d) {
-  for (std::size_t row = 0; row + 1 < rows.starts.size(); ++row)
-    for (std::size_t at = rows.starts[row]; at < rows.starts[row + 1]; ++at)
-      rows.values[at] *=
-          d[row + static_cast<std::size_t>(rows.first)] * d[static_cast<std::size_t>(rows.columns[at])];
+  for (std::size_t own = 0; own + 1 < rows.starts.size(); ++own)
+    for (std::size_t at = rows.starts[own]; at < rows.starts[own + 1]; ++at) {
+      const auto [lower, upper] = std::minmax(
+          {own + static_cast<std::size_t>(rows.first), static_cast<std::size_t>(rows.columns[at])});
+      rows.values[at] =
+          rows.values[at] * d[upper] * d[lower];  // as stiffness_matrix::scale, in both triangles
+    }
 }
 
 std::vector<double> own_matrix::diagonal() const {
