@@ -11,6 +11,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -67,11 +68,20 @@ void start_clock(double seconds) {
     refused_by_system("--max-seconds");
 }
 
-/// Memory that is written, not what is only mapped: libraries and files do not count.
+/// That can be written; 0 where the system does not tell.
+rlim_t bytes_of_data() {
+  std::ifstream told("/proc/self/statm");
+  rlim_t pages = 0;
+  constexpr int place = 6;
+  for (int i = 0; i < place; ++i) told >> pages;
+  return told ? pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// Memory that is written, not what is only mapped, as files are; nor what libraries have taken by now.
 void limit_memory(std::int64_t mib) {
   rlimit now{};
   if (getrlimit(RLIMIT_DATA, &now) != 0) refused_by_system("--max-memory");
-  now.rlim_cur = std::min(now.rlim_max, static_cast<rlim_t>(mib) << 20U);
+  now.rlim_cur = std::min(now.rlim_max, bytes_of_data() + (static_cast<rlim_t>(mib) << 20U));
   if (setrlimit(RLIMIT_DATA, &now) != 0) refused_by_system("--max-memory");
 }
 

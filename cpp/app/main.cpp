@@ -10,6 +10,7 @@
 #include "app/limits.hpp"
 #include "app/outputs.hpp"
 #include "app/problem_runs.hpp"
+#include "contct/matrix/lapack_memory.hpp"
 #include "contct/numeric/rational.hpp"
 
 namespace contct::app {
@@ -32,7 +33,10 @@ exit_status status_of_program(int argc, char** argv) {
     if (!asked) return exit_status::bad_input;
     const exit_status status = std::visit(
         [](const auto& options) {
-          if constexpr (requires { options.limits; }) start_limits(options.limits);
+          if constexpr (requires { options.limits; }) {
+            matrix::take_lapack_memory();
+            start_limits(options.limits);
+          }
           return run_command(options);
         },
         *asked);

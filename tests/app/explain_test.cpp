@@ -350,7 +350,7 @@ TEST_CASE("an event so near to full load that only rounding is left is told, and
 TEST_CASE("with --exact every s stands beside the exact one, and PB7's tie is seen") {
   const finished f = explained({pb7, "--exact", "--increment", "2.1"}, "140");
   CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains("s exactly, from the numbers of this call: 0.0789473684207") &&
+  CHECK_THAT(f.out, Contains("s exactly, from the numbers of this call: 0.07894736842") &&
                         Contains("s on the exact path: 3/38; fortran and cpp ") &&
                         Contains("A tie: there pairs 1 and 3 have exactly this s.") &&
                         Contains("Exactly, pairs 1 and 3 are toggled, as here.") &&

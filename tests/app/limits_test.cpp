@@ -137,10 +137,10 @@ TEST_CASE("the limit of --max-memory ends every command that reads a problem: ex
 TEST_CASE("at every limit of memory a run is whole, or ends with exit 5 and one message") {
   if (!memory_can_be_limited) return;
   const scratch_folder dir;
-  dir.write("p.toml", good_problem);
+  dir.write("p.toml", endless(200, 1));
   int ended = 0;
   int solved = 0;
-  for (int mib = 1; mib <= 40; mib += mib < 12 ? 1 : 7) {
+  for (int mib = 1; mib <= 100; mib += mib < 12 ? 1 : 11) {
     const finished f =
         contct_program(dir.path(), with_outputs({"run", "p.toml", "--max-memory", std::to_string(mib)}));
     INFO(mib << " MiB: " << f.exit << "\n" << f.err);

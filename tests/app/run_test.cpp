@@ -114,9 +114,9 @@ TEST_CASE("a table follows the node that it was given, by number or by x, and re
   dir.write("pb.toml", good_problem);
   for (const char* node : {"2", "x = 1", "x=1.0"})
     CHECK_THAT(contct_program(dir.path(), {"run", "pb.toml", "--quiet", "--csv", "-", "--node", node}).out,
-               Contains(",2,-0.0012500000000000002\r\n") && Contains(",2,-0.00151162790"));
+               Contains(",2,-0.00125") && Contains(",2,-0.00151162790"));
   CHECK_THAT(contct_program(dir.path(), {"run", "pb.toml", "--quiet", "--csv", "-"}).out,
-             Contains(",3,-0.004000000000000") && Contains(",3,-0.00483720930"));
+             Contains(",3,-0.004") && Contains(",3,-0.00483720930"));
   for (const char* node : {"0", "4", "x = 0.5", "x", "three"}) {
     const finished f = contct_program(dir.path(), {"run", "pb.toml", "--csv", "run.csv", "--node", node});
     CHECK(f.exit == 2);

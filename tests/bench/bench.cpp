@@ -183,6 +183,23 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   }
 }
 
+/// What only the ends of the steps cost, in factorisations.
+json bench_final_states(const std::string& name) {
+  show(name + ": final states");
+  const contct::app::problem p = bench::make_problem(name);
+  const contct::app::linear_structure s = contct::app::structure_of(p);
+  const bench::final_states f = bench::time_final_states(p, s);
+  show("");
+  const double ratio = f.seconds / f.factorisations / f.seconds_of_a_factor;
+  fmt::print("  final states {:.1f} ms: {} factorisations of {:.2f} ms each, x{:.2f} of these alone\n",
+             1e3 * f.seconds, f.factorisations, 1e3 * f.seconds_of_a_factor, ratio);
+  return {{"problem", name},
+          {"ms", 1e3 * f.seconds},
+          {"factorisations", f.factorisations},
+          {"ms_of_a_factor", 1e3 * f.seconds_of_a_factor},
+          {"ratio", ratio}};
+}
+
 int run(options o) {
   if (o.growth) o.problems = bench::growing_problems();
   std::optional<contct::app::output_file> out;
@@ -194,12 +211,17 @@ int run(options o) {
              core_type());
   json kernels = o.without_kernels ? json::array() : bench_kernels(o.rounds);
   json rows = json::array();
-  for (const std::string& name : o.problems) bench_problem(o, name, rows);
+  json ends = json::array();
+  for (const std::string& name : o.problems) {
+    bench_problem(o, name, rows);
+    if (!o.growth) ends.push_back(bench_final_states(name));
+  }
   if (out) {
     const json document = {{"blas", contct::app::lapack_identity()},
                            {"core", core_type()},
                            {"kernels", std::move(kernels)},
-                           {"rows", rows}};
+                           {"rows", rows},
+                           {"final_states", std::move(ends)}};
     out->write(document.dump(1) + "\n");
     out->finish();
   }

@@ -99,6 +99,27 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
   return r;
 }
 
+final_states time_final_states(const contct::app::problem& p, const contct::app::linear_structure& s) {
+  final_states f;
+  const auto seconds_since = [](clock::time_point start) {
+    return std::chrono::duration<double>(clock::now() - start).count();
+  };
+  const contct::app::load_history loads = contct::app::loads_of(p, s);
+  const clock::time_point start = clock::now();
+  const contct::app::path_end end =
+      contct::app::find_final_states(s, static_cast<int>(p.steps.size()), loads, {});
+  f.seconds = seconds_since(start);
+  if (end.status != contct::app::path_status::solved) throw std::runtime_error("no final states");
+  f.factorisations = static_cast<int>(end.work.factors);
+  contct::app::stiffness_factor factor(s.stiffness);
+  const std::vector<contct::app::spring_at> springs =
+      contct::app::springs_of(s, std::vector<char>(s.pairs.size(), 1));
+  const clock::time_point again = clock::now();
+  if (!factor.factor(springs)) throw std::runtime_error("the stiffness has no factor");
+  f.seconds_of_a_factor = seconds_since(again);
+  return f;
+}
+
 double seconds_of_a_solve(const contct::app::linear_structure& s) {
   contct::app::stiffness_factor f(s.stiffness);
   std::vector<char> closed(s.pairs.size());

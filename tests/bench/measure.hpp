@@ -36,6 +36,15 @@ struct run_of_engine {
 [[nodiscard]] run_of_engine run_engine(const contct::app::problem& p, const contct::app::linear_structure& s,
                                        const std::string& engine, int most_events, bool certify);
 
+/// The ends of all steps without a path, and without a certificate.
+struct final_states {
+  double seconds = 0.0;
+  int factorisations = 0;
+  double seconds_of_a_factor = 0.0;  ///< by the library that the reference solution factors with
+};
+[[nodiscard]] final_states time_final_states(const contct::app::problem& p,
+                                             const contct::app::linear_structure& s);
+
 /// Seconds of one dpbtrs with the factor of the structure as it starts: what a plain solve costs.
 [[nodiscard]] double seconds_of_a_solve(const contct::app::linear_structure& s);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
+#include "contct/matrix/without_zeros.hpp"
 
 namespace contct::certify {
 namespace {
@@ -32,7 +33,13 @@ long double dot(const std::vector<long double>& a, const std::vector<long double
 class reference_solver::search {
  public:
   explicit search(const linear_structure& s)
-      : structure_(s), load_(s.dofs()), u_(s.dofs()), set_(s.pairs.size()), factor_(s.stiffness) {
+      : structure_(s),
+        sparse_(without_zeros(s.stiffness)),
+        stiffness_(sparse_ ? *sparse_ : s.stiffness),
+        load_(s.dofs()),
+        u_(s.dofs()),
+        set_(s.pairs.size()),
+        factor_(s.stiffness) {
     for (std::size_t i = 0; i < s.pairs.size(); ++i)
       pair_rows_.push_back(s.row_of(s.dof_of_pair(static_cast<int>(i))));
     start_undeformed();
@@ -160,7 +167,7 @@ class reference_solver::search {
 
   /// r = load - K u - the springs of the pressed pairs.
   void residual(const numbers& u, numbers& r) const {
-    multiply_minus(structure_.stiffness, u, r);
+    multiply_minus(stiffness_, u, r);
     for (std::size_t i = 0; i < r.size(); ++i) r[i] += load_[i];
     for (std::size_t i = 0; i < set_.size(); ++i) {
       const contact_pair& p = structure_.pairs[i];
@@ -173,7 +180,8 @@ class reference_solver::search {
   }
 
   /// Solve for the point where the springs of the pressed pairs are in equilibrium. Returns the size of the
-  /// last correction, or a negative number when refinement does not converge.
+  /// last correction, or a negative number when refinement does not converge. A point at which other pairs
+  /// are pressed, which is only a direction, is not refined to its last digit.
   long double refined_solve(numbers& u) {
     numbers r(u.size());
     std::vector<double> step(u.size());
@@ -194,6 +202,8 @@ class reference_solver::search {
       for (const std::size_t row : pair_rows_)
         largest_step = std::max(largest_step, static_cast<long double>(std::abs(step[row])));
       if (!std::isfinite(correction)) return -1.0L;
+      if (pass > 0 && correction <= good_enough * size && pressed_at(u, 4 * largest_step) != set_)
+        return largest_step;
       if (correction <= 4 * finest * size || (pass > 1 && correction > before / 2))
         return correction <= good_enough * size ? largest_step : -1.0L;
       before = correction;
@@ -205,7 +215,7 @@ class reference_solver::search {
   /// meets its face. Infinite when E falls for ever.
   [[nodiscard]] long double best_step(const numbers& p) const {
     numbers minus_kp(p.size());
-    multiply_minus(structure_.stiffness, p, minus_kp);
+    multiply_minus(stiffness_, p, minus_kp);
     return best_step(p, -dot(minus_kp, u_) - dot(load_, p), -dot(minus_kp, p));
   }
   /// The same, from the slope at alpha = 0 and its growth without the pairs.
@@ -289,6 +299,8 @@ class reference_solver::search {
   }
 
   const linear_structure& structure_;
+  const std::optional<stiffness_matrix> sparse_;  // for products; see without_zeros
+  const stiffness_matrix& stiffness_;
   std::vector<std::size_t> pair_rows_;   // [pairs]
   numbers load_;                         // [rows]
   std::vector<double> given_;            // the same, as it was given [dofs]

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <new>
+#include <system_error>
 
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
@@ -22,9 +24,10 @@ std::string library_of_dpbtrf() {
   Dl_info found{};
   // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses
   if (dladdr(reinterpret_cast<void*>(&CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)), &found) == 0) return "";
-  std::error_code ignored;
-  const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, ignored);
-  return (ignored ? std::filesystem::path(found.dli_fname) : real).filename().string();
+  std::error_code failed;
+  const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, failed);
+  if (failed == std::errc::not_enough_memory) throw std::bad_alloc();  // it would have another name
+  return (failed ? std::filesystem::path(found.dli_fname) : real).filename().string();
 }
 
 /// The configuration of OpenBLAS with the core type that it uses; empty where it is not loaded.

@@ -64,7 +64,10 @@ class cholmod final : public sparse_factor {
     }
     cholmod_sparse view = view_of_a();
     factor_ = made(cholmod_analyze(&view, &work_));
-    b_ = made(cholmod_zeros(view.nrow, 1, CHOLMOD_REAL, &work_));
+    // x_, y_ and e_ are cholmod_solve2's, which crashes where it cannot make them.
+    for (cholmod_dense** vector : {&b_, &x_, &y_})
+      *vector = made(cholmod_zeros(view.nrow, 1, CHOLMOD_REAL, &work_));
+    e_ = made(cholmod_zeros(std::max<std::size_t>(factor_->maxesize, 1), 1, CHOLMOD_REAL, &work_));
     places_.resize(view.nrow);
     const auto* const order = static_cast<const int*>(factor_->Perm);
     for (std::size_t i = 0; i < view.nrow; ++i) places_[order[i]] = static_cast<int>(i);
@@ -154,7 +157,7 @@ class cholmod final : public sparse_factor {
   std::vector<double> in_order_;
   cholmod_factor* factor_ = nullptr;
   cholmod_dense* b_ = nullptr;
-  cholmod_dense* x_ = nullptr;  // x_, y_ and e_ belong to cholmod_solve2
+  cholmod_dense* x_ = nullptr;
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
 };
