@@ -45,12 +45,12 @@ constexpr method methods[] = {
     {"calculix", "newton", "CalculiX: its own Newton, NLGEOM"},
 };
 
-/// Debian's package of a program that is missing.
-std::string package_of(const std::string& program) {
-  if (program == "siconos") return "libsiconos-numerics-dev";
-  if (program == "petsc") return "libpetsc-real-dev";
-  if (program == "calculix") return "calculix-ccx";
-  return "libsuitesparse-dev";
+/// Where a program that is missing comes from.
+std::string remedy_for(const std::string& program) {
+  if (program == "siconos") return "tests/bench/peers/siconos.sh gets it";
+  if (program == "petsc") return "Debian's libpetsc-real-dev and libopenmpi-dev";
+  if (program == "calculix") return "Debian's calculix-ccx";
+  return "Debian's libsuitesparse-dev";
 }
 
 /// A folder that is gone afterwards.
@@ -162,7 +162,7 @@ void print(const method& m, const json& row) {
   const std::string status = row["status"];
   if (!row.contains("ms")) {
     fmt::print("  {:<44} {}\n", m.words,
-               status == "not found" ? "not found: Debian's " + package_of(m.program)
+               status == "not found" ? "not found: " + remedy_for(m.program)
                                      : status + ": " + row["words"].get<std::string>());
     return;
   }
@@ -193,8 +193,7 @@ json run(const std::vector<std::string>& programs, const std::vector<std::string
   for (const std::string& name : problems) {
     const scratch_folder folder;
     if (!prepare(name, folder.path())) {
-      fmt::print("{}: not found: CalculiX, which makes its matrix (Debian's {})\n", name,
-                 package_of("calculix"));
+      fmt::print("{}: not found: CalculiX, which makes its matrix ({})\n", name, remedy_for("calculix"));
       rows.push_back({{"problem", name}, {"program", "calculix"}, {"status", "not found"}});
       continue;
     }
