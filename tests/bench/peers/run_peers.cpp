@@ -187,8 +187,6 @@ std::vector<std::string> names() {
 }
 
 json run(const std::vector<std::string>& programs, const std::vector<std::string>& problems, int rounds) {
-  if (!files::exists(path_of("ours")))
-    throw std::runtime_error("--peers: found no " + path_of("ours") + "; allowed: a release build");
   json rows = json::array();
   for (const std::string& name : problems) {
     const scratch_folder folder;
