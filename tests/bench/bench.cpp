@@ -15,6 +15,7 @@
 #include "bench/growth_svg.hpp"
 #include "bench/kernels.hpp"
 #include "bench/measure.hpp"
+#include "bench/peers/run_peers.hpp"
 #include "bench/problems.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/lapack_identity.hpp"
@@ -27,7 +28,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 struct options {
-  std::vector<std::string> problems = bench::usual_problems();
+  std::vector<std::string> problems;  // none: the usual ones
   std::vector<std::string> engines = contct::app::engine_names();
   int events = 0;
   int rounds = 3;
@@ -35,6 +36,8 @@ struct options {
   std::string svg_file;
   bool growth = false;
   bool without_kernels = false;
+  bool peers = false;
+  std::vector<std::string> programs = bench::peers::names();
 };
 
 /// One thread on one processor: ratios then mean what they say.
@@ -200,7 +203,22 @@ json bench_final_states(const std::string& name) {
           {"ratio", ratio}};
 }
 
+/// Other programs in place of the engines.
+int run_peers(const options& o) {
+  std::optional<contct::app::output_file> out;
+  if (!o.json_file.empty()) out.emplace(o.json_file);
+  pin();
+  const json rows = bench::peers::run(
+      o.programs, o.problems.empty() ? bench::peers::usual_problems() : o.problems, o.rounds);
+  if (!out) return 0;
+  out->write(json{{"blas", contct::app::lapack_identity()}, {"peers", rows}}.dump(1) + "\n");
+  out->finish();
+  return 0;
+}
+
 int run(options o) {
+  if (o.peers) return run_peers(o);
+  if (o.problems.empty()) o.problems = bench::usual_problems();
   if (o.growth) o.problems = bench::growing_problems();
   std::optional<contct::app::output_file> out;
   if (!o.json_file.empty()) out.emplace(o.json_file);
@@ -237,9 +255,10 @@ int run(options o) {
 int main(int argc, char** argv) {
   options o;
   CLI::App program("The engines side by side on problems by formula.", "contct_bench");
-  program.add_option("--problem", o.problems, "Problems: rail-S, mat-N, grid-N")
-      ->delimiter(',')
-      ->capture_default_str();
+  program
+      .add_option("--problem", o.problems,
+                  "Problems: rail-S, mat-N, grid-N, and with --peers solid-N; without it, the usual ones")
+      ->delimiter(',');
   program.add_option("--engine", o.engines, "Engines; refactor is what the others are measured by")
       ->delimiter(',')
       ->capture_default_str();
@@ -252,6 +271,12 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 99))
       ->capture_default_str();
   program.add_flag("--growth", o.growth, "Run every family at sizes that grow, in place of --problem");
+  program.add_flag("--peers", o.peers, "Other programs in place of the engines, where they are found");
+  program.add_option("--peer", o.programs, "Only these programs")
+      ->delimiter(',')
+      ->check(CLI::IsMember(bench::peers::names()))
+      ->needs("--peers")
+      ->capture_default_str();
   program.add_flag("--without-kernels", o.without_kernels,
                    "Engines only; the kernels alone take some seconds");
   program.add_option("--svg", o.svg_file,

@@ -95,7 +95,7 @@ std::string stops(int n) {
 
 }  // namespace
 
-contct::app::problem make_problem(const std::string& name, contct::distributed::ranks* among) {
+std::string problem_text(const std::string& name) {
   const std::size_t dash = name.find('-');
   const std::string family = name.substr(0, dash);
   int size = 0;
@@ -110,9 +110,13 @@ contct::app::problem make_problem(const std::string& name, contct::distributed::
     throw std::invalid_argument("--problem: found \"" + name +
                                 "\"; allowed: rail-S (2 to 5000 spans), mat-N, grid-N (4 to 400 elements a "
                                 "side), stops-N (4 to 600)");
+  return text;
+}
+
+contct::app::problem make_problem(const std::string& name, contct::distributed::ranks* among) {
   using contct::app::literals;
   using contct::app::reach;
-  return contct::app::parse_problem(text, name, literals::dropped, reach::own_folder, among);
+  return contct::app::parse_problem(problem_text(name), name, literals::dropped, reach::own_folder, among);
 }
 
 std::vector<std::string> usual_problems() {

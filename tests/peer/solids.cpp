@@ -9,110 +9,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "peer/block.hpp"
 #include "peer/programs.hpp"
 
 namespace contct::app::peer {
 namespace {
 
 using nlohmann::json;
-
-/// A block of C3D8I bricks, clamped at x = 0, over springs with gaps.
-struct gap_support {
-  int node;
-  double face, stiffness;
-};
-struct block {
-  std::string name;
-  int nx, ny, nz;
-  double length, width, height;
-  std::vector<gap_support> supports;
-  int loaded;
-  std::vector<double> loads;  ///< a step each
-
-  [[nodiscard]] int nodes() const { return (nx + 1) * (ny + 1) * (nz + 1); }
-  [[nodiscard]] int at(int i, int j, int k) const { return (i * (ny + 1) + j) * (nz + 1) + k + 1; }
-};
-
-constexpr double youngs = 1e4;
-/// CalculiX's NLGEOM must not notice the turns: see calculix_deck.cpp. Its forces must not be small.
-constexpr double small = 1e-8;
-constexpr double unit_of_force = 1e6 / small;
-
-std::string mesh_of(const block& b, double modulus) {
-  std::string text = "*NODE,NSET=ALL\n";
-  for (int i = 0; i <= b.nx; ++i) {
-    for (int j = 0; j <= b.ny; ++j) {
-      for (int k = 0; k <= b.nz; ++k) {
-        text += fmt::format("{},{:.12e},{:.12e},{:.12e}\n", b.at(i, j, k), b.length * i / b.nx,
-                            b.width * j / b.ny, b.height * k / b.nz);
-      }
-    }
-  }
-  text += "*ELEMENT,TYPE=C3D8I,ELSET=BLOCK\n";
-  int element = 0;
-  for (int i = 0; i < b.nx; ++i) {
-    for (int j = 0; j < b.ny; ++j) {
-      for (int k = 0; k < b.nz; ++k) {
-        text += fmt::format("{}", ++element);
-        for (const int up : {0, 1}) {
-          for (const auto& [di, dj] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
-            text += fmt::format(",{}", b.at(i + di, j + dj, k + up));
-        }
-        text += '\n';
-      }
-    }
-  }
-  text += fmt::format(
-      "*MATERIAL,NAME=M\n*ELASTIC\n{:.12e},0.3\n*DENSITY\n1.\n*SOLID SECTION,ELSET=BLOCK,MATERIAL=M\n",
-      modulus);
-  text += "*BOUNDARY\n";
-  for (int j = 0; j <= b.ny; ++j) {
-    for (int k = 0; k <= b.nz; ++k) text += fmt::format("{},1,3\n", b.at(0, j, k));
-  }
-  return text;
-}
-
-std::string matrix_deck_of(const block& b) {
-  return mesh_of(b, youngs) + "*STEP\n*FREQUENCY,SOLVER=MATRIXSTORAGE\n1\n*END STEP\n";
-}
-
-/// CalculiX's own nonlinear run under one step's load. Its springs' ground is a tenth of the height below.
-std::string peer_deck_of(const block& b, double load) {
-  const auto where = [&](int node) {
-    const int column = (node - 1) / (b.nz + 1);
-    const int along = column / (b.ny + 1);
-    return std::array{b.length * along / b.nx, b.width * (column % (b.ny + 1)) / b.ny,
-                      b.height * ((node - 1) % (b.nz + 1)) / b.nz};
-  };
-  std::string text = mesh_of(b, youngs * unit_of_force);
-  int ground = b.nodes();
-  int element = b.nx * b.ny * b.nz;
-  for (const gap_support& s : b.supports) {
-    const auto [x, y, z] = where(s.node);
-    ++ground;
-    text += fmt::format("*NODE,NSET=GROUND\n{},{:.12e},{:.12e},{:.12e}\n", ground, x, y, z - b.height / 10);
-    text += fmt::format("*ELEMENT,TYPE=SPRINGA,ELSET=S{}\n{},{},{}\n*SPRING,ELSET=S{},NONLINEAR\n", ground,
-                        ++element, s.node, ground, ground);
-    for (const double end : {-1e6, -4.0})
-      text +=
-          fmt::format("{:.12e},{:.12e}\n", s.stiffness * end * small * unit_of_force, (s.face + end) * small);
-    text += fmt::format("0.,{:.12e}\n0.,{:.12e}\n", s.face * small, (s.face + 1e6) * small);
-  }
-  text += "*BOUNDARY\nGROUND,1,3\n*STEP,NLGEOM\n*STATIC\n1.,1.\n";
-  text += fmt::format("*CLOAD\n{},3,{:.12e}\n", b.loaded, load * small * unit_of_force);
-  return text + "*NODE PRINT,NSET=ALL\nU\n*NODE PRINT,NSET=GROUND\nRF\n*END STEP\n";
-}
-
-std::string problem_of(const block& b) {
-  std::string text = fmt::format("title = \"{}\"\n\n[calculix]\njob = \"{}\"\n", b.name, b.name);
-  for (const gap_support& s : b.supports) {
-    text += fmt::format("\n[[contact]]\ndof = \"{}.3\"\nsurface = \"below\"\nface = {}\nstiffness = {}\n",
-                        s.node, s.face, s.stiffness);
-  }
-  for (const double load : b.loads)
-    text += fmt::format("\n[[step]]\npoint = [ {{ dof = \"{}.3\", value = {} }} ]\n", b.loaded, load);
-  return text;
-}
 
 /// The labels of a matrix's dofs, in its order.
 std::vector<std::pair<int, int>> labels_in(const std::string& path) {
@@ -136,7 +39,7 @@ difference compare_answers(const places& p, const block& b, const json& step,
     const auto [node, direction] = labels[i];
     if (node > b.nodes()) continue;  // C3D8I's own modes, which CalculiX numbers as nodes
     const double u =
-        theirs[static_cast<std::size_t>(node - 1)][static_cast<std::size_t>(direction - 1)] / small;
+        theirs[static_cast<std::size_t>(node - 1)][static_cast<std::size_t>(direction - 1)] / block_scale;
     d.displacement = std::max(d.displacement, std::abs(u - ours[i]));
     largest = std::max(largest, std::abs(ours[i]));
     ++d.values;
@@ -147,7 +50,7 @@ difference compare_answers(const places& p, const block& b, const json& step,
   double pressing = 0.0;
   for (std::size_t i = 0; i < held.size(); ++i) {
     const double force = step["pairs"][i]["force"];
-    const double their_force = held[i][2] / (small * unit_of_force);
+    const double their_force = held[i][2] / block_force_scale;
     d.force = std::max(d.force, std::abs(their_force - force));
     pressing = std::max(pressing, std::abs(force));
     d.same_pairs = d.same_pairs && (their_force > 0.0) == (step["pairs"][i]["state"] == "contact");

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "contct/distributed/ranks.hpp"
 #include "contct/matrix/block_solve.hpp"
+#include "contct/matrix/without_zeros.hpp"
 
 namespace contct::solve {
 
@@ -60,6 +62,12 @@ factored_stiffness::factored_stiffness(const linear_structure& s, factored_by ho
       entries_(how == factored_by::storage ? std::nullopt : entries_of_band(s)),
       factor_(factor_of(entries_ ? *entries_ : s.stiffness, how)) {
   for (std::size_t i = 0; i < s.pairs.size(); ++i) rows_of_pairs_.push_back(s.row_of(s.dof_of_pair(i)));
+}
+
+const stiffness_matrix& factored_stiffness::for_products() {
+  if (entries_) return *entries_;
+  if (!std::exchange(looked_for_zeros_, true)) sparse_ = matrix::without_zeros(structure_.stiffness);
+  return sparse_ ? *sparse_ : structure_.stiffness;
 }
 
 void factored_stiffness::solve_units_at_pairs(std::span<const int> dofs, std::vector<double>& x) {

@@ -111,8 +111,7 @@ class factored_stiffness {
   /// digits that the stored matrix has, or 3 more than LAPACK alone where its condition takes more.
   void solve_refined(std::span<const double> load, std::span<double> u) {
     contct::solve::solve_refined(
-        structure_, structure_.stiffness, springs_, [this](std::span<double> b) { factor_.solve(b); }, load,
-        u);
+        structure_, for_products(), springs_, [this](std::span<double> b) { factor_.solve(b); }, load, u);
   }
 
   /// Reciprocal condition of K with these springs, its diagonal scaled to 1. Overwrites the factor.
@@ -124,11 +123,16 @@ class factored_stiffness {
   [[nodiscard]] double flops() const { return factor_.flops(); }
 
  private:
+  /// K as its products take least.
+  [[nodiscard]] const stiffness_matrix& for_products();
+
   const linear_structure& structure_;
   factored_by how_;
   std::optional<stiffness_matrix> entries_;  // of a band that LAPACK does not factor
-  std::vector<int> rows_of_pairs_;           // [pairs]
-  std::vector<spring_at> springs_;           // those in the factor
+  std::optional<stiffness_matrix> sparse_;   // see matrix::without_zeros
+  bool looked_for_zeros_ = false;
+  std::vector<int> rows_of_pairs_;  // [pairs]
+  std::vector<spring_at> springs_;  // those in the factor
   stiffness_factor factor_;
 };
 
