@@ -9,8 +9,10 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "bench/growth_svg.hpp"
 #include "bench/kernels.hpp"
@@ -127,6 +129,21 @@ std::vector<bench::growth_point> growth_of(const json& rows) {
   return points;
 }
 
+/// How the cost of an event grows with the factor: 1 is in proportion to its entries.
+void print_exponents(const json& rows) {
+  std::map<std::pair<std::string, std::string>, std::vector<bench::growth_point>> lines;
+  for (const json& row : rows) {
+    if (row["events"] == 0 || row["factor_entries"].is_null()) continue;
+    const std::string problem = row["problem"];
+    const std::string family = problem.substr(0, problem.find('-'));
+    lines[{family, row["engine"]}].push_back(
+        {family, row["engine"], row["factor_entries"], row["ms_per_event"]});
+  }
+  for (const auto& [of, points] : lines)
+    fmt::print("{}, {}: an event costs entries of the factor to the power {:.2f}, from {} sizes\n", of.first,
+               of.second, bench::slope_of(points), points.size());
+}
+
 void bench_problem(const options& o, const std::string& name, json& rows) {
   show(name + ": building");
   const contct::app::problem p = bench::make_problem(name);
@@ -163,10 +180,12 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
           1e3 * r.certificate_seconds, r.certificate_seconds / r.comparison_seconds,
           r.certificate_seconds / r.seconds);
     (void)std::fflush(stdout);
+    const std::optional<double> entries = bench::entries_of_factor(s, engine);
     rows.push_back({{"problem", name},
                     {"engine", engine},
                     {"dofs", s.dofs()},
                     {"pairs", s.pairs.size()},
+                    {"factor_entries", entries ? json(*entries) : json()},
                     {"events", r.events.size()},
                     {"whole", r.whole},
                     {"ms_per_event", ms},
@@ -234,6 +253,7 @@ int run(options o) {
     bench_problem(o, name, rows);
     if (!o.growth) ends.push_back(bench_final_states(name));
   }
+  if (o.growth) print_exponents(rows);
   if (out) {
     const json document = {{"blas", contct::app::lapack_identity()},
                            {"core", core_type()},

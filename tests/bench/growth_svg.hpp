@@ -9,7 +9,7 @@ namespace bench {
 struct growth_point {
   std::string family;  ///< rail, mat, grid
   std::string engine;
-  double dofs;
+  double dofs;  ///< or another size
   double ms_per_event;
 };
 

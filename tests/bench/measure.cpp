@@ -111,13 +111,25 @@ final_states time_final_states(const contct::app::problem& p, const contct::app:
   f.seconds = seconds_since(start);
   if (end.status != contct::app::path_status::solved) throw std::runtime_error("no final states");
   f.factorisations = static_cast<int>(end.work.factors);
-  contct::app::stiffness_factor factor(s.stiffness);
+  const bool by_cholmod = contct::app::quickest_factor(s) == contct::app::factored_by::cholmod;
+  const std::optional<contct::app::stiffness_matrix> entries =
+      by_cholmod ? contct::app::entries_of_band(s) : std::nullopt;
+  contct::app::stiffness_factor factor(entries ? *entries : s.stiffness);
   const std::vector<contct::app::spring_at> springs =
       contct::app::springs_of(s, std::vector<char>(s.pairs.size(), 1));
   const clock::time_point again = clock::now();
   if (!factor.factor(springs)) throw std::runtime_error("the stiffness has no factor");
   f.seconds_of_a_factor = seconds_since(again);
   return f;
+}
+
+std::optional<double> entries_of_factor(const contct::app::linear_structure& s, const std::string& engine) {
+  const contct::app::band_matrix& k = s.stiffness.band();
+  if (engine == "refactor" || engine == "updated")
+    return static_cast<double>(s.dofs()) * (k.subdiagonals() + 1);
+  if (engine != "dissected") return std::nullopt;
+  const auto factor = contct::app::sparse_factor::make(columns_of(k));
+  return static_cast<double>(factor->bytes()) / sizeof(double);
 }
 
 double seconds_of_a_solve(const contct::app::linear_structure& s) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,11 @@ struct final_states {
 };
 [[nodiscard]] final_states time_final_states(const contct::app::problem& p,
                                              const contct::app::linear_structure& s);
+
+/// Entries of the factor by which an engine solves; nothing where it has none of the whole stiffness, or does
+/// not tell.
+[[nodiscard]] std::optional<double> entries_of_factor(const contct::app::linear_structure& s,
+                                                      const std::string& engine);
 
 /// Seconds of one dpbtrs with the factor of the structure as it starts: what a plain solve costs.
 [[nodiscard]] double seconds_of_a_solve(const contct::app::linear_structure& s);

@@ -48,7 +48,7 @@ struct verdict_counts {
   }
 };
 
-constexpr long problems_in_a_task = 64;
+constexpr long problems_in_a_task = 16;
 
 /// The problems of one task.
 std::vector<tried> try_some(long task, long problems, long seed) {

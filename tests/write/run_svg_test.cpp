@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -220,6 +221,12 @@ TEST_CASE("ticks are 1, 2 or 5 times a power of ten apart, and within their span
   CHECK(round_down(1.9) == Approx(1.0));
   const std::vector<double> t = ticks(-1.0, 1.1, 5);
   CHECK(t == std::vector<double>{-1.0, -0.5, 0.0, 0.5, 1.0});
+}
+
+TEST_CASE("a span that doubles do not hold has no ticks") {
+  CHECK(ticks(-1.0, std::numeric_limits<double>::infinity(), 8).empty());
+  CHECK(ticks(0.0, std::numeric_limits<double>::denorm_min(), 8).empty());
+  CHECK_FALSE(ticks(-1e308, 5e307, 8).empty());
 }
 
 TEST_CASE("words are escaped, markup is not, and an empty path is none") {

@@ -338,7 +338,7 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
                            const exact_follower& exactly) {
   const state_refiner refine = helper != nullptr ? helper->refiner() : nullptr;
   reference_solver finds(s);
-  factored_stiffness stiffness(s);
+  factored_stiffness stiffness(s, quickest_factor(s));
   std::vector<double> total(s.dofs());
   path_end end;
   for (int step = 1; step <= steps; ++step) {

@@ -8,6 +8,7 @@
 
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/without_zeros.hpp"
+#include "contct/solve/factored_stiffness.hpp"
 
 namespace contct::certify {
 namespace {
@@ -24,6 +25,11 @@ void multiply_minus(const stiffness_matrix& k, const std::vector<long double>& x
   k.subtract_product(std::span<const long double>(x), y);
 }
 
+/// The entries of a band that CHOLMOD factors, or that is mostly zeros.
+std::optional<stiffness_matrix> entries_for(const linear_structure& s) {
+  return quickest_factor(s) == factored_by::cholmod ? entries_of_band(s) : without_zeros(s.stiffness);
+}
+
 long double dot(const std::vector<long double>& a, const std::vector<long double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0L);
 }
@@ -34,12 +40,12 @@ class reference_solver::search {
  public:
   explicit search(const linear_structure& s)
       : structure_(s),
-        sparse_(without_zeros(s.stiffness)),
+        sparse_(entries_for(s)),
         stiffness_(sparse_ ? *sparse_ : s.stiffness),
         load_(s.dofs()),
         u_(s.dofs()),
         set_(s.pairs.size()),
-        factor_(s.stiffness) {
+        factor_(quickest_factor(s) == factored_by::cholmod ? stiffness_ : s.stiffness) {
     for (std::size_t i = 0; i < s.pairs.size(); ++i)
       pair_rows_.push_back(s.row_of(s.dof_of_pair(static_cast<int>(i))));
     start_undeformed();
@@ -299,7 +305,7 @@ class reference_solver::search {
   }
 
   const linear_structure& structure_;
-  const std::optional<stiffness_matrix> sparse_;  // for products; see without_zeros
+  const std::optional<stiffness_matrix> sparse_;
   const stiffness_matrix& stiffness_;
   std::vector<std::size_t> pair_rows_;   // [pairs]
   numbers load_;                         // [rows]

@@ -57,8 +57,7 @@ std::vector<std::string> engine_names() {
 std::string_view quickest_engine(const linear_structure& s) {
   if (!s.stiffness.is_band()) return "cholmod";
   if (can_be_condensed(s)) return "condensed";
-  constexpr int wide = 128;  // subdiagonals from which CHOLMOD's order is quicker than the band
-  return sparse_factor::available() && s.stiffness.band().subdiagonals() >= wide ? "dissected" : "updated";
+  return quickest_factor(s) == factored_by::cholmod ? "dissected" : "updated";
 }
 
 void refuse_unknown_engine(std::string_view name) {

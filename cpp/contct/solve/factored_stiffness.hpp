@@ -76,6 +76,14 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
 /// own order; or all ranks of the MPI job that this process has joined.
 enum class factored_by { storage, cholmod, ranks };
 
+/// What factors K of `s` in the least time: CHOLMOD a wide band, where it is built in.
+[[nodiscard]] inline factored_by quickest_factor(const linear_structure& s) {
+  constexpr int wide = 128;  // subdiagonals from which CHOLMOD's order is quicker than the band
+  return sparse_factor::available() && s.stiffness.is_band() && s.stiffness.band().subdiagonals() >= wide
+             ? factored_by::cholmod
+             : factored_by::storage;
+}
+
 /// K with the springs of some pairs, and its Cholesky factor. Dofs and pairs are numbered from 0.
 /// Memory: the factor, besides the structure's own.
 class factored_stiffness {

@@ -23,6 +23,7 @@ double round_down(double x) {
 
 std::vector<double> ticks(double from, double to, int about) {
   const double step = round_down((to - from) / about * 2);
+  if (!std::isfinite(step) || !(step > 0.0)) return {};  // a span that doubles do not hold
   const auto first = static_cast<long>(std::ceil(from / step - 1e-9));
   const auto last = static_cast<long>(std::floor(to / step + 1e-9));
   std::vector<double> at;
