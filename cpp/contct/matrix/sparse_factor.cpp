@@ -65,6 +65,8 @@ class cholmod final : public sparse_factor {
     cholmod_sparse view = view_of_a();
     factor_ = made(cholmod_analyze(&view, &work_));
     b_ = made(cholmod_zeros(view.nrow, 1, CHOLMOD_REAL, &work_));
+    // Where cholmod_solve2 has no memory for it, it goes on without, and crashes.
+    y_ = made(cholmod_zeros(view.nrow, 1, CHOLMOD_REAL, &work_));
     places_.resize(view.nrow);
     const auto* const order = static_cast<const int*>(factor_->Perm);
     for (std::size_t i = 0; i < view.nrow; ++i) places_[order[i]] = static_cast<int>(i);
@@ -154,7 +156,7 @@ class cholmod final : public sparse_factor {
   std::vector<double> in_order_;
   cholmod_factor* factor_ = nullptr;
   cholmod_dense* b_ = nullptr;
-  cholmod_dense* x_ = nullptr;  // x_, y_ and e_ belong to cholmod_solve2
+  cholmod_dense* x_ = nullptr;  // x_ and e_ are made by cholmod_solve2
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
 };
