@@ -23,9 +23,9 @@ set(flang_objects)
 function(add_flang_object name source)
   set(object ${folder}/${name}.o)
   add_custom_command(OUTPUT ${object}
-                     COMMAND ${CONTCT_FLANG_COMPILER} -c -cpp -O2 -fPIC -ffp-contract=off ${ARGN}
-                             ${CMAKE_CURRENT_SOURCE_DIR}/${source} -o ${object}
-                     WORKING_DIRECTORY ${folder}  # for the module file
+                     COMMAND ${CONTCT_FLANG_COMPILER} -c -cpp -O2 -fPIC -ffp-contract=off -module-dir ${folder} ${ARGN}
+                             ${source} -o ${object}
+                     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}  # flang keeps the path, which is relative to it
                      DEPENDS ${source} COMMENT "flang: ${name}" VERBATIM)
   list(APPEND flang_objects ${object})
   set(flang_objects ${flang_objects} PARENT_SCOPE)

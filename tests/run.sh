@@ -3,8 +3,8 @@
 # LEG: another preset that is built and tested first: core (without the program), asan and asan-core (sanitizers),
 # checked (gfortran's run-time checks), tsan (threads), debug. --full has all of these but asan-core, which asan contains, and adds what
 # takes longer: the whole campaign of random problems, certificates against the exact path, the mutants of both kernels
-# and of the rooms above them, the exact numbers of all reference problems, a second LAPACK, CalculiX, other processors,
-# the page in a browser, the playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian
+# and of the rooms above them, the exact numbers of all reference problems, a second LAPACK, the programs built in another folder,
+# CalculiX, other processors, the page in a browser, the playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian
 # packages in a bare Debian, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -99,6 +99,8 @@ if [ "$full" = yes ]; then
   python3 tests/proof/check_proof_test.py build/release/contct reference all
   echo "== two LAPACKs"
   sh tests/two_lapacks/run.sh build/release
+  echo "== the same programs from another folder"
+  sh tests/package/same_binaries.sh build/release
   with_tool "CalculiX as a peer" peer/run.sh build/release
   with_tool "other processors" emulated/run.sh
   with_tool "the page in a browser" browser/run.sh build/release

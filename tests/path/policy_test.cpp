@@ -94,6 +94,23 @@ TEST_CASE("a beam balanced on one pair stands, and bends over it") {
   CHECK(r.steps[0].rcond > 0.0);  // with the spring that it leans on
 }
 
+TEST_CASE("a pair that comes into contact at the end of a step, by rounding alone, has its spring there") {
+  // The beam may turn about its pin, and the loads do not turn it. The pair at its face holds it for a solve;
+  // for 10 of these loads it then is beyond its face by rounding.
+  for (int i = 1; i <= 100; ++i) {
+    const double w = i / 64.0;
+    const beam_problem p{even_beam(1.4, 2, 1e-3),
+                         {{0, 0, true}},
+                         {{2, face_above, 0.0, 1e3, false}},
+                         {{{{1, 0, -2 * w}, {2, 0, w}}, {}}}};
+    recorder r;
+    CHECK(p.run("corrected", {&r}).status == path_status::solved);
+    REQUIRE(r.steps.size() == 1);
+    CAPTURE(w, r.steps[0].isep);
+    CHECK(r.steps[0].rcond > 1e-9);
+  }
+}
+
 TEST_CASE("nothing is left to lean on, and a beam on one pair ends as a mechanism") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, 0.0, 50.0, true}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};

@@ -19,15 +19,17 @@ void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 namespace contct::matrix {
 namespace {
 
-/// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found.
+/// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found. Throws
+/// bad_alloc.
 std::string library_of_dpbtrf() {
   Dl_info found{};
   // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses
   if (dladdr(reinterpret_cast<void*>(&CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)), &found) == 0) return "";
-  std::error_code failed;
-  const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, failed);
-  if (failed == std::errc::not_enough_memory) throw std::bad_alloc();  // it would have another name
-  return (failed ? std::filesystem::path(found.dli_fname) : real).filename().string();
+  std::error_code wrong;
+  const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, wrong);
+  if (wrong == std::errc::not_enough_memory)
+    throw std::bad_alloc();  // a trace names the file, not a link to it
+  return (wrong ? std::filesystem::path(found.dli_fname) : real).filename().string();
 }
 
 /// The configuration of OpenBLAS with the core type that it uses; empty where it is not loaded.

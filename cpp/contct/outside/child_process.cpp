@@ -124,6 +124,14 @@ std::string child_process::end() {
   return "ended with status " + std::to_string(WEXITSTATUS(status));
 }
 
+void become_command(const std::string& command, int channel) {
+  dup2(channel, STDIN_FILENO);
+  dup2(channel, STDOUT_FILENO);
+  close(channel);
+  execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+  _exit(127);
+}
+
 kernel_in_child::kernel_in_child(kernel_facts facts, const outside_limits& limits)
     : facts_(std::move(facts)), limits_(limits) {}
 

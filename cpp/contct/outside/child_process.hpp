@@ -44,6 +44,9 @@ class child_process {
   int channel_ = -1;
 };
 
+/// What a child does for a command: become it, with the channel as its standard input and output.
+[[noreturn]] void become_command(const std::string& command, int channel);
+
 /// How long a kernel from outside may take for one call, and after how many failures it is given up. A crash
 /// costs a millisecond, and many may show what they have in common; a timeout costs the user `patience`.
 struct outside_limits {

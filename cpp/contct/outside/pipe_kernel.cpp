@@ -1,6 +1,4 @@
 // A kernel that is a command: one call as trace text in, one answer out.
-#include <unistd.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -10,15 +8,6 @@
 namespace contct::outside {
 namespace {
 
-/// Run `command` with the channel as its standard input and output.
-void run_command(const std::string& command, int channel) {
-  dup2(channel, STDIN_FILENO);
-  dup2(channel, STDOUT_FILENO);
-  close(channel);
-  execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
-  _exit(127);
-}
-
 class pipe_kernel final : public kernel_in_child {
  public:
   pipe_kernel(const std::string& command, const outside_limits& limits)
@@ -27,7 +16,7 @@ class pipe_kernel final : public kernel_in_child {
   void answer(call<double>& c) override {
     refuse_when_enough();
     if (child_) refuse_stray_answer();
-    if (!child_) child_.emplace([this](int channel) { run_command(command_, channel); });
+    if (!child_) child_.emplace([this](int channel) { become_command(command_, channel); });
     const auto until = deadline();
     asked_.clear();
     append_inputs(++calls_, "", c, c.isep, asked_);

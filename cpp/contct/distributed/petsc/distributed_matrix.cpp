@@ -118,8 +118,8 @@ distributed_matrix::~distributed_matrix() {
   for (Mat* m : {&solutions_, &factor_, &all_entries_, &matrix_}) (void)MatDestroy(m);
 }
 
-/// In the memory of the machine, of which all its ranks have taken some: for the engine's factor, when this is
-/// the certificate's.
+/// In the memory of the machine, of which all its ranks have taken some: for the engine's factor, when this
+/// is the certificate's.
 bool distributed_matrix::fits() const {
   const double takes = 0x1p20 * static_cast<double>(infog(factor_, most_mib_of_a_rank));
   double all = takes + bytes_in_use();

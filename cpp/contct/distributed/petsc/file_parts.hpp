@@ -82,8 +82,8 @@ auto found_by_rank_0(MPI_Comm job, const Find& find) {
   return found;
 }
 
-/// A file that is open. Its members may throw on one rank alone: whatever else waits for the others stands outside
-/// of the agree_on that they are called in.
+/// A file that is open. Its members may throw on one rank alone: whatever else waits for the others stands
+/// outside of the agree_on that they are called in.
 class open_file {
  public:
   explicit open_file(const matrix_file& f)

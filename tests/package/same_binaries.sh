@@ -1,0 +1,38 @@
+#!/bin/sh
+# The programs and libraries are the same to the bit when the sources and the build stand in other folders.
+# usage: sh tests/package/same_binaries.sh [BUILD]      (default: build/release, up to date)
+# Copies the sources to a new folder, builds them there by the preset "release" and compares. Then a source of the copy
+# gets its own path as a text: that difference has to be noticed.
+# Exit 0: all is equal and the difference is noticed; 1 otherwise.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+given=$(cd "${1:-build/release}" && pwd) || exit 1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' HUP INT TERM
+fail() { echo "same binaries: $1" >&2; exit 1; }
+
+copy=$work/a/deeper/copy
+mkdir -p "$copy" && cp -r CMakeLists.txt CMakePresets.json cpp fortran reference "$copy/" || exit 1
+made=$work/b
+targets="contct contct-replay contct_shared"
+[ ! -f "$given/contct_petsc.so" ] || targets="$targets contct_petsc"
+# rebuilt: bring the copy's build up to date.
+rebuilt() { cmake --build "$made" --target $targets >"$work/log" 2>&1 || { tail -n 30 "$work/log"; fail "the copy does not build"; }; }
+(cd "$copy" && cmake --preset release -B "$made" -DCONTCT_BUILD_TESTS=OFF) >"$work/log" 2>&1 ||
+  { tail -n 30 "$work/log"; fail "the copy cannot be configured"; }
+rebuilt
+
+count=0
+for file in "$given/contct" "$given/contct-replay" "$given"/libcontct.so.*.*.* "$given/contct_petsc.so"; do
+  [ -f "$file" ] || { [ "$file" = "$given/contct_petsc.so" ] && continue; fail "$file is not there"; }
+  other=$made/$(basename "$file")
+  cmp "$file" "$other" || { strings -a "$other" | grep -F -e "$work" | sort -u | head -n 5; fail "$(basename "$file") differs in another folder"; }
+  count=$((count + 1))
+done
+[ $count -ge 3 ] || fail "found $count files to compare, allowed: 3 or more"
+
+printf '\nextern const char where_it_was_built[];\nconst char where_it_was_built[] __attribute__((used)) = __FILE__;\n' >>"$copy/cpp/app/main.cpp"
+rebuilt
+if cmp -s "$given/contct" "$made/contct"; then fail "a source that keeps its path is not noticed"; fi
+echo "same binaries: $count files are the same to the bit in another folder"
