@@ -39,7 +39,7 @@ exit_status status_out_of_memory = exit_status::bad_input;
 
 /// Neither destructors nor buffers: what is unfinished is left as it is.
 [[noreturn]] void end(const ready_message& m, exit_status status) {
-  (void)!::write(STDERR_FILENO, m.text.data(), m.size);
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, m.text.data(), m.size);
   _exit(static_cast<int>(status));
 }
 

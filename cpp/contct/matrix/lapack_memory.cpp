@@ -19,8 +19,8 @@ Function* of_openblas(const char* name) {
 /// Is there room for so many at once? Throws std::bad_alloc where there is none.
 void find_room_for(int buffers) {
   constexpr std::size_t size = (std::size_t{128} << 20U) + (std::size_t{1} << 16U);
-  std::vector<std::unique_ptr<std::byte[]>> all;
-  for (int i = 0; i < buffers; ++i) all.emplace_back(new std::byte[size]);
+  std::vector<std::unique_ptr<std::byte[]>> all(static_cast<std::size_t>(buffers));
+  for (auto& room : all) room = std::make_unique_for_overwrite<std::byte[]>(size);
 }
 
 }  // namespace
@@ -32,8 +32,8 @@ void take_lapack_memory() {
   if (threads == nullptr || take == nullptr || give_back == nullptr) return;
   const int count = threads();
   find_room_for(count);
-  std::vector<void*> buffers;
-  for (int i = 0; i < count; ++i) buffers.push_back(take(0));
+  std::vector<void*> buffers(static_cast<std::size_t>(count));
+  for (void*& buffer : buffers) buffer = take(0);
   for (void* const buffer : buffers) give_back(buffer);
 }
 
