@@ -34,7 +34,7 @@ exit_status status_of_program(int argc, char** argv) {
     const exit_status status = std::visit(
         [](const auto& options) {
           if constexpr (requires { options.limits; }) {
-            matrix::take_lapack_memory();
+            matrix::take_lapack_memory(options.limits.max_memory > 0);
             start_limits(options.limits);
           }
           return run_command(options);

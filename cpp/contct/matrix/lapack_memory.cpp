@@ -25,12 +25,12 @@ void find_room_for(int buffers) {
 
 }  // namespace
 
-void take_lapack_memory() {
+void take_lapack_memory(bool of_every_thread) {
   auto* const threads = of_openblas<int()>("openblas_get_num_threads");
   auto* const take = of_openblas<void*(int)>("blas_memory_alloc");
   auto* const give_back = of_openblas<void(void*)>("blas_memory_free");
   if (threads == nullptr || take == nullptr || give_back == nullptr) return;
-  const int count = threads();
+  const int count = of_every_thread ? threads() : 1;
   find_room_for(count);
   std::vector<void*> buffers(static_cast<std::size_t>(count));
   for (void*& buffer : buffers) buffer = take(0);
