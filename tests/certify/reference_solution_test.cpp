@@ -8,6 +8,7 @@
 #include "contct/lab/random_problem.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/lapack_identity.hpp"
+#include "contct/solve/factored_stiffness.hpp"
 #include "support/beams.hpp"
 #include "support/every_set.hpp"
 #include "support/tried_problem.hpp"
@@ -264,11 +265,12 @@ TEST_CASE("where the plain active set goes round in circles the oracle ends, at 
   REQUIRE_FALSE(plain.ends);
   CHECK(plain.nearest_face > 0.005);
   const equilibrium truth = least_wrong(s, f, true);
-  const reference_answer a = reference_solver(s).solve(f);
+  reference_solver solver(s);
+  const reference_answer a = solver.solve(f);
   CHECK(a.how == outcome::found);
   CHECK(a.pressed == std::vector<char>{0, 0, 1, 0});
   CHECK(truth.set == 4U);
-  CHECK(a.factorisations < 10);
+  CHECK(solver.factorisations() < 10);
   for (std::size_t dof = 0; dof < f.size(); ++dof)
     CHECK(a.displacement[dof] == Approx(static_cast<double>(truth.u[dof])).epsilon(1e-14));
 }
@@ -478,4 +480,23 @@ TEST_CASE(
   const double tip = -0.1 - 5.0 / 1e3;
   CHECK(a.displacement[4] == Approx(tip).epsilon(1e-13));
   CHECK(a.displacement[2] == Approx(tip / 2 - 10.0 * 8 / 48 / 1e4).epsilon(1e-13));
+}
+
+TEST_CASE("the condition of the state that was found takes no factorisation, that of another state one") {
+  const beam_problem p{
+      even_beam(2.0, 2, 1.0), {{0, 0, true}, {0, 1, true}}, {{2, face_above, 1.0, 10.0, false}}, {}};
+  const linear_structure s = p.structure();
+  const std::vector<double> f = {0, 0, 0, 0, 4, 0};
+  reference_solver solver(s);
+  REQUIRE(solver.solve(f).how == outcome::found);
+  const int so_far = solver.factorisations();
+  REQUIRE(so_far > 0);
+  factored_stiffness anew(s);
+  const auto check = [&](const std::vector<char>& closed, int more) {
+    CHECK(solver.reciprocal_condition(closed) == Approx(anew.reciprocal_condition(closed)).epsilon(1e-12));
+    CHECK(solver.factorisations() == so_far + more);
+  };
+  check(solver.solve(f).pressed, 0);
+  check({solver.solve(f).pressed[0] == 0}, 1);
+  CHECK(anew.reciprocal_condition(std::vector<char>{0}) != anew.reciprocal_condition(std::vector<char>{1}));
 }

@@ -2,6 +2,8 @@
 #include "contct/matrix/sparse_factor.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 
 #include "catch.hpp"
 #include "contct/matrix/block_solve.hpp"
@@ -31,6 +33,10 @@ void check_solves(sparse_factor& f, const band_matrix& k) {
   f.solve(x);
   const std::vector<double> expected = solution(k, b);
   for (std::size_t i = 0; i < x.size(); ++i) CHECK(x[i] == Approx(expected[i]).epsilon(1e-11).margin(1e-14));
+}
+
+std::ptrdiff_t threads_of_this_process() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
 }
 
 }  // namespace
@@ -110,4 +116,14 @@ TEST_CASE("unit vectors give columns of the inverse, and a row of -1 zeros") {
     for (std::size_t row = 0; row < column.size(); ++row)
       CHECK(x[row * block_width + i] == Approx(column[row]).epsilon(1e-11).margin(1e-14));
   }
+}
+
+TEST_CASE("CHOLMOD factors without threads of OpenMP") {
+  constexpr int many = 3000;
+  const band_matrix k = random_band(many, 20, 5);
+  const auto f = sparse_factor::make(columns_of(k));
+  const std::ptrdiff_t before = threads_of_this_process();
+  REQUIRE(before >= 1);
+  REQUIRE(f->factor(diagonal_of(k)));
+  CHECK(threads_of_this_process() == before);
 }

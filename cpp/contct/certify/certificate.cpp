@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/solve/factored_stiffness.hpp"
 #include "contct/text/memory.hpp"
 
 namespace contct::certify {
@@ -338,7 +338,6 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
                            const exact_follower& exactly) {
   const state_refiner refine = helper != nullptr ? helper->refiner() : nullptr;
   reference_solver finds(s);
-  factored_stiffness stiffness(s, quickest_factor(s));
   std::vector<double> total(s.dofs());
   path_end end;
   for (int step = 1; step <= steps; ++step) {
@@ -346,13 +345,13 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
     total_load(step, total);
     reference_answer found = solve_for(finds, total, total_load.work(step), step, 1.0, helper);
     if (found.how == outcome::not_found && exactly) take_exact_end(exactly(step), found);
-    end.work.factors += found.factorisations;
+    end.work.factors = finds.factorisations();
     if (found.how == outcome::no_equilibrium) return {path_status::mechanism, step, 0.0, {}, end.work};
     if (found.how != outcome::found) return {path_status::not_factored, step, 0.0, {}, end.work};
     std::vector<int> status;
     for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);
-    const double rcond = stiffness.reciprocal_condition(holding(s, found.pressed));
-    ++end.work.factors;
+    const double rcond = finds.reciprocal_condition(holding(s, found.pressed));
+    end.work.factors = finds.factorisations();
     tell_end({.step = step,
               .fraction = 1.0,
               .displacement = found.displacement,

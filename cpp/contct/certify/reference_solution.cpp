@@ -53,7 +53,6 @@ class reference_solver::search {
   }
 
   reference_answer solve(std::span<const double> load, const rigid_work& work) {
-    factorisations_ = 0;
     held_in_doubles_ = false;
     take(load, work);
     if (exists_ == false) return end(outcome::no_equilibrium, false);
@@ -66,6 +65,19 @@ class reference_solver::search {
     if (answer.how != outcome::found) start_undeformed();
     return answer;
   }
+
+  double reciprocal_condition(std::span<const char> closed) {
+    const std::vector<spring_at> springs = springs_of(structure_, closed);
+    if (!in_factor_ || !std::equal(closed.begin(), closed.end(), in_factor_->begin(), in_factor_->end())) {
+      ++factorisations_;
+      in_factor_.reset();
+      if (!factor_.factor(springs)) return 0.0;
+    }
+    return contct::matrix::reciprocal_condition(stiffness_, stiffness_.diagonal_with(springs),
+                                                [this](std::span<double> b) { factor_.solve(b); });
+  }
+
+  [[nodiscard]] int factorisations() const { return factorisations_; }
 
  private:
   using numbers = std::vector<long double>;
@@ -160,15 +172,13 @@ class reference_solver::search {
   }
 
   bool factor() {
-    std::vector<spring_at> springs;
-    for (std::size_t i = 0; i < set_.size(); ++i) {
-      const int dof = structure_.dof_of_pair(static_cast<int>(i));
-      if (set_[i] != 0 && structure_.fixed[dof] == 0)
-        springs.push_back({structure_.row_of(dof), structure_.pairs[i].stiffness});
-    }
+    if (holding_.empty() && in_factor_ == set_) return true;
+    std::vector<spring_at> springs = springs_of(structure_, set_);
     for (const holding_spring& h : holding_) springs.push_back({static_cast<int>(h.row), h.stiffness});
     ++factorisations_;
-    return factor_.factor(springs);
+    const bool done = factor_.factor(springs);
+    in_factor_ = done && holding_.empty() ? std::optional(set_) : std::nullopt;
+    return done;
   }
 
   /// r = load - K u - the springs of the pressed pairs.
@@ -263,7 +273,7 @@ class reference_solver::search {
   }
 
   [[nodiscard]] reference_answer end(outcome how, bool unique) const {
-    reference_answer answer{how, unique, {}, set_, factorisations_};
+    reference_answer answer{how, unique, {}, set_};
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       answer.displacement.push_back(static_cast<double>(u_[structure_.row_of(dof)]));
     return answer;
@@ -317,6 +327,7 @@ class reference_solver::search {
   numbers u_;                            // the last answer [rows]
   pair_set set_;                         // and its pressed pairs
   stiffness_factor factor_;
+  std::optional<pair_set> in_factor_;  // the pairs whose springs it has, where it has no others
   std::vector<double> scale_;  // square roots of K's diagonal [rows]
   int factorisations_ = 0;
   bool held_in_doubles_ = false;  // only what doubles see counts as held
@@ -327,6 +338,14 @@ reference_solver::~reference_solver() = default;
 
 reference_answer reference_solver::solve(std::span<const double> load, const rigid_work& work) {
   return search_->solve(load, work);
+}
+
+double reference_solver::reciprocal_condition(std::span<const char> closed) {
+  return search_->reciprocal_condition(closed);
+}
+
+int reference_solver::factorisations() const {
+  return search_->factorisations();
 }
 
 }  // namespace contct::certify

@@ -21,7 +21,6 @@ struct reference_answer {
   bool unique = false;               ///< supports and pressed pairs hold the structure
   std::vector<double> displacement;  ///< [dofs]
   std::vector<char> pressed;         ///< [pairs] 1 where n (w - c) > 0
-  int factorisations = 0;
 };
 
 /// Minimises the energy of a structure on one-sided springs,
@@ -55,6 +54,13 @@ class reference_solver {
   /// The equilibrium under `load` [dofs]. Starts from the last answer, and once more from the undeformed
   /// structure where that leads nowhere. `work` of this load decides, where it is known, what is driven.
   [[nodiscard]] reference_answer solve(std::span<const double> load, const rigid_work& work = {});
+
+  /// Reciprocal condition of K with the springs of the pairs that are `closed` [pairs], its diagonal scaled to
+  /// 1; by the last factor where it is of these.
+  [[nodiscard]] double reciprocal_condition(std::span<const char> closed);
+
+  /// How many there have been so far.
+  [[nodiscard]] int factorisations() const;
 
  private:
   class search;

@@ -19,8 +19,9 @@ class sparse_factor {
   [[nodiscard]] static bool available();
 
   enum class kind {
-    supernodal,     ///< L L^T in dense blocks, in the better of METIS' and AMD's orders
-    updatable,      ///< L D L^T, in the best order that CHOLMOD finds
+    supernodal,  ///< L L^T in dense blocks, in AMD's order; if there are many rows, in METIS's where that is
+                 ///< better
+    updatable,   ///< L D L^T, in the best order that CHOLMOD finds
     updatable_amd,  ///< L D L^T in AMD's order: enough for a band, and quick to find
     readable        ///< L L^T by columns, for `lower`
   };
