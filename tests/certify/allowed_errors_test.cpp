@@ -79,3 +79,10 @@ TEST_CASE(
   allowed_errors of_matrix;
   CHECK(of_matrix.of(b, 0.0)[quantity::force] == Approx(2e-6));
 }
+
+TEST_CASE("an error that is no number is the largest of all, whatever follows") {
+  by_quantity error;
+  for (const double value : {1.0, std::numeric_limits<double>::quiet_NaN(), 2.0})
+    error.take(quantity::force, value);
+  CHECK(error[quantity::force] == std::numeric_limits<double>::infinity());
+}

@@ -474,3 +474,17 @@ TEST_CASE("an elastic support without a force is no doubt about the reactions") 
   CHECK(e.end.numbers.reactions[2] == 0.0);
   CHECK(certified(e.end.bounds));
 }
+
+TEST_CASE("a pair whose face is at the end of the range of doubles presses as it would at 0") {
+  for (const char* face : {"-5e-324", "-1e-310", "-1.2345678901234567e-300", "0"}) {
+    INFO(face);
+    const one_end e(
+        "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+        "[[contact]]\nnode = 2\nsurface = \"below\"\nface = " +
+        std::string(face) +
+        "\nstate = \"separated\"\nstiffness = 10\n[[step]]\npoint = [{ node = 3, w = -1 }]\n");
+    CHECK(e.end.numbers.pair_forces[0] == Approx(25.0 / 13).epsilon(1e-14));
+    CHECK(off(e.end.numbers.pair_forces[0], e.truly.force[0]) < 1e-14);
+    CHECK(certified(e.end.bounds));
+  }
+}

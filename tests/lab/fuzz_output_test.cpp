@@ -103,6 +103,14 @@ TEST_CASE("shards that are missing, given twice, of another run or no results ar
   CHECK_THROWS_WITH(merged_fuzz({one, one}), Contains("found shard 1 once more"));
   CHECK_THROWS_WITH(merged_fuzz({one, folder.write("2.json", fuzz_json(other))}), Contains("another run"));
   CHECK_THROWS_AS(merged_fuzz({folder.write("empty.json", "{}")}), input_error);
+  for (const char* number : {"2.5e22", "1.5", "18446744073709551615", "4294967297"}) {
+    INFO(number);
+    auto j = nlohmann::json::parse(fuzz_json(shard(1, equality_level::bits)));
+    j["shard"]["of"] = nlohmann::json::parse(number);
+    CHECK_THROWS_WITH(
+        merged_fuzz({folder.write("no_shard.json", j.dump())}),
+        Contains("no_shard.json: found no fuzz result: /shard/of: ") && Contains("; allowed: whole numbers"));
+  }
   CHECK_THROWS_AS(merged_fuzz({folder.write("other.json", "{\"format\": \"another\"}")}), input_error);
 }
 
@@ -190,6 +198,8 @@ TEST_CASE("a checkpoint is read as it was written, and refused where its counts 
   refused("/first/0/problem", 5);
   refused("/first/0/call", -3);
   refused("/first", nlohmann::json::array());
+  refused("/differing_problems", {2.0});
+  refused("/differing_problems/0", 1e300);
   refused("/result/followers", nlohmann::json::array());
   const std::string text = checkpoint_json(c);
   const std::string cut = folder.write("cut.json", text.substr(0, text.size() / 2));

@@ -38,3 +38,13 @@ TEST_CASE("whole numbers, and doubles that are short decimals, are taken as they
     CHECK(long_decimal(x).lo == 0.0);
   }
 }
+
+TEST_CASE("a decimal at the ends of the range of doubles is no less than its double") {
+  for (const double x : {5e-324, -5e-324, 1e-310, 2.2250738585072014e-308, -1.2345678901234567e-300,
+                         1.2345678901234567e-293, 1.7976931348623157e308}) {
+    INFO(x);
+    CHECK(long_decimal(x).hi == x);
+    CHECK(std::abs(long_decimal(x).lo) <= std::abs(x) * 0x1p-53);
+    CHECK(decimal_difference(x, 1.0).hi == x - 1.0);
+  }
+}

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The path of what `stiffness` names in the problem file at `file`.
-std::string path_of(const std::string& file, const std::string& name, reach allowed) {
-  const toml::table document = parse_toml("stiffness = '" + name + "'\n", file);
+std::string path_of(const std::string& file, const std::string& name, reach allowed, char quote = '\'') {
+  const toml::table document = parse_toml("stiffness = " + (quote + name) + quote + "\n", file);
   return named_files(file, allowed).path_of(table_reader(document, "", file), "stiffness");
 }
 
@@ -70,4 +70,12 @@ TEST_CASE("a problem file that is reached through a link has the folder of the l
   CHECK_NOTHROW(path_of(here.at("current/p.toml"), "K.mtx", reach::own_folder));
   CHECK_NOTHROW(path_of(here.at("current/p.toml"), "../data/K.mtx", reach::own_folder));
   CHECK_THROWS_AS(path_of(here.at("current/p.toml"), "../other", reach::own_folder), input_error);
+}
+
+TEST_CASE("a name with a character 0, at which the system would end it, is refused") {
+  for (const reach allowed : {reach::own_folder, reach::anywhere})
+    CHECK_THROWS_WITH(
+        path_of("a/p.toml", "K.mtx\\u0000\\tof\\u0000", allowed, '"'),
+        "a/p.toml:1:13: stiffness: found \"K.mtx\\x00\\x09of\\x00\"; allowed: the name of a file, "
+        "which has no character \\u0000");
 }

@@ -147,3 +147,13 @@ TEST_CASE("a prescribed displacement of a dof that no support fixes names the do
   std::vector<double> f(4);
   CHECK_THROWS_WITH(add_settlements(s, {{}, {}, {{1, 0, 0.5}}}, f), "dof 3 was not built to settle");
 }
+
+TEST_CASE("a support that settles has a finite pivot beside the largest stiffness that doubles have") {
+  constexpr double largest = std::numeric_limits<double>::max();
+  linear_structure s = four_dofs();
+  s.stiffness.add_to_diagonal(s.row_of(0), largest);
+  std::vector<support> settling = {{0, 0, true}};
+  settling[0].settles = true;
+  put_on_supports(s, settling, {});
+  CHECK(s.stiffness.diagonal(s.row_of(0)) == std::ldexp(1.0, 1022));
+}

@@ -24,7 +24,7 @@ inline const std::string propped_cantilever =
     "[beam]\nlength = 2.0\nelements = 2\nEI = 100.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
     "[[support]]\nnode = 3\nfix = [\"w\"]\n[[step]]\nuniform = -8.0\n";
 
-/// FORTRAN leading C++ in lockstep, seen by all that pictures are made from.
+/// FORTRAN leading C++ in lockstep, or another kernel alone, seen by all that pictures are made from.
 struct a_run {
   problem what;
   linear_structure structure;
@@ -37,11 +37,11 @@ struct a_run {
   path_end end;
 
   explicit a_run(const std::string& text, const std::vector<observer*>& more = {},
-                 const frame_limits& limits = {})
+                 const frame_limits& limits = {}, const std::string& leads = "fortran")
       : what(parse_problem(text, "pb.toml", literals::dropped, reach::anywhere)),
         structure(structure_of(what)),
-        leader(make_kernel("fortran")),
-        compared(make_lockstep(leader->facts(), std::vector<std::string>{"cpp"})),
+        leader(make_kernel(leads)),
+        compared(make_lockstep(leader->facts(), std::vector<std::string>(leads == "fortran" ? 1 : 0, "cpp"))),
         kept(structure, loads_of(what, structure), false, limits),
         record(&compared),
         judged(what, structure) {

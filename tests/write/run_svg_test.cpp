@@ -353,3 +353,16 @@ TEST_CASE("a structure that is high or wide is drawn as large as the page has ro
     CHECK(length < (wide ? 450.0 : 250.0));
   }
 }
+
+TEST_CASE("a plate whose deflections are further apart than doubles go is drawn without colours") {
+  const a_run falls(
+      "[plate]\nsize = [2, 1]\nelements = [4, 2]\nnu = 0.3\nD = 1\n"
+      "[[contact]]\nnodes = [1, 11]\nsurface = \"below\"\nface = -1.5e308\nstiffness = 1\n"
+      "[[contact]]\nnodes = [5, 15]\nsurface = \"above\"\nface = 1.5e308\nstiffness = 1\n"
+      "[[step]]\npoint = [ { at = [2, 1], w = 1 }, { at = [0, 0], w = -1 } ]\n",
+      {}, {}, "corrected");
+  const std::string svg = run_svg(falls.finished());
+  CHECK(why_not_well_formed(svg).empty());
+  CHECK_THAT(svg, Contains("from above: the pairs"));
+  CHECK_THAT(svg, !Contains("nan"));
+}

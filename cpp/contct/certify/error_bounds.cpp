@@ -26,7 +26,8 @@ std::vector<int> rows_of(const linear_structure& s) {
 
 void by_quantity::take(quantity q, double value) {
   std::optional<double>& largest = (*this)[q];
-  largest = std::max(largest.value_or(0.0), value);
+  largest =
+      std::max(largest.value_or(0.0), std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
 }
 
 handed_out handed_out_at(const problem& p, const step_state& s) {
@@ -60,7 +61,8 @@ double_double error_prover::depth(std::size_t pair, std::span<const double_doubl
 
 double error_prover::doubt(std::size_t pair, std::span<const double_double> u) const {
   const true_pair& p = true_.pairs[pair];
-  return 2 * true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
+  const double size = std::abs(u[p.dof].hi) + std::abs(p.face.hi);
+  return size == 0.0 ? 0.0 : 2 * true_rounding * size + 0x1p-1000;  // of underflow
 }
 
 bool error_prover::is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const {
@@ -105,7 +107,7 @@ error_prover::residual error_prover::residual_of(std::span<const double_double> 
     const double_double deep = depth(i, u);
     const double size = p.stiffness.hi * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
     if (deep.hi > -true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi))) r.slack[p.dof] += size;
-    if (deep.hi > 0.0) r.needed[p.dof] += p.stiffness * deep * p.surface;
+    if (!(deep.hi <= 0.0)) r.needed[p.dof] += p.stiffness * deep * p.surface;  // what is no number is told
   }
   put_forces(r);
   return r;
@@ -310,7 +312,7 @@ void error_prover::bound_forces(const handed_out& state, std::span<const double_
   for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
     const true_pair& p = true_.pairs[i];
     const double_double deep = depth(i, u);
-    const double_double force = deep.hi > 0.0 ? p.stiffness * deep : double_double(0.0);
+    const double_double force = deep.hi <= 0.0 ? double_double(0.0) : p.stiffness * deep;
     const double told = std::abs((double_double(state.pair_forces[i]) - force).hi);
     const double root = std::sqrt(p.stiffness.hi) * (1 + of_sums);
     const bool held = true_.fixed[p.dof] != 0;

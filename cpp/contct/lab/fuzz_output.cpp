@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <type_traits>
 
 #include "contct/lab/fuzz.hpp"
 #include "contct/numeric/bits.hpp"
@@ -22,10 +24,20 @@ auto writer(json& object) {
   return [&object](const std::string& name, const auto& value) { object[json::json_pointer(name)] = value; };
 }
 
-/// Takes fields from a file's object.
+/// Takes fields from a file's object. Throws std::range_error where whole numbers are asked for and others
+/// stand.
 auto reader(const json& object) {
-  return
-      [&object](const std::string& name, auto& value) { object.at(json::json_pointer(name)).get_to(value); };
+  return [&object]<class T>(const std::string& name, T& value) {
+    const json& field = object.at(json::json_pointer(name));
+    const bool fractions =
+        std::any_of(field.begin(), field.end(), [](const json& entry) { return entry.is_number_float(); });
+    if constexpr (std::is_floating_point_v<T>) {
+      field.get_to(value);
+    } else {
+      if (!fractions) field.get_to(value);
+      if (fractions || json(value).dump() != field.dump()) throw std::range_error(name + ": " + field.dump());
+    }
+  };
 }
 
 /// The fields of a follower's result, in the file's order: `field(name, value)` writes or reads one.
@@ -96,6 +108,9 @@ auto read_document(const std::string& file, const char* what, const char* its_fo
     return take(document);
   } catch (const json::exception& e) {
     throw input_error(fmt::format("{}: found no {}: {}; allowed: what {} wrote", file, what, e.what(), from));
+  } catch (const std::range_error& e) {
+    throw input_error(fmt::format("{}: found no {}: {}; allowed: whole numbers, as {} wrote them", file, what,
+                                  e.what(), from));
   }
 }
 

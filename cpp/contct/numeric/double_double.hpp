@@ -125,10 +125,14 @@ __extension__ using wide_integer = __int128;
   const auto high = static_cast<double>(digits);
   const double_double whole =
       renormalized(high, static_cast<double>(digits - static_cast<wide_integer>(high)));
-  return power < 0 ? whole / power_of_ten(-power) : whole * power_of_ten(power);
+  if (power >= 0) return whole * power_of_ten(power);
+  constexpr int most = 200;  // 10^-power itself may be no double
+  if (-power > most) return whole / power_of_ten(most) / power_of_ten(-power - most);
+  return whole / power_of_ten(-power);
 }
 
-/// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it.
+/// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it or, where that is
+/// less, to some 2^-1074.
 [[nodiscard]] inline double_double long_decimal(double x) {
   if (x == std::trunc(x) && std::abs(x) < 0x1p53) return x;
   const short_decimal d = shortest_decimal(x);

@@ -12,6 +12,8 @@ named_files::named_files(std::string_view problem_file, reach allowed)
 
 std::string named_files::path_of(const table_reader& t, std::string_view key, std::string_view ending) const {
   const std::string name = std::string(t.text(key)).append(ending);
+  if (name.find('\0') != std::string::npos)  // where the system's functions end a name
+    t.refuse_key(key, in_quotes(name), "the name of a file, which has no character \\u0000");
   const std::string path = (fs::path(folder_) / name).string();
   if (allowed_ == reach::own_folder && !is_below(path))
     t.refuse_key(key, in_quotes(name) + ", which is not below the folder of the problem file",

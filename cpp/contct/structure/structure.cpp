@@ -103,7 +103,9 @@ namespace {
 
 /// A power of four near `stiffness`: its root, too, is exact.
 double power_of_four_near(double stiffness) {
-  return stiffness > 0.0 ? std::ldexp(1.0, 2 * static_cast<int>(std::lround(std::log2(stiffness) / 2))) : 1.0;
+  constexpr int largest = 511;  // 4^512 is no double
+  if (!(stiffness > 0.0)) return 1.0;
+  return std::ldexp(1.0, 2 * std::min(largest, static_cast<int>(std::lround(std::log2(stiffness) / 2))));
 }
 
 /// Give fixed dofs rows of their own, and keep what settling ones do to the others.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
@@ -163,6 +164,16 @@ std::vector<plate_map> maps_of(const plate& p, const structure_picture& s) {
   return maps;
 }
 
+/// From the least to the most of them; none where one of them, or the range, is beyond doubles.
+std::optional<span_of> finite_range(const std::vector<double>& values) {
+  span_of range;
+  for (const double value : values) {
+    if (!std::isfinite(value)) return {};
+    range.take(value);
+  }
+  return std::isfinite(range.range()) ? std::optional(range) : std::nullopt;
+}
+
 /// Two beside each other, below the picture.
 drawn draw_maps(const plate& p, const structure_picture& s, double top) {
   constexpr double room = (page_width - 2 * side) / 2 - 130;
@@ -175,14 +186,15 @@ drawn draw_maps(const plate& p, const structure_picture& s, double top) {
   double bottom = top;
   int number = 0;
   for (const plate_map& map : maps_of(p, s)) {
+    const std::optional<span_of> held = finite_range(map.values);
+    if (!held) continue;
+    const span_of range = *held;
     structure_picture small = s;
     const double left = number % 2 == 0 ? side : page_width / 2;
     const int row = number / 2;
     const double from = top + height * row + 24;
     small.X = {p.x.front(), per_unit, left};
     small.Y = {p.y.back(), -per_unit, from};
-    span_of range;
-    for (const double value : map.values) range.take(value);
     const auto colour = [&](double v) {
       return colour_of(range.most == range.least ? 1.0 : (v - range.least) / range.range());
     };
@@ -228,10 +240,11 @@ drawn draw_plate(const plate& p, structure_picture s) {
   s.X = {p.x.front(), per_unit, side};
   s.Y = {p.y.back(), -per_unit, picture_top + 14};
   s.bottom = s.Y(p.y.front());
-  span_of range;
+  std::vector<double> shown;
   for (const int j : s.shown.rows) {
-    for (const int i : s.shown.columns) range.take(s.w_of(p.node_at(i, j)));
+    for (const int i : s.shown.columns) shown.push_back(s.w_of(p.node_at(i, j)));
   }
+  const span_of range = finite_range(shown).value_or(span_of{0.0, 0.0});
   const bool flat = range.most == range.least;  // without load there is the mesh to see
   const auto colour = [&](double w) { return colour_of(flat ? 1.0 : (w - range.least) / range.range()); };
   const auto spot_of = [&](int node) {
