@@ -40,6 +40,8 @@ OUTPUTS = ["--json", "o.json", "--html", "o.html", "--svg", "o.svg", "--csv", "o
 
 # METIS, which orders sparse matrices, says itself that memory has ended, before the program does.
 OF_METIS = re.compile(r" *(Current|Maximum) memory used: |\*\*\*Memory allocation failed for ")
+# OpenMP, by which CHOLMOD factors, ends the process by itself.
+OF_OPENMP = re.compile(r"libgomp: Out of memory allocating ")
 
 
 class Command:
@@ -89,11 +91,12 @@ class Command:
         except subprocess.TimeoutExpired:
             return "it hangs", False
         more = [line for line in said.splitlines() if line not in self.said.splitlines() and not OF_METIS.match(line)]
-        if status not in (self.status, 2):
+        ended_by_openmp = status == 1 and any(OF_OPENMP.match(line) for line in more)
+        if status not in (self.status, 2) and not ended_by_openmp:
             return f"exit {status}: {said}", False
         if status == 2 and (len(more) != 1 or not more[0].startswith("contct: ")):
             return f"{len(more)} messages for exit 2: {said}", True
-        if status != 2 and files != self.made:
+        if status != 2 and not ended_by_openmp and files != self.made:
             changed = [f for f in files.keys() | self.made.keys() if files.get(f) != self.made.get(f)]
             return f"exit {status}, but other files: {changed}: {said}", False
         for file, content in files.items():

@@ -33,6 +33,8 @@ TEST_CASE("a printed number is the exact one rounded, cut, or neither") {
   CHECK(printing_of("0.666", two_thirds) == printing::cut);
   CHECK(printing_of("0.665", two_thirds) == printing::neither);
   CHECK(printing_of("0.668", two_thirds) == printing::neither);
+  CHECK(printing_of("1/13", two_thirds) == printing::neither);
+  CHECK(printing_of("2/3", two_thirds) == printing::rounded);
   CHECK(printing_of("-0.667", -two_thirds) == printing::rounded);
   CHECK(printing_of("-0.666", -two_thirds) == printing::cut);
   CHECK(printing_of("0.667", -two_thirds) == printing::neither);

@@ -145,7 +145,9 @@ std::optional<double> error_prover::norm_of(const residual& r, double mu) {
     const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
     rest += scaled * scaled;
   }
-  const bool any = std::ranges::any_of(r.force, [](const double_double& x) { return x.hi != 0.0; });
+  bool any = false;  // residual, or one that underflows
+  for (std::size_t dof = 0; dof < n; ++dof)
+    any = any || (true_.fixed[dof] == 0 && (r.force[dof].hi != 0.0 || r.slack[dof] > 0.0));
   const double square =
       (std::max(work.hi, 0.0) + slack + rest / mu + (any ? underflow : 0.0)) * (1 + of_sums);
   z_ = std::move(z);

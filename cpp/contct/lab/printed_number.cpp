@@ -84,7 +84,7 @@ rational number_printed(std::string_view words) {
 printing printing_of(std::string_view printed, const rational& exact) {
   const rational x = number_printed(printed);
   if (x == exact) return printing::rounded;
-  if (x == 0 || exact == 0) return printing::neither;
+  if (x == 0 || exact == 0 || printed.find('/') != std::string_view::npos) return printing::neither;
   const rational unit = ten_to(unsigned_decimal_of(without_sign(printed)).exponent);
   if (2 * abs(rational(exact - x)) <= unit) return printing::rounded;
   const rational beyond = x < 0 ? rational(x - exact) : rational(exact - x);
