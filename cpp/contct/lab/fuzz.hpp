@@ -179,7 +179,7 @@ struct fuzz_keeper {
                                 const fuzz_keeper& keeper = {}, int jobs = 1);
 
 /// A checkpoint as JSON, format "contct-fuzz-checkpoint-1".
-[[nodiscard]] std::string checkpoint_json(const fuzz_checkpoint& c);
+[[nodiscard]] std::string checkpoint_json(const fuzz_checkpoint& reached);
 
 /// Read the checkpoint of a run of `r`. Throws input_error where the file is none, or one of another run.
 [[nodiscard]] fuzz_checkpoint checkpoint_from(const std::string& file, const fuzz_request& r);
