@@ -59,3 +59,19 @@ TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a fac
     CHECK((at < face) == (off < 0));
   }
 }
+
+TEST_CASE("a residual beyond doubles is infinite, and there is none of displacements that are no numbers") {
+  const contct::structure::problem p =
+      contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
+  const auto residual = exact_residual_of(p);
+  std::vector<double_double> u(6, 0.0);
+  u[4] = 1e300;
+  const auto needed = residual(1, u);
+  REQUIRE(needed);
+  CHECK(std::isinf((*needed)[4].hi));
+  CHECK((*needed)[4].lo == 0.0);
+  for (const double odd : {HUGE_VAL, std::nan("")}) {
+    u[4] = odd;
+    CHECK_FALSE(residual(1, u));
+  }
+}

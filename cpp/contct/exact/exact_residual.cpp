@@ -1,6 +1,7 @@
 #include "contct/exact/exact_residual.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
@@ -43,6 +44,7 @@ vector residual(const exact_problem& p, const exact_step& s, const vector& u) {
 
 double_double rounded_twice(const rational& x) {
   const double high = numeric::rounded(x);
+  if (!std::isfinite(high)) return high;  // no bound is proved by it
   return {high, numeric::rounded(rational(x - numeric::binary_value(high)))};
 }
 
@@ -68,7 +70,8 @@ exact_residual_of(const problem& p) {
              int step, std::span<const double_double> u) mutable {
     if (!made) made = std::make_shared<const std::optional<exact_problem>>(small_exact_problem_of(p));
     std::optional<std::vector<double_double>> all;
-    if (!*made) return all;
+    if (!*made || !std::ranges::all_of(u, [](const double_double& x) { return std::isfinite(x.hi); }))
+      return all;
     const exact_problem& exact = **made;
     const exact_step& s = exact.steps[static_cast<std::size_t>(step) - 1];
     all.emplace();
