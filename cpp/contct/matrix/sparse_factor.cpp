@@ -21,7 +21,7 @@ namespace contct::matrix {
 namespace {
 
 /// While it exists this thread starts no others by OpenMP. CHOLMOD asks for four to copy a supernode: to
-/// start and to await them takes a fifth of the time of a plate's factorisation.
+/// start and to await them took a sixth of the time of a plate's path.
 class no_openmp_threads {
  public:
   no_openmp_threads() {
