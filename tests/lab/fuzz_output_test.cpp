@@ -114,6 +114,15 @@ TEST_CASE("shards that are missing, given twice, of another run or no results ar
   CHECK_THROWS_AS(merged_fuzz({folder.write("other.json", "{\"format\": \"another\"}")}), input_error);
 }
 
+TEST_CASE("the refusal of what is no JSON quotes a little of it") {
+  const scratch_folder folder;
+  const std::string long_text = "{\"format\": \"" + std::string(5000, 'x');
+  const Catch::Matchers::Generic::PredicateMatcher<std::string> short_text(
+      [](const std::string& message) { return message.size() < 1000; }, "is short");
+  CHECK_THROWS_WITH(merged_fuzz({folder.write("cut.json", long_text)}),
+                    Contains("cut.json: found no fuzz result: ") && short_text);
+}
+
 TEST_CASE("a case as a FORTRAN main program fits its columns, and its literals are read back exactly") {
   const std::string main = fortran_main_of(a_case());
   std::size_t from = 0;

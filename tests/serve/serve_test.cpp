@@ -123,6 +123,9 @@ TEST_CASE("options that are not known, or of another type, are refused by name")
     CHECK(answer.at("error").at("message").get<std::string>().find(words) != std::string::npos);
   }
   CHECK(taken(contct_run(nullptr, nullptr)).at("exit") == 2);
+  const std::string cut = "{\"engine\": \"" + std::string(5000, 'x');
+  const json answer = taken(contct_run(problem.c_str(), cut.c_str()));
+  CHECK(answer.at("error").at("message").get<std::string>().size() < 1000);  // quotes a little of it
 }
 
 TEST_CASE("options of values in values are refused before writing them overflows the stack") {

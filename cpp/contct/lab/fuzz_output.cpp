@@ -11,6 +11,7 @@
 #include "contct/lab/fuzz.hpp"
 #include "contct/numeric/bits.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::lab {
 namespace {
@@ -107,7 +108,9 @@ auto read_document(const std::string& file, const char* what, const char* its_fo
       throw input_error(file + ": found another format; allowed: " + its_format);
     return take(document);
   } catch (const json::exception& e) {
-    throw input_error(fmt::format("{}: found no {}: {}; allowed: what {} wrote", file, what, e.what(), from));
+    constexpr std::size_t longest = 300;  // it quotes a whole text of the file
+    throw input_error(fmt::format("{}: found no {}: {}; allowed: what {} wrote", file, what,
+                                  text::printable(e.what(), longest), from));
   } catch (const std::range_error& e) {
     throw input_error(fmt::format("{}: found no {}: {}; allowed: whole numbers, as {} wrote them", file, what,
                                   e.what(), from));

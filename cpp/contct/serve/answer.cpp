@@ -13,6 +13,7 @@
 #include "contct/read/problem_file.hpp"
 #include "contct/solve/engine.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::serve {
 namespace {
@@ -89,7 +90,9 @@ request::request(const char* text, std::initializer_list<std::string_view> known
       return true;
     });
   } catch (const nlohmann::json::exception& e) {
-    throw std::invalid_argument(fmt::format("options: found no JSON: {}; allowed: an object", e.what()));
+    constexpr std::size_t longest = 300;  // it quotes a whole text of the options
+    throw std::invalid_argument(
+        fmt::format("options: found no JSON: {}; allowed: an object", text::printable(e.what(), longest)));
   }
   if (!options_.is_object())
     throw std::invalid_argument(fmt::format("options: found {}; allowed: an object", options_.type_name()));
