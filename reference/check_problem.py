@@ -28,7 +28,7 @@ class Problem:
         for dof, spring in self.supports:
             self.K[dof][dof] += spring or 0
         self.fixed = {dof for dof, spring in self.supports if spring is None}
-        self.pairs, self.at_first = [], []  # (dof, n, face, stiffness); is it in contact?
+        self.pairs = []  # (dof, n, face, stiffness)
         for c in t.get("contact", []) + t.get("bed", []):
             for i, node in enumerate(self.nodes(c, len(share))):
                 face, k = (v[i] if isinstance(v, list) else v for v in (c["face"], c.get("stiffness", c.get("modulus"))))
@@ -36,7 +36,6 @@ class Problem:
                     F(a) * list(self.at)[node]**power for power, a in enumerate(face["polynomial"]))
                 k = F(k) * (share[node] if "modulus" in c else 1)
                 if "modulus" not in c or self.dof(node, "w") not in self.fixed:
-                    self.at_first.append(c["state"] == "contact" if "state" in c else face == 0)
                     self.pairs.append((self.dof(node, "w"), 1 if c.get("surface") == "above" else -1, F(face), k))
 
     def dof(self, node, name):

@@ -61,26 +61,6 @@ TEST_CASE("a proof has the state, the closed pairs, the factor and the bounds of
   CHECK(unloaded["L"].size() == 10);
 }
 
-TEST_CASE("an event's share has a state on both sides of it, as near as its bound") {
-  const nlohmann::json proof = proof_of(stopped_beam);
-  const nlohmann::json& shares = proof["steps"][0]["shares"];
-  REQUIRE(shares.size() == 1);
-  CHECK(shares[0]["increment"] == 1);
-  CHECK(shares[0]["events"] == nlohmann::json::array({{{"pair", 1}, {"change", "make"}}}));
-  REQUIRE(shares[0]["sides"].size() == 2);
-  for (const int after : {0, 1}) {
-    const nlohmann::json& side = shares[0]["sides"][after];
-    CHECK(side["step"] == 1);
-    CHECK((side["share"].get<double>() > shares[0]["fraction"].get<double>()) == (after == 1));
-    CHECK(std::abs(side["share"].get<double>() - shares[0]["fraction"].get<double>()) <=
-          shares[0]["error"].get<double>());
-    CHECK(side["closed"].size() == static_cast<std::size_t>(after));
-    for (const char* each_dof : {"u", "z", "scale", "row_of", "L"}) CHECK(side[each_dof].size() == 10);
-  }
-  REQUIRE(proof["steps"][1]["shares"].size() == 1);
-  CHECK(proof["steps"][1]["shares"][0]["events"][0]["change"] == "break");
-}
-
 TEST_CASE("what doubles cannot factor has L as a sum of two") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 0.008, 7.008, 7.00802, 7.02802, 12.02802]\nEI = 92\n[[support]]\nnode = 1\n"
