@@ -96,6 +96,7 @@ state_refiner certifier::refiner() {
 void certifier::step_ended(const step_state& s) {
   steps_.push_back(s.fraction == 1.0 ? std::optional(judge(s)) : std::nullopt);
   proofs_.push_back(prover_ && s.fraction == 1.0 ? prover_->take_proof() : std::nullopt);
+  if (proofs_.back()) proofs_.back()->statuses.assign(s.isep.begin(), s.isep.end());
 }
 
 void certifier::keep_proofs() {

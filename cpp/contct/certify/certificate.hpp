@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "contct/certify/allowed_errors.hpp"
-#include "contct/certify/reference_solution.hpp"
 #include "contct/certify/error_bounds.hpp"
+#include "contct/certify/reference_solution.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 

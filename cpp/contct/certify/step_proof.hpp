@@ -30,6 +30,7 @@ struct step_proof {
   std::vector<int> closed;                      ///< A: pairs from 0
   std::vector<numeric::double_double> z;        ///< about K_A^-1 r [dofs]; empty where nothing acts
   std::optional<stiffness_proof> of_stiffness;  ///< none where nothing acts and nothing holds the structure
+  std::vector<int> statuses = {};               ///< as handed out: in_contact or separated [pairs]
 };
 
 }  // namespace contct::certify

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contct/write/result_json.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct::write {
 namespace {
@@ -47,14 +48,15 @@ json numbers_of(const std::vector<int>& pairs) {
 }
 
 json step_json(const certify::step_proof& s) {
-  json step = {{"displacement", s.displacement},
-               {"force", s.pair_forces},
-               {"reactions", s.reactions},
-               {"elements", s.element_values},
-               {"u", sums(s.state)},
-               {"closed", numbers_of(s.closed)},
-               {"z", sums(s.z)}};
-  if (s.of_stiffness) put_stiffness(step, *s.of_stiffness);
+  json step = {{"force", s.pair_forces}, {"reactions", s.reactions}, {"elements", s.element_values}};
+  if (!s.of_stiffness) return step;  // it may stand anywhere: its displacements and statuses are not claimed
+  step["displacement"] = s.displacement;
+  step["state"] = json::array();
+  for (const int isep : s.statuses) step["state"].push_back(state_name(isep));
+  step["u"] = sums(s.state);
+  step["closed"] = numbers_of(s.closed);
+  step["z"] = sums(s.z);
+  put_stiffness(step, *s.of_stiffness);
   return step;
 }
 
@@ -67,7 +69,7 @@ std::string reason_without_proof(const std::optional<certify::certificate>& c) {
 
 }  // namespace
 
-std::string proof_json(const problem& p, const std::string& file, const certify::certifier& judged) {
+std::string proof_json(const problem& p, const certify::certifier& judged) {
   json steps = json::array();
   for (std::size_t i = 0; i < judged.steps().size(); ++i) {
     const auto& c = judged.steps()[i];
@@ -81,7 +83,7 @@ std::string proof_json(const problem& p, const std::string& file, const certify:
     }
     steps.push_back(std::move(step));
   }
-  const json all = {{"format", "contct-proof-1"}, {"problem", file}, {"steps", std::move(steps)}};
+  const json all = {{"format", "contct-proof-2"}, {"steps", std::move(steps)}};
   return json_text(all) + "\n";
 }
 
