@@ -4,12 +4,13 @@ Without `all`, plates of 16 x 16 elements and more are left out, which take most
 """
 import copy
 import re
-import subprocess
 import sys
 import tempfile
+import tomllib
+import unittest.mock
 from pathlib import Path
 
-from proofs import end, fail, proof_of, reference, verdict
+from proofs import check_proof, end, fail, proof_of, reference, verdict
 
 
 def scaled(path, factor):
@@ -193,6 +194,39 @@ def check_frame(folder):
     print(f"a frame's matrix: 2 problems are accepted, {len(OTHER_FRAMES)} others were tried")
 
 
+# By their lower triangles.
+MATRICES = {
+    "a free chain": ("1 1 1|2 1 -1|2 2 2|3 2 -1|3 3 1", True),
+    "a soft motion": ("1 1 1|2 1 -1|2 2 1.00000000000005", True),
+    "an eigenvalue of -1e-11": ("1 1 1|2 1 1.00000000001|2 2 1", False),
+    "an eigenvalue of -5e-17": ("1 1 1|2 1 1.0000000000000002|2 2 1.0000000000000002|3 3 1", False),
+    "stiffness beside a diagonal of 0": ("1 1 0|2 1 1e-9|2 2 1", False),
+    "400 dofs, held": ("1 1 2|" + "|".join(f"{i} {i - 1} -1|{i} {i} 2" for i in range(2, 401)), True),
+    "400 dofs, an eigenvalue of -0.1": ("1 1 1.9|" + "|".join(f"{i} {i - 1} -1|{i} {i} 1.9" for i in range(2, 401)), False),
+}
+
+
+def check_semidefinite(folder):
+    """Which matrices the checker takes for semidefinite; and that it asks."""
+    problem = Path(folder) / "matrix.toml"
+    problem.write_text("[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndofs = [\"1\", \"2\"]\nsurface = \"below\"\nface = 0\nstiffness = 1\n[[step]]\npoint = [ { dofs = [\"1\", \"2\"], value = -1 } ]\n")
+    for name, (lower, wanted) in MATRICES.items():
+        entries = lower.split("|")
+        n = entries[-1].split()[0]
+        (Path(folder) / "K.mtx").write_text("\n".join(["%%MatrixMarket matrix coordinate real symmetric", f"{n} {n} {len(entries)}", *entries, ""]))
+        if check_proof.semidefinite(check_proof.Problem(tomllib.loads(problem.read_text()), folder)) is not wanted:
+            fail(f"{name}: positive semidefinite is not {wanted}")
+        if name == "a free chain":
+            chain = Path(folder) / "chain.toml"
+            chain.write_text(problem.read_text().replace('"2"', '"3"'))
+            proof = proof_of(chain, folder, "--kernels", "corrected")
+            with unittest.mock.patch.object(check_proof, "semidefinite", lambda p: False):
+                codes = verdict(chain, proof, folder)[0], proof["steps"][0]["closed"]
+            if verdict(chain, proof, folder)[0] != 0 or codes != (1, [1, 2]):
+                fail("a free chain on two pairs: it is not asked whether the matrix is semidefinite")
+    print(f"{len(MATRICES)} matrices are semidefinite or not")
+
+
 def check_reference(folder):
     accepted = proved = certified = contradicted = 0
     files = sorted(reference.glob("problems/*.toml")) + sorted(reference.glob("problems/divergences/*.toml"))
@@ -280,5 +314,6 @@ with tempfile.TemporaryDirectory() as scratch:
     check_reference(scratch)
     check_faults(scratch)
     check_meshed(scratch)
+    check_semidefinite(scratch)
     check_frame(scratch)
 end()
