@@ -93,7 +93,8 @@ def check(p, step, s, largest):
         need(room >= 0 and room * room >= square * rho2, f"the bound on {kind} does not hold for number {number + 1}")
         told[kind] = max(told.get(kind, F(0)), abs(F(x)))
     size, besides = sizes_of(p, f, settled, told, largest)
-    largest.update({kind: max(x, largest.get(kind, F(0))) for kind, x in size.items()})
+    sure = {kind: max(x - error[kind], F(0)) for kind, x in told.items()}  # what is not certified may be told larger than it is
+    largest.update({kind: max(x, largest.get(kind, F(0))) for kind, x in sizes_of(p, f, settled, sure, largest)[0].items()})
     large = [kind for kind, bound in error.items() if bound > size.get(kind, 0) * MILLIONTH + besides.get(kind, 0)]
     beyond = [i + 1 for i, (d, state) in enumerate(zip(deep, s.get("state", []))) if (d if state == "separated" else -d) > error["w"]]
     need(not (s["certified"] and large), f"certified, with bounds that are too large: {large}")

@@ -290,6 +290,14 @@ def check_faults(folder):
         fail("a pair is taken as closed under two numbers")
     problem_that_opens = reference / "problems/pb01-cantilever-tip-stop.toml"
     opened = proof_of(problem_that_opens, folder, "--kernels", "corrected")
+    unloaded = Path(folder) / "unloaded.toml"  # where nothing acts, sizes of the steps before count: not those that are only told
+    unloaded.write_text("[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\nuniform = -1\n[[step]]\nuniform = 0\n")
+    inflated = proof_of(unloaded, folder, "--kernels", "corrected")
+    inflated["steps"][0].update(certified=False, displacement=[1e200] * 4, error=dict.fromkeys(inflated["steps"][0]["error"], 1e300))
+    codes = [verdict(unloaded, inflated, folder)[0]]
+    inflated["steps"][1]["error"]["w"] = 1e100
+    if [*codes, verdict(unloaded, inflated, folder)[0]] != [0, 1]:
+        fail("an unloaded state is measured by a deflection that is not certified")
     opened["steps"][3]["closed"] = [1]
     if verdict(problem_that_opens, opened, folder)[0] != 1:
         fail("an open pair is taken as closed")
@@ -307,7 +315,7 @@ def check_faults(folder):
         code, said = verdict(other, proof, folder)
         if changed == text or code != 1:
             fail(f"the proof of a problem in which {name} is another: {code}: {said}")
-    print(f"{len(FAULTS) + 10 + len(OTHERS)} doctored proofs were tried")
+    print(f"{len(FAULTS) + 11 + len(OTHERS)} doctored proofs were tried")
 
 
 with tempfile.TemporaryDirectory() as scratch:

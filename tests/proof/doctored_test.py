@@ -11,6 +11,7 @@ import sys
 import tempfile
 import tomllib
 from fractions import Fraction as F
+from math import isfinite
 from pathlib import Path
 
 from proofs import check_proof, end, fail, program, proof_of, verdict
@@ -135,7 +136,9 @@ def nudged(x):
         return not x
     if type(x) is int:
         return x + random.choice([-2, -1, 1, 1, 2, 7, 0.0])
-    return random.choice([-x, x * (1 + random.choice([-1, 1]) * 10.0**-random.randrange(16)), x * 2.0**random.randrange(-60, 60), x + random.choice([-1, 1]) * 10.0**-random.randrange(20), 0.0])
+    if not isfinite(x):
+        return 0.0
+    return random.choice([-x, x * (1 + random.choice([-1, 1]) * 10.0**-random.randrange(16)), x * 2.0**random.randrange(-60, 60), x + random.choice([-1, 1]) * 10.0**-random.randrange(20), 0.0, repr(x), bool(x), int(x)])
 
 
 def change(proof, others):
@@ -175,7 +178,7 @@ def change(proof, others):
 
 
 def doctored(proof, others):
-    """A proof that differs from `proof` in one to three places, as text; sometimes with a key twice."""
+    """A proof that differs from `proof` in one to three places."""
     other = copy.deepcopy(proof)
     for _ in range(random.choice([1, 1, 1, 2, 3])):
         while not change(other, others):
@@ -183,6 +186,12 @@ def doctored(proof, others):
         if not places(other):
             break
     return other
+
+
+def with_a_key_twice(proof):
+    """As text, with another value before the first that a key has."""
+    key = random.choice([key for _, key in places(proof) if type(key) is str])
+    return json.dumps(proof).replace(f'"{key}": ', f'"{key}": {json.dumps(random.choice(VALUES + WORDS))}, "{key}": ', 1)
 
 
 with tempfile.TemporaryDirectory() as scratch:
@@ -197,8 +206,9 @@ with tempfile.TemporaryDirectory() as scratch:
             fail(f"{name}: the true proof: {verdict(file, bases[-1][2], scratch)} {bases[-1][3].why_false(bases[-1][2])}")
     for number in range(int(sys.argv[3])):
         name, file, proof, truth = random.choice(bases)
-        other = doctored(proof, [base[2] for base in bases])
-        why = truth.why_false(other)
+        twice = random.random() < 0.02
+        other = with_a_key_twice(proof) if twice else doctored(proof, [base[2] for base in bases])
+        why = "a key stands twice" if twice else truth.why_false(other)
         code, said = verdict(file, other, scratch)
         counted = accepted if code == 0 else refused
         counted[why is None] = counted.get(why is None, 0) + 1
