@@ -220,13 +220,12 @@ class Event(Record):
 
 class Increment(Record):
     """One call of the kernel and what followed. `s`: SMIN, the share of the remaining load (eq. 9); `fraction`: the share
-    of the step's load that is applied now, 0 to 1; `error`: proved bound on `fraction`, with `proof`."""
+    of the step's load that is applied now, 0 to 1."""
     increment: int
     s: float
     fraction: float
     load: Record
     events: list[Event]
-    error: Optional[float]
 
 
 class Pair(Record):
