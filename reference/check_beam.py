@@ -1,19 +1,48 @@
-"""The beam's element and its nodes, in fractions, for check_proof.py."""
+"""The beam's element and its nodes, in fractions, for check_proof.py; and how the problem file's lists are read."""
+import re
+from bisect import bisect_left
 from fractions import Fraction as F
 from math import ceil, comb
 
-from check_plate import dot
+from check_plate import dot, need, positive, real
 
 
 def listed(x):
     return x if isinstance(x, list) else [x]
 
 
+def only(table, keys):
+    """The table, which has no other keys."""
+    need(isinstance(table, dict) and table.keys() <= set(keys), f"a table has keys other than {sorted(keys)}")
+    return table
+
+
+def numbers(which, count):
+    """Numbers from 1 to `count`, each once, as a list, "a..b" or "all"; from 0."""
+    if isinstance(which, str):
+        first, last = (1, count) if which == "all" else map(int, re.fullmatch(r"(\d+)\.\.(\d+)", which).groups())
+        which = list(range(first, last + 1))
+    need(which and all(type(x) is int and 1 <= x <= count for x in which) and len(set(which)) == len(which), f"{which}: not from 1 to {count}")
+    return [x - 1 for x in which]
+
+
+def same(line):
+    """How far coordinates may be apart and still be the same: 4 roundings of the larger end."""
+    return F(1, 2**50) * max(abs(line[0]), abs(line[-1]))
+
+
+def find(line, x):
+    """Which of the rising coordinates is x; None where none is."""
+    i = bisect_left(line, x)
+    near = min((k for k in (i - 1, i) if 0 <= k < len(line)), key=lambda k: abs(line[k] - x))
+    return near if abs(line[near] - x) <= same(line) else None
+
+
 class Beam:
     """An element of length h: dofs w and w' at its left end, w and w' at its right."""
 
     def __init__(self, h, EI):
-        self.h, self.EI, c = h, EI, EI / h**3
+        self.h, self.EI, c = positive(h), positive(EI), EI / h**3
         self.stiffness = [[12 * c, 6 * h * c, -12 * c, 6 * h * c], [6 * h * c, 4 * h * h * c, -6 * h * c, 2 * h * h * c],
                           [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, 2 * h * h * c, -6 * h * c, 4 * h * h * c]]
 
@@ -30,31 +59,42 @@ class Beam:
         return [("shear", v, shear), ("shear", -w, shear), ("moment", -m, moment), ("moment", n, moment)]
 
 
+def pieces(of):
+    return [only(piece, {"to", "value"}) for piece in listed(of["EI"]) if isinstance(piece, dict)]
+
+
 def named(of, t):
     """Every x that the problem names outside the beam's own x."""
     tables = [part for key in ("support", "contact", "bed") for part in t.get(key, [])]
     tables += [part for step in t["step"] for key in ("point", "settlement") for part in step.get(key, [])]
-    return [x for part in tables for x in listed(part.get("x", []))] + [piece["to"] for piece in pieces(of)]
+    return [real(x) for part in tables for x in listed(part.get("x", []))] + [real(piece["to"]) for piece in pieces(of)]
 
 
-def pieces(of):
-    return [piece for piece in listed(of["EI"]) if isinstance(piece, dict)]
-
-
-def places(of, t):
-    """Coordinates of the nodes. With element_size the file names some; elements between two of these are of equal length."""
-    if "element_size" not in of:
-        return [F(x) for x in of["x"]] if "x" in of else [F(of["length"]) * i / of["elements"] for i in range(of["elements"] + 1)]
-    corners = sorted({F(x) for x in of.get("x", [0, of.get("length", 0)])} | {F(x) for x in named(of, t)})
-    counts = [max(1, ceil((b - a) / F(of["element_size"]) - F(1, 10**9))) for a, b in zip(corners, corners[1:])]
+def sized(of, t, ends):
+    """Nodes at `ends` and at every x between them that the file names; elements between two of these are of equal length."""
+    inside = sorted(x for x in set(named(of, t)) if ends[0] < x < ends[-1] and find(ends, x) is None)
+    corners = sorted(ends + [x for i, x in enumerate(inside) if i == 0 or x - inside[i - 1] > same(ends)])
+    counts = [max(1, ceil((float(b) - float(a)) / float(of["element_size"]) - 1e-9)) for a, b in zip(corners, corners[1:])]
     return corners[:1] + [a + (b - a) * i / n for a, b, n in zip(corners, corners[1:], counts) for i in range(1, n + 1)]
 
 
+def places(of, t):
+    """Coordinates of the nodes."""
+    need(of.keys() - {"EI"} in ({"x"}, {"length", "elements"}, {"x", "element_size"}, {"length", "element_size"}), "a beam of another form")
+    if "element_size" in of:
+        return sized(of, t, [real(x) for x in of.get("x", [0, of.get("length")])])
+    return [real(x) for x in of["x"]] if "x" in of else [real(of["length"]) * i / of["elements"] for i in range(of["elements"] + 1)]
+
+
 def beam(of, t):
-    """Names of dofs, nodes by place, how much of the length each has, and the elements with their dofs and left ends."""
-    x, EI = places(of, t), listed(of["EI"])
+    """Names of dofs, lines of coordinates, how much of the length each node has, and the elements with their dofs and left ends."""
+    x = places(of, t)
     if pieces(of):
-        EI = [next(piece["value"] for piece in EI if F(piece["to"]) >= right) for right in x[1:]]
-    EI = EI * (len(x) - 1) if len(EI) == 1 else EI
-    elements = [(Beam(x[e + 1] - x[e], F(k)), range(2 * e, 2 * e + 4), x[e]) for e, k in enumerate(EI)]
-    return ["w", "theta"], {v: i for i, v in enumerate(x)}, [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])], elements
+        ends = [0] + [find(x, real(piece["to"])) for piece in of["EI"]]
+        need(ends[-1] == len(x) - 1, "pieces of EI that do not end where the beam ends")
+        EI = [real(piece["value"]) for piece, a, b in zip(of["EI"], ends, ends[1:]) for _ in range(a, b)]
+    else:
+        EI = [real(k) for k in listed(of["EI"])] * (1 if isinstance(of["EI"], list) else len(x) - 1)
+    need(len(EI) == len(x) - 1, "EI: not one for each element")
+    elements = [(Beam(b - a, k), range(2 * e, 2 * e + 4), a) for e, (a, b, k) in enumerate(zip(x, x[1:], EI))]
+    return ["w", "theta"], [x], [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])], elements

@@ -2,52 +2,69 @@
 from fractions import Fraction as F
 from pathlib import Path
 
-from check_beam import listed
+from check_beam import listed, need, only, real
 
 
-def entries(file):
-    """The words of a Matrix Market file's header, and its numbers line by line."""
-    lines = file.read_text().splitlines()
-    numbers = [line.split() for line in lines[1:] if line.strip() and not line.startswith("%")]
-    return lines[0].lower().split(), numbers[1:]
+def entries(file, *forms):
+    """The form of a Matrix Market file, the numbers of its size, and the lines behind that; blank lines do not count."""
+    lines = [line.split() for line in file.read_bytes().split(b"\n")]
+    form = b" ".join(lines[0]).decode().lower()
+    need(form in [f"%%matrixmarket matrix {of}" for of in forms], f"{file.name}: {form}")
+    lines = [line for line in lines[1:] if line]
+    size = next(i for i, line in enumerate(lines) if not line[0].startswith(b"%"))
+    return form, [int(x) for x in lines[size]], lines[size + 1:]
 
 
-def rows(file, n):
+def rows(file):
     """K by rows, from its lower triangle."""
-    K = [{i: F(0)} for i in range(n)]
-    for i, j, k in entries(file)[1]:
-        K[int(i) - 1][int(j) - 1] = K[int(j) - 1][int(i) - 1] = F(k)
-    return K
+    _, (n, columns, count), lines = entries(file, "coordinate real symmetric")
+    need(n == columns and len(lines) == count, f"{file.name}: its size is another one")
+    K = [{} for _ in range(n)]
+    for i, j, k in ((int(i) - 1, int(j) - 1, real(k)) for i, j, k in lines):
+        need(0 <= j <= i < n and j not in K[i], f"{file.name}: an entry stands twice, or not in the lower triangle")
+        K[i][j] = K[j][i] = k
+    return [{i: F(0)} | row for i, row in enumerate(K)]
 
 
-def vector(file):
+def vector(file, n):
     """{dof: its load}."""
-    header, numbers = entries(file)
-    if "coordinate" in header:
-        return {int(i) - 1: F(k) for i, _, k in numbers}
-    return {i: F(k) for i, (k,) in enumerate(numbers)}
+    form, (size, columns, *count), lines = entries(file, "array real general", "coordinate real general")
+    if form.split()[2] == "array":
+        lines = [(i + 1, 1, *line) for i, line in enumerate(lines)]
+    loads = {int(i) - 1: real(k) for i, _, k in lines}
+    need((size, columns, len(lines)) == (n, 1, *(count or [n])) and len(loads) == len(lines), f"{file.name}: its size is another one")
+    need(all(0 <= i < n and int(j) == 1 for i, (_, j, _) in zip(loads, lines)), f"{file.name}: a place that is none")
+    return loads
 
 
-def as_nodes(part, number):
+def as_nodes(part, number, keys):
     """The table with nodes for dofs, fix and springs of w, and w for a value."""
-    part = dict(part, nodes=[number[str(label)] for label in listed(part.get("dofs", part.get("dof")))])
-    if "value" in part:
-        part["w"] = part["value"]
-    if "spring" in part:
-        part["spring"] = {"w": part["spring"]}
+    only(part, {"dof", "dofs", *keys})
+    need(("dof" in part) + ("dofs" in part) == 1, "not one of dof and dofs")
+    part = dict(part, nodes=[number[label.encode()] for label in listed(part.pop("dofs", part.pop("dof", None)))])
     if "fix" in part:
-        part["fix"] = ["w"] if part["fix"] else []
-    return part
+        need(part["fix"] is True and "spring" not in part, "fix is not true, or beside a spring")
+        part["fix"] = "w"
+    return part | {new: {"w": part.pop(old)} if new == old else part.pop(old) for old, new in (("spring", "spring"), ("value", "w")) if old in part}
 
 
 def matrix(of, t, folder):
     """K, and the problem in terms of nodes."""
-    n = int(next(line for line in (Path(folder) / of["stiffness"]).read_text().splitlines() if line[0] != "%").split()[0])
-    labels = (Path(folder) / of["dofs"]).read_text().split() if "dofs" in of else [str(i + 1) for i in range(n)]
+    only(of, {"stiffness", "dofs", "coordinates", "free_motions", "storage"})
+    need("bed" not in t, "a bed with a matrix")
+    K = rows(Path(folder) / of["stiffness"])
+    labels = (Path(folder) / of["dofs"]).read_bytes().split() if "dofs" in of else [b"%d" % (i + 1) for i in range(len(K))]
     number = {label: i + 1 for i, label in enumerate(labels)}
-    t = {key: [as_nodes(part, number) for part in t.get(key, [])] for key in ("support", "contact")} | {"step": t["step"]}
-    for i, step in enumerate(t["step"]):
-        whole = vector(Path(folder) / step["load"]) if "load" in step else {}
-        t["step"][i] = {key: [as_nodes(part, number) for part in step.get(key, [])] for key in ("point", "settlement")}
-        t["step"][i]["point"] += [{"nodes": [dof + 1], "w": load} for dof, load in whole.items()]
-    return rows(Path(folder) / of["stiffness"], n), t
+    need(len(labels) == len(number) == len(K), f"{of.get('dofs')}: not one label for each row")
+    keys = {"support": ["fix", "spring"], "contact": ["surface", "face", "stiffness", "state"], "point": ["value"], "settlement": ["value"]}
+
+    def converted(table, key):
+        return [as_nodes(dict(part), number, keys[key]) for part in table.get(key, [])]
+
+    steps = []
+    for step in t["step"]:
+        only(step, {"name", "load", "point", "settlement"})
+        whole = vector(Path(folder) / step["load"], len(K)) if "load" in step else {}
+        loads = [{"node": dof + 1, "w": load} for dof, load in whole.items()]
+        steps.append({"point": converted(step, "point") + loads, "settlement": converted(step, "settlement")})
+    return K, {"support": converted(t, "support"), "contact": converted(t, "contact"), "step": steps}

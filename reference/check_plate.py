@@ -6,6 +6,22 @@ MONOMIALS = [(i, 0) for i in range(4)] + [(0, 1), (1, 1), (2, 1), (3, 1), (0, 2)
 SLOPES = [(0, 0), (1, 0), (0, 1)]  # the orders of derivatives that are dofs
 
 
+def need(holds, words):
+    if not holds:
+        raise ValueError(words)
+
+
+def real(x):
+    """A number of a file means the shortest decimal that reads as the same double."""
+    need(type(x) is not bool and isinstance(x, (int, F, bytes)), f"{x!r}: not a number")
+    return F(repr(float(x)))
+
+
+def positive(x):
+    need(x > 0, f"{x}: not greater than 0")
+    return x
+
+
 def dot(x, y):
     return sum((a * b for a, b in zip(x, y) if a and b), F(0))
 
@@ -31,7 +47,7 @@ class Plate:
     """An element of sides a and b; dofs w, wx and wy at its corners, counter-clockwise from the lower left."""
 
     def __init__(self, a, b, D, nu):
-        self.a, self.b, self.D, self.nu = a, b, D, nu
+        self.a, self.b, self.D, self.nu = positive(a), positive(b), positive(D), nu
         self.corners = [(F(0), F(0)), (a, F(0)), (a, b), (F(0), b)]
         self.shapes = inverse([[at(p, d, x, y) for p in MONOMIALS] for x, y in self.corners for d in SLOPES])  # monomials by dofs
         energy = [[self.bending(p, q) for q in MONOMIALS] for p in MONOMIALS]
@@ -66,14 +82,17 @@ class Plate:
 def line(of, key, i):
     """Points given one by one, or equal parts; and how much of the line each has."""
     size, parts = (of["size"][i], of["elements"][i]) if key not in of else (0, 1)
-    x = [F(v) for v in of[key]] if key in of else [F(size) * k / parts for k in range(parts + 1)]
+    x = [real(v) for v in of[key]] if key in of else [real(size) * k / parts for k in range(parts + 1)]
     return x, [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])]
 
 
 def plate(of):
-    """Names of dofs, nodes by place, how much of the area each has, and the elements with their dofs and left ends."""
-    (x, width), (y, height), nu = line(of, "x", 0), line(of, "y", 1), F(of["nu"])
-    D = F(of["D"]) if "D" in of else F(of["E"]) * F(of["thickness"])**3 / (12 * (1 - nu * nu))
+    """Names of dofs, lines of coordinates, how much of the area each node has, and the elements with their dofs and left ends."""
+    grid, material = of.keys() & {"x", "y", "size", "elements"}, of.keys() - {"x", "y", "size", "elements"}
+    need(grid in ({"x", "y"}, {"size", "elements"}) and material in ({"D", "nu"}, {"E", "nu", "thickness"}), "a plate of two forms")
+    (x, width), (y, height), nu = line(of, "x", 0), line(of, "y", 1), real(of["nu"])
+    need(-1 < nu <= F(1, 2), f"nu is {nu}")
+    D = real(of["D"]) if "D" in of else positive(real(of["E"])) * real(of["thickness"])**3 / (12 * (1 - nu * nu))
     elements, made = [], {}
     for j in range(len(y) - 1):
         for i in range(len(x) - 1):
@@ -81,5 +100,4 @@ def plate(of):
             made[sides] = made.get(sides) or Plate(*sides, D, nu)
             corners = [first, first + 1, first + len(x) + 1, first + len(x)]
             elements.append((made[sides], [3 * corner + d for corner in corners for d in range(3)], x[i]))
-    places = {(a, b): k for k, (b, a) in enumerate((b, a) for b in y for a in x)}
-    return ["w", "wx", "wy"], places, [a * b for b in height for a in width], elements
+    return ["w", "wx", "wy"], [x, y], [a * b for b in height for a in width], elements

@@ -1,71 +1,114 @@
 """A problem file as fractions, for check_proof.py: from its decimals, without the program."""
 from fractions import Fraction as F
 
-from check_beam import beam, listed
+from check_beam import beam, find, listed, need, numbers, only, positive, real
 from check_matrix import matrix
 from check_plate import plate
+
+TOP = {"title", "units", "beam", "plate", "matrix", "support", "contact", "bed", "step"}
+
+
+def one_each(values, nodes):
+    return [real(x) for x in (values if isinstance(values, list) else [values] * len(nodes))]
 
 
 class Problem:
     """K by rows, supports, pairs and loads, as fractions."""
 
     def __init__(self, t, folder):
+        only(t, TOP)
+        need(len(t.keys() & {"beam", "plate", "matrix"}) == 1 and t["step"], "not one structure, or no step")
+        self.definite, self.of_elements = "matrix" not in t, 0  # is K certainly semidefinite; how many numbers elements have
         if "matrix" in t:
             self.K, t = matrix(t["matrix"], t, folder)
-            self.names, self.at, share, self.elements = ["w"], {}, [F(1)] * len(self.K), []
+            self.names, self.lines, share, self.elements, self.span = ["w"], [], [F(1)] * len(self.K), [], F(0)
         else:
-            self.names, self.at, share, self.elements = plate(t["plate"]) if "plate" in t else beam(t["beam"], t)
+            self.names, self.lines, share, self.elements = plate(t["plate"]) if "plate" in t else beam(t["beam"], t)
             self.K = [{i: F(0)} for i in range(len(share) * len(self.names))]
-        self.steps, self.n = t["step"], len(self.K)
+            self.span = max(line[-1] - line[0] for line in self.lines)
+            self.of_elements = (4 if "beam" in t else 12) * len(self.elements)
+        self.steps, self.n, self.count = t["step"], len(self.K), len(share)
         for element, dofs, _ in self.elements:
             for i, j, k in ((i, j, k) for i, row in zip(dofs, element.stiffness) for j, k in zip(dofs, row)):
                 self.K[i][j] = self.K[i].get(j, 0) + k
         self.supports = []  # (dof, its spring; None: fixed)
         for s in t.get("support", []):
-            springs = [(name, F(s["spring"][name])) for name in self.names if name in s.get("spring", {})]
-            for name, spring in [(name, None) for name in listed(s.get("fix", []))] + springs:
-                self.supports += [(self.dof(node, name), spring) for node in self.nodes(s, len(share))]
-        for dof, spring in self.supports:
-            self.K[dof][dof] += spring or 0
+            self.support(s, self.nodes(s, {"fix", "spring"}))
         self.fixed = {dof for dof, spring in self.supports if spring is None}
-        self.pairs, self.at_first = [], []  # (dof, n, face, stiffness); is it in contact?
-        for c in t.get("contact", []) + t.get("bed", []):
-            for i, node in enumerate(self.nodes(c, len(share))):
-                face, k = (v[i] if isinstance(v, list) else v for v in (c["face"], c.get("stiffness", c.get("modulus"))))
-                face = face if not isinstance(face, dict) else sum(
-                    F(a) * list(self.at)[node]**power for power, a in enumerate(face["polynomial"]))
-                k = F(k) * (share[node] if "modulus" in c else 1)
-                if "modulus" not in c or self.dof(node, "w") not in self.fixed:
-                    self.at_first.append(c["state"] == "contact" if "state" in c else face == 0)
-                    self.pairs.append((self.dof(node, "w"), 1 if c.get("surface") == "above" else -1, F(face), k))
+        self.pairs = []  # (dof, n, face, stiffness)
+        for c in t.get("contact", []):
+            nodes = self.nodes(c, {"surface", "face", "stiffness", "state"})
+            self.contact(c, nodes, c["surface"], one_each(c["stiffness"], nodes))
+        for c in t.get("bed", []):
+            nodes = self.nodes(c, {"surface", "face", "modulus", "state"}, "all")
+            self.contact(c, nodes, c.get("surface", "below"), [real(c["modulus"]) * share[node] for node in nodes], self.fixed)
+        self.kinds = {"w": self.n} | ({"slope": self.n, "moment": self.n} if self.elements else {}) | ({"shear": self.n} if len(self.lines) == 1 else {})
+        self.kinds |= {"force": len(self.pairs)} if self.pairs else {}
+        self.kinds |= {"reaction": sum(dof % len(self.names) == 0 for dof, _ in self.supports)} if self.supports else {}  # and how many numbers
+
+    def support(self, s, nodes):
+        need("fix" in s or "spring" in s, "a support with neither fix nor spring")
+        fixed, springs = listed(s.get("fix", [])), only(s.get("spring", {}), self.names)
+        need(len(set(fixed)) == len(fixed), "a dof is fixed twice")
+        held = [(name, None) for name in fixed] + [(name, positive(real(springs[name]))) for name in self.names if name in springs]
+        self.supports += [(self.dof(node, name), spring) for name, spring in held for node in nodes]
+        for dof, spring in ((self.dof(node, name), spring) for name, spring in held for node in nodes):
+            self.K[dof][dof] += spring or 0
+
+    def contact(self, c, nodes, surface, stiffness, without=()):
+        """A pair at each node, but for those whose w is in `without`."""
+        if isinstance(c["face"], dict):
+            powers = self.polynomial(only(c["face"], {"polynomial"})["polynomial"])
+            faces = [sum(a * self.lines[0][node]**power for power, a in enumerate(powers)) for node in nodes]
+        else:
+            faces = one_each(c["face"], nodes)
+        for node, x, k in zip(nodes, faces, stiffness, strict=True):
+            if self.dof(node, "w") not in without:
+                self.pairs.append((self.dof(node, "w"), {"above": 1, "below": -1}[surface], x, positive(k)))
+
+    def polynomial(self, coefficients):
+        need(len(self.lines) == 1 and coefficients, "a polynomial that is not along a beam")
+        return [real(a) for a in coefficients]
 
     def dof(self, node, name):
         return node * len(self.names) + self.names.index(name)
 
-    def nodes(self, t, count):
-        """Nodes from 0 of a table: node, nodes, x or at; a bed's are all that no support fixes, by default all."""
-        if "x" in t or "at" in t:
-            places = listed(t["x"]) if "x" in t else t["at"] if isinstance(t["at"][0], list) else [t["at"]]
-            return [self.at[tuple(place) if "at" in t else place] for place in places]
-        which = t.get("nodes", t.get("node", "all"))
-        if isinstance(which, str):
-            first, last = ("1", count) if which == "all" else which.split("..")
-            return list(range(int(first) - 1, int(last)))
-        return [node - 1 for node in listed(which)]
+    def nodes(self, t, keys, otherwise=None):
+        """Nodes from 0 of a table, which may have these keys besides: node, nodes, x or at."""
+        place = {0: ["node", "nodes"], 1: ["node", "nodes", "x"], 2: ["node", "nodes", "at"]}[len(self.lines)]
+        only(t, {*place, *keys})
+        named = [key for key in place if key in t]
+        need(len(named) == 1 or (not named and otherwise), f"not one of {place}")
+        if not named or named[0] in ("node", "nodes"):
+            return numbers([t["node"]] if "node" in t else t.get("nodes", otherwise), self.count)
+        points = [[x] for x in listed(t["x"])] if "x" in t else t["at"] if isinstance(t["at"][0], list) else [t["at"]]
+        found = [[find(line, real(x)) for line, x in zip(self.lines, point, strict=True)] for point in points]
+        need(found and all(None not in at for at in found), "a place where there is no node")
+        return numbers([1 + sum(i * stride for i, stride in zip(at, (1, len(self.lines[0])))) for at in found], self.count)
 
     def loads(self, step):
         """Loads [dofs], the settlement of each fixed dof, and each element's own loads."""
-        f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * len(dofs) for _, dofs, _ in self.elements]
+        f, settled, own = [F(0)] * self.n, {}, [[F(0)] * len(dofs) for _, dofs, _ in self.elements]
+        only(step, {"name", "point", "settlement"} | ({"uniform"} if self.elements else set()))
         for part in listed(step.get("uniform", [])):
-            part = part if isinstance(part, dict) else {"value": part}
-            q = [F(c) for c in part.get("polynomial", [part.get("value")])]
-            for e in self.nodes({"nodes": part.get("elements", "all")}, len(own)):
+            part = only(part, {"value", "polynomial", "elements"}) if isinstance(part, dict) else {"value": part}
+            need(("value" in part) + ("polynomial" in part) == 1, "not one of value and polynomial")
+            q = [real(part["value"])] if "value" in part else self.polynomial(part["polynomial"])
+            for e in numbers(part.get("elements", "all"), len(own)):
                 own[e] = [a + b for a, b in zip(own[e], self.elements[e][0].load(q, self.elements[e][2]))]
         for dof, force in ((dof, force) for (_, dofs, _), work in zip(self.elements, own) for dof, force in zip(dofs, work)):
             f[dof] += force
-        given = [(part, f) for part in step.get("point", [])] + [(part, settled) for part in step.get("settlement", [])]
-        for part, into in given:
-            for node in self.nodes(part, 0):
-                for name in part.keys() & set(self.names):
-                    into[self.dof(node, name)] += F(part[name])
-        return f, settled, own
+        for part in step.get("point", []):
+            for dof, value in self.at_dofs(part):
+                f[dof] += value
+        for part in step.get("settlement", []):
+            for dof, value in self.at_dofs(part):
+                need(dof in self.fixed and dof not in settled, "a settlement of a dof that is free, or a second one")
+                settled[dof] = value
+        return f, dict.fromkeys(self.fixed, F(0)) | settled, own
+
+    def at_dofs(self, part):
+        """Each dof that a table names, with its value."""
+        nodes, names = self.nodes(part, self.names), [name for name in self.names if name in part]
+        need(names, "a load or a settlement of no dof")
+        return [(self.dof(node, name), real(part[name])) for node in nodes for name in names]

@@ -1,108 +1,51 @@
 """check_proof.py PROBLEM.toml PROOF.json: verify what `contct run PROBLEM.toml --proof PROOF.json` wrote.
 
-Every bound on an error is verified in rational arithmetic, from the decimals of the problem file, without the program:
-certificate.md has the mathematics, proof-format.md the format. Exit 0: all bounds hold; 1: one does not; 2: there are none.
+Every bound on an error, every pair's state and every verdict is verified in rational arithmetic, from the decimals of the problem
+file, without the program: certificate.md has the mathematics, proof-format.md the format. Exit 0: every step of the problem is there,
+its bounds hold and its verdict follows from them; 1: something is false, missing or cannot be read; 2: nothing is false, but a step
+has no bounds, or a state that they contradict and that is not certified.
 """
-import json
 import sys
 import tomllib
 from fractions import Fraction as F
 from os.path import dirname
 
-from check_plate import dot
+from check_definite import reach_of, semidefinite, up
+from check_format import check_format, parsed
+from check_plate import dot, need
 from check_problem import Problem
 
-
-def up(x):
-    """x, or a little more (2^-200 of it), with a short denominator."""
-    shift = max(0, 200 + x.denominator.bit_length() - abs(x.numerator).bit_length())
-    return F(-((-x.numerator << shift) // x.denominator), 1 << shift)
-
-
-def zeros(rows):
-    return [[0] * len(row) for row in rows]
-
-
-def reach_of(p, s, springs):
-    """s_i^2 / mu with S K_A S >= mu I; mu is the shift less Gershgorin's discs of S K_A S - shift I - L L'."""
-    S = [F(2)**k for k in s["scale"]]
-    rows = [[F(x) + F(low) for x, low in zip(*two)] for two in zip(s["L"], s.get("L_low", zeros(s["L"])))]
-    unit = max(x.denominator for row in rows for x in row)
-    whole = [[int(x * unit) for x in row] for row in rows]
-    first = [i + 1 - len(row) for i, row in enumerate(rows)]
-    at, shift, sums = s["row_of"], F(s["shift"]), [F(0)] * p.n
-    if sorted(at) != list(range(p.n)) or min(first) < 0:
-        raise ValueError("the rows of L are not those of the dofs")
-    for dof in range(p.n):
-        i = at[dof]
-        row = {at[j]: k * S[dof] * S[j] for j, k in p.K[dof].items() if dof not in p.fixed and j not in p.fixed}
-        row[i] = (row[i] + springs[dof] * S[dof]**2 if dof not in p.fixed else 1) - shift
-        for j in {j for j in row if j <= i} | set(range(first[i], i + 1)):
-            k = max(first[i], first[j])
-            ll = sum(map(int.__mul__, whole[i][k - first[i]:], whole[j][k - first[j]:])) if k <= j else 0
-            error = up(abs(row.get(j, 0) - F(ll, unit * unit)))
-            for disc in {i, j}:
-                sums[disc] += error
-    mu = shift - max(sums)
-    if mu <= 0:
-        raise ValueError("the stiffness is not shown to be positive definite")
-    return [x * x / mu for x in S]
-
+MILLIONTH = F(1, 10**6) * (1 + F(1, 2**40))  # the program compares doubles
 
 def bounded(p, f, settled, s):
-    """The state, what K needs beyond the loads, the pairs' depths, A, and squares: of rho, and of each dof's error per rho."""
-    u = [settled.get(dof, F(hi) + F(lo)) for dof, (hi, lo) in enumerate(s["u"])]
+    """The state, what K needs beyond the loads, the pairs' depths, and squares: of rho, and of each dof's error per rho."""
+    u = [settled.get(dof, F(hi) + F(lo)) for dof, (hi, lo) in enumerate(s.get("u", [(0, 0)] * p.n))]
     deep = [n * (u[dof] - face) for dof, n, face, _ in p.pairs]
-    need = [dot(row.values(), [u[j] for j in row]) - f[i] for i, row in enumerate(p.K)]
+    needed = [dot(row.values(), [u[j] for j in row]) - f[i] for i, row in enumerate(p.K)]
     for (dof, n, _, k), d in zip(p.pairs, deep):
-        need[dof] += n * k * max(d, 0)
+        needed[dof] += n * k * max(d, 0)
+    if "L" not in s:  # nothing acts, and u = 0 is an equilibrium
+        need(not any(f) and not any(u) and all(n * face >= 0 for _, n, face, _ in p.pairs), "something acts, and there is no L")
+        return u, needed, deep, F(0), [F(0)] * p.n
     closed, springs = [i - 1 for i in s["closed"]], [F(0)] * p.n
     for i in closed:
         springs[p.pairs[i][0]] += p.pairs[i][3]
-    rho2, reach = F(0), [F(0)] * p.n  # squares: of rho, and of each displacement's error per rho
-    if "L" in s:
-        reach = reach_of(p, s, springs)
-        r = [F(0) if dof in p.fixed else -x for dof, x in enumerate(need)]
-        z = [F(0) if dof in p.fixed else F(hi) + F(lo) for dof, (hi, lo) in enumerate(s["z"] or [(0, 0)] * p.n)]
-        for dof, row in enumerate(p.K):
-            if dof not in p.fixed:
-                e = r[dof] - dot(row.values(), [z[j] for j in row]) - springs[dof] * z[dof]
-                rho2 += up(r[dof] * z[dof] + z[dof] * e + reach[dof] * e * e)
-    elif any(f) or any(u) or any(n * face < 0 for _, n, face, _ in p.pairs):  # nothing acts, and u = 0 is an equilibrium
-        raise ValueError("nothing shows that the stiffness is positive definite")
-    if sorted(set(closed) & set(range(len(p.pairs)))) != closed or any(deep[i] <= 0 or p.pairs[i][0] in p.fixed or
-            deep[i]**2 <= min(reach[p.pairs[i][0]], 1 / p.pairs[i][3]) * rho2 for i in closed):
-        raise ValueError("a pair is taken as closed that may be open")
-    return u, need, deep, closed, rho2, reach
+    reach, rho2 = reach_of(p, s, springs), F(0)
+    p.definite = p.definite or not closed
+    r = [F(0) if dof in p.fixed else -x for dof, x in enumerate(needed)]
+    z = [F(0) if dof in p.fixed else F(hi) + F(lo) for dof, (hi, lo) in enumerate(s["z"] or [(0, 0)] * p.n)]
+    for dof, row in enumerate(p.K):
+        if dof not in p.fixed:
+            e = r[dof] - dot(row.values(), [z[j] for j in row]) - springs[dof] * z[dof]
+            rho2 += up(r[dof] * z[dof] + z[dof] * e + reach[dof] * e * e)
+    for dof, k, d in ((p.pairs[i][0], p.pairs[i][3], deep[i]) for i in closed):
+        need(dof not in p.fixed and d > 0 and d * d > min(reach[dof], 1 / k) * rho2, "a pair is taken as closed that may be open")
+    return u, needed, deep, rho2, reach
 
 
-def statuses(p, s):
-    """The pairs that are certainly in contact (True) or separated (False) at a share of a step's load."""
-    if s["step"] == 1 and s["share"] <= 0:
-        return p.at_first
-    x, (f, settled, _) = F(s["share"]), p.loads(p.steps[s["step"] - 1])
-    f0, settled0, _ = p.loads(p.steps[s["step"] - 2] if s["step"] > 1 else {})
-    f, settled = [a + x * (b - a) for a, b in zip(f0, f)], {i: settled0[i] + x * (settled[i] - settled0[i]) for i in settled}
-    _, _, deep, closed, rho2, reach = bounded(p, f, settled, s)
-    apart = [d < 0 and d * d > reach[dof] * rho2 and dof not in p.fixed for (dof, _, _, _), d in zip(p.pairs, deep)]
-    return [True if i in closed else False if apart[i] else None for i in range(len(apart))]
-
-
-def check_share(p, step, s):
-    """Raises ValueError where an event may happen further from its share than the bound says."""
-    for side, after in zip(s["sides"], (False, True), strict=True):
-        if abs(side["step"] - step + F(side["share"]) - F(s["fraction"])) > F(s["error"]):
-            raise ValueError(f"increment {s['increment']}: a side is further off than the bound")
-        known = statuses(p, side)
-        if not s["events"] or any(known[e["pair"] - 1] is not ((e["change"] == "make") == after) for e in s["events"]):
-            raise ValueError(f"increment {s['increment']}: an event is not certain")
-
-
-def check(p, step, s):
-    """Raises ValueError where a bound does not hold; gives the number of numbers that were looked at."""
-    f, settled, own = p.loads(step)
-    u, need, deep, closed, rho2, reach = bounded(p, f, settled, s)
-    per, held = len(p.names), {dof: (need[dof], p.K[dof][dof]) for dof in p.fixed}
+def claims_of(p, own, u, needed, deep, rho2, reach):
+    """(kind, value in the state u, square of its error per rho) of each number of the file, in its order."""
+    per, held = len(p.names), {dof: (needed[dof], p.K[dof][dof]) for dof in p.fixed}
     spread = [0 if dof in p.fixed else reach[dof] for dof in range(p.n)]  # squares per rho: of displacements, then of forces
     claims = [("slope" if dof % per else "w", true, spread[dof]) for dof, true in enumerate(u)]
     for (dof, _, _, k), d in zip(p.pairs, deep):
@@ -110,33 +53,70 @@ def check(p, step, s):
     for dof, k in p.supports:  # a dof that is fixed twice gives its reaction to the first
         true, square = held.pop(dof, (0, 0)) if k is None else (-k * u[dof], min(k, k * k * spread[dof]))
         claims.append(("moment" if dof % per else "reaction", true, square))
-    claims += [v for (e, dofs, _), work in zip(p.elements, own) for v in e.values([u[dof] for dof in dofs], work)]
-    told = s["displacement"] + s["force"] + s["reactions"] + s["elements"]
-    for number, ((kind, true, square), x) in enumerate(zip(claims, told, strict=True)):
-        if number < p.n and "L" not in s and s["error"][kind] is None:
-            continue  # it may stand anywhere
-        room = F(s["error"][kind]) - abs(F(x) - true)
-        if room < 0 or room * room < square * rho2 or (number < p.n and "L" not in s):
-            raise ValueError(f"the bound on {kind} does not hold for number {number + 1}")
-    return len(claims) if "L" in s else len(claims) - p.n
+    return claims + [v for (e, dofs, _), work in zip(p.elements, own) for v in e.values([u[dof] for dof in dofs], work)]
+
+
+def sizes_of(p, f, settled, told, largest):
+    """The size of each kind of number, and what may be off besides, absolutely (certificate.md, "Sizes").
+
+    `told`: the largest number of each kind; `largest`: sizes on the path so far, which count where nothing acts.
+    """
+    if not any(f) and not any(settled.values()):
+        return dict(largest), {}
+    per, size = len(p.names), dict(told)
+    acting = {kind: max([abs(x) for dof, x in enumerate(f) if (dof % per > 0) == (kind == "moment")] + [F(0)]) for kind in ("force", "moment")}
+    forces = max([acting["force"]] + [told.get(kind, F(0)) for kind in ("force", "reaction", "shear")])
+    size |= dict.fromkeys(("force", "reaction", "shear"), forces)
+    size["moment"] = max(acting["moment"], told.get("moment", F(0)), forces * p.span)
+    if p.span and size.get("slope", 0) <= size["w"] / p.span / 2**60:
+        size["slope"] = size["w"] / p.span
+    moved = [max([p.K[dof][dof] * abs(x) for dof, x in settled.items() if (dof % per > 0) == slopes] + [F(0)]) / 2**80 for slopes in (False, True)]
+    if any(f):
+        return size, {}
+    moment = max(moved[1], moved[0] * p.span)
+    return size, dict.fromkeys(("force", "reaction", "shear"), max(moved[0], moved[1] / p.span if p.span else F(0))) | {"moment": moment}
+
+
+def check(p, step, s, largest):
+    """Raises ValueError where something is false; gives words, and whether all that the step says is shown."""
+    check_format(p, s)
+    if s["error"] is None:
+        return f"no bounds: {s['because']}", False
+    f, settled, own = p.loads(step)
+    u, needed, deep, rho2, reach = bounded(p, f, settled, s)
+    p.definite = p.definite or semidefinite(p)
+    need(p.definite, "the stiffness is not shown to be positive semidefinite")
+    claims = claims_of(p, own, u, needed, deep, rho2, reach)[0 if "L" in s else p.n:]
+    error, told = {kind: F(bound) for kind, bound in s["error"].items() if bound is not None}, {}
+    for number, ((kind, true, square), x) in enumerate(zip(claims, s.get("displacement", []) + s["force"] + s["reactions"] + s["elements"], strict=True)):
+        room = error[kind] - abs(F(x) - true)
+        need(room >= 0 and room * room >= square * rho2, f"the bound on {kind} does not hold for number {number + 1}")
+        told[kind] = max(told.get(kind, F(0)), abs(F(x)))
+    size, besides = sizes_of(p, f, settled, told, largest)
+    largest.update({kind: max(x, largest.get(kind, F(0))) for kind, x in size.items()})
+    large = [kind for kind, bound in error.items() if bound > size.get(kind, 0) * MILLIONTH + besides.get(kind, 0)]
+    beyond = [i + 1 for i, (d, state) in enumerate(zip(deep, s.get("state", []))) if (d if state == "separated" else -d) > error["w"]]
+    need(not (s["certified"] and large), f"certified, with bounds that are too large: {large}")
+    need(not (s["certified"] and beyond), f"certified, with pairs that are not as they are said to be: {beyond}")
+    words = f"{len(claims)} numbers are within their bounds; {'' if s['certified'] else 'not '}certified"
+    return words + (f"; not as they are said to be: pairs {beyond}" if beyond else ""), not beyond
 
 
 def main(problem, proof):
-    where = "what the files hold"
+    where, largest, shown = "what the files hold", {}, []
     try:
         with open(problem, "rb") as file, open(proof, encoding="utf-8") as proofs:
-            p, steps = Problem(tomllib.load(file, parse_float=F), dirname(problem)), json.load(proofs)["steps"]
+            p = Problem(tomllib.load(file, parse_float=F), dirname(problem))
+            steps = parsed(proofs, len(p.steps))
         for i, s in enumerate(steps):
             where = f"step {i + 1} of {len(p.steps)}"
-            words = f"{check(p, p.steps[i], s)} numbers are within their bounds" if s["error"] else f"no bounds: {s['because']}"
-            for share in s.get("shares", []):
-                check_share(p, i + 1, share)
-            shares = f", and {len(s['shares'])} shares within theirs" if s.get("shares") else ""
-            print(f"{where}: {words}{shares}")
-    except (OSError, AttributeError, LookupError, ValueError, TypeError, ArithmeticError) as why:
+            words, all_shown = check(p, p.steps[i], s, largest)
+            shown.append(all_shown)
+            print(f"{where}: {words}")
+    except (OSError, AttributeError, LookupError, ValueError, TypeError, ArithmeticError, RecursionError) as why:
         print(f"{where}: REFUSED: {why!r}")
         return 1
-    return 0 if any(s["error"] for s in steps) else 2
+    return 0 if all(shown) else 2
 
 
 if __name__ == "__main__":

@@ -332,8 +332,7 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
   for (const char* name : {"--log", "--trace"})
     if (output_file* const file = o.files[name]) file->finish();
   if (o.tables) o.tables->finish();
-  if (o.files["--proof"] != nullptr)
-    o.files.write("--proof", proof_json(run.what, fs::path(run.options.file).filename().string(), o.judged));
+  if (o.files["--proof"] != nullptr) o.files.write("--proof", proof_json(run.what, o.judged));
   if (o.frames) {
     const finished_run r{run.what,
                          *o.frames,

@@ -276,7 +276,7 @@ void whole_run::follow_and_write() {
   std::int64_t count = 0;
   while (calls.next(call)) ++count;
   require(watched == nullptr || count == compared.calls(), "a trace's calls");
-  const auto proof = json_in(proof_json(p_, file_, judged), "a proof");
+  const auto proof = json_in(proof_json(p_, judged), "a proof");
   require(proof["steps"].size() <= judged.steps().size(), "a proof's steps");
   for (const std::string& line : rows.legend()) print_text(line + "\n");
   check_printed(printed_.take());

@@ -26,7 +26,7 @@ nlohmann::json proof_of(const std::string& text) {
   limits.exactly = contct::exact::exact_follower_of(p);
   const auto k = make_kernel("corrected");
   (void)follow(p, s, "refactor", *k, {&judged}, limits);
-  return nlohmann::json::parse(proof_json(p, "b.toml", judged));
+  return nlohmann::json::parse(proof_json(p, judged));
 }
 
 constexpr const char* stopped_beam =
@@ -38,8 +38,7 @@ constexpr const char* stopped_beam =
 
 TEST_CASE("a proof has the state, the closed pairs, the factor and the bounds of each step") {
   const nlohmann::json proof = proof_of(stopped_beam);
-  CHECK(proof["format"] == "contct-proof-1");
-  CHECK(proof["problem"] == "b.toml");
+  CHECK(proof["format"] == "contct-proof-2");
   REQUIRE(proof["steps"].size() == 2);
   CHECK(proof["steps"][0]["step"] == 1);
   CHECK(proof["steps"][1]["step"] == 2);
@@ -50,6 +49,7 @@ TEST_CASE("a proof has the state, the closed pairs, the factor and the bounds of
   for (const char* each_dof : {"displacement", "u", "z", "scale", "row_of", "L"})
     CHECK(loaded[each_dof].size() == 10);
   CHECK(loaded["force"].size() == 1);
+  CHECK(loaded["state"] == nlohmann::json::array({"contact"}));
   CHECK(loaded["reactions"].size() == 2);
   CHECK(loaded["elements"].size() == 16);
   CHECK(loaded["L"][0].size() == 1);
@@ -59,26 +59,7 @@ TEST_CASE("a proof has the state, the closed pairs, the factor and the bounds of
   CHECK(unloaded["closed"].empty());
   CHECK(unloaded["z"].empty());
   CHECK(unloaded["L"].size() == 10);
-}
-
-TEST_CASE("an event's share has a state on both sides of it, as near as its bound") {
-  const nlohmann::json proof = proof_of(stopped_beam);
-  const nlohmann::json& shares = proof["steps"][0]["shares"];
-  REQUIRE(shares.size() == 1);
-  CHECK(shares[0]["increment"] == 1);
-  CHECK(shares[0]["events"] == nlohmann::json::array({{{"pair", 1}, {"change", "make"}}}));
-  REQUIRE(shares[0]["sides"].size() == 2);
-  for (const int after : {0, 1}) {
-    const nlohmann::json& side = shares[0]["sides"][after];
-    CHECK(side["step"] == 1);
-    CHECK((side["share"].get<double>() > shares[0]["fraction"].get<double>()) == (after == 1));
-    CHECK(std::abs(side["share"].get<double>() - shares[0]["fraction"].get<double>()) <=
-          shares[0]["error"].get<double>());
-    CHECK(side["closed"].size() == static_cast<std::size_t>(after));
-    for (const char* each_dof : {"u", "z", "scale", "row_of", "L"}) CHECK(side[each_dof].size() == 10);
-  }
-  REQUIRE(proof["steps"][1]["shares"].size() == 1);
-  CHECK(proof["steps"][1]["shares"][0]["events"][0]["change"] == "break");
+  CHECK(unloaded["state"] == nlohmann::json::array({"separated"}));
 }
 
 TEST_CASE("what doubles cannot factor has L as a sum of two") {
@@ -100,4 +81,14 @@ TEST_CASE("where nothing is proved, a proof says why") {
   CHECK(step["error"].is_null());
   CHECK_FALSE(step["because"].get<std::string>().empty());
   CHECK_FALSE(step.contains("L"));
+}
+
+TEST_CASE("the proof of a free beam without load has forces, and no displacements or statuses") {
+  const nlohmann::json proof = proof_of(
+      "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 3]\nsurface = \"below\"\nface = 0\n"
+      "stiffness = 1e6\n[[step]]\nuniform = -1\n[[step]]\nuniform = 0\n");
+  const nlohmann::json& step = proof["steps"][1];
+  CHECK(step["error"]["w"].is_null());
+  CHECK(step["force"].size() == 2);
+  for (const char* unknown : {"displacement", "state", "u", "L"}) CHECK_FALSE(step.contains(unknown));
 }

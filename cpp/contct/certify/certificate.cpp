@@ -97,31 +97,11 @@ state_refiner certifier::refiner() {
 void certifier::step_ended(const step_state& s) {
   steps_.push_back(s.fraction == 1.0 ? std::optional(judge(s)) : std::nullopt);
   proofs_.push_back(prover_ && s.fraction == 1.0 ? prover_->take_proof() : std::nullopt);
+  if (proofs_.back()) proofs_.back()->statuses.assign(s.isep.begin(), s.isep.end());
 }
 
 void certifier::keep_proofs() {
-  if (!prover_) return;
-  prover_->keep_proof();
-  shares_ = std::make_unique<share_prover>(structure_, total_load_, *prover_);
-}
-
-void certifier::incremented(const increment& i) {
-  if (!shares_) return;
-  share_errors_.resize(i.step);
-  share_errors_.back().push_back(shares_->bound(i));
-  share_proofs_.resize(i.step);
-  if (std::optional<share_proof> proof = shares_->take_proof())
-    share_proofs_.back().push_back(std::move(*proof));
-}
-
-std::span<const share_proof> certifier::share_proofs(int step) const {
-  if (step > static_cast<int>(share_proofs_.size())) return {};
-  return share_proofs_[step - 1];
-}
-
-std::span<const std::optional<double>> certifier::share_errors(int step) const {
-  if (step > static_cast<int>(share_errors_.size())) return {};
-  return share_errors_[step - 1];
+  if (prover_) prover_->keep_proof();
 }
 
 bool certifier::all_exact() const {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "contct/certify/allowed_errors.hpp"
+#include "contct/certify/error_bounds.hpp"
 #include "contct/certify/reference_solution.hpp"
-#include "contct/certify/share_bounds.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 
@@ -71,7 +71,6 @@ class certifier final : public observer {
   certifier(const problem& p, const linear_structure& s, exact_residual exactly = nullptr,
             semidefinite_test exactly_semidefinite = nullptr);
 
-  void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
 
   /// What betters the ends of steps before they are told, of a problem's path. This object must outlive it.
@@ -82,17 +81,10 @@ class certifier final : public observer {
   /// Look for the equilibrium at a share of `step` from a state near it; see error_prover::search.
   [[nodiscard]] bool search(int step, double share, std::span<double> displacement, std::span<int> isep);
 
-  /// Keep what proves the bounds of each step that follows, and bound the shares of increments.
+  /// Keep what proves the bounds of each step that follows.
   void keep_proofs();
   /// In the order of steps(); none where nothing is proved, or none are kept.
   [[nodiscard]] const std::vector<std::optional<step_proof>>& proofs() const { return proofs_; }
-
-  /// What proves the bounds on shares of a step, from 1; none of sparse factors.
-  [[nodiscard]] std::span<const share_proof> share_proofs(int step) const;
-
-  /// How far off the share of each increment of a step, from 1, can be; none where that is not proved. Empty
-  /// unless proofs are kept.
-  [[nodiscard]] std::span<const std::optional<double>> share_errors(int step) const;
 
   /// One for each step ended so far; none for a step that did not reach its load.
   [[nodiscard]] const std::vector<std::optional<certificate>>& steps() const { return steps_; }
@@ -123,9 +115,6 @@ class certifier final : public observer {
   double largest_displacement_ = 0.0;  // scaled, any dof
   std::vector<std::optional<certificate>> steps_;
   std::vector<std::optional<step_proof>> proofs_;
-  std::unique_ptr<share_prover> shares_;                          // null unless proofs are kept
-  std::vector<std::vector<std::optional<double>>> share_errors_;  // [steps][increments]
-  std::vector<std::vector<share_proof>> share_proofs_;            // [steps]
 };
 
 /// A fallback for `s`, which must outlive it: the reference solution as the end of a step that a path cannot

@@ -194,22 +194,4 @@ true_loads error_prover::loads_at(int step, double share) const {
   return l;
 }
 
-std::vector<int> error_prover::certain_statuses(int step, double share, std::span<const double> near) {
-  std::vector<int> certain(true_.pairs.size());
-  status_proof_.reset();
-  const true_loads l = loads_at(step, share);
-  long_vector u(true_.dofs());
-  for (std::size_t dof = 0; dof < u.size(); ++dof)
-    u[dof] = true_.fixed[dof] != 0 ? l.settlement[dof] : double_double(near[dof]);
-  error_bounds b;
-  if (!correct(l, u) || !find_closed(u, residual_of(u, l), b)) return certain;
-  if (keeps_proof_ && stiffness_.proof())
-    status_proof_ = status_proof{step, share, u, b.closed, z_, stiffness_.proof()};
-  for (const int pair : b.closed) certain[pair] = in_contact;
-  for (std::size_t i = 0; i < certain.size(); ++i) {
-    if (true_.fixed[true_.pairs[i].dof] == 0 && is_certainly_open(i, u, b.rho)) certain[i] = separated;
-  }
-  return certain;
-}
-
 }  // namespace contct::certify

@@ -80,19 +80,10 @@ class error_prover {
   [[nodiscard]] bool search(int step, double share, std::span<double> displacement, std::span<int> isep);
   [[nodiscard]] double span() const { return true_.span; }
 
-  /// The statuses that are certain in the equilibrium at a share of the load of step `step`, from 1:
-  /// in_contact or separated [pairs], 0 where neither is, and at fixed dofs. `near`: displacements to start
-  /// from [dofs].
-  [[nodiscard]] std::vector<int> certain_statuses(int step, double share, std::span<const double> near);
-
   /// Keep what proves the bounds.
   void keep_proof() {
     keeps_proof_ = true;
     stiffness_.keep_proof();
-  }
-  /// What proves the last certain_statuses; none of a sparse factor, or unless proofs are kept.
-  [[nodiscard]] std::optional<status_proof> take_status_proof() {
-    return std::exchange(status_proof_, std::nullopt);
   }
   /// Of the last `bound` that proved anything; none before, or unless it is kept.
   [[nodiscard]] std::optional<step_proof> take_proof() { return std::exchange(proof_, std::nullopt); }
@@ -189,7 +180,6 @@ class error_prover {
   long_vector z_;                      // about K_A^-1 r
   bool keeps_proof_ = false;
   std::optional<step_proof> proof_;
-  std::optional<status_proof> status_proof_;
 };
 
 }  // namespace contct::certify

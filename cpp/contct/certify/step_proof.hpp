@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "contct/kernel/call.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/numeric/double_double.hpp"
 
@@ -20,25 +19,6 @@ struct stiffness_proof {
   std::optional<matrix::band_matrix> factor_low;  ///< what is added to it, where doubles are too short for L
 };
 
-/// What proves the statuses of pairs at a share of a step's load.
-struct status_proof {
-  int step = 0;        ///< from 1
-  double share = 0.0;  ///< of its load; 0 or less in step 1: before any load, as the problem gives them
-  std::vector<numeric::double_double> state;    ///< u [dofs]; empty before any load, as are those that follow
-  std::vector<int> closed;                      ///< A: pairs from 0
-  std::vector<numeric::double_double> z;        ///< about K_A^-1 r [dofs]
-  std::optional<stiffness_proof> of_stiffness;  ///< none of a sparse factor
-};
-
-/// What proves that the events of an increment happen within `error` of its share.
-struct share_proof {
-  int increment = 0;           ///< in its step, from 1
-  double fraction = 0.0;       ///< its share
-  double error = 0.0;          ///< the bound
-  std::vector<event> events;   ///< pairs from 0
-  status_proof before, after;  ///< statuses on both sides of it
-};
-
 struct step_proof {
   // What was handed out, as the bounds are about it.
   std::vector<double> displacement;    ///< [dofs]
@@ -50,6 +30,7 @@ struct step_proof {
   std::vector<int> closed;                      ///< A: pairs from 0
   std::vector<numeric::double_double> z;        ///< about K_A^-1 r [dofs]; empty where nothing acts
   std::optional<stiffness_proof> of_stiffness;  ///< none where nothing acts and nothing holds the structure
+  std::vector<int> statuses = {};               ///< as handed out: in_contact or separated [pairs]
 };
 
 }  // namespace contct::certify

@@ -162,9 +162,7 @@ class served_run {
     if (wanted_.page || wanted_.svg || wanted_.states) draw({status, words, compared, equal, extremes});
     if (wanted_.log) a_.texts.emplace_back("log", std::move(log_));
     if (wanted_.trace) a_.texts.emplace_back("trace", std::move(trace_));
-    if (wanted_.proof)
-      a_.texts.emplace_back("proof",
-                            proof_json(p_, std::filesystem::path(wanted_.file).filename().string(), judged_));
+    if (wanted_.proof) a_.texts.emplace_back("proof", proof_json(p_, judged_));
   }
 
   struct outcome {

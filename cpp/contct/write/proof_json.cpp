@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contct/write/result_json.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct::write {
 namespace {
@@ -47,53 +48,16 @@ json numbers_of(const std::vector<int>& pairs) {
 }
 
 json step_json(const certify::step_proof& s) {
-  json step = {{"displacement", s.displacement},
-               {"force", s.pair_forces},
-               {"reactions", s.reactions},
-               {"elements", s.element_values},
-               {"u", sums(s.state)},
-               {"closed", numbers_of(s.closed)},
-               {"z", sums(s.z)}};
-  if (s.of_stiffness) put_stiffness(step, *s.of_stiffness);
+  json step = {{"force", s.pair_forces}, {"reactions", s.reactions}, {"elements", s.element_values}};
+  if (!s.of_stiffness) return step;  // it may stand anywhere: its displacements and statuses are not claimed
+  step["displacement"] = s.displacement;
+  step["state"] = json::array();
+  for (const int isep : s.statuses) step["state"].push_back(state_name(isep));
+  step["u"] = sums(s.state);
+  step["closed"] = numbers_of(s.closed);
+  step["z"] = sums(s.z);
+  put_stiffness(step, *s.of_stiffness);
   return step;
-}
-
-json side_json(const certify::status_proof& s) {
-  json side = {{"step", s.step}, {"share", s.share}};
-  if (!s.of_stiffness) return side;
-  side["u"] = sums(s.state);
-  side["closed"] = numbers_of(s.closed);
-  side["z"] = sums(s.z);
-  put_stiffness(side, *s.of_stiffness);
-  return side;
-}
-
-json share_json(const certify::share_proof& s) {
-  json share = {
-      {"increment", s.increment}, {"fraction", s.fraction}, {"error", s.error}, {"events", json::array()}};
-  for (const event& e : s.events)
-    share["events"].push_back({{"pair", e.pair + 1}, {"change", change_name(e.what)}});
-  share["sides"] = {side_json(s.before), side_json(s.after)};
-  return share;
-}
-
-/// Each side of each share has a factor of its own, so that a long beam with many events would fill a disk.
-bool are_too_many(std::span<const certify::share_proof> shares) {
-  constexpr std::size_t most_entries = 4'000'000;
-  std::size_t entries = 0;
-  for (const certify::share_proof& s : shares)
-    for (const certify::status_proof* side : {&s.before, &s.after})
-      if (side->of_stiffness) {
-        const matrix::band_matrix& l = side->of_stiffness->factor;
-        entries += static_cast<std::size_t>(l.order()) * static_cast<std::size_t>(l.subdiagonals() + 1);
-      }
-  return entries > most_entries;
-}
-
-void put_shares(json& step, std::span<const certify::share_proof> shares) {
-  step["shares"] = json::array();
-  if (are_too_many(shares)) return;
-  for (const certify::share_proof& s : shares) step["shares"].push_back(share_json(s));
 }
 
 std::string reason_without_proof(const std::optional<certify::certificate>& c) {
@@ -105,7 +69,7 @@ std::string reason_without_proof(const std::optional<certify::certificate>& c) {
 
 }  // namespace
 
-std::string proof_json(const problem& p, const std::string& file, const certify::certifier& judged) {
+std::string proof_json(const problem& p, const certify::certifier& judged) {
   json steps = json::array();
   for (std::size_t i = 0; i < judged.steps().size(); ++i) {
     const auto& c = judged.steps()[i];
@@ -117,10 +81,9 @@ std::string proof_json(const problem& p, const std::string& file, const certify:
     } else {
       step["because"] = reason_without_proof(c);
     }
-    put_shares(step, judged.share_proofs(static_cast<int>(i) + 1));
     steps.push_back(std::move(step));
   }
-  const json all = {{"format", "contct-proof-1"}, {"problem", file}, {"steps", std::move(steps)}};
+  const json all = {{"format", "contct-proof-2"}, {"steps", std::move(steps)}};
   return json_text(all) + "\n";
 }
 

@@ -7,9 +7,7 @@
 
 namespace contct::write {
 
-/// Format "contct-proof-1", of reference/proof-format.md. `judged` has kept its proofs; `p` is the problem of
-/// `file`.
-[[nodiscard]] std::string proof_json(const problem& p, const std::string& file,
-                                     const certify::certifier& judged);
+/// Format "contct-proof-2", of reference/proof-format.md. `judged` has kept its proofs of `p`.
+[[nodiscard]] std::string proof_json(const problem& p, const certify::certifier& judged);
 
 }  // namespace contct::write

@@ -283,8 +283,6 @@ json result_json::increment_of(std::size_t at) const {
                 {"load", load_json(problem_.geometry, loads_, i.step, i.fraction)},
                 {"events", list_of(i.events, [this](const event& e) { return event_json(problem_, e); })}};
   if (i.snaps) entry["snap"] = true;
-  const std::span<const std::optional<double>> errors = judged_.share_errors(i.step);
-  if (!errors.empty()) entry["error"] = errors[at] ? json(*errors[at]) : json(nullptr);
   return entry;
 }
 

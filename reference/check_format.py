@@ -1,0 +1,78 @@
+"""The shape of a proof file, for check_proof.py: keys, types, lengths, words and indices, as proof-format.md has them."""
+import json
+from math import isfinite
+
+from check_plate import need
+
+FORCES = ["step", "certified", "error", "force", "reactions", "elements"]
+STATE = ["displacement", "state", "u", "closed", "z", "scale", "row_of", "shift", "L"]
+
+
+def whole(x, least, most):
+    return type(x) is int and least <= x <= most
+
+
+def real(x):
+    return type(x) is int or (type(x) is float and isfinite(x))
+
+
+def each(values, count, fits, what):
+    need(type(values) is list and len(values) == count and all(map(fits, values)), f"{what}: not {count} of what they should be")
+
+
+def pair(x):
+    return type(x) is list and len(x) == 2 and all(map(real, x))
+
+
+def once(pairs):
+    need(len(dict(pairs)) == len(pairs), "a key stands twice")
+    return dict(pairs)
+
+
+def parsed(file, steps):
+    """The entries of `steps`: one for each step of the problem, in order."""
+    proof = json.load(file, object_pairs_hook=once, parse_constant=lambda word: need(False, f"{word} is no number"))
+    need(type(proof) is dict and list(proof) == ["format", "steps"], "the keys are not format and steps")
+    need(proof["format"] == "contct-proof-2", "the format is not contct-proof-2")
+    each(proof["steps"], steps, lambda s: type(s) is dict, "steps")
+    for i, s in enumerate(proof["steps"]):
+        need(whole(s.get("step"), i + 1, i + 1), f"step {i + 1}: its number is not {i + 1}")
+        need(type(s.get("certified")) is bool, f"step {i + 1}: certified is not true or false")
+    return proof["steps"]
+
+
+def check_format(p, s):
+    """Raises ValueError where a step is not what the format allows."""
+    if s.get("error", 0) is None:
+        need(sorted(s) == ["because", "certified", "error", "step"] and type(s["because"]) is str, "without bounds: other keys")
+        return
+    held = "L" in s
+    other = set(s) ^ {*FORCES, *(STATE if held else []), *(["L_low"] if held and "L_low" in s else [])}
+    need(not other, f"missing or unknown keys: {sorted(other)}")
+    need(type(s["error"]) is dict and set(s["error"]) == set(p.kinds), f"the bounds are not those of {sorted(p.kinds)}")
+    for kind, bound in s["error"].items():
+        none = p.kinds[kind] == 0 or (not held and kind in ("w", "slope"))
+        need(bound is None if none else real(bound) and bound >= 0, f"the bound on {kind} is {bound}")
+    each(s["force"], len(p.pairs), real, "force")
+    each(s["reactions"], len(p.supports), real, "reactions")
+    each(s["elements"], p.of_elements, real, "elements")
+    if held:
+        check_state(p, s)
+
+
+def check_state(p, s):
+    each(s["displacement"], p.n, real, "displacement")
+    each(s["state"], len(p.pairs), lambda x: x in ("contact", "separated"), "state")
+    each(s["u"], p.n, pair, "u")
+    each(s["z"], p.n if s["z"] else 0, pair, "z")
+    each(s["scale"], p.n, lambda x: whole(x, -1100, 1100), "scale")
+    each(s["row_of"], p.n, lambda x: whole(x, 0, p.n - 1), "row_of")
+    need(len(set(s["row_of"])) == p.n, "row_of: two dofs have one row")
+    need(real(s["shift"]) and s["shift"] > 0, "shift: not a positive number")
+    each(s["closed"], len(s["closed"]) if type(s["closed"]) is list else 0, lambda x: whole(x, 1, len(p.pairs)), "closed")
+    need(all(a < b for a, b in zip(s["closed"], s["closed"][1:])), "closed: not in increasing order")
+    each(s["L"], p.n, lambda row: type(row) is list and all(map(real, row)), "L")
+    need(all(1 <= len(row) <= i + 1 for i, row in enumerate(s["L"])), "L: a row is empty or too long")
+    if "L_low" in s:
+        each(s["L_low"], p.n, lambda row: type(row) is list and all(map(real, row)), "L_low")
+        need(list(map(len, s["L"])) == list(map(len, s["L_low"])), "L_low: not the rows of L")
