@@ -53,9 +53,10 @@ by_quantity allowed_errors::of(const error_bounds& b, double span) {
   for (std::size_t q = 0; q < sizes.all.size(); ++q) {
     if (sizes.all[q]) largest_.take(static_cast<quantity>(q), *sizes.all[q]);
     if (!b.error.all[q]) continue;
-    double size = sizes.all[q].value_or(0.0);
-    if (b.unloaded) size = largest_.all[q].value_or(0.0);  // its own numbers are nothing but errors
-    allowed.all[q] = std::max(certified_share * size, floors.all[q].value_or(0.0));
+    allowed.all[q] =
+        b.unloaded  // its own numbers are nothing but errors
+            ? certified_share * largest_.all[q].value_or(0.0)
+            : std::max(certified_share * sizes.all[q].value_or(0.0), floors.all[q].value_or(0.0));
   }
   return allowed;
 }
