@@ -51,7 +51,7 @@ def check_format(p, s):
     need(not other, f"missing or unknown keys: {sorted(other)}")
     need(type(s["error"]) is dict and set(s["error"]) == set(p.kinds), f"the bounds are not those of {sorted(p.kinds)}")
     for kind, bound in s["error"].items():
-        none = p.kinds[kind] == 0 or (not held and kind in ("w", "slope"))
+        none = p.kinds[kind] == 0 or (not held and kind in ("w", "slope", "gap"))
         need(bound is None if none else real(bound) and bound >= 0, f"the bound on {kind} is {bound}")
     each(s["force"], len(p.pairs), real, "force")
     each(s["reactions"], len(p.supports), real, "reactions")

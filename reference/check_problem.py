@@ -43,7 +43,7 @@ class Problem:
             nodes = self.nodes(c, {"surface", "face", "modulus", "state"}, "all")
             self.contact(c, nodes, c.get("surface", "below"), [real(c["modulus"]) * share[node] for node in nodes], self.fixed)
         self.kinds = {"w": self.n} | ({"slope": self.n, "moment": self.n} if self.elements else {}) | ({"shear": self.n} if len(self.lines) == 1 else {})
-        self.kinds |= {"force": len(self.pairs)} if self.pairs else {}
+        self.kinds |= {"force": len(self.pairs), "gap": len(self.pairs)} if self.pairs else {}
         self.kinds |= {"reaction": sum(dof % len(self.names) == 0 for dof, _ in self.supports)} if self.supports else {}  # and how many numbers
 
     def support(self, s, nodes):

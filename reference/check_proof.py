@@ -61,20 +61,34 @@ def sizes_of(p, f, settled, told, largest):
 
     `told`: the largest number of each kind; `largest`: sizes on the path so far, which count where nothing acts.
     """
+    gap = {"gap": max(told.get("gap", F(0)), told.get("w", F(0)))}
     if not any(f) and not any(settled.values()):
-        return dict(largest), {}
-    per, size = len(p.names), dict(told)
+        return {kind: max(x, largest.get(kind, F(0))) for kind, x in (largest | gap).items()}, {}
+    per, size = len(p.names), told | gap
     acting = {kind: max([abs(x) for dof, x in enumerate(f) if (dof % per > 0) == (kind == "moment")] + [F(0)]) for kind in ("force", "moment")}
     forces = max([acting["force"]] + [told.get(kind, F(0)) for kind in ("force", "reaction", "shear")])
     size |= dict.fromkeys(("force", "reaction", "shear"), forces)
     size["moment"] = max(acting["moment"], told.get("moment", F(0)), forces * p.span)
-    if p.span and size.get("slope", 0) <= size["w"] / p.span / 2**60:
-        size["slope"] = size["w"] / p.span
-    moved = [max([p.K[dof][dof] * abs(x) for dof, x in settled.items() if (dof % per > 0) == slopes] + [F(0)]) / 2**80 for slopes in (False, True)]
-    if any(f):
-        return size, {}
+    moved = [max([0 if any(f) else p.K[dof][dof] * abs(x) for dof, x in settled.items() if (dof % per > 0) == slopes] + [F(0)]) / 2**70 for slopes in (False, True)]
     moment = max(moved[1], moved[0] * p.span)
-    return size, dict.fromkeys(("force", "reaction", "shear"), max(moved[0], moved[1] / p.span if p.span else F(0))) | {"moment": moment}
+    force = max(size["moment"] / 2**60, moment) / p.span if p.span else moved[0]
+    bends = {"slope": size["w"] / p.span / 2**60} if p.span else {}
+    return size, dict.fromkeys(("force", "reaction", "shear"), force) | dict.fromkeys(("w", "gap"), size.get("slope", 0) * p.span / 2**60) | {"moment": moment} | bends
+
+
+def check_pairs(p, s, deep, rho2, reach, told):
+    """The gap of each pair is within its bound; gives the pairs that certainly have the other state."""
+    error, wrong = F(s["error"]["gap"]), []
+    for i, ((dof, n, face, _), d, state) in enumerate(zip(p.pairs, deep, s["state"])):
+        square = 0 if dof in p.fixed else reach[dof] * rho2
+        gap = F(0) if state == "contact" else F(n * (float(face) - s["displacement"][dof]))
+        least, most = -d - (gap - error), gap + error + d  # how far -d may be from either
+        need(gap <= error or least >= 0 and least * least >= square, f"the bound on gap does not hold for pair {i + 1}")
+        need(most >= 0 and most * most >= square, f"the bound on gap does not hold for pair {i + 1}")
+        told["gap"] = max(told.get("gap", F(0)), abs(gap))
+        if (d if state == "separated" else -d) > 0 and d * d > square:
+            wrong.append(i + 1)
+    return wrong
 
 
 def check(p, step, s, largest):
@@ -92,15 +106,15 @@ def check(p, step, s, largest):
         room = error[kind] - abs(F(x) - true)
         need(room >= 0 and room * room >= square * rho2, f"the bound on {kind} does not hold for number {number + 1}")
         told[kind] = max(told.get(kind, F(0)), abs(F(x)))
+    wrong = check_pairs(p, s, deep, rho2, reach, told) if "state" in s and p.pairs else []
     size, besides = sizes_of(p, f, settled, told, largest)
     sure = {kind: max(x - error[kind], F(0)) for kind, x in told.items()}  # what is not certified may be told larger than it is
     largest.update({kind: max(x, largest.get(kind, F(0))) for kind, x in sizes_of(p, f, settled, sure, largest)[0].items()})
     large = [kind for kind, bound in error.items() if bound > size.get(kind, 0) * MILLIONTH + besides.get(kind, 0)]
-    beyond = [i + 1 for i, (d, state) in enumerate(zip(deep, s.get("state", []))) if (d if state == "separated" else -d) > error["w"]]
     need(not (s["certified"] and large), f"certified, with bounds that are too large: {large}")
-    need(not (s["certified"] and beyond), f"certified, with pairs that are not as they are said to be: {beyond}")
+    need(not (s["certified"] and wrong), f"certified, with pairs that are not as they are said to be: {wrong}")
     words = f"{len(claims)} numbers are within their bounds; {'' if s['certified'] else 'not '}certified"
-    return words + (f"; not as they are said to be: pairs {beyond}" if beyond else ""), not beyond
+    return words + (f"; not as they are said to be: pairs {wrong}" if wrong else ""), not wrong
 
 
 def main(problem, proof):

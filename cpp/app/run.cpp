@@ -147,7 +147,8 @@ struct observed_run {
   const run_setup& run;
   lockstep* compared;  // null where nothing is compared
   output_files files{run.outputs};
-  certifier judged{run.what, run.structure, exact::exact_residual_of(run.what)};
+  certifier judged{run.what, run.structure, exact::exact_residual_of(run.what),
+                   exact::semidefinite_test_of(run.what)};
   early_toggles early{};
   digit_watch digits{};
   passage_watch passages{run.what};
@@ -412,7 +413,8 @@ exit_status free_run(const run_setup& run) {
   comparison c;
   for (const std::string& name : std::span(run.kernels).subspan(1)) {
     path_record own;
-    certifier judged(run.what, run.structure, exact::exact_residual_of(run.what));
+    certifier judged(run.what, run.structure, exact::exact_residual_of(run.what),
+                     exact::semidefinite_test_of(run.what));
     own.end =
         follow(run.what, run.structure, engine_for(facts_of_kernel(name), run.options.engine, run.structure),
                *make_kernel(name), {&judged, &own}, limits_of(run, judged));

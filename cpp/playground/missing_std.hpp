@@ -166,7 +166,8 @@ bool binary_search(Range&& r, const T& value, Compare compare = {}) {
 }
 template <class Range, class Out, class Operation>
 void transform(Range&& r, Out out, Operation operation) {
-  std::transform(std::begin(r), std::end(r), out, operation);
+  std::transform(std::begin(r), std::end(r), out,
+                 [&](auto&& a) -> decltype(auto) { return invoke(operation, std::forward<decltype(a)>(a)); });
 }
 template <class A, class B, class Out, class Operation>
 void transform(A&& a, B&& b, Out out, Operation operation) {

@@ -9,7 +9,7 @@
 #include "bench/cpu_clock.hpp"
 #include "contct/compare/compare.hpp"
 #include "contct/kernel/contct.h"
-#include "contct/kernel/contct_quick.hpp"
+#include "contct/kernel/contct.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/outside/registry.hpp"
 
@@ -121,7 +121,7 @@ seconds_of_a_call time_kernels(std::size_t pairs, int rounds) {
   };
   const auto cpp = [&] {
     contct::app::call<double> c{q.dd, q.dtest, q.cc, q.ss, 0.0, q.id, q.isep, q.isurf, {1, 2}};
-    if (contct::app::contct_quick(c, q.events) != 0)
+    if (contct::app::contct(c, q.events) != 0)
       throw std::logic_error("a pair that was to be quiet has an event");
   };
   constexpr double never = std::numeric_limits<double>::infinity();

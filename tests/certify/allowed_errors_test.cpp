@@ -56,7 +56,8 @@ TEST_CASE("a bound where nothing is allowed is the worst of all, and so is one t
   by_quantity error, allowed;
   error[quantity::force] = 1e-20;
   CHECK(std::isinf(worst_share(error, allowed)));
-  CHECK(worst_bound(error, allowed) == "a contact force may be off by 1e-20");
+  CHECK(worst_bound(error, allowed) ==
+        "a contact force may be off by 1e-20, and no load and no number of its kind gives it a size");
   error[quantity::force] = 0.0;
   CHECK(worst_share(error, allowed) == 0.0);
   error[quantity::w] = std::numeric_limits<double>::quiet_NaN();
@@ -65,19 +66,40 @@ TEST_CASE("a bound where nothing is allowed is the worst of all, and so is one t
   CHECK_FALSE(worst_bound(error, allowed).empty());
 }
 
-TEST_CASE(
-    "forces of a state that has none are measured by its moments over the span, or without a span by the "
-    "loads") {
-  error_bounds b;
-  b.unloaded = true;
-  b.error[quantity::force] = 0.0;
+TEST_CASE("what is allowed does not grow with the bounds") {
+  for (const double bound : {1e-30, 1.0, 1e30}) {
+    allowed_errors sizes;
+    const by_quantity allowed = sizes.of(bounds(bound, 0.0, bound, 200.0), 2.0);
+    CHECK(allowed[quantity::w] == 0.0);
+    CHECK(allowed[quantity::force] == Approx(200e-6));
+  }
+}
+
+TEST_CASE("forces of a beam that only couples bend may be off by 2^-60 of its moments over the span") {
+  error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.size[quantity::moment] = 40.0;
-  b.beside[quantity::moment] = 60.0;
-  b.beside[quantity::force] = 2.0;
-  allowed_errors of_beam;
-  CHECK(of_beam.of(b, 10.0)[quantity::force] == Approx(6e-6));  // 60 / 10
+  allowed_errors sizes;
+  CHECK(sizes.of(b, 10.0)[quantity::force] == Approx(0x1p-60 * 4));
+}
+
+TEST_CASE("where supports only settle, forces may be off by 2^-70 of what moves one of them alone") {
+  error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
+  b.settling[quantity::force] = 2.0;
   allowed_errors of_matrix;
-  CHECK(of_matrix.of(b, 0.0)[quantity::force] == Approx(2e-6));
+  CHECK(of_matrix.of(b, 0.0)[quantity::force] == Approx(0x1p-70 * 2));
+  b.settling[quantity::moment] = 60.0;
+  allowed_errors of_beam;
+  CHECK(of_beam.of(b, 10.0)[quantity::force] == Approx(0x1p-70 * 6));
+}
+
+TEST_CASE("a gap is measured by the deflections, or by the largest gap") {
+  error_bounds b = bounds(1e-9, 2.0, 1e-9, 50.0);
+  b.error[quantity::gap] = 1e-9;
+  b.size[quantity::gap] = 1.0;
+  allowed_errors sizes;
+  CHECK(sizes.of(b, 10.0)[quantity::gap] == Approx(2e-6));
+  b.size[quantity::gap] = 30.0;
+  CHECK(sizes.of(b, 10.0)[quantity::gap] == Approx(30e-6));
 }
 
 TEST_CASE("an error that is no number is the largest of all, whatever follows") {

@@ -78,9 +78,20 @@ TEST_CASE("A middle support of two spans l that settles by d is pulled down by 6
 TEST_CASE("Supports that settle alike move the beam without bending it") {
   problem p = two_spans();
   p.steps = {{{}, {}, {{0, 0, -0.5}, {4, 0, -0.5}, {8, 0, -0.5}}}};
-  const solved_path path = follow_certified(p);
+  const solved_path path = follow_certified(p, "refactor", "corrected");
   for (std::size_t node = 0; node < 9; ++node) CHECK(path.u(1)[2 * node] == Approx(-0.5).epsilon(1e-12));
   for (const double r : reactions_at_end(p, path, 1)) CHECK(std::abs(r) < 1e-9);
+}
+
+TEST_CASE("Forces that are nothing but rounding have no size, and are not certified") {
+  problem p = two_spans();
+  p.steps = {{{}, {}, {{0, 0, -0.5}, {4, 0, -0.5}, {8, 0, -0.5}}}};
+  const linear_structure s = structure_of(p);
+  certifier judged(p, s);
+  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&judged});
+  REQUIRE(judged.steps().size() == 1);
+  CHECK_FALSE(judged.steps()[0]->exact);
+  CHECK(judged.steps()[0]->proved);
 }
 
 TEST_CASE("A clamp that turns by t bends the beam that it holds, M = 4 EI t / l at a clamped far end") {

@@ -39,7 +39,7 @@ struct run {
   explicit run(const std::string& name, bool with_exact_path = true)
       : what(contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/" + name + ".toml")),
         structure(structure_of(what)),
-        judged(what, structure, exact::exact_residual_of(what)) {
+        judged(what, structure, exact::exact_residual_of(what), exact::semidefinite_test_of(what)) {
     const auto leader = contct::outside::make_kernel("corrected");
     path_limits limits{0, judged.fallback(), judged.refiner(), nullptr};
     if (with_exact_path) limits.exactly = exact::exact_follower_of(what);

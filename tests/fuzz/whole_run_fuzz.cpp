@@ -67,7 +67,7 @@ class captured_output {
 /// The ends of the steps that a path reached, each with its certificate.
 struct certified_ends final : observer {
   certified_ends(const problem& p, const linear_structure& s)
-      : what(p), judged(p, s, exact::exact_residual_of(p)) {}
+      : what(p), judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p)) {}
 
   void step_ended(const step_state& s) override {
     displacement.emplace_back(s.displacement.begin(), s.displacement.end());

@@ -44,18 +44,17 @@ words compile_listing(const fs::path& source, const fs::path& folder) {
   return {"r8.o", "r4.o"};
 }
 
-/// What of the C++ kernel is made of the mutated file. The folder of the mutant stands in front of the
+/// The object of the C++ kernel that is made of the mutated file. The folder of the mutant comes before the
 /// tree, so that a header in it is the one that is included.
 words compile_cpp(const fs::path& source, const fs::path& folder) {
   const bool header = source.extension() == ".hpp";
-  const fs::path unit = header ? root / "cpp/contct/kernel/built_in.cpp" : source;
-  run_tool(
-      words{CONTCT_CXX_COMPILER_PATH} + split(CONTCT_CXX_BUILD_FLAGS) +
-          words{"-O1", "-std=c++20", "-ffp-contract=off", "-DCONTCT_PLAIN_LOOPS",
-                "-DCONTCT_FORTRAN_COMPILER=\"\"", "-DCONTCT_CXX_COMPILER=\"\"", "-DCONTCT_FORTRAN_FLAGS=\"\"",
-                "-DCONTCT_CXX_FLAGS=\"\"", "-I" + (folder / "cpp").string(), "-I" + (root / "cpp").string(),
-                "-c", unit.string(), "-o", "kernel.o"},
-      folder);
+  const fs::path unit = header ? root / "cpp/contct/kernel/contct.cpp" : source;
+  run_tool(words{CONTCT_CXX_COMPILER_PATH} + split(CONTCT_CXX_BUILD_FLAGS) +
+               words{"-O1", "-std=c++20", "-ffp-contract=off", "-DCONTCT_FORTRAN_COMPILER=\"\"",
+                     "-DCONTCT_CXX_COMPILER=\"\"", "-DCONTCT_FORTRAN_FLAGS=\"\"", "-DCONTCT_CXX_FLAGS=\"\"",
+                     "-I" + (folder / "cpp").string(), "-I" + (root / "cpp").string(), "-c", unit.string(),
+                     "-o", "kernel.o"},
+           folder);
   return {"kernel.o"};
 }
 

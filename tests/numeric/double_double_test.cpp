@@ -48,3 +48,14 @@ TEST_CASE("a decimal at the ends of the range of doubles is no less than its dou
     CHECK(decimal_difference(x, 1.0).hi == x - 1.0);
   }
 }
+
+TEST_CASE("decimals are added up exactly before they are rounded: 0.1, 0.2 and -0.3 are nothing") {
+  const auto sum = [](const std::vector<double>& parts) { return decimal_sum(parts); };
+  CHECK(sum({}) == 0.0);
+  CHECK(sum({0.1, 0.2, -0.3}) == 0.0);
+  CHECK(sum({-0.3, 1e-20, 0.2, 0.1}) == long_decimal(1e-20));
+  CHECK(sum({1e40, 1.0, -1e40}) == 1.0);
+  CHECK(sum({1e300, 1e-300, -1e300}) == long_decimal(1e-300));
+  CHECK(sum({60.1, -60.1}) == 0.0);
+  CHECK(sum({1.7976931348623157e308, -1.7976931348623157e308, 0.25}) == 0.25);
+}

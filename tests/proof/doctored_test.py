@@ -65,6 +65,13 @@ class Truth:
         return {"w": of["w"], "slope": max(of["slope"], of["w"] / (self.problem.span or 1)), "force": forces, "reaction": forces, "shear": forces,
                 "moment": max([of["moment"], forces * self.problem.span, *map(abs, f)])}
 
+    @staticmethod
+    def gaps(s, deep, problem):
+        """The gap of each pair as the file has it, and the true one."""
+        told = [0.0 if state == "contact" else n * (float(face) - s["displacement"][dof])
+                for (dof, n, face, _), state in zip(problem.pairs, s["state"], strict=True)]
+        return [(F(x), max(-d, F(0))) for x, d in zip(told, deep, strict=True)]
+
     def why_false(self, proof):
         """What is false of a proof, or no proof's form; None where it is true."""
         if type(proof) is not dict or set(proof) != {"format", "steps"} or proof["format"] != "contct-proof-2" or type(proof["steps"]) is not list:
@@ -86,7 +93,7 @@ class Truth:
         keys = {"step", "certified", "error", "force", "reactions", "elements"}
         if s["error"] is None or set(s) not in (keys, keys | held, keys | held | {"L_low"}):
             return "keys"
-        kinds = {kind for all in self.steps[i][0].values() for kind, _ in all}
+        kinds = {kind for all in self.steps[i][0].values() for kind, _ in all} | ({"gap"} if "state" in s and s["state"] else set())
         if not kinds <= set(s["error"]) <= set(self.problem.kinds) or any(s["error"][kind] is not None for kind in set(s["error"]) - kinds):
             return "kinds of bounds"
         return None
@@ -102,9 +109,12 @@ class Truth:
                 return key
             if any(type(s["error"][kind]) not in (int, float) or not abs(F(x) - value) <= F(s["error"][kind]) for x, (kind, value) in zip(s[key], true)):
                 return f"a number of {key}"
-        for state, d in zip(s["state"], deep, strict=True) if "state" in s else []:
-            if state not in ("contact", "separated") or (d if state == "separated" else -d) > 2 * F(s["error"]["w"]):
-                return "state"
+        gaps = self.gaps(s, deep, self.problem) if "state" in s else []
+        if any(state not in ("contact", "separated") for state in s.get("state", [])):
+            return "state"
+        if any(not abs(told - true) <= F(s["error"]["gap"]) for told, true in gaps):
+            return "a gap"
+        sizes = sizes and {**sizes, "gap": max([sizes["w"], *(true for _, true in gaps)])}
         if s["certified"] and any(sizes and bound and F(bound) > F(1.001e-6) * sizes[kind] for kind, bound in s["error"].items()):
             return "certified"
         return None

@@ -276,7 +276,7 @@ namespace {
 struct judged_run {
   judged_run(const structure::problem& p, way how, const std::vector<observer*>& watching,
              const linear_structure& s, judgement& j)
-      : kept(p), judged(p, s, exact_residual_of(p)) {
+      : kept(p), judged(p, s, exact_residual_of(p), semidefinite_test_of(p)) {
     std::vector<observer*> observers = {&kept, &judged};
     observers.insert(observers.end(), watching.begin(), watching.end());
     try {

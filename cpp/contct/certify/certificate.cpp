@@ -66,7 +66,6 @@ std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) 
 
 int digits_of(const certificate& c) {
   constexpr int most = 15;
-  if (!c.proof_tried) return digits_left(c.rcond);
   if (!c.proved || !(c.worst_share < 1.0)) return 0;
   return c.worst_share > 0.0 ? std::min(most, static_cast<int>(-std::log10(c.worst_share))) : most;
 }
@@ -80,10 +79,12 @@ certifier::certifier(const linear_structure& s, load_history total_load)
   }
 }
 
-certifier::certifier(const problem& p, const linear_structure& s, exact_residual exactly)
+certifier::certifier(const problem& p, const linear_structure& s, exact_residual exactly,
+                     semidefinite_test exactly_semidefinite)
     : certifier(s, loads_of(p, s)) {
   problem_ = &p;  // NOLINT(cppcoreguidelines-prefer-member-initializer): a delegating constructor has none
-  if (can_be_proved(s)) prover_ = std::make_unique<error_prover>(p, s, std::move(exactly));
+  if (can_be_proved(s))
+    prover_ = std::make_unique<error_prover>(p, s, std::move(exactly), std::move(exactly_semidefinite));
 }
 
 state_refiner certifier::refiner() {
@@ -119,7 +120,13 @@ certificate certifier::judge(const step_state& s) {
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
   remember_sizes(s.displacement);
-  if (prover_) prove(s, c);
+  if (prover_) {
+    prove(s, c);
+  } else if (problem_ != nullptr) {
+    c.proof_tried = true;
+    c.tolerance = certified_share;
+    c.problem = "no error bound is proved: its factors take too much memory or time, or CHOLMOD is not built in";
+  }
   if (c.exact) measure_state(s, load, c);
   const bool beyond_face = !c.unique && c.penetration > certified_share;  // no bound knows where it may stand
   if (!c.exact || beyond_face) compare(s, load, c);
@@ -144,12 +151,22 @@ void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
 
 void certifier::prove(const step_state& s, certificate& c) {
   const handed_out handed = handed_out_at(*problem_, s);
-  take(prover_->bound(handed), c);
+  take(prover_->bound(handed), s, c);
   if (!c.proved || c.exact) return;
-  if (const std::optional<error_bounds> closer = prover_->bound_closely(handed)) take(*closer, c);
+  if (const std::optional<error_bounds> closer = prover_->bound_closely(handed)) take(*closer, s, c);
 }
 
-void certifier::take(const error_bounds& b, certificate& c) {
+std::string certifier::status_words(std::size_t pair, const step_state& s) const {
+  const contact_pair& p = structure_.pairs[pair];
+  const double off = p.surface * (p.face - s.displacement[structure_.dof_of_pair(pair)]);
+  char text[120];
+  (void)std::snprintf(text, sizeof text, "pair %zu is given as %s, but it is %s its face by %.2g", pair + 1,
+                      s.isep[pair] == in_contact ? "in contact" : "separated",
+                      s.isep[pair] == in_contact ? "off" : "beyond", std::abs(off));
+  return text;
+}
+
+void certifier::take(const error_bounds& b, const step_state& s, certificate& c) {
   c.proof_tried = true;
   c.unique = b.unique;
   c.tolerance = certified_share;
@@ -162,6 +179,7 @@ void certifier::take(const error_bounds& b, certificate& c) {
   c.allowed = allowed_.of(b, prover_->span());
   c.worst_share = worst_share(c.error, c.allowed);
   c.problem = worst_bound(c.error, c.allowed);
+  if (c.problem.empty() && b.wrong_status) c.problem = status_words(*b.wrong_status, s);
   c.exact = c.problem.empty();
   c.displacement_error = share_of(c.error[quantity::w], c.allowed[quantity::w]);
   c.shape_error = c.worst_share;

@@ -57,8 +57,7 @@ struct certificate {
   double pull = 0.0;         ///< what it pulls with
 };
 
-/// Whole decimal digits that every number of a state has, as proved: 0 where nothing is; where no proof was
-/// tried, as the condition leaves them (digits_left). At most 15.
+/// Whole decimal digits that every number of a state has, as proved: 0 where nothing is. At most 15.
 [[nodiscard]] int digits_of(const certificate& c);
 
 /// Observes a path and certifies the end of every step that was solved.
@@ -68,9 +67,9 @@ class certifier final : public observer {
   certifier(const linear_structure& s, load_history total_load);
 
   /// Of a problem: every step is judged by proved bounds, where its stiffness is stored as a band; otherwise
-  /// as above. `p` and `s` must outlive this object. `exactly`: where 32 digits are too few; see
-  /// error_prover.
-  certifier(const problem& p, const linear_structure& s, exact_residual exactly = nullptr);
+  /// as above. `p` and `s` must outlive this object. The last two: see error_prover.
+  certifier(const problem& p, const linear_structure& s, exact_residual exactly = nullptr,
+            semidefinite_test exactly_semidefinite = nullptr);
 
   void step_ended(const step_state& s) override;
 
@@ -94,7 +93,8 @@ class certifier final : public observer {
  private:
   [[nodiscard]] certificate judge(const step_state& s);
   void prove(const step_state& s, certificate& c);
-  void take(const error_bounds& b, certificate& c);
+  void take(const error_bounds& b, const step_state& s, certificate& c);
+  [[nodiscard]] std::string status_words(std::size_t pair, const step_state& s) const;
   void compare(const step_state& s, std::span<const double> load, certificate& c);
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
   void find_pulling_pair(const step_state& s, certificate& c) const;

@@ -100,15 +100,30 @@ void error_prover::settle_statuses(std::span<const double_double> u, const true_
   }
 }
 
-end_numbers error_prover::numbers_of(std::span<const double_double> u, std::span<const int> isep) const {
+/// A pair that is certainly beyond its face, or off it, in all states within rho of u has the status that
+/// goes with it.
+void error_prover::settle_certain_statuses(std::span<const double_double> u, double rho,
+                                           std::span<int> isep) const {
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+    const double deep = depth(i, u).hi;
+    if (std::abs(deep) > reach_of_pair(i, u, rho)) isep[i] = deep > 0.0 ? in_contact : separated;
+  }
+}
+
+/// Reactions and element forces that their bounds do not tell from 0 are 0.
+end_numbers error_prover::numbers_of(std::span<const double_double> u, std::span<const int> isep,
+                                     double rho) const {
+  const auto told = [](const double_double& x, double bound) { return std::abs(x.hi) > bound ? x.hi : 0.0; };
   end_numbers n;
   for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
     const double_double deep = depth(i, u);
     const bool presses = isep[i] == in_contact && deep.hi > 0.0;
     n.pair_forces.push_back(presses ? (true_.pairs[i].stiffness * deep).hi : 0.0);
   }
-  for (const true_reaction& r : reactions_at(u, residual_)) n.reactions.push_back(r.force.hi);
-  for (const element_value& v : values_) n.element_values.push_back(v.value.hi);
+  for (const true_reaction& r : reactions_at(u, residual_))
+    n.reactions.push_back(told(r.force, r.slack + r.per_rho * rho));
+  for (const element_value& v : values_)
+    n.element_values.push_back(told(v.value, noise_of(v) + v.energy * rho));
   return n;
 }
 
@@ -116,6 +131,7 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
                                                 std::span<int> isep) {
   const true_loads& l = loads_of(step);
   long_vector u = long_displacement(step, displacement, l);
+  refined_bounds_.reset();
   if (is_unloaded(l) && proves({})) {
     std::fill(u.begin(), u.end(), 0.0);
     residual_ = residual_of(u, l);
@@ -126,8 +142,14 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   refined_ = u;
   values_ = true_.element_values(step, u);
   for (std::size_t dof = 0; dof < displacement.size(); ++dof) displacement[dof] = u[dof].hi;
-  settle_statuses(u, l, isep);
-  return numbers_of(u, isep);
+  error_bounds b;
+  if (find_closed(u, residual_, b)) {
+    settle_certain_statuses(u, b.rho, isep);
+    refined_bounds_ = b;
+  } else {
+    settle_statuses(u, l, isep);
+  }
+  return numbers_of(u, isep, refined_bounds_ ? b.rho : 0.0);
 }
 
 bool error_prover::search(int step, double share, std::span<double> displacement, std::span<int> isep) {

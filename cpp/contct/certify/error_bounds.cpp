@@ -32,10 +32,16 @@ void by_quantity::take(quantity q, double value) {
 
 handed_out handed_out_at(const problem& p, const step_state& s) {
   if (s.numbers != nullptr)
-    return {s.step, s.displacement, s.numbers->pair_forces, s.numbers->reactions, s.numbers->element_values};
+    return {s.step,
+            s.displacement,
+            s.isep,
+            s.numbers->pair_forces,
+            s.numbers->reactions,
+            s.numbers->element_values};
   const load& now = p.steps[s.step - 1];
   handed_out h{s.step,
                s.displacement,
+               s.isep,
                {},
                reactions(p, now, s.displacement, s.isep),
                results_in_elements(p.geometry, now, s.displacement).values};
@@ -46,13 +52,15 @@ handed_out handed_out_at(const problem& p, const step_state& s) {
   return h;
 }
 
-error_prover::error_prover(const problem& p, const linear_structure& s, exact_residual exactly)
+error_prover::error_prover(const problem& p, const linear_structure& s, exact_residual exactly,
+                           semidefinite_test exactly_semidefinite)
     : problem_(p),
       structure_(s),
       true_(true_system_of(p, s.stiffness.is_remote() ? &s.stiffness.others() : nullptr)),
       stiffness_(true_, rows_of(s),
                  s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt),
-      exactly_(std::move(exactly)) {}
+      exactly_(std::move(exactly)),
+      exactly_semidefinite_(std::move(exactly_semidefinite)) {}
 
 double_double error_prover::depth(std::size_t pair, std::span<const double_double> u) const {
   const true_pair& p = true_.pairs[pair];
@@ -66,13 +74,22 @@ double error_prover::doubt(std::size_t pair, std::span<const double_double> u) c
 }
 
 bool error_prover::is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const {
-  const int dof = true_.pairs[pair].dof;
-  const double moved = true_.fixed[dof] != 0 ? 0.0 : reach(dof) * rho * (1 + of_sums);
-  return depth(pair, u).hi < -moved - doubt(pair, u);
+  return depth(pair, u).hi < -reach_of_pair(pair, u, rho);
 }
 
 bool error_prover::has_exact_residual(const true_loads& l) const {
   return exactly_ && l.step > 0 && (closely_ || stiffness_.has_32_digits());
+}
+
+/// Are there numbers, or products that the element formulas make of them, for which doubles are too coarse
+/// near 0?
+bool error_prover::is_below_range(const true_loads& l) const {
+  constexpr double least = 1e-280;  // the low halves of 32 digits are numbers too, down to 1e-308
+  const auto too_small = [](const double_double& x) { return x.hi != 0.0 && std::abs(x.hi) < least; };
+  const auto has_small_pair = [&](const true_pair& p) { return too_small(p.face) || too_small(p.stiffness); };
+  return true_.least_product < least || std::ranges::any_of(true_.k.values, too_small) ||
+         std::ranges::any_of(true_.pairs, has_small_pair) || std::ranges::any_of(l.force, too_small) ||
+         std::ranges::any_of(l.settlement, too_small);
 }
 
 void error_prover::put_forces(residual& r) const {
@@ -192,6 +209,13 @@ bool error_prover::proves(const std::vector<int>& closed) {
     inverse_root_mu_ = (1 + of_sums) / std::sqrt(mu_);
   }
   return mu_ > 0.0;
+}
+
+bool error_prover::is_semidefinite() {
+  if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // by its elements' formulas
+  if (!semidefinite_)
+    semidefinite_ = proves({}) || (exactly_semidefinite_ && exactly_semidefinite_() == true);
+  return *semidefinite_;
 }
 
 bool error_prover::last_digits_decide() const {
@@ -326,6 +350,37 @@ void error_prover::bound_forces(const handed_out& state, std::span<const double_
   }
 }
 
+/// How far the depth of a pair in any state within rho of u can be from that under u.
+double error_prover::reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const {
+  const int dof = true_.pairs[pair].dof;
+  const double moved = true_.fixed[dof] != 0 || rho == 0.0 ? 0.0 : reach(dof) * rho * (1 + of_sums);
+  return moved + doubt(pair, u);
+}
+
+/// Each pair's status, and its gap, which is 0 for a pair in contact; the bounds on gaps only where
+/// displacements have bounds.
+void error_prover::bound_pairs(const handed_out& state, std::span<const double_double> u,
+                               error_bounds& b) const {
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+    const contact_pair& p = problem_.pairs[i];
+    const bool is_closed = state.isep[i] == in_contact;
+    const double told =
+        gap_of(p, state.displacement[static_cast<std::size_t>(true_.pairs[i].dof)], is_closed);
+    const double_double gap = -depth(i, u);
+    const double reach = reach_of_pair(i, u, b.rho);
+    const bool is_wrong = is_closed ? gap.hi * (1 - of_sums) > reach : -gap.hi * (1 - of_sums) > reach;
+    if (is_wrong && !b.wrong_status) b.wrong_status = i;
+    if (!b.unique) continue;
+    // A pair that presses has no gap, whatever its depth.
+    const double least = std::abs((double_double(told) - std::max(gap.hi - reach, 0.0)).hi);
+    const double most = std::abs((double_double(told) - std::max(gap.hi + reach, 0.0)).hi);
+    b.error.take(quantity::gap, gap.hi > reach
+                                    ? std::abs((double_double(told) - gap).hi) * (1 + of_sums) + reach
+                                    : std::max(least, most) * (1 + of_sums));
+    b.size.take(quantity::gap, std::abs(told));
+  }
+}
+
 /// A dof that is fixed twice gives its reaction to the first support.
 std::vector<error_prover::true_reaction> error_prover::reactions_at(std::span<const double_double> u,
                                                                     const residual& r) const {
@@ -364,9 +419,7 @@ void error_prover::bound_element_values(const handed_out& state, error_bounds& b
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const quantity q = values_[i].moment ? quantity::moment : quantity::shear;
     const double told = std::abs((double_double(state.element_values[i]) - values_[i].value).hi);
-    // A coordinate, a length or a modulus comes in at most ten times, each good to 2^-94.
-    const double noise = 4 * true_rounding * values_[i].size;
-    b.error.take(q, (told + noise + values_[i].energy * b.rho) * (1 + of_sums));
+    b.error.take(q, (told + noise_of(values_[i]) + values_[i].energy * b.rho) * (1 + of_sums));
     b.size.take(q, std::abs(state.element_values[i]));
   }
 }
@@ -387,6 +440,7 @@ void error_prover::bound_unloaded(const handed_out& state, error_bounds& b) {
   const auto take = [&b](quantity q, double value) { b.error.take(q, std::abs(value)); };
   for (std::size_t dof = 0; dof < true_.dofs() && b.unique; ++dof)
     take(true_.deflects[dof] != 0 ? quantity::w : quantity::slope, state.displacement[dof]);
+  if (b.unique) bound_pairs(state, long_vector(true_.dofs()), b);
   if (!b.unique && state.element_values.empty()) {
     b.not_proved =
         "only contact holds the structure, and a structure given by its matrix has no moments to prove that "
@@ -416,12 +470,14 @@ long_vector error_prover::long_displacement(int step, std::span<const double> di
   return u;
 }
 
-/// Nodal loads are sizes; so is, where nothing else acts, what it takes to move one settling dof alone.
+/// Nodal loads are sizes. Where there are none, what it takes to move one settling dof alone tells how large
+/// the rounding of forces is that are none.
 void error_prover::measure(const true_loads& l, error_bounds& b) const {
+  const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
     const quantity q = true_.deflects[dof] != 0 ? quantity::force : quantity::moment;
     b.size.take(q, std::abs(l.force[dof].hi));
-    b.beside.take(q, true_.root[dof] * true_.root[dof] * std::abs(l.settlement[dof].hi));
+    if (!is_loaded) b.settling.take(q, true_.root[dof] * true_.root[dof] * std::abs(l.settlement[dof].hi));
   }
 }
 
@@ -443,11 +499,22 @@ std::optional<error_bounds> error_prover::bound_closely(const handed_out& state)
 error_bounds error_prover::bound(const handed_out& state) {
   error_bounds b;
   const true_loads& l = loads_of(state.step);
+  if (is_below_range(l)) {
+    b.not_proved =
+        "the problem has numbers, or cubes of lengths, near or below the smallest normal double (2e-308)";
+    return b;
+  }
   if (is_unloaded(l)) {
     bound_unloaded(state, b);
+    const std::optional<double> largest_gap = b.size[quantity::gap];
     b.size = b.error;
+    b.size[quantity::gap] = largest_gap;
     z_.clear();
     if (b.not_proved.empty()) keep(state, long_vector(true_.dofs()), b);
+    return b;
+  }
+  if (!is_semidefinite()) {
+    b.not_proved = "it is not certain that the matrix is positive semidefinite";
     return b;
   }
   const long_vector u = long_displacement(state.step, state.displacement, l);
@@ -458,7 +525,12 @@ error_bounds error_prover::bound(const handed_out& state) {
   }
   if (closely_) residual_ = residual_of(u, l);
   const residual& r = residual_;
-  bool found = find_closed(u, r, b);
+  bool found = true;
+  if (refined_bounds_ && refined_step_ != 0 && !closely_) {
+    b = *refined_bounds_;
+  } else {
+    found = find_closed(u, r, b);
+  }
   if (refined_step_ == 0 && has_exact_residual(l)) {  // that doubles do not factor K_A is known only now
     residual_ = residual_of(u, l);
     found = find_closed(u, r, b);
@@ -466,6 +538,7 @@ error_bounds error_prover::bound(const handed_out& state) {
   if (!found && !find_balanced(state.step, u, r, b)) return b;
   measure(l, b);
   if (b.unique) bound_displacements(state, u, b);
+  bound_pairs(state, u, b);
   bound_forces(state, u, b);
   bound_reactions(state, r, u, b);
   bound_element_values(state, b);

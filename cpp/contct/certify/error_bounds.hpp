@@ -16,13 +16,13 @@
 namespace contct::certify {
 
 /// The kinds of numbers that a state has.
-enum class quantity { w, slope, force, reaction, moment, shear };
-inline constexpr std::array<const char*, 6> quantity_names = {"w",        "slope",  "force",
-                                                              "reaction", "moment", "shear"};
+enum class quantity { w, slope, force, reaction, moment, shear, gap };
+inline constexpr std::array<const char*, 7> quantity_names = {"w",      "slope", "force", "reaction",
+                                                              "moment", "shear", "gap"};
 
 /// A number for each kind; none where the structure has no such quantity.
 struct by_quantity {
-  std::array<std::optional<double>, 6> all;
+  std::array<std::optional<double>, quantity_names.size()> all;
   [[nodiscard]] std::optional<double>& operator[](quantity q) { return all[static_cast<std::size_t>(q)]; }
   [[nodiscard]] const std::optional<double>& operator[](quantity q) const {
     return all[static_cast<std::size_t>(q)];
@@ -35,6 +35,7 @@ struct by_quantity {
 struct handed_out {
   int step;                              ///< from 1
   std::span<const double> displacement;  ///< [dofs]
+  std::span<const int> isep;             ///< [pairs] in_contact or separated
   std::vector<double> pair_forces;       ///< [pairs] positive where pressed
   std::vector<double> reactions;         ///< [supports of the problem]
   std::vector<double> element_values;    ///< as element_results has them
@@ -46,22 +47,25 @@ struct handed_out {
 struct error_bounds {
   /// The largest error that any number of a kind can have. Infinite: none is proved.
   by_quantity error;
-  by_quantity size;    ///< the largest number of a kind; of forces, loads and reactions count too
-  by_quantity beside;  ///< what a kind whose numbers are all 0 is measured by: see reference/certificate.md
+  by_quantity size;      ///< the largest number of a kind; of forces, loads and reactions count too
+  by_quantity settling;  ///< where nothing else acts: what it takes to move a settling dof alone
   /// Nothing acts, and no pair is beyond its face in the state of no displacement: that is the equilibrium.
   bool unloaded = false;
   bool unique = true;      ///< false: the structure may stand elsewhere as well, under the same forces
   std::string not_proved;  ///< why there is no bound, in words; empty where there is
   double rho = std::numeric_limits<double>::infinity();  ///< in the norm of K_A
   std::vector<int> closed;  ///< A: the pairs that are certainly in contact, from 0
+  /// A pair, from 0, that certainly has the other status; none where all statuses hold.
+  std::optional<std::size_t> wrong_status;
 };
 
 /// Bounds errors of states of a problem.
 class error_prover {
  public:
   /// Both must outlive this object. `exactly` gives residuals where only 32 digits factor K_A: those in 32
-  /// digits would be too coarse there.
-  error_prover(const problem& p, const linear_structure& s, exact_residual exactly = nullptr);
+  /// digits would be too coarse there. `exactly_semidefinite` decides about a matrix that only pairs hold.
+  error_prover(const problem& p, const linear_structure& s, exact_residual exactly = nullptr,
+               semidefinite_test exactly_semidefinite = nullptr);
 
   [[nodiscard]] error_bounds bound(const handed_out& state);
   /// The same with exact residuals where there are any, which takes longer; otherwise nothing.
@@ -94,6 +98,7 @@ class error_prover {
   [[nodiscard]] double_double depth(std::size_t pair, std::span<const double_double> u) const;
   [[nodiscard]] residual residual_of(std::span<const double_double> u, const true_loads& l) const;
   [[nodiscard]] bool has_exact_residual(const true_loads& l) const;
+  [[nodiscard]] bool is_below_range(const true_loads& l) const;
   void put_forces(residual& r) const;
   /// `displacement`, with settlements as they are prescribed; of the state refined last with what doubles
   /// leave over.
@@ -104,7 +109,9 @@ class error_prover {
                                             const std::vector<int>& closed) const;
   [[nodiscard]] double correction_for(const long_vector& force, std::vector<double>& correction) const;
   void settle_statuses(std::span<const double_double> u, const true_loads& l, std::span<int> isep) const;
-  [[nodiscard]] end_numbers numbers_of(std::span<const double_double> u, std::span<const int> isep) const;
+  void settle_certain_statuses(std::span<const double_double> u, double rho, std::span<int> isep) const;
+  [[nodiscard]] end_numbers numbers_of(std::span<const double_double> u, std::span<const int> isep,
+                                       double rho) const;
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
   [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;
@@ -113,6 +120,9 @@ class error_prover {
   [[nodiscard]] bool is_unloaded(const true_loads& l) const;
   void bound_unloaded(const handed_out& state, error_bounds& b);
   [[nodiscard]] bool proves(const std::vector<int>& closed);
+  /// Is K, without any pair, proved to be positive semidefinite? Only then E is convex. May leave another
+  /// factor.
+  [[nodiscard]] bool is_semidefinite();
   /// Can half a unit in the last digits of a matrix, that does not say how many motions it leaves free, make
   /// K_A indefinite?
   [[nodiscard]] bool last_digits_decide() const;
@@ -133,12 +143,17 @@ class error_prover {
   [[nodiscard]] bool is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const;
   [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
   void bound_displacements(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
+  [[nodiscard]] double reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const;
+  void bound_pairs(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
   void bound_forces(const handed_out& state, std::span<const double_double> u, error_bounds& b) const;
   /// The force of each support, how far off it may be, and by how much of rho.
   struct true_reaction {
     double_double force;
     double slack = 0.0, per_rho = 0.0;
   };
+  /// Of the numbers that it is made of: a coordinate, a length or a modulus comes in at most ten times, each
+  /// good to 2^-94.
+  [[nodiscard]] static double noise_of(const element_value& v) { return 4 * true_rounding * v.size; }
   [[nodiscard]] std::vector<true_reaction> reactions_at(std::span<const double_double> u,
                                                         const residual& r) const;
   void bound_reactions(const handed_out& state, const residual& r, std::span<const double_double> u,
@@ -152,10 +167,14 @@ class error_prover {
   std::optional<std::vector<int>> factored_;  // the pairs in the last factor
   double mu_ = 0.0, inverse_root_mu_ = 0.0;
   exact_residual exactly_;
+  semidefinite_test exactly_semidefinite_;
+  std::optional<bool> semidefinite_;
   bool closely_ = false;  // residuals are exact though doubles factor K_A
   true_loads loads_;
   int refined_step_ = 0;
   long_vector refined_;
+  std::optional<error_bounds>
+      refined_bounds_;                 // of that state, where it is held for certain: A and rho alone
   residual residual_;                  // of the state refined or bounded last
   std::vector<element_value> values_;  // and what is read off its elements
   long_vector z_;                      // about K_A^-1 r

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +26,12 @@ inline long_vector tributary(const long_line& l) {
     lengths[i + 1] += l.h[i] / 2;
   }
   return lengths;
+}
+
+inline double least_cube(const long_vector& lengths) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double_double& h : lengths) least = std::min(least, h.hi * h.hi * h.hi);
+  return least;
 }
 
 /// Collects entries row by row.
@@ -147,6 +154,9 @@ class true_beam {
     return sum;
   }
   [[nodiscard]] double span() const { return beam_.x.back() - beam_.x.front(); }
+  [[nodiscard]] double least_product() const {
+    return std::min(least_cube(line_.h), std::ranges::min(beam_.EI));
+  }
 
  private:
   struct element_loads {
@@ -252,6 +262,7 @@ class true_plate {
       for (const double_double& width : tributary(x_)) areas.push_back(width * height);
     return areas;
   }
+  [[nodiscard]] double least_product() const { return std::min({least_cube(x_.h), least_cube(y_.h), D_.hi}); }
   [[nodiscard]] double span() const {
     return std::max(plate_.x.back() - plate_.x.front(), plate_.y.back() - plate_.y.front());
   }
@@ -318,6 +329,7 @@ class true_matrix {
     return long_decimal(polynomial.front());
   }
   [[nodiscard]] static double span() { return 0.0; }
+  [[nodiscard]] static double least_product() { return 1.0; }
 
  private:
   const assembled& assembled_;

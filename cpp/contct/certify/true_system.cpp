@@ -34,14 +34,44 @@ void add_pairs(const problem& p, const Kind& kind, true_system& t) {
       t.pairs[i].face = kind.face_at(p.pairs[i].node, b.face);
 }
 
+/// Do these polynomials add up to 0?
+bool cancel(std::span<const std::vector<double>* const> polynomials) {
+  std::size_t longest = 0;
+  for (const std::vector<double>* p : polynomials) longest = std::max(longest, p->size());
+  for (std::size_t i = 0; i < longest; ++i) {
+    std::vector<double> coefficients;
+    for (const std::vector<double>* p : polynomials)
+      if (i < p->size()) coefficients.push_back((*p)[i]);
+    if (!(numeric::decimal_sum(coefficients) == 0.0)) return false;
+  }
+  return true;
+}
+
+/// Elements on which all loads together are 0 have none.
+void leave_out_what_cancels(load& l, int elements) {
+  std::vector<std::vector<const std::vector<double>*>> on(elements);
+  for_each_loaded_element(l, elements, [&](int e, const std::vector<double>& p) { on[e].push_back(&p); });
+  std::vector<char> loaded(elements, 1);
+  for (int e = 0; e < elements; ++e)
+    loaded[e] = e > 0 && on[e] == on[e - 1] ? loaded[e - 1] : on[e].size() > 1 && cancel(on[e]) ? 0 : 1;
+  if (std::ranges::find(loaded, 0) == loaded.end()) return;
+  load left = l;
+  left.distributed.clear();
+  for_each_loaded_element(l, elements, [&](int e, const std::vector<double>& p) {
+    if (loaded[e] != 0) left.distributed.push_back({p, {e}});
+  });
+  l = std::move(left);
+}
+
 /// The loads as the file has them, which a reader may have added up in doubles.
-load in_parts(const load& l) {
+load in_parts(const load& l, int elements) {
   load all = l;
   all.distributed.clear();
   for (const distributed_load& d : l.distributed) {
     if (d.parts.empty()) all.distributed.push_back(d);
     for (const std::vector<double>& part : d.parts) all.distributed.push_back({part, d.elements});
   }
+  if (all.distributed.size() > 1) leave_out_what_cancels(all, elements);
   return all;
 }
 
@@ -50,10 +80,10 @@ true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
   const std::size_t n = dofs(p.geometry);
   const int per_node = dofs_per_node(p.geometry);
   true_loads f{step, long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
-  const load l = in_parts(p.steps[step - 1]);
-  for (const point_load& q : l.points) {
-    f.force[q.node * per_node + q.dof] += long_decimal(q.value);
-    f.size[q.node * per_node + q.dof] += std::abs(q.value);
+  const load l = in_parts(p.steps[step - 1], elements(p.geometry));
+  for (const auto& [dof, values] : point_loads_at(l, per_node)) {
+    f.force[dof] = numeric::decimal_sum(values);
+    f.size[dof] = std::abs(f.force[dof].hi);
   }
   kind.add_distributed(l, f);
   for (const prescribed_displacement& g : l.settlements)
@@ -104,10 +134,11 @@ void fill(const problem& p, const Kind& kind, matrix::remote_matrix* remote, tru
     t.deflects.push_back(dof % per_node == 0 ? 1 : 0);
   }
   t.span = kind.span();
+  t.least_product = kind.least_product();
   add_pairs(p, kind, t);
   t.loads = [&p, kind](int step) { return loads_of_step(p, kind, step); };
   t.element_values = [&p, kind](int step, std::span<const double_double> u) {
-    return kind.values(in_parts(p.steps[step - 1]), u);
+    return kind.values(in_parts(p.steps[step - 1], elements(p.geometry)), u);
   };
 }
 

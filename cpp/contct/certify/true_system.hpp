@@ -60,6 +60,10 @@ struct element_value {
 /// Nothing where that would take too long.
 using exact_residual = std::function<std::optional<long_vector>(int step, std::span<const double_double> u)>;
 
+/// Is a matrix positive semidefinite on the dofs that are not fixed? Nothing where deciding it would take too
+/// long.
+using semidefinite_test = std::function<std::optional<bool>()>;
+
 struct true_system {
   long_matrix k;                                 ///< of elements and elastic supports, rows of fixed dofs too
   std::unique_ptr<matrix::remote_truth> remote;  ///< of elements, in place of k: see linear_structure
@@ -70,6 +74,8 @@ struct true_system {
   std::vector<char> deflects;                    ///< [dofs] 1: a deflection, 0: a slope
   std::vector<true_pair> pairs;
   double span = 0.0;  ///< the largest side of the structure; 0 where it has none
+  /// The least that the formulas of its elements multiply: a cube of a length, a stiffness.
+  double least_product = 1.0;
   /// Loads at the end of a step, from 1.
   std::function<true_loads(int step)> loads;
   /// What is read off the elements under displacements u [dofs] at the end of a step.

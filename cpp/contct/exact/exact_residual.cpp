@@ -6,6 +6,9 @@
 #include <memory>
 #include <stdexcept>
 
+#include "contct/exact/definite.hpp"
+#include "contct/text/memory.hpp"
+
 namespace contct::exact {
 namespace {
 
@@ -77,6 +80,18 @@ exact_residual_of(const problem& p) {
     all.emplace();
     for (const rational& x : residual(exact, s, exactly(exact, s, u))) all->push_back(rounded_twice(x));
     return all;
+  };
+}
+
+std::function<std::optional<bool>()> semidefinite_test_of(const problem& p) {
+  return [&p]() -> std::optional<bool> {
+    const std::optional<exact_problem> exactly = small_exact_problem_of(p);
+    if (!exactly) return std::nullopt;
+    try {
+      return !find_negative_work(exactly->stiffness, exactly->fixed, exactly->place, text::memory_limit());
+    } catch (const std::runtime_error&) {  // it would take too many bits
+      return std::nullopt;
+    }
   };
 }
 

@@ -26,4 +26,8 @@ inline constexpr int most_subdiagonals_beside_doubles = 64;
     std::optional<std::vector<numeric::double_double>>(int step, std::span<const numeric::double_double> u)>
 exact_residual_of(const problem& p);
 
+/// Is the stiffness of `p`, without its pairs, positive semidefinite? `p` must outlive what is returned,
+/// which gives nothing for a larger problem.
+[[nodiscard]] std::function<std::optional<bool>()> semidefinite_test_of(const problem& p);
+
 }  // namespace contct::exact

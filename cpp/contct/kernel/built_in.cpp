@@ -2,13 +2,17 @@
 #include <functional>
 #include <utility>
 
-#include "contct/kernel/contct_quick.hpp"
+#include "contct/kernel/contct.hpp"
 #include "contct/kernel/corrected.hpp"
 #include "contct/kernel/fortran.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/kernel/log_text.hpp"
 
 namespace contct::kernels {
+
+extern template int contct(call<float>& c, std::span<event> events) noexcept;  // in contct.cpp
+extern template int contct(call<double>& c, std::span<event> events) noexcept;
+
 namespace {
 
 const char* const cxx_compiler = CONTCT_CXX_COMPILER;    // NOLINT: set by CMake
@@ -33,7 +37,7 @@ class built_in : public kernel {
 class corrected_kernel final : public built_in {
  public:
   using built_in::built_in;
-  void answer(call<double>& c) override { contct_corrected_quick(c); }
+  void answer(call<double>& c) override { contct_corrected(c); }
 };
 
 /// The arrays of a call of the listing as printed, behind a double-precision boundary.
@@ -74,7 +78,7 @@ class cpp_kernel final : public built_in {
   template <class Real>
   void answer_in_precision(call<Real>& c) {
     if (events_.size() < c.cc.size()) events_.resize(c.cc.size());
-    const int happened = contct_quick(c, std::span<event>(events_));
+    const int happened = contct(c, std::span<event>(events_));
     append_log_text(c, std::span<const event>(events_.data(), happened), text_);
   }
 

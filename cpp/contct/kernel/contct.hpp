@@ -45,6 +45,9 @@ template <class Real>
 /// of pairs, to `events` (room for nc). Returns the number of events: 0 means that the whole
 /// residual load can be applied. Allocates nothing, writes nothing, throws nothing.
 template <class Real>
+[[gnu::noinline]] int contct(call<Real>& c, std::span<event> events) noexcept;
+
+template <class Real>
 int contct(call<Real>& c, std::span<event> events) noexcept {
   const std::size_t nc = c.cc.size();
   Real s_min = Real(1);

@@ -12,25 +12,28 @@ double response(const call<double>& c, std::size_t i) {
   return c.dtest[c.dof.dof_of(c.id[i]) - 1];
 }
 
-}  // namespace
-
-double corrected_scale_factor(const call<double>& c, std::size_t i, double m) noexcept {
+/// Rules 1 and 2: s of pair `i`, or 1 where it has no event ahead. `m` is the largest |d*|.
+double scale_factor(const call<double>& c, std::size_t i, double m) {
   const double d = c.dd[c.dof.dof_of(c.id[i]) - 1];
   const double sigma_n = c.isep[i] * c.isurf[i];
   const double theta = c.isep[i] == separated ? quiet_share * m : 0.0;
   const double sigma_v = sigma_n * response(c, i);
-  if (!(sigma_v > theta)) return 1.0;
-  return std::min(std::max(0.0, sigma_n * (c.cc[i] - d)) / sigma_v, 1.0);
+  const double s = std::min(std::max(0.0, sigma_n * (c.cc[i] - d)) / sigma_v, 1.0);
+  return sigma_v > theta ? s : 1.0;  // a division in vain costs less than a wrongly guessed branch
 }
+
+}  // namespace
 
 void contct_corrected(call<double>& c) noexcept {
   double m = 0.0;
   for (std::size_t i = 0; i < c.cc.size(); ++i) m = std::max(m, std::abs(response(c, i)));
-  c.smin = 1.0;
+  double s_min = 1.0;
   for (std::size_t i = 0; i < c.cc.size(); ++i) {
-    c.ss[i] = corrected_scale_factor(c, i, m);
-    c.smin = std::min(c.smin, c.ss[i]);
+    const double s = scale_factor(c, i, m);
+    c.ss[i] = s;
+    s_min = std::min(s_min, s);
   }
+  c.smin = s_min;
   if (c.smin == 1.0) return;
 
   // Rules 3 and 4: the first pair at SMIN; but of those at their faces the one with the largest |d*|.

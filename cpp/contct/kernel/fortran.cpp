@@ -1,9 +1,10 @@
 #include "contct/kernel/fortran.hpp"
 
+#ifdef __linux__
 #include <sys/mman.h>
+#endif
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -102,7 +103,7 @@ struct unnamed_file {
 /// The path is empty where it must be a file on the disk.
 unnamed_file file_in_memory() {
   unnamed_file made;
-#ifdef MFD_CLOEXEC
+#ifdef __linux__
   made.descriptor = memfd_create("contct-unit26", MFD_CLOEXEC);
   if (made.descriptor < 0) return made;
   made.path = "/proc/self/fd/" + std::to_string(made.descriptor);
@@ -111,10 +112,6 @@ unnamed_file file_in_memory() {
   made = {};
 #endif
   return made;
-}
-
-[[noreturn]] void fail_to_read() {
-  throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
 }
 
 }  // namespace
@@ -139,20 +136,12 @@ unit_26::unit_26(compiled_listing& of) : listing_(of) {
     close(file_);
     throw std::runtime_error("cannot connect unit 26 to " + file.path);
   }
-  void* const mapped = mmap(nullptr, mapped_size, PROT_READ, MAP_SHARED, file_, 0);
-  if (mapped == MAP_FAILED) {
-    listing_.log.close();
-    close(file_);
-    throw std::system_error(errno, std::generic_category(), "cannot map what unit 26 writes");
-  }
-  written_ = static_cast<const char*>(mapped);
   listing_.log.is_open = true;
 }
 
 unit_26::~unit_26() {
   const std::scoped_lock lock(process_wide());
   listing_.log.close();
-  munmap(const_cast<char*>(written_), mapped_size);  // NOLINT: it is as it was got
   close(file_);
   listing_.log.is_open = false;
 }
@@ -160,25 +149,17 @@ unit_26::~unit_26() {
 std::string unit_26::take() {
   const std::scoped_lock lock(process_wide());
   listing_.log.flush();
-  const off_t end = lseek(file_, 0, SEEK_END);
-  if (end < 0) fail_to_read();
-  const auto size = static_cast<std::size_t>(end);
-  std::string text(written_ + taken_, std::min(size, mapped_size) - taken_);
-  if (size > mapped_size) read_on(text);
-  taken_ = size;
+  std::string text;
+  char block[1 << 14];
+  ssize_t got = 0;
+  do {
+    got = pread(file_, block, sizeof block, static_cast<off_t>(taken_ + text.size()));
+    if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
+    text.append(block, static_cast<std::size_t>(got));
+  } while (got == sizeof block);
+  taken_ += text.size();
   if (taken_ >= enough_text) begin_anew();
   return text;
-}
-
-void unit_26::read_on(std::string& text) const {
-  char block[1 << 16];
-  ssize_t got = 0;
-  off_t at = mapped_size;
-  while ((got = pread(file_, block, sizeof block, at)) > 0) {
-    text.append(block, got);
-    at += got;
-  }
-  if (got < 0) fail_to_read();
 }
 
 void unit_26::begin_anew() {

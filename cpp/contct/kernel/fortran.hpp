@@ -60,18 +60,14 @@ class unit_26 {
   [[nodiscard]] std::string take();
 
  private:
-  // What is new is read from memory, since on a path each call's text is taken. Emptying the file takes
-  // several times as long.
+  // A path takes each call's text: one read of what is new. Emptying the file takes several times as long.
   static constexpr std::size_t enough_text = 1 << 20;  // then the file is emptied
-  static constexpr std::size_t mapped_size = enough_text + (1 << 16);
 
-  void read_on(std::string& text) const;  // what does not fit into the memory
   void begin_anew();
 
   compiled_listing& listing_;
   int file_ = -1;
-  const char* written_ = nullptr;  // the file, mapped
-  std::size_t taken_ = 0;          // of the file, from its beginning
+  std::size_t taken_ = 0;  // of the file, from its beginning
 };
 
 }  // namespace contct::kernels::fortran

@@ -303,7 +303,7 @@ problem_result try_structure(const random_problem& p, const linear_structure& s,
   increment_counter counted;
   const problem what = as_problem(p);
   const load_history total = loads_of(what, s);
-  certifier judged(what, s, exact::exact_residual_of(what));
+  certifier judged(what, s, exact::exact_residual_of(what), exact::semidefinite_test_of(what));
   watching.insert(watching.end(), {&counted, &judged});
   path_limits limits;
   limits.fallback = judged.fallback();

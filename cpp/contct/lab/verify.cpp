@@ -376,13 +376,13 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   out.title = p.title;
   const linear_structure s = structure_of(p);
   measurement listing(p);
-  certifier judged(p, s, exact::exact_residual_of(p));
+  certifier judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
   const auto fortran = make_kernel("fortran");
   const std::string followers[] = {"cpp"};
   lockstep compared = make_lockstep(fortran->facts(), followers);
   const path_end end = follow(p, s, "refactor", *fortran, {&compared, &judged, &listing});
   measurement corrected(p);
-  certifier judged_corrected(p, s, exact::exact_residual_of(p));
+  certifier judged_corrected(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
   path_limits limits;
   limits.fallback = judged_corrected.fallback();
   limits.refine = judged_corrected.refiner();

@@ -2,9 +2,13 @@
 // named so; all others are off by at most 2^-100 of their result.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
 
 #include "contct/rooms.hpp"
 
@@ -131,27 +135,45 @@ __extension__ using wide_integer = __int128;
   return whole / power_of_ten(-power);
 }
 
-/// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it or, where that is
-/// less, to some 2^-1074.
+/// The shortest decimal that reads as the finite number `x`: of 0.1 one tenth, to 2^-94 of it or, where that
+/// is less, to some 2^-1074.
 [[nodiscard]] inline double_double long_decimal(double x) {
   if (x == std::trunc(x) && std::abs(x) < 0x1p53) return x;
   const short_decimal d = shortest_decimal(x);
   return scaled_by_ten(d.digits, d.power);
 }
 
+/// The sum of such decimals to 2^-94 of itself, however much of them cancels.
+[[nodiscard]] inline double_double decimal_sum(std::span<const double> all) {
+  std::vector<short_decimal> parts;
+  for (const double x : all)
+    if (x != 0.0) parts.push_back(shortest_decimal(x));
+  std::ranges::sort(parts, std::ranges::greater(), &short_decimal::power);
+  constexpr wide_integer most = wide_integer{1}
+                                << 120U;  // leaves room for the next digit, and for many parts
+  double_double rounded;
+  wide_integer sum = 0;
+  int power = parts.empty() ? 0 : parts.front().power;
+  for (const short_decimal& d : parts) {
+    for (; power > d.power && sum != 0; --power) {
+      if ((sum < 0 ? -sum : sum) > most) {         // what follows cancels none of it
+        for (; sum % 10 == 0; ++power) sum /= 10;  // 10^power times the sum is a number, but nearly none
+        rounded = rounded + scaled_by_ten(sum, power);
+        sum = 0;
+        break;
+      }
+      sum *= 10;
+    }
+    power = d.power;
+    sum += d.digits;
+  }
+  return rounded + scaled_by_ten(sum, power);
+}
+
 /// The difference of two such decimals to 2^-94 of itself, however near they are to each other.
 [[nodiscard]] inline double_double decimal_difference(double a, double b) {
-  const short_decimal x = shortest_decimal(a);
-  const short_decimal y = shortest_decimal(b);
-  constexpr int most = 20;  // powers of ten that fit beside 17 digits: further apart, nothing cancels
-  if (x.digits == 0 || y.digits == 0 || std::abs(x.power - y.power) > most)
-    return long_decimal(a) - long_decimal(b);
-  const int power = x.power < y.power ? x.power : y.power;
-  wide_integer left = x.digits;
-  wide_integer right = y.digits;
-  for (int i = power; i < x.power; ++i) left *= 10;
-  for (int i = power; i < y.power; ++i) right *= 10;
-  return scaled_by_ten(left - right, power);
+  const double parts[] = {a, -b};
+  return decimal_sum(parts);
 }
 
 }  // namespace contct::numeric

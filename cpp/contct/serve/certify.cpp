@@ -75,7 +75,7 @@ void certify_states(const char* text, const char* options, answer& a) {
   const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   const linear_structure s = structure_of(p);
   const given_states states = read_states(r, p, s);
-  certifier judged(p, s, exact::exact_residual_of(p));
+  certifier judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
   output_file out(&a.result);
   result_json written(p, {}, "given", judged, out);
   path_end end{path_status::solved, 0, 1.0, {}};

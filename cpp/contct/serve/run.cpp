@@ -83,7 +83,10 @@ struct log_keeper final : observer {
 class served_run {
  public:
   served_run(const run_request& wanted, const problem& p, answer& a)
-      : wanted_(wanted), p_(p), a_(a), judged_(p, structure_, exact::exact_residual_of(p)) {
+      : wanted_(wanted),
+        p_(p),
+        a_(a),
+        judged_(p, structure_, exact::exact_residual_of(p), exact::semidefinite_test_of(p)) {
     if (wanted.proof) judged_.keep_proofs();
   }
 

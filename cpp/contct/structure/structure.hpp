@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "contct/numeric/double_double.hpp"
 #include "contct/structure/rigid_modes.hpp"
 #include "contct/structure/rigid_truth.hpp"
 
@@ -52,9 +54,18 @@ struct load {
 /// Exactly `after` at 1.
 [[nodiscard]] load mix(const load& before, const load& after, double fraction);
 
-/// Add the point loads of `l` to `f` [dofs].
+/// The point loads of `l` at each dof that has any, in the order of the file.
+[[nodiscard]] inline std::map<int, std::vector<double>> point_loads_at(const load& l, int dofs_per_node) {
+  std::map<int, std::vector<double>> at;
+  for (const point_load& p : l.points) at[p.node * dofs_per_node + p.dof].push_back(p.value);
+  return at;
+}
+
+/// Add the point loads of `l` to `f` [dofs]: those at one dof are added up as decimals, so that 0.1, 0.2 and
+/// -0.3 are no load.
 inline void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
-  for (const point_load& p : l.points) f[p.node * dofs_per_node + p.dof] += p.value;
+  for (const auto& [dof, values] : point_loads_at(l, dofs_per_node))
+    f[dof] += values.size() == 1 ? values.front() : numeric::decimal_sum(values).hi;
 }
 
 /// sum += share * part, for polynomials from the constant on.

@@ -179,6 +179,7 @@ json error_json(const problem& p, const std::optional<certificate>& c) {
   put(quantity::w, true);
   put(quantity::slope, !of_matrix);
   put(quantity::force, !p.pairs.empty());
+  put(quantity::gap, !p.pairs.empty());
   put(quantity::reaction, !p.supports.empty());
   put(quantity::moment, !of_matrix);
   put(quantity::shear, of_beam);
@@ -258,7 +259,7 @@ void result_json::step_ended(const step_state& s) {
   if (s.from_exact_path) members["ended_by"] = "exact";
   const std::optional<certificate>& judged = judged_.steps().back();
   members.update({{"rcond", s.rcond},
-                  {"digits", judged ? digits_of(*judged) : digits_left(s.rcond)},
+                  {"digits", judged ? json(digits_of(*judged)) : json(nullptr)},
                   {"error", error_json(problem_, judged)},
                   {"certificate", certificate_json(judged)}});
   document_.add(members,

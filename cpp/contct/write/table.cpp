@@ -141,7 +141,8 @@ void table::step_ended(const step_state& s) {
   const int width = terminal_.width - static_cast<int>(label.size());
   std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.isep.size()),
                                     certificate_mark(judged_.steps().back())};
-  items.insert(items.begin() + 1, digits_words(judged_.steps().back(), s.rcond));
+  if (const std::optional<certificate>& judged = judged_.steps().back())
+    items.insert(items.begin() + 1, digits_words(*judged));
   if (const std::string& name = problem_.steps[s.step - 1].name; !name.empty())
     items.insert(items.begin(), on_one_line(name));
   if (s.from_fallback) items.emplace_back("from the reference solution");

@@ -53,9 +53,9 @@ constexpr std::string_view end_reason(path_status status) {
 /// A few words for a step: "certified", "NOT certified", or "no certificate".
 [[nodiscard]] std::string certificate_mark(const std::optional<certificate>& c);
 
-/// "7 digits" of every number of a state; "10+ digits" where there are more, which depend on the LAPACK in
+/// "7 digits" of every number of a state, as proved; "10+ digits" where there are more, which depend on the LAPACK in
 /// use.
-[[nodiscard]] std::string digits_words(const std::optional<certificate>& c, double rcond);
+[[nodiscard]] std::string digits_words(const certificate& c);
 
 /// One line for a whole run, in parts: that it is certified and how closely, or the first step that is not.
 /// A path that is not `solved` is not certified as a whole: the steps that are, are named.

@@ -1,0 +1,240 @@
+// What the word "certified" claims: every number, status and gap of a state, beside the exact path.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "contct/certify/certificate.hpp"
+#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/path.hpp"
+#include "contct/numeric/random.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/problem_file.hpp"
+
+using namespace contct::app;
+using namespace contct::certify;
+namespace exact = contct::exact;
+
+namespace {
+
+/// The ends of a path, as they were told, with their certificates.
+struct judged_run final : observer {
+  judged_run(problem given, const std::string& kernel)
+      : what(std::move(given)),
+        structure(structure_of(what)),
+        judged(what, structure, exact::exact_residual_of(what), exact::semidefinite_test_of(what)) {
+    const auto leader = make_kernel(kernel);
+    end = follow(what, structure, "refactor", *leader, {&judged, this},
+                 {.fallback = judged.fallback(), .refine = judged.refiner()});
+  }
+  judged_run(const std::string& text, const std::string& kernel)
+      : judged_run(parse_problem(text, "p.toml"), kernel) {}
+
+  void step_ended(const step_state& s) override {
+    told.push_back(handed_out_at(what, s));
+    displacements.emplace_back(s.displacement.begin(), s.displacement.end());
+    statuses.emplace_back(s.isep.begin(), s.isep.end());
+  }
+
+  [[nodiscard]] const certificate& of_step(std::size_t step) const {
+    return judged.steps().at(step - 1).value();
+  }
+
+  problem what;
+  linear_structure structure;
+  certifier judged;
+  path_end end;
+  std::vector<handed_out> told;  // displacements and statuses of these are gone: see below
+  std::vector<std::vector<double>> displacements;
+  std::vector<std::vector<int>> statuses;
+};
+
+double error_of(double told, const exact::rational& truly) {
+  return std::abs(exact::rounded(exact::binary_value(told) - truly));
+}
+
+/// The largest force or reaction in a state; of one without any, on the path before it.
+double largest_force(const exact::exact_path& truly, std::size_t step) {
+  double largest = 0.0;
+  for (; step > 0 && largest == 0.0; --step)
+    for (const exact::vector* all : {&truly.steps[step - 1].force, &truly.steps[step - 1].reactions})
+      for (const exact::rational& f : *all) largest = std::max(largest, std::abs(exact::rounded(f)));
+  return largest;
+}
+
+/// What a certified state claims and is not so, in words; empty where all of it is true.
+std::string false_claim(const judged_run& r, const exact::exact_path& truly, std::size_t step) {
+  const certificate& c = r.of_step(step);
+  const exact::exact_step_end& right = truly.steps.at(step - 1);
+  const handed_out& told = r.told.at(step - 1);
+  const double largest = largest_force(truly, step);
+  for (std::size_t i = 0; i < told.reactions.size(); ++i) {
+    const double error = error_of(told.reactions[i], right.reactions[i]);
+    if (r.what.supports[i].dof == 0 && error > 1e-6 * largest)
+      return "a reaction is off by " + std::to_string(error);
+  }
+  for (std::size_t i = 0; i < r.what.pairs.size(); ++i) {
+    const bool is_closed = r.statuses[step - 1][i] == in_contact;
+    if (is_closed && right.gap[i] > 0) return "a pair in contact is open";
+    if (!is_closed && right.force[i] > 0) return "a separated pair presses";
+    if (error_of(told.pair_forces[i], right.force[i]) > 1e-6 * largest) return "a contact force is off";
+    const std::size_t dof = r.structure.dof_of_pair(i);
+    const double gap = gap_of(r.what.pairs[i], r.displacements[step - 1][dof], is_closed);
+    if (c.error[quantity::gap] && error_of(gap, right.gap[i]) > *c.error[quantity::gap])
+      return "a gap is beyond its bound";
+  }
+  return "";
+}
+
+/// A beam as an engineer writes it: supports that settle by some millimetres, a pair a few millimetres from
+/// one, loads in newtons.
+std::string settling_beam(std::uint64_t number) {
+  random_numbers random(2026 + number);
+  const auto between = [&](double low, double high, double unit) {
+    return std::round((low + (high - low) * random.unit()) / unit) * unit;
+  };
+  const double length = between(2, 8, 1);
+  const double near = between(0.001, 0.02, 0.001);
+  const bool clamped = random.chance(0.5);
+  std::string text = "[beam]\nlength = " + std::to_string(length) +
+                     "\nelement_size = 1.0\nEI = " + std::to_string(between(1e5, 1e8, 1e4)) +
+                     "\n[[support]]\nx = 0.0\nfix = " + (clamped ? "[\"w\", \"theta\"]" : "\"w\"") + "\n";
+  if (!clamped) text += "[[support]]\nx = " + std::to_string(length) + "\nfix = \"w\"\n";
+  for (const double x : {near, between(0.3, length - 0.3, 0.1)})
+    text += "[[contact]]\nx = " + std::to_string(x) +
+            "\nsurface = \"below\"\nface = " + std::to_string(-between(0.001, 0.1, 0.001)) +
+            "\nstiffness = " + std::to_string(between(1e5, 1e8, 1e4)) + "\n";
+  for (int step = 0; step < 2; ++step) {
+    text += "[[step]]\n";
+    if (random.chance(0.8)) text += "uniform = " + std::to_string(-between(10, 5000, 10)) + "\n";
+    text += "settlement = [ { x = 0.0, w = " + std::to_string(-between(0, 0.03, 0.001)) + " } ]\n";
+  }
+  return text;
+}
+
+/// K = [[1, coupling], [coupling, 1]] with a pair below and one above at dof 1.
+problem two_dofs(double coupling, double stiffness, double load) {
+  problem p;
+  assembled a;
+  a.name = "k.mtx";
+  a.stiffness = {2, {{0, 0, 1.0}, {1, 0, coupling}, {1, 1, 1.0}}, {}};
+  a.rows = {0, 1};
+  p.geometry = {a};
+  p.pairs = {{0, face_below, 0.0, stiffness, true}, {0, face_above, 100.0, stiffness, false}};
+  p.steps = {{{{0, 0, load}}, {}}};
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Of 500 beams on settling supports, no certified state has a wrong number or status, under either rule") {
+  for (const std::string kernel : {"fortran", "corrected"}) {
+    int certified = 0;
+    for (std::uint64_t number = 0; number < 500; ++number) {
+      const judged_run r(settling_beam(number), kernel);
+      const exact::exact_path truly = exact::follow_true_path(exact::exact_problem_of(r.what));
+      for (std::size_t step = 1; step <= r.judged.steps().size(); ++step) {
+        const std::optional<certificate>& c = r.judged.steps()[step - 1];
+        if (!c || !c->exact) continue;
+        ++certified;
+        INFO(kernel << ", beam " << number << ", step " << step);
+        CHECK(false_claim(r, truly, step) == "");
+      }
+    }
+    CAPTURE(kernel, certified);
+    CHECK(certified > (kernel == "corrected" ? 900 : 100));
+  }
+}
+
+TEST_CASE(
+    "A reaction of 200 N that is told with an error of 0.2 N is not certified, however stiff its clamp is") {
+  const std::string text =
+      "[beam]\nlength = 2.0\nelement_size = 1.0\nEI = 1.0e7\n[[support]]\nx = 0.0\nfix = [\"w\", \"theta\"]\n"
+      "[[contact]]\nx = 0.001\nsurface = \"below\"\nface = -0.1\nstiffness = 1.0e6\n"
+      "[[step]]\nuniform = -100.0\nsettlement = [ { x = 0.0, w = -0.02 } ]\n";
+  const judged_run faithful(text, "fortran");
+  CHECK(std::abs(faithful.told.at(0).reactions[0] - 200.0) > 1e-3);
+  CHECK_FALSE(faithful.of_step(1).exact);
+  CHECK(digits_of(faithful.of_step(1)) < 6);
+  const judged_run corrected(text, "corrected");
+  CHECK(corrected.told.at(0).reactions[0] == Approx(200.0).epsilon(1e-15));
+  CHECK(corrected.of_step(1).exact);
+}
+
+TEST_CASE(
+    "A pair that the 1989 rule toggles before it is at its face is in contact and open: not certified") {
+  // Node 1 is fixed 0.9 mm from its face; the rule toggles both pairs when the beam is unloaded.
+  const std::string text =
+      "[beam]\nx = [0.0, 1.0, 2.0, 3.0]\nEI = 11.2\n[[support]]\nnodes = [1, 4]\nfix = [\"w\", \"theta\"]\n"
+      "[[contact]]\nnode = 1\nsurface = \"above\"\nface = 0.0009\nstiffness = 1e-6\n"
+      "[[contact]]\nnode = 3\nsurface = \"above\"\nface = 0.0\nstiffness = 1e10\n"
+      "[[step]]\npoint = [ { node = 2, w = -0.1 } ]\n[[step]]\nuniform = 0.0\n";
+  const judged_run r(text, "fortran");
+  REQUIRE(r.end.status == path_status::solved);
+  REQUIRE(r.statuses.at(1)[0] == in_contact);
+  CHECK_FALSE(r.of_step(2).exact);
+  CHECK(*r.of_step(2).error[quantity::gap] >= 0.0009);
+}
+
+TEST_CASE("The corrected rule gives a pair of next to no stiffness the status that it certainly has") {
+  // One spring carries all of the load, the other, beyond its face, next to nothing.
+  const std::string text =
+      "[beam]\nx = [0.0, 1.0]\nEI = 1.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1e-6\nstiffness = 1e12\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1e-8\nstiffness = 1e-18\n"
+      "[[step]]\npoint = [ { node = 2, w = -1e5 } ]\n";
+  const judged_run r(text, "corrected");
+  CHECK(r.statuses.at(0) == std::vector<int>{in_contact, in_contact});
+  CHECK(r.of_step(1).exact);
+}
+
+TEST_CASE("A matrix with a negative eigenvalue of 1e-11 has two equilibria: neither is certified") {
+  const judged_run r(two_dofs(1 + 1e-11, 1e-9, -1e-11), "corrected");
+  REQUIRE(r.judged.steps().size() == 1);
+  CHECK_FALSE(r.of_step(1).exact);
+  CHECK(r.of_step(1).problem.find("semidefinite") != std::string::npos);
+}
+
+TEST_CASE("A singular matrix that is semidefinite without rounding is certified where a pair holds it") {
+  problem p = two_dofs(-1.0, 1e3, -5.0);
+  std::get<assembled>(p.geometry.kind).free_motions = 1;
+  const judged_run r(p, "corrected");
+  CHECK(r.told.at(0).pair_forces[0] == Approx(5.0).epsilon(1e-15));
+  CHECK(r.of_step(1).exact);
+}
+
+TEST_CASE(
+    "Loads that cancel at a node, or on an element, are no loads: nothing moves, and that is certified") {
+  const std::string beam =
+      "[beam]\nlength = 2.0\nelements = 2\nEI = 1.0e4\n[[support]]\nx = [0.0, 2.0]\nfix = \"w\"\n"
+      "[[contact]]\nx = 1.0\nsurface = \"below\"\nface = -0.01\nstiffness = 5.0e4\n[[step]]\n";
+  for (const std::string loads :
+       {"point = [ { x = 1.0, w = -60.1 }, { x = 1.0, w = 60.1 } ]",
+        "point = [ { x = 1.0, w = 0.1 }, { x = 1.0, w = 0.2 }, { x = 1.0, w = -0.3 } ]",
+        "uniform = [ { value = 10.1 }, { value = -10.1, elements = [1] }, { value = -10.1, elements = [2] } "
+        "]"}) {
+    for (const std::string kernel : {"fortran", "corrected"}) {
+      INFO(kernel << ": " << loads);
+      const judged_run r(beam + loads + "\n", kernel);
+      for (const double u : r.displacements.at(0)) CHECK(u == 0.0);
+      CHECK(r.of_step(1).exact);
+      CHECK(digits_of(r.of_step(1)) == 15);
+    }
+  }
+}
+
+TEST_CASE("Below the normal range of doubles nothing is certified, and the reason is told") {
+  for (const std::string numbers :
+       {"x = [0.0, 1.0e-40, 2.0e-40]\nEI = 1.5e-322", "x = [0.0, 1e-100, 2e-100]\nEI = 1e-90"}) {
+    const judged_run r(
+        "[beam]\n" + numbers +
+            "\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 3\nsurface = \"below\"\n"
+            "face = -1.0e-42\nstiffness = 1.0e-203\n[[step]]\npoint = [ { node = 3, w = -4.0e-244 } ]\n",
+        "corrected");
+    CHECK_FALSE(r.of_step(1).exact);
+    CHECK(r.of_step(1).problem.find("smallest normal double") != std::string::npos);
+    CHECK(digits_of(r.of_step(1)) == 0);
+  }
+}
