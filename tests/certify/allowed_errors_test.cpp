@@ -42,6 +42,18 @@ TEST_CASE("unloaded, a state is measured by the largest of its path") {
   CHECK(fresh.of(nothing, 10.0)[quantity::w].value() < 1e-17);  // the first step has only its own rounding
 }
 
+TEST_CASE(
+    "an unloaded state is not measured by its own errors, nor by what earlier states were only said to "
+    "have") {
+  allowed_errors sizes;
+  (void)sizes.of(bounds(3.0, 2.0, 20.0, 50.0), 10.0);
+  error_bounds nothing = bounds(1.0, 1.0, 1.0, 1.0);
+  nothing.unloaded = true;
+  const by_quantity allowed = sizes.of(nothing, 10.0);
+  CHECK(allowed[quantity::w] == 0.0);
+  CHECK(allowed[quantity::force] == Approx(30e-6));
+}
+
 TEST_CASE("the worst share and its words") {
   allowed_errors sizes;
   const error_bounds b = bounds(1e-3, 2.0, 1e-9, 50.0);

@@ -29,6 +29,14 @@ by_quantity sizes_of(const error_bounds& b, double span) {
   return sizes;
 }
 
+/// As far as they are proved: what is not certified may be told larger than it is, and an unloaded state's
+/// own numbers are nothing but errors.
+by_quantity proved_sizes_of(error_bounds b, double span) {
+  for (std::size_t q = 0; q < b.size.all.size(); ++q)
+    if (b.size.all[q]) b.size.all[q] = std::max(0.0, *b.size.all[q] - b.error.all[q].value_or(0.0));
+  return sizes_of(b, span);
+}
+
 /// What counts as no error at all, whatever the size of the kind: all numbers of it may be 0. None of this
 /// depends on a bound.
 by_quantity floors_of(const error_bounds& b, const by_quantity& sizes, double span) {
@@ -49,14 +57,14 @@ by_quantity floors_of(const error_bounds& b, const by_quantity& sizes, double sp
 by_quantity allowed_errors::of(const error_bounds& b, double span) {
   const by_quantity sizes = sizes_of(b, span);
   const by_quantity floors = floors_of(b, sizes, span);
+  const by_quantity proved = proved_sizes_of(b, span);
   by_quantity allowed;
   for (std::size_t q = 0; q < sizes.all.size(); ++q) {
-    if (sizes.all[q]) largest_.take(static_cast<quantity>(q), *sizes.all[q]);
+    if (proved.all[q]) largest_.take(static_cast<quantity>(q), *proved.all[q]);
     if (!b.error.all[q]) continue;
     allowed.all[q] =
-        b.unloaded  // its own numbers are nothing but errors
-            ? certified_share * largest_.all[q].value_or(0.0)
-            : std::max(certified_share * sizes.all[q].value_or(0.0), floors.all[q].value_or(0.0));
+        b.unloaded ? certified_share * largest_.all[q].value_or(0.0)
+                   : std::max(certified_share * sizes.all[q].value_or(0.0), floors.all[q].value_or(0.0));
   }
   return allowed;
 }
