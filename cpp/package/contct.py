@@ -903,7 +903,7 @@ def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, ise
     indof, ndofpn  the members of COMMON /DOF/
 
     NumPy arrays of float64 and of C's int are passed as they are, without a copy. Raises InputError if lengths differ, or
-    if an id leads outside dd.
+    if an id leads outside dd, or a product isep * isurf out of 32 bits.
     """
     dd_at, dd_owner, ndof = _argument("dd", dd, True)
     dtest_at, dtest_owner, _ = _argument("dtest", dtest, True, ndof)

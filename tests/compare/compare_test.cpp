@@ -184,6 +184,21 @@ TEST_CASE("a follower counts what is compared and keeps the mismatch of the earl
   CHECK(f.compared.mismatches == 2);
 }
 
+TEST_CASE("a follower refuses a call beyond the limits of 32 bits, and compares nothing") {
+  const auto k = make_kernel("cpp");
+  follower f(k->facts(), *k);
+  const answered_half_way right;
+  const std::vector<int> isep = {-2'147'483'647 - 1};
+  call<double> below = right.c;
+  const std::vector<int> isurf = {face_below};
+  below.isurf = isurf;
+  CHECK_THROWS_WITH(f.ask(1, below, isep, std::nullopt),
+                    Contains("pair 1: found ISEP -2147483648 and ISURF -1"));
+  CHECK(f.compared.values == 0);
+  CHECK_FALSE(f.ask(1, right.c, half_way.isep, std::nullopt));
+  CHECK(f.compared.values == 3);
+}
+
 TEST_CASE("text is compared where the leader's is given, as one value") {
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);

@@ -53,9 +53,11 @@ def test_numpy_arrays_are_not_copied():
 
 @pytest.mark.parametrize("change, error, words", [
     ({"dtest": [1.0]}, contct.InputError, "dtest: found 1 value; allowed: 4"), ({"isep": [1]}, contct.InputError, "isep: found 1 value; allowed: 2"),
-    ({"id": [1, 3]}, contct.InputError, r"id\[2\]: found 3"), ({"id": [0, 1]}, contct.InputError, r"id\[1\]: found 0"),
+    ({"id": [1, 3]}, contct.InputError, "pair 2: found ID 3, "), ({"id": [0, 1]}, contct.InputError, "pair 1: found ID 0, "),
     ({"id": [1, 2**40]}, contct.InputError, "id: .*; allowed: whole numbers of 32 bits"), ({"id": [1, 1.5]}, TypeError, "id: .*float"),
-    ({"dd": ["a", 1, 1, 1]}, TypeError, "dd: "), ({"cc": 3}, TypeError, "cc: "), ({"indof": 3}, contct.InputError, r"id\[2\]: found 2; allowed: a node whose dof is one of 1 to 4"),
+    ({"dd": ["a", 1, 1, 1]}, TypeError, "dd: "), ({"cc": 3}, TypeError, "cc: "), ({"indof": 3}, contct.InputError, 
+     "pair 2: found ID 2, which is dof 5 with INDOF 3 and NDOFPN 2; allowed: a dof from 1 to 4"),
+    ({"isep": [65536, 1], "isurf": [65536, 1]}, contct.InputError, "pair 1: found ISEP 65536 and ISURF 65536, .*product"),
     ({"kernel": "no-such"}, contct.InputError, "no-such")])
 def test_a_wrong_call_is_refused(change, error, words):
     with pytest.raises(error, match=words):

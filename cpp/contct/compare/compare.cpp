@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contct/kernel/limits.hpp"
+
 namespace contct::compare {
 namespace {
 
@@ -131,6 +133,7 @@ std::optional<mismatch> follower::compare(const call<double>& answered, std::spa
 const std::optional<mismatch>& follower::ask(std::int64_t number, const call<double>& answered,
                                              std::span<const int> isep_before,
                                              std::optional<std::string_view> text) {
+  refuse_beyond_limits(answered, isep_before);
   difference_ = compare(answered, isep_before, text);
   if (difference_) note(number, *difference_, answered, isep_before);
   return difference_;

@@ -119,7 +119,7 @@ class follower {
   /// Ask call `number` (from 1), which the leader answered and whose ISEP was `isep_before`, and compare
   /// SMIN, all of SS and all of ISEP; the text too, where the kernel writes any. `text` is the leader's unit
   /// 26, or nothing where it is not to be compared. A kernel that fails has one mismatch, in the field
-  /// "answer".
+  /// "answer". Throws std::invalid_argument where the call is beyond the limits of refuse_beyond_limits.
   const std::optional<mismatch>& ask(std::int64_t number, const call<double>& answered,
                                      std::span<const int> isep_before, std::optional<std::string_view> text);
   /// Keep a mismatch that was found in call `number`, unless an earlier call has one.

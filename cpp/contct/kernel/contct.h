@@ -29,7 +29,9 @@ extern "C" {
  *   ndofpn  in         dofs of a node
  *
  * Pair i looks at element (id[i] - 1) * ndofpn + indof - 1 of dd and dtest. Nothing checks that it is
- * there. No argument may be null unless nc is 0 (smin never), and none may overlap another.
+ * there. No argument may be null unless nc is 0 (smin never), and none may overlap another. Answers are
+ * defined, and equal to those of C++, where nc < 2^31 - 1 and neither isep[i] * isurf[i] nor
+ * (id[i] - 1) * ndofpn + indof leaves 32 bits on the way.
  */
 
 /* As printed: REAL is 4 bytes. */

@@ -1,13 +1,12 @@
 // contct_about, contct_call and contct_replay: the kernels, without a problem.
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <cstdlib>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "contct/compare/compare.hpp"
+#include "contct/kernel/limits.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/lapack_identity.hpp"
 #include "contct/numeric/probe.hpp"
@@ -41,26 +40,10 @@ void tell_about(answer& a) {
   a.result = json_text(out);
 }
 
-/// The dof of every pair must be there, and INTEGER must hold it on the way: no kernel looks. All else is the
-/// caller's, as in the listing.
-void refuse_outside(const call<double>& c) {
-  const auto refuse = [](const std::string& what, std::int64_t found, const std::string& allowed) {
-    throw std::invalid_argument(fmt::format("call: {}: found {}; allowed: {}", what, found, allowed));
-  };
-  const auto ndof = static_cast<std::int64_t>(c.dd.size());
-  for (std::size_t i = 0; i < c.id.size(); ++i) {
-    const std::int64_t before = (std::int64_t{c.id[i]} - 1) * c.dof.ndofpn;
-    const std::int64_t dof = before + c.dof.indof;
-    const bool is_held = std::in_range<int>(before) && c.id[i] > std::numeric_limits<int>::min();
-    if (dof < 1 || dof > ndof || !is_held)
-      refuse(fmt::format("id[{}]", i + 1), c.id[i], fmt::format("a node whose dof is one of 1 to {}", ndof));
-  }
-}
-
 std::string answer_call(const char* name, call<double> c, double* smin) {
   if (name == nullptr)
     throw std::invalid_argument("call: found no kernel's name; allowed: one of contct_about's");
-  refuse_outside(c);
+  refuse_beyond_limits(c, c.isep);
   const std::scoped_lock mine(turn());
   const std::unique_ptr<kernel> k = make_kernel(name);
   k->answer(c);
