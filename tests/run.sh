@@ -31,6 +31,7 @@ need "to test contct.py" python3-pytest python3-numpy mypy || true  # those test
 # build NAME: configure and build the preset of that name, quietly unless it fails.
 build() {
   echo "== $1: configuring, building"
+  began=$(date +%s)
   log=$(mktemp)
   if ! { cmake --preset "$1" -DCONTCT_BUILD_TESTS=ON && cmake --build --preset "$1"; } >"$log" 2>&1; then
     cat "$log"
@@ -39,6 +40,7 @@ build() {
     exit 1
   fi
   rm -f "$log"
+  echo "== $1: $(($(date +%s) - began)) s"
 }
 
 # test_of NAME: test the build of that preset. The last lines are ctest's own summary.
