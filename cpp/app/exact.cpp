@@ -38,7 +38,10 @@ exit_status run_command(const exact_options& options) {
   if (path.status != path_status::solved)
     complain("{}: step {}, at share {} of its load: {}", whole_line(options.file), path.steps.size(),
              short_words(path.steps.back().fraction, options.digits),
-             path.status == path_status::mechanism ? "no equilibrium" : "the limit of increments is reached");
+             path.status == path_status::mechanism ? "no equilibrium"
+             : path.status == path_status::path_ended
+                 ? "the path of the 1989 rule ended: nothing held the structure"
+                 : "the limit of increments is reached");
   return status_of(path.status);
 }
 

@@ -46,10 +46,11 @@ constexpr std::pair<const char*, const char*> exit_meanings[] = {
      "bad input or usage; a result that cannot be written; a structure too ill-conditioned for double "
      "precision."},
     {"3", "solved, but a final state is not certified, under --strict."},
-    {"4", "no equilibrium: the structure became a mechanism."},
+    {"4", "certainly no equilibrium: the structure became a mechanism."},
     {"5",
-     "the path repeats the same events in a cycle, or a limit is reached: of increments, of time or of "
-     "memory."}};
+     "the path ended early, though there is an equilibrium or that is not decided; it repeats the same "
+     "events in "
+     "a cycle; or a limit is reached: of increments, of time or of memory."}};
 
 constexpr std::pair<const char*, const char*> variables[] = {
     {"COLUMNS", "Width of tables in columns, from 40 to 160."},

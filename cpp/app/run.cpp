@@ -83,8 +83,8 @@ struct run_setup {
   std::vector<std::string> kernels = {};  // the leader first; none under --final-only
   problem what = {};
   linear_structure structure = {};
-  std::string engine = "oracle";  // of the leader's path
-  int watched = 0;                // the node of --csv, from 0
+  std::string engine = "reference";  // of the leader's path
+  int watched = 0;                   // the node of --csv, from 0
 };
 
 /// In the states in which steps end, by the reference solution.

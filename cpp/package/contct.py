@@ -88,7 +88,7 @@ class InputError(Error, ValueError):
 class NotSolved(Error):
     """Under strict=True: a run that is not solved, equal and certified; and whatever else ends without a result.
 
-    exit    exit status of the program: 1 kernels disagree, 3 not certified, 4 no equilibrium, 5 a limit or a cycle
+    exit    exit status of the program: 1 kernels disagree, 3 not certified, 4 no equilibrium, 5 the path ended early
     result  the Result, with all that was computed; None where there is none
     """
 
@@ -197,8 +197,8 @@ class Record(Mapping[str, Any]):
 class Answer(Record):
     """A result of its own, with what the program said beside it.
 
-    exit      exit status of the program: 0 solved and equal, 1 kernels disagree, 4 no equilibrium, 5 iteration limit or
-              cycle; reference/running.md
+    exit      exit status of the program: 0 solved and equal, 1 kernels disagree, 4 no equilibrium, 5 the path
+              ended early; reference/running.md
     messages  warnings, and what the program prints on standard error, a text each
     """
     exit: int

@@ -115,14 +115,16 @@ TEST_CASE("what a band cannot hold is solved by its entries, and the certificate
   CHECK_THAT(refused.err, Contains(" MiB in CHOLMOD's sparse factors; allowed: 1.0 MiB"));
 }
 
-TEST_CASE("two springs in a row, free at both ends, fall off their one face: a mechanism, exit 4") {
+TEST_CASE(
+    "two springs in a row, free at both ends, fall onto their one face: the 1989 rule cannot follow, exit "
+    "5") {
   const scratch_folder here;
   here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 -1\n2 2 1\n");
   here.write("p.toml", spring_problem);
   const finished f = contct_program(here.path(), {"run", "p.toml"});
   INFO(f.err);
-  CHECK(f.exit == 4);
-  CHECK_THAT(f.err, Contains("no equilibrium"));
+  CHECK(f.exit == 5);
+  CHECK_THAT(f.err, Contains("There is an equilibrium") && Contains("--kernels corrected"));
   const finished mended =
       contct_program(here.path(), {"run", "p.toml", "--kernels", "corrected", "--strict"});
   INFO(mended.out << mended.err);

@@ -152,9 +152,9 @@ TEST_CASE("a problem without pairs or a title has its page too") {
   CHECK(still["frames"].size() == 4);
 }
 
-TEST_CASE("a mechanism has a page that says so, up to the state reached") {
-  const auto loose = written(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]"), 4);
-  CHECK(loose["status"] == "mechanism");
+TEST_CASE("a path that loses its hold has a page that says so, up to the state reached") {
+  const auto loose = written(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]"), 5);
+  CHECK(loose["status"] == "path-ended");
   CHECK(loose["frames"].size() == 2);
   const auto freed = written(
       "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "

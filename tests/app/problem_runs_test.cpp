@@ -63,19 +63,31 @@ TEST_CASE("of many pairs eight are named and the others counted") {
   CHECK_THAT(end_words(ten_pairs(), ended(path_status::cycle, {0, 1, 2, 3, 4, 5, 6, 7})), !Contains("more"));
 }
 
-TEST_CASE("a structure that nothing held from the start is sent to the corrected rule") {
-  CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism)),
-             Contains("a rigid-body motion") && Contains("--kernels corrected"));
+TEST_CASE("a path that ended early says whether there is an equilibrium, and names what leads to it") {
+  path_end early = ended(path_status::path_ended, {0});
+  early.by_1989_rule = true;
+  CHECK_THAT(end_words(ten_pairs(), early),
+             Contains("when pair 1 (node 2, below) separated, nothing held the structure") &&
+                 EndsWith("is not decided") && !Contains("--kernels"));
+  early.has_equilibrium = true;
+  CHECK_THAT(end_words(ten_pairs(), early), EndsWith("There is an equilibrium under the load of this step: "
+                                                     "--kernels corrected leads to it"));
+  early.by_1989_rule = false;
+  CHECK_THAT(end_words(ten_pairs(), early), EndsWith("There is an equilibrium under the load of this step"));
+  path_end cycle = ended(path_status::cycle, {9});
+  cycle.has_equilibrium = false;
+  CHECK_THAT(end_words(ten_pairs(), cycle), EndsWith("There is no equilibrium under the load of this step"));
 }
 
-TEST_CASE("only at a standstill may the 1989 rule have passed by an equilibrium") {
-  CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism, {0}, 0.0)), Contains("At constant load"));
-  CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism, {0}, 0.5)), !Contains("At constant load"));
+TEST_CASE("a structure that nothing holds is told what is missing, and no kernel that would not help") {
+  CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism)),
+             Contains("a rigid-body motion") && Contains("Add a support") && !Contains("--kernels"));
 }
 
 TEST_CASE("the exit status tells a mechanism from a limit and from bad numbers") {
   CHECK(status_of(path_status::solved) == exit_status::solved);
   CHECK(status_of(path_status::mechanism) == exit_status::mechanism);
+  CHECK(status_of(path_status::path_ended) == exit_status::iteration_limit);
   CHECK(status_of(path_status::cycle) == exit_status::iteration_limit);
   CHECK(status_of(path_status::iteration_limit) == exit_status::iteration_limit);
   CHECK(status_of(path_status::not_factored) == exit_status::bad_input);

@@ -111,10 +111,46 @@ TEST_CASE("a pair that comes into contact at the end of a step, by rounding alon
   }
 }
 
-TEST_CASE("nothing is left to lean on, and a beam on one pair ends as a mechanism") {
+TEST_CASE("a beam balanced on its one pair ends early without other means, and is no mechanism") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, 0.0, 50.0, true}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
-  CHECK(p.run("corrected", {}).status == path_status::mechanism);
+  const path_end end = p.run("corrected", {});
+  CHECK(end.status == path_status::path_ended);
+  CHECK(end.has_equilibrium == true);
+}
+
+TEST_CASE("a beam that falls on one pair and turns for ever ends where it met that pair, without a force") {
+  beam_problem p{even_beam(2.0, 2, 1e3), {}, {{1, face_below, -0.5, 1e4, false}}, {}};
+  p.steps = {tip_load(2, -1.0)};
+  recorder r;
+  const path_end end = p.run("corrected", {&r});
+  CHECK(end.status == path_status::mechanism);
+  CHECK(end.has_equilibrium == false);
+  REQUIRE(r.steps.size() == 1);
+  CHECK(r.steps[0].isep == std::vector<int>{in_contact});
+  CHECK(r.steps[0].u[2] == -0.5);
+  CHECK(r.steps[0].u[0] == Approx(0.0).margin(1e-15));
+  CHECK(r.steps[0].u[4] == Approx(-1.0).epsilon(1e-15));
+}
+
+TEST_CASE("the exact path goes on from the path's own events, also where those were at the same share") {
+  beam_problem p{even_beam(2.0, 2, 1e3), {}, {{1, face_below, -0.5, 1e4, false}}, {}};
+  p.steps = {tip_load(1, -1.0)};
+  path_limits limits;
+  limits.exactly = [](int) -> std::optional<followed_step> {
+    return followed_step{
+        path_status::solved,
+        {{0.0, {}, false, {0.0}}, {0.0, {{0, change::make}}, true, {-0.5}}, {1.0, {}, false, {-0.5001}}},
+        1.0,
+        {-0.5001, 0, -0.5001, 0, -0.5001, 0},
+        {1}};
+  };
+  recorder r;
+  CHECK(p.run("corrected", {&r}, limits).status == path_status::solved);
+  REQUIRE(r.increments.size() == 2);
+  REQUIRE(r.increments[0].events.size() == 1);
+  CHECK(r.increments[0].events[0].what == change::make);
+  CHECK(r.increments[1].events.empty());
 }
 
 TEST_CASE("lifted off its stops for good, the state reached is told, with the load that it carried") {
@@ -157,7 +193,7 @@ TEST_CASE("driven away from the start, a beam that nothing holds has not moved")
   CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
 }
 
-TEST_CASE("the listing's rule gets none of this: a beam above its stops is a mechanism from the start") {
+TEST_CASE("the listing's rule gets none of this: the path of a beam above its stops ends at the start") {
   for (const char* name : {"fortran", "cpp"}) {
     bool asked = false;
     const path_limits limits{0,
@@ -167,7 +203,7 @@ TEST_CASE("the listing's rule gets none of this: a beam above its stops is a mec
                              }};
     recorder r;
     const path_end end = beam_above_stops().run(name, {&r}, limits);
-    CHECK(end.status == path_status::mechanism);
+    CHECK(end.status == path_status::path_ended);
     CHECK(end.fraction == 0.0);
     CHECK(r.increments.empty());
     CHECK_FALSE(asked);

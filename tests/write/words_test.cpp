@@ -21,14 +21,16 @@ TEST_CASE("sides, events and states have the words of a problem file") {
   CHECK(look_name(pair_look::at_face) == "at its face");
 }
 
-TEST_CASE("a path that stops short of its load has one of two statuses, and a reason of its own") {
+TEST_CASE("a path that stops short of its load has one of three statuses, and a reason of its own") {
   CHECK(status_name(path_status::solved) == "solved");
   CHECK(status_name(path_status::mechanism) == "mechanism");
+  CHECK(status_name(path_status::path_ended) == "path-ended");
   for (const auto other : {path_status::cycle, path_status::iteration_limit, path_status::not_factored})
     CHECK(status_name(other) == "iteration-limit");
   CHECK(end_reason(path_status::solved) == "all load applied");
   CHECK(end_reason(path_status::cycle) == "cycle");
   CHECK(end_reason(path_status::not_factored) == "not factored");
+  CHECK(end_reason(path_status::path_ended) == "path ended");
 }
 
 TEST_CASE("a step is certified, not certified, or without a certificate") {

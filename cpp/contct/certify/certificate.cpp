@@ -202,6 +202,11 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     c.problem =
         "there is no equilibrium: no support and no face stops a rigid-body motion on which the load does "
         "work";
+  } else if (answer.how == outcome::none_seen) {
+    c.problem =
+        "there is no reference solution: as far as double precision shows, the load drives a rigid-body "
+        "motion "
+        "that nothing stops; whether there is an equilibrium is not decided";
   } else if (answer.how == outcome::not_found) {
     c.problem = "there is no reference solution: the stiffness is too ill-conditioned";
   } else {
@@ -210,7 +215,7 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
   }
   // What is proved, but not closely enough, is nearer to the truth than a reference solution beyond that
   // bound.
-  const bool reference_is_off = answer.how == outcome::not_found ||
+  const bool reference_is_off = answer.how != outcome::found ||
                                 c.displacement_error * largest_length() >
                                     c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
   const bool of_bounds = c.proved && !of_proof.empty();
@@ -322,11 +327,21 @@ bool certifier::search(int step, double share, std::span<double> displacement, s
 
 namespace {
 
-void take_exact_end(std::optional<followed_step> end, reference_answer& found) {
-  if (!end || end->status != path_status::solved) return;
+/// What the exact path says of a load for which doubles find no equilibrium, and cannot exclude one.
+void decide_exactly(std::optional<followed_step> end, reference_answer& found) {
+  if (!end) return;
+  if (end->status != path_status::solved) {
+    found.how = outcome::no_equilibrium;
+    return;
+  }
   found.displacement = std::move(end->displacement);
   found.pressed = std::move(end->closed);
   found.how = outcome::found;
+}
+
+path_status status_without(outcome how) {
+  if (how == outcome::no_equilibrium) return path_status::mechanism;
+  return how == outcome::none_seen ? path_status::path_ended : path_status::not_factored;
 }
 
 }  // namespace
@@ -342,10 +357,10 @@ path_end find_final_states(const linear_structure& s, int steps, const load_hist
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
     reference_answer found = solve_for(finds, total, total_load.work(step), step, 1.0, helper);
-    if (found.how == outcome::not_found && exactly) take_exact_end(exactly(step), found);
+    if (found.how != outcome::found && found.how != outcome::no_equilibrium && exactly)
+      decide_exactly(exactly(step), found);
     end.work.factors = finds.factorisations();
-    if (found.how == outcome::no_equilibrium) return {path_status::mechanism, step, 0.0, {}, end.work};
-    if (found.how != outcome::found) return {path_status::not_factored, step, 0.0, {}, end.work};
+    if (found.how != outcome::found) return {status_without(found.how), step, 0.0, {}, end.work};
     std::vector<int> status;
     for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);
     const double rcond = finds.reciprocal_condition(holding(s, found.pressed));

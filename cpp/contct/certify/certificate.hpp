@@ -126,8 +126,9 @@ class certifier final : public observer {
 /// An elastic structure on one-sided springs without friction has no memory: each is where the path would
 /// arrive. A handful of factorisations a step; no increments, no events.
 ///
-/// Ends as `mechanism` at the first step whose load nothing carries, and as `not_factored` where no
-/// answer is found in double precision, nor by `helper` and `exactly`; that step is not told.
+/// Ends as `mechanism` at the first step whose load certainly nothing carries, as `path_ended` where that is
+/// not decided, and as `not_factored` where no answer is found in double precision, nor by `helper` and
+/// `exactly`; that step is not told.
 path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
                            std::span<observer* const> observers, certifier* helper = nullptr,
                            const exact_follower& exactly = nullptr);

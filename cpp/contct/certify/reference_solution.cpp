@@ -55,7 +55,7 @@ class reference_solver::search {
   reference_answer solve(std::span<const double> load, const rigid_work& work) {
     held_in_doubles_ = false;
     take(load, work);
-    if (exists_ == false) return end(outcome::no_equilibrium, false);
+    if (exists_ == false) return end(outcome::no_equilibrium, false);  // otherwise none is certain
     reference_answer answer = from_here();
     if (answer.how == outcome::found) return answer;
     // A start that is far from the answer may have spoilt it by rounding.
@@ -269,7 +269,7 @@ class reference_solver::search {
   [[nodiscard]] outcome why_endless(const numbers& p) const {
     if (exists_ == true || structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
     const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
-    return finite ? outcome::no_equilibrium : outcome::not_found;
+    return finite ? outcome::none_seen : outcome::not_found;
   }
 
   [[nodiscard]] reference_answer end(outcome how, bool unique) const {
@@ -303,8 +303,7 @@ class reference_solver::search {
       } else {
         put(*driven, p);
         // Where an equilibrium exists, rounding has put a pair on the wrong side.
-        if (nothing_stops(p))
-          return end(exists_ == true ? outcome::not_found : outcome::no_equilibrium, false);
+        if (nothing_stops(p)) return end(exists_ == true ? outcome::not_found : outcome::none_seen, false);
       }
       const long double alpha = driven ? best_step(p, -driven->work(), 0.0L) : best_step(p);
       if (!std::isfinite(alpha)) return end(why_endless(p), false);
@@ -328,7 +327,7 @@ class reference_solver::search {
   pair_set set_;                         // and its pressed pairs
   stiffness_factor factor_;
   std::optional<pair_set> in_factor_;  // the pairs whose springs it has, where it has no others
-  std::vector<double> scale_;  // square roots of K's diagonal [rows]
+  std::vector<double> scale_;          // square roots of K's diagonal [rows]
   int factorisations_ = 0;
   bool held_in_doubles_ = false;  // only what doubles see counts as held
 };

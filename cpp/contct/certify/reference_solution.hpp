@@ -14,7 +14,8 @@ namespace contct::certify {
 struct reference_answer {
   enum class outcome {
     found,           ///< the minimiser of the energy
-    no_equilibrium,  ///< a rigid motion that nothing stops does work under the load
+    no_equilibrium,  ///< certainly: a rigid motion that nothing stops does work under the load
+    none_seen,       ///< the same as far as doubles see, which no proof confirms
     not_found,       ///< too ill-conditioned, or out of iterations
   };
   outcome how = outcome::not_found;
@@ -55,8 +56,8 @@ class reference_solver {
   /// structure where that leads nowhere. `work` of this load decides, where it is known, what is driven.
   [[nodiscard]] reference_answer solve(std::span<const double> load, const rigid_work& work = {});
 
-  /// Reciprocal condition of K with the springs of the pairs that are `closed` [pairs], its diagonal scaled to
-  /// 1; by the last factor where it is of these.
+  /// Reciprocal condition of K with the springs of the pairs that are `closed` [pairs], its diagonal scaled
+  /// to 1; by the last factor where it is of these.
   [[nodiscard]] double reciprocal_condition(std::span<const char> closed);
 
   /// How many there have been so far.

@@ -70,7 +70,8 @@ void digit_counter::step_ended(const path::step_state& s) {
   for (std::size_t i = 0; i < problem_.pairs.size(); ++i) {
     const structure::contact_pair& c = problem_.pairs[i];
     const double w = s.displacement[static_cast<std::size_t>(c.node) * error_.size()];
-    const double force = force_of(c, w, s.isep[i] == in_contact);
+    const double force =
+        s.numbers != nullptr ? s.numbers->pair_forces[i] : force_of(c, w, s.isep[i] == in_contact);
     force_error_ = std::max(force_error_, rational(abs(binary_value(force) - exactly.force[i])));
   }
 }
@@ -97,7 +98,9 @@ digit_counter::event_list digit_counter::decided(const event_list& events, doubl
 bool digit_counter::is_open_question(const placed_event& e, double tie) const {
   const std::size_t last = exactly_.steps.size() - 1;
   const double reached = static_cast<double>(last) + rounded(exactly_.steps[last].fraction);
-  if (exactly_.status == path_status::mechanism && e.place > reached - tie) return true;
+  const bool nothing_holds =
+      exactly_.status == path_status::mechanism || exactly_.status == path_status::path_ended;
+  if (nothing_holds && e.place > reached - tie) return true;
   const double end = std::round(e.place);
   if (std::abs(e.place - end) > tie || end < 1.0 || end > static_cast<double>(exactly_.steps.size()))
     return false;

@@ -9,6 +9,18 @@
 
 namespace contct::path {
 
+namespace {
+
+std::vector<double> forces_at(const linear_structure& s, const step_state& end) {
+  if (end.numbers != nullptr) return end.numbers->pair_forces;
+  std::vector<double> forces;
+  for (std::size_t p = 0; p < s.pairs.size(); ++p)
+    forces.push_back(force_of(s.pairs[p], end.displacement[s.dof_of_pair(p)], end.isep[p] == in_contact));
+  return forces;
+}
+
+}  // namespace
+
 pair_look look_of(const contact_pair& p, double w, bool closed) {
   if (std::abs(p.face - w) < constants<double>::epsgap) return pair_look::at_face;
   return closed ? pair_look::closed : pair_look::open;
@@ -61,7 +73,8 @@ void frame_keeper::incremented(const increment& i) {
            .s = i.s,
            .snaps = i.snaps,
            .events = {i.events.begin(), i.events.end()},
-           .isep = isep_};
+           .isep = isep_,
+           .pair_forces = forces_after(i)};
   show_latest();
   const bool kept = !only_ends_ && increments_ % stride_ == 0;
   if (!kept && !solves_each_) return;
@@ -84,11 +97,28 @@ void frame_keeper::step_ended(const step_state& s) {
   f.displacement.assign(s.displacement.begin(), s.displacement.end());
   f.isep.assign(s.isep.begin(), s.isep.end());
   if (s.numbers != nullptr) f.numbers = *s.numbers;
+  f.pair_forces = forces_at(structure_, s);
+  for (std::size_t p = 0; forces_by_law_ && p < pair_force_.size(); ++p)
+    pair_force_[p] = -structure_.pairs[p].surface * f.pair_forces[p];
   if (after_increment) unshown_ = false;
   show_latest();
   if (visit_) visit_(f);
   if (after_increment && frames_.back().at == f.at && frames_.back().step == f.step) frames_.pop_back();
   keep(std::move(f));
+}
+
+/// Of the 1989 rule by the spring's law from D, otherwise as gathered since the pair came into contact: a
+/// stiff spring's compression has more digits alone than within D.
+std::vector<double> frame_keeper::forces_after(const increment& i) {
+  std::vector<double> forces;
+  for (std::size_t p = 0; p < d_.size(); ++p) {
+    const contact_pair& at = structure_.pairs[p];
+    forces.push_back(force_of(at, d_[p], isep_[p] == in_contact));
+    if (!forces_by_law_) continue;
+    if (!i.ahead.empty() || isep_[p] != in_contact) pair_force_[p] = -at.surface * forces[p];
+    forces[p] = -at.surface * pair_force_[p];
+  }
+  return forces;
 }
 
 /// Empty where even all pairs together do not hold the structure.

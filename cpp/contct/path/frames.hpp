@@ -33,6 +33,7 @@ struct frame {
   std::vector<event> events = {};
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]
+  std::vector<double> pair_forces = {};     ///< as force_of has them, with more digits [pairs]
   std::optional<end_numbers> numbers = {};  ///< of the end of a step
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
@@ -102,6 +103,7 @@ class frame_keeper final : public observer {
 
   void thin();
   [[nodiscard]] std::vector<double> shape(double fraction);
+  [[nodiscard]] std::vector<double> forces_after(const increment& i);
 
   /// Do supports and all pairs together hold the structure? Then the factor is there.
   [[nodiscard]] bool can_be_solved() {

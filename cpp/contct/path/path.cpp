@@ -18,16 +18,19 @@ class path {
   path(const linear_structure& s, stiffness_engine& engine, kernel& leader,
        std::span<observer* const> observers, const path_limits& limits)
       : increments_allowed_(increments_allowed(limits, s.pairs.size())),
-        now_(s, engine, observers, leader.facts().rule == "listing"),
+        by_1989_rule_(leader.facts().rule == "listing"),
+        now_(s, engine, observers, by_1989_rule_),
         cycles_(s.pairs.size()),
         limits_(limits),
         policy_(make_policy(now_, leader, cycles_, limits_)) {
-    if (leader.facts().rule != "listing") now_.refine = limits.refine;
+    if (!by_1989_rule_) now_.refine = limits.refine;
   }
 
   /// The paper's loop, for one load step.
   path_end follow_step(int step, const load_history& total_load) {
     begin_step(step, total_load);  // R* = the step's total load less the previous one's
+    if (motions_are_doubtful_)
+      if (const std::optional<path_end> end = without_rounding()) return *end;
     for (int number = 1; number <= increments_allowed_; ++number) {
       try {
         if (const std::optional<path_end> end = follow_increment(step, number)) return *end;
@@ -44,6 +47,18 @@ class path {
     if (const std::optional<path_end> end = by_other_means()) return *end;
     return {truly(path_status::not_factored), step, now_.fraction(), {}};
   }
+
+  /// Has the full load of this step an equilibrium? Of beams and plates decided by the rigid-body motions,
+  /// otherwise by the exact path, or shown by the reference solution.
+  [[nodiscard]] std::optional<bool> has_equilibrium() const {
+    if (const std::optional<bool> known = now_.has_equilibrium()) return known;
+    const std::optional<followed_step> exactly = limits_.exactly ? limits_.exactly(now_.step) : std::nullopt;
+    if (exactly) return exactly->status == path_status::solved;
+    if (limits_.fallback && limits_.fallback(now_.step, 1.0, now_.total)) return true;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool by_1989_rule() const { return by_1989_rule_; }
 
  private:
   /// One increment. An end where it is the last, or the path cannot go on; going on ahead counts as one more.
@@ -90,30 +105,35 @@ class path {
     return stop(path_status::mechanism, step, now_.last_opened);
   }
 
-  /// Nothing holds the structure from the start: it has not moved, and nothing can be solved.
+  /// Nothing holds the structure, and all pairs together would not: it has only moved as a rigid body.
   path_end never_held(int step) {
     if (const std::optional<path_end> end = by_other_means()) return *end;
-    const std::vector<double> u(now_.total.size());
-    now_.tell_end({step, 0.0, u, now_.status, 0.0});
-    return {truly(path_status::mechanism), step, 0.0, {}};
+    const std::vector<double> u = now_.shape;
+    now_.tell_end({step, now_.fraction(), u, now_.status, 0.0});
+    return {truly(path_status::mechanism), step, now_.fraction(), {}};
   }
 
-  /// How a path ends that seems to end so: where there is certainly no equilibrium, in a mechanism; where
-  /// there is one that it did not reach, for want of digits. What all pairs together do not hold is a
-  /// mechanism, though it may balance.
+  /// How a path ends that seems to end so: in a mechanism only where there is certainly no equilibrium.
+  /// Where there is one, a structure that all pairs together hold was lost for want of digits, but to the
+  /// 1989 rule, which does not follow rigid-body motions.
   [[nodiscard]] path_status truly(path_status seems) const {
-    const std::optional<bool> exists = policy_->can_stand();
+    const std::optional<bool> at_once = policy_->can_stand();
+    if (at_once == false) return path_status::mechanism;
+    if (seems != path_status::mechanism) return seems;
+    const std::optional<bool> exists = has_equilibrium();
     if (exists == false) return path_status::mechanism;
-    if (exists != true || seems != path_status::mechanism) return seems;
     const linear_structure& s = now_.structure;
-    return s.is_held(s.held_by([](std::size_t) { return true; })) ? path_status::not_factored : seems;
+    const bool all_hold = s.is_held(s.held_by([](std::size_t) { return true; }));
+    return at_once == true && all_hold ? path_status::not_factored : path_status::path_ended;
   }
 
   /// What is left of the step where rounding may be what ended it: where there is an equilibrium at its end,
   /// or only rounding would decide that.
   std::optional<path_end> without_rounding() {
     if (policy_->can_stand() == false) return std::nullopt;
-    return policy_->follow_exactly();
+    std::optional<path_end> end = policy_->follow_exactly();
+    motions_are_doubtful_ = end && !now_.structure.truth && now_.structure.rigid_motions > 0;
+    return end;
   }
 
   /// The end of a step that the path does not reach: without rounding, or at the reference solution.
@@ -126,7 +146,7 @@ class path {
   /// Tell the state reached, and end.
   path_end stop(path_status status, int step, std::vector<int> pairs) {
     const path_status seemed = std::exchange(status, truly(status));
-    if (status != seemed) pairs = now_.last_opened;
+    if (status != seemed && seemed != path_status::mechanism) pairs = now_.last_opened;
     if (status != path_status::solved)
       if (const std::optional<path_end> end = by_other_means()) return *end;
     std::vector<double> u(now_.total.size());
@@ -138,6 +158,10 @@ class path {
   }
 
   int increments_allowed_;
+  bool by_1989_rule_;
+  /// A matrix whose rigid-body motions were counted from rounded numbers, on a path that doubles lost before:
+  /// motions that are merely soft may be among them.
+  bool motions_are_doubtful_ = false;
   path_state now_;
   cycle_detector cycles_;
   path_limits limits_;
@@ -164,6 +188,9 @@ path_end follow_path(const linear_structure& s, int steps, const load_history& t
       end = p.not_factored(step);
     }
   }
+  if (end.status != path_status::solved && end.status != path_status::not_factored)
+    end.has_equilibrium = p.has_equilibrium();
+  end.by_1989_rule = p.by_1989_rule();
   end.work = engine.counts();
   return end;
 }

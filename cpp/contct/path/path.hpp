@@ -18,19 +18,23 @@ namespace contct::path {
 /// How a path ended.
 enum class path_status {
   solved,           ///< every step's load is applied
-  mechanism,        ///< nothing holds the structure any more: there is no equilibrium
+  mechanism,        ///< nothing holds the structure any more, and its load has certainly no equilibrium
   cycle,            ///< the same pairs toggle for ever without progress
   iteration_limit,  ///< a step took more increments than allowed
   not_factored,     ///< held, but too ill-conditioned for double precision, or beyond its range
+  path_ended,       ///< nothing holds the structure any more, but its load may have an equilibrium
 };
 
 struct path_end {
   path_status status = path_status::solved;
   int step = 0;             ///< the step in which it ended, from 1
   double fraction = 1.0;    ///< share of that step's load reached
-  std::vector<int> pairs;   ///< mechanism: whose opening freed the structure; cycle and limit: those
-                            ///< that keep toggling; from 0, empty when none did
+  std::vector<int> pairs;   ///< mechanism and path_ended: whose opening freed the structure; cycle and
+                            ///< limit: those that keep toggling; from 0, empty when none did
   engine_counts work = {};  ///< what the engine did
+  /// Not solved: has the step's full load an equilibrium? Nothing where that is not decided.
+  std::optional<bool> has_equilibrium = {};
+  bool by_1989_rule = false;  ///< the leader's
 };
 
 /// Loads along the path.
@@ -94,7 +98,8 @@ using exact_follower = std::function<std::optional<followed_step>(int step)>;
 
 struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
-  // Used only when the leader's rule is not the listing's:
+  // These lead on only when the leader's rule is not the listing's. With that, they tell whether a load that
+  // its path did not reach has an equilibrium.
   fallback_solver fallback = nullptr;
   state_refiner refine = nullptr;
   exact_follower exactly =

@@ -29,6 +29,7 @@ struct path_state {
         engine(e),
         total(structure.fixed.size()),
         increment(total.size()),
+        shape(total.size()),
         d(structure.pairs.size()),
         d_star(structure.pairs.size()),
         s(structure.pairs.size()),
@@ -64,6 +65,7 @@ struct path_state {
   std::vector<double> total;             ///< load at the end of the step [dofs]
   std::vector<double> increment;         ///< total less the previous step's [dofs]
   residual_load residual{};              ///< R*
+  std::vector<double> shape;             ///< where steps ended and rigid-body motions led to [dofs]
   std::vector<double> d;                 ///< D where each pair acts [pairs]
   std::vector<double> d_star;            ///< d* there [pairs]
   std::vector<double> c;                 ///< faces [pairs]
@@ -207,6 +209,12 @@ struct path_state {
     return forces;
   }
 
+  /// The structure moved by `s_min` of this rigid-body motion, and pairs that it closed are at their faces.
+  void move_shape(double s_min, std::span<const double> motion) {
+    for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] += s_min * motion[dof];
+    for (const event& e : events) shape[at_dof[e.pair]] = c[e.pair];
+  }
+
   /// Tell the observers.
   void tell_increment(int number, double s_min, bool rigid, std::span<const double> ahead = {}) {
     increments = number;
@@ -214,7 +222,10 @@ struct path_state {
   }
 
   /// The same of the end of a step, refined where it reached its load.
-  void tell_end(const step_state& end) const { contct::path::tell_end(end, refine, observers_); }
+  void tell_end(const step_state& end) {
+    shape.assign(end.displacement.begin(), end.displacement.end());
+    contct::path::tell_end(end, refine, observers_);
+  }
 
  private:
   /// Thousands of pairs, and one or two events: whole stretches are the same.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 namespace contct::path {
@@ -34,8 +35,9 @@ class policy_1989 final : public path_policy {
 /// A structure that nothing holds moves rigidly, at constant load, to the next face. Write to d* a rigid
 /// motion that the residual load drives and that supports and closed pairs leave free: the limit, up to its
 /// size, of the response of the structure on a ground that gets ever softer. It is long enough to reach every
-/// separated pair on its way. False, and nothing written, when the load does no work on any free motion.
-bool rigid_snap(path_state& now) {
+/// separated pair on its way; `everywhere` [dofs] becomes all of it. False, and nothing written, when the
+/// load does no work on any free motion.
+bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   const std::optional<free_motion> motion = now.driven_motion();
   if (!motion) return false;
   double longest_way = 0.0;
@@ -45,7 +47,12 @@ bool rigid_snap(path_state& now) {
     now.d_star[i] = motion->at(static_cast<int>(now.at_dof[i]), now.structure.held_by_pairs[i]);
     if (now.d_star[i] != 0.0) longest_way = std::max(longest_way, (now.c[i] - now.d[i]) / now.d_star[i]);
   }
-  for (double& moves : now.d_star) moves *= longest_way > 0.0 ? 2.0 * longest_way : 1.0;
+  const double longest = longest_way > 0.0 ? 2.0 * longest_way : 1.0;
+  for (double& moves : now.d_star) moves *= longest;
+  everywhere.assign(now.total.size(), 0.0);
+  for (std::size_t dof = 0; dof < everywhere.size(); ++dof)
+    if (now.structure.fixed[dof] == 0)
+      everywhere[dof] = longest * motion->at(static_cast<int>(dof), now.structure.rigid_rows[dof]);
   return true;
 }
 
@@ -102,6 +109,7 @@ class stabilized_policy final : public path_policy {
     // Only the last pairs that hold the structure open too early; any other event is followed.
     if (s_min < 1.0 && !now_.held() && opens_at_full_load(s_min)) leave_undone(s_min);
     if (keep_in_contact_if_toggled_again(s_min)) cycles_.reset();
+    if (rigid_) now_.move_shape(s_min, motion_);
     return true;
   }
 
@@ -199,7 +207,7 @@ class stabilized_policy final : public path_policy {
 
  private:
   response respond_as_held() {
-    rigid_ = !now_.held() && rigid_snap(now_);
+    rigid_ = !now_.held() && rigid_snap(now_, motion_);
     if (rigid_) return response::rigid;
     if (!add_holding_springs()) return response::none;
     now_.engine.respond(now_.residual, now_.d_star);
@@ -215,8 +223,8 @@ class stabilized_policy final : public path_policy {
     for (std::size_t i = all.size(); i-- > 0;)
       for (const event& e : all[i].events) closed[e.pair] = e.what == change::make ? 0 : 1;
     double reached = now_.fraction();
-    std::size_t next = 0;
-    for (; next < all.size() && all[next].fraction < reached; ++next) toggle(all[next].events, closed);
+    std::size_t next = told_of(all, closed, reached);
+    for (std::size_t i = 0; i < next; ++i) toggle(all[i].events, closed);
     now_.take_over(closed);
     if (!now_.events.empty() && next > 0 && next < all.size()) {
       const followed_increment& from = all[next - 1];
@@ -235,6 +243,22 @@ class stabilized_policy final : public path_policy {
       reached = i.fraction;
       tell_exact_increment(s, i.snaps);
     }
+  }
+
+  /// How many increments of an exact step the path has told: all before the share `reached`, and of those at
+  /// it as many as it takes to come to the path's pairs in contact from `closed`, those at the step's start.
+  [[nodiscard]] std::size_t told_of(std::span<const followed_increment> all, std::vector<char> closed,
+                                    double reached) const {
+    constexpr double rounding = 1e-12;
+    const auto agrees = [&](std::size_t i) { return (closed[i] != 0) == (now_.sprung[i] == in_contact); };
+    const auto pairs = std::views::iota(std::size_t{0}, closed.size());
+    std::size_t told = 0;
+    for (std::size_t i = 0; i < all.size() && all[i].fraction <= reached + rounding; ++i) {
+      toggle(all[i].events, closed);
+      const bool ends = all[i].fraction == 1.0 && all[i].events.empty();
+      if (all[i].fraction < reached || (!ends && std::ranges::all_of(pairs, agrees))) told = i + 1;
+    }
+    return told;
   }
 
   void tell_exact_increment(double s, bool snaps) {
@@ -261,6 +285,7 @@ class stabilized_policy final : public path_policy {
     leapt_to_ = now_.residual.share;
     now_.take_over(found->closed);
     put_pairs_at(found->displacement);
+    now_.shape = found->displacement;
     begin_step();
     now_.tell_increment(number, distance / share, false, now_.d);
     now_.switch_springs();
@@ -354,6 +379,7 @@ class stabilized_policy final : public path_policy {
   const fallback_solver& fallback_;
   const exact_follower& exactly_;
   bool rigid_ = false;                // the last response
+  std::vector<double> motion_;        // that response, where it is rigid [dofs]
   int at_rest_ = 0;                   // answers in a row with SMIN = 0
   int last_toggled_at_rest_ = -1;     // the pair that the last answer without progress toggled
   int leapt_in_ = 0;                  // the last step in which the path went on ahead

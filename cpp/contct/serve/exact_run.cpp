@@ -11,6 +11,8 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/definite.hpp"
 #include "contct/exact/demand.hpp"
+#include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/memory.hpp"
@@ -67,6 +69,12 @@ void refuse_indefinite(const assembled& a, const exact_problem& p) {
       a.label_of(static_cast<int>(largest - shown->motion.begin()))));
 }
 
+/// Has the load of this step, or of one before it, no equilibrium?
+bool true_path_ends_by(std::size_t step, const exact_problem& p) {
+  const exact_path path = follow_true_path(p);
+  return path.status == path_status::mechanism && path.steps.size() <= step;
+}
+
 }  // namespace
 
 exact_problem exactly_read(const problem& p, const std::string& file) {
@@ -86,7 +94,11 @@ exact_problem exactly_read(const problem& p, const std::string& file) {
 exact_path follow_exactly(const exact_problem& p, const std::string& rule, const std::string& file,
                           const exact_progress& tell) {
   try {
-    return rule == "1989" ? follow_1989_path(p, tell) : follow_true_path(p, tell);
+    if (rule != "1989") return follow_true_path(p, tell);
+    exact_path path = follow_1989_path(p, tell);
+    if (path.status == path_status::mechanism && !true_path_ends_by(path.steps.size(), p))
+      path.status = path_status::path_ended;
+    return path;
   } catch (const too_long& e) {
     throw std::invalid_argument(
         fmt::format("{}: exact numbers became too long: found {}; allowed: at most {} bits. Use numbers of "
@@ -97,7 +109,8 @@ exact_path follow_exactly(const exact_problem& p, const std::string& rule, const
   }
 }
 
-/// The kernel's own path beside the exact one.
+/// The path that `contct run` takes with this kernel, and the numbers that it hands out, beside the exact
+/// ones.
 kernel_digits digits_of_kernel(const std::string& name, const problem& p, const linear_structure& s,
                                const exact_path& exactly, observer* before, observer* behind) {
   constexpr double rounding[] = {1e-9, 1e-4};  // of an event's share, in 8 and in 4 bytes
@@ -105,7 +118,9 @@ kernel_digits digits_of_kernel(const std::string& name, const problem& p, const 
   digit_counter counter(p, exactly);
   std::vector<observer*> all = {before, &counter, behind};
   std::erase(all, nullptr);
-  const path_end end = follow(p, s, "refactor", *leader, all, {0, fallback_to_reference(s, loads_of(p, s))});
+  certifier judged(p, s, exact_residual_of(p));
+  const path_end end = follow(p, s, engine_for(leader->facts(), "", s), *leader, all,
+                              {0, judged.fallback(), judged.refiner(), exact_follower_of(p)});
   return counter.result(name, end.status, rounding[leader->facts().real_bytes == 4 ? 1 : 0]);
 }
 

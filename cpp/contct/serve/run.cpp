@@ -134,7 +134,7 @@ class served_run {
   }
 
   path_end find_ends() {
-    engine_ = "oracle";
+    engine_ = "reference";
     std::vector<observer*> all = observers(nullptr);
     if (wanted_.wants_frames())
       throw std::invalid_argument(

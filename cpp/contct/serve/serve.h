@@ -65,8 +65,7 @@ CONTCT_SERVE_EXPORT char* contct_run(const char* problem, const char* options);
  *   "nodes", "dofs", "elements", "pairs", "steps": [names], "units": null or { "length", "force" } }.
  *   "svg"     false; true: the answer has a picture of the problem, as a text
  *   "places"  false; true: the result has where what is written too: "numbers": [{ "key": "contact[1].face",
- *             "value", "whole", "line", "column", "length" }], with "pair_list", "node_list" and
- * "support_list" */
+ *             "value", "whole", "line", "column", "length" }], with "pair_list" and "node_list" */
 CONTCT_SERVE_EXPORT char* contct_check(const char* problem, const char* options);
 
 /* contct exact: the path in rational arithmetic. "result" is what contct exact --json writes.

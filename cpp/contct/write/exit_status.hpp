@@ -10,7 +10,7 @@ enum class exit_status {
   bad_input = 2,        ///< a file, an option or an output path is wrong
   uncertified = 3,      ///< solved but not certified, under --strict
   mechanism = 4,        ///< no equilibrium
-  iteration_limit = 5,  ///< cycle, iteration limit, or a limit of time or memory
+  iteration_limit = 5,  ///< a path that ended early, a cycle, or a limit of increments, time or memory
 };
 
 }  // namespace contct::write

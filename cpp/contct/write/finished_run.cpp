@@ -296,7 +296,7 @@ pair_reading reading_of(const contact_pair& p, double w, bool closed) {
 pair_reading reading_of(const problem& p, const frame& f, std::size_t pair) {
   const contact_pair& at = p.pairs[pair];
   pair_reading r = reading_of(at, deflection_of(p, f, at.node), f.closed(pair));
-  if (f.numbers) r.force = f.numbers->pair_forces[pair];
+  if (!f.pair_forces.empty()) r.force = f.pair_forces[pair];
   return r;
 }
 

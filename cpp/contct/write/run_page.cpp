@@ -395,6 +395,7 @@ class page_writer {
     out["looks"] = looks;
     out["closed"] = list_of(shown_.pairs, [&](int i) { return f.closed(i) ? 1 : 0; });
     out["at_pairs"] = list_of(shown_.pairs, [&](int i) { return reading_of(what_, f, i).w; });
+    out["forces"] = list_of(shown_.pairs, [&](int i) { return reading_of(what_, f, i).force; });
     out["counts"] = {n.open, n.closed, n.at_face};
   }
 

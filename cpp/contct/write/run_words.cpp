@@ -22,14 +22,29 @@ std::string words_of_pairs(const problem& p, const std::vector<int>& pairs) {
 
 std::string mechanism_words(const problem& p, const path_end& end) {
   if (end.pairs.empty())
-    return "no equilibrium: the structure is a mechanism: its supports and the pairs in contact allow a "
-           "rigid-body motion. A structure held only by pairs must start with enough of them in contact; "
-           "--kernels corrected also follows one that first falls onto its faces";
+    return "no equilibrium: the structure is a mechanism: its supports and pairs allow a rigid-body motion "
+           "that the load of this step drives and nothing stops. Add a support, or a pair in its way";
   return "no equilibrium: when " + words_of_pairs(p, end.pairs) +
-         " separated, the structure became a mechanism" +
-         (end.fraction < 1e-9 ? ". At constant load the 1989 rule can miss an equilibrium that exists; "
-                                "compare --kernels corrected"
-                              : "");
+         " separated, the structure became a mechanism";
+}
+
+/// Why nothing holds the structure, of which no proof says that there is no equilibrium.
+std::string loose_words(const problem& p, const path_end& end) {
+  if (!end.pairs.empty())
+    return "when " + words_of_pairs(p, end.pairs) + " separated, nothing held the structure";
+  return end.by_1989_rule
+             ? "the supports and the pairs in contact at the start do not hold the structure, which "
+               "the 1989 rule needs"
+             : "the supports and the pairs in contact do not hold the structure";
+}
+
+/// Whether there is an equilibrium that the path did not reach, and what reaches it.
+std::string verdict_words(const path_end& end) {
+  if (!end.has_equilibrium)
+    return ". Whether there is an equilibrium under the load of this step is not decided";
+  if (!*end.has_equilibrium) return ". There is no equilibrium under the load of this step";
+  return std::string(". There is an equilibrium under the load of this step") +
+         (end.by_1989_rule ? ": --kernels corrected leads to it" : "");
 }
 
 }  // namespace
@@ -43,12 +58,14 @@ std::string end_words(const problem& p, const path_end& end) {
       return where + mechanism_words(p, end);
     case path_status::cycle:
       return where + "a cycle at constant load: these pairs change their status again and again: " +
-             words_of_pairs(p, end.pairs);
+             words_of_pairs(p, end.pairs) + verdict_words(end);
     case path_status::iteration_limit:
       return where + "the limit of increments (--max-increments) is reached" +
-             (end.pairs.empty()
-                  ? ""
-                  : "; these pairs change their status again and again: " + words_of_pairs(p, end.pairs));
+             (end.pairs.empty() ? ""
+                                : "; these pairs change their status again and again: " +
+                                      words_of_pairs(p, end.pairs) + verdict_words(end));
+    case path_status::path_ended:
+      return where + "the path ended: " + loose_words(p, end) + verdict_words(end);
     default:
       return where +
              "the structure is held, but its stiffness is too ill-conditioned, or its loads too large, for "
@@ -58,9 +75,9 @@ std::string end_words(const problem& p, const path_end& end) {
 }
 
 exit_status status_of(path_status status) {
-  constexpr exit_status statuses[] = {exit_status::solved, exit_status::mechanism,
+  constexpr exit_status statuses[] = {exit_status::solved,          exit_status::mechanism,
                                       exit_status::iteration_limit, exit_status::iteration_limit,
-                                      exit_status::bad_input};
+                                      exit_status::bad_input,       exit_status::iteration_limit};
   return statuses[static_cast<int>(status)];  // in the order of path_status
 }
 
@@ -83,7 +100,8 @@ std::string passage_watch::warning() const {
 }
 
 void digit_watch::step_ended(const step_state& s) {
-  if (s.numbers != nullptr || digits_left(s.rcond) >= fewest) return;  // refined states keep their digits
+  // Refined states, and those of the exact path, keep their digits.
+  if (s.numbers != nullptr || s.from_exact_path || digits_left(s.rcond) >= fewest) return;
   fewest = digits_left(s.rcond);
   step = s.step;
   rcond = s.rcond;

@@ -90,7 +90,8 @@ void table::incremented(const increment& i) {
     flush_first_load();
     return print_row(i, agreement(), events);
   }
-  for (const event& e : i.events) ++(e.what == change::make ? first_load_.makes : first_load_.breaks);
+  for (const event& e : i.events)
+    (e.what == change::make ? first_load_.makes : first_load_.breaks).insert(e.pair);
   first_load_.last = {i.step, i.number, i.s, i.fraction, {}, i.snaps};
   ++first_load_.increments;
   first_load_.equal = first_load_.equal && (compared_ == nullptr || compared_->last_call_equal());
@@ -104,10 +105,11 @@ void table::flush_first_load() {
     return n == 0 ? "" : fmt::format("{} pair{} {}{}", n, n == 1 ? "" : "s", what, n == 1 ? "s" : "");
   };
   std::vector<std::string> words;
-  for (const std::string& part : {toggled(first_load_.breaks, "break"), toggled(first_load_.makes, "make")})
+  for (const std::string& part :
+       {toggled(first_load_.breaks.size(), "break"), toggled(first_load_.makes.size(), "make")})
     if (!part.empty()) words.push_back(part);
   if (!words.empty()) words.back() += " at first load";
-  const bool few = first_load_.increments == 1 && first_load_.makes + first_load_.breaks <= 3;
+  const bool few = first_load_.increments == 1 && first_load_.makes.size() + first_load_.breaks.size() <= 3;
   const auto said = std::exchange(first_load_, {});
   first_load_.equal = said.equal;
   print_row(said.last, agreement(), few ? said.events : words);
@@ -212,11 +214,11 @@ void run_csv::called(const answered_call& c) {
 }
 
 void run_csv::incremented(const increment& i) {
-  last_ = {i.step, i.number,   i.snaps ? "snap" : "load",
-           i.s,    i.fraction, {i.events.begin(), i.events.end()},
-           d_,     isep_,      {}};
-  if (const frame& now = states_.latest(); !now.displacement.empty())
-    last_.watched = deflection_of(problem_, now, watched_);
+  last_ = {
+      i.step, i.number, i.snaps ? "snap" : "load",    i.s, i.fraction, {i.events.begin(), i.events.end()},
+      d_,     isep_,    states_.latest().pair_forces, {}};
+  const frame& now = states_.latest();
+  if (!now.displacement.empty()) last_.watched = deflection_of(problem_, now, watched_);
   for (std::size_t p = 0; p < d_.size(); ++p) last_.w[p] += i.s * d_star_[p];
   for (const event& e : i.events) last_.isep[e.pair] = e.what == change::make ? in_contact : separated;
   if (!i.ahead.empty()) {  // without a call
@@ -231,11 +233,12 @@ void run_csv::incremented(const increment& i) {
 void run_csv::step_ended(const step_state& s) {
   if (!pending_ || last_.step != s.step || s.from_fallback) {
     if (pending_) write_pending();
-    last_ = {s.step, 0, s.from_fallback ? "rescue" : "end", 0.0, s.fraction, {}, {}, {}, {}};
+    last_ = {s.step, 0, s.from_fallback ? "rescue" : "end", 0.0, s.fraction, {}, {}, {}, {}, {}};
     agreement_ = "";
   }
   last_.isep.assign(s.isep.begin(), s.isep.end());
   last_.watched = deflection_of(problem_, s.displacement, watched_);
+  last_.forces = states_.frames().back().pair_forces;
   last_.w.clear();
   for (const contact_pair& p : problem_.pairs)
     last_.w.push_back(deflection_of(problem_, s.displacement, p.node));
@@ -263,7 +266,7 @@ void run_csv::write_pending() {
     const pair_reading r = reading_of(p, last_.w[i], last_.isep[i] == in_contact);
     pairs_->write(fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number, i + 1,
                               csv_field(place_name(problem_.geometry, p.node)), surface_name(p.surface),
-                              state_name(last_.isep[i]), look_name(r.look), r.w, r.gap, r.force));
+                              state_name(last_.isep[i]), look_name(r.look), r.w, r.gap, last_.forces[i]));
   }
 }
 

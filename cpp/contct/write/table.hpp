@@ -1,6 +1,7 @@
 // The run as tables, an increment a row: on the terminal, and in files for spreadsheets and data frames.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,7 +56,7 @@ class table final : public observer {
   struct {
     increment last{};
     int increments = 0;
-    std::size_t makes = 0, breaks = 0;
+    std::set<int> makes = {}, breaks = {};  // pairs
     bool equal = true;
     std::vector<std::string> events;
   } first_load_;
@@ -109,8 +110,9 @@ class run_csv final : public observer {
     std::string_view kind;
     double s = 0.0, fraction = 0.0;
     std::vector<event> events;
-    std::vector<double> w;  // [pairs]
-    std::vector<int> isep;  // [pairs]
+    std::vector<double> w;       // [pairs]
+    std::vector<int> isep;       // [pairs]
+    std::vector<double> forces;  // [pairs]
     std::optional<double> watched;
   } last_;
 };

@@ -40,13 +40,14 @@ constexpr std::string_view look_words(pair_look look) {
 
 constexpr std::string_view status_name(path_status status) {
   if (status == path_status::solved) return "solved";
+  if (status == path_status::path_ended) return "path-ended";
   return status == path_status::mechanism ? "mechanism" : "iteration-limit";
 }
 
 /// Why a path ended where it did.
 constexpr std::string_view end_reason(path_status status) {
-  constexpr std::string_view reasons[] = {"all load applied", "mechanism", "cycle", "iteration limit",
-                                          "not factored"};
+  constexpr std::string_view reasons[] = {"all load applied", "mechanism",    "cycle",
+                                          "iteration limit",  "not factored", "path ended"};
   return reasons[static_cast<std::size_t>(status)];
 }
 

@@ -1,5 +1,5 @@
 // Draws a run from the JSON beside it. Numbers come from the run; nothing is computed here but where to
-// put them on the page, gaps and forces of pairs, by the same formulas as the program's, and the colours
+// put them on the page, gaps of pairs, by the same formula as the program's, and the colours
 // between a plate's nodes.
 "use strict";
 
@@ -68,7 +68,7 @@ function pairOf(frame, i) {
   return {
     ...p, w, closed, look: frame.looks[i],
     gap: closed ? 0 : clear,
-    force: closed ? -p.side * p.stiffness * (p.face - w) : 0,
+    force: frame.forces[i],
   };
 }
 
@@ -1306,7 +1306,7 @@ function show(n) {
 // A state between two: the truth too, since within an increment everything moves on straight lines.
 function between(a, b, share) {
   const mixed = (p, q) => p.map((x, i) => (x === null ? null : x + share * (q[i] - x)));
-  const f = { ...a, at_pairs: mixed(a.at_pairs, b.at_pairs) };
+  const f = { ...a, at_pairs: mixed(a.at_pairs, b.at_pairs), forces: mixed(a.forces, b.forces) };
   const mixedPoints = (same) => b.points.map((p) => {
     const before = a.points.find((o) => same(o, p));
     const value = before ? before[3] : 0;

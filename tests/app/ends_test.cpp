@@ -1,0 +1,139 @@
+// How runs end that do not reach an equilibrium, and what is said of it.
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct::app;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A free beam over one pair, loaded at a node.
+std::string over_one_pair(int loaded) {
+  return "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.5\n"
+         "stiffness = 1e4\n[[step]]\npoint = [ { node = " +
+         std::to_string(loaded) + ", w = -1 } ]\n";
+}
+
+/// A beam on a pivot lies on a stop, and is lifted onto one above it.
+const char* const lifted =
+    "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[support]]\nnode = 1\nfix = \"w\"\n"
+    "[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e4\n"
+    "[[contact]]\nnode = 3\nsurface = \"above\"\nface = 0.01\nstiffness = 1e4\n"
+    "[[step]]\npoint = [ { node = 3, w = -10 } ]\n[[step]]\npoint = [ { node = 3, w = 10 } ]\n";
+
+const char* const stiff_stop =
+    "[beam]\nx = [0.0, 0.7, 1.3, 2.0]\nEI = 1.0e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+    "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.0037\nstiffness = 1.0e20\n"
+    "[[step]]\npoint = [ { node = 4, w = -60.0 } ]\n";
+
+const std::string mtx = "%%MatrixMarket matrix coordinate real symmetric\n3 3 6\n";
+
+/// A matrix with a free motion, held by a spring that doubles cannot tell from none.
+void write_soft_matrix(const scratch_folder& dir) {
+  dir.write("K.mtx", mtx + "1 1 13\n2 1 2\n2 2 1\n3 1 4\n3 2 -1\n3 3 5\n");
+  dir.write(
+      "p.toml",
+      "[matrix]\nstiffness = \"K.mtx\"\n[[support]]\ndof = \"1\"\nspring = 1e-13\n[[contact]]\ndof = \"1\"\n"
+      "surface = \"below\"\nface = -0.0396\nstiffness = 5.16e+04\n[[step]]\n"
+      "point = [ { dof = \"3\", value = -0.556 } ]\n[[step]]\npoint = [ { dof = \"2\", value = -0.113 } ]\n");
+}
+
+finished run_of(const std::string& text, std::vector<std::string> options, const scratch_folder& dir) {
+  dir.write("p.toml", text);
+  options.insert(options.begin(), {"run", "p.toml"});
+  return contct_program(dir.path(), options);
+}
+
+nlohmann::json result_in(const scratch_folder& dir) {
+  return nlohmann::json::parse(dir.read("out.json"));
+}
+
+}  // namespace
+
+TEST_CASE("a beam that turns about its one pair for ever: the state reached, and no kernel is advised") {
+  const scratch_folder dir;
+  const finished f = run_of(over_one_pair(3), {"--kernels", "corrected", "--json", "out.json"}, dir);
+  CHECK(f.exit == 4);
+  CHECK_THAT(f.err, Contains("no equilibrium") && Contains("Add a support") && !Contains("--kernels"));
+  const auto step = result_in(dir)["steps"][0];
+  CHECK(step["w"][1] == -0.5);
+  CHECK(step["pairs"][0]["state"] == "contact");
+  CHECK(step["pairs"][0]["force"] == 0.0);
+}
+
+TEST_CASE("a beam that balances on its one pair makes contact once, in the table too") {
+  const scratch_folder dir;
+  const finished f = run_of(over_one_pair(2), {"--kernels", "corrected", "--json", "out.json"}, dir);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("make 1: node 2 below") && !Contains("break") && !Contains("2 pairs"));
+  const auto result = result_in(dir);
+  std::size_t events = 0;
+  for (const auto& i : result["steps"][0]["increments"]) events += i["events"].size();
+  CHECK(events == 1);
+}
+
+TEST_CASE("a path of the 1989 rule that loses its hold is no mechanism where the load has an equilibrium") {
+  const scratch_folder dir;
+  const finished f = run_of(lifted, {"--json", "out.json"}, dir);
+  CHECK(f.exit == 5);
+  CHECK_THAT(f.err, Contains("step 2, at share 0.5 of its load: the path ended: when pair 1") &&
+                        Contains("There is an equilibrium") && Contains("--kernels corrected") &&
+                        !Contains("no equilibrium"));
+  CHECK(result_in(dir)["status"] == "path-ended");
+  CHECK(result_in(dir)["end"]["reason"] == "path ended");
+  CHECK(run_of(lifted, {"--kernels", "corrected"}, dir).exit == 0);
+  const finished exact = contct_program(dir.path(), {"exact", "p.toml", "--rule", "1989"});
+  CHECK(exact.exit == 5);
+  CHECK_THAT(exact.out + exact.err, !Contains("no equilibrium"));
+}
+
+TEST_CASE("of a matrix with a spring softer than rounding nobody says that it has no equilibrium") {
+  const scratch_folder dir;
+  write_soft_matrix(dir);
+  int solved = 0;
+  for (const char* how : {"--kernels=corrected", "--final-only", "--kernels=fortran"}) {
+    const finished f = contct_program(dir.path(), {"run", "p.toml", how, "--json", "out.json"});
+    INFO(how << "\n" << f.out << f.err);
+    CHECK(f.exit != 4);
+    CHECK_THAT(f.out + f.err, !Contains("no equilibrium"));
+    if (f.exit != 0) continue;
+    ++solved;
+    CHECK(result_in(dir)["steps"][1]["displacement"][1] == -13842500000000.141);  // -11074000000000113 / 800
+  }
+  CHECK(solved == 2);
+}
+
+TEST_CASE("the contact force of a stiff stop is one number: in the result, in the table and on the page") {
+  const scratch_folder dir;
+  const finished f =
+      run_of(stiff_stop,
+             {"--kernels", "corrected", "--json", "out.json", "--csv", "out.csv", "--html", "out.html"}, dir);
+  CHECK(f.exit == 0);
+  const double force = result_in(dir)["steps"][0]["pairs"][0]["force"];
+  CHECK(force == Approx(57.938097).epsilon(1e-8));
+  const std::string table = dir.read("out.pairs.csv");
+  const std::string last = table.substr(table.rfind(',') + 1);
+  CHECK(std::strtod(last.c_str(), nullptr) == force);
+  const std::string page = dir.read("out.html");
+  const std::size_t at = page.rfind("\"forces\":[");
+  REQUIRE(at != std::string::npos);
+  CHECK(std::strtod(page.c_str() + at + 10, nullptr) == force);
+}
+
+TEST_CASE("the digits of the corrected rule are those of the numbers that a run hands out") {
+  const scratch_folder dir;
+  dir.write(
+      "p.toml",
+      "[beam]\nx = [0, 1]\nEI = 3\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\n"
+      "surface = \"below\"\nface = -0.3\nstiffness = 1e17\n[[step]]\npoint = [ { node = 2, w = -9.1 } ]\n");
+  const finished f =
+      contct_program(dir.path(), {"exact", "p.toml", "--kernels", "corrected", "--json", "out.json"});
+  CHECK(f.exit == 0);
+  const auto kernel = result_in(dir)["kernels"][0];
+  CHECK(kernel["name"] == "corrected");
+  CHECK(kernel["force_digits"].get<double>() > 15.0);
+}
