@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "contct/certify/extreme_bounds.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct::certify {
@@ -445,6 +446,7 @@ error_bounds error_prover::bound(const handed_out& state) {
   const true_loads& l = loads_of(state.step);
   if (is_unloaded(l)) {
     bound_unloaded(state, b);
+    widen_by_extremes(problem_, state, b.error);
     b.size = b.error;
     z_.clear();
     if (b.not_proved.empty()) keep(state, long_vector(true_.dofs()), b);
@@ -469,6 +471,7 @@ error_bounds error_prover::bound(const handed_out& state) {
   bound_forces(state, u, b);
   bound_reactions(state, r, u, b);
   bound_element_values(state, b);
+  widen_by_extremes(problem_, state, b.error);
   if (b.unique) keep(state, u, b);  // of a balanced one the checker knows nothing
   return b;
 }

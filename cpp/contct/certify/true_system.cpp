@@ -29,20 +29,13 @@ void add_pairs(const problem& p, const Kind& kind, true_system& t) {
   for (const bed& b : p.beds)
     for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
       t.pairs[i].stiffness = long_decimal(b.modulus) * shares[p.pairs[i].node];
-  for (const bed& b : p.beds)
-    for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size() && !b.face.empty(); ++i)
-      t.pairs[i].face = kind.face_at(p.pairs[i].node, b.face);
-}
-
-/// The loads as the file has them, which a reader may have added up in doubles.
-load in_parts(const load& l) {
-  load all = l;
-  all.distributed.clear();
-  for (const distributed_load& d : l.distributed) {
-    if (d.parts.empty()) all.distributed.push_back(d);
-    for (const std::vector<double>& part : d.parts) all.distributed.push_back({part, d.elements});
+  for (const bed& b : p.beds) {
+    if (b.face.empty()) continue;
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < b.share.size(); ++i) nodes.push_back(p.pairs[b.first_pair + i].node);
+    const long_vector faces = kind.faces_at(nodes, b.face);
+    for (std::size_t i = 0; i < faces.size(); ++i) t.pairs[b.first_pair + i].face = faces[i];
   }
-  return all;
 }
 
 template <class Kind>
@@ -50,7 +43,7 @@ true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
   const std::size_t n = dofs(p.geometry);
   const int per_node = dofs_per_node(p.geometry);
   true_loads f{step, long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
-  const load l = in_parts(p.steps[step - 1]);
+  const load& l = p.steps[step - 1];
   for (const point_load& q : l.points) {
     f.force[q.node * per_node + q.dof] += long_decimal(q.value);
     f.size[q.node * per_node + q.dof] += std::abs(q.value);
@@ -107,7 +100,7 @@ void fill(const problem& p, const Kind& kind, matrix::remote_matrix* remote, tru
   add_pairs(p, kind, t);
   t.loads = [&p, kind](int step) { return loads_of_step(p, kind, step); };
   t.element_values = [&p, kind](int step, std::span<const double_double> u) {
-    return kind.values(in_parts(p.steps[step - 1]), u);
+    return kind.values(p.steps[step - 1], u);
   };
 }
 
