@@ -47,10 +47,21 @@ class Beam:
                           [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, 2 * h * h * c, -6 * h * c, 4 * h * h * c]]
 
     def load(self, q, left):
-        """Consistent forces of the polynomial q in x; q and the shapes become polynomials in t = (x - left) / h."""
+        """Consistent forces of the polynomial q in x, and the deflection in the middle between clamped ends.
+
+        q and the shapes become polynomials in t = (x - left) / h; a unit load at t deflects the middle by h^3 t^2 (3 - 4 t) / 48 EI up to 1/2.
+        """
         shapes = [(1, 0, -3, 2), (0, self.h, -2 * self.h, self.h), (0, 0, 3, -2), (0, 0, -self.h, self.h)]
         own = [sum(c * comb(k, i) * left**(k - i) for k, c in enumerate(q) if k >= i) * self.h**(i + 1) for i in range(len(q))]
-        return [sum(c * a / F(i + j + 1) for i, c in enumerate(own) for j, a in enumerate(shape)) for shape in shapes]
+        forces = [sum(c * a / F(i + j + 1) for i, c in enumerate(own) for j, a in enumerate(shape)) for shape in shapes]
+        half = [[F(1, 2**k * k) for k in range(i + 1, i + 5)] for i in range(len(q))]
+        left_half = [3 * at[2] - 4 * at[3] for at in half]
+        right_half = [sum(a * (F(1, i + j + 1) - at[j]) for j, a in enumerate((-1, 6, -9, 4))) for i, at in enumerate(half)]
+        return forces + [self.h**3 / (48 * self.EI) * sum(c * (a + b) for c, a, b in zip(own, left_half, right_half))]
+
+    def middle(self, u, work):
+        """w in the middle, for its displacements and its own loads."""
+        return (u[0] + u[2]) / 2 + self.h * (u[1] - u[3]) / 8 + work[4]
 
     def values(self, u, work):
         """(kind, value, square of its error per rho) of what is handed out, for its displacements and its own loads."""

@@ -88,7 +88,7 @@ class Problem:
 
     def loads(self, step):
         """Loads [dofs], the settlement of each fixed dof, and each element's own loads."""
-        f, settled, own = [F(0)] * self.n, {}, [[F(0)] * len(dofs) for _, dofs, _ in self.elements]
+        f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
         only(step, {"name", "point", "settlement"} | ({"uniform"} if self.elements else set()))
         for part in listed(step.get("uniform", [])):
             part = only(part, {"value", "polynomial", "elements"}) if isinstance(part, dict) else {"value": part}

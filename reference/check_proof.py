@@ -106,6 +106,9 @@ def check(p, step, s, largest):
         room = error[kind] - abs(F(x) - true)
         need(room >= 0 and room * room >= square * rho2, f"the bound on {kind} does not hold for number {number + 1}")
         told[kind] = max(told.get(kind, F(0)), abs(F(x)))
+    if "L" in s and len(p.lines) == 1:
+        at = list(map(F, s["displacement"]))
+        told["w"] = max([told["w"]] + [abs(e.middle([at[dof] for dof in dofs], work)) for (e, dofs, _), work in zip(p.elements, own)])
     wrong = check_pairs(p, s, deep, rho2, reach, told) if "state" in s and p.pairs else []
     size, besides = sizes_of(p, f, settled, told, largest)
     sure = {kind: max(x - error[kind], F(0)) for kind, x in told.items()}  # what is not certified may be told larger than it is

@@ -154,13 +154,3 @@ TEST_CASE("a bed's polynomial face is exact, and so is whether it is at 0") {
                   .pairs[0]
                   .closed);
 }
-
-TEST_CASE("a face that is inside the structure in exact arithmetic alone is refused with its pair") {
-  contct::structure::problem p =
-      parse_problem("[beam]\nx = [0, 1]\nEI = 1\n" + clamped +
-                        "[[bed]]\nmodulus = 1\nface = { polynomial = [0, -0.1] }\n" + unloaded,
-                    "p.toml");
-  p.beds[0].face = {1e-30, 0.0};
-  CHECK_THROWS_WITH(exact_problem_of(p),
-                    Catch::Matchers::Contains("pair 1 of a [[bed]], at node 2: found the face"));
-}

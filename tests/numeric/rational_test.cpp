@@ -36,6 +36,13 @@ TEST_CASE("a rational is rounded to a double, however long it is") {
   CHECK(rounded(0) == 0.0);
   const integer huge = boost::multiprecision::pow(integer(10), 5000U);
   CHECK(rounded(rational(integer(huge + 1), integer(huge * 4))) == 0.25);
+  const integer between = (integer(1) << 53U) + 1;  // of two doubles
+  CHECK(rounded(rational(between)) == 0x1p53);
+  CHECK(rounded(rational(integer((between << 200U) + 1), integer(integer(1) << 200U))) == 0x1p53 + 2);
+  const double_double third = long_rounded(rational(1, 3));
+  CHECK(third.hi == 1.0 / 3.0);
+  CHECK(abs(binary_value(third.hi) + binary_value(third.lo) - rational(1, 3)) <
+        rational(integer(1), integer(integer(1) << 107U)));
 }
 
 TEST_CASE("fractions are written while they are short, decimals beyond") {

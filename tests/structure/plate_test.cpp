@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/structure/true_plate.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;
@@ -502,4 +502,13 @@ TEST_CASE("what holds the plate is told to the path: three points not on a line,
   CHECK(rank_of({{0, 1, true}, {5, 1, true}, {7, 2, true}}, {}) == 2);
   CHECK(rank_of({{0, 1, true}, {5, 1, true}, {7, 2, true}}, {stop}) == 3);
   CHECK(build(p, {}, {stop}).dof_of_pair(0) == 3 * p.node_at(2, 3));
+}
+
+TEST_CASE("D of a plate is right to 32 digits where 1 - nu^2 cancels in doubles") {
+  const plate p{{0, 1}, {0, 1}, 1.0, -0.9999999999999999, 2484, 0.1};
+  // 1 - nu^2 = 1e-16 (2 - 1e-16), and D = 0.207 / (1 - nu^2).
+  const double_double D = stiffness_of(p);
+  const double_double bracket = long_decimal(1e-16) * (2 - long_decimal(1e-16));
+  CHECK(std::abs((D * bracket - long_decimal(0.207)).hi) < 1e-30);
+  CHECK(std::abs(bending_stiffness(p.E, p.nu, p.thickness) / D.hi - 1) > 0.05);
 }

@@ -60,6 +60,19 @@ TEST_CASE("the resultant of a load: its force, and a moment for each slope") {
   CHECK(p.moments[1] == Approx(-4.0 * 1 - 2.0 * 0.5 + 0.25));
 }
 
+TEST_CASE("the resultant is exact where powers of x or loads cancel") {
+  const load far{{}, {{{1e18, -6e15, 1.5e13, -2e10, 1.5e7, -6000, 1}, {}}}};  // (x - 1000)^6
+  const resultant r = resultant_of(model{beam{{1000, 1001, 1002}, {1, 1}}}, far);
+  CHECK(r.force == 128.0 / 7);
+  CHECK(r.moments[0] == 128.0 * 1000 / 7 + 32);
+  const load cancels{{{0, 0, 0.1}, {1, 0, 0.2}, {2, 0, -0.3}}, {}};
+  CHECK(resultant_of(model{two_spans}, cancels).force == 0.0);
+  CHECK(resultant_of(model{small}, cancels).force == 0.0);
+  assembled matrix;
+  matrix.stiffness.order = 3;
+  CHECK(resultant_of(model{matrix}, cancels).force == 0.0);
+}
+
 TEST_CASE(
     "results in elements: shear and moment at two ends of a beam's, three moments at four corners of a "
     "plate's") {

@@ -125,7 +125,8 @@ certificate certifier::judge(const step_state& s) {
   } else if (problem_ != nullptr) {
     c.proof_tried = true;
     c.tolerance = certified_share;
-    c.problem = "no error bound is proved: its factors take too much memory or time, or CHOLMOD is not built in";
+    c.problem =
+        "no error bound is proved: its factors take too much memory or time, or CHOLMOD is not built in";
   }
   if (c.exact) measure_state(s, load, c);
   const bool beyond_face = !c.unique && c.penetration > certified_share;  // no bound knows where it may stand

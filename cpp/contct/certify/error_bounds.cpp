@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "contct/certify/extreme_bounds.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct::certify {
@@ -506,6 +507,7 @@ error_bounds error_prover::bound(const handed_out& state) {
   }
   if (is_unloaded(l)) {
     bound_unloaded(state, b);
+    widen_by_extremes(problem_, state, b);
     const std::optional<double> largest_gap = b.size[quantity::gap];
     b.size = b.error;
     b.size[quantity::gap] = largest_gap;
@@ -542,6 +544,7 @@ error_bounds error_prover::bound(const handed_out& state) {
   bound_forces(state, u, b);
   bound_reactions(state, r, u, b);
   bound_element_values(state, b);
+  widen_by_extremes(problem_, state, b);
   if (b.unique) keep(state, u, b);  // of a balanced one the checker knows nothing
   return b;
 }

@@ -12,7 +12,7 @@
 
 #include "contct/certify/true_system.hpp"
 #include "contct/structure/element_formulas.hpp"
-#include "contct/structure/true_plate.hpp"
+#include "contct/structure/polynomials.hpp"
 
 namespace contct::certify {
 
@@ -80,7 +80,7 @@ void add_element(sparse_rows& k, const Matrix& element, const Dofs& dofs) {
 /// A structure of one kind: what the conversion of a problem asks of it.
 class true_beam {
  public:
-  explicit true_beam(const beam& b) : beam_(b), line_(line_of(b.x, b.runs)) {
+  explicit true_beam(const beam& b) : beam_(b), loads_(b), line_(loads_.line()) {
     for (const double EI : b.EI) EI_.push_back(long_decimal(EI));
   }
 
@@ -94,8 +94,8 @@ class true_beam {
 
   void add_distributed(const load& l, true_loads& f) const {
     uniform_load last;
-    for_each_loaded_element(l, beam_.elements(), [&](int e, std::span<const double> polynomial) {
-      const element_loads work = load_on(e, polynomial, last);
+    loads_.for_each(l, [&](int e, const load_on_element& on) {
+      const element_loads work = work_of(e, on, last);
       const std::array<int, 4> dofs = dofs_of(e);
       for (std::size_t i = 0; i < 4; ++i) {
         f.force[dofs[i]] += work.force[i];
@@ -134,8 +134,8 @@ class true_beam {
                              {m2, m, of_moment, true}});
     }
     uniform_load last;
-    for_each_loaded_element(l, beam_.elements(), [&](int e, std::span<const double> polynomial) {
-      const element_loads work = load_on(e, polynomial, last);
+    loads_.for_each(l, [&](int e, const load_on_element& on) {
+      const element_loads work = work_of(e, on, last);
       const std::array<double_double, 4> added = {-work.force[0], work.force[2], work.force[1],
                                                   -work.force[3]};
       element_value* const of_element = &all[4 * static_cast<std::size_t>(e)];
@@ -148,10 +148,8 @@ class true_beam {
   }
 
   [[nodiscard]] long_vector shares() const { return tributary(line_); }
-  [[nodiscard]] double_double face_at(std::size_t node, std::span<const double> polynomial) const {
-    double_double sum;
-    for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * line_.x[node] + long_decimal(polynomial[i]);
-    return sum;
+  [[nodiscard]] long_vector faces_at(std::span<const int> nodes, std::span<const double> polynomial) const {
+    return structure::values_at(beam_, polynomial, nodes);
   }
   [[nodiscard]] double span() const { return beam_.x.back() - beam_.x.front(); }
   [[nodiscard]] double least_product() const {
@@ -165,8 +163,7 @@ class true_beam {
   };
   /// A constant load, and what it comes to on an element of some length.
   struct uniform_load {
-    double q = 0.0;
-    double_double h;
+    double_double q, h;
     element_loads work;
   };
 
@@ -175,23 +172,12 @@ class true_beam {
   }
 
   /// `last`: of the element before, which is often the same.
-  [[nodiscard]] element_loads load_on(std::size_t e, std::span<const double> polynomial,
-                                      uniform_load& last) const {
-    if (polynomial.size() != 1) return load_on(e, polynomial);
-    if (last.q != polynomial[0] || !(last.h == line_.h[e]))
-      last = {polynomial[0], line_.h[e], load_on(e, polynomial)};
-    return last.work;
-  }
-
-  [[nodiscard]] element_loads load_on(std::size_t e, std::span<const double> polynomial) const {
-    long_vector q;
-    double size = 0.0;
-    const double reach = std::max(std::abs(line_.x[e].hi), std::abs(line_.x[e + 1].hi));
-    for (std::size_t i = 0; i < polynomial.size(); ++i) {
-      q.push_back(long_decimal(polynomial[i]));
-      size += std::abs(polynomial[i]) * std::pow(2 * reach, static_cast<double>(i)) * line_.h[e].hi;
-    }
-    return {formulas::beam_load<double_double>(q, line_.x[e], line_.h[e]), size};
+  [[nodiscard]] element_loads work_of(std::size_t e, const load_on_element& on, uniform_load& last) const {
+    const double_double& h = line_.h[e];
+    if (on.q.size() == 1 && last.q == on.q[0] && last.h == h) return last.work;
+    const element_loads work{formulas::beam_load<double_double>(on.q, h), on.size * h.hi};
+    if (on.q.size() == 1) last = {on.q[0], h, work};
+    return work;
   }
 
   static std::array<int, 4> dofs_of(std::size_t e) {
@@ -200,6 +186,7 @@ class true_beam {
   }
 
   const beam& beam_;
+  loads_on_elements loads_;
   long_line line_;
   long_vector EI_;
 };
@@ -219,16 +206,19 @@ class true_plate {
   }
 
   void add_distributed(const load& l, true_loads& f) const {
-    for_each_loaded_element(l, plate_.elements(), [&](int e, std::span<const double> polynomial) {
-      const halves size = halves_of(e);
-      const auto unit = formulas::plate_unit_load(size.a, size.b);
-      const std::array<int, 12> dofs = plate_.dofs_of(e);
-      for (std::size_t i = 0; i < 12; ++i) {
-        const double_double part = long_decimal(polynomial[0]) * unit[i];
-        f.force[dofs[i]] += part;
-        f.size[dofs[i]] += std::abs(part.hi);
-      }
-    });
+    for (const distributed_load& d : l.distributed) {
+      const double_double pressure = long_polynomial_of(d)[0];
+      for_each_loaded_element({{}, {d}}, plate_.elements(), [&](int e, std::span<const double> /*rounded*/) {
+        const halves size = halves_of(e);
+        const auto unit = formulas::plate_unit_load(size.a, size.b);
+        const std::array<int, 12> dofs = plate_.dofs_of(e);
+        for (std::size_t i = 0; i < 12; ++i) {
+          const double_double part = pressure * unit[i];
+          f.force[dofs[i]] += part;
+          f.size[dofs[i]] += std::abs(part.hi);
+        }
+      });
+    }
   }
 
   /// Moments at the corners: w_xx and w_yy are bilinear and w_xy has five terms, so a corner's value is at
@@ -253,8 +243,9 @@ class true_plate {
   }
 
   /// Faces of a plate's beds are no polynomials, and matrices have no beds.
-  [[nodiscard]] static double_double face_at(std::size_t /*node*/, std::span<const double> polynomial) {
-    return long_decimal(polynomial.front());
+  [[nodiscard]] static long_vector faces_at(std::span<const int> nodes,
+                                            std::span<const double> /*polynomial*/) {
+    return long_vector(nodes.size());
   }
   [[nodiscard]] long_vector shares() const {
     long_vector areas;
@@ -325,8 +316,9 @@ class true_matrix {
     return {};
   }
   [[nodiscard]] long_vector shares() const { return long_vector(assembled_.stiffness.order); }
-  [[nodiscard]] static double_double face_at(std::size_t /*node*/, std::span<const double> polynomial) {
-    return long_decimal(polynomial.front());
+  [[nodiscard]] static long_vector faces_at(std::span<const int> nodes,
+                                            std::span<const double> /*polynomial*/) {
+    return long_vector(nodes.size());
   }
   [[nodiscard]] static double span() { return 0.0; }
   [[nodiscard]] static double least_product() { return 1.0; }

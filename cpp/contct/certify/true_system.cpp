@@ -29,50 +29,47 @@ void add_pairs(const problem& p, const Kind& kind, true_system& t) {
   for (const bed& b : p.beds)
     for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
       t.pairs[i].stiffness = long_decimal(b.modulus) * shares[p.pairs[i].node];
-  for (const bed& b : p.beds)
-    for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size() && !b.face.empty(); ++i)
-      t.pairs[i].face = kind.face_at(p.pairs[i].node, b.face);
-}
-
-/// Do these polynomials add up to 0?
-bool cancel(std::span<const std::vector<double>* const> polynomials) {
-  std::size_t longest = 0;
-  for (const std::vector<double>* p : polynomials) longest = std::max(longest, p->size());
-  for (std::size_t i = 0; i < longest; ++i) {
-    std::vector<double> coefficients;
-    for (const std::vector<double>* p : polynomials)
-      if (i < p->size()) coefficients.push_back((*p)[i]);
-    if (!(numeric::decimal_sum(coefficients) == 0.0)) return false;
+  for (const bed& b : p.beds) {
+    if (b.face.empty()) continue;
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < b.share.size(); ++i) nodes.push_back(p.pairs[b.first_pair + i].node);
+    const long_vector faces = kind.faces_at(nodes, b.face);
+    for (std::size_t i = 0; i < faces.size(); ++i) t.pairs[b.first_pair + i].face = faces[i];
   }
-  return true;
 }
 
-/// Elements on which all loads together are 0 have none.
-void leave_out_what_cancels(load& l, int elements) {
-  std::vector<std::vector<const std::vector<double>*>> on(elements);
-  for_each_loaded_element(l, elements, [&](int e, const std::vector<double>& p) { on[e].push_back(&p); });
+/// Do these loads add up to 0?
+bool cancel(std::span<const distributed_load* const> loads) {
+  std::vector<std::vector<double>> coefficients;
+  const auto add = [&](std::span<const double> polynomial) {
+    coefficients.resize(std::max(coefficients.size(), polynomial.size()));
+    for (std::size_t i = 0; i < polynomial.size(); ++i) coefficients[i].push_back(polynomial[i]);
+  };
+  for (const distributed_load* d : loads) {
+    if (d->parts.empty()) add(d->polynomial);
+    for (const std::vector<double>& part : d->parts) add(part);
+  }
+  return std::ranges::all_of(coefficients,
+                             [](const auto& parts) { return numeric::decimal_sum(parts) == 0.0; });
+}
+
+/// The loads that act: none on elements where several of them together are 0.
+load without_what_cancels(const load& l, int elements) {
+  if (l.distributed.size() < 2) return l;
+  std::vector<std::vector<const distributed_load*>> on(elements);
+  for (const distributed_load& d : l.distributed)
+    for_each_loaded_element({{}, {d}}, elements,
+                            [&](int e, const auto& /*polynomial*/) { on[e].push_back(&d); });
   std::vector<char> loaded(elements, 1);
   for (int e = 0; e < elements; ++e)
     loaded[e] = e > 0 && on[e] == on[e - 1] ? loaded[e - 1] : on[e].size() > 1 && cancel(on[e]) ? 0 : 1;
-  if (std::ranges::find(loaded, 0) == loaded.end()) return;
+  if (std::ranges::find(loaded, 0) == loaded.end()) return l;
   load left = l;
   left.distributed.clear();
-  for_each_loaded_element(l, elements, [&](int e, const std::vector<double>& p) {
-    if (loaded[e] != 0) left.distributed.push_back({p, {e}});
-  });
-  l = std::move(left);
-}
-
-/// The loads as the file has them, which a reader may have added up in doubles.
-load in_parts(const load& l, int elements) {
-  load all = l;
-  all.distributed.clear();
-  for (const distributed_load& d : l.distributed) {
-    if (d.parts.empty()) all.distributed.push_back(d);
-    for (const std::vector<double>& part : d.parts) all.distributed.push_back({part, d.elements});
-  }
-  if (all.distributed.size() > 1) leave_out_what_cancels(all, elements);
-  return all;
+  for (int e = 0; e < elements; ++e)
+    for (const distributed_load* d : on[e])
+      if (loaded[e] != 0) left.distributed.push_back({d->polynomial, {e}, d->parts});
+  return left;
 }
 
 template <class Kind>
@@ -80,7 +77,7 @@ true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
   const std::size_t n = dofs(p.geometry);
   const int per_node = dofs_per_node(p.geometry);
   true_loads f{step, long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
-  const load l = in_parts(p.steps[step - 1], elements(p.geometry));
+  const load l = without_what_cancels(p.steps[step - 1], elements(p.geometry));
   for (const auto& [dof, values] : point_loads_at(l, per_node)) {
     f.force[dof] = numeric::decimal_sum(values);
     f.size[dof] = std::abs(f.force[dof].hi);
@@ -138,7 +135,7 @@ void fill(const problem& p, const Kind& kind, matrix::remote_matrix* remote, tru
   add_pairs(p, kind, t);
   t.loads = [&p, kind](int step) { return loads_of_step(p, kind, step); };
   t.element_values = [&p, kind](int step, std::span<const double_double> u) {
-    return kind.values(in_parts(p.steps[step - 1], elements(p.geometry)), u);
+    return kind.values(without_what_cancels(p.steps[step - 1], elements(p.geometry)), u);
   };
 }
 

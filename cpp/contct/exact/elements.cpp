@@ -12,7 +12,7 @@ std::array<std::array<rational, 4>, 4> beam_stiffness(const rational& EI, const 
 
 std::array<rational, 4> beam_load(std::span<const rational> polynomial, const rational& left,
                                   const rational& h) {
-  return formulas::beam_load(polynomial, left, h);
+  return formulas::beam_load<rational>(formulas::in_element(polynomial, left, h), h);
 }
 
 std::array<vector12, 12> plate_stiffness(const rational& a, const rational& b, const rational& D,

@@ -235,13 +235,6 @@ void put_on_polynomial(const problem& p, const bed& b, const Kind& kind, exact_p
   for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i) {
     exact_pair& c = e.pairs[i];
     c.face = kind.face_at(p.pairs[i].node, b.face);
-    if (c.surface * c.face < 0 || (b.closed == true && c.face != 0))
-      throw std::invalid_argument(
-          "pair " + std::to_string(i + 1) + " of a [[bed]], at " + place_words(p.geometry, p.pairs[i].node) +
-          ": found the face " + short_words(c.face, 20) +
-          " by its polynomial in exact arithmetic, where doubles have " +
-          short_words(decimal_of(p.pairs[i].face), 20) +
-          "; allowed: a face at 0 or on the pair's side of it, and at 0 for state = \"contact\"");
     c.closed = b.closed.value_or(c.face == 0);
   }
 }

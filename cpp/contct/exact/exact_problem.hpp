@@ -55,7 +55,7 @@ struct exact_problem {
 /// double. `given` has other numbers, but not those of matrices and load vectors. Coordinates that the
 /// problem has as runs of equal parts are exact parts. The stiffness of a bed's pair is its modulus times an
 /// exact share of the structure, its face that of the exact polynomial, and a plate's D comes from E, nu and
-/// thickness exactly. Throws std::invalid_argument where a face by a polynomial is inside the structure.
+/// thickness exactly.
 [[nodiscard]] exact_problem exact_problem_of(const problem& p, const exact_values& given = {});
 
 }  // namespace contct::exact

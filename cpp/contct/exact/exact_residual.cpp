@@ -62,8 +62,6 @@ std::optional<exact_problem> small_exact_problem_of(const problem& p) {
     return exactly;
   } catch (const std::runtime_error&) {  // a number is too long
     return std::nullopt;
-  } catch (const std::invalid_argument&) {  // a face is inside the structure
-    return std::nullopt;
   }
 }
 

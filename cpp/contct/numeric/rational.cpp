@@ -93,7 +93,7 @@ void allocate_as_new_does() {
 }
 
 rational decimal_of(double x) {
-  return value_of(shortest_decimal(x));
+  return value_of(text::shortest_decimal(x));
 }
 
 rational number_written(std::string_view literal) {
@@ -115,16 +115,25 @@ rational binary_value(double x) {
 }
 
 double rounded(const rational& x) {
-  // By the first 62 or 63 bits of the quotient: Boost's own conversion overflows where both parts do.
+  // By the first 62 or 63 bits of the quotient, of which the last tells whether more follow. Boost's own
+  // conversion overflows where both parts do.
   integer top = abs(numerator(x));
   integer bottom = denominator(x);
   if (top == 0) return 0.0;
   const int shift = 62 + static_cast<int>(length_in_bits(bottom)) - static_cast<int>(length_in_bits(top));
   if (shift > 0) top <<= static_cast<unsigned>(shift);
   if (shift < 0) bottom <<= static_cast<unsigned>(-shift);
-  const double size =
-      std::ldexp(static_cast<double>(integer(top / bottom).convert_to<std::uint64_t>()), -shift);
+  integer rest;
+  integer quotient;
+  divide_qr(top, bottom, quotient, rest);
+  const std::uint64_t bits = quotient.convert_to<std::uint64_t>() | (rest == 0 ? 0U : 1U);
+  const double size = std::ldexp(static_cast<double>(bits), -shift);
   return x < 0 ? -size : size;
+}
+
+double_double long_rounded(const rational& x) {
+  const double high = rounded(x);
+  return std::isfinite(high) ? double_double(high, rounded(x - binary_value(high))) : double_double(high);
 }
 
 double error_in_ulps(double x, const rational& exactly, int real_bytes) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "contct/numeric/double_double.hpp"
 #include "contct/rooms.hpp"
 
 namespace contct::numeric {
@@ -58,8 +59,10 @@ struct exact_values {
 /// The exact value of a double, bit for bit.
 [[nodiscard]] rational binary_value(double x);
 
-/// The nearest double, or one beside it.
+/// The nearest double; below the normal range one of the two beside it. Beyond the range it is infinite.
 [[nodiscard]] double rounded(const rational& x);
+/// The nearest double, and the nearest one to what that leaves.
+[[nodiscard]] double_double long_rounded(const rational& x);
 
 /// x less what it should be, in units in the last place of the number `exactly` among those of `real_bytes`
 /// (4 or 8): within 0.5 either way, it is the nearest one. `x` is finite.

@@ -13,6 +13,7 @@
 #include "contct/read/number_literals.hpp"
 #include "contct/read/places.hpp"
 #include "contct/read/step_tables.hpp"
+#include "contct/structure/polynomials.hpp"
 
 namespace contct::read {
 namespace {
@@ -181,9 +182,8 @@ class problem_reader {
     coefficients = read_polynomial(face, problem_.geometry,
                                    "numbers for face: only along a beam it may be a polynomial");
     std::vector<double> values;
-    values.reserve(at.size());
-    for (const int node : at)
-      values.push_back(polynomial_at(coefficients, std::get<beam>(problem_.geometry.kind).x[node]));
+    for (const auto& exactly : values_at(std::get<beam>(problem_.geometry.kind), coefficients, at))
+      values.push_back(exactly.hi);
     if (!std::ranges::all_of(values, [](double c) { return std::isfinite(c); }))
       face.refuse_key("polynomial", "coefficients whose value is finite at every node");
     return values;

@@ -14,8 +14,12 @@ namespace contct::read {
 namespace {
 
 void refuse_endless_sums(const table_reader& t, const model& m, const load& l) {
+  std::vector<double> sums(dofs(m), 0.0);  // in doubles, as the path adds them up
+  add_consistent_loads(m, l, sums);
   const resultant r = resultant_of(m, l);
-  if (!std::isfinite(r.force) || !std::ranges::all_of(r.moments, [](double x) { return std::isfinite(x); }))
+  sums.push_back(r.force);
+  sums.insert(sums.end(), r.moments.begin(), r.moments.end());
+  if (!std::ranges::all_of(sums, [](double x) { return std::isfinite(x); }))
     t.refuse("loads whose sum or moment is not finite", "loads within the range of double precision");
 }
 

@@ -96,10 +96,9 @@ std::array<std::array<Number, 4>, 4> beam_stiffness(const Number& EI, const Numb
   return {{{k, m, -k, m}, {m, near, -m, far}, {-k, -m, k, -m}, {m, far, -m, near}}};
 }
 
-/// Work of the load q(x) = a0 + a1 x + .. on the shape functions of the element from `left` to left + h.
+/// Work of the load q(t) = q0 + q1 t + .. on the shape functions of an element of length h.
 template <class Number>
-std::array<Number, 4> beam_load(std::span<const Number> polynomial, const Number& left, const Number& h) {
-  const std::vector<Number> q = in_element(polynomial, left, h);
+std::array<Number, 4> beam_load(std::span<const Number> q, const Number& h) {
   std::array<Number, 4> f{};
   for (std::size_t m = 0; m < q.size(); ++m) {
     // The integral of t^m times 1 - 3 t^2 + 2 t^3, t - 2 t^2 + t^3, 3 t^2 - 2 t^3 and t^3 - t^2.

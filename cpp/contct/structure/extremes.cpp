@@ -11,18 +11,6 @@ namespace {
 /// Polynomials, constant first.
 using poly = std::vector<double>;
 
-/// p(left + t h) as a polynomial in t, by repeated division by (x - left).
-poly shifted(std::span<const double> p, double left, double h) {
-  poly c(p.begin(), p.end());
-  double scale = 1.0;
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    for (std::size_t k = c.size() - 1; k-- > i;) c[k] += left * c[k + 1];
-    c[i] *= scale;
-    scale *= h;
-  }
-  return c;
-}
-
 poly derivative(const poly& p) {
   poly d;
   for (std::size_t i = 1; i < p.size(); ++i) d.push_back(static_cast<double>(i) * p[i]);
@@ -52,21 +40,6 @@ std::vector<double> zeros_of(const poly& p) {
     if ((polynomial_at(p, borders[i]) < 0.0) != (polynomial_at(p, borders[i + 1]) < 0.0))
       zeros.push_back(zero_between(p, borders[i], borders[i + 1]));
   return zeros;
-}
-
-/// Least and largest coefficient in Bernstein's form: p is between them from 0 to 1.
-std::pair<double, double> hull_of(const poly& p) {
-  const std::size_t degree = p.size() - 1;
-  poly b = p;  // b_j = sum over i <= j of C(j, i) / C(degree, i) p_i
-  double choose = 1.0;
-  for (std::size_t i = 1; i <= degree; ++i) {
-    choose *= static_cast<double>(degree - i + 1) / static_cast<double>(i);
-    b[i] = p[i] / choose;
-  }
-  for (std::size_t round = 0; round < degree; ++round)
-    for (std::size_t j = degree; j > round; --j) b[j] += b[j - 1];
-  const auto [least, most] = std::minmax_element(b.begin(), b.end());
-  return {*least, *most};
 }
 
 /// Values of one quantity. Values that differ by less than rounding may (mirror images, say) are equal: the
@@ -120,7 +93,8 @@ class range_along {
   void take_element(const element_line& line, int e, const poly& p, double left_value, double right_value) {
     values_.take({left_value, line.left, 0.0, e}, line.left);
     values_.take({right_value, line.left + line.h, 0.0, e + 1}, line.left);
-    const auto [least, most] = hull_of(p);
+    const poly hull = bernstein_of(p);
+    const auto [least, most] = std::ranges::minmax(hull);
     if (values_.has(least, most)) return;
     for (const double t : zeros_of(derivative(p)))
       values_.take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, line.left);
@@ -182,6 +156,19 @@ std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::
 
 }  // namespace
 
+std::vector<double> bernstein_of(std::span<const double> p) {
+  const std::size_t degree = p.size() - 1;
+  poly b(p.begin(), p.end());  // b_j = sum over i <= j of C(j, i) / C(degree, i) p_i
+  double choose = 1.0;
+  for (std::size_t i = 1; i <= degree; ++i) {
+    choose *= static_cast<double>(degree - i + 1) / static_cast<double>(i);
+    b[i] = p[i] / choose;
+  }
+  for (std::size_t round = 0; round < degree; ++round)
+    for (std::size_t j = degree; j > round; --j) b[j] += b[j - 1];
+  return b;
+}
+
 value_range deflections_between(const beam& b, const beam_lines& lines, std::span<const double> u, int first,
                                 int last) {
   range_along w("w", {w_at(u, first), b.x[first], 0.0, first});
@@ -194,22 +181,28 @@ value_range deflections_between(const beam& b, const beam_lines& lines, std::spa
 
 beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
                        std::span<const double> element_values)
-    : beam_(b), u_(u), forces_(forces_in_elements(b, l, u)), q_(b.elements()) {
+    : beam_(b), u_(u), forces_(forces_in_elements(b, l, u)), loads_(b.elements()) {
   for (std::size_t e = 0; e < forces_.size() && !element_values.empty(); ++e) {
     const auto v = element_values.subspan(4 * e, 4);
     forces_[e] = {{v[0], v[1]}, {v[2], v[3]}};
   }
-  for_each_loaded_element(l, b.elements(), [&](int e, std::span<const double> p) {
-    add_polynomial(q_[e], shifted(p, b.x[e], b.length_of(e)), 1.0);
+  const loads_on_elements loads(b);
+  for (const numeric::double_double& h : loads.line().h) h_.push_back(h.hi);
+  loads.for_each(l, [&](int e, const load_on_element& on) {
+    load_on_element& sum = loads_[e];
+    sum.q.resize(std::max(sum.q.size(), on.q.size()));
+    for (std::size_t i = 0; i < on.q.size(); ++i) sum.q[i] += on.q[i];
+    sum.size += on.size;
   });
 }
 
 element_line beam_lines::at(int e) const {
-  const double h = beam_.length_of(e);
+  const double h = h_[e];
   const double EI = beam_.EI[e];
-  const poly& q = q_[e];
+  poly q;
+  for (const numeric::double_double& of_power : loads_[e].q) q.push_back(of_power.hi);
   const std::size_t size = q.size();
-  element_line line{beam_.x[e], h, poly(std::max<std::size_t>(4, size + 4)), {}, {}, {}};
+  element_line line{beam_.x[e], h, poly(size + 4), {}, {}, {}, q, loads_[e].size};
   line.shear.assign(size + 1, 0.0);
   line.moment.assign(size + 2, 0.0);
   line.shear[0] = forces_[e].shear[0];

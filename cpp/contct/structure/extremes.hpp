@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/structure/problem.hpp"
+#include "contct/structure/polynomials.hpp"
 
 namespace contct::structure {
 
@@ -14,7 +14,8 @@ namespace contct::structure {
 /// quantity is a polynomial in t = (x - left) / h, from 0 to 1, constant first (see polynomial_at).
 struct element_line {
   double left = 0.0, h = 0.0;
-  std::vector<double> w, slope, moment, shear;
+  std::vector<double> w, slope, moment, shear, load;
+  double load_size = 0.0;  ///< see load_on_element
 };
 
 /// The lines of all elements under displacement `u` [dofs] and load `l`.
@@ -33,8 +34,13 @@ class beam_lines {
   const beam& beam_;
   std::span<const double> u_;
   std::vector<element_forces> forces_;
-  std::vector<std::vector<double>> q_;  // of each element, in t; empty: none
+  std::vector<double> h_;               // of each element
+  std::vector<load_on_element> loads_;  // likewise; without coefficients: none
 };
+
+/// The coefficients of a polynomial in Bernstein's form: from t = 0 to 1 it is between the least and the
+/// largest of them.
+[[nodiscard]] std::vector<double> bernstein_of(std::span<const double> polynomial);
 
 /// A value, and where it is: its place along the structure, and its node (from 0) where it is at one.
 struct placed_value {

@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "contct/distributed/ranks.hpp"
+#include "contct/numeric/rational.hpp"
 #include "contct/structure/plate_element.hpp"
 #include "contct/structure/plate_rows.hpp"
 #include "contct/structure/problem.hpp"
+#include "contct/structure/true_plate.hpp"
 
 namespace contct::structure {
 namespace {
@@ -256,6 +258,13 @@ matrix::full_rows<double> stiffness_rows(const plate& p, int first, int count) {
   if (!std::ranges::all_of(all.values, [](double x) { return std::isfinite(x); }))
     throw std::invalid_argument("the stiffness of an element is not a finite number");
   return all;
+}
+
+numeric::double_double stiffness_of(const plate& p) {
+  if (p.E == 0.0) return numeric::long_decimal(p.D);
+  const numeric::rational nu = numeric::decimal_of(p.nu);
+  const numeric::rational t = numeric::decimal_of(p.thickness);
+  return numeric::long_rounded(numeric::decimal_of(p.E) * t * t * t / (12 * (1 - nu * nu)));
 }
 
 linear_structure build(const plate& p, std::span<const support> supports, std::vector<contact_pair> pairs,

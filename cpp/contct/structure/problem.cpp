@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "contct/numeric/rational.hpp"
+
 namespace contct::structure {
 namespace {
 
@@ -24,17 +26,18 @@ element_results table_of(const assembled& /*a*/, const load& /*l*/, std::span<co
   return {};  // a matrix has no elements
 }
 
-/// Where a node is, as far as its slopes go: a beam's x, a plate's x and y.
-std::array<double, 2> place_of(const beam& b, int node) {
-  return {b.x[node], 0.0};
+resultant sum_of(const beam& b, const load& l) {
+  return rigid_truth(b).resultant_of(l);
 }
 
-std::array<double, 2> place_of(const plate& p, int node) {
-  return {p.x[node % p.columns()], p.y[node / p.columns()]};
+resultant sum_of(const plate& p, const load& l) {
+  return rigid_truth(p).resultant_of(l);
 }
 
-std::array<double, 2> place_of(const assembled& /*a*/, int /*node*/) {
-  return {};
+resultant sum_of(const assembled& /*a*/, const load& l) {
+  numeric::rational sum;
+  for (const point_load& p : l.points) sum += numeric::decimal_of(p.value);
+  return {numeric::rounded(sum), {}};
 }
 
 }  // namespace
@@ -63,17 +66,7 @@ element_results results_in_elements(const model& m, const load& l, std::span<con
 }
 
 resultant resultant_of(const model& m, const load& l) {
-  std::vector<double> f(dofs(m), 0.0);
-  add_consistent_loads(m, l, f);  // a consistent vector has the same resultant as the load itself
-  const std::size_t slopes = dofs_per_node(m) - 1;
-  resultant r{0.0, std::vector<double>(slopes, 0.0)};
-  for (int node = 0; node < nodes(m); ++node) {
-    const auto at = std::visit([node](const auto& kind) { return place_of(kind, node); }, m.kind);
-    const double* const own = &f[node * (slopes + 1)];
-    r.force += own[0];
-    for (std::size_t i = 0; i < slopes; ++i) r.moments[i] += own[0] * at[i] + own[i + 1];
-  }
-  return r;
+  return std::visit([&](const auto& kind) { return sum_of(kind, l); }, m.kind);
 }
 
 }  // namespace contct::structure

@@ -280,6 +280,7 @@ struct element_results {
 /// The sum of all upward forces, and the moments about the origin that go with it: one for each slope among
 /// the dofs, positive as the slope is. A beam has one (sum of F x + theta's loads), a plate two (F x + wx's
 /// loads, F y + wy's). A matrix has the sum of all its loads, whatever these are, and no moments.
+/// Summed exactly, from the decimals of the file, and rounded once.
 struct resultant {
   double force = 0.0;
   std::vector<double> moments;

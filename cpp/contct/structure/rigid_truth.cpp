@@ -9,7 +9,7 @@
 
 #include "contct/numeric/rational.hpp"
 #include "contct/numeric/rational_cone.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/structure/exact_line.hpp"
 
 namespace contct::structure {
 
@@ -61,17 +61,6 @@ integrals integrate(std::span<const rational> coefficients, const rational& a, c
   return sum;
 }
 
-/// The polynomial of a distributed load, from its parts in the file where it has several.
-std::vector<rational> polynomial_of(const distributed_load& d) {
-  std::vector<rational> sum(d.polynomial.size());
-  const auto add = [&sum](std::span<const double> part) {
-    for (std::size_t i = 0; i < part.size(); ++i) sum[i] += decimal_of(part[i]);
-  };
-  if (d.parts.empty()) add(d.polynomial);
-  for (const std::vector<double>& part : d.parts) add(part);
-  return sum;
-}
-
 /// Call visit(first, last) for each run of elements that follow each other, from 0.
 template <class Visit>
 void for_each_run(const std::vector<int>& elements, int all, const Visit& visit) {
@@ -86,45 +75,10 @@ void for_each_run(const std::vector<int>& elements, int all, const Visit& visit)
 
 }  // namespace
 
-/// The points of a line as the file has them: equal parts of its lengths where it gives lengths, otherwise
-/// number by number. A point is computed when it is asked for: a long beam has many, and few are.
-class exact_line {
- public:
-  exact_line(std::span<const double> x, std::span<const even_run> runs)
-      : x_(x.begin(), x.end()), runs_(runs.begin(), runs.end()), first_(decimal_of(x.front())) {
-    half_ = (at(x.size() - 1) - first_) / 2;
-  }
-
-  [[nodiscard]] std::size_t points() const { return x_.size(); }
-  [[nodiscard]] const rational& half() const { return half_; }
-
-  [[nodiscard]] rational at(std::size_t point) const {
-    if (runs_.empty()) return decimal_of(x_[point]);
-    rational start = first_;
-    for (const even_run& run : runs_) {
-      const auto elements = static_cast<std::size_t>(run.elements);
-      const rational end = decimal_of(run.end);
-      if (point <= elements) return start + (end - start) * static_cast<int>(point) / run.elements;
-      point -= elements;
-      start = end;
-    }
-    return start;
-  }
-
-  /// From -1 to 1 over the line.
-  [[nodiscard]] rational across(const rational& x) const { return (x - first_) / half_ - 1; }
-
-  /// What rounding can make of `across` at any point.
-  [[nodiscard]] double rounding() const {
-    const double largest = std::max(std::abs(x_.front()), std::abs(x_.back()));
-    return 8 * std::numeric_limits<double>::epsilon() * (1 + largest / (x_.back() / 2 - x_.front() / 2));
-  }
-
- private:
-  std::vector<double> x_;
-  std::vector<even_run> runs_;
-  rational first_, half_;
-};
+double exact_line::rounding() const {
+  const double largest = std::max(std::abs(x_.front()), std::abs(x_.back()));
+  return 8 * std::numeric_limits<double>::epsilon() * (1 + largest / (x_.back() / 2 - x_.front() / 2));
+}
 
 /// A line for each direction in which it extends.
 struct rigid_truth::shape {
@@ -255,6 +209,16 @@ rigid_work rigid_truth::work_of(const load& l) const {
     subtract(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof), -decimal_of(p.value));
   for (const distributed_load& d : l.distributed) shape_->add_distributed(d, work->all);
   return rigid_work(std::move(work));
+}
+
+resultant rigid_truth::resultant_of(const load& l) const {
+  const motion_numbers work = work_of(l).exactly().all;
+  const auto about_origin = [&work](const exact_line& line, const rational& about_middle) {
+    return numeric::rounded(about_middle * line.half() + work[0] * line.middle());
+  };
+  resultant r{numeric::rounded(work[0]), {about_origin(shape_->along_x, work[1])}};
+  if (shape_->along_y) r.moments.push_back(about_origin(*shape_->along_y, work[2]));
+  return r;
 }
 
 bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> supported,

@@ -15,6 +15,7 @@ struct beam;
 struct contact_pair;
 struct load;
 struct plate;
+struct resultant;
 
 /// The work of a load on each rigid motion of a beam or plate, exactly; or nothing, where that is not known.
 class rigid_work {
@@ -71,6 +72,9 @@ class rigid_truth : public std::enable_shared_from_this<rigid_truth> {
 
   /// The work of `l`; what it moves fixed dofs to does none.
   [[nodiscard]] rigid_work work_of(const load& l) const;
+
+  /// See structure::resultant_of.
+  [[nodiscard]] resultant resultant_of(const load& l) const;
 
   /// The steepest of the motions that the dofs of `held`, independent of each other, leave free: none where
   /// `work`, which is known, is 0 on all of these.

@@ -43,15 +43,8 @@ struct long_line {
   return exactly;
 }
 
-/// D, or E t^3 / 12 (1 - nu^2) where the file has these.
-[[nodiscard]] inline numeric::double_double stiffness_of(const plate& p) {
-  using numeric::double_double;
-  using numeric::long_decimal;
-  if (p.E == 0.0) return long_decimal(p.D);
-  const double_double t = long_decimal(p.thickness);
-  const double_double nu = long_decimal(p.nu);
-  return long_decimal(p.E) * t * t * t / (12 * (1 - nu * nu));
-}
+/// D, or E t^3 / 12 (1 - nu^2) where the file has these, rounded once: near nu = -1 the bracket cancels.
+[[nodiscard]] numeric::double_double stiffness_of(const plate& p);
 
 /// The stiffness of a plate's elements, one after the other.
 class true_element_stiffness {

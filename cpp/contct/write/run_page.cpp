@@ -184,18 +184,18 @@ class page_writer {
   }
 
   /// The force per length at these places, piece after piece.
-  [[nodiscard]] json spread_load(const load& l) const {
-    std::vector<std::vector<double>> of_element(beam_->elements());
-    for_each_loaded_element(l, beam_->elements(), [&](int e, std::span<const double> part) {
-      add_polynomial(of_element[e], part, 1.0);
-    });
+  [[nodiscard]] json spread_load(const beam_lines& lines) const {
     json q = json::array();
     const int places = places_of_load();
     for (const load_piece& p : shown_.loaded) {
       const double from = beam_->x[p.first];
       const double length = beam_->x[p.last] - from;
-      for (int i = 0; i < places; ++i)
-        q.push_back(polynomial_at(of_element[p.first], from + length * i / (places - 1)));
+      for (int i = 0; i < places; ++i) {
+        const double x = from + length * i / (places - 1);
+        const auto next = std::upper_bound(beam_->x.begin() + p.first + 1, beam_->x.begin() + p.last, x);
+        const element_line line = lines.at(static_cast<int>(next - beam_->x.begin()) - 1);
+        q.push_back(polynomial_at(line.load, (x - line.left) / line.h));
+      }
     }
     return q;
   }
@@ -367,7 +367,7 @@ class page_writer {
       const auto along = results.names[name] == "moment" ? &element_line::moment : &element_line::shear;
       out[std::string(results.names[name])] = section_forces(results, name, along, at.lines(), *range);
     }
-    out["q"] = shown_.loaded.empty() ? json(nullptr) : spread_load(l);
+    out["q"] = shown_.loaded.empty() ? json(nullptr) : spread_load(at.lines());
   }
 
   /// At the crossings of the grid lines shown, row by row: deflections and, for colours, moments and, where

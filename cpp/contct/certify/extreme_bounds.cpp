@@ -1,0 +1,86 @@
+#include "contct/certify/extreme_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "contct/structure/extremes.hpp"
+
+namespace contct::certify {
+namespace {
+
+double sum_of_sizes(const std::vector<double>& p) {
+  double sum = 0.0;
+  for (const double x : p) sum += std::abs(x);
+  return sum;
+}
+
+/// What rounding can do to a line's polynomial p: its coefficients above the cubic ones have at most 20
+/// roundings each, two rounds of Horner's rule and the conversion to Bernstein's form 6 a degree, and each of
+/// 26 bisections one a degree. Of a shape that has no cubic part left the largest value is at most that of
+/// its coefficients, and the parts of Hermite's functions that fit it to the ends at most a quarter a degree
+/// more.
+double rounding_in(const std::vector<double>& p) {
+  return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
+}
+
+/// How far a polynomial in Bernstein's form can be above `top`; what is below `close` does not matter.
+double above(std::vector<double> b, double top, double close, int bisections) {
+  const double beyond = std::ranges::max(b) - top;
+  if (beyond <= close || bisections == 0) return std::max(beyond, 0.0);
+  std::vector<double> left;  // P. de Casteljau: `b` becomes the right half
+  for (std::size_t last = b.size(); last > 0; --last) {
+    left.push_back(b.front());
+    for (std::size_t i = 0; i + 1 < last; ++i) b[i] = b[i] / 2 + b[i + 1] / 2;
+  }
+  return std::max(above(std::move(left), top, close, bisections - 1),
+                  above(std::move(b), top, close, bisections - 1));
+}
+
+/// How far the polynomial is from its printed extremes, and from what was handed out for its right end.
+double off_extremes(const std::vector<double>& p, const structure::value_range& printed, double right_end) {
+  constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
+  const double close = rounding_in(p);
+  std::vector<double> b = structure::bernstein_of(p);
+  double beyond = above(b, printed.most.value, close, bisections);
+  for (double& x : b) x = -x;
+  beyond = std::max(beyond, above(std::move(b), -printed.least.value, close, bisections));
+  return beyond + std::abs(structure::polynomial_at(p, 1.0) - right_end) + close;
+}
+
+/// The error of M is linear in t, but for rounding, and that of V constant: nowhere larger than at the ends.
+/// That of w is a cubic; of Hermite's functions those of w add up to 1 and those of slopes to at most h / 4.
+void widen(const structure::beam& b, const handed_out& state, const structure::load& l,
+           error_bounds& bounds) {
+  const std::vector<structure::value_range> printed =
+      structure::ranges_of({b}, l, state.displacement, {}, state.element_values);
+  const structure::beam_lines lines(b, l, state.displacement, state.element_values);
+  by_quantity& error = bounds.error;
+  by_quantity inside;
+  for (int e = 0; e < b.elements(); ++e) {
+    const structure::element_line line = lines.at(e);
+    const std::size_t right = 2 * static_cast<std::size_t>(e) + 2;
+    const double slope = std::abs(structure::polynomial_at(line.slope, 1.0) - state.displacement[right + 1]);
+    const double of_slope = line.h / 4 * (error[quantity::slope].value_or(0.0) + slope);
+    // Where parts of a load cancel, their sum has errors of 2^-89 of the parts.
+    const double of_load = 0x1p-80 * line.load_size * line.h;
+    bounds.size.take(quantity::w, std::abs(structure::polynomial_at(line.w, 0.5)));
+    inside.take(quantity::shear, of_load + off_extremes(line.shear, printed[2], lines.ends(e).shear[1]));
+    inside.take(quantity::moment,
+                of_load * line.h + off_extremes(line.moment, printed[1], lines.ends(e).moment[1]));
+    inside.take(quantity::w, of_load * line.h * line.h * line.h / b.EI[e] + of_slope +
+                                 off_extremes(line.w, printed[0], state.displacement[right]));
+  }
+  for (const quantity q : {quantity::w, quantity::moment, quantity::shear})
+    if (error[q]) error.take(q, *error[q] + *inside[q]);
+}
+
+}  // namespace
+
+void widen_by_extremes(const problem& p, const handed_out& state, error_bounds& b) {
+  if (const auto* const of_beam = std::get_if<structure::beam>(&p.geometry.kind))
+    widen(*of_beam, state, p.steps[state.step - 1], b);
+}
+
+}  // namespace contct::certify

@@ -1,0 +1,194 @@
+// Proved bounds on extremes inside elements, against lines in rational numbers.
+#include "contct/certify/extreme_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "catch.hpp"
+#include "contct/certify/certificate.hpp"
+#include "contct/exact/elements.hpp"
+#include "contct/exact/exact_problem.hpp"
+#include "contct/exact/path.hpp"
+#include "contct/numeric/random.hpp"
+#include "contct/read/problem_file.hpp"
+#include "contct/structure/element_formulas.hpp"
+#include "contct/structure/extremes.hpp"
+#include "support/beams.hpp"
+
+using namespace contct::app;
+using namespace contct::certify;
+namespace exact = contct::exact;
+using exact::rational;
+
+namespace {
+
+rational value_at(const exact::vector& p, const rational& t) {
+  rational sum;
+  for (std::size_t i = p.size(); i-- > 0;) sum = sum * t + p[i];
+  return sum;
+}
+
+exact::vector derivative_of(const exact::vector& p) {
+  exact::vector d;
+  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<int>(i));
+  return d;
+}
+
+/// w, moment and shear of an element in t, from 0 to 1.
+std::array<exact::vector, 3> exact_line(const beam& b, const load& l, int e, const exact::vector& u) {
+  const auto at = static_cast<std::size_t>(e);
+  const rational left = exact::decimal_of(b.x[at]);
+  const rational h = exact::decimal_of(b.x[at + 1]) - left;
+  const rational EI = exact::decimal_of(b.EI[at]);
+  exact::vector coefficients;
+  for (const double a : l.distributed.front().polynomial) coefficients.push_back(exact::decimal_of(a));
+  const exact::vector q = contct::structure::formulas::in_element<rational>(coefficients, left, h);
+  const auto k = exact::beam_stiffness(EI, h);
+  const auto work = exact::beam_load(coefficients, left, h);
+  rational force[2] = {-work[0], -work[1]};
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 4; ++j) force[i] += k[i][j] * u[2 * at + j];
+  exact::vector shear = {force[0]};
+  for (std::size_t j = 0; j < q.size(); ++j) shear.emplace_back(q[j] * h / static_cast<int>(j + 1));
+  exact::vector moment = {-force[1]};
+  for (std::size_t j = 0; j < shear.size(); ++j) moment.emplace_back(shear[j] * h / static_cast<int>(j + 1));
+  exact::vector w = {u[2 * at], u[2 * at + 1] * h};
+  for (std::size_t j = 0; j < moment.size(); ++j)
+    w.emplace_back(moment[j] * h * h / EI / static_cast<int>((j + 1) * (j + 2)));
+  return {w, moment, shear};
+}
+
+struct range {
+  rational least, most;
+};
+
+/// At both ends, and where the derivative changes its sign between neighbours of 33 places, each bisected
+/// until what is left changes the value by 1e-20 of itself.
+void take_extremes(const exact::vector& p, range& known) {
+  const exact::vector slope = derivative_of(p);
+  const auto take = [&](const rational& t) {
+    const rational value = value_at(p, t);
+    known.least = std::min(known.least, value);
+    known.most = std::max(known.most, value);
+  };
+  take(0);
+  take(1);
+  for (int i = 0; i < 32; ++i) {
+    rational a(i, 32);
+    rational b(i + 1, 32);
+    const bool rises = value_at(slope, a) > 0;
+    if ((value_at(slope, b) > 0) == rises) continue;
+    for (int half = 0; half < 30; ++half) {
+      const rational middle = (a + b) / 2;
+      (value_at(slope, middle) > 0) == rises ? a = middle : b = middle;
+    }
+    take(a);
+  }
+}
+
+/// The end of the one step.
+struct end_keeper final : observer {
+  explicit end_keeper(const problem& p) : what(p) {}
+  void step_ended(const step_state& s) override {
+    const handed_out h = handed_out_at(what, s);
+    printed =
+        contct::structure::ranges_of(what.geometry, what.steps[0], s.displacement, {}, h.element_values);
+  }
+  const problem& what;
+  std::vector<contct::structure::value_range> printed;
+};
+
+struct outcome {
+  certificate proof;
+  std::vector<contct::structure::value_range> printed;
+  std::array<range, 3> truly;
+};
+
+outcome outcome_of(const problem& p) {
+  const linear_structure s = structure_of(p);
+  certifier proves(p, s);
+  end_keeper keeps(p);
+  path_limits limits{0, proves.fallback(), proves.refiner()};
+  (void)follow(p, s, "refactor", *make_kernel("corrected"), {&proves, &keeps}, limits);
+  outcome o{proves.steps().at(0).value(), keeps.printed, {}};
+  const exact::vector u = exact::follow_true_path(exact::exact_problem_of(p)).steps.back().displacement;
+  const beam& b = std::get<beam>(p.geometry.kind);
+  for (int e = 0; e < b.elements(); ++e) {
+    const auto line = exact_line(b, p.steps[0], e, u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (e == 0) o.truly[i] = {line[i][0], line[i][0]};
+      take_extremes(line[i], o.truly[i]);
+    }
+  }
+  return o;
+}
+
+/// How many extremes were compared; each is within the bound of its kind.
+int check_extremes(const outcome& o) {
+  int compared = 0;
+  const quantity kinds[] = {quantity::w, quantity::moment, quantity::shear};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const rational bound = exact::binary_value(o.proof.error[kinds[i]].value());
+    CAPTURE(quantity_names[static_cast<std::size_t>(kinds[i])], exact::rounded(bound));
+    for (const auto& [told, truly] : {std::pair(o.printed[i].least.value, o.truly[i].least),
+                                      std::pair(o.printed[i].most.value, o.truly[i].most)}) {
+      CAPTURE(told, exact::rounded(truly));
+      CHECK(abs(exact::binary_value(told) - truly) <= bound);
+      ++compared;
+    }
+  }
+  return compared;
+}
+
+/// A beam far from x = 0 on three supports and a stop, under a polynomial about its left end, multiplied out.
+problem far_beam(random_numbers& random) {
+  const double left = std::pow(10.0, 3 + random.whole(0, 3)) * (1 + random.whole(0, 2));
+  const int degree = random.whole(1, 6);
+  std::vector<rational> sum(1);
+  for (int i = degree; i >= 0; --i) {  // Horner's rule in x - left
+    sum.emplace_back(0);
+    for (std::size_t k = sum.size(); k-- > 1;) sum[k] = sum[k - 1] - sum[k] * exact::decimal_of(left);
+    sum[0] = random.whole(-9, 9) - sum[0] * exact::decimal_of(left);
+  }
+  sum.pop_back();
+  std::ostringstream text;
+  text.precision(17);
+  text << "[beam]\nx = [" << left << ", " << left + 1 << ", " << left + 2.5 << "]\nEI = 1e4\n"
+       << "[[support]]\nnodes = [1, 3]\nfix = [\"w\"]\n"
+       << "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1e-5\nstiffness = 1e5\n"
+       << "[[step]]\nuniform = [ { polynomial = [";
+  for (const rational& a : sum) text << exact::rounded(a) << (&a == &sum.back() ? "" : ", ");
+  text << "] } ]\n";
+  return parse_problem(text.str(), "far.toml");
+}
+
+}  // namespace
+
+TEST_CASE("Extremes inside elements are within their proved bounds under random polynomials far from x = 0") {
+  random_numbers random(38);
+  int compared = 0;
+  int certified = 0;
+  constexpr int problems = 300;
+  for (int number = 0; number < problems; ++number) {
+    const problem p = far_beam(random);
+    CAPTURE(number);
+    const outcome o = outcome_of(p);
+    if (o.proof.proved) compared += check_extremes(o);
+    if (o.proof.exact) ++certified;
+  }
+  CHECK(compared > 6 * problems * 9 / 10);
+  CHECK(certified > problems * 9 / 10);
+}
+
+TEST_CASE("The least moment under (x - 1000)^6 is -2 16^(1/7), and certified to 8 digits") {
+  const outcome o = outcome_of(parse_problem(
+      "[beam]\nx = [1000, 1001, 1002]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = [\"w\"]\n"
+      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1.0\nstiffness = 1.0\n"
+      "[[step]]\nuniform = [ { polynomial = [1e18, -6e15, 1.5e13, -2e10, 1.5e7, -6000, 1] } ]\n",
+      "sixth.toml"));
+  CHECK(check_extremes(o) == 6);
+  CHECK(o.proof.exact);
+  CHECK(o.printed[1].least.value == Approx(-2 * std::pow(16.0, 1.0 / 7)).epsilon(1e-12));
+  CHECK(*o.proof.error[quantity::moment] < 1e-8);
+}

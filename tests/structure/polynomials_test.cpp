@@ -1,0 +1,69 @@
+// Faces and loads that are polynomials in x, where their terms cancel.
+#include "contct/structure/polynomials.hpp"
+
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace contct::app;
+using contct::structure::load_on_element;
+
+namespace {
+
+struct visited {
+  int element;
+  std::vector<double> q;
+  double size;
+};
+
+std::vector<visited> visits(const beam& b, const load& l) {
+  std::vector<visited> all;
+  contct::structure::loads_on_elements(b).for_each(l, [&](int e, const load_on_element& on) {
+    visited& v = all.emplace_back(visited{e, {}, on.size});
+    for (const auto& x : on.q) v.q.push_back(x.hi);
+  });
+  return all;
+}
+
+const std::vector<double> sixth_power = {1e18, -6e15, 1.5e13, -2e10, 1.5e7, -6000, 1};  // (x - 1000)^6
+
+}  // namespace
+
+TEST_CASE("A polynomial face is rounded once, though its terms are 1e33 times as large") {
+  const beam b{{0.0, 2.3, 4.6}, {1e4, 1e4}};
+  const auto faces = contct::structure::values_at(b, std::vector<double>{-0.001, 5.29e30, 0.0, -1e30},
+                                                  std::vector<int>{1, 0});
+  REQUIRE(faces.size() == 2);
+  for (const auto& face : faces) {
+    CHECK(face.hi == -0.001);
+    CHECK(face == contct::numeric::long_decimal(-0.001));
+  }
+}
+
+TEST_CASE("Nodes that are equal parts of a length have faces at the exact parts") {
+  const beam thirds{{0.0, 1.0 / 3, 2.0 / 3, 1.0}, {1, 1, 1}, {{1.0, 3}}};
+  const auto faces =
+      contct::structure::values_at(thirds, std::vector<double>{-1.0, 3.0}, std::vector<int>{1, 2});
+  CHECK(faces[0] == 0.0);
+  CHECK(faces[1] == 1.0);
+}
+
+TEST_CASE("A load that is a sixth power about x = 1000 is t^6 on the element that begins there") {
+  const beam b{{1000.0, 1001.0, 1003.0}, {1, 1}};
+  const auto all = visits(b, {{}, {{sixth_power, {}}}});
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].q == std::vector<double>{0, 0, 0, 0, 0, 0, 1});
+  CHECK(all[1].q == std::vector<double>{1, 12, 60, 160, 240, 192, 64});  // (1 + 2 t)^6
+  CHECK(all[0].size == 1.0);
+  CHECK(all[1].element == 1);
+}
+
+TEST_CASE("Parts of a load add up exactly before they are shifted to an element") {
+  const beam b{{0.0, 1.0, 2.0}, {1, 1}};
+  const auto all = visits(b, {{}, {{{0.1 + 0.2 - 0.3}, {1}, {{0.1}, {0.2}, {-0.3}}}, {{4.0, 2.0}, {}}}});
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].element == 1);
+  CHECK(all[0].q == std::vector<double>{0.0});
+  CHECK(all[0].size == 0.0);
+  CHECK(all[2].q == std::vector<double>{6.0, 2.0});
+}
