@@ -304,7 +304,7 @@ def check_faults(folder):
     opened["steps"][3].update(closed=[], state=["contact"])
     if verdict(problem_that_opens, opened, folder)[0] != 1:
         fail("an open pair is said to be in contact")
-    opened["steps"][3]["certified"] = False
+    opened["steps"][3]["certified"], opened["steps"][3]["error"]["gap"] = False, 1.0
     if verdict(problem_that_opens, opened, folder)[0] != 2:
         fail("a state that the bounds contradict counts as shown")
     for name, (pattern, digit) in OTHERS.items():

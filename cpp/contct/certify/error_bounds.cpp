@@ -530,6 +530,7 @@ error_bounds error_prover::bound(const handed_out& state) {
   bool found = true;
   if (refined_bounds_ && refined_step_ != 0 && !closely_) {
     b = *refined_bounds_;
+    (void)proves(b.closed);  // is_semidefinite may have left the factor of K alone, which is not the proof
   } else {
     found = find_closed(u, r, b);
   }
