@@ -74,8 +74,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
 
 exit_status run_command(const check_options& options) {
   const std::vector<output_option> outputs = {{"--svg", options.svg}};
-  refuse_shared_outputs(outputs, {{"the problem", options.file}});
-  const problem p = read_with_progress(options.file, options.limits, options.quiet);
+  const problem p = read_with_progress(options.file, outputs, options.limits, options.quiet);
   const output_files files(outputs);
   if (!options.quiet && !takes_standard_output(outputs)) {
     const terminal screen = look_at_terminal();

@@ -1,6 +1,4 @@
 // contct convert: a stiffness matrix in the other one of two formats.
-#include <stdexcept>
-
 #include "app/outputs.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/petsc_matrix.hpp"
@@ -10,8 +8,6 @@
 namespace contct::app {
 
 exit_status run_command(const convert_options& options) {
-  if (options.output.empty())
-    throw std::invalid_argument("OUTPUT: found no name; allowed: a file, or - for standard output");
   refuse_shared_outputs({{"OUTPUT", options.output}}, {{"INPUT", options.input}});
   output_file file(options.output);
   const std::string name = options.input == "-" ? "standard input" : options.input;

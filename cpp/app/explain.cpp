@@ -96,11 +96,10 @@ exit_status run_command(const explain_options& options) {
   const increments_wanted wanted = wanted_of(options);
   refuse_engine_option(options.engine);
   refuse_other_rules(options.kernels);
-  const problem p = read_with_progress(options.file, options.limits, options.quiet);
+  const std::vector<output_option> outputs = {{"--json", options.json}};
+  const problem p = read_with_progress(options.file, outputs, options.limits, options.quiet);
   refuse_beyond("--pair", options.pair, p.pairs.size(), "pair");
   refuse_beyond("--step", wanted.step > 0 ? wanted.step : options.step, p.steps.size(), "step");
-  const std::vector<output_option> outputs = {{"--json", options.json}};
-  refuse_shared_outputs(outputs, {{"the problem", options.file}});
   const output_files files(outputs);
   const std::unique_ptr<kernel> leader = make_kernel(options.kernels[0]);
   const explained_kernels of{p, options.kernels, leader->facts().real_bytes, options.pair.value_or(0)};

@@ -89,6 +89,11 @@ std::string usage_words(const program_description& program, const std::string& c
   return fmt::format("{}; the commands are: {}{}", words, joined(names_of(program.commands), ", "), advice);
 }
 
+/// An empty name would be no file, and the output be lost without a word.
+std::string a_name(const std::string& file) {
+  return file.empty() ? "found no name; allowed: a file" : "";
+}
+
 /// A parser, and what it does not know of its options: the kind of argument that each takes.
 class option_parser {
  public:
@@ -121,10 +126,10 @@ class option_parser {
   }
   CLI::Option* add_file(CLI::App* command, const std::string& name, std::string& file,
                         const std::string& text) {
-    return add(command, takes::file, name, file, text);
+    return add(command, takes::file, name, file, text)->check(a_name);
   }
   CLI::Option* add_problem_file(CLI::App* command, std::string& file) {
-    return add_file(command, "FILE", file, "The problem (TOML); - reads standard input")->required();
+    return add(command, takes::file, "FILE", file, "The problem (TOML); - reads standard input")->required();
   }
   void add_limits(CLI::App* command, problem_limits& limits) {
     command->add_flag("--allow-outside", limits.allow_outside,

@@ -98,6 +98,9 @@ struct output_option {
 void refuse_shared_outputs(const std::vector<output_option>& outputs,
                            const std::vector<output_option>& inputs = {});
 
+/// What the files that a problem names are called there.
+inline constexpr const char* named_by_problem = "the problem's stiffness, loads, labels or places";
+
 /// Is one of them "-"? Then nothing else is printed.
 [[nodiscard]] bool takes_standard_output(const std::vector<output_option>& outputs);
 

@@ -108,14 +108,13 @@ int node_that_deflects_most(const run_setup& run) {
 run_setup set_up(const run_options& o) {
   run_setup run{o};
   refuse_bad_options(o);
-  run.what = read_with_progress(o.file, o.limits, o.report.quiet);
+  run.what = read_with_progress(o.file, run.outputs, o.limits, o.report.quiet);
   if (!o.pictures.vtu.empty()) check_grid_coordinates(run.what);
   run.structure = build_with_progress(run.what, o.report.quiet);
   if (!o.final_only) {
     run.kernels = o.kernels;
     run.engine = engine_for(facts_of_kernel(o.kernels.front()), o.engine, run.structure);
   }
-  refuse_shared_outputs(run.outputs, {{"the problem", o.file}});
   if (!o.watched.empty()) {
     run.watched = node_named(run.what.geometry, o.watched);
   } else if (!o.pictures.csv.empty()) {

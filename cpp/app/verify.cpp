@@ -1,12 +1,14 @@
 // contct verify: every problem in reference/ against its published, closed-form and recomputed numbers.
 #include "contct/lab/verify.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/outputs.hpp"
+#include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/strings.hpp"
@@ -223,13 +225,27 @@ void print(const terminal& t, const totals& all) {
       "here; none of their numbers is claimed.\n"));
 }
 
+/// The table, its problems and the files that these name.
+std::vector<output_option> files_read(const std::string& table, const fs::path& folder,
+                                      const std::vector<verification_case>& cases) {
+  std::vector<output_option> all = {{"the table of numbers", table}};
+  for (const verification_case& c : cases) {
+    const std::string file = (folder / c.file).string();
+    all.push_back({"a reference problem", file});
+    for (const std::string& named : read_problem(file).files) all.push_back({named_by_problem, named});
+  }
+  return all;
+}
+
 }  // namespace
 
 exit_status run_command(const verify_options& options) {
   const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
-  refuse_shared_outputs(outputs);
   const fs::path reference = find_reference(options.reference);
-  const std::vector<verification_case> cases = read_verification((reference / "verification.toml").string());
+  const std::string table = (reference / "verification.toml").string();
+  const std::vector<verification_case> cases = read_verification(table);
+  const bool writes = std::ranges::any_of(outputs, [](const output_option& o) { return !o.path.empty(); });
+  if (writes) refuse_shared_outputs(outputs, files_read(table, reference / "problems", cases));
   const output_files files(outputs);
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   const terminal t = look_at_terminal();

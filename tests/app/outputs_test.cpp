@@ -39,6 +39,84 @@ const check_report two_of_three{
 
 }  // namespace
 
+TEST_CASE("no output of any command replaces a file that the problem names, under any name or link") {
+  const scratch_folder dir;
+  fs::copy(root / "reference/structures", dir.path(), fs::copy_options::recursive);
+  const std::vector<words> outputs = {{"run", "--json"},   {"run", "--html"},       {"run", "--csv"},
+                                      {"run", "--log"},    {"run", "--trace"},      {"run", "--proof"},
+                                      {"run", "--junit"},  {"run", "--markdown"},   {"explain", "--json"},
+                                      {"exact", "--json"}, {"export", "--calculix"}};
+  int refused = 0;
+  for (const auto& [problem, named] :
+       {std::pair("frame.toml", words{"frame.mtx", "frame.dof", "frame.xyz", "wind.mtx"}),
+        {"calculix/console.toml",
+         words{"calculix/console.sti", "calculix/console.dof", "calculix/console.inp"}}}) {
+    for (const std::string& file : named) {
+      const std::string before = dir.read(file);
+      fs::create_hard_link(dir.path() / file, dir.path() / "hard");
+      fs::create_symlink(file, dir.path() / "soft");
+      for (const std::string& name : {file, "./" + file, std::string("hard"), std::string("soft")}) {
+        for (const words& output : outputs) {
+          INFO(output[0] << " " << output[1] << " " << name);
+          CHECK_THAT(refusal(dir, {output[0], problem, output[1], name}),
+                     Contains(output[1] + " " + name + ": found the file of the problem's stiffness, loads"));
+          ++refused;
+        }
+        CHECK(dir.read(file) == before);
+      }
+      CHECK(fs::hard_link_count(dir.path() / file) == 2);
+      fs::remove(dir.path() / "hard");
+      fs::remove(dir.path() / "soft");
+    }
+  }
+  CHECK(refused == 7 * 4 * 11);
+}
+
+TEST_CASE("the table of pairs beside --csv does not replace a file that the problem names") {
+  const scratch_folder dir;
+  dir.write("K.pairs.csv", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
+  dir.write("p.toml",
+            "[matrix]\nstiffness = \"K.pairs.csv\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n");
+  CHECK_THAT(refusal(dir, {"run", "p.toml", "--csv", "K.csv"}), Contains("K.pairs.csv: found the file of"));
+  CHECK_THAT(dir.read("K.pairs.csv"), Contains("MatrixMarket"));
+}
+
+TEST_CASE("contct verify replaces neither its table nor a reference problem") {
+  const scratch_folder dir;
+  fs::copy(root / "reference/verification.toml", dir.path());
+  fs::copy(root / "reference/problems", dir.path() / "problems", fs::copy_options::recursive);
+  for (const std::string file : {"verification.toml", "problems/pb07-three-gap-supports.toml"}) {
+    const std::string before = dir.read(file);
+    for (const char* option : {"--json", "--junit", "--markdown"})
+      CHECK_THAT(refusal(dir, {"verify", "--reference", ".", option, file}), Contains("found the file of"));
+    CHECK(dir.read(file) == before);
+  }
+}
+
+TEST_CASE("an output with an empty name is refused, by every command") {
+  const scratch_folder dir;
+  dir.write("pb.toml", good_problem);
+  int refused = 0;
+  for (const words& command :
+       {words{"run", "pb.toml", "--json", "--html", "--csv", "--vtu", "--log", "--trace", "--proof",
+              "--junit", "--markdown"},
+        {"explain", "pb.toml", "--json"},
+        {"exact", "pb.toml", "--json"},
+        {"export", "pb.toml", "--calculix"},
+        {"replay", "none.trace", "--junit", "--markdown"},
+        {"fuzz", "--calls=1", "--json", "--out", "--checkpoint", "--junit", "--markdown"},
+        {"verify", "--quiet", "--json", "--junit", "--markdown"},
+        {"atlas", "--problems=1", "--csv", "--json"}}) {
+    for (std::size_t i = 2; i < command.size(); ++i) {
+      const words given = {command[0], command[1], command[i], ""};
+      CHECK_THAT(refusal(dir, given), Contains(command[i] + ": found no name; allowed: a file"));
+      CHECK_THAT(refusal(dir, {command[0], command[1], command[i] + "="}), Contains(command[i] + ": "));
+      ++refused;
+    }
+  }
+  CHECK(refused == 24);
+}
+
 TEST_CASE("two results in one file are refused, however it is named") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);

@@ -18,7 +18,8 @@ std::string named_files::path_of(const table_reader& t, std::string_view key, st
   if (allowed_ == reach::own_folder && !is_below(path))
     t.refuse_key(key, in_quotes(name) + ", which is not below the folder of the problem file",
                  "a file below it, or any with --allow-outside (\"allow_outside\" in the library)");
-  return path == "-" ? "./-" : path;  // a file of that name: standard input holds the problem, if anything
+  // A file named "-" is one: standard input holds the problem, if anything.
+  return all_->emplace_back(path == "-" ? "./-" : path);
 }
 
 /// A path that cannot be resolved is not below it.

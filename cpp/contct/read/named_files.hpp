@@ -1,8 +1,10 @@
 // The files that a problem file names: where they are, and whether they may be there.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "contct/read/toml_reader.hpp"
 
@@ -22,11 +24,15 @@ class named_files {
   [[nodiscard]] std::string path_of(const table_reader& t, std::string_view key,
                                     std::string_view ending = "") const;
 
+  /// All that path_of has returned, to this object and its copies.
+  [[nodiscard]] const std::vector<std::string>& all() const { return *all_; }
+
  private:
   [[nodiscard]] bool is_below(const std::string& path) const;
 
   std::string folder_;
   reach allowed_;
+  std::shared_ptr<std::vector<std::string>> all_ = std::make_shared<std::vector<std::string>>();
 };
 
 }  // namespace contct::read

@@ -62,6 +62,7 @@ class problem_reader {
     for (const table_reader& t : top_.optional_tables("bed")) read_bed(t);
     const step_reader steps(*places_, problem_.supports, files_, keep_);
     for (const table_reader& t : top_.tables("step")) problem_.steps.push_back(steps.read(t));
+    problem_.files = files_.all();
     return std::move(problem_);
   }
 

@@ -327,6 +327,7 @@ struct problem {
   std::vector<bed> beds;            ///< whose pairs are among `pairs`
   unit_labels units;
   std::vector<std::string> warnings;
+  std::vector<std::string> files;  ///< paths of the files that the problem file names
   /// Of the file's own numbers, one for each value; only where the reader was asked for them.
   std::vector<written_number> written;
   /// Of the pairs of every [[contact]] [pairs], likewise; those of beds have none.
