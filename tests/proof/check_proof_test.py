@@ -39,6 +39,13 @@ def wider(step, share):
     step["error"]["w"] = share * max(map(abs, step["displacement"][::2]))
 
 
+def unheld(step):
+    """A fault: a loaded step in the form of an unloaded one, with bounds that any number is within."""
+    for key in ("displacement", "state", "u", "closed", "z", "scale", "row_of", "shift", "L"):
+        step.pop(key)
+    step.update(certified=False, error={kind: None if kind in ("w", "slope", "gap") else 1e300 for kind in step["error"]})
+
+
 # In step 3 of PB7 the beam is on three stops, of which the middle one presses more.
 FAULTS = {
     "the state is moved": scaled(["u", 16, 0], 1 + 1e-6),
@@ -69,6 +76,7 @@ FAULTS = {
     "an entry of L is off": scaled(["L", 9, -1], 1 + 1e-3),
     "L is the unit matrix": put("L", lambda rows: [[0.0] * (len(row) - 1) + [1.0] for row in rows]),
     "L is missing": lambda step: step.pop("L"),
+    "a loaded step has the form of an unloaded one": unheld,
     "z is another vector": put("z", lambda z: [[1.0, 0.0] for _ in z]),
     "a displacement is left out": lambda step: step["displacement"].pop(),
     "a reaction is left out": lambda step: step["reactions"].pop(),
