@@ -38,15 +38,24 @@ told_state right_state(const beam_problem& p, const load& l) {
   return t;
 }
 
+/// Loads with their work on the rigid motions, which decides whether there is an equilibrium.
+template <class Geometry>
+load_history exactly_known(const Geometry& geometry, const std::vector<load>& steps,
+                           const linear_structure& s) {
+  return {[geometry, steps](int step, std::span<double> f) {
+            add_consistent_loads(geometry, steps[static_cast<std::size_t>(step - 1)], f);
+          },
+          [steps, truth = s.truth](int step) {
+            return truth->work_of(steps[static_cast<std::size_t>(step - 1)]);
+          }};
+}
+
 /// Tells the certifier of step after step.
 struct judge {
   linear_structure s;
   certifier c;
 
-  explicit judge(const beam_problem& p)
-      : s(p.structure()), c(s, [p](int step, std::span<double> f) {
-          add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
-        }) {}
+  explicit judge(const beam_problem& p) : s(p.structure()), c(s, exactly_known(p.geometry, p.steps, s)) {}
   certificate of(const told_state& t) {
     c.step_ended(t.at(static_cast<int>(c.steps().size()) + 1));
     return c.steps().back().value();
@@ -427,9 +436,7 @@ TEST_CASE("the final states without the path are those of the path, and certifie
   for (std::uint64_t number = 1; number <= 120; ++number) {
     const random_problem p = make_random_problem(5, number, kind);
     const linear_structure s = build(p.geometry, p.supports, p.pairs);
-    const load_history total = [&p](int step, std::span<double> f) {
-      add_consistent_loads(p.geometry, p.steps[static_cast<std::size_t>(step - 1)], f);
-    };
+    const load_history total = exactly_known(p.geometry, p.steps, s);
     const followed path = follow(p);
     recorder only_the_end;
     certifier judged(s, total);
@@ -437,7 +444,7 @@ TEST_CASE("the final states without the path are those of the path, and certifie
     const path_end found = find_final_states(s, static_cast<int>(p.steps.size()), total, watching);
     INFO("problem " << number);
     CHECK(found.status == path.end.status);
-    CHECK(found.work.factors >= 1);
+    CHECK(found.work.factors >= (found.status == path_status::mechanism ? 0 : 1));
     without_equilibrium += found.status == path_status::mechanism ? 1 : 0;
     CHECK(judged.all_exact());
     for (std::size_t step = 0; step < only_the_end.steps.size(); ++step) {
@@ -457,12 +464,14 @@ TEST_CASE("a load that nothing carries has no final state, and the step is not t
   // Two props under a free beam: they carry its weight, and no pull.
   beam_problem p{even_beam(4.0, 4, 1.0), {}, {{0, -1, 0.0, 1.0, true}, {4, -1, 0.0, 1.0, true}}, {}};
   const linear_structure s = p.structure();
-  const load_history total = [](int step, std::span<double> f) { f[4] = step == 1 ? -1.0 : 1.0; };
+  p.steps = {tip_load(2, -1.0), tip_load(2, 1.0), tip_load(2, 1.0)};
   recorder told;
   observer* const watching[] = {&told};
-  const path_end end = find_final_states(s, 3, total, watching);
+  const path_end end = find_final_states(s, 3, exactly_known(p.geometry, p.steps, s), watching);
   CHECK(end.status == path_status::mechanism);
   CHECK(end.step == 2);
+  const load_history rounded = [](int, std::span<double> f) { f[4] = 1.0; };
+  CHECK(find_final_states(s, 1, rounded, {}).status == path_status::path_ended);  // it is not decided
   REQUIRE(told.steps.size() == 1);
   CHECK(told.steps[0].u[4] < 0.0);
 }

@@ -9,6 +9,7 @@
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
+#include "contct/exact/exact_follower.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/matrix_files.hpp"
@@ -89,7 +90,8 @@ run_of_problem run(const problem& p) {
   const std::vector<std::string> others = {"cpp"};
   lockstep compared = make_lockstep(leader->facts(), others);
   certifier judged(p, s);
-  r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen});
+  r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen},
+                 {0, nullptr, nullptr, contct::exact::exact_follower_of(p)});
   r.calls = compared.calls();
   r.mismatches = compared.compared().mismatches;
   r.certified = judged.all_exact();
