@@ -256,6 +256,16 @@ TEST_CASE("a face below is in contact at 0, open beneath, and inside the structu
              Catch::Matchers::Contains("contact[1].surface: found nothing"));
 }
 
+TEST_CASE("a polynomial face below is accepted though its terms cancel in doubles to a value above 0") {
+  const problem p = parse_problem(
+      "[beam]\nx = [0, 1.1, 2.2]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = [\"w\"]\n[[bed]]\nmodulus = "
+      "1\n"
+      "face = { polynomial = [-0.001, -1.21e30, 0, 1e30] }\n[[step]]\nuniform = -1\n",
+      "far.toml");
+  REQUIRE(p.pairs.size() == 1);
+  CHECK(p.pairs[0].face == -0.001);
+}
+
 TEST_CASE("units are labels, both or neither") {
   CHECK(parse_problem(good_problem, "pb.toml").units.length.empty());
   const problem p =
