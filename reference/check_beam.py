@@ -9,6 +9,18 @@ def listed(x):
     return x if isinstance(x, list) else [x]
 
 
+def meant(literal):
+    """The number that a literal of a file means: the shortest decimal that reads as its double."""
+    return F(repr(float(literal)))
+
+
+def numbers(t):
+    """A table, list or value of a file, where whole numbers from 2^53 on are what they mean."""
+    if isinstance(t, (dict, list)):
+        return {key: numbers(x) for key, x in t.items()} if isinstance(t, dict) else [numbers(x) for x in t]
+    return meant(t) if isinstance(t, int) and abs(t) >= 2**53 else t
+
+
 class Beam:
     """An element of length h: dofs w and w' at its left end, w and w' at its right."""
 

@@ -2,7 +2,7 @@
 from fractions import Fraction as F
 from pathlib import Path
 
-from check_beam import listed
+from check_beam import listed, meant
 
 
 def entries(file):
@@ -16,7 +16,7 @@ def rows(file, n):
     """K by rows, from its lower triangle."""
     K = [{i: F(0)} for i in range(n)]
     for i, j, k in entries(file)[1]:
-        K[int(i) - 1][int(j) - 1] = K[int(j) - 1][int(i) - 1] = F(k)
+        K[int(i) - 1][int(j) - 1] = K[int(j) - 1][int(i) - 1] = meant(k)
     return K
 
 
@@ -24,8 +24,8 @@ def vector(file):
     """{dof: its load}."""
     header, numbers = entries(file)
     if "coordinate" in header:
-        return {int(i) - 1: F(k) for i, _, k in numbers}
-    return {i: F(k) for i, (k,) in enumerate(numbers)}
+        return {int(i) - 1: meant(k) for i, _, k in numbers}
+    return {i: meant(k) for i, (k,) in enumerate(numbers)}
 
 
 def as_nodes(part, number):

@@ -9,6 +9,7 @@ import tomllib
 from fractions import Fraction as F
 from os.path import dirname
 
+from check_beam import meant, numbers
 from check_plate import dot
 from check_problem import Problem
 
@@ -125,7 +126,7 @@ def main(problem, proof):
     where = "what the files hold"
     try:
         with open(problem, "rb") as file, open(proof, encoding="utf-8") as proofs:
-            p, steps = Problem(tomllib.load(file, parse_float=F), dirname(problem)), json.load(proofs)["steps"]
+            p, steps = Problem(numbers(tomllib.load(file, parse_float=meant)), dirname(problem)), json.load(proofs)["steps"]
         for i, s in enumerate(steps):
             where = f"step {i + 1} of {len(p.steps)}"
             words = f"{check(p, p.steps[i], s)} numbers are within their bounds" if s["error"] else f"no bounds: {s['because']}"
