@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <new>
 #include <optional>
+#include <stdexcept>
 
 #include "contct/text/decimal.hpp"
 
@@ -107,6 +108,7 @@ rational number_written(std::string_view literal) {
 }
 
 rational binary_value(double x) {
+  if (!std::isfinite(x)) throw std::domain_error("an infinity, or what is no number, has no exact value");
   int exponent = 0;
   const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
   exponent -= 53;
@@ -115,15 +117,27 @@ rational binary_value(double x) {
 }
 
 double rounded(const rational& x) {
-  // By the first 62 or 63 bits of the quotient: Boost's own conversion overflows where both parts do.
-  integer top = abs(numerator(x));
-  integer bottom = denominator(x);
-  if (top == 0) return 0.0;
-  const int shift = 62 + static_cast<int>(length_in_bits(bottom)) - static_cast<int>(length_in_bits(top));
-  if (shift > 0) top <<= static_cast<unsigned>(shift);
-  if (shift < 0) bottom <<= static_cast<unsigned>(-shift);
-  const double size =
-      std::ldexp(static_cast<double>(integer(top / bottom).convert_to<std::uint64_t>()), -shift);
+  // |x| = n 2^unit, with n < 2^53 rounded once: subnormal numbers have fewer bits. Boost's own conversion
+  // overflows where numerator and denominator do.
+  const integer top = abs(numerator(x));
+  const integer bottom = denominator(x);
+  constexpr int least_unit = DBL_MIN_EXP - DBL_MANT_DIG;
+  int unit = std::max(least_unit, static_cast<int>(length_in_bits(top)) -
+                                      static_cast<int>(length_in_bits(bottom)) - DBL_MANT_DIG);
+  const auto shifted = [](const integer& n, int bits) { return bits > 0 ? integer(n << bits) : n; };
+  const auto divide = [&](integer& n, integer& rest) {
+    boost::multiprecision::divide_qr(shifted(top, -unit), shifted(bottom, unit), n, rest);
+  };
+  integer n;
+  integer rest;
+  divide(n, rest);
+  if (length_in_bits(n) > std::size_t{DBL_MANT_DIG}) {
+    ++unit;
+    divide(n, rest);
+  }
+  const int beyond_half = integer(rest * 2).compare(shifted(bottom, unit));
+  if (beyond_half > 0 || (beyond_half == 0 && n % 2 != 0)) ++n;
+  const double size = std::ldexp(static_cast<double>(n.convert_to<std::uint64_t>()), unit);
   return x < 0 ? -size : size;
 }
 

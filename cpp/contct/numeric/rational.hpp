@@ -55,10 +55,10 @@ struct exact_values {
   }
 };
 
-/// The exact value of a double, bit for bit.
+/// The exact value of a double, bit for bit. Throws std::domain_error where `x` is not finite.
 [[nodiscard]] rational binary_value(double x);
 
-/// The nearest double, or one beside it.
+/// The nearest double, the even one of two that are equally near; infinite beyond their range.
 [[nodiscard]] double rounded(const rational& x);
 
 /// x less what it should be, in units in the last place of the number `exactly` among those of `real_bytes`
