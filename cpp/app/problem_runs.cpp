@@ -60,10 +60,10 @@ std::string chosen_engine(const std::string& name, const linear_structure& s) {
   return name == "auto" ? std::string(quickest_engine(s)) : name;
 }
 
-problem read_with_progress(const std::string& file, const problem_limits& limits, bool quiet, literals keep) {
+problem read_with_progress(const std::string& file, const problem_limits& limits, bool quiet) {
   problem p = [&] {
     const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
-    return read_problem(file, keep, limits.allow_outside ? reach::anywhere : reach::own_folder,
+    return read_problem(file, limits.allow_outside ? reach::anywhere : reach::own_folder,
                         distributed::joined_ranks());
   }();
   for (const std::string& w : p.warnings) complain("warning: {}", whole_line(w));

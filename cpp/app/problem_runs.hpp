@@ -26,8 +26,7 @@ void refuse_engine_option(const std::string& name);
 [[nodiscard]] std::string chosen_engine(const std::string& name, const linear_structure& s);
 
 /// Read a problem and print its warnings. Throws as read_problem does.
-[[nodiscard]] problem read_with_progress(const std::string& file, const problem_limits& limits, bool quiet,
-                                         literals keep = literals::dropped);
+[[nodiscard]] problem read_with_progress(const std::string& file, const problem_limits& limits, bool quiet);
 
 /// The structure of a problem. Throws as structure_of does.
 [[nodiscard]] linear_structure build_with_progress(const problem& p, bool quiet);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <new>
-#include <optional>
 #include <stdexcept>
 
 #include "contct/text/decimal.hpp"
@@ -95,16 +94,6 @@ void allocate_as_new_does() {
 
 rational decimal_of(double x) {
   return value_of(shortest_decimal(x));
-}
-
-rational number_written(std::string_view literal) {
-  constexpr std::int64_t most = 10'000;
-  const std::optional<decimal> d = decimal_in(literal);
-  if (!d) throw std::invalid_argument("no decimal number: " + std::string(literal));
-  if (std::abs(d->exponent) > most || d->digits.size() > most)
-    throw too_long("a literal of that many digits, or of such an exponent: " +
-                   std::string(literal.substr(0, 40)));
-  return value_of(*d);
 }
 
 rational binary_value(double x) {
