@@ -802,7 +802,7 @@ def check(problem: Problem, *, folder: Union[None, str, os.PathLike[str]] = None
 
 def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
           folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Exact:
-    """Follow the path in rational arithmetic, from the decimals as they are written: `contct exact`.
+    """Follow the path in rational arithmetic, from the decimals that the file's numbers mean: `contct exact`.
 
     rule     "corrected", or "1989" for the 1989 rule without rounding
     kernels  are compared with it: how many of their digits are right

@@ -114,9 +114,8 @@ std::string problem_text(const std::string& name) {
 }
 
 contct::app::problem make_problem(const std::string& name, contct::distributed::ranks* among) {
-  using contct::app::literals;
   using contct::app::reach;
-  return contct::app::parse_problem(problem_text(name), name, literals::dropped, reach::own_folder, among);
+  return contct::app::parse_problem(problem_text(name), name, reach::own_folder, among);
 }
 
 std::vector<std::string> usual_problems() {

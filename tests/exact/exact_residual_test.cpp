@@ -45,15 +45,15 @@ TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a fac
   const contct::structure::problem p =
       contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
   const auto residual = exact_residual_of(p);
-  const rational face = number_written("-7.6e-12");
-  const rational h = number_written("8e-11");
-  const rational bends = 12 * number_written("7e-4") / (h * h * h);
+  const rational face = decimal_of(-7.6e-12);
+  const rational h = decimal_of(8e-11);
+  const rational bends = 12 * decimal_of(7e-4) / (h * h * h);
   const double_double near = rounded_to_32_digits(face);
   for (const double off : {-0x1p-138, 0x1p-138}) {  // some tenths of its last digit
     std::vector<double_double> u(6, 0.0);
     u[4] = {near.hi, near.lo + off};
     const rational at = binary_value(u[4].hi) + binary_value(u[4].lo);
-    const rational pressed = at < face ? rational(number_written("7.8e44") * (at - face)) : rational(0);
+    const rational pressed = at < face ? rational(decimal_of(7.8e44) * (at - face)) : rational(0);
     const double expected = rounded(rational(bends * at + pressed));
     CHECK((*residual(1, u))[4].hi == expected);
     CHECK((at < face) == (off < 0));

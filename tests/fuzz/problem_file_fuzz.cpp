@@ -49,8 +49,6 @@ void check(const problem& p) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr const char* file = CONTCT_REFERENCE "/structures/problem.toml";
   const std::string_view text = text_of(data, size);
-  const bool is_sound = is_read([&] { check(parse_problem(text, file)); });
-  const bool is_exact = is_read([&] { check(parse_problem(text, file, literals::kept)); });
-  require(is_sound || !is_exact, "what is read with its literals is read without them");
+  (void)is_read([&] { check(parse_problem(text, file)); });
   return 0;
 }

@@ -121,9 +121,8 @@ class whole_run {
     write_problem();
   }
 
-  /// `kept` is the problem as it is read for exact arithmetic.
-  void go_exactly(const problem& kept) {
-    exact_problem e = exactly_read(kept, file_);
+  void go_exactly() {
+    exact_problem e = exactly_read(p_, file_);
     constexpr std::size_t longest = 20'000;
     e.longest = std::min(e.longest, longest);
     const exact_path path = follow_exactly(e, "corrected", file_);
@@ -352,8 +351,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     whole_run run(p, bytes, printed);
     run.go();
     constexpr int most_dofs = 24;
-    if (exactly && dofs(p.geometry) <= most_dofs)
-      run.go_exactly(parse_problem(made.text, file, contct::structure::literals::kept));
+    if (exactly && dofs(p.geometry) <= most_dofs) run.go_exactly();
   } catch (const std::invalid_argument&) {
     (void)printed.take();  // refused, as the program does
   } catch (const contct::text::input_error&) {

@@ -1,6 +1,8 @@
 // Decimals in and out of exact numbers.
 #include "contct/numeric/rational.hpp"
 
+#include <bit>
+#include <cmath>
 #include <limits>
 
 #include "catch.hpp"
@@ -17,17 +19,13 @@ TEST_CASE("a double becomes the shortest decimal that reads as it") {
   CHECK(decimal_of(5e-324) == rational(integer(5), boost::multiprecision::pow(integer(10), 324U)));
 }
 
-TEST_CASE("a double whose decimal is not the number meant takes the value handed in") {
-  const exact_values values{{{1.0 / 3.0, rational(1, 3)}}};
-  CHECK(values.of(1.0 / 3.0) == rational(1, 3));
-  CHECK(values.of(0.25) == rational(1, 4));
-}
-
 TEST_CASE("the binary value of a double is exact") {
   CHECK(binary_value(0.75) == rational(3, 4));
   CHECK(binary_value(0.1) == rational(integer("3602879701896397"), integer("36028797018963968")));
   CHECK(binary_value(-8.0) == -8);
   CHECK(binary_value(std::numeric_limits<double>::denorm_min()) * rational(integer(1) << 1074U) == 1);
+  CHECK_THROWS_AS(binary_value(std::numeric_limits<double>::infinity()), std::domain_error);
+  CHECK_THROWS_AS(binary_value(std::numeric_limits<double>::quiet_NaN()), std::domain_error);
 }
 
 TEST_CASE("a rational is rounded to a double, however long it is") {
@@ -43,6 +41,33 @@ TEST_CASE("a rational is rounded to a double, however long it is") {
   CHECK(third.hi == 1.0 / 3.0);
   CHECK(abs(binary_value(third.hi) + binary_value(third.lo) - rational(1, 3)) <
         rational(integer(1), integer(integer(1) << 107U)));
+  CHECK(rounded(rational(huge)) == std::numeric_limits<double>::infinity());
+  CHECK(rounded(rational(integer(-1), huge)) == 0.0);
+}
+
+TEST_CASE("a rational is rounded to the nearest double, of two that are equally near to the even one") {
+  // Halfway between a double and the next one up; a little less; a little more, by a bit that is far off.
+  const double least = std::numeric_limits<double>::denorm_min();
+  const rational hair(integer(1), integer(1) << 2000U);
+  std::size_t compared = 0;
+  for (const double x : {1.0, 1.0 + 0x1p-52, 0.1, 1e-300, 1e300, 3.0, 0x1p-1022, 0x1.fffffffffffffp-1023,
+                         least, 3 * least, 0x1.8p-1050, std::numeric_limits<double>::max()}) {
+    const double next = std::nextafter(x, std::numeric_limits<double>::infinity());
+    const rational step = std::isfinite(next)
+                              ? rational(binary_value(next) - binary_value(x))
+                              : rational(binary_value(x) - binary_value(std::nextafter(x, 0.0)));
+    const rational half = binary_value(x) + step / 2;
+    CHECK(rounded(half - hair) == x);
+    CHECK(rounded(half + hair) == next);
+    CHECK(rounded(-half - hair) == -next);
+    const double even = rounded(half);
+    CHECK((even == x || even == next));
+    CHECK((std::bit_cast<std::uint64_t>(even) & 1U) == 0);
+    ++compared;
+  }
+  CHECK(compared == 12);
+  CHECK(rounded(binary_value(least) / 2) == 0.0);
+  CHECK(rounded(binary_value(least) / 2 + hair) == least);
 }
 
 TEST_CASE("fractions are written while they are short, decimals beyond") {
@@ -72,13 +97,4 @@ TEST_CASE("the error of a number is counted in units in the last place of what i
   CHECK(error_in_ulps(0.1, rational(1, 10), 8) == Approx(0.4));
   CHECK(error_in_ulps(std::numeric_limits<double>::denorm_min(), 0, 8) == 1.0);
   CHECK(error_in_ulps(3.0, rational(integer(1), boost::multiprecision::pow(integer(10), 320U)), 8) > 1e300);
-}
-
-TEST_CASE("a literal is taken digit by digit") {
-  CHECK(number_written("0.3333333333333333333") ==
-        rational(integer("3333333333333333333"), integer("10000000000000000000")));
-  CHECK(number_written("-1_5.0D-1") == rational(-3, 2));
-  CHECK(number_written("+0e99999999999") == 0);
-  CHECK_THROWS_AS(number_written("1e99999999999"), too_long);
-  CHECK_THROWS_AS(number_written("inf"), std::invalid_argument);
 }

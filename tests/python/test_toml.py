@@ -5,6 +5,7 @@ import random
 import struct
 import tomllib
 from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 
 import contct
@@ -42,11 +43,14 @@ def test_kinds_stay_kinds():
     assert tomllib.loads(contct.to_toml({"a": array.array("d", [1.0, 2.0])})) == {"a": [1.0, 2.0]}
 
 
-def test_decimals_are_written_as_they_are():
+def test_decimals_are_written_as_they_are_and_mean_the_shortest_decimals_of_their_doubles():
     assert contct.to_toml({"x": Decimal("0.1000000000000000000001")}) == "x = 0.1000000000000000000001\n"
     third = {"beam": {"x": [0, 1, 2], "EI": 1}, "support": [{"node": 1, "fix": ["w", "theta"]}],
              "step": [{"point": [{"node": 3, "w": Decimal("-0.100000000000000000000003")}]}]}
-    assert contct.exact(third).steps[0].reactions[0].value * 10**24 == 100000000000000000000003
+    exact = contct.exact(third)
+    assert exact.steps[0].reactions[0].value == Fraction(1, 10)
+    assert [m.partition("found")[2] for m in exact.messages] == [
+        " -0.100000000000000000000003; the shortest decimal of its double, -0.1, is used everywhere"]
 
 
 @pytest.mark.parametrize("value, words", [

@@ -344,33 +344,32 @@ TEST_CASE("labels are found by their text, or by their number where there are no
   CHECK_THAT(by_label.allowed(), Catch::Matchers::Contains("\"5.1\""));
 }
 
-TEST_CASE("literals of matrices and vectors are kept at their places where they are asked for") {
-  std::vector<std::string> written;
-  const sparse_matrix m = parse_symmetric(
-      "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n2 2 0.1\n2 1 -0.10000000000000000555\n1 1 7\n",
-      "K.mtx", &written);
+TEST_CASE("a file of matrices or vectors draws one warning for all numbers that doubles do not have") {
+  std::vector<std::string> warnings;
+  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
+  const sparse_matrix m =
+      parse_symmetric(head + "2 2 3\n2 2 2.10e0\n2 1 -0.10000000000000000555\n1 1 7.000000000000000000001\n",
+                      "K.mtx", &warnings);
   REQUIRE(m.entries.size() == 3);
-  CHECK(written == std::vector<std::string>{"", "-0.10000000000000000555", ""});
-  written.clear();
-  (void)parse_calculix_stiffness("1 1 1.0D0\n1 2 0.0\n2 2 3.00000000000000000001D-1\n", "j.sti", 2, &written);
-  CHECK(written == std::vector<std::string>{"", "3.00000000000000000001D-1"});
-  written.clear();
+  CHECK(m.entries[1].value == -0.1);
+  (void)parse_calculix_stiffness("1 1 1.0D0\n1 2 0.0\n2 2 3.00000000000000000001D-1\n", "j.sti", 2,
+                                 &warnings);
   (void)parse_vector("%%MatrixMarket matrix array real general\n2 1\n0.5\n0.30000000000000000001\n", "f.mtx",
-                     2, &written);
-  CHECK(written == std::vector<std::string>{"", "0.30000000000000000001"});
-  written.clear();
+                     2, &warnings);
   (void)parse_vector(
-      "%%MatrixMarket matrix coordinate real general\n3 1 2\n3 1 1\n1 1 0.30000000000000000001\n", "f.mtx", 3,
-      &written);
-  CHECK(written == std::vector<std::string>{"0.30000000000000000001", "", ""});
-}
-
-TEST_CASE("a matrix whose literals are asked for may have no endless ones") {
-  std::vector<std::string> written;
-  const std::string text =
-      "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 0." + std::string(1500, '3') + "\n";
-  CHECK(parse_symmetric(text, "K.mtx").entries.size() == 1);
-  CHECK_THROWS_WITH(
-      parse_symmetric(text, "K.mtx", &written),
-      Catch::Matchers::StartsWith("K.mtx:3: found a number of 1502 characters; allowed: at most 1000"));
+      "%%MatrixMarket matrix coordinate real general\n3 1 2\n3 1 1\n1 1 0.30000000000000000001\n", "g.mtx", 3,
+      &warnings);
+  const std::string used = "; the shortest decimal of its double, ";
+  CHECK(warnings == std::vector<std::string>{
+                        "K.mtx:4: found -0.10000000000000000555" + used +
+                            "-0.1, is used everywhere (the first of 2 such numbers)",
+                        "j.sti:3: found 3.00000000000000000001D-1" + used + "0.3, is used everywhere",
+                        "f.mtx:4: found 0.30000000000000000001" + used + "0.3, is used everywhere",
+                        "g.mtx:4: found 0.30000000000000000001" + used + "0.3, is used everywhere"});
+  warnings.clear();
+  (void)parse_symmetric(head + "1 1 1\n1 1 " + "0." + std::string(1500, '3') + "\n", "K.mtx", &warnings);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].size() < 200);
+  (void)parse_symmetric(head + "1 1 1\n1 1 2.500000000000000000000e+01\n", "K.mtx", &warnings);
+  CHECK(warnings.size() == 1);
 }

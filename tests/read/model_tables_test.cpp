@@ -23,7 +23,8 @@ namespace {
 
 model model_in(const std::string& text) {
   const toml::table document = parse_toml(text, "m.toml");
-  return read_model(table_reader(document, "", "m.toml"), {"m.toml", reach::own_folder});
+  std::vector<std::string> warnings;
+  return read_model(table_reader(document, "", "m.toml"), {"m.toml", reach::own_folder}, warnings);
 }
 
 std::string refusal(const std::string& text) {

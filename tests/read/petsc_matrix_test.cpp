@@ -52,13 +52,13 @@ TEST_CASE(
     "PETSc's binary is read as the Matrix Market file of the same matrix, and no last digit is in doubt") {
   const std::string text =
       "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 4\n2 1 -1\n2 2 4.5\n3 2 -0.2\n3 3 1\n";
-  std::vector<std::string> written = {};
-  const sparse_matrix a = parse_stiffness(good_petsc, "K", &written);
+  std::vector<std::string> warnings = {};
+  const sparse_matrix a = parse_stiffness(good_petsc, "K", &warnings);
   CHECK(a.order == 3);
   CHECK(entries_in(a) == entries_in(parse_stiffness(text, "K")));
   CHECK(a.last_digits.empty());
   CHECK(a.half_unit(3) == 0.0);
-  CHECK(written.empty());
+  CHECK(warnings.empty());
   CHECK_FALSE(parse_stiffness(text, "K").last_digits.empty());
 }
 

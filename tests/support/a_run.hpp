@@ -38,7 +38,7 @@ struct a_run {
 
   explicit a_run(const std::string& text, const std::vector<observer*>& more = {},
                  const frame_limits& limits = {}, const std::string& leads = "fortran")
-      : what(parse_problem(text, "pb.toml", literals::dropped, reach::anywhere)),
+      : what(parse_problem(text, "pb.toml", reach::anywhere)),
         structure(structure_of(what)),
         leader(make_kernel(leads)),
         compared(make_lockstep(leader->facts(), std::vector<std::string>(leads == "fortran" ? 1 : 0, "cpp"))),

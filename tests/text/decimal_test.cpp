@@ -40,3 +40,12 @@ TEST_CASE("a literal is the shortest decimal or not, whatever zeros and signs it
   CHECK_FALSE(is_shortest("1e-400", 0.0));
   CHECK(shortest_decimal(-2.5e-300) == decimal{true, "25", -301});
 }
+
+TEST_CASE("a warning quotes the literal and the shortest decimal of its double, however long they are") {
+  const std::string used = ", is used everywhere";
+  CHECK(rounding_words("0.10000000000000000555", 0.1) ==
+        "found 0.10000000000000000555; the shortest decimal of its double, 0.1" + used);
+  CHECK(rounding_words("1152921504606846976", 0x1p60) ==
+        "found 1152921504606846976; the shortest decimal of its double, 1.152921504606847e+18" + used);
+  CHECK(rounding_words("1" + std::string(500, '0') + "e-500", 1.0).size() < 150);
+}

@@ -207,11 +207,11 @@ TEST_CASE("a flat structure that stays flat is looked at straight on, any other 
 }
 
 TEST_CASE("what deflects is what is known to be a length: a matrix's pairs, and what is along an axis") {
-  const problem placed = parse_problem(portal_frame(), "p.toml", literals::dropped, reach::anywhere);
+  const problem placed = parse_problem(portal_frame(), "p.toml", reach::anywhere);
   const std::vector<int> dofs = deflecting_nodes(placed);
   CHECK(dofs.size() == 22);
   CHECK(std::none_of(dofs.begin(), dofs.end(), [](int dof) { return dof % 3 == 2; }));
-  problem bare = parse_problem(frame_without_coordinates(), "p.toml", literals::dropped, reach::anywhere);
+  problem bare = parse_problem(frame_without_coordinates(), "p.toml", reach::anywhere);
   CHECK(deflecting_nodes(bare) == std::vector<int>{16, 21});
   bare.pairs.clear();
   CHECK(deflecting_nodes(bare).size() == 33);

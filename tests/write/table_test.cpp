@@ -208,7 +208,7 @@ TEST_CASE("a step that never moves has a row all the same") {
 
 TEST_CASE("tables of structures from elsewhere name dofs by their labels, with coordinates or without") {
   for (const auto& text : {portal_frame(), frame_without_coordinates()}) {
-    const problem p = parse_problem(text, "p.toml", literals::dropped, reach::anywhere);
+    const problem p = parse_problem(text, "p.toml", reach::anywhere);
     const scratch_folder folder;
     output_file increments(folder.at("mesh.csv"));
     output_file pairs(folder.at("mesh.pairs.csv"));

@@ -23,17 +23,7 @@ void put_structure(const assembled& a, demand& d) {
   d.entries = 2 * static_cast<std::int64_t>(a.stiffness.entries.size());
 }
 
-/// A double's shortest decimal has 17 digits at most; a literal may have more.
-std::int64_t bits_of_numbers(const problem& p) {
-  std::size_t most = 17;
-  for (const written_number& w : p.written) most = std::max(most, w.literal.size());
-  for (const load& l : p.steps)
-    for (const std::string& literal : l.written) most = std::max(most, literal.size());
-  if (const auto* const a = std::get_if<assembled>(&p.geometry.kind))
-    for (const std::string& literal : a->written) most = std::max(most, literal.size());
-  constexpr std::int64_t bits_of_digit = 4;
-  return bits_of_digit * static_cast<std::int64_t>(most);
-}
+constexpr std::int64_t bits_of_double = 17 * 4;  // its shortest decimal has 17 digits at most
 
 // A rational is two numbers of 16 bytes and their bits; a node of a map has 40 more and its place.
 constexpr std::int64_t bytes_of_rational = 32;
@@ -68,7 +58,7 @@ demand demand_of(const problem& p) {
   d.dofs = dofs(p.geometry);
   std::visit([&d](const auto& kind) { put_structure(kind, d); }, p.geometry.kind);
   d.vectors = of_path + 3 * static_cast<std::int64_t>(p.steps.size());
-  d.bits = bits_of_numbers(p);
+  d.bits = bits_of_double;
   return d;
 }
 

@@ -1,4 +1,4 @@
-// A problem in rational numbers: the decimals of its file as they are written.
+// A problem in rational numbers.
 #pragma once
 
 #include <vector>
@@ -51,11 +51,9 @@ struct exact_problem {
   [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
 };
 
-/// Every number is the literal that the problem has kept for it, otherwise the shortest decimal of its
-/// double. `given` has other numbers, but not those of matrices and load vectors. Coordinates that the
-/// problem has as runs of equal parts are exact parts. The stiffness of a bed's pair is its modulus times an
-/// exact share of the structure, its face that of the exact polynomial, and a plate's D comes from E, nu and
-/// thickness exactly.
-[[nodiscard]] exact_problem exact_problem_of(const problem& p, const exact_values& given = {});
+/// Every number is the shortest decimal of its double. Coordinates that the problem has as runs of equal
+/// parts are exact parts. The stiffness of a bed's pair is its modulus times an exact share of the structure,
+/// its face that of the exact polynomial, and a plate's D comes from E, nu and thickness exactly.
+[[nodiscard]] exact_problem exact_problem_of(const problem& p);
 
 }  // namespace contct::exact

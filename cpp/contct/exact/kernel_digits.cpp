@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace contct::exact {
@@ -21,11 +22,20 @@ double digits_of(const rational& error, const rational& largest) {
   return largest == 0 ? 0.0 : digits_of(rounded(error / largest));
 }
 
+rational extent_of(std::span<const double> x) {
+  return binary_value(x.back()) - binary_value(x.front());
+}
+
 /// The structure's longest side; 1 for a matrix, which has one kind of dof.
-double length_of(const structure::model& m) {
-  if (const auto* b = std::get_if<structure::beam>(&m.kind)) return b->x.back() - b->x.front();
+rational length_of(const structure::model& m) {
+  if (const auto* b = std::get_if<structure::beam>(&m.kind)) return extent_of(b->x);
   const auto* p = std::get_if<structure::plate>(&m.kind);
-  return p == nullptr ? 1.0 : std::max(p->x.back() - p->x.front(), p->y.back() - p->y.front());
+  return p == nullptr ? rational(1) : std::max(extent_of(p->x), extent_of(p->y));
+}
+
+/// |x - exactly|; where x has overflowed, more than `largest`: no digit is right.
+rational error_of(double x, const rational& exactly, const rational& largest) {
+  return std::isfinite(x) ? rational(abs(binary_value(x) - exactly)) : rational(largest + 1);
 }
 
 bool same_event(const event& a, const event& b) {
@@ -44,7 +54,7 @@ digit_counter::digit_counter(const structure::problem& p, const exact_path& exac
     for (const rational& force : s.force) largest_force_ = std::max(largest_force_, rational(abs(force)));
   }
   // What vanishes by symmetry has no size of its own.
-  const rational length = binary_value(length_of(p.geometry));
+  const rational length = length_of(p.geometry);
   const rational slope_of_w = largest_[0] / length;
   for (std::size_t kind = 1; kind < largest_.size(); ++kind)
     largest_[kind] = std::max(largest_[kind], slope_of_w);
@@ -64,15 +74,16 @@ void digit_counter::step_ended(const path::step_state& s) {
   ++steps_;
   const exact_step_end& exactly = exactly_.steps[step];
   for (std::size_t dof = 0; dof < s.displacement.size(); ++dof) {
-    rational& error = error_[dof % error_.size()];
-    error = std::max(error, rational(abs(binary_value(s.displacement[dof]) - exactly.displacement[dof])));
+    const std::size_t kind = dof % error_.size();
+    error_[kind] =
+        std::max(error_[kind], error_of(s.displacement[dof], exactly.displacement[dof], largest_[kind]));
   }
   for (std::size_t i = 0; i < problem_.pairs.size(); ++i) {
     const structure::contact_pair& c = problem_.pairs[i];
     const double w = s.displacement[static_cast<std::size_t>(c.node) * error_.size()];
     const double force =
         s.numbers != nullptr ? s.numbers->pair_forces[i] : force_of(c, w, s.isep[i] == in_contact);
-    force_error_ = std::max(force_error_, rational(abs(binary_value(force) - exactly.force[i])));
+    force_error_ = std::max(force_error_, error_of(force, exactly.force[i], largest_force_));
   }
 }
 

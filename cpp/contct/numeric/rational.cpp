@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <new>
-#include <optional>
+#include <stdexcept>
 
 #include "contct/text/decimal.hpp"
 
@@ -96,17 +96,8 @@ rational decimal_of(double x) {
   return value_of(text::shortest_decimal(x));
 }
 
-rational number_written(std::string_view literal) {
-  constexpr std::int64_t most = 10'000;
-  const std::optional<decimal> d = decimal_in(literal);
-  if (!d) throw std::invalid_argument("no decimal number: " + std::string(literal));
-  if (std::abs(d->exponent) > most || d->digits.size() > most)
-    throw too_long("a literal of that many digits, or of such an exponent: " +
-                   std::string(literal.substr(0, 40)));
-  return value_of(*d);
-}
-
 rational binary_value(double x) {
+  if (!std::isfinite(x)) throw std::domain_error("an infinity, or what is no number, has no exact value");
   int exponent = 0;
   const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
   exponent -= 53;
@@ -115,19 +106,27 @@ rational binary_value(double x) {
 }
 
 double rounded(const rational& x) {
-  // By the first 62 or 63 bits of the quotient, of which the last tells whether more follow. Boost's own
-  // conversion overflows where both parts do.
-  integer top = abs(numerator(x));
-  integer bottom = denominator(x);
-  if (top == 0) return 0.0;
-  const int shift = 62 + static_cast<int>(length_in_bits(bottom)) - static_cast<int>(length_in_bits(top));
-  if (shift > 0) top <<= static_cast<unsigned>(shift);
-  if (shift < 0) bottom <<= static_cast<unsigned>(-shift);
+  // |x| = n 2^unit, with n < 2^53 rounded once: subnormal numbers have fewer bits. Boost's own conversion
+  // overflows where numerator and denominator do.
+  const integer top = abs(numerator(x));
+  const integer bottom = denominator(x);
+  constexpr int least_unit = DBL_MIN_EXP - DBL_MANT_DIG;
+  int unit = std::max(least_unit, static_cast<int>(length_in_bits(top)) -
+                                      static_cast<int>(length_in_bits(bottom)) - DBL_MANT_DIG);
+  const auto shifted = [](const integer& n, int bits) { return bits > 0 ? integer(n << bits) : n; };
+  const auto divide = [&](integer& n, integer& rest) {
+    boost::multiprecision::divide_qr(shifted(top, -unit), shifted(bottom, unit), n, rest);
+  };
+  integer n;
   integer rest;
-  integer quotient;
-  divide_qr(top, bottom, quotient, rest);
-  const std::uint64_t bits = quotient.convert_to<std::uint64_t>() | (rest == 0 ? 0U : 1U);
-  const double size = std::ldexp(static_cast<double>(bits), -shift);
+  divide(n, rest);
+  if (length_in_bits(n) > std::size_t{DBL_MANT_DIG}) {
+    ++unit;
+    divide(n, rest);
+  }
+  const int beyond_half = integer(rest * 2).compare(shifted(bottom, unit));
+  if (beyond_half > 0 || (beyond_half == 0 && n % 2 != 0)) ++n;
+  const double size = std::ldexp(static_cast<double>(n.convert_to<std::uint64_t>()), unit);
   return x < 0 ? -size : size;
 }
 

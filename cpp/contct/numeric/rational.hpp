@@ -8,10 +8,8 @@
 #endif
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 #include "contct/numeric/double_double.hpp"
 #include "contct/rooms.hpp"
@@ -38,28 +36,14 @@ struct too_long : std::runtime_error {
 /// new handler, which must not return.
 void allocate_as_new_does();
 
-/// The shortest decimal that reads as `x`: 0.1 is 1/10. This is the literal itself, where that has at most 15
-/// digits. `x` is finite.
+/// The shortest decimal that reads as `x`, which is finite: 0.1 is 1/10. This is what every number of a file
+/// means.
 [[nodiscard]] rational decimal_of(double x);
 
-/// What a literal says, digit by digit; see text::decimal_in. Throws std::invalid_argument for one that is no
-/// decimal, and too_long for one that no double comes near.
-[[nodiscard]] rational number_written(std::string_view literal);
-
-/// Exact values of doubles whose shortest decimal is not the number meant.
-struct exact_values {
-  std::map<double, rational> meant;
-
-  [[nodiscard]] rational of(double x) const {
-    const auto found = meant.find(x);
-    return found == meant.end() ? decimal_of(x) : found->second;
-  }
-};
-
-/// The exact value of a double, bit for bit.
+/// The exact value of a double, bit for bit. Throws std::domain_error where `x` is not finite.
 [[nodiscard]] rational binary_value(double x);
 
-/// The nearest double; below the normal range one of the two beside it. Beyond the range it is infinite.
+/// The nearest double, the even one of two that are equally near; infinite beyond their range.
 [[nodiscard]] double rounded(const rational& x);
 /// The nearest double, and the nearest one to what that leaves.
 [[nodiscard]] double_double long_rounded(const rational& x);

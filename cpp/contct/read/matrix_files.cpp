@@ -18,31 +18,27 @@ namespace {
 
 constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and its line's end
 
-/// Literals that are not the shortest decimals of their values, by their lines; only where asked for.
-class kept_literals {
+/// Numbers of one file that are not the shortest decimals of their doubles: how many, and the first.
+class rounded_numbers {
  public:
-  explicit kept_literals(const std::vector<std::string>* wanted) : wanted_(wanted != nullptr) {}
-
   /// Field `i` of the line, which reads as `value`.
-  void take(const field_lines& lines, std::size_t i, double value) {
-    if (!wanted_ || is_shortest(lines.field(i), value)) return;
-    if (lines.field(i).size() > most_literal_digits)
-      lines.refuse(fmt::format("a number of {} characters", lines.field(i).size()),
-                   fmt::format("at most {} in exact arithmetic", most_literal_digits));
-    literals_.emplace(lines.line(), lines.field(i));
+  void count(const field_lines& lines, std::size_t i, double value) {
+    if (is_shortest(lines.field(i), value)) return;
+    if (count_++ > 0) return;
+    first_ = fmt::format("{}:{}: {}", printable(lines.file(), std::string::npos), lines.line(),
+                         rounding_words(lines.field(i), value));
   }
 
-  /// That of a line; empty where the shortest decimal is it.
-  [[nodiscard]] std::string of_line(std::int64_t line) const {
-    const auto found = literals_.find(line);
-    return found == literals_.end() ? std::string() : found->second;
+  /// One warning for the file, if there are any.
+  void warn(std::vector<std::string>* warnings) const {
+    if (count_ == 0 || warnings == nullptr) return;
+    warnings->push_back(count_ == 1 ? first_
+                                    : fmt::format("{} (the first of {} such numbers)", first_, count_));
   }
-
-  [[nodiscard]] bool any() const { return !literals_.empty(); }
 
  private:
-  bool wanted_;
-  std::unordered_map<std::int64_t, std::string> literals_;
+  std::int64_t count_ = 0;
+  std::string first_;
 };
 
 /// [rows] 1 where the diagonal is not 0.
@@ -65,8 +61,7 @@ std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries)
 }
 
 /// The matrix, without entries that are 0. Linear in the entries.
-sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file,
-                        const kept_literals& kept, std::vector<std::string>* written) {
+sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file) {
   // Before anything of the order's size is allocated: it is only what a line declares.
   if (order > static_cast<std::int64_t>(entries.size()))
     refuse_line(file, 0, fmt::format("{} rows and {} entries", order, entries.size()),
@@ -76,11 +71,8 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   refuse_negative(entries, file);
   refuse_bare(entries, stiff_rows(entries, order), file);
   sparse_matrix matrix{order, {}, last_digits_of(entries)};
-  for (const read_entry& e : entries) {
-    if (e.value == 0) continue;
-    matrix.entries.push_back({e.row, e.column, e.value});
-    if (kept.any()) written->push_back(kept.of_line(e.line));
-  }
+  for (const read_entry& e : entries)
+    if (e.value != 0) matrix.entries.push_back({e.row, e.column, e.value});
   return matrix;
 }
 
@@ -122,34 +114,36 @@ std::size_t fields_before_comment(const field_lines& lines) {
 }  // namespace
 
 sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
-                              std::vector<std::string>* written) {
+                              std::vector<std::string>* warnings) {
   const matrix_head head = parse_matrix_head(text, file);
   field_lines lines(text.substr(head.begins), file, head.line);
   std::vector<read_entry> entries;
-  kept_literals kept(written);
+  rounded_numbers rounded;
   // The declared entry count alone is not used to allocate memory.
   entries.reserve(std::min<std::size_t>(head.entries, lines.rest().size() / least_bytes_of_entry + 1));
   read_lines(lines, head.entries, "entries than that", [&] {
     entries.push_back(parse_entry(lines, head.rows, entry_format::matrix_market));
-    kept.take(lines, 2, entries.back().value);
+    rounded.count(lines, 2, entries.back().value);
   });
-  return matrix_of(std::move(entries), head.rows, file, kept, written);
+  rounded.warn(warnings);
+  return matrix_of(std::move(entries), head.rows, file);
 }
 
 sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view file, int rows,
-                                       std::vector<std::string>* written) {
+                                       std::vector<std::string>* warnings) {
   field_lines lines(text, file);
   std::vector<read_entry> entries;
-  kept_literals kept(written);
+  rounded_numbers rounded;
   while (lines.next()) {
     entries.push_back(parse_entry(lines, rows, entry_format::calculix));
-    kept.take(lines, 2, entries.back().value);
+    rounded.count(lines, 2, entries.back().value);
   }
-  return matrix_of(std::move(entries), rows, file, kept, written);
+  rounded.warn(warnings);
+  return matrix_of(std::move(entries), rows, file);
 }
 
 std::vector<double> parse_vector(std::string_view text, std::string_view file, int rows,
-                                 std::vector<std::string>* written) {
+                                 std::vector<std::string>* warnings) {
   field_lines lines(text, file);
   const bool array = read_header(lines, "general", true);
   go_to_size(lines, array ? 2 : 3, array ? "rows and columns" : "rows, columns and the number of entries");
@@ -157,20 +151,14 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
     lines.refuse(fmt::format("{} rows", lines.field(0)), fmt::format("{}, as the matrix has", rows));
   (void)lines.whole(1, 1, 1, "the columns");
   std::vector<double> values;
-  // Before the next line is read: a row may be anywhere in the file.
-  const auto keep = [&](std::size_t row, std::size_t field, double value) {
-    kept_literals kept(written);
-    kept.take(lines, field, value);
-    if (!kept.any()) return;
-    written->resize(static_cast<std::size_t>(rows));
-    (*written)[row] = kept.of_line(lines.line());
-  };
+  rounded_numbers rounded;
   if (array) {
     read_lines(lines, rows, "numbers than rows", [&] {
       lines.expect(1, "one number a line");
       values.push_back(lines.real(0, "a load"));
-      keep(values.size() - 1, 0, values.back());
+      rounded.count(lines, 0, values.back());
     });
+    rounded.warn(warnings);
     return values;
   }
   values.assign(rows, 0.0);
@@ -182,8 +170,9 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
                    "each row once");
     line_of[e.row] = e.line;
     values[e.row] = e.value;
-    keep(static_cast<std::size_t>(e.row), 2, e.value);
+    rounded.count(lines, 2, e.value);
   });
+  rounded.warn(warnings);
   return values;
 }
 

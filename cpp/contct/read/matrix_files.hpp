@@ -20,22 +20,20 @@ inline constexpr std::size_t largest_matrix_file = 16384;
 /// of the header in any case; comments behind it, and blank lines. Linear in the text; the declared entry
 /// count is not used to allocate memory. The matrix has no entries that are 0. Throws input_error for
 /// anything else, a negative diagonal, and a row that has entries but no diagonal.
-/// `written`, where asked for, becomes what assembled::written is; then literals of more than
-/// most_literal_digits are refused.
+/// `warnings`: one is appended where numbers are not the shortest decimals of their doubles.
 [[nodiscard]] sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
-                                            std::vector<std::string>* written = nullptr);
+                                            std::vector<std::string>* warnings = nullptr);
 
 /// JOB.sti of *FREQUENCY, SOLVER=MATRIXSTORAGE: "row column value" a line, from 1, the upper triangle, each
 /// place once, zeros included; D may stand for E. The number of rows is not in it, but in JOB.dof. Throws
 /// input_error likewise.
 [[nodiscard]] sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view file, int rows,
-                                                     std::vector<std::string>* written = nullptr);
+                                                     std::vector<std::string>* warnings = nullptr);
 
 /// "%%MatrixMarket matrix array real general" with one column of `rows` numbers, or "coordinate" with those
-/// that are not 0. Throws input_error. `written`, where asked for, becomes the literals [rows] that are not
-/// the shortest decimals of their values, others empty; it stays empty where there are none.
+/// that are not 0. Throws input_error. `warnings` likewise.
 [[nodiscard]] std::vector<double> parse_vector(std::string_view text, std::string_view file, int rows,
-                                               std::vector<std::string>* written = nullptr);
+                                               std::vector<std::string>* warnings = nullptr);
 
 /// One label a line, in the matrix's order: any text without blanks, each once. Throws input_error.
 [[nodiscard]] std::vector<std::string> parse_labels(std::string_view text, std::string_view file);

@@ -282,7 +282,7 @@ void find_mesh(const table_reader& t, const named_files& files, assembled& a) {
   if (t.has("mesh")) refuse_unknown_nodes(t, "mesh", path, a);
 }
 
-assembled read_matrix(const table_reader& t, const named_files& files, literals keep,
+assembled read_matrix(const table_reader& t, const named_files& files, std::vector<std::string>& warnings,
                       distributed::ranks* among) {
   t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
   assembled a;
@@ -291,8 +291,8 @@ assembled read_matrix(const table_reader& t, const named_files& files, literals 
   if (among != nullptr) {
     read_remotely(path, 0, *among, a);
   } else {
-    a.stiffness = parse_stiffness(read_input(path, "stiffness matrix", largest_matrix_file), a.name,
-                                  keep == literals::kept ? &a.written : nullptr);
+    a.stiffness =
+        parse_stiffness(read_input(path, "stiffness matrix", largest_matrix_file), a.name, &warnings);
   }
   if (t.has("dofs")) {
     const std::string of_labels = files.path_of(t, "dofs");
@@ -311,7 +311,7 @@ assembled read_matrix(const table_reader& t, const named_files& files, literals 
   return a;
 }
 
-assembled read_calculix(const table_reader& t, const named_files& files, literals keep,
+assembled read_calculix(const table_reader& t, const named_files& files, std::vector<std::string>& warnings,
                         distributed::ranks* among) {
   t.allow_only({"job", "mesh", "free_motions", "storage"});
   assembled a;
@@ -324,9 +324,8 @@ assembled read_calculix(const table_reader& t, const named_files& files, literal
   if (among != nullptr) {
     read_remotely(path, rows, *among, a);
   } else {
-    a.stiffness =
-        parse_calculix_stiffness(read_input(path, "stiffness matrix of CalculiX", largest_matrix_file),
-                                 a.name, rows, keep == literals::kept ? &a.written : nullptr);
+    a.stiffness = parse_calculix_stiffness(
+        read_input(path, "stiffness matrix of CalculiX", largest_matrix_file), a.name, rows, &warnings);
   }
   finish(t, a);
   find_mesh(t, files, a);
@@ -335,7 +334,7 @@ assembled read_calculix(const table_reader& t, const named_files& files, literal
 
 }  // namespace
 
-model read_model(const table_reader& top, const named_files& files, literals keep,
+model read_model(const table_reader& top, const named_files& files, std::vector<std::string>& warnings,
                  distributed::ranks* among) {
   const char* const allowed = "exactly one of [beam], [plate], [matrix] and [calculix]";
   const char* kind = nullptr;
@@ -346,8 +345,8 @@ model read_model(const table_reader& top, const named_files& files, literals kee
   }
   if (top.has("beam")) return {read_beam(top.table("beam"), top)};
   if (top.has("plate")) return {read_plate(top.table("plate"), among)};
-  if (top.has("matrix")) return {read_matrix(top.table("matrix"), files, keep, among)};
-  if (top.has("calculix")) return {read_calculix(top.table("calculix"), files, keep, among)};
+  if (top.has("matrix")) return {read_matrix(top.table("matrix"), files, warnings, among)};
+  if (top.has("calculix")) return {read_calculix(top.table("calculix"), files, warnings, among)};
   top.refuse("neither beam nor plate, matrix or calculix", allowed);
 }
 

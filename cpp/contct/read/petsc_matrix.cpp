@@ -271,14 +271,14 @@ sparse_matrix parse_petsc_matrix(std::string_view bytes, std::string_view file) 
 }
 
 sparse_matrix parse_stiffness(std::string_view bytes, std::string_view file,
-                              std::vector<std::string>* written) {
+                              std::vector<std::string>* warnings) {
   if (is_petsc_matrix(bytes)) return parse_petsc_matrix(bytes, file);
   if (bytes.size() >= sizeof petsc_matrix_id && bytes.front() == '\0')
     refuse_line(file, 0,
                 fmt::format("a binary file that begins with {:08x}", number_at<std::uint32_t>(bytes, 0)),
                 fmt::format("a Matrix Market file, or PETSc's binary of a matrix, which begins with {:08x}",
                             petsc_matrix_id));
-  return parse_symmetric(bytes, file, written);
+  return parse_symmetric(bytes, file, warnings);
 }
 
 }  // namespace contct::read

@@ -28,9 +28,9 @@ inline constexpr std::uint32_t petsc_matrix_id = 1211216;
 [[nodiscard]] matrix::sparse_matrix parse_petsc_matrix(std::string_view bytes, std::string_view file);
 
 /// A stiffness matrix in a file of either kind, told apart by the first four bytes: as parse_petsc_matrix,
-/// which leaves `written` empty, or as parse_symmetric. Any other file that begins with a zero byte is
+/// without warnings, or as parse_symmetric. Any other file that begins with a zero byte is
 /// refused by these bytes: PETSc's vectors do.
 [[nodiscard]] matrix::sparse_matrix parse_stiffness(std::string_view bytes, std::string_view file,
-                                                    std::vector<std::string>* written = nullptr);
+                                                    std::vector<std::string>* warnings = nullptr);
 
 }  // namespace contct::read

@@ -10,7 +10,7 @@
 
 #include "contct/kernel/call.hpp"
 #include "contct/read/model_tables.hpp"
-#include "contct/read/number_literals.hpp"
+#include "contct/read/placed_numbers.hpp"
 #include "contct/read/places.hpp"
 #include "contct/read/step_tables.hpp"
 #include "contct/structure/polynomials.hpp"
@@ -42,16 +42,15 @@ double rounded_down(double x) {
 /// Reads one file into one problem, table by table.
 class problem_reader {
  public:
-  problem_reader(const toml::table& document, std::string_view file, literals keep, reach allowed,
-                 distributed::ranks* among)
-      : keep_(keep), among_(among), files_(file, allowed), top_(document, "", file) {}
+  problem_reader(const toml::table& document, std::string_view file, reach allowed, distributed::ranks* among)
+      : among_(among), files_(file, allowed), top_(document, "", file) {}
 
   problem read() {
     top_.allow_only(
         {"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
     if (top_.has("title")) problem_.title = top_.text("title");
     if (top_.has("units")) read_units(top_.table("units"));
-    problem_.geometry = read_model(top_, files_, keep_, among_);
+    problem_.geometry = read_model(top_, files_, problem_.warnings, among_);
     places_.emplace(problem_.geometry);
     fixed_.assign(dofs(problem_.geometry), 0);
     if (places_->on_matrix() && top_.has("bed"))
@@ -60,7 +59,7 @@ class problem_reader {
     for (const table_reader& t : top_.optional_tables("support")) read_support(t);
     for (const table_reader& t : top_.optional_tables("contact")) read_contact(t);
     for (const table_reader& t : top_.optional_tables("bed")) read_bed(t);
-    const step_reader steps(*places_, problem_.supports, files_, keep_);
+    const step_reader steps(*places_, problem_.supports, files_, problem_.warnings);
     for (const table_reader& t : top_.tables("step")) problem_.steps.push_back(steps.read(t));
     problem_.files = files_.all();
     return std::move(problem_);
@@ -162,8 +161,7 @@ class problem_reader {
     for (std::size_t i = 0; i < at.size(); ++i) {
       problem_.pairs.push_back(pair_at(t, common, at[i], faces[faces.size() == 1 ? 0 : i], i));
       problem_.pairs.back().stiffness = stiffness[stiffness.size() == 1 ? 0 : i];
-      if (keep_ == literals::kept)
-        problem_.keys.push_back({t.full_name(t.name_of("face", i)), t.full_name(t.name_of("stiffness", i))});
+      problem_.keys.push_back({t.full_name(t.name_of("face", i)), t.full_name(t.name_of("stiffness", i))});
       if (fixed_in_w(at[i]))
         problem_.warnings.push_back(fmt::format(
             "{}: {} is fixed{}; the pair cannot change the deflections, and its support takes its force, but "
@@ -243,7 +241,6 @@ class problem_reader {
     return numbers;
   }
 
-  literals keep_;
   distributed::ranks* among_;
   named_files files_;
   table_reader top_;
@@ -255,17 +252,17 @@ class problem_reader {
 
 }  // namespace
 
-problem parse_problem(std::string_view text, std::string_view file, literals keep, reach allowed,
+problem parse_problem(std::string_view text, std::string_view file, reach allowed,
                       distributed::ranks* among) {
   const toml::table document = parse_toml(text, file);
-  problem p = problem_reader(document, file, keep, allowed, among).read();
-  if (keep == literals::kept) p.written = written_numbers(document, text, file);
+  problem p = problem_reader(document, file, allowed, among).read();
+  std::ranges::move(rounding_warnings(document, text, file), std::back_inserter(p.warnings));
   return p;
 }
 
-problem read_problem(const std::string& path, literals keep, reach allowed, distributed::ranks* among) {
+problem read_problem(const std::string& path, reach allowed, distributed::ranks* among) {
   const std::string file = path == "-" ? "standard input" : path;
-  return parse_problem(read_input(path), file, keep, allowed, among);
+  return parse_problem(read_input(path), file, allowed, among);
 }
 
 }  // namespace contct::read

@@ -34,8 +34,11 @@ std::vector<double> read_polynomial(const table_reader& t, const model& m, std::
 }
 
 step_reader::step_reader(const node_places& places, const std::vector<support>& supports, named_files files,
-                         literals keep)
-    : places_(places), files_(std::move(files)), keep_(keep), held_(dofs(places.structure()), hold::none) {
+                         std::vector<std::string>& warnings)
+    : places_(places),
+      files_(std::move(files)),
+      warnings_(warnings),
+      held_(dofs(places.structure()), hold::none) {
   for (const support& s : supports) {
     hold& here = held_[s.node * places_.dof_names().size() + s.dof];
     here = std::max(here, s.fixed ? hold::fixed : hold::spring);
@@ -62,15 +65,14 @@ load step_reader::read(const table_reader& t) const {
 
 void step_reader::read_vector(const table_reader& t, load& l) const {
   const std::string path = files_.path_of(t, "load");
-  std::vector<std::string> written;
-  const std::vector<double> values =
-      parse_vector(read_input(path, "Matrix Market file", largest_matrix_file), path,
-                   nodes(places_.structure()), keep_ == literals::kept ? &written : nullptr);
+  std::vector<std::string> rounded;
+  const std::vector<double> values = parse_vector(read_input(path, "Matrix Market file", largest_matrix_file),
+                                                  path, nodes(places_.structure()), &rounded);
   for (std::size_t dof = 0; dof < values.size(); ++dof) {
-    if (values[dof] == 0.0) continue;
-    l.points.push_back({static_cast<int>(dof), 0, values[dof]});
-    if (keep_ == literals::kept) l.written.push_back(written.empty() ? "" : written[dof]);
+    if (values[dof] != 0.0) l.points.push_back({static_cast<int>(dof), 0, values[dof]});
   }
+  for (std::string& w : rounded)  // other steps may have the same file
+    if (std::ranges::find(warnings_, w) == warnings_.end()) warnings_.push_back(std::move(w));
 }
 
 void step_reader::read_uniform(const table_reader& t, load& l) const {

@@ -19,9 +19,10 @@ inline constexpr std::size_t most_coefficients = 21;
 /// Reads one step after the other.
 class step_reader {
  public:
-  /// `files` finds those that a step names. `places` must outlive this object.
+  /// `files` finds those that a step names; `warnings` gets those about their numbers. `places` and it must
+  /// outlive this object.
   step_reader(const node_places& places, const std::vector<support>& supports, named_files files,
-              literals keep = literals::dropped);
+              std::vector<std::string>& warnings);
 
   [[nodiscard]] load read(const table_reader& t) const;
 
@@ -37,7 +38,7 @@ class step_reader {
 
   const node_places& places_;
   named_files files_;
-  literals keep_;
+  std::vector<std::string>& warnings_;
   std::vector<hold> held_;  // [dofs] by supports
 };
 

@@ -160,11 +160,10 @@ std::string request::file() const {
   return folder.empty() || name.starts_with('/') ? name : folder + "/" + name;
 }
 
-problem read_problem_text(const char* text, const std::string& file, reach allowed, answer& a,
-                          literals keep) {
+problem read_problem_text(const char* text, const std::string& file, reach allowed, answer& a) {
   if (text == nullptr)
     throw std::invalid_argument("problem: found null; allowed: the text of a problem file");
-  problem p = parse_problem(text, file, keep, allowed);
+  problem p = parse_problem(text, file, allowed);
   for (const std::string& w : p.warnings) a.messages.push_back("warning: " + w);
   return p;
 }

@@ -53,8 +53,7 @@ struct answer {
 
 /// The problem in a text; its warnings become messages. Throws as parse_problem does. `file`, its name,
 /// and `allowed` are the request's.
-[[nodiscard]] problem read_problem_text(const char* text, const std::string& file, reach allowed, answer& a,
-                                        literals keep = literals::dropped);
+[[nodiscard]] problem read_problem_text(const char* text, const std::string& file, reach allowed, answer& a);
 
 /// Throws std::invalid_argument for what is no engine's name, nor "auto", nor empty.
 void refuse_unknown_engine(const std::string& name);

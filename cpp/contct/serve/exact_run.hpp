@@ -13,7 +13,7 @@
 
 namespace contct::serve {
 
-/// The problem in rational numbers; `p` was read with its literals. Throws std::invalid_argument, naming
+/// The problem in rational numbers. Throws std::invalid_argument, naming
 /// `file`, for one that is too large, or whose matrix is not positive semidefinite.
 [[nodiscard]] exact_problem exactly_read(const problem& p, const std::string& file);
 

@@ -6,7 +6,7 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/read/number_literals.hpp"
+#include "contct/read/placed_numbers.hpp"
 #include "contct/read/toml_reader.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/exact_run.hpp"
@@ -56,9 +56,7 @@ void put_places(json& out, const problem& p, const char* text, const std::string
 
 void check(const char* text, const char* options, answer& a) {
   const request r(options, {"file", "folder", "allow_outside", "svg", "places"});
-  const bool places = r.flag("places");
-  const problem p =
-      read_problem_text(text, r.file(), r.allowed(), a, places ? literals::kept : literals::dropped);
+  const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   json out = {{"title", p.title},
               {"kind", std::holds_alternative<beam>(p.geometry.kind)    ? "beam"
                        : std::holds_alternative<plate>(p.geometry.kind) ? "plate"
@@ -71,7 +69,7 @@ void check(const char* text, const char* options, answer& a) {
               {"units", nullptr}};
   for (const load& step : p.steps) out["steps"].push_back(step.name);
   if (!p.units.length.empty()) out["units"] = {{"length", p.units.length}, {"force", p.units.force}};
-  if (places) put_places(out, p, text, r.file());
+  if (r.flag("places")) put_places(out, p, text, r.file());
   a.result = json_text(out);
   if (r.flag("svg")) a.texts.emplace_back("svg", problem_svg(p, r.file()));
 }
@@ -83,7 +81,7 @@ void follow_exact_path(const char* text, const char* options, answer& a) {
     throw std::invalid_argument(fmt::format("options: rule: found \"{}\"; allowed: corrected, 1989", rule));
   const std::vector<std::string> names = r.texts("kernels", {});
   for (const std::string& name : names) (void)facts_of_kernel(name);
-  const problem p = read_problem_text(text, r.file(), r.allowed(), a, literals::kept);
+  const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   const exact_problem exactly = exactly_read(p, r.file());
   const exact_path path = follow_exactly(exactly, rule, r.file());
   std::vector<kernel_digits> kernels;

@@ -128,11 +128,8 @@ struct placed_nodes {
 /// A structure given by its stiffness matrix alone, which another program has assembled. Every dof is a node
 /// of its own here, so that the listing's NDOFPN and INDOF are 1 and its ID the dof.
 struct assembled {
-  std::string name;         ///< of the matrix, for messages: its file
-  sparse_matrix stiffness;  ///< positive semidefinite
-  /// [entries] literals that are not the shortest decimals of their values, others are empty; no entries
-  /// where there are none, or where the reader was not asked for them.
-  std::vector<std::string> written;
+  std::string name;                 ///< of the matrix, for messages: its file
+  sparse_matrix stiffness;          ///< positive semidefinite
   std::vector<std::string> labels;  ///< [dofs] each once; empty: "1", "2", ...
   std::string labels_from;          ///< the file that has them
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
@@ -303,15 +300,6 @@ struct unit_labels {
   std::string length, force;
 };
 
-/// Whether a reader keeps the literals of numbers that are not the shortest decimals of their doubles.
-enum class literals : char { dropped, kept };
-
-/// A number in a file whose literal is not the shortest decimal of its double.
-struct written_number {
-  double value;
-  std::string literal;
-};
-
 /// The keys in a file that give a pair its face and its stiffness: "contact[2].face[3]".
 struct pair_keys {
   std::string face, stiffness;
@@ -328,9 +316,7 @@ struct problem {
   unit_labels units;
   std::vector<std::string> warnings;
   std::vector<std::string> files;  ///< paths of the files that the problem file names
-  /// Of the file's own numbers, one for each value; only where the reader was asked for them.
-  std::vector<written_number> written;
-  /// Of the pairs of every [[contact]] [pairs], likewise; those of beds have none.
+  /// Of the pairs of every [[contact]] [pairs]; those of beds have none.
   std::vector<pair_keys> keys;
 };
 

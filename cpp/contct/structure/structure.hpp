@@ -45,9 +45,6 @@ struct load {
   std::vector<distributed_load> distributed;
   std::vector<prescribed_displacement> settlements = {};
   std::string name = {};  ///< of the step that ends with it, for people; may be empty
-  /// Of the first of `points`, literals that are not the shortest decimals of their values; empty where they
-  /// are. Only where the reader was asked for them.
-  std::vector<std::string> written = {};
 };
 
 /// The load at share `fraction` of the way from `before` to `after`, with equal places merged.

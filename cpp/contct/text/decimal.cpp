@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "contct/text/strings.hpp"
+
 namespace contct::text {
 namespace {
 
@@ -97,6 +99,17 @@ bool is_shortest(std::string_view literal, double x) {
   if (digits <= always_kept && std::isnormal(x)) return true;
   const std::optional<decimal> written = decimal_in(literal);
   return !written || *written == shortest_decimal(x);
+}
+
+std::string rounding_words(std::string_view literal, double x) {
+  // Without a format, a whole number beyond 2^53 would get all of its binary digits.
+  std::array<char, 32> shortest{};
+  char* const last = shortest.data() + shortest.size();
+  const auto end = std::abs(x) < 1e16
+                       ? std::to_chars(shortest.data(), last, x)
+                       : std::to_chars(shortest.data(), last, x, std::chars_format::scientific);
+  return "found " + printable(literal) + "; the shortest decimal of its double, " +
+         std::string(shortest.data(), end.ptr) + ", is used everywhere";
 }
 
 }  // namespace contct::text

@@ -1,4 +1,4 @@
-// Decimal literals as they are written, whatever a double makes of them.
+// Decimal literals, and the doubles that they become.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,6 @@ struct decimal {
   [[nodiscard]] bool operator==(const decimal&) const = default;
 };
 
-/// As many digits as a literal may have where its exact value is asked for.
-inline constexpr std::size_t most_literal_digits = 1000;
-
 /// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing where it is no decimal: hexadecimal,
 /// infinite, empty.
 [[nodiscard]] std::optional<decimal> decimal_in(std::string_view literal);
@@ -37,5 +34,9 @@ inline constexpr std::size_t most_literal_digits = 1000;
 
 /// Is the literal, which reads as `x`, the shortest decimal that does? True for any that is no decimal.
 [[nodiscard]] bool is_shortest(std::string_view literal, double x);
+
+/// For a warning, where it is not: "found 0.10000000000000000555; the shortest decimal of its double, 0.1, is
+/// used everywhere".
+[[nodiscard]] std::string rounding_words(std::string_view literal, double x);
 
 }  // namespace contct::text
