@@ -10,6 +10,7 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
 #include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_residual.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/matrix_files.hpp"
@@ -89,7 +90,7 @@ run_of_problem run(const problem& p) {
   const auto leader = make_kernel("fortran");
   const std::vector<std::string> others = {"cpp"};
   lockstep compared = make_lockstep(leader->facts(), others);
-  certifier judged(p, s);
+  certifier judged(p, s, contct::exact::exact_residual_of(p), contct::exact::semidefinite_test_of(p));
   r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen},
                  {0, nullptr, nullptr, contct::exact::exact_follower_of(p)});
   r.calls = compared.calls();
@@ -305,7 +306,7 @@ TEST_CASE("a result on a matrix names dofs by their labels, and its w is its dis
   const problem p = read_problem((reference / "structures" / "frame.toml").string());
   const scratch_folder here;
   const linear_structure s = structure_of(p);
-  certifier judged(p, s);
+  certifier judged(p, s, contct::exact::exact_residual_of(p), contct::exact::semidefinite_test_of(p));
   output_file file((here.path() / "r.json").string());
   result_json json(p, {"fortran"}, "refactor", judged, file);
   const path_end end = follow(p, s, "refactor", *make_kernel("fortran"), {&judged, &json});
@@ -434,7 +435,7 @@ TEST_CASE("where half a unit in a matrix's last digits decides whether it is hel
             "[[contact]]\ndof = \"2\"\nsurface = \"above\"\nface = 1\nstiffness = 1e-13\n"
             "[[step]]\npoint = [{ dof = \"1\", value = 1 }, { dof = \"2\", value = -0.9999999 }]\n"));
     const linear_structure s = structure_of(p);
-    certifier judged(p, s);
+    certifier judged(p, s, contct::exact::exact_residual_of(p), contct::exact::semidefinite_test_of(p));
     observer* const watching[] = {&judged};
     (void)find_final_states(s, 1, loads_of(p, s), watching, &judged);
     REQUIRE(judged.steps().size() == 1);

@@ -255,12 +255,12 @@ TEST_CASE("bounds are there for what a problem has: contact forces for pairs, re
     return keys;
   };
   CHECK(keys_of(result_of(good_problem)) ==
-        std::set<std::string>{"w", "slope", "force", "reaction", "moment", "shear"});
+        std::set<std::string>{"w", "slope", "force", "gap", "reaction", "moment", "shear"});
   CHECK(keys_of(result_of(propped_cantilever)) ==
         std::set<std::string>{"w", "slope", "reaction", "moment", "shear"});
   CHECK(keys_of(result_of("[beam]\nlength = 2\nelements = 2\nEI = 1e4\n[[bed]]\nmodulus = 10\nface = 0\n"
                           "[[step]]\nuniform = -1\n")) ==
-        std::set<std::string>{"w", "slope", "force", "moment", "shear"});
+        std::set<std::string>{"w", "slope", "force", "gap", "moment", "shear"});
 }
 
 TEST_CASE("the envelope names pairs and supports from 1 on") {

@@ -515,10 +515,6 @@ error_bounds error_prover::bound(const handed_out& state) {
     if (b.not_proved.empty()) keep(state, long_vector(true_.dofs()), b);
     return b;
   }
-  if (!is_semidefinite()) {
-    b.not_proved = "it is not certain that the matrix is positive semidefinite";
-    return b;
-  }
   const long_vector u = long_displacement(state.step, state.displacement, l);
   if (!is_refined(state.step, state.displacement)) {
     refined_step_ = 0;  // what was kept is of another state
@@ -530,7 +526,6 @@ error_bounds error_prover::bound(const handed_out& state) {
   bool found = true;
   if (refined_bounds_ && refined_step_ != 0 && !closely_) {
     b = *refined_bounds_;
-    (void)proves(b.closed);  // is_semidefinite may have left the factor of K alone, which is not the proof
   } else {
     found = find_closed(u, r, b);
   }
@@ -539,6 +534,11 @@ error_bounds error_prover::bound(const handed_out& state) {
     found = find_closed(u, r, b);
   }
   if (!found && !find_balanced(state.step, u, r, b)) return b;
+  if (found && !is_semidefinite()) {
+    b.not_proved = "it is not certain that the matrix is positive semidefinite";
+    return b;
+  }
+  if (found) (void)proves(b.closed);  // that of K alone may have replaced its factor and its proof
   measure(l, b);
   if (b.unique) bound_displacements(state, u, b);
   bound_pairs(state, u, b);

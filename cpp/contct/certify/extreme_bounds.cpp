@@ -66,21 +66,23 @@ void widen(const structure::beam& b, const handed_out& state, const structure::l
     // Where parts of a load cancel, their sum has errors of 2^-89 of the parts.
     const double of_load = 0x1p-80 * line.load_size * line.h;
     bounds.size.take(quantity::w, std::abs(structure::polynomial_at(line.w, 0.5)));
-    inside.take(quantity::shear, of_load + off_extremes(line.shear, printed[2], lines.ends(e).shear[1]));
-    inside.take(quantity::moment,
-                of_load * line.h + off_extremes(line.moment, printed[1], lines.ends(e).moment[1]));
+    if (line.load_size != 0.0) {  // otherwise both are largest at the ends
+      inside.take(quantity::shear, of_load + off_extremes(line.shear, printed[2], lines.ends(e).shear[1]));
+      inside.take(quantity::moment,
+                  of_load * line.h + off_extremes(line.moment, printed[1], lines.ends(e).moment[1]));
+    }
     inside.take(quantity::w, of_load * line.h * line.h * line.h / b.EI[e] + of_slope +
                                  off_extremes(line.w, printed[0], state.displacement[right]));
   }
   for (const quantity q : {quantity::w, quantity::moment, quantity::shear})
-    if (error[q]) error.take(q, *error[q] + *inside[q]);
+    if (error[q]) error.take(q, *error[q] + inside[q].value_or(0.0));
 }
 
 }  // namespace
 
 void widen_by_extremes(const problem& p, const handed_out& state, error_bounds& b) {
   if (const auto* const of_beam = std::get_if<structure::beam>(&p.geometry.kind))
-    widen(*of_beam, state, p.steps[state.step - 1], b);
+    widen(*of_beam, state, b.unloaded ? structure::load{} : p.steps[state.step - 1], b);
 }
 
 }  // namespace contct::certify

@@ -58,11 +58,12 @@ struct load {
   return at;
 }
 
-/// Add the point loads of `l` to `f` [dofs]: those at one dof are added up as decimals, so that 0.1, 0.2 and
-/// -0.3 are no load.
+/// Add the point loads of `l` to `f` [dofs]. Those at one dof that are 0 as decimals are no load: 0.1, 0.2
+/// and -0.3.
 inline void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
   for (const auto& [dof, values] : point_loads_at(l, dofs_per_node))
-    f[dof] += values.size() == 1 ? values.front() : numeric::decimal_sum(values).hi;
+    if (values.size() == 1 || !(numeric::decimal_sum(values) == 0.0))
+      for (const double value : values) f[dof] += value;
 }
 
 /// sum += share * part, for polynomials from the constant on.
