@@ -3,7 +3,6 @@
 
 #include "app/problem_runs.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/pictures.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::app {
@@ -73,10 +72,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
 }  // namespace
 
 exit_status run_command(const check_options& options) {
-  const std::vector<output_option> outputs = {{"--svg", options.svg}};
-  const problem p = read_with_progress(options.file, outputs, options.limits, options.quiet);
-  const output_files files(outputs);
-  if (!options.quiet && !takes_standard_output(outputs)) {
+  const problem p = read_with_progress(options.file, {}, options.limits, options.quiet);
+  if (!options.quiet) {
     const terminal screen = look_at_terminal();
     for (const auto& [what, words] : facts_of(p)) {
       std::string before = fmt::format("{:<11}", what);
@@ -87,7 +84,6 @@ exit_status run_command(const check_options& options) {
     }
   }
   flush_standard_output();
-  if (!options.svg.empty()) files.write("--svg", problem_svg(p, options.file));
   return exit_status::solved;
 }
 

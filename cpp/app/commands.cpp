@@ -152,8 +152,7 @@ exit_status run_command(const export_options& options) {
 
 /// Where the 1989 code goes wrong, measured on random problems.
 exit_status run_command(const atlas_options& options) {
-  const std::vector<output_option> outputs = {
-      {"--csv", options.csv}, {"--json", options.json}, {"--svg", options.svg}};
+  const std::vector<output_option> outputs = {{"--csv", options.csv}, {"--json", options.json}};
   refuse_shared_outputs(outputs);
   const output_files files(outputs);
   atlas a{options.request, atlas_cells()};
@@ -167,7 +166,6 @@ exit_status run_command(const atlas_options& options) {
   flush_standard_output();  // no files when the table is lost
   files.write("--csv", atlas_csv(a));
   files.write("--json", atlas_json(a));
-  files.write("--svg", atlas_svg(a));
   return exit_status::solved;
 }
 

@@ -35,9 +35,9 @@ struct problem_limits {
 
 /// What `contct run` draws and tabulates.
 struct picture_options {
-  std::string html, svg, csv, vtu;
+  std::string html, csv, vtu;
 
-  [[nodiscard]] bool wants_frames() const { return !html.empty() || !svg.empty() || !vtu.empty(); }
+  [[nodiscard]] bool wants_frames() const { return !html.empty() || !vtu.empty(); }
 };
 
 struct run_options {
@@ -60,7 +60,7 @@ struct run_options {
 };
 
 struct check_options {
-  std::string file, svg;
+  std::string file;
   bool quiet = false;
   problem_limits limits = {};
 };
@@ -122,7 +122,7 @@ struct replay_options {
 struct atlas_options {
   atlas_request request;
   int jobs = 0;  ///< one for each processor
-  std::string csv, json, svg;
+  std::string csv, json;
   bool quiet = false;
 };
 

@@ -28,7 +28,6 @@ constexpr example all_examples[] = {
     {"contct run beam.toml --final-only", "no path: the reference solution at the end of each step"},
     {"contct run beam.toml --html beam.html", "a report as one HTML page"},
     {"contct check beam.toml", "a summary of a problem, without solving it"},
-    {"contct check beam.toml --quiet --svg beam.svg", "the structure before any load"},
     {"contct export beam.toml --calculix beam.inp", "the end of the last step, for CalculiX to solve"},
     {"contct convert K.mtx K.petsc", "a stiffness matrix in PETSc's binary, whose doubles are equal"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
@@ -47,7 +46,6 @@ constexpr example all_examples[] = {
     {"contct replay calls.trace", "repeat recorded calls with the 1989 code"},
     {"contct replay --kernel fortran,cpp calls.trace", "the same with two kernels"},
     {"contct atlas --problems 2 --csv atlas.csv", "a quick estimate of how often the 1989 rule goes wrong"},
-    {"contct atlas --problems 2 --quiet --svg atlas.svg", "only the picture"},
     {"contct kernels", "what is built in"},
     {"contct completion bash", "a script for command completion in bash"},
     {"contct man", "the manual page, for man -l -"},
@@ -237,8 +235,6 @@ void declare_pictures(option_parser& p, CLI::App* c, picture_options& o) {
              "Write a report of the run as one HTML page to this file (- is standard output): the structure "
              "increment by increment, its events, the comparison of the kernels, the certificate. A "
              "structure given by its matrix is drawn if coordinates are known; otherwise it is a table");
-  p.add_file(c, "--svg", o.svg,
-             "Draw the final state and the load-deflection path to this file (- is standard output)");
   p.add_file(c, "--csv", o.csv,
              "Write a table with a row for each increment to this file (- is standard output), and beside "
              "F.csv a file F.pairs.csv with a row for each pair and increment. Columns: step, increment, "
@@ -291,7 +287,7 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
              "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
   p.add_limits(c, o.limits);
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
-                                "--html", "--svg", "--csv", "--vtu", "--envelope", "--node"})
+                                "--html", "--csv", "--vtu", "--envelope", "--node"})
     final_only->excludes(c->get_option(of_a_path));
 }
 
@@ -324,7 +320,6 @@ void declare_check(option_parser& p) {
   const auto [c, o] =
       p.command<check_options>("check", "Read a problem without solving it, and print a summary");
   p.add_problem_file(c, o.file);
-  p.add_file(c, "--svg", o.svg, "Draw the structure before any load to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
   p.add_limits(c, o.limits);
 }
@@ -407,7 +402,6 @@ void declare_atlas(option_parser& p) {
   p.add_jobs(c, o.jobs);
   p.add_file(c, "--csv", o.csv, "Write the cells to this file (- is standard output)");
   p.add_file(c, "--json", o.json, "Write the cells to this file (- is standard output)");
-  p.add_file(c, "--svg", o.svg, "Draw the picture to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
 }
 

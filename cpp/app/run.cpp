@@ -38,10 +38,10 @@ std::string pairs_table(const std::string& csv) {
 
 /// Every file that these options may write. Throws std::invalid_argument for names that cannot be theirs.
 std::vector<output_option> outputs_of(const run_options& o) {
-  const auto& [html, svg, csv, vtu] = o.pictures;
-  std::vector<output_option> all = {
-      {"--json", o.json}, {"--log", o.log}, {"--trace", o.trace},          {"--html", html},
-      {"--svg", svg},     {"--csv", csv},   {csv_pairs, pairs_table(csv)}, {"--proof", o.proof}};
+  const auto& [html, csv, vtu] = o.pictures;
+  std::vector<output_option> all = {{"--json", o.json},  {"--log", o.log}, {"--trace", o.trace},
+                                    {"--html", html},    {"--csv", csv},   {csv_pairs, pairs_table(csv)},
+                                    {"--proof", o.proof}};
   if (!vtu.empty()) add_grid_files(vtu, o.engine, all);
   return with_reports(std::move(all), o.report);
 }
@@ -215,7 +215,7 @@ path_limits limits_of(const run_setup& run, certifier& judged) {
 frame_limits frames_of(const run_options& o) {
   const picture_options& p = o.pictures;
   frame_limits limits;
-  limits.only_ends = is_in_pieces(p.vtu) && p.html.empty() && p.svg.empty() && p.csv.empty() && !o.envelope;
+  limits.only_ends = is_in_pieces(p.vtu) && p.html.empty() && p.csv.empty() && !o.envelope;
   return limits;
 }
 
@@ -350,7 +350,6 @@ void write_files(observed_run& o, const path_end& end, const comparison& c) {
                          run.date,
                          o.extremes ? &*o.extremes : nullptr};
     if (o.files["--html"] != nullptr) o.files.write("--html", run_page(r));
-    if (o.files["--svg"] != nullptr) o.files.write("--svg", run_svg(r));
     if (o.files["--vtu"] != nullptr) write_grids(o.files, run.options.pictures.vtu, r);
   }
   o.files.write(check_report_of(o, end, c));

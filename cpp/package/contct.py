@@ -316,11 +316,6 @@ class Result(Answer):
         return self._text("page")
 
     @property
-    def svg(self) -> str:
-        """Final state and load-deflection path as a picture (`--svg`). The first use runs the problem again."""
-        return self._text("svg")
-
-    @property
     def log(self) -> str:
         """Unit 26 of the leading kernel (`--log`). The first use runs the problem again."""
         return self._text("log")
@@ -355,7 +350,7 @@ class Result(Answer):
                 ' style="width: 100%; height: 45em; border: 0"></iframe>')
 
 
-_texts = ("page", "svg", "log", "trace", "proof")
+_texts = ("page", "log", "trace", "proof")
 
 
 def _count(number: int, thing: str) -> str:
@@ -372,22 +367,6 @@ class Check(Answer):
     pairs: int
     steps: list[str]
     units: Optional[Record]
-
-    def __init__(self, answer: dict[str, Any], source: _Source) -> None:
-        super().__init__(answer)
-        self._source = source
-
-    @property
-    def svg(self) -> Optional[str]:
-        """A picture of the problem, unloaded; None for a matrix whose coordinates are not known."""
-        text: Optional[str] = _ask(_library.contct_check, self._source, {"svg": True}).get("svg")
-        return text
-
-    def _repr_svg_(self) -> Optional[str]:
-        try:
-            return self.svg
-        except Error:
-            return None
 
 
 class ExactEvent(Event):
@@ -797,7 +776,7 @@ def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Opti
 def check(problem: Problem, *, folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Check:
     """Read a problem and solve nothing: `contct check`. Raises InputError if it is refused."""
     source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
-    return Check(_ask(_library.contct_check, source, {}), source)
+    return Check(_ask(_library.contct_check, source, {}))
 
 
 def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),

@@ -370,19 +370,15 @@ function drawLoads(root, f) {
     }));
 }
 
-/** Of plates and of matrices the program's own picture, of the final state; the report has all states. */
+/** Plates and matrices are drawn in the report alone, in every state. */
 function drawOther() {
-  const answer = askAbout("run", { kernels: kernelNames(), svg: true });
-  if (answer.error) return element("p", { class: "bad" }, answer.error.message);
   byId("report-details").open = true;
-  const picture = element("img", { alt: `The final state of ${model.title || "the structure"}`, src: `data:image/svg+xml,${encodeURIComponent(answer.svg)}` });
-  return element("div", {}, picture, element("figcaption", { class: "quiet" }, "The final state. The report below shows every state."));
+  return element("figcaption", { class: "quiet" }, "The report below shows every state.");
 }
 
 function draw() {
   const f = states.frames[shown];
-  const isBeam = states.kind === "beam";
-  if (isBeam || !dragging) byId("stage").replaceChildren(isBeam ? drawBeam(f) : drawOther());
+  byId("stage").replaceChildren(states.kind === "beam" ? drawBeam(f) : drawOther());
 }
 
 // ---------------------------------------------------------------------------------------------- path and events

@@ -7,7 +7,6 @@
 
 #include "app/process.hpp"
 #include "catch.hpp"
-#include "support/well_formed.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -29,24 +28,20 @@ std::string refusal(const words& arguments, const scratch_folder& dir) {
 
 }  // namespace
 
-TEST_CASE("the same seed draws the same atlas, and table, CSV, JSON and picture agree") {
+TEST_CASE("the same seed draws the same atlas, and table, CSV and JSON agree") {
   const scratch_folder dir;
-  const words asked = {"atlas", "--problems", "3",      "--seed", "7",    "--csv",
-                       "a.csv", "--json",     "a.json", "--svg",  "a.svg"};
+  const words asked = {"atlas", "--problems", "3", "--seed", "7", "--csv", "a.csv", "--json", "a.json"};
   const finished first = contct_program(dir.path(), asked);
   INFO(first.out << first.err);
   CHECK(first.exit == 0);
   CHECK(first.err.empty());  // no terminal, no progress
-  CHECK(dir.files() == words{"a.csv", "a.json", "a.svg"});
+  CHECK(dir.files() == words{"a.csv", "a.json"});
   const std::string csv = dir.read("a.csv");
   const std::string json = dir.read("a.json");
-  const std::string svg = dir.read("a.svg");
   const finished again = contct_program(dir.path(), asked);
   CHECK(again.out == first.out);
   CHECK(dir.read("a.csv") == csv);
   CHECK(dir.read("a.json") == json);
-  CHECK(dir.read("a.svg") == svg);
-  CHECK(why_not_well_formed(svg).empty());
 
   const auto cells = nlohmann::json::parse(json)["cells"];
   CHECK(cells.size() == 106);
@@ -69,10 +64,10 @@ TEST_CASE("the atlas is the same to the byte with one job and with three") {
   const scratch_folder dir;
   std::vector<std::string> expected;
   for (const char* jobs : {"1", "3"}) {
-    const finished f = contct_program(dir.path(), {"atlas", "--problems", "18", "--csv", "a.csv", "--json",
-                                                   "a.json", "--svg", "a.svg", "--jobs", jobs});
+    const finished f = contct_program(
+        dir.path(), {"atlas", "--problems", "18", "--csv", "a.csv", "--json", "a.json", "--jobs", jobs});
     CHECK(f.exit == 0);
-    const std::vector<std::string> found = {f.out, dir.read("a.csv"), dir.read("a.json"), dir.read("a.svg")};
+    const std::vector<std::string> found = {f.out, dir.read("a.csv"), dir.read("a.json")};
     if (expected.empty()) expected = found;
     CHECK(found == expected);
   }
@@ -83,8 +78,8 @@ TEST_CASE("an output of the atlas may be standard output, alone") {
   const finished f = contct_program(dir.path(), {"atlas", "--problems", "1", "--json", "-"});
   CHECK(f.exit == 0);
   CHECK(nlohmann::json::parse(f.out)["problems"] == 1);
-  CHECK_THAT(refusal({"atlas", "--problems", "1", "--json", "-", "--svg", "-"}, dir),
-             Contains("--json and --svg cannot both be -"));
+  CHECK_THAT(refusal({"atlas", "--problems", "1", "--json", "-", "--csv", "-"}, dir),
+             Contains("--csv and --json cannot both be -"));
 }
 
 TEST_CASE("bad usage of the atlas exits 2 before anything is tried") {
@@ -95,14 +90,14 @@ TEST_CASE("bad usage of the atlas exits 2 before anything is tried") {
   CHECK_THAT(refusal({"atlas", "--seed", "-1"}, dir), Contains("--seed"));
   CHECK_THAT(refusal({"atlas", "--shard", "1/2"}, dir), Contains("--shard"));
   CHECK_THAT(refusal({"atlas", "file.toml"}, dir), Contains("file.toml"));
-  CHECK_THAT(refusal({"atlas", "--csv", "a", "--svg", "./a"}, dir), Contains("found the file of --csv"));
+  CHECK_THAT(refusal({"atlas", "--csv", "a", "--json", "./a"}, dir), Contains("found the file of --csv"));
   CHECK_THAT(refusal({"atlas", "--csv", "nowhere/a"}, dir), Contains("nowhere/a"));
   CHECK(dir.read("a.json") == "mine");
 }
 
 TEST_CASE("when standard output fails, the atlas leaves no files") {
   const scratch_folder dir;
-  const finished f = contct_program(dir.path(), {"atlas", "--problems", "1", "--svg", "a.svg"},
+  const finished f = contct_program(dir.path(), {"atlas", "--problems", "1", "--csv", "a.csv"},
                                     {"", {}, false, "/dev/full"});
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("standard output: "));

@@ -5,7 +5,6 @@
 #include "catch.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
-#include "support/well_formed.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -73,28 +72,12 @@ TEST_CASE("warnings go to standard error, and are counted") {
   CHECK(quiet.err == f.err);
 }
 
-TEST_CASE("what contct run refuses, contct check refuses, and draws nothing") {
+TEST_CASE("what contct run refuses, contct check refuses") {
   const scratch_folder dir;
   dir.write("p.toml", with("5.0e4", "-5.0e4"));
-  const finished f = contct_program(dir.path(), {"check", "p.toml", "--svg", "p.svg"});
+  const finished f = contct_program(dir.path(), {"check", "p.toml"});
   CHECK(f.exit == 2);
   CHECK(f.out.empty());
   CHECK_THAT(f.err, StartsWith("contct: p.toml:11:13: contact[1].stiffness: found -50000"));
   CHECK(dir.files() == std::vector<std::string>{"p.toml"});
-  CHECK_THAT(contct_program(dir.path(), {"check", "p.toml", "--svg", "p.toml"}).err, Contains("the problem"));
-}
-
-TEST_CASE("the structure before any load is drawn, with a mark for every pair, also to standard output") {
-  const scratch_folder dir;
-  dir.write("p.toml", by_coordinates);
-  dir.write("plate.toml", good_plate);
-  for (const auto& [file, pairs] : {std::pair("p.toml", 22), {"plate.toml", 1}}) {
-    CHECK(contct_program(dir.path(), {"check", file, "--quiet", "--svg", "p.svg"}).exit == 0);
-    const finished piped = contct_program(dir.path(), {"check", file, "--svg", "-"});
-    CHECK(piped.out == dir.read("p.svg"));
-    CHECK(why_not_well_formed(piped.out).empty());
-    CHECK_THAT(piped.out, Contains("Without load") && !Contains("Final state") && !Contains("nan"));
-    CHECK_THAT(piped.out, Contains("<title>pair " + std::to_string(pairs) + ", "));
-    CHECK_THAT(piped.out, Contains("class=\"support\""));
-  }
 }

@@ -77,15 +77,14 @@ TEST_CASE("a bare contct run compares FORTRAN with C++ and writes no file") {
 
 TEST_CASE("the options of contct run arrive where they belong, in any order") {
   const auto o = parsed<run_options>(
-      {"run",     "--kernels", "cpp,corrected", "--strict",  "beam.toml",  "--max-increments=7",
-       "--svg",   "s",         "--csv",         "c",         "--vtu",      "v.vtu",
-       "--html",  "h",         "--json",        "j",         "--log",      "l",
-       "--trace", "t",         "--junit",       "u",         "--markdown", "m",
-       "--quiet", "--engine",  "auto",          "--free-run"});
+      {"run",     "--kernels", "cpp,corrected", "--strict", "beam.toml", "--max-increments=7",
+       "--csv",   "c",         "--vtu",         "v.vtu",    "--html",    "h",
+       "--json",  "j",         "--log",         "l",        "--trace",   "t",
+       "--junit", "u",         "--markdown",    "m",        "--quiet",   "--engine",
+       "auto",    "--free-run"});
   CHECK(o.kernels == words{"cpp", "corrected"});
   CHECK(o.file == "beam.toml");
-  CHECK(words{o.pictures.svg, o.pictures.csv, o.pictures.vtu, o.pictures.html} ==
-        words{"s", "c", "v.vtu", "h"});
+  CHECK(words{o.pictures.csv, o.pictures.vtu, o.pictures.html} == words{"c", "v.vtu", "h"});
   CHECK(words{o.json, o.log, o.trace, o.report.junit, o.report.markdown} == words{"j", "l", "t", "u", "m"});
   CHECK((o.strict && o.free_run && o.report.quiet));
   CHECK(o.engine == "auto");
@@ -96,10 +95,9 @@ TEST_CASE("the options of contct run arrive where they belong, in any order") {
 
 TEST_CASE("a final state has no path, so --final-only excludes what belongs to one") {
   CHECK(parsed<run_options>({"run", "f", "--final-only", "--json", "j", "--strict"}).final_only);
-  const std::vector<words> of_a_path = {{"--free-run"},           {"--kernels", "cpp"}, {"--engine", "auto"},
-                                        {"--trace", "t"},         {"--log", "l"},       {"--html", "h"},
-                                        {"--svg", "s"},           {"--csv", "c"},       {"--vtu", "v.vtu"},
-                                        {"--max-increments", "3"}};
+  const std::vector<words> of_a_path = {{"--free-run"},   {"--kernels", "cpp"}, {"--engine", "auto"},
+                                        {"--trace", "t"}, {"--log", "l"},       {"--html", "h"},
+                                        {"--csv", "c"},   {"--vtu", "v.vtu"},   {"--max-increments", "3"}};
   for (const words& option : of_a_path) {
     words line = {"run", "f", "--final-only"};
     line.insert(line.end(), option.begin(), option.end());

@@ -13,7 +13,7 @@ namespace {
 
 using words = std::vector<std::string>;
 
-const words all_of_them = {"--html", "o.html", "--svg", "o.svg", "--csv", "o.csv", "--vtu", "o.vtu"};
+const words all_of_them = {"--html", "o.html", "--csv", "o.csv", "--vtu", "o.vtu"};
 
 words run_of(const words& more) {
   words all = {"run", "pb.toml"};
@@ -45,7 +45,7 @@ nlohmann::json written(const std::string& text, int exit, const words& more = {}
   const finished f = contct_program(dir.path(), arguments);
   INFO(f.out << f.err);
   CHECK(f.exit == exit);
-  for (const char* name : {"o.html", "o.svg", "o.csv", "o.pairs.csv", "o.vtu", "o.pvd", "o.000.vtu"}) {
+  for (const char* name : {"o.html", "o.csv", "o.pairs.csv", "o.vtu", "o.pvd", "o.000.vtu"}) {
     INFO(name);
     CHECK_FALSE(dir.read(name).empty());
   }
@@ -80,14 +80,14 @@ const char* const no_pairs =
 
 }  // namespace
 
-TEST_CASE("a run writes its page, picture, tables and grids, and nothing beside them") {
+TEST_CASE("a run writes its page, tables and grids, and nothing beside them") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), run_of(all_of_them));
   CHECK(f.exit == 0);
   CHECK_THAT(f.out, Contains("equal to the bit"));
   CHECK(dir.files() == words{"o.000.vtu", "o.001.vtu", "o.002.vtu", "o.csv", "o.html", "o.pairs.csv", "o.pvd",
-                             "o.svg", "o.vtu", "pb.toml"});
+                             "o.vtu", "pb.toml"});
 }
 
 TEST_CASE("the page's last state is the result's, number for number, step by step") {
@@ -182,11 +182,11 @@ TEST_CASE(
     "pictures in one file with another result are refused, all files that --csv and --vtu make included") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
-  for (const words& two : {words{"--html", "out", "--svg", "out"},
+  for (const words& two : {words{"--html", "out", "--csv", "out"},
                            {"--html", "pb.toml"},
                            {"--csv", "out.csv", "--json", "out.pairs.csv"},
                            {"--vtu", "out.vtu", "--html", "out.pvd"},
-                           {"--vtu", "out.vtu", "--svg", "./out.000.vtu"},
+                           {"--vtu", "out.vtu", "--csv", "./out.000.vtu"},
                            {"--vtu", "out.vtu", "--log", "out.119.vtu"},
                            {"--html", "-", "--csv", "-"},
                            {"--vtu", "-"},
@@ -205,7 +205,6 @@ TEST_CASE("with - for standard output nothing else is printed") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);
-  CHECK(contct_program(dir.path(), run_of({"--svg", "-"})).out.rfind("<svg ", 0) == 0);
   const std::string csv = contct_program(dir.path(), run_of({"--csv", "-"})).out;
   CHECK(csv.rfind("step,increment,", 0) == 0);
   CHECK(dir.files() == words{"pb.toml"});  // and no table of pairs
@@ -214,7 +213,7 @@ TEST_CASE("with - for standard output nothing else is printed") {
 TEST_CASE("a place that cannot be written is found out before anything is solved") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
-  for (const char* option : {"--html", "--svg", "--csv", "--vtu"}) {
+  for (const char* option : {"--html", "--csv", "--vtu"}) {
     INFO(option);
     const finished f = contct_program(dir.path(), run_of({option, "nowhere/o.vtu"}));
     CHECK(f.exit == 2);

@@ -39,14 +39,6 @@ TEST_CASE("the README's run is a real run") {
   CHECK(shown == f.out);
 }
 
-TEST_CASE("the README's picture is that of its run") {
-  const finished f =
-      contct_program(root, {"run", "reference/problems/pb07-three-gap-supports.toml", "--svg", "-"});
-  CHECK(f.exit == 0);
-  CHECK(f.out == page("reference/run.svg"));
-  CHECK_THAT(readme(), Catch::Matchers::Contains("](reference/run.svg)"));
-}
-
 TEST_CASE("the README's beam can be run") {
   const std::string text = readme();
   int problems = 0;

@@ -7,14 +7,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
-#include "bench/growth_svg.hpp"
 #include "bench/kernels.hpp"
 #include "bench/measure.hpp"
 #include "bench/peers/run_peers.hpp"
@@ -35,7 +36,6 @@ struct options {
   int events = 0;
   int rounds = 3;
   std::string json_file;
-  std::string svg_file;
   bool growth = false;
   bool without_kernels = false;
   bool peers = false;
@@ -119,29 +119,35 @@ json bench_kernels(int rounds) {
   return rows;
 }
 
-std::vector<bench::growth_point> growth_of(const json& rows) {
-  std::vector<bench::growth_point> points;
-  for (const json& row : rows) {
-    const std::string problem = row["problem"];
-    if (row["events"] == 0) continue;
-    points.push_back({problem.substr(0, problem.find('-')), row["engine"], row["dofs"], row["ms_per_event"]});
+struct growth_point {
+  double size, ms_per_event;
+};
+
+/// The slope of the straight line through the logarithms, by least squares: 1 is a cost proportional to the
+/// size. NaN for fewer than two sizes.
+double slope_of(const std::vector<growth_point>& points) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const growth_point& p : points) {
+    const double lx = std::log(p.size);
+    const double ly = std::log(p.ms_per_event);
+    n += 1, x += lx, y += ly, xx += lx * lx, xy += lx * ly;
   }
-  return points;
+  const double spread = n * xx - x * x;
+  return n < 2 || !(spread > 0) ? std::numeric_limits<double>::quiet_NaN() : (n * xy - x * y) / spread;
 }
 
 /// How the cost of an event grows with the factor: 1 is in proportion to its entries.
 void print_exponents(const json& rows) {
-  std::map<std::pair<std::string, std::string>, std::vector<bench::growth_point>> lines;
+  std::map<std::pair<std::string, std::string>, std::vector<growth_point>> lines;
   for (const json& row : rows) {
     if (row["events"] == 0 || row["factor_entries"].is_null()) continue;
     const std::string problem = row["problem"];
     const std::string family = problem.substr(0, problem.find('-'));
-    lines[{family, row["engine"]}].push_back(
-        {family, row["engine"], row["factor_entries"], row["ms_per_event"]});
+    lines[{family, row["engine"]}].push_back({row["factor_entries"], row["ms_per_event"]});
   }
   for (const auto& [of, points] : lines)
     fmt::print("{}, {}: an event costs entries of the factor to the power {:.2f}, from {} sizes\n", of.first,
-               of.second, bench::slope_of(points), points.size());
+               of.second, slope_of(points), points.size());
 }
 
 void bench_problem(const options& o, const std::string& name, json& rows) {
@@ -241,8 +247,6 @@ int run(options o) {
   if (o.growth) o.problems = bench::growing_problems();
   std::optional<contct::app::output_file> out;
   if (!o.json_file.empty()) out.emplace(o.json_file);
-  std::optional<contct::app::output_file> picture;
-  if (!o.svg_file.empty()) picture.emplace(o.svg_file);
   pin();
   fmt::print("{}; core type: {}; one thread, its processor time\n", contct::app::lapack_identity(),
              core_type());
@@ -262,10 +266,6 @@ int run(options o) {
                            {"final_states", std::move(ends)}};
     out->write(document.dump(1) + "\n");
     out->finish();
-  }
-  if (picture) {
-    picture->write(bench::growth_svg(growth_of(rows), contct::app::lapack_identity() + ", one thread"));
-    picture->finish();
   }
   return 0;
 }
@@ -299,8 +299,6 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   program.add_flag("--without-kernels", o.without_kernels,
                    "Engines only; the kernels alone take some seconds");
-  program.add_option("--svg", o.svg_file,
-                     "Draw ms/event against size, log-log, with slopes, to this file (- is standard output)");
   program.add_option("--json", o.json_file, "Write the rows to this file (- is standard output)");
   CLI11_PARSE(program, argc, argv);
   try {

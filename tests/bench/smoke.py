@@ -3,18 +3,16 @@ import json
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree as xml
 from pathlib import Path
 
 bench = sys.argv[1]
 has_cholmod = sys.argv[2] == "with-cholmod"
 problems = ["rail-3", "rail-6", "grid-8", "grid-12", "mat-24"]
 with tempfile.TemporaryDirectory() as folder:
-    rows_file, picture = Path(folder, "rows.json"), Path(folder, "growth.svg")
-    command = [bench, "--problem", ",".join(problems), "--rounds", "1", "--json", rows_file, "--svg", picture]
+    rows_file = Path(folder, "rows.json")
+    command = [bench, "--problem", ",".join(problems), "--rounds", "1", "--json", rows_file]
     text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     document = json.loads(rows_file.read_text())
-    words = "".join(xml.parse(picture).getroot().itertext())
 
 rows = document["rows"]
 kernels = document["kernels"]
@@ -40,9 +38,6 @@ expected = {(name, engine) for name in problems for engine in (engines if name.s
 assert {(row["problem"], row["engine"]) for row in rows} == expected and len(rows) == len(expected), rows
 assert engines == {"refactor", "updated", "condensed"} | ({"cholmod", "dissected"} if has_cholmod else set()), engines
 assert events >= 200, events
-for family in ("rail", "grid"):
-    assert family in words, words
-assert "slope" in words
 
 # Only so many events, and a name that nothing has.
 short = subprocess.run([bench, "--without-kernels", "--problem", "grid-12", "--engine", "refactor,updated", "--events", "5", "--rounds", "1"],

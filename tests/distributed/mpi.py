@@ -447,9 +447,9 @@ def pieces(contct, reference, mpiexec, ranks):
         refused = run([contct, "run", frame, "--vtu", "G.pvtu"], scratch, 2)
         if "allowed: a file that ends in .vtu, or with --engine petsc in .pvtu" not in refused.stderr:
             sys.exit(f"--vtu G.pvtu without --engine petsc: found {refused.stderr!r}")
-        shared = run([*mpirun(mpiexec, ranks), contct, "run", frame, "--engine", "petsc", "--vtu", "F.pvtu", "--svg", "F_0.vtu"], scratch, 2)
+        shared = run([*mpirun(mpiexec, ranks), contct, "run", frame, "--engine", "petsc", "--vtu", "F.pvtu", "--html", "F_0.vtu"], scratch, 2)
         if "found the file of --" not in shared.stderr or (Path(scratch) / "F_0.vtu").exists():
-            sys.exit(f"--svg F_0.vtu beside --vtu F.pvtu: found {shared.stderr!r}")
+            sys.exit(f"--html F_0.vtu beside --vtu F.pvtu: found {shared.stderr!r}")
         (Path(scratch) / "F_0.vtu").mkdir()
         (Path(scratch) / "plate.toml").write_text(plate)
         run([*mpirun(mpiexec, ranks), contct, "run", "plate.toml", "--kernels", "corrected", "--engine", "petsc", "--vtu", "F.pvtu"],

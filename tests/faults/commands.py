@@ -34,7 +34,7 @@ stiffness = 10.0
 point = [ { dof = "2", value = 2.0 } ]
 """
 STIFFNESS = "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n"
-OUTPUTS = ["--json", "o.json", "--html", "o.html", "--svg", "o.svg", "--csv", "o.csv", "--vtu", "o.vtu", "--log", "o.log",
+OUTPUTS = ["--json", "o.json", "--html", "o.html", "--csv", "o.csv", "--vtu", "o.vtu", "--log", "o.log",
            "--trace", "o.trace", "--proof", "o.proof", "--junit", "o.xml", "--markdown", "o.md"]
 
 

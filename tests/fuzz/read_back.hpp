@@ -22,9 +22,6 @@ namespace contct::fuzz {
 /// Well-formed XML with that root.
 [[nodiscard]] xml_element xml_in(std::string_view text, std::string_view root);
 
-/// A picture: without scripts, and with nothing from elsewhere.
-void check_svg(std::string_view text);
-
 /// A grid: every array has as many numbers as its place asks for, and cells name points that are there.
 void check_vtu(std::string_view text);
 

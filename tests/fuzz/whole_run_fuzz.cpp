@@ -196,7 +196,6 @@ class whole_run {
   }
 
   void write_problem() const {
-    check_svg(problem_svg(p_, file_));
     if (std::holds_alternative<assembled>(p_.geometry.kind)) return;
     try {
       check_deck(calculix_deck_of(p_, {.step = static_cast<int>(p_.steps.size())}).text);
@@ -304,7 +303,6 @@ void whole_run::read_back_pictures(const finished_run& r) {
   require(data == nlohmann::json::parse(
                       page_data(r).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)),
           "a page has its data");
-  check_svg(run_svg(r));
   (void)json_in(states_json(r), "states");
   const auto* a = std::get_if<assembled>(&p_.geometry.kind);
   if (a != nullptr && !a->places.known()) return;

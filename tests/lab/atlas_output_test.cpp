@@ -1,4 +1,4 @@
-// The atlas as table, CSV, JSON and picture: the same numbers everywhere.
+// The atlas as table, CSV and JSON: the same numbers everywhere.
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,6 @@
 
 #include "catch.hpp"
 #include "contct/lab/atlas.hpp"
-#include "support/well_formed.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -38,12 +37,6 @@ std::vector<std::string> split(const std::string& text, char at) {
   for (std::string part; std::getline(in, part, at);) parts.push_back(part);
   if (!text.empty() && text.back() == at && at != '\n') parts.emplace_back();
   return parts;
-}
-
-int count_of(const std::string& text, const std::string& what) {
-  int count = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
-  return count;
 }
 
 }  // namespace
@@ -116,59 +109,4 @@ TEST_CASE("the atlas's table has a row a cell with its share and interval, in 80
   for (const std::string& line : split(table, '\n')) rows += line.find("  800 ") != std::string::npos ? 1 : 0;
   CHECK(rows == static_cast<int>(a.cells.size()) + 4);  // the printed EPSMUL stands in both kinds of table
   CHECK_THAT(table, Contains("1e-3") && Contains("certificate"));  // both yardsticks are told
-}
-
-TEST_CASE("the atlas's picture is well-formed, self-contained, and has every cell as a point") {
-  const atlas a = made_up();
-  const std::string svg = atlas_svg(a);
-  CHECK(why_not_well_formed(svg).empty());
-  CHECK(count_of(svg, "class=\"point\"") == static_cast<int>(a.cells.size()) + 4);
-  CHECK_THAT(svg, !Contains("href") && !Contains("<script") && !Contains("<image") && !Contains("nan"));
-  CHECK_THAT(svg, Contains("<rect width=\"980\" height=\"800\" fill=\"#ffffff\"/>"));  // a ground of its own
-  for (const atlas_cell& c : a.cells) {
-    char unit[16];
-    (void)std::snprintf(unit, sizeof unit, "%.0e", c.unit);
-    char wrong[64];
-    (void)std::snprintf(wrong, sizeof wrong, "%.1f %% wrong (%.1f to %.1f %%) of 800", c.wrong / 8.0,
-                        100 * wilson(c.wrong, 800).least, 100 * wilson(c.wrong, 800).most);
-    char epsmul[40] = "";
-    if (c.has_other_epsmul()) (void)std::snprintf(epsmul, sizeof epsmul, " with EPSMUL %.0e", c.epsmul);
-    CHECK_THAT(svg, Contains("<title>" + c.kernel + epsmul + ", unit " + unit +
-                             (c.held ? ", held: " : ", free: ") + wrong + "</title>"));
-  }
-  for (const char* colour : {"#0072B2", "#D55E00", "#007F5F"}) CHECK_THAT(svg, Contains(colour));
-  CHECK_THAT(svg, Contains("fortran-r4: as printed") && Contains("corrected: the corrected rule"));
-}
-
-TEST_CASE("a point stands where its share is: more wrong is higher, none is lowest") {
-  const auto height_at_unit_1 = [](int wrong) {
-    atlas a = made_up();
-    for (atlas_cell& c : a.cells) c.wrong = c.kernel == "fortran" ? wrong : 0;
-    const std::string svg = atlas_svg(a);
-    const std::size_t title = svg.find("<title>fortran, unit 1e+00, held");
-    const std::size_t at = svg.rfind("cy=\"", title);
-    REQUIRE(title != std::string::npos);
-    REQUIRE(at != std::string::npos);
-    return std::stod(svg.substr(at + 4));
-  };
-  const double all = height_at_unit_1(800);
-  const double tenth = height_at_unit_1(80);
-  const double hundredth = height_at_unit_1(8);
-  const double none = height_at_unit_1(0);
-  CHECK(all < tenth);
-  CHECK(tenth < hundredth);
-  CHECK(hundredth < none);
-  CHECK(std::abs((tenth - all) - (hundredth - tenth)) < 0.2);  // by decades
-}
-
-TEST_CASE("the judge of well-formed XML finds what is wrong") {
-  CHECK(why_not_well_formed("<?xml version=\"1.0\"?>\n<a b=\"c\"><d/>e &amp; f</a>\n").empty());
-  CHECK_THAT(why_not_well_formed("<a><b></a></b>"), Contains("</a>"));
-  CHECK_THAT(why_not_well_formed("<a><b/>"), Contains("never closed"));
-  CHECK_THAT(why_not_well_formed("<a b=c/>"), Contains("quote"));
-  CHECK_THAT(why_not_well_formed("<a b=\"1\" b=\"2\"/>"), Contains("twice"));
-  CHECK_THAT(why_not_well_formed("<a>x & y</a>"), Contains("&"));
-  CHECK_THAT(why_not_well_formed("<a>x < y</a>"), Contains("<"));
-  CHECK_THAT(why_not_well_formed("<a/><b/>"), Contains("second"));
-  CHECK_THAT(why_not_well_formed(""), Contains("no element"));
 }

@@ -14,7 +14,7 @@ from pathlib import Path
 program, replay, root = (Path(p).resolve() for p in sys.argv[1:4])
 fault = sys.argv[4] if len(sys.argv) > 4 else ""
 DURATIONS = [r'"seconds": [\d.e+-]+', r'(?<= )time="[\d.]+"', r"\b[\d.]+ s\b", r'timestamp="[^"]*"']
-OUTPUTS = ("json", "html", "svg", "csv", "vtu", "trace", "junit", "markdown", "log", "proof")
+OUTPUTS = ("json", "html", "csv", "vtu", "trace", "junit", "markdown", "log", "proof")
 PROBLEMS = ("problems/pb07-three-gap-supports.toml", "problems/pb11a-strip-footing-n20.toml", "problems/pp02a-settled-column-n4.toml",
             "problems/divergences/%s", "structures/frame.toml")
 
@@ -32,13 +32,13 @@ def commands():
     of_problem = [run(p, f"run{i}") for i, p in enumerate(problems)]
     of_problem += [run(p, f"corrected{i}", "--kernels", "corrected", "--detail", "--envelope") for i, p in enumerate(problems)]
     for p in problems:
-        of_problem += [[program, "check", f"reference/{p}", "--svg", "check.svg"], [program, "exact", f"reference/{p}", "--json", "exact.json"],
+        of_problem += [[program, "check", f"reference/{p}"], [program, "exact", f"reference/{p}", "--json", "exact.json"],
                        [program, "explain", f"reference/{p}"], [program, "run", f"reference/{p}", "--final-only", "--json", "final.json"],
                        [program, "run", f"reference/{p}", "--free-run", "--kernels", "fortran,corrected"]]
     engines = [[program, "run", f"reference/{PROBLEMS[1]}", "--engine", e, "--json", f"{e}.json"] for e in ("refactor", "updated", "condensed", "auto")]
     others = [[program, "verify", "--json", "verify.json", "--junit", "verify.xml", "--reference", "reference"],
               [program, "fuzz", "--calls", "3000", "--json", "fuzz.json", "--junit", "fuzz.xml", "--markdown", "fuzz.md"],
-              [program, "atlas", "--problems", "1", "--csv", "atlas.csv", "--json", "atlas.json", "--svg", "atlas.svg"],
+              [program, "atlas", "--problems", "1", "--csv", "atlas.csv", "--json", "atlas.json"],
               [program, "export", f"reference/{PROBLEMS[0]}", "deck.inp"], [program, "kernels"], [program, "man"], [program, "man", "problem"],
               [program, "completion", "bash"], [program, "new", "beam", "-"], [program, "new", "plate", "-"], [program, "--version"], [program, "--help"],
               [replay, "--kernel", "fortran,cpp", "reference/traces/full-load.trace"]]

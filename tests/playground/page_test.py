@@ -81,6 +81,7 @@ def handle(words):
 def menu():
     names = sorted(str(p.relative_to(root / "reference/problems"))[:-5] for p in (root / "reference/problems").rglob("*.toml"))
     shown = value("[...document.getElementById('menu').options].map(o => o.value)")
+    beams = 0
     check(sorted(shown) == names, f"the menu has every problem: {len(shown)} of {len(names)}")
     for name in names:
         choose("menu", name)
@@ -89,7 +90,12 @@ def menu():
         check(value("document.getElementById('verdict').children.length") >= 1, f"{name}: has a verdict")
         check("NOT equal" not in value("document.getElementById('verdict').textContent"), f"{name}: FORTRAN and C++ are equal")
         check(value("document.querySelectorAll('#events tr').length") >= 2, f"{name}: has increments")
-        check(value("document.querySelector('#stage svg, #stage img') !== null"), f"{name}: has a picture")
+        is_beam = value("contct.states.kind") == "beam"
+        beams += is_beam
+        check(value("document.querySelector('#stage svg') !== null") == is_beam, f"{name}: a beam has a picture of its own")
+        check(is_beam or value("document.getElementById('report-details').open && document.querySelector('#stage').textContent.includes('report')"),
+              f"{name}: points at the report")
+    check(0 < beams < len(names), f"{beams} beams of {len(names)} problems")
 
 
 def dragging():

@@ -149,4 +149,4 @@ def test_a_problem_names_files_outside_its_folder_only_where_that_is_allowed(tmp
             ask(problem, folder=tmp_path / "own")
         assert "allow_outside" in str(caught.value)
         assert ask(problem, folder=tmp_path / "own", allow_outside=True) is not None
-    assert contct.check(problem, folder=tmp_path / "own", allow_outside=True).svg.startswith("<svg")  # asks once more
+    assert contct.run(problem, folder=tmp_path / "own", allow_outside=True).page.startswith("<!DOCTYPE html>")  # asks once more

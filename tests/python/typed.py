@@ -11,14 +11,14 @@ again: contct.Result = contct.run(Path("beam.toml"), kernels=("fortran", "cpp"),
 forces: list[float] = [pair.force for pair in result.steps[-1].pairs]
 events: list[tuple[float, str]] = [(i.fraction, event.change) for i in result.steps[0].increments for event in i.events]
 certificate: Optional[contct.Certificate] = result.steps[0].certificate
-texts: list[str] = [result.page, result.svg, result.log, result.trace, result.proof, contct.to_toml(problem), *result.messages]
+texts: list[str] = [result.page, result.log, result.trace, result.proof, contct.to_toml(problem), *result.messages]
 smallest: float = min(result.steps[0].w)
 
 exact: contct.Exact = contct.exact("beam.toml", rule="1989", kernels=["fortran"])
 shares: list[Fraction] = [i.fraction for step in exact.steps for i in step.increments]
 deflections: list[list[Fraction]] = [step.w for step in exact.steps]
 
-picture: Optional[str] = contct.check(problem).svg
+kind: str = contct.check(problem).kind
 winner: Any = contct.explain(problem, step=1, increment=1).increments[0].winner
 bounds: contct.Result = contct.certify(problem, [[0.0, 0.0]], closed=[[1]])
 ss, smin, isep, text = contct.call("fortran", [0.0], [1.0], [0.5], [1], [1], [1])

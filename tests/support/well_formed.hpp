@@ -1,4 +1,4 @@
-// Is a text well-formed XML? As much of the rules as the pictures use.
+// Is a text well-formed XML? As much of the rules as the program needs.
 #pragma once
 
 #include <cctype>

@@ -1,4 +1,4 @@
-// Frames for ParaView.
+// Frames for ParaView, and the judge of their XML.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -179,4 +179,16 @@ TEST_CASE("the file of the pieces declares their arrays and names them in order"
   }
   CHECK(declared == 6 + 10 + 1);  // of points, of cells, and the points
   CHECK(name_of_piece("out", 12) == "out_12.vtu");
+}
+
+TEST_CASE("the judge of well-formed XML finds what is wrong") {
+  CHECK(why_not_well_formed("<?xml version=\"1.0\"?>\n<a b=\"c\"><d/>e &amp; f</a>\n").empty());
+  CHECK_THAT(why_not_well_formed("<a><b></a></b>"), Contains("</a>"));
+  CHECK_THAT(why_not_well_formed("<a><b/>"), Contains("never closed"));
+  CHECK_THAT(why_not_well_formed("<a b=c/>"), Contains("quote"));
+  CHECK_THAT(why_not_well_formed("<a b=\"1\" b=\"2\"/>"), Contains("twice"));
+  CHECK_THAT(why_not_well_formed("<a>x & y</a>"), Contains("&"));
+  CHECK_THAT(why_not_well_formed("<a>x < y</a>"), Contains("<"));
+  CHECK_THAT(why_not_well_formed("<a/><b/>"), Contains("second"));
+  CHECK_THAT(why_not_well_formed(""), Contains("no element"));
 }

@@ -98,8 +98,4 @@ void fill(std::vector<atlas_cell>& cells, const atlas_request& r, int jobs,
 /// All cells as a table of 80 columns, and what its columns mean.
 [[nodiscard]] std::string atlas_table(const atlas& a, const terminal& t);
 
-/// Share of wrong answers with its 95 % band, by the unit of length and by EPSMUL: above for structures
-/// held by supports, below for free ones. One self-contained SVG; every cell is a point with its numbers.
-[[nodiscard]] std::string atlas_svg(const atlas& a);
-
 }  // namespace contct::lab

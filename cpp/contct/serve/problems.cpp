@@ -14,7 +14,6 @@
 #include "contct/serve/serve.h"
 #include "contct/write/exact_output.hpp"
 #include "contct/write/explain.hpp"
-#include "contct/write/pictures.hpp"
 #include "contct/write/run_words.hpp"
 #include "contct/write/words.hpp"
 
@@ -55,7 +54,7 @@ void put_places(json& out, const problem& p, const char* text, const std::string
 }
 
 void check(const char* text, const char* options, answer& a) {
-  const request r(options, {"file", "folder", "allow_outside", "svg", "places"});
+  const request r(options, {"file", "folder", "allow_outside", "places"});
   const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   json out = {{"title", p.title},
               {"kind", std::holds_alternative<beam>(p.geometry.kind)    ? "beam"
@@ -71,7 +70,6 @@ void check(const char* text, const char* options, answer& a) {
   if (!p.units.length.empty()) out["units"] = {{"length", p.units.length}, {"force", p.units.force}};
   if (r.flag("places")) put_places(out, p, text, r.file());
   a.result = json_text(out);
-  if (r.flag("svg")) a.texts.emplace_back("svg", problem_svg(p, r.file()));
 }
 
 void follow_exact_path(const char* text, const char* options, answer& a) {

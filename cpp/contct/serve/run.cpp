@@ -34,14 +34,14 @@ struct run_request {
   std::vector<std::string> kernels;  // the leader first; none: only the ends of the steps
   std::string engine;
   int max_increments;
-  bool envelope, page, svg, log, trace, proof, states;
+  bool envelope, page, log, trace, proof, states;
 
-  [[nodiscard]] bool wants_frames() const { return page || svg || states || envelope; }
+  [[nodiscard]] bool wants_frames() const { return page || states || envelope; }
 };
 
 run_request read_run_request(const char* options) {
   const request r(options, {"file", "folder", "allow_outside", "kernels", "engine", "final_only", "envelope",
-                            "max_increments", "page", "svg", "log", "trace", "proof", "states"});
+                            "max_increments", "page", "log", "trace", "proof", "states"});
   constexpr int most_increments = 1'000'000'000;
   run_request wanted{r.file(),
                      r.allowed(),
@@ -50,7 +50,6 @@ run_request read_run_request(const char* options) {
                      r.whole("max_increments", 0, 0, most_increments),
                      r.flag("envelope"),
                      r.flag("page"),
-                     r.flag("svg"),
                      r.flag("log"),
                      r.flag("trace"),
                      r.flag("proof"),
@@ -125,7 +124,7 @@ class served_run {
 
   void watch_states(std::vector<observer*>& all, const lockstep* compared, const kernel_facts& leader) {
     frame_limits limits;
-    limits.refined = wanted_.page || wanted_.svg || wanted_.envelope;
+    limits.refined = wanted_.page || wanted_.envelope;
     all.push_back(&frames_.emplace(structure_, loads_of(p_, structure_), leader.rule != "listing", limits));
     all.push_back(&record_.emplace(compared));
     if (!wanted_.envelope) return;
@@ -138,7 +137,7 @@ class served_run {
     std::vector<observer*> all = observers(nullptr);
     if (wanted_.wants_frames())
       throw std::invalid_argument(
-          "options: found final_only with page, svg, states or envelope; allowed: these with a path");
+          "options: found final_only with page, states or envelope; allowed: these with a path");
     return find_final_states(structure_, static_cast<int>(p_.steps.size()), loads_of(p_, structure_), all,
                              &judged_, exact::exact_follower_of(p_));
   }
@@ -159,7 +158,7 @@ class served_run {
     if (!solved) a_.messages.push_back(wanted_.file + ": " + words);
     for (const std::string& w : {solved ? digits_.warning() : "", passages_.warning()})
       if (!w.empty()) a_.messages.push_back("warning: " + w);
-    if (wanted_.page || wanted_.svg || wanted_.states) draw({status, words, compared, equal, extremes});
+    if (wanted_.page || wanted_.states) draw({status, words, compared, equal, extremes});
     if (wanted_.log) a_.texts.emplace_back("log", std::move(log_));
     if (wanted_.trace) a_.texts.emplace_back("trace", std::move(trace_));
     if (wanted_.proof) a_.texts.emplace_back("proof", proof_json(p_, judged_));
@@ -191,7 +190,6 @@ class served_run {
                          "",
                          o.extremes};
     if (wanted_.page) a_.texts.emplace_back("page", run_page(r));
-    if (wanted_.svg) a_.texts.emplace_back("svg", run_svg(r));
     if (wanted_.states) a_.texts.emplace_back("states", states_json(r));
   }
 

@@ -55,15 +55,14 @@ CONTCT_SERVE_EXPORT char* contct_about(void);
  *   "final_only"      false; true: no path, the equilibrium under each step's load
  *   "envelope"        false
  *   "max_increments"  0, the program's own limit
- *   "page", "svg", "log", "trace", "proof"
- *                     false; true: the answer has what --html, --svg, --log, --trace and --proof write, as a
- *                     text under the same key
+ *   "page", "log", "trace", "proof"
+ *                     false; true: the answer has what --html, --log, --trace and --proof write, as a text
+ *                     under the same key
  *   "states"          false; true: the states of the path, as JSON in a text, for a picture */
 CONTCT_SERVE_EXPORT char* contct_run(const char* problem, const char* options);
 
 /* contct check: read a problem, solve nothing. "result": { "title", "kind": "beam" | "plate" | "matrix",
  *   "nodes", "dofs", "elements", "pairs", "steps": [names], "units": null or { "length", "force" } }.
- *   "svg"     false; true: the answer has a picture of the problem, as a text
  *   "places"  false; true: the result has where what is written too: "numbers": [{ "key": "contact[1].face",
  *             "value", "whole", "line", "column", "length" }], with "pair_list" and "node_list" */
 CONTCT_SERVE_EXPORT char* contct_check(const char* problem, const char* options);

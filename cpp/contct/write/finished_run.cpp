@@ -70,8 +70,8 @@ void insert(std::vector<int>& sorted, int number) {
   if (at == sorted.end() || *at != number) sorted.insert(at, number);
 }
 
-void choose_nodes(const beam& b, const shown_states& r, shown_parts& shown) {
-  const auto frames = r.frames.size();
+void choose_nodes(const beam& b, const finished_run& r, shown_parts& shown) {
+  const auto frames = r.kept.frames().size();
   shown.nodes = evenly(b.nodes(), std::max<std::size_t>(100, most_places / frames));
   if (std::ssize(shown.nodes) == b.nodes()) return;
   insert(shown.nodes, shown.watched);
@@ -88,11 +88,11 @@ void choose_nodes(const beam& b, const shown_states& r, shown_parts& shown) {
 
 /// The nodes shown and, where all of them are and few, places inside elements that carry a distributed load:
 /// between others the cubics of the ends' deflections and slopes, and straight moments, are exact.
-void choose_stations(const beam& b, const shown_states& r, shown_parts& shown) {
+void choose_stations(const beam& b, const finished_run& r, shown_parts& shown) {
   constexpr std::size_t most_inside = 8;
   constexpr std::size_t enough = 120;
   shown.loaded = load_pieces(r.what, b);
-  const std::size_t most = most_places / r.frames.size();
+  const std::size_t most = most_places / r.kept.frames().size();
   const std::size_t elements = b.elements();
   const bool all = std::ssize(shown.nodes) == b.nodes();
   const std::size_t parts =
@@ -116,8 +116,8 @@ void choose_stations(const beam& b, const shown_states& r, shown_parts& shown) {
 }
 
 /// As many lines in either direction as the grid points that all frames may have together allow.
-void choose_lines(const plate& p, const shown_states& r, shown_parts& shown) {
-  const double points = static_cast<double>(most_grid_points) / static_cast<double>(r.frames.size());
+void choose_lines(const plate& p, const finished_run& r, shown_parts& shown) {
+  const double points = static_cast<double>(most_grid_points) / static_cast<double>(r.kept.frames().size());
   const double all = static_cast<double>(p.columns()) * p.rows();
   const double share = std::min(1.0, std::sqrt(points / all));
   const auto some = [&](int lines) { return evenly(lines, std::max(4, static_cast<int>(share * lines))); };
@@ -145,7 +145,7 @@ std::vector<int> edges_by_weight(const placed_nodes& places) {
 }
 
 /// The nodes of what is marked: pairs, supports, and the dof that is watched.
-std::set<int> marked_nodes(const shown_states& r, const placed_nodes& places, const shown_parts& shown) {
+std::set<int> marked_nodes(const finished_run& r, const placed_nodes& places, const shown_parts& shown) {
   std::set<int> marked = {places.dofs[shown.watched].node};
   for (const int i : shown.pairs) marked.insert(places.dofs[r.what.pairs[i].node].node);
   for (const int dof : shown.supports) marked.insert(places.dofs[dof].node);
@@ -154,9 +154,9 @@ std::set<int> marked_nodes(const shown_states& r, const placed_nodes& places, co
 }
 
 /// As many edges as the numbers of all frames together allow; where there are none, nodes.
-void choose_mesh(const placed_nodes& places, const shown_states& r, shown_parts& shown) {
+void choose_mesh(const placed_nodes& places, const finished_run& r, shown_parts& shown) {
   std::set<int> chosen = marked_nodes(r, places, shown);
-  const std::size_t numbers = r.frames.size() * std::max<std::size_t>(1, axes_of(places).size());
+  const std::size_t numbers = r.kept.frames().size() * std::max<std::size_t>(1, axes_of(places).size());
   const std::size_t most = std::max<std::size_t>(300, most_mesh_numbers / numbers);
   for (const int i : edges_by_weight(places)) {
     if (shown.edges.size() == most_edges || chosen.size() + 2 > most) break;
@@ -169,7 +169,7 @@ void choose_mesh(const placed_nodes& places, const shown_states& r, shown_parts&
     for (const int node : evenly(places.nodes.size(), most)) chosen.insert(node);
   shown.nodes.assign(chosen.begin(), chosen.end());
   const std::vector<dofs_of_node> of_node = dofs_of_nodes(places);
-  for (const frame& f : r.frames) {
+  for (const frame& f : r.kept.frames()) {
     for (const int node : shown.nodes) {
       const auto [x, y, z] = reading_at(of_node[node].along, f);
       shown.reach = std::max(shown.reach, std::hypot(x, y, z));
@@ -185,10 +185,10 @@ void add_mesh_omissions(const placed_nodes& places, shown_parts& shown) {
         shown.edges.size(), places.edges.size(), shown.nodes.size(), places.nodes.size()));
 }
 
-void choose_pairs(const shown_states& r, shown_parts& shown) {
+void choose_pairs(const finished_run& r, shown_parts& shown) {
   const std::size_t all = r.what.pairs.size();
   const bool on_a_beam = std::holds_alternative<beam>(r.what.geometry.kind);
-  const std::size_t most = std::clamp<std::size_t>(most_pair_states / r.frames.size(), 200,
+  const std::size_t most = std::clamp<std::size_t>(most_pair_states / r.kept.frames().size(), 200,
                                                    on_a_beam ? most_pairs_of_a_beam : most_pairs);
   shown.pairs = evenly(all, most);
   if (shown.pairs.size() == all) return;
@@ -199,7 +199,7 @@ void choose_pairs(const shown_states& r, shown_parts& shown) {
 }
 
 /// The nodes with supports that are drawn.
-void choose_supports(const shown_states& r, shown_parts& shown) {
+void choose_supports(const finished_run& r, shown_parts& shown) {
   std::set<int> nodes;
   for (const support& s : r.what.supports) nodes.insert(s.node);
   const std::vector<int> held(nodes.begin(), nodes.end());
@@ -476,11 +476,11 @@ bool shown_parts::has_support_at(int node) const {
   return std::binary_search(supports.begin(), supports.end(), node);
 }
 
-shown_parts choose_parts(const shown_states& r) {
+shown_parts choose_parts(const finished_run& r) {
   shown_parts shown;
   shown.deflecting = deflecting_nodes(r.what);
   extreme most{shown.deflecting.empty() ? 0 : shown.deflecting.front()};
-  for (const frame& f : r.frames) {
+  for (const frame& f : r.kept.frames()) {
     const extreme here = largest_deflection(r.what, f, shown.deflecting);
     most.take(here.at, here.value);
   }
@@ -499,11 +499,6 @@ shown_parts choose_parts(const shown_states& r) {
     }
     shown.omissions.insert(shown.omissions.end(), a->places.said.begin(), a->places.said.end());
   }
-  return shown;
-}
-
-shown_parts choose_parts(const finished_run& r) {
-  shown_parts shown = choose_parts(shown_states{r.what, r.kept.frames()});
   add_count_omissions(r, shown);
   return shown;
 }

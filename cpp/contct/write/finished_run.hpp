@@ -131,12 +131,6 @@ struct structure_view {
   const char* name;
   const char* words;
   in_space right, up;
-
-  [[nodiscard]] double x_of(const in_space& at) const { return along(right, at); }
-  [[nodiscard]] double y_of(const in_space& at) const { return along(up, at); }
-  static double along(const in_space& axis, const in_space& at) {
-    return axis[0] * at[0] + axis[1] * at[1] + axis[2] * at[2];
-  }
 };
 
 /// Straight on to each plane of the axes, then from the front, a little from the right and from above.
@@ -257,7 +251,7 @@ struct load_piece {
 /// Those that carry any, in order.
 [[nodiscard]] std::vector<load_piece> load_pieces(const problem& p, const beam& b);
 
-/// Which parts of a large run its page and picture show, so that they stay quick to read and to draw: nodes,
+/// Which parts of a large run its page shows, so that they stay quick to read and to draw: nodes,
 /// grid lines and pairs, all counted from 0, rising.
 struct shown_parts {
   std::vector<int> nodes;          ///< of a beam, or of a structure from elsewhere whose places are known
@@ -277,14 +271,6 @@ struct shown_parts {
   [[nodiscard]] bool has_support_at(int node) const;
 };
 
-/// States of a problem, at least one.
-struct shown_states {
-  const problem& what;
-  std::span<const frame> frames;
-};
-
-[[nodiscard]] shown_parts choose_parts(const shown_states& r);
-/// With what else of the run is left out.
 [[nodiscard]] shown_parts choose_parts(const finished_run& r);
 
 /// `count` of the numbers from 0 to `all` - 1, evenly, the first and last among them; all where they are
