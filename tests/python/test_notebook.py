@@ -29,7 +29,7 @@ def outputs(notebook):
 def test_the_stored_outputs_are_what_the_cells_print(notebook, again):
     found = outputs(again)
     assert found == outputs(notebook)
-    assert len(found) >= 7 and sum(text.count("\n") for _, text in found) >= 24
+    assert len(found) >= 7 and sum(text.count("\n") for _, text in found) >= 23
 
 
 def test_the_file_is_what_the_script_writes(again):

@@ -26,7 +26,7 @@ def check(row, has_cholmod):
     others = row["program"] == "calculix"
     floor = (OTHER_ELEMENTS if others else SAME_MATRIX)[row["problem"]]
     if row.get("method", "").endswith("certified"):
-        floor = 14
+        floor = 13  # a bound, which has the rounding of extremes inside elements in it
     assert floor <= row["digits"] <= 15, f"{where}: found {row['digits']:.2f} digits; allowed: {floor} to 15"
     assert row["wrong_statuses"] == 0, f"{where}: found {row['wrong_statuses']} wrong statuses; allowed: 0"
     least = (VALUES_PRINTED if others else VALUES)[row["problem"]]
