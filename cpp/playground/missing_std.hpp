@@ -70,6 +70,14 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
   return {first + text.size(), errc()};
 }
 
+/// The same without a format, for people.
+inline to_chars_result to_chars(char* first, char* last, double value) {
+  const string text = fmt::format("{}", value);
+  if (last - first < static_cast<ptrdiff_t>(text.size())) return {last, errc::value_too_large};
+  memcpy(first, text.data(), text.size());
+  return {first + text.size(), errc()};
+}
+
 namespace ranges {
 
 /// Compares what a projection makes of two elements.

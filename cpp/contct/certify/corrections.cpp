@@ -110,20 +110,17 @@ void error_prover::settle_certain_statuses(std::span<const double_double> u, dou
   }
 }
 
-/// Reactions and element forces that their bounds do not tell from 0 are 0.
-end_numbers error_prover::numbers_of(std::span<const double_double> u, std::span<const int> isep,
-                                     double rho) const {
-  const auto told = [](const double_double& x, double bound) { return std::abs(x.hi) > bound ? x.hi : 0.0; };
+/// Reactions and element forces that are no more than the rounding of 32 digits are 0.
+end_numbers error_prover::numbers_of(std::span<const double_double> u, std::span<const int> isep) const {
+  const auto told = [](const double_double& x, double noise) { return std::abs(x.hi) > noise ? x.hi : 0.0; };
   end_numbers n;
   for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
     const double_double deep = depth(i, u);
     const bool presses = isep[i] == in_contact && deep.hi > 0.0;
     n.pair_forces.push_back(presses ? (true_.pairs[i].stiffness * deep).hi : 0.0);
   }
-  for (const true_reaction& r : reactions_at(u, residual_))
-    n.reactions.push_back(told(r.force, r.slack + r.per_rho * rho));
-  for (const element_value& v : values_)
-    n.element_values.push_back(told(v.value, noise_of(v) + v.energy * rho));
+  for (const true_reaction& r : reactions_at(u, residual_)) n.reactions.push_back(told(r.force, r.slack));
+  for (const element_value& v : values_) n.element_values.push_back(told(v.value, noise_of(v)));
   return n;
 }
 
@@ -149,7 +146,7 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   } else {
     settle_statuses(u, l, isep);
   }
-  return numbers_of(u, isep, refined_bounds_ ? b.rho : 0.0);
+  return numbers_of(u, isep);
 }
 
 bool error_prover::search(int step, double share, std::span<double> displacement, std::span<int> isep) {

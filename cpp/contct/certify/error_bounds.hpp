@@ -110,8 +110,7 @@ class error_prover {
   [[nodiscard]] double correction_for(const long_vector& force, std::vector<double>& correction) const;
   void settle_statuses(std::span<const double_double> u, const true_loads& l, std::span<int> isep) const;
   void settle_certain_statuses(std::span<const double_double> u, double rho, std::span<int> isep) const;
-  [[nodiscard]] end_numbers numbers_of(std::span<const double_double> u, std::span<const int> isep,
-                                       double rho) const;
+  [[nodiscard]] end_numbers numbers_of(std::span<const double_double> u, std::span<const int> isep) const;
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
   [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <utility>
 
 namespace contct::path {
@@ -250,13 +249,14 @@ class stabilized_policy final : public path_policy {
   [[nodiscard]] std::size_t told_of(std::span<const followed_increment> all, std::vector<char> closed,
                                     double reached) const {
     constexpr double rounding = 1e-12;
-    const auto agrees = [&](std::size_t i) { return (closed[i] != 0) == (now_.sprung[i] == in_contact); };
-    const auto pairs = std::views::iota(std::size_t{0}, closed.size());
+    const auto agree = [](char is_closed, int isep) { return (is_closed != 0) == (isep == in_contact); };
     std::size_t told = 0;
     for (std::size_t i = 0; i < all.size() && all[i].fraction <= reached + rounding; ++i) {
       toggle(all[i].events, closed);
       const bool ends = all[i].fraction == 1.0 && all[i].events.empty();
-      if (all[i].fraction < reached || (!ends && std::ranges::all_of(pairs, agrees))) told = i + 1;
+      if (all[i].fraction < reached ||
+          (!ends && std::equal(closed.begin(), closed.end(), now_.sprung.begin(), agree)))
+        told = i + 1;
     }
     return told;
   }
