@@ -179,14 +179,20 @@ TEST_CASE(
 }
 
 TEST_CASE("The corrected rule gives a pair of next to no stiffness the status that it certainly has") {
-  // One spring carries all of the load, the other, beyond its face, next to nothing.
-  const std::string text =
-      "[beam]\nx = [0.0, 1.0]\nEI = 1.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
-      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1e-6\nstiffness = 1e12\n"
-      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1e-8\nstiffness = 1e-18\n"
-      "[[step]]\npoint = [ { node = 2, w = -1e5 } ]\n";
-  const judged_run r(text, "corrected");
-  CHECK(r.statuses.at(0) == std::vector<int>{in_contact, in_contact});
+  problem p;
+  assembled a;
+  a.name = "soft.mtx";
+  a.stiffness = {2, {{0, 0, 29e-14}, {1, 0, -9e-2}, {1, 1, 10e10}}, {}};
+  a.rows = {0, 1};
+  p.geometry = {a};
+  p.pairs = {{1, face_below, -2e-8, 2.42e10, false},   {1, face_below, -2.5e-7, 7.21e12, false},
+             {0, face_above, 8.07e4, 1.76e-11, false}, {0, face_below, -3.19e5, 1.02e-15, false},
+             {1, face_below, -5.1e-7, 1.4e13, false},  {1, face_below, -2e-7, 1.19e13, false}};
+  p.steps = {{{{0, 0, 3.78e-7}, {1, 0, -5.47e5}}, {}}};
+  const judged_run r(p, "corrected");
+  // The third one, 18600 beyond its face, carries 3.3e-7 of a load of 5.5e5.
+  CHECK(r.statuses.at(0) ==
+        std::vector<int>{in_contact, separated, in_contact, separated, separated, in_contact});
   CHECK(r.of_step(1).exact);
 }
 
