@@ -42,7 +42,8 @@ TEST_CASE("0.1 + 0.2 - 0.3 is no load, and 1e-300 beside 1e12 is one") {
   CHECK(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}, {1, 0, 1e-300}})));
   CHECK(driven(s, points({{1, 0, 1e12}, {1, 0, -1e12}, {1, 0, 1e-300}})));
   const model m{beam_at({0, 1, 2})};
-  CHECK_FALSE(driven_by_rounded(m, s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));  // in doubles 5.6e-17
+  CHECK_FALSE(
+      driven_by_rounded(m, s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));  // in doubles 5.6e-17
 }
 
 TEST_CASE("a load over a support turns the beam about it only with a moment, however small") {

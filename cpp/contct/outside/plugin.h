@@ -33,7 +33,8 @@ CONTCT_KERNEL_EXPORT int contct_kernel_abi(void);
  *   smin    out          the least positive s below 1; 1 when there is none. On entry it means nothing
  *   id      in   [nc]    each pair's node, from 1
  *   isep    both [nc]    +1 separated, -1 in contact; toggle the pairs that have an event
- *   isurf   in   [nc]    the side on which a pair's face stands: +1 above, -1 below; isep[i] * isurf[i] has 32 bits
+ *   isurf   in   [nc]    the side on which a pair's face stands: +1 above, -1 below; the product of
+ *                        isep[i] and isurf[i] fits 32 bits
  *   nc      in           number of pairs, 0 to 2147483646
  *   indof   in           INDOF: which dof of a node deflects, from 1 to ndofpn
  *   ndofpn  in           NDOFPN: dofs of a node

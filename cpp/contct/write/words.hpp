@@ -54,8 +54,8 @@ constexpr std::string_view end_reason(path_status status) {
 /// A few words for a step: "certified", "NOT certified", or "no certificate".
 [[nodiscard]] std::string certificate_mark(const std::optional<certificate>& c);
 
-/// "7 digits" of every number of a state, as proved; "10+ digits" where there are more, which depend on the LAPACK in
-/// use.
+/// "7 digits" of every number of a state, as proved; "10+ digits" where there are more, which depend on the
+/// LAPACK in use.
 [[nodiscard]] std::string digits_words(const certificate& c);
 
 /// One line for a whole run, in parts: that it is certified and how closely, or the first step that is not.
