@@ -502,7 +502,8 @@ error_bounds error_prover::bound(const handed_out& state) {
   const true_loads& l = loads_of(state.step);
   if (is_below_range(l)) {
     b.not_proved =
-        "the problem has numbers, or cubes of lengths, near or below the smallest normal double (2e-308)";
+        "the problem has numbers, or cubes of lengths, below 1e-280: too near the smallest normal double, "
+        "2e-308";
     return b;
   }
   if (is_unloaded(l)) {
