@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 PROGRAM, LIBRARY, PLUGIN = (Path(a).resolve() for a in sys.argv[1:4])
-ALL = "--all" in sys.argv[4:]
+TIMES = 6 if "--more" in sys.argv[4:] else 1  # how often a sample is taken
 PROBLEM = """title = "Faults"
 [beam]
 x = [0.0, 1.0, 2.0]

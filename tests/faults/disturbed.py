@@ -1,4 +1,4 @@
-"""python3 tests/faults/disturbed.py CONTCT LIBRARY PLUGIN [--all]: signals, limits of memory, locales, odd names of files,
+"""python3 tests/faults/disturbed.py CONTCT LIBRARY PLUGIN [--more]: signals, limits of memory, locales, odd names of files,
 and files that change while they are read.
 
 Whatever comes at whatever moment: the program ends by itself or by the signal, a file is whole or what it was before, and
@@ -16,7 +16,7 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from commands import ALL, LIBRARY, OUTPUTS, PROBLEM, PROGRAM, commands
+from commands import TIMES, LIBRARY, OUTPUTS, PROBLEM, PROGRAM, commands
 
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGUSR1, signal.SIGALRM]
 checks = 0
@@ -46,7 +46,7 @@ def signals_at_calls(all_commands) -> None:
     for command in all_commands:
         for kind in ("write", "openat", "rename", "close", "pread"):
             count = command.calls(kind)
-            picked = range(1, count + 1) if ALL else sorted(random.sample(range(1, count + 1), min(count, 6)))
+            picked = sorted(random.sample(range(1, count + 1), min(count, 6 * TIMES)))
             for number in picked:
                 for no_link in ({}, {"FAULT_NO_LINK": "1"}):
                     which = SIGNALS[(number + len(no_link)) % len(SIGNALS)]
@@ -98,7 +98,7 @@ def limits_at_moments() -> None:
         status, _, said = contct(folder, "run", "p.toml", "--quiet", *OUTPUTS)
         lasts = time.monotonic() - begun
         whole = {f.name: untimed(f.read_bytes()) for f in folder.iterdir()}
-        for _ in range(100 if ALL else 40):
+        for _ in range(100 if TIMES > 1 else 40):
             for name in whole.keys() - {"p.toml"}:
                 (folder / name).write_bytes(b"before\n")
             status, _, said = contct(folder, "run", "p.toml", "--quiet", *OUTPUTS, "--max-seconds",
@@ -121,7 +121,7 @@ def memory_steps() -> None:
         folder = Path(scratch)
         (folder / "p.toml").write_text(PROBLEM)
         solved = ended = 0
-        for mib in range(20, 400, 2 if ALL else 9):
+        for mib in range(20, 400, 2 if TIMES > 1 else 9):
             def limited(bytes_allowed=mib << 20):
                 resource.setrlimit(resource.RLIMIT_AS, (bytes_allowed, bytes_allowed))
             status, _, said = contct(folder, "run", "p.toml", "--quiet", *OUTPUTS, before=limited,
@@ -214,7 +214,7 @@ def changing_files() -> None:
         folder = Path(scratch)
         data = large.encode()
         file = folder / "p.toml"
-        for i in range(100 if ALL else 30):
+        for i in range(100 if TIMES > 1 else 30):
             file.write_bytes(data)
             over = threading.Event()
 

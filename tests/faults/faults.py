@@ -1,25 +1,24 @@
-"""python3 tests/faults/faults.py CONTCT LIBRARY PLUGIN [--all]: one call of the program fails, every one in turn.
+"""python3 tests/faults/faults.py CONTCT LIBRARY PLUGIN [--more]: one call of the program fails, one after another.
 
 LIBRARY is tests/faults/fail.c, preloaded; PLUGIN is a kernel that differs from CONTCT, for `fuzz --out` to find. Of every
-kind of call a sample fails; --all: each one. Whatever fails, the program ends by itself: as without the fault, with all its
+kind of call a sample fails; --more: six times as many. Whatever fails, the program ends by itself: as without the fault, with all its
 files; or with exit status 2 and one message. A file is whole, or what it was before. Nothing else is left behind."""
 import os
 import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-from commands import ALL, commands
+from commands import TIMES, commands
 
 KINDS = {"malloc": 0, "memory": 0, "write": 28, "read": 5, "openat": 13, "close": 5, "linkat": 1, "rename": 28, "fsync": 5, "pread": 5,
          "fcntl": 9, "lseek": 29, "fchmod": 1, "mkdir": 13, "unlink": 13}
 SAMPLE = {"malloc": 24, "memory": 6, "write": 24, "openat": 16}
-MOST = {"memory": 200}  # also with --all: "new" and "malloc" have each of them
 LEAST_RUNS, LEAST_FAILED, LEAST_CHILDREN = 300, 100, 1000
 NO_MEMORY = "contct: memory does not suffice; the command is stopped\n"
 
 
 def chosen(count: int, kind: str) -> list[int]:
-    most = MOST.get(kind, count) if ALL else SAMPLE.get(kind, 8)
+    most = TIMES * SAMPLE.get(kind, 8)
     if count <= most:
         return list(range(1, count + 1))
     return sorted({1 + i * (count - 1) // (most - 1) for i in range(most)})
@@ -28,7 +27,7 @@ def chosen(count: int, kind: str) -> list[int]:
 def children(command) -> tuple[int, str]:
     """Every allocation by operator new and by GMP, or a sample, fails in a process of its own: how many, and what is wrong."""
     count = command.calls("new")
-    every = 1 if ALL else count // 400 + 1
+    every = count // (400 * TIMES) + 1
     status, files, said = command.run({"FAULT_CALL": "new", "FAULT_EVERY": str(every)})
     ended = said.count(NO_MEMORY)
     if status != command.status or files != command.made:
@@ -58,7 +57,7 @@ def main() -> None:
             here = 0
             for number in chosen(count, kind):
                 for more in ((), ("FAULT_MORE",)):
-                    if kind == "memory" and not more or kind == "malloc" and more or more and not ALL and number % 3 != 0 and kind not in ("write", "memory"):
+                    if kind == "memory" and not more or kind == "malloc" and more or more and number % 3 != 0 and kind not in ("write", "memory"):
                         continue
                     fault = {"FAULT_CALL": kind, "FAULT_AT": str(number), "FAULT_ERRNO": str(error)} | dict.fromkeys(more, "1")
                     wrong, ended = command.wrong(fault)
