@@ -1,11 +1,11 @@
 #!/bin/sh
 # Installs what is missing, builds, and passes all tests: sh tests/run.sh [--full] [LEG]...
-# LEG: another preset that is built and tested first: core (without the program), asan and asan-core (sanitizers and
-# gfortran's run-time checks), tsan (threads). --full has all of these but asan-core, which asan contains, and adds what
-# takes longer: certificates against the exact path, the mutants of both kernels, more failing calls of the system, the
-# exact numbers of all reference problems, a second LAPACK, the programs built in another folder, CalculiX, other
-# processors, page and playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian packages
-# in a bare Debian, formatting and clang-tidy.
+# LEG: another preset that is built and tested first: core (without the program, with sanitizers and gfortran's run-time
+# checks), asan (the same with the program), tsan (threads). --full has all of them, and adds what takes longer:
+# certificates against the exact path, the mutants of both kernels, more failing calls of the system, the exact numbers of
+# all reference problems, a second LAPACK, the programs built in another folder, CalculiX, other processors, page and
+# playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian packages in a bare Debian,
+# formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -16,8 +16,8 @@ legs=""
 for argument in "$@"; do
   case $argument in
     --full) full=yes ;;
-    core | asan | asan-core | tsan) legs="$legs $argument" ;;
-    *) echo "usage: sh tests/run.sh [--full] [core] [asan] [asan-core] [tsan]" >&2; exit 2 ;;
+    core | asan | tsan) legs="$legs $argument" ;;
+    *) echo "usage: sh tests/run.sh [--full] [core] [asan] [tsan]" >&2; exit 2 ;;
   esac
 done
 [ "$full" = no ] || legs="core asan tsan"

@@ -139,8 +139,9 @@ TEST_CASE(
         const std::optional<certificate>& c = r.judged.steps()[step - 1];
         if (!c || !c->exact) continue;
         ++certified;
-        INFO(kernel << ", beam " << number << ", step " << step);
-        CHECK(false_claim(r, truly, step) == "");
+        const std::string claim = false_claim(r, truly, step);
+        INFO(kernel << ", beam " << number << ", step " << step << ": " << claim);
+        CHECK(claim.empty());
       }
     }
     CAPTURE(kernel, certified);

@@ -37,8 +37,8 @@ std::vector<std::string> module_places(const std::string& program, const std::st
 
 ranks& join_ranks(const std::vector<std::string>& places, const std::string& version) {
   std::string file;
-  for (auto p = places.rbegin(); p != places.rend(); ++p)
-    if (fs::exists(*p)) file = *p;
+  for (const std::string& p : places)
+    if (file.empty() && fs::exists(p)) file = p;
   if (file.empty())
     throw std::runtime_error("engine petsc: found no module " + text::joined(places, " or ") + ". " +
                              how_to_get_it);

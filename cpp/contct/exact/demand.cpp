@@ -23,7 +23,7 @@ void put_structure(const assembled& a, demand& d) {
   d.entries = 2 * static_cast<std::int64_t>(a.stiffness.entries.size());
 }
 
-constexpr std::int64_t bits_of_double = 17 * 4;  // its shortest decimal has 17 digits at most
+constexpr std::int64_t bits_of_double = std::int64_t{17} * 4;  // its shortest decimal has 17 digits at most
 
 // A rational is two numbers of 16 bytes and their bits; a node of a map has 40 more and its place.
 constexpr std::int64_t bytes_of_rational = 32;

@@ -87,7 +87,7 @@ struct reader_gone : output_error {
 
 /// Print to standard output, as `terminal_text` has it; on a terminal colours stay. That it cannot be printed
 /// ends nothing: flush_standard_output tells it, after the files are written.
-void print_text(std::string_view text);
+void print_text(std::string_view raw);
 
 /// Flush standard output. Throws output_error when anything printed, now or before, could not be written;
 /// reader_gone where it is a pipe without a reader.

@@ -178,7 +178,7 @@ std::string csv_field(std::string_view raw) {
   const std::string_view behind_blanks = raw.substr(std::min(raw.find_first_not_of(" \n"), raw.size()));
   const bool formula =
       std::ranges::any_of(beginnings, [&](std::string_view b) { return behind_blanks.starts_with(b); });
-  const std::string text = (formula ? "'" : "") + terminal_text(raw);
+  std::string text = (formula ? "'" : "") + terminal_text(raw);
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -63,7 +63,7 @@ class table final : public observer {
 };
 
 /// A field of a table in a file: quoted where it has to be.
-[[nodiscard]] std::string csv_field(std::string_view text);
+[[nodiscard]] std::string csv_field(std::string_view raw);
 
 /// Observes a path and writes it as it goes, by RFC 4180, numbers with all their digits: memory does not grow
 /// with its length.

@@ -94,9 +94,10 @@ bool is_found(const std::string& program) {
 bool run_program(const std::string& program, const std::vector<std::string>& arguments,
                  const std::string& log) {
   constexpr unsigned most_seconds = 900;
-  const std::string path = path_of(program);
-  std::vector<char*> line = {const_cast<char*>(path.c_str())};
-  for (const std::string& a : arguments) line.push_back(const_cast<char*>(a.c_str()));
+  std::vector<std::string> words = {path_of(program)};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> line;
+  for (std::string& w : words) line.push_back(w.data());
   line.push_back(nullptr);
   (void)std::fflush(nullptr);  // the child would write it once more
   const pid_t child = fork();
