@@ -134,7 +134,7 @@ exit_status run_command(const new_options& options) {
 /// A problem for another program.
 exit_status run_command(const export_options& options) {
   const std::vector<output_option> outputs = {{"--calculix", options.calculix}};
-  const problem p = read_with_progress(options.file, outputs, options.limits, false);
+  const problem p = read_with_progress(options.file, outputs, options.allow_outside, false);
   const calculix_deck deck = calculix_deck_of(p, options.choice);
   const output_files files(outputs);
   output_file& file = *files["--calculix"];

@@ -26,13 +26,6 @@ struct report_options {
   std::string junit, markdown;
 };
 
-/// What a problem from a stranger may do.
-struct problem_limits {
-  bool allow_outside = false;   ///< name files that are not below its own folder
-  double max_seconds = 0.0;     ///< 0: any time
-  std::int64_t max_memory = 0;  ///< in MiB; 0: any
-};
-
 /// What `contct run` draws and tabulates.
 struct picture_options {
   std::string html, csv, vtu;
@@ -55,14 +48,14 @@ struct run_options {
   bool displacement = false;  ///< in the result of an MPI job too: every dof, and not only w
   std::string
       watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
-  int max_increments = 0;  ///< in a step; 0: the default limit
-  problem_limits limits = {};
+  int max_increments = 0;      ///< in a step; 0: the default limit
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct check_options {
   std::string file;
   bool quiet = false;
-  problem_limits limits = {};
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct explain_options {
@@ -76,7 +69,7 @@ struct explain_options {
   bool hex = false;    ///< with the bits of s and SMIN
   std::string json;
   bool quiet = false;
-  problem_limits limits = {};
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct exact_options {
@@ -86,7 +79,7 @@ struct exact_options {
   int digits = 20;
   std::string json;
   bool quiet = false;
-  problem_limits limits = {};
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct new_options {
@@ -129,7 +122,7 @@ struct atlas_options {
 struct export_options {
   std::string file, calculix;
   calculix_choice choice;
-  problem_limits limits = {};
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct convert_options {

@@ -129,15 +129,9 @@ class option_parser {
   CLI::Option* add_problem_file(CLI::App* command, std::string& file) {
     return add(command, takes::file, "FILE", file, "The problem (TOML); - reads standard input")->required();
   }
-  void add_limits(CLI::App* command, problem_limits& limits) {
-    command->add_flag("--allow-outside", limits.allow_outside,
+  static void add_allow_outside(CLI::App* command, bool& allow_outside) {
+    command->add_flag("--allow-outside", allow_outside,
                       "The problem may name files that are not below its own folder");
-    add(command, takes::number, "--max-seconds", limits.max_seconds,
-        "Stop after so many seconds, with exit status 5")
-        ->check(CLI::Range(0.001, 1e9));
-    add(command, takes::number, "--max-memory", limits.max_memory,
-        "Stop where more memory than so many MiB is needed, with exit status 5")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
   }
   CLI::Option* add_kernels(CLI::App* command, const std::string& name, std::vector<std::string>& kernels,
                            const std::string& text) {
@@ -285,7 +279,7 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   p.add_file(c, "--log", o.log, "Write the leader's unit 26 to this file");
   p.add_file(c, "--proof", o.proof,
              "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
-  p.add_limits(c, o.limits);
+  option_parser::add_allow_outside(c, o.allow_outside);
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
                                 "--html", "--csv", "--vtu", "--envelope", "--node"})
     final_only->excludes(c->get_option(of_a_path));
@@ -313,7 +307,7 @@ void declare_explain(option_parser& p, const std::vector<std::string>& engines) 
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
-  p.add_limits(c, o.limits);
+  option_parser::add_allow_outside(c, o.allow_outside);
 }
 
 void declare_check(option_parser& p) {
@@ -321,7 +315,7 @@ void declare_check(option_parser& p) {
       p.command<check_options>("check", "Read a problem without solving it, and print a summary");
   p.add_problem_file(c, o.file);
   option_parser::add_quiet(c, o.quiet);
-  p.add_limits(c, o.limits);
+  option_parser::add_allow_outside(c, o.allow_outside);
 }
 
 void declare_exact(option_parser& p) {
@@ -340,7 +334,7 @@ void declare_exact(option_parser& p) {
       ->capture_default_str();
   p.add_file(c, "--json", o.json, "Write every number as \"p/q\" to this file (- is standard output)");
   option_parser::add_quiet(c, o.quiet);
-  p.add_limits(c, o.limits);
+  option_parser::add_allow_outside(c, o.allow_outside);
 }
 
 void declare_new(option_parser& p) {
@@ -419,7 +413,7 @@ void declare_export(option_parser& p) {
   p.add(c, takes::number, "--slenderness", o.choice.slenderness, "The structure's length over its thickness")
       ->check(CLI::Range(10.0, 10'000.0))
       ->capture_default_str();
-  p.add_limits(c, o.limits);
+  option_parser::add_allow_outside(c, o.allow_outside);
 }
 
 void declare_convert(option_parser& p) {
