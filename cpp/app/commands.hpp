@@ -13,7 +13,6 @@
 
 #include "contct/lab/atlas.hpp"
 #include "contct/lab/fuzz.hpp"
-#include "contct/write/calculix_deck.hpp"
 #include "contct/write/exit_status.hpp"
 
 namespace contct::app {
@@ -119,12 +118,6 @@ struct atlas_options {
   bool quiet = false;
 };
 
-struct export_options {
-  std::string file, calculix;
-  calculix_choice choice;
-  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
-};
-
 struct convert_options {
   std::string input, output;
   bool quiet = false;
@@ -145,10 +138,9 @@ struct printed_text {
 };
 
 /// What a command line asks for: one command, or a text.
-using command_options =
-    std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
-                 verify_options, fuzz_options, replay_options, atlas_options, export_options, convert_options,
-                 kernels_options, completion_options, manual_options>;
+using command_options = std::variant<printed_text, run_options, check_options, explain_options, exact_options,
+                                     new_options, verify_options, fuzz_options, replay_options, atlas_options,
+                                     convert_options, kernels_options, completion_options, manual_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -214,7 +206,6 @@ exit_status run_command(const verify_options& options);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
 exit_status run_command(const atlas_options& options);
-exit_status run_command(const export_options& options);
 exit_status run_command(const convert_options& options);
 exit_status run_command(const kernels_options& options);
 exit_status run_command(const completion_options& options);

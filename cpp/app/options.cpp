@@ -28,7 +28,6 @@ constexpr example all_examples[] = {
     {"contct run beam.toml --final-only", "no path: the reference solution at the end of each step"},
     {"contct run beam.toml --html beam.html", "a report as one HTML page"},
     {"contct check beam.toml", "a summary of a problem, without solving it"},
-    {"contct export beam.toml --calculix beam.inp", "the end of the last step, for CalculiX to solve"},
     {"contct convert K.mtx K.petsc", "a stiffness matrix in PETSc's binary, whose doubles are equal"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
@@ -399,23 +398,6 @@ void declare_atlas(option_parser& p) {
   option_parser::add_quiet(c, o.quiet);
 }
 
-void declare_export(option_parser& p) {
-  const auto [c, o] = p.command<export_options>("export", "Write a beam or a plate as input for CalculiX");
-  p.add_problem_file(c, o.file);
-  p.add_file(c, "--calculix", o.calculix,
-             "Write CalculiX's input to this file, JOB.inp (- is standard output)")
-      ->required();
-  p.add(c, takes::number, "--step", o.choice.step, "The load step whose end is written [the last]")
-      ->check(CLI::Range(1, 1'000'000'000));
-  p.add(c, takes::number, "--refine", o.choice.refine, "Elements for each of the problem's, along each side")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  p.add(c, takes::number, "--slenderness", o.choice.slenderness, "The structure's length over its thickness")
-      ->check(CLI::Range(10.0, 10'000.0))
-      ->capture_default_str();
-  option_parser::add_allow_outside(c, o.allow_outside);
-}
-
 void declare_convert(option_parser& p) {
   const auto [c, o] = p.command<convert_options>(
       "convert", "Turn a stiffness matrix in Matrix Market into PETSc's binary, or back");
@@ -476,7 +458,6 @@ constexpr std::pair<const char*, declare_command> all_commands[] = {
            p, p.program.add_subcommand("replay", "Repeat recorded calls with a kernel; needs no LAPACK"));
      }},
     {"atlas", [](option_parser& p, const auto&) { declare_atlas(p); }},
-    {"export", [](option_parser& p, const auto&) { declare_export(p); }},
     {"convert", [](option_parser& p, const auto&) { declare_convert(p); }},
     {"kernels",
      [](option_parser& p, const auto&) {

@@ -111,7 +111,6 @@ TEST_CASE("numbers that are not given are told from numbers that are") {
   CHECK(parsed<explain_options>({"explain", "f", "--increment", "2.1"}).increment == "2.1");
   CHECK_FALSE(parsed<fuzz_options>({"fuzz"}).problems.has_value());
   CHECK(parsed<fuzz_options>({"fuzz", "--problems", "0"}).problems == 0);
-  CHECK(parsed<export_options>({"export", "f", "--calculix", "c"}).choice.step == 0);
 }
 
 TEST_CASE("numbers outside their range are refused, with the range") {
@@ -119,14 +118,13 @@ TEST_CASE("numbers outside their range are refused, with the range") {
   CHECK_THAT(refusal({"atlas", "--problems", "1000001"}), Contains("1000000"));
   CHECK_THAT(refusal({"atlas", "--seed", "-1"}), Contains("found -1; allowed: a whole number, at least 0"));
   CHECK_THAT(refusal({"fuzz", "--calls", "0"}), Contains("--calls"));
-  CHECK_THAT(refusal({"export", "f", "--calculix", "c", "--refine", "65"}), Contains("64"));
   CHECK_THAT(refusal({"completion", "tcsh"}), Contains("tcsh") && Contains("bash"));
 }
 
 TEST_CASE("the options --help and --version are texts, not commands") {
   const auto help = parsed<printed_text>({"--help"}).text;
   for (const char* command : {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "atlas",
-                              "export", "convert", "kernels", "completion", "man"})
+                              "convert", "kernels", "completion", "man"})
     CHECK_THAT(help, Contains("\n  " + std::string(command) + " "));
   CHECK_THAT(help, Contains("Examples:\n  contct run beam.toml\n"));
   CHECK_THAT(parsed<printed_text>({"run", "--help"}).text, Contains("--max-increments"));

@@ -77,7 +77,6 @@ std::vector<words> questions(const std::string& file) {
                             {"explain", file, "--quiet", "--json", "-"},
                             {"exact", file, "--kernels", "fortran"},
                             {"exact", file, "--quiet", "--json", "-"},
-                            {"export", file, "--calculix", "-"},
                             {"check", file}};
   for (const char* output :
        {"--json", "--html", "--csv", "--log", "--trace", "--proof", "--junit", "--markdown"})
