@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -124,13 +123,6 @@ struct convert_options {
 };
 
 struct kernels_options {};
-struct manual_options {
-  std::string page;  ///< "problem" or "result"; empty: the program's own
-};
-
-struct completion_options {
-  std::string shell;  ///< "bash", "zsh" or "fish"
-};
 
 /// What --help and --version print.
 struct printed_text {
@@ -140,7 +132,7 @@ struct printed_text {
 /// What a command line asks for: one command, or a text.
 using command_options = std::variant<printed_text, run_options, check_options, explain_options, exact_options,
                                      new_options, verify_options, fuzz_options, replay_options, atlas_options,
-                                     convert_options, kernels_options, completion_options, manual_options>;
+                                     convert_options, kernels_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -150,50 +142,6 @@ using command_options = std::variant<printed_text, run_options, check_options, e
 
 /// The command line of `contct-replay`: printed_text or replay_options. Throws likewise.
 [[nodiscard]] command_options parse_contct_replay(int argc, const char* const* argv);
-
-/// What an option or a positional argument takes: the shells complete it accordingly.
-enum class takes { nothing, number, file, kernels, word };
-
-struct option_description {
-  std::string name;   ///< "--json", or "FILE" for a positional one
-  std::string value;  ///< what follows it, for people: "TEXT"; empty for a flag
-  std::string text;
-  std::string default_value;  ///< may be empty
-  takes kind = takes::nothing;
-  std::vector<std::string> words;  ///< all that it takes, where that is a list
-  bool required = false;
-};
-
-struct command_description {
-  std::string name, text;
-  std::vector<option_description> options;  ///< with --help, and without positionals
-  std::vector<option_description> positionals;
-};
-
-/// A command line to start from: under --help, in the manual, and run by the tests as it stands.
-struct example {
-  std::string_view line;  ///< "contct run beam.toml"
-  std::string_view text;  ///< what it is good for
-};
-
-/// What the manual and the shells' completions are made of.
-struct program_description {
-  std::vector<option_description> options;    ///< before any command
-  std::vector<command_description> commands;  ///< in the program's order
-  std::span<const example> examples;
-};
-
-/// The names of options or commands.
-template <class Described>
-[[nodiscard]] std::vector<std::string> names_of(const std::vector<Described>& all) {
-  std::vector<std::string> names;
-  names.reserve(all.size());
-  for (const Described& d : all) names.push_back(d.name);
-  return names;
-}
-
-/// `engines` as in parse_contct.
-[[nodiscard]] program_description describe_contct(const std::vector<std::string>& engines);
 
 // Each runs one command and returns its exit status. All throw a std::exception whose what() is a message for
 // the user.
@@ -208,19 +156,9 @@ exit_status run_command(const replay_options& options);
 exit_status run_command(const atlas_options& options);
 exit_status run_command(const convert_options& options);
 exit_status run_command(const kernels_options& options);
-exit_status run_command(const completion_options& options);
-exit_status run_command(const manual_options& options);
 inline exit_status run_command(const printed_text& t) {
   (void)std::fputs(t.text.c_str(), stdout);
   return exit_status::solved;
 }
-
-/// contct(1), in the man macros of roff.
-[[nodiscard]] std::string manual_page(const program_description& program);
-
-// Scripts that make a shell complete the words of contct.
-[[nodiscard]] std::string bash_completion(const program_description& program);
-[[nodiscard]] std::string zsh_completion(const program_description& program);
-[[nodiscard]] std::string fish_completion(const program_description& program);
 
 }  // namespace contct::app

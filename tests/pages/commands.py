@@ -62,9 +62,7 @@ def reasons(path):
 
 
 def as_run(command):
-    """The command with files in the place of names, and without man where there is none."""
-    if not shutil.which("man"):
-        command = command.replace(" | man -l -", "")
+    """The command with files in the place of names."""
     words = [NAMES.get(word, word) for word in command.split(" ")]
     if words[:2] == ["contct", "new"]:
         words = [word.replace(PB07, "new.toml") for word in words]
