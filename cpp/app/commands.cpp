@@ -1,4 +1,4 @@
-// The commands that need few lines: new, export, atlas and kernels.
+// The commands that need few lines: new, atlas and kernels.
 #include "app/commands.hpp"
 
 #include <filesystem>
@@ -128,25 +128,6 @@ exit_status run_command(const new_options& options) {
   out.write(text);
   out.finish();
   if (file != "-") print_text(fmt::format("{} is written; next: contct run {}\n", file, file));
-  return exit_status::solved;
-}
-
-/// A problem for another program.
-exit_status run_command(const export_options& options) {
-  const std::vector<output_option> outputs = {{"--calculix", options.calculix}};
-  const problem p = read_with_progress(options.file, outputs, options.limits, false);
-  const calculix_deck deck = calculix_deck_of(p, options.choice);
-  const output_files files(outputs);
-  output_file& file = *files["--calculix"];
-  file.write(deck.text);
-  if (!file.is_standard_output()) {
-    print_text(fmt::format("{}: step {} of {}, {} elements, {} nodes, {} pairs\n", options.calculix,
-                           deck.step, p.steps.size(), deck.elements, deck.nodes, p.pairs.size()));
-    print_text(fmt::format("displacements are {:.12e} times the problem's, forces {:.12e} times\n",
-                           deck.displacement_scale, deck.force_scale));
-  }
-  flush_standard_output();
-  file.finish();
   return exit_status::solved;
 }
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -13,7 +12,6 @@
 
 #include "contct/lab/atlas.hpp"
 #include "contct/lab/fuzz.hpp"
-#include "contct/write/calculix_deck.hpp"
 #include "contct/write/exit_status.hpp"
 
 namespace contct::app {
@@ -24,13 +22,6 @@ namespace contct::app {
 struct report_options {
   bool quiet = false;
   std::string junit, markdown;
-};
-
-/// What a problem from a stranger may do.
-struct problem_limits {
-  bool allow_outside = false;   ///< name files that are not below its own folder
-  double max_seconds = 0.0;     ///< 0: any time
-  std::int64_t max_memory = 0;  ///< in MiB; 0: any
 };
 
 /// What `contct run` draws and tabulates.
@@ -55,14 +46,14 @@ struct run_options {
   bool displacement = false;  ///< in the result of an MPI job too: every dof, and not only w
   std::string
       watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
-  int max_increments = 0;  ///< in a step; 0: the default limit
-  problem_limits limits = {};
+  int max_increments = 0;      ///< in a step; 0: the default limit
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct check_options {
   std::string file;
   bool quiet = false;
-  problem_limits limits = {};
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct explain_options {
@@ -76,7 +67,7 @@ struct explain_options {
   bool hex = false;    ///< with the bits of s and SMIN
   std::string json;
   bool quiet = false;
-  problem_limits limits = {};
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct exact_options {
@@ -86,7 +77,7 @@ struct exact_options {
   int digits = 20;
   std::string json;
   bool quiet = false;
-  problem_limits limits = {};
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct new_options {
@@ -126,25 +117,12 @@ struct atlas_options {
   bool quiet = false;
 };
 
-struct export_options {
-  std::string file, calculix;
-  calculix_choice choice;
-  problem_limits limits = {};
-};
-
 struct convert_options {
   std::string input, output;
   bool quiet = false;
 };
 
 struct kernels_options {};
-struct manual_options {
-  std::string page;  ///< "problem" or "result"; empty: the program's own
-};
-
-struct completion_options {
-  std::string shell;  ///< "bash", "zsh" or "fish"
-};
 
 /// What --help and --version print.
 struct printed_text {
@@ -152,10 +130,9 @@ struct printed_text {
 };
 
 /// What a command line asks for: one command, or a text.
-using command_options =
-    std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
-                 verify_options, fuzz_options, replay_options, atlas_options, export_options, convert_options,
-                 kernels_options, completion_options, manual_options>;
+using command_options = std::variant<printed_text, run_options, check_options, explain_options, exact_options,
+                                     new_options, verify_options, fuzz_options, replay_options, atlas_options,
+                                     convert_options, kernels_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -165,50 +142,6 @@ using command_options =
 
 /// The command line of `contct-replay`: printed_text or replay_options. Throws likewise.
 [[nodiscard]] command_options parse_contct_replay(int argc, const char* const* argv);
-
-/// What an option or a positional argument takes: the shells complete it accordingly.
-enum class takes { nothing, number, file, kernels, word };
-
-struct option_description {
-  std::string name;   ///< "--json", or "FILE" for a positional one
-  std::string value;  ///< what follows it, for people: "TEXT"; empty for a flag
-  std::string text;
-  std::string default_value;  ///< may be empty
-  takes kind = takes::nothing;
-  std::vector<std::string> words;  ///< all that it takes, where that is a list
-  bool required = false;
-};
-
-struct command_description {
-  std::string name, text;
-  std::vector<option_description> options;  ///< with --help, and without positionals
-  std::vector<option_description> positionals;
-};
-
-/// A command line to start from: under --help, in the manual, and run by the tests as it stands.
-struct example {
-  std::string_view line;  ///< "contct run beam.toml"
-  std::string_view text;  ///< what it is good for
-};
-
-/// What the manual and the shells' completions are made of.
-struct program_description {
-  std::vector<option_description> options;    ///< before any command
-  std::vector<command_description> commands;  ///< in the program's order
-  std::span<const example> examples;
-};
-
-/// The names of options or commands.
-template <class Described>
-[[nodiscard]] std::vector<std::string> names_of(const std::vector<Described>& all) {
-  std::vector<std::string> names;
-  names.reserve(all.size());
-  for (const Described& d : all) names.push_back(d.name);
-  return names;
-}
-
-/// `engines` as in parse_contct.
-[[nodiscard]] program_description describe_contct(const std::vector<std::string>& engines);
 
 // Each runs one command and returns its exit status. All throw a std::exception whose what() is a message for
 // the user.
@@ -221,22 +154,11 @@ exit_status run_command(const verify_options& options);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
 exit_status run_command(const atlas_options& options);
-exit_status run_command(const export_options& options);
 exit_status run_command(const convert_options& options);
 exit_status run_command(const kernels_options& options);
-exit_status run_command(const completion_options& options);
-exit_status run_command(const manual_options& options);
 inline exit_status run_command(const printed_text& t) {
   (void)std::fputs(t.text.c_str(), stdout);
   return exit_status::solved;
 }
-
-/// contct(1), in the man macros of roff.
-[[nodiscard]] std::string manual_page(const program_description& program);
-
-// Scripts that make a shell complete the words of contct.
-[[nodiscard]] std::string bash_completion(const program_description& program);
-[[nodiscard]] std::string zsh_completion(const program_description& program);
-[[nodiscard]] std::string fish_completion(const program_description& program);
 
 }  // namespace contct::app

@@ -10,7 +10,7 @@ namespace contct::app {
 exit_status run_command(const exact_options& options) {
   for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
   const std::vector<output_option> outputs = {{"--json", options.json}};
-  const problem p = read_with_progress(options.file, outputs, options.limits, options.quiet);
+  const problem p = read_with_progress(options.file, outputs, options.allow_outside, options.quiet);
   const exact_problem exactly = exactly_read(p, options.file);
   const output_files files(outputs);
   progress path_shown(static_cast<std::int64_t>(p.steps.size()), "steps", options.quiet);

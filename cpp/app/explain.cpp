@@ -97,7 +97,7 @@ exit_status run_command(const explain_options& options) {
   refuse_engine_option(options.engine);
   refuse_other_rules(options.kernels);
   const std::vector<output_option> outputs = {{"--json", options.json}};
-  const problem p = read_with_progress(options.file, outputs, options.limits, options.quiet);
+  const problem p = read_with_progress(options.file, outputs, options.allow_outside, options.quiet);
   refuse_beyond("--pair", options.pair, p.pairs.size(), "pair");
   refuse_beyond("--step", wanted.step > 0 ? wanted.step : options.step, p.steps.size(), "step");
   const output_files files(outputs);

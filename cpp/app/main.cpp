@@ -7,10 +7,8 @@
 #include <system_error>
 
 #include "app/job.hpp"
-#include "app/limits.hpp"
 #include "app/outputs.hpp"
 #include "app/problem_runs.hpp"
-#include "contct/matrix/lapack_memory.hpp"
 #include "contct/numeric/rational.hpp"
 
 namespace contct::app {
@@ -31,15 +29,7 @@ exit_status status_of_program(int argc, char** argv) {
     if (take_part({argv, argv + argc}) == part::is_done) return exit_status::solved;
     const std::optional<command_options> asked = asked_by(argc, argv);
     if (!asked) return exit_status::bad_input;
-    const exit_status status = std::visit(
-        [](const auto& options) {
-          if constexpr (requires { options.limits; }) {
-            matrix::take_lapack_memory(options.limits.max_memory > 0);
-            start_limits(options.limits);
-          }
-          return run_command(options);
-        },
-        *asked);
+    const exit_status status = std::visit([](const auto& options) { return run_command(options); }, *asked);
     flush_standard_output();
     return status;
   } catch (const reader_gone&) {  // "contct run .. | head" ends as any filter does, its files written
@@ -63,7 +53,7 @@ exit_status status_of_program(int argc, char** argv) {
 }  // namespace contct::app
 
 int main(int argc, char** argv) {
-  contct::app::end_where_memory_ends();
+  std::set_new_handler(contct::app::end_for_memory);
   contct::numeric::allocate_as_new_does();
   contct::app::hold_standard_streams();
   (void)std::signal(SIGPIPE, SIG_IGN);

@@ -69,6 +69,12 @@ void put_line(std::string_view words) {
 
 }  // namespace
 
+void end_for_memory() {
+  constexpr std::string_view message = "contct: memory does not suffice; the command is stopped\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+  _exit(static_cast<int>(exit_status::bad_input));
+}
+
 void hold_standard_streams() {
   // Opened the wrong way round, input and output that were closed still fail, and are noticed.
   constexpr std::pair<int, int> held[] = {

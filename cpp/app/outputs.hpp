@@ -24,6 +24,10 @@ namespace contct::app {
 /// and, with it, what is printed.
 void hold_standard_streams();
 
+/// Ends the process with a message and exit status 2, without destructors: where memory has ended, they may
+/// need some. The new handler of both programs.
+[[noreturn]] void end_for_memory();
+
 /// "contct: ..." on standard error, as `terminal_text` has it. Where nobody can be told, the exit status
 /// still tells.
 template <class... Arguments>

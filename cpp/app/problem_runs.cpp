@@ -61,12 +61,12 @@ std::string chosen_engine(const std::string& name, const linear_structure& s) {
 }
 
 problem read_with_progress(const std::string& file, const std::vector<output_option>& outputs,
-                           const problem_limits& limits, bool quiet) {
+                           bool allow_outside, bool quiet) {
   std::vector<output_option> inputs = {{"the problem", file}};
   refuse_shared_outputs(outputs, inputs);
   problem p = [&] {
     const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
-    return read_problem(file, limits.allow_outside ? reach::anywhere : reach::own_folder,
+    return read_problem(file, allow_outside ? reach::anywhere : reach::own_folder,
                         distributed::joined_ranks());
   }();
   for (const std::string& named : p.files) inputs.push_back({named_by_problem, named});

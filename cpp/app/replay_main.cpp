@@ -1,7 +1,6 @@
 // contct-replay: `contct replay` as a program of its own, without LAPACK and finite elements.
 #include <new>
 
-#include "app/limits.hpp"
 #include "app/outputs.hpp"
 
 namespace contct::app {
@@ -24,7 +23,7 @@ exit_status status_of_replay(int argc, char** argv) {
 }  // namespace contct::app
 
 int main(int argc, char** argv) {
-  contct::app::end_where_memory_ends();
+  std::set_new_handler(contct::app::end_for_memory);
   contct::app::hold_standard_streams();
   return static_cast<int>(contct::app::status_of_replay(argc, argv));
 }

@@ -108,7 +108,7 @@ int node_that_deflects_most(const run_setup& run) {
 run_setup set_up(const run_options& o) {
   run_setup run{o};
   refuse_bad_options(o);
-  run.what = read_with_progress(o.file, run.outputs, o.limits, o.report.quiet);
+  run.what = read_with_progress(o.file, run.outputs, o.allow_outside, o.report.quiet);
   if (!o.pictures.vtu.empty()) check_grid_coordinates(run.what);
   run.structure = build_with_progress(run.what, o.report.quiet);
   if (!o.final_only) {

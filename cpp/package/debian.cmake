@@ -10,8 +10,9 @@ endif()
 set(CONTCT_MAINTAINER "The CONTCT project <contct@contct.invalid>" CACHE STRING
     "Name and mail address of who publishes the packages")
 find_program(CONTCT_GZIP gzip REQUIRED)
+find_program(CONTCT_PYTHON3 python3 REQUIRED)
 find_program(CONTCT_DATE_COMMAND date REQUIRED)
-mark_as_advanced(CONTCT_GZIP CONTCT_DATE_COMMAND)
+mark_as_advanced(CONTCT_GZIP CONTCT_PYTHON3 CONTCT_DATE_COMMAND)
 
 # Without times of their own, so that the same sources give the same packages.
 set(compressed_files)
@@ -20,9 +21,21 @@ function(compress file into)
   list(APPEND compressed_files ${into})
   set(compressed_files ${compressed_files} PARENT_SCOPE)
 endfunction()
-foreach(page contct.1 contct-problem.5 contct-result.5)
-  compress(${pages}/${page} ${pages}/${page}.gz)
-endforeach()
+# manual(NAMES SECTION SUMMARY PAGE): a page of reference/ as a manual page.
+function(manual names section summary page)
+  string(REGEX REPLACE ",.*" "" name ${names})
+  set(made ${CMAKE_CURRENT_BINARY_DIR}/${name}.${section})
+  set(source ${PROJECT_SOURCE_DIR}/reference/${page})
+  set(script ${PROJECT_SOURCE_DIR}/cpp/package/man_page.py)
+  add_custom_command(OUTPUT ${made} VERBATIM DEPENDS ${source} ${script}
+    COMMAND ${CONTCT_PYTHON3} ${script} ${names} ${section} ${summary} ${PROJECT_VERSION} ${CONTCT_DATE} ${source} > ${made})
+  compress(${made} ${made}.gz)
+  set(compressed_files ${compressed_files} PARENT_SCOPE)
+  install_program_files(${CMAKE_INSTALL_MANDIR}/man${section} ${made}.gz)
+endfunction()
+manual("contct, contct-replay" 1 "the 1989 contact subroutine in FORTRAN and C++, compared bit for bit" running.md)
+manual(contct-problem 5 "problem files of contct" problem-file.md)
+manual(contct-result 5 "result files of contct" result-file.md)
 file(CREATE_LINK contct.1.gz ${CMAKE_CURRENT_BINARY_DIR}/links/contct-replay.1.gz SYMBOLIC)
 install_program_files(${CMAKE_INSTALL_MANDIR}/man1 ${CMAKE_CURRENT_BINARY_DIR}/links/contct-replay.1.gz)
 
@@ -49,7 +62,6 @@ file(CONFIGURE OUTPUT ${debian_changelog} @ONLY CONTENT
 compress(${debian_changelog} ${debian_changelog}.gz)
 compress(${PROJECT_SOURCE_DIR}/reference/CHANGELOG.md ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
 add_custom_target(contct_compressed ALL DEPENDS ${compressed_files})
-add_dependencies(contct_compressed contct_pages)
 
 # package(COMPONENT NAME SECTION DESCRIPTION): what every package has. The description's first line is its summary.
 set(CPACK_COMPONENTS_ALL)

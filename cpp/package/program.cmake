@@ -1,14 +1,4 @@
-# What is installed with the program: its manuals, what makes shells complete its words, the problems that it verifies,
-# and the pages.
-set(pages ${PROJECT_BINARY_DIR}/pages)
-set(manual ${pages}/contct.1)
-set(file_manuals ${pages}/contct-problem.5 ${pages}/contct-result.5)
-set(zsh_functions zsh/site-functions)
-if(CONTCT_PACKAGES)  # debian.cmake compresses manuals; Debian's zsh looks in a folder of its own
-  list(TRANSFORM manual APPEND .gz)
-  list(TRANSFORM file_manuals APPEND .gz)
-  set(zsh_functions zsh/vendor-completions)
-endif()
+# What is installed with the program: what makes bash complete its words, the problems that it verifies, and the pages.
 # install_program_files(FOLDER FILE...)
 function(install_program_files folder)
   install(FILES ${ARGN} DESTINATION ${folder} COMPONENT program)
@@ -18,11 +8,7 @@ install(TARGETS contct COMPONENT program)
 if(TARGET contct_petsc)
   install(TARGETS contct_petsc DESTINATION ${CMAKE_INSTALL_LIBDIR}/contct COMPONENT program)
 endif()
-install_program_files(${CMAKE_INSTALL_MANDIR}/man1 ${manual})
-install_program_files(${CMAKE_INSTALL_MANDIR}/man5 ${file_manuals})
-install_program_files(${CMAKE_INSTALL_DATADIR}/bash-completion/completions ${pages}/contct)
-install_program_files(${CMAKE_INSTALL_DATADIR}/${zsh_functions} ${pages}/_contct)
-install_program_files(${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d ${pages}/contct.fish)
+install(FILES contct.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME contct COMPONENT program)
 
 # The program reads some of reference/. The pages stand beside README.md as they do here, with links to what it reads.
 set(reference ${PROJECT_SOURCE_DIR}/reference)

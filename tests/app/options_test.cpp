@@ -1,11 +1,10 @@
-// The options of both programs, as data: what a command line comes to, and what the manual is made of.
+// The options of both programs, as data: what a command line comes to.
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "catch.hpp"
-#include "contct/kernel/kernel.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -43,21 +42,6 @@ std::string refusal(const words& line) {
     return e.what();
   }
   return "accepted";
-}
-
-const command_description& command_in(const program_description& program, const std::string& name) {
-  const auto found = std::find_if(program.commands.begin(), program.commands.end(),
-                                  [&](const command_description& c) { return c.name == name; });
-  REQUIRE(found != program.commands.end());
-  return *found;
-}
-
-const option_description& option_in(const std::vector<option_description>& all, const std::string& name) {
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const option_description& o) { return o.name == name; });
-  INFO(name);
-  REQUIRE(found != all.end());
-  return *found;
 }
 
 }  // namespace
@@ -111,7 +95,6 @@ TEST_CASE("numbers that are not given are told from numbers that are") {
   CHECK(parsed<explain_options>({"explain", "f", "--increment", "2.1"}).increment == "2.1");
   CHECK_FALSE(parsed<fuzz_options>({"fuzz"}).problems.has_value());
   CHECK(parsed<fuzz_options>({"fuzz", "--problems", "0"}).problems == 0);
-  CHECK(parsed<export_options>({"export", "f", "--calculix", "c"}).choice.step == 0);
 }
 
 TEST_CASE("numbers outside their range are refused, with the range") {
@@ -119,14 +102,12 @@ TEST_CASE("numbers outside their range are refused, with the range") {
   CHECK_THAT(refusal({"atlas", "--problems", "1000001"}), Contains("1000000"));
   CHECK_THAT(refusal({"atlas", "--seed", "-1"}), Contains("found -1; allowed: a whole number, at least 0"));
   CHECK_THAT(refusal({"fuzz", "--calls", "0"}), Contains("--calls"));
-  CHECK_THAT(refusal({"export", "f", "--calculix", "c", "--refine", "65"}), Contains("64"));
-  CHECK_THAT(refusal({"completion", "tcsh"}), Contains("tcsh") && Contains("bash"));
 }
 
 TEST_CASE("the options --help and --version are texts, not commands") {
   const auto help = parsed<printed_text>({"--help"}).text;
-  for (const char* command : {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "atlas",
-                              "export", "convert", "kernels", "completion", "man"})
+  for (const char* command :
+       {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "atlas", "convert", "kernels"})
     CHECK_THAT(help, Contains("\n  " + std::string(command) + " "));
   CHECK_THAT(help, Contains("Examples:\n  contct run beam.toml\n"));
   CHECK_THAT(parsed<printed_text>({"run", "--help"}).text, Contains("--max-increments"));
@@ -167,48 +148,10 @@ TEST_CASE("contct-replay takes what contct replay takes") {
                     Contains("(did you mean \"--junit\"?)") && !Contains("the commands are"));
 }
 
-TEST_CASE("every option is described with the kind of argument that it takes") {
-  const program_description program = describe_contct(engines);
-  CHECK(program.commands.size() == 14);
-  for (const command_description& c : program.commands) {
-    for (const option_description& o : c.options) {
-      INFO(c.name << " " << o.name);
-      CHECK_FALSE(o.text.empty());
-      CHECK((o.kind == takes::nothing) == o.value.empty());
-      const bool has_list = o.kind == takes::kernels || o.kind == takes::word;
-      CHECK(has_list != o.words.empty());
-    }
-    CHECK(option_in(c.options, "--help").kind == takes::nothing);
-  }
-  const command_description& run = command_in(program, "run");
-  CHECK(option_in(run.options, "--kernels").words == kernel_names());
-  CHECK(option_in(run.options, "--kernels").default_value == "[fortran,cpp]");
-  CHECK(option_in(run.options, "--engine").words == words{"auto", "refactor", "updated"});
-  CHECK(option_in(run.options, "--max-increments").kind == takes::number);
-  CHECK(option_in(run.options, "--max-increments").value == "INT");
-  CHECK(option_in(run.options, "--vtu").kind == takes::file);
-  CHECK(option_in(run.options, "--strict").kind == takes::nothing);
-  CHECK(option_in(run.positionals, "FILE").required);
-  CHECK_FALSE(option_in(command_in(program, "new").positionals, "FILE").required);
-  CHECK(option_in(command_in(program, "completion").positionals, "SHELL").words ==
-        words{"bash", "zsh", "fish"});
-  CHECK(option_in(command_in(program, "man").positionals, "PAGE").words == words{"problem", "result"});
-}
-
 TEST_CASE("contct convert takes two files") {
   const auto o = parsed<convert_options>({"convert", "K.mtx", "--quiet", "K.petsc"});
   CHECK(words{o.input, o.output} == words{"K.mtx", "K.petsc"});
   CHECK(o.quiet);
   CHECK_FALSE(parsed<convert_options>({"convert", "-", "-"}).quiet);
-  const program_description program = describe_contct(engines);
-  for (const option_description& p : command_in(program, "convert").positionals)
-    CHECK((p.required && p.kind == takes::file));
   CHECK_THAT(refusal({"convert", "K.mtx"}), Contains("OUTPUT is required"));
-}
-
-TEST_CASE("contct man takes the name of a page, or none") {
-  CHECK(parsed<manual_options>({"man"}).page.empty());
-  CHECK(parsed<manual_options>({"man", "problem"}).page == "problem");
-  CHECK(parsed<manual_options>({"man", "result"}).page == "result");
-  CHECK_THAT(refusal({"man", "problems"}), Contains("problems not in {problem"));
 }

@@ -103,8 +103,6 @@ TEST_CASE("what cannot say how far it has come says what it is doing") {
     CHECK_THAT(f.err, Contains("\rbuilding the structure, 0 s\033[K\r\033[K"));
     CHECK(at_terminal(dir, {command, "plate.toml", "--quiet"}, "0").err.empty());
   }
-  CHECK_THAT(at_terminal(dir, {"export", "plate.toml", "--calculix", "plate.inp"}, "0").err,
-             Contains("\rreading plate.toml, 0 s\033[K\r\033[K"));
 }
 
 TEST_CASE("what is quicker than one waits shows no progress") {

@@ -1,4 +1,5 @@
-// Files from strangers: whatever their texts hold, a terminal is shown characters and obeys none.
+// Files from strangers: whatever their texts hold, a terminal is shown characters and obeys none, and they
+// open no files but their own.
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -13,6 +14,7 @@
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -76,7 +78,6 @@ std::vector<words> questions(const std::string& file) {
                             {"explain", file, "--quiet", "--json", "-"},
                             {"exact", file, "--kernels", "fortran"},
                             {"exact", file, "--quiet", "--json", "-"},
-                            {"export", file, "--calculix", "-"},
                             {"check", file}};
   for (const char* output :
        {"--json", "--html", "--csv", "--log", "--trace", "--proof", "--junit", "--markdown"})
@@ -242,4 +243,61 @@ TEST_CASE("on a terminal in colour only the program's own colours come through")
     CHECK_THAT(contct_program(dir.path(), {"run", file}, screen).out, Contains("\x1b[32m"));
   }
   CHECK(seen >= 9);
+}
+
+TEST_CASE("a problem names files below its folder, and others under --allow-outside, in every command") {
+  const scratch_folder dir;
+  fs::create_directory(dir.path() / "own");
+  dir.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
+  dir.write("f.mtx", "%%MatrixMarket matrix array real general\n2 1\n0\n1\n");
+  const std::string rest =
+      "[[contact]]\ndof = \"2\"\nsurface = \"above\"\nface = 0.5\nstiffness = 10\n[[step]]\n";
+  dir.write("own/K.toml",
+            "[matrix]\nstiffness = \"../K.mtx\"\n" + rest + "point = [ { dof = \"2\", value = 1 } ]\n");
+  fs::copy(dir.path() / "K.mtx", dir.path() / "own/K.mtx");
+  dir.write("own/f.toml", "[matrix]\nstiffness = \"K.mtx\"\n" + rest + "load = \"../f.mtx\"\n");
+  int allowed = 0;
+  for (const char* file : {"own/K.toml", "own/f.toml"}) {
+    for (const words& w :
+         {words{"run", file}, words{"check", file}, words{"explain", file}, words{"exact", file}}) {
+      const finished refused = contct_program(dir.path(), w);
+      INFO(w[0] << " " << file << "\n" << refused.err);
+      CHECK(refused.exit == 2);
+      CHECK_THAT(refused.err,
+                 StartsWith("contct: " + std::string(file) + ":") && Contains("--allow-outside"));
+      words with_permission = w;
+      with_permission.emplace_back("--allow-outside");
+      CHECK(contct_program(dir.path(), with_permission).exit == 0);
+      ++allowed;
+    }
+  }
+  CHECK(allowed == 8);
+}
+
+TEST_CASE("no message quotes a file that is none of the problem's") {
+  const scratch_folder dir;
+  const std::string secret = "secretroot:x:0:0:root:/root:/bin/sh";
+  dir.write("passwd", secret + "\n" + secret + "2 secretfield\n");
+  dir.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
+  dir.write("K.dof", "a.x\nb.x\n");
+  dir.write("job.dof", "a.x\nb.x\n");
+  dir.write("job.sti", secret + "\n");
+  const std::string matrix = "[matrix]\nstiffness = \"K.mtx\"\n";
+  const std::string rest =
+      "[[contact]]\ndof = \"b.x\"\nsurface = \"above\"\nface = 0.5\nstiffness = 10\n[[step]]\n";
+  const std::string point = rest + "point = [ { dof = \"b.x\", value = 1 } ]\n";
+  int refused = 0;
+  for (const std::string& text :
+       {"[matrix]\nstiffness = \"passwd\"\n" + point, matrix + "dofs = \"passwd\"\n" + point,
+        matrix + "dofs = \"K.dof\"\ncoordinates = \"passwd\"\n" + point,
+        matrix + "dofs = \"K.dof\"\n" + rest + "load = \"passwd\"\n",
+        "[calculix]\njob = \"job\"\n" + point}) {
+    dir.write("p.toml", text);
+    const finished f = contct_program(dir.path(), {"run", "p.toml"});
+    INFO(text << f.err);
+    CHECK(f.exit == 2);
+    CHECK_THAT(f.err, !Contains("secret"));
+    ++refused;
+  }
+  CHECK(refused == 5);
 }

@@ -99,8 +99,7 @@ static long every = 0;
 static char* begins[2];
 static char* ends[2];
 
-/* gfortran's runtime, which crashes without memory: the program sees to it that there is some, which is not
- * tested here. */
+/* gfortran's runtime, which crashes without memory: its own allocations never fail here. */
 static char* runtime_begin = NULL;
 static char* runtime_end = NULL;
 

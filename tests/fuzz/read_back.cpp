@@ -187,34 +187,6 @@ void check_markdown(std::string_view text, std::size_t results) {
   require(rows == results, "a report has a row for each result", lines.here());
 }
 
-void check_deck(std::string_view text) {
-  static const std::set<std::string_view> keywords = {
-      "*NODE",          "*ELEMENT", "*MATERIAL",   "*ELASTIC",   "*BEAM SECTION",
-      "*SHELL SECTION", "*SPRING",  "*BOUNDARY",   "*STEP",      "*STATIC",
-      "*CLOAD",         "*NSET",    "*NODE PRINT", "*NODE FILE", "*END STEP"};
-  require(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c < 0x7f); }),
-          "a deck is ASCII");
-  text::text_lines lines(text, "deck");
-  while (lines.next()) {
-    const std::string_view line = lines.here();
-    if (line.starts_with("**")) continue;
-    if (line.starts_with('*')) {
-      require(keywords.contains(line.substr(0, line.find(','))), "a deck's keyword", line);
-      continue;
-    }
-    std::size_t fields = 1;
-    std::size_t length = 0;
-    for (const char c : line) {
-      length = c == ',' ? 0 : length + 1;
-      fields += c == ',' ? 1 : 0;
-      require(length <= 20, "a field of a deck has at most 20 characters", line);
-    }
-    const bool named = line == "GROUND,1,3" || line == "U" || line == "RF";
-    const bool numbers = line.find_first_not_of("0123456789.,+-eE") == std::string_view::npos;
-    require(fields <= 16 && (named || numbers), "a deck's data", line);
-  }
-}
-
 void check_printed(std::string_view text) {
   check_utf8(text, "what is printed");
   require(std::ranges::none_of(

@@ -31,9 +31,6 @@ void check_vtu(std::string_view text);
 /// A Markdown report with that many results: its table has a row for each, of three cells.
 void check_markdown(std::string_view text, std::size_t results);
 
-/// A CalculiX deck: printable ASCII, known keywords, and data of at most 16 fields of at most 20 characters.
-void check_deck(std::string_view text);
-
 /// What is printed: UTF-8, and no control characters but line ends.
 void check_printed(std::string_view text);
 

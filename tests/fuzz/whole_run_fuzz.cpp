@@ -22,7 +22,6 @@
 #include "contct/read/problem_file.hpp"
 #include "contct/serve/exact_run.hpp"
 #include "contct/serve/states.hpp"
-#include "contct/write/calculix_deck.hpp"
 #include "contct/write/exact_output.hpp"
 #include "contct/write/explain.hpp"
 #include "contct/write/pictures.hpp"
@@ -118,7 +117,6 @@ class whole_run {
     for (const std::string& name : engine_names()) follow_on(name);
     find_ends();
     if (leader_->facts().rule == "listing") explain_it();
-    write_problem();
   }
 
   void go_exactly() {
@@ -193,15 +191,6 @@ class whole_run {
     json.finish(status_name(end.status), path);
     require(json_in(text, "an explanation")["increments"].size() == told, "an explanation's increments");
     check_printed(printed_.take());
-  }
-
-  void write_problem() const {
-    if (std::holds_alternative<assembled>(p_.geometry.kind)) return;
-    try {
-      check_deck(calculix_deck_of(p_, {.step = static_cast<int>(p_.steps.size())}).text);
-    } catch (const std::invalid_argument&) {
-      return;  // it has what cannot be written
-    }
   }
 
   const problem& p_;

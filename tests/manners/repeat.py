@@ -39,8 +39,8 @@ def commands():
     others = [[program, "verify", "--json", "verify.json", "--junit", "verify.xml", "--reference", "reference"],
               [program, "fuzz", "--calls", "3000", "--json", "fuzz.json", "--junit", "fuzz.xml", "--markdown", "fuzz.md"],
               [program, "atlas", "--problems", "1", "--csv", "atlas.csv", "--json", "atlas.json"],
-              [program, "export", f"reference/{PROBLEMS[0]}", "deck.inp"], [program, "kernels"], [program, "man"], [program, "man", "problem"],
-              [program, "completion", "bash"], [program, "new", "beam", "-"], [program, "new", "plate", "-"], [program, "--version"], [program, "--help"],
+              [program, "kernels"],
+              [program, "new", "beam", "-"], [program, "new", "plate", "-"], [program, "--version"], [program, "--help"],
               [replay, "--kernel", "fortran,cpp", "reference/traces/full-load.trace"]]
     return of_problem + engines + others
 

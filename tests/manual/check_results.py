@@ -1,10 +1,10 @@
 """check_results.py PROGRAM ROOT PLUGIN BENCH: what contct fuzz, verify, atlas, exact and explain and the program BENCH, contct_bench,
 write with --json is documented, key by key. PLUGIN is a kernel that differs from FORTRAN in the last bit.
 
-- fuzz, verify, atlas: reference/check-results.md documents reference/check-results.schema.json, results are as that schema says,
-  and doctored ones are refused. Every key of the schema is in some result. The examples of the page are what the program writes.
+- fuzz, verify, atlas: reference/check-results.md documents reference/check-results.schema.json, and results are as that schema
+  says. Every key of the schema is in some result. The examples of the page are what the program writes.
 - exact, explain, contct_bench: every key of a result stands in reference/exact.md, explain-format.md or speed.md, and every key that these document is in
-  some result. Without any one of its keys the page must be refused, and so must a page with one key more.
+  some result.
 """
 import json
 import re
@@ -13,11 +13,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-from documented import UNKNOWN, first_difference, objects, refused_faults, same, seen_keys, unnoticed_fault
+from documented import first_difference, objects, same, seen_keys
 from manual import blocks
 from schema import validator
 
-LEAST_KEYS, LEAST_DOCTORED, LEAST_PLAIN = 109, 900, 120
+LEAST_KEYS, LEAST_PLAIN = 109, 120
 BEAM = """
 [beam]
 length = %s
@@ -70,10 +70,7 @@ def with_schema(program, root, plugin, folder):
     schema, results = (json.loads((root / f"reference/{name}.schema.json").read_text()) for name in ("check-results", "result"))
     if difference := first_difference(text, schema):
         raise ValueError(f"check-results.md and check-results.schema.json: {difference}")
-    unnoticed, faults = unnoticed_fault(text, schema)
-    if unnoticed:
-        raise ValueError(f"a fault in this is not noticed: {unnoticed}")
-    check, seen, refused, written = validator(schema, {"result.schema.json": results}), set(), 0, []
+    check, seen, written = validator(schema, {"result.schema.json": results}), set(), []
     for name, arguments, status in of_schema(program, root, plugin, folder):
         result = result_of(program, folder, arguments, status)
         of = schema["$defs"][name]
@@ -81,10 +78,6 @@ def with_schema(program, root, plugin, folder):
             raise ValueError(f"{arguments}: {fault}: {check.fault(result, of)}")
         seen_keys(schema, result, of, seen)
         written.append(result)
-        for lists in ("cases", "cells"):  # a few of them are enough to be doctored
-            if lists in result:
-                result = {**result, lists: result[lists][:2]}
-        refused += refused_faults(validator({**of, "$defs": schema["$defs"]}, check.others), {**of, "$defs": schema["$defs"]}, result)
     keys = {(title, key) for title, of in objects(schema).items() for key in of["properties"]}
     if missing := keys - seen:
         raise ValueError(f"no result has this key: {min(missing)}")
@@ -92,9 +85,9 @@ def with_schema(program, root, plugin, folder):
     fuzzed = {**written[0], "seconds": examples[0]["seconds"]}
     if not same(examples[0], fuzzed) or not any(same(examples[1], check) for check in written[2]["cases"][0]["checks"]):
         raise ValueError("an example of check-results.md is not what the program writes")
-    if len(keys) < LEAST_KEYS or refused < LEAST_DOCTORED:
-        raise ValueError(f"found {len(keys)} keys, {refused} doctored results refused; allowed: {LEAST_KEYS} and {LEAST_DOCTORED} or more")
-    return f"{len(keys)} keys compared, {faults} faults noticed, {refused} doctored results refused"
+    if len(keys) < LEAST_KEYS:
+        raise ValueError(f"found {len(keys)} keys; allowed: {LEAST_KEYS} or more")
+    return f"{len(keys)} keys compared"
 
 
 def keys_in(value, found):
@@ -152,11 +145,6 @@ def plainly(program, root, plugin, bench, folder):
         named = set(re.findall(r"`(\w+)`", text))
         if difference := plain_difference(documented, named, found):
             raise ValueError(f"{page}: {difference}")
-        for key in found:
-            if plain_difference(documented - {key}, named - {key}, found) is None:
-                raise ValueError(f"{page}: it is not noticed that {key} is missing")
-        if plain_difference(documented | {UNKNOWN}, named, found) is None:
-            raise ValueError(f"{page}: it is not noticed that no result has {UNKNOWN}")
         count += len(found)
     if count < LEAST_PLAIN:
         raise ValueError(f"found {count} keys of exact, explain and contct_bench; allowed: {LEAST_PLAIN} or more")

@@ -73,26 +73,3 @@ class block:
 
 def blocks(text):
     return [block(m.group(1), m.group(2), text.count("\n", 0, m.start()) + 1) for m in FENCE.finditer(text)]
-
-
-def missing_in_man_page(text, source):
-    """What a man page in roff does not have of a page in Markdown: a heading, a key or a line of code; None where it has all."""
-    def plain(roff):
-        roff = re.sub(r"\\f[BR]|\\&", "", roff)
-        for escape, character in ((r"\-", "-"), (r"\(aq", "'"), (r"\(ha", "^"), (r"\(ti", "~"), (r"\e", "\\")):
-            roff = roff.replace(escape, character)
-        return roff
-
-    lines = plain(source).splitlines()
-    headings = {line[4:] for line in lines if line.startswith((".SH ", ".SS "))}
-    terms = [below for line, below in zip(lines, lines[1:]) if line == ".TP"]
-    for heading, body in sections(text)[1:]:
-        if heading.replace("`", "") not in headings:
-            return f"heading {heading}"
-        for row in rows(body):
-            term = re.sub(r"`|\[|\]\(.*", "", row["key"])
-            if term not in terms:
-                return f"{heading}: {term}"
-            terms.remove(term)
-    code = [line for b in blocks(text) for line in b.text.splitlines()]
-    return next((f"line of code {line}" for line in code if line not in lines), None)

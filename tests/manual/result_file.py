@@ -3,8 +3,7 @@ reference/result-file.md documents that schema. PLUGIN is a kernel that differs 
 
 - Every result of every reference problem, under the 1989 rule and the corrected one, is valid, and so is one of each other kind.
 - The schema and the manual have the same objects with the same keys; the manual's cells say which of them may be absent or null,
-  and of which type they are. Each row that is left out or renamed, and each key that the schema loses, must be noticed.
-- Results that are doctored must be refused: a key taken away, a key added, a value of another type.
+  and of which type they are.
 - Every key of the schema is in some result, but for those in UNSEEN. The example of the manual is what the program writes.
 """
 import json
@@ -13,8 +12,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from documented import first_difference, objects, refused_faults, same, seen_keys, unnoticed_fault
-from manual import blocks, missing_in_man_page
+from documented import first_difference, objects, same, seen_keys
+from manual import blocks
 from schema import validator
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "course"))
@@ -22,7 +21,7 @@ from page import broken_link  # noqa: E402
 
 # No reference problem's path is given up.
 UNSEEN = {("A step", "ended_by")}
-LEAST_RUNS, LEAST_KEYS, LEAST_DOCTORED = 127, 163, 8000
+LEAST_RUNS, LEAST_KEYS = 127, 163
 
 MECHANISM = """
 [units]
@@ -112,10 +111,7 @@ def main(program, root, plugin):
         return f"a link leads nowhere: {broken}"
     if difference := first_difference(text, schema):
         return f"result-file.md and result.schema.json: {difference}"
-    unnoticed, faults = unnoticed_fault(text, schema)
-    if unnoticed:
-        return f"a fault in this is not noticed: {unnoticed}"
-    check, seen, count, refused = validator(schema), set(), 0, 0
+    check, seen, count = validator(schema), set(), 0
     with tempfile.TemporaryDirectory() as folder:
         for problem, options, status in runs(root, Path(plugin).resolve()):
             result = result_of(program, Path(folder), problem, options, status)
@@ -124,10 +120,7 @@ def main(program, root, plugin):
             if without := [step["step"] for step in result["steps"] if "displacement" not in step]:
                 return f"{problem} {options}: found steps {without} without displacement; allowed: only with --engine petsc"
             count += 1
-            new = len(seen)
             seen_keys(schema, result, schema, seen)
-            if len(seen) > new and len(json.dumps(result)) < 200_000:
-                refused += refused_faults(check, schema, result)
         shown = blocks(text)
         example = result_of(program, Path(folder), shown[0].text, [], 0)
         if not same(json.loads(shown[1].text), example):
@@ -135,14 +128,9 @@ def main(program, root, plugin):
     keys = {(title, key) for title, of in objects(schema).items() for key in of["properties"]}
     if missing := keys - seen - UNSEEN:
         return f"no result has this key: {min(missing)}"
-    if count < LEAST_RUNS or len(keys) < LEAST_KEYS or refused < LEAST_DOCTORED:
-        return (f"found {count} results, {len(keys)} keys, {refused} doctored results refused; "
-                f"allowed: {LEAST_RUNS}, {LEAST_KEYS} and {LEAST_DOCTORED} or more")
-    man_page = subprocess.run([program, "man", "result"], check=True, capture_output=True, text=True).stdout
-    if missing := missing_in_man_page(text, man_page):
-        return f"contct man result does not have this: {missing}"
-    print(f"{len(objects(schema))} objects, {len(keys)} keys compared, {faults} faults noticed; {count} results are valid and "
-          f"have {len(seen)} of the keys; {refused} doctored results refused")
+    if count < LEAST_RUNS or len(keys) < LEAST_KEYS:
+        return f"found {count} results and {len(keys)} keys; allowed: {LEAST_RUNS} and {LEAST_KEYS} or more"
+    print(f"{len(objects(schema))} objects, {len(keys)} keys compared; {count} results are valid and have {len(seen)} of the keys")
     return 0
 
 

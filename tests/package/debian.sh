@@ -23,7 +23,7 @@ value() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}$/\1/p" /etc/os-release; }
 [ "$(id -u)" = 0 ] || skip "only root can make a bare Debian"
 sources=/etc/apt/sources.list.d/debian.sources
 [ -f $sources ] || skip "$sources is not there"
-need "to make and check packages" dpkg-dev lintian debootstrap || skip "lintian or debootstrap cannot be had"
+need "to make and check packages" dpkg-dev lintian debootstrap python3 || skip "lintian or debootstrap cannot be had"
 need "for all that the packages offer" libsuitesparse-dev libgmp-dev || skip "libraries cannot be had"
 
 log=$(mktemp)

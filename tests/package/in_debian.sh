@@ -54,7 +54,7 @@ cd /given
 echo "-- contct: runs, verifies and replays"
 remove contct
 
-install man-db bash-completion zsh fish
+install man-db bash-completion
 files /tmp/before
 install ./contct_*.deb
 for page in "1 contct" "1 contct-replay" "5 contct-problem" "5 contct-result"; do
@@ -63,9 +63,7 @@ for page in "1 contct" "1 contct-replay" "5 contct-problem" "5 contct-result"; d
 done
 says "/usr/share/man/man1/contct.1.gz" man -w contct-replay
 says "-F _contct contct" bash -c '. /usr/share/bash-completion/bash_completion; _completion_loader contct; complete -p contct'
-says "_contct" zsh -fc 'autoload -Uz compinit; compinit -D; echo $_comps[contct]'
-says "verify" env HOME=/tmp fish -c 'complete -C "contct ver"'
-echo "-- contct: man, bash, zsh and fish find what is theirs"
+echo "-- contct: man and bash find what is theirs"
 remove contct
 
 install g++ cmake ninja-build pkgconf

@@ -18,9 +18,9 @@ from page import FENCE, difference  # noqa: E402
 
 PROGRAM = r"(?:[\w./]*/)?contct(?:[_-]\w+)?"
 BEGINS = re.compile(rf"(?:{PROGRAM}|sh|python3|cmake|cc|g\+\+|gfortran|ccx|export|mkdir|git)\s")
-READS_A_FILE = ("run", "check", "explain", "exact", "export", "replay")
+READS_A_FILE = ("run", "check", "explain", "exact", "replay")
 PB07 = "reference/problems/pb07-three-gap-supports.toml"
-NAMES = {"FILE": PB07, "F": "f.out", "JOB.inp": "job.inp", "K.mtx": "frame.mtx", "RESULT.json": "result.json", "COMMAND": "run", "fortran,NAME": "fortran,cpp"}
+NAMES = {"FILE": PB07, "F": "f.out", "K.mtx": "frame.mtx", "RESULT.json": "result.json", "COMMAND": "run", "fortran,NAME": "fortran,cpp"}
 
 
 def is_mention(command):
@@ -62,9 +62,7 @@ def reasons(path):
 
 
 def as_run(command):
-    """The command with files in the place of names, and without man where there is none."""
-    if not shutil.which("man"):
-        command = command.replace(" | man -l -", "")
+    """The command with files in the place of names."""
     words = [NAMES.get(word, word) for word in command.split(" ")]
     if words[:2] == ["contct", "new"]:
         words = [word.replace(PB07, "new.toml") for word in words]

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "contct/read/problem_file.hpp"
-#include "contct/write/calculix_deck.hpp"
+#include "peer/calculix_deck.hpp"
 #include "peer/programs.hpp"
 
 namespace contct::app::peer {
@@ -57,9 +57,15 @@ difference compare_answers(const json& step, const problem& given, const calculi
   return d;
 }
 
-difference compare_answers(const places& p, const solved_problem& s, const calculix_choice& choice) {
-  const calculix_deck deck = calculix_deck_of(s.given, choice);
-  const json& step = s.steps[static_cast<std::size_t>(deck.step - 1)];
+calculix_deck deck_of(const problem& given, const json& step, const deck_choice& choice) {
+  double deflection = 0.0;
+  for (const double w : step["w"]) deflection = std::max(deflection, std::abs(w));
+  return calculix_deck_of(given, choice, deflection);
+}
+
+difference compare_answers(const places& p, const solved_problem& s, const deck_choice& choice) {
+  const json& step = s.steps[static_cast<std::size_t>(choice.step - 1)];
+  const calculix_deck deck = deck_of(s.given, step, choice);
   return compare_answers(step, s.given, deck, run_calculix(p, "structure", deck.text));
 }
 
@@ -204,7 +210,7 @@ void check_plates(const places& p, verdicts& v) {
 
 /// A test of the test: two decks that are wrong, and have to be noticed.
 void check_faults(const places& p, verdicts& v, const solved_problem& s) {
-  const calculix_deck deck = calculix_deck_of(s.given, {3, 2, 500});
+  const calculix_deck deck = deck_of(s.given, s.steps[2], {3, 2, 500});
   std::string linear = deck.text;
   linear.replace(linear.find("*STEP,NLGEOM"), 12, "*STEP");
   const difference without = compare_answers(s.steps[2], s.given, deck, run_calculix(p, "fault", linear));
@@ -212,7 +218,7 @@ void check_faults(const places& p, verdicts& v, const solved_problem& s) {
 
   problem moved = s.given;
   moved.pairs[1].face *= 1.001;
-  const calculix_deck wrong = calculix_deck_of(moved, {3, 2, 500});
+  const calculix_deck wrong = deck_of(moved, s.steps[2], {3, 2, 500});
   const difference gap = compare_answers(s.steps[2], s.given, wrong, run_calculix(p, "fault", wrong.text));
   v.check(!within(gap, 1e-5, 3e-4), "a gap wrong by a thousandth is noticed: " + words_of(gap));
 }

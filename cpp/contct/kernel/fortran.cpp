@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -60,27 +59,14 @@ std::mutex& process_wide() {
   return mutex;
 }
 
-namespace {
-
-/// gfortran's runtime crashes where it gets no memory. It takes little in a call: see that there is more.
-/// Throws std::bad_alloc.
-void see_to_memory() {
-  constexpr std::size_t more_than_enough = 1 << 15;
-  ::operator delete(::operator new(more_than_enough));
-}
-
-}  // namespace
-
 void contct(call<float>& c) {
   const std::scoped_lock lock(process_wide());
-  see_to_memory();
   contct_call_r4(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
                  c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
 }
 
 void contct(call<double>& c, const compiled_listing& by) {
   const std::scoped_lock lock(process_wide());
-  see_to_memory();
   by.call(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
           c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
 }
@@ -119,7 +105,6 @@ unnamed_file file_in_memory() {
 unit_26::unit_26(compiled_listing& of) : listing_(of) {
   const std::scoped_lock lock(process_wide());
   if (listing_.log.is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
-  see_to_memory();
   const signals_wait until_unlinked;
   unnamed_file file = file_in_memory();
   const bool on_disk = file.descriptor < 0;

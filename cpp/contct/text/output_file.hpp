@@ -1,7 +1,6 @@
 // Output files that appear whole or not at all.
 #pragma once
 
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <stdexcept>
@@ -12,23 +11,16 @@
 
 namespace contct::text {
 
-/// How many files have a temporary name just now: a handler of signals that ends the process waits for none.
-inline std::atomic<int> temporary_names = 0;
-
 /// Blocks every signal to this thread but SIGKILL while this object lives, so that a file with a temporary
 /// name is not left behind.
 class signals_wait {
  public:
   signals_wait() {
-    ++temporary_names;
     sigset_t all;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, &before_);
   }
-  ~signals_wait() {
-    --temporary_names;
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
+  ~signals_wait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
   signals_wait(const signals_wait&) = delete;
   signals_wait& operator=(const signals_wait&) = delete;
 

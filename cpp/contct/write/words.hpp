@@ -32,12 +32,6 @@ constexpr std::string_view look_name(pair_look look) {
   return names[static_cast<std::size_t>(look)];
 }
 
-/// The same for people: the terminal, the pages and the pictures.
-constexpr std::string_view look_words(pair_look look) {
-  constexpr std::string_view names[] = {"separated", "in contact", "at its face"};
-  return names[static_cast<std::size_t>(look)];
-}
-
 constexpr std::string_view status_name(path_status status) {
   if (status == path_status::solved) return "solved";
   if (status == path_status::path_ended) return "path-ended";

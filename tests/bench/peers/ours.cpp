@@ -4,6 +4,8 @@
 //     final, final-certified           the end alone (contct run --final-only)
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -15,7 +17,7 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
-#include "contct/write/calculix_deck.hpp"
+#include "peer/calculix_deck.hpp"
 
 namespace {
 
@@ -113,14 +115,17 @@ bench::peers::place place_of(const given& g, int dof) {
 }
 
 /// CalculiX's input, unless it is there: a solid comes from CalculiX.
-void write_deck(const given& g, const std::string& folder) {
+void write_deck(const given& g, const last_state& end, const std::string& folder) {
   if (std::filesystem::exists(folder + "/ccx.inp")) return;
-  app::calculix_choice choice;
+  app::peer::deck_choice choice;
   choice.refine = 1;
   // A section as thin as CalculiX can solve for: the shear that beams of ours do not have is less then.
   if (std::holds_alternative<app::beam>(g.problem.geometry.kind))
     choice.slenderness = 4.0 * app::elements(g.problem.geometry);
-  const app::calculix_deck deck = app::calculix_deck_of(g.problem, choice);
+  double deflection = 0.0;
+  for (int dof = 0; dof < g.structure.dofs(); ++dof)
+    if (g.structure.deflects(dof)) deflection = std::max(deflection, std::abs(end.u[dof]));
+  const app::peer::calculix_deck deck = app::peer::calculix_deck_of(g.problem, choice, deflection);
   std::ofstream(folder + "/ccx.inp") << deck.text;
   std::ofstream(folder + "/ccx.txt") << fmt::format("{:.17g} {:.17g} GIVEN {} {}\n", deck.displacement_scale,
                                                     deck.force_scale, app::nodes(g.problem.geometry),
@@ -147,7 +152,7 @@ void write_state(const std::string& folder) {
     state.places.push_back(place_of(g, dof));
   }
   bench::peers::write_state(folder, state);
-  write_deck(g, folder);
+  write_deck(g, end, folder);
 }
 
 /// The whole path. The certificate's time counts where it is asked for.
