@@ -50,9 +50,8 @@ struct run_options {
   bool free_run = false;
   bool final_only = false;
   bool strict = false;
-  bool detail = false;        ///< all numbers on the terminal
-  bool envelope = false;      ///< in the result
-  bool displacement = false;  ///< in the result of an MPI job too: every dof, and not only w
+  bool detail = false;    ///< all numbers on the terminal
+  bool envelope = false;  ///< in the result
   std::string
       watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
   int max_increments = 0;  ///< in a step; 0: the default limit
@@ -132,11 +131,6 @@ struct export_options {
   problem_limits limits = {};
 };
 
-struct convert_options {
-  std::string input, output;
-  bool quiet = false;
-};
-
 struct kernels_options {};
 struct manual_options {
   std::string page;  ///< "problem" or "result"; empty: the program's own
@@ -152,10 +146,9 @@ struct printed_text {
 };
 
 /// What a command line asks for: one command, or a text.
-using command_options =
-    std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
-                 verify_options, fuzz_options, replay_options, atlas_options, export_options, convert_options,
-                 kernels_options, completion_options, manual_options>;
+using command_options = std::variant<printed_text, run_options, check_options, explain_options, exact_options,
+                                     new_options, verify_options, fuzz_options, replay_options, atlas_options,
+                                     export_options, kernels_options, completion_options, manual_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -222,7 +215,6 @@ exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
 exit_status run_command(const atlas_options& options);
 exit_status run_command(const export_options& options);
-exit_status run_command(const convert_options& options);
 exit_status run_command(const kernels_options& options);
 exit_status run_command(const completion_options& options);
 exit_status run_command(const manual_options& options);

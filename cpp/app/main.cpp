@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "app/job.hpp"
 #include "app/limits.hpp"
 #include "app/outputs.hpp"
 #include "app/problem_runs.hpp"
@@ -19,7 +18,7 @@ namespace {
 /// Nothing where the command line has no meaning, which is said.
 std::optional<command_options> asked_by(int argc, char** argv) {
   try {
-    return parse_contct(argc, argv, engine_choices());
+    return parse_contct(argc, argv, engine_names());
   } catch (const std::invalid_argument& e) {
     complain("{}", e.what());  // lines
   }
@@ -28,7 +27,6 @@ std::optional<command_options> asked_by(int argc, char** argv) {
 
 exit_status status_of_program(int argc, char** argv) {
   try {
-    if (take_part({argv, argv + argc}) == part::is_done) return exit_status::solved;
     const std::optional<command_options> asked = asked_by(argc, argv);
     if (!asked) return exit_status::bad_input;
     const exit_status status = std::visit(
@@ -43,7 +41,6 @@ exit_status status_of_program(int argc, char** argv) {
     flush_standard_output();
     return status;
   } catch (const reader_gone&) {  // "contct run .. | head" ends as any filter does, its files written
-    leave_job();
     (void)std::signal(SIGPIPE, SIG_DFL);
     (void)std::raise(SIGPIPE);
   } catch (const kernel_failure& e) {
@@ -67,7 +64,5 @@ int main(int argc, char** argv) {
   contct::numeric::allocate_as_new_does();
   contct::app::hold_standard_streams();
   (void)std::signal(SIGPIPE, SIG_IGN);
-  const contct::app::exit_status status = contct::app::status_of_program(argc, argv);
-  contct::app::leave_job();
-  return static_cast<int>(status);
+  return static_cast<int>(contct::app::status_of_program(argc, argv));
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "contct/distributed/ranks.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
@@ -42,14 +41,8 @@ struct increment_counter final : observer {
 
 }  // namespace
 
-std::vector<std::string> engine_choices() {
-  std::vector<std::string> names = engine_names();
-  if (std::ranges::find(names, "petsc") == names.end()) names.emplace_back("petsc");
-  return names;
-}
-
 void refuse_engine_option(const std::string& name) {
-  std::vector<std::string> names = engine_choices();
+  std::vector<std::string> names = engine_names();
   names.insert(names.begin(), "auto");
   if (std::ranges::find(names, name) != names.end()) return;
   throw std::invalid_argument(fmt::format("--engine: no engine is named \"{}\"{}; allowed: {}", name,
@@ -66,8 +59,7 @@ problem read_with_progress(const std::string& file, const std::vector<output_opt
   refuse_shared_outputs(outputs, inputs);
   problem p = [&] {
     const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
-    return read_problem(file, limits.allow_outside ? reach::anywhere : reach::own_folder,
-                        distributed::joined_ranks());
+    return read_problem(file, limits.allow_outside ? reach::anywhere : reach::own_folder);
   }();
   for (const std::string& named : p.files) inputs.push_back({named_by_problem, named});
   refuse_shared_outputs(outputs, inputs);
@@ -77,7 +69,7 @@ problem read_with_progress(const std::string& file, const std::vector<output_opt
 
 linear_structure build_with_progress(const problem& p, bool quiet) {
   const std::jthread here = shown_activity("building the structure", quiet);
-  return structure_of(p, distributed::joined_ranks());
+  return structure_of(p);
 }
 
 path_progress::path_progress(std::size_t steps, bool quiet)

@@ -90,7 +90,6 @@ TEST_CASE("the options of contct run arrive where they belong, in any order") {
   CHECK(o.engine == "auto");
   CHECK(o.max_increments == 7);
   CHECK_FALSE(o.displacement);
-  CHECK(parsed<run_options>({"run", "f", "--engine", "petsc", "--displacement"}).displacement);
 }
 
 TEST_CASE("a final state has no path, so --final-only excludes what belongs to one") {
@@ -126,7 +125,7 @@ TEST_CASE("numbers outside their range are refused, with the range") {
 TEST_CASE("the options --help and --version are texts, not commands") {
   const auto help = parsed<printed_text>({"--help"}).text;
   for (const char* command : {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "atlas",
-                              "export", "convert", "kernels", "completion", "man"})
+                              "export", "kernels", "completion", "man"})
     CHECK_THAT(help, Contains("\n  " + std::string(command) + " "));
   CHECK_THAT(help, Contains("Examples:\n  contct run beam.toml\n"));
   CHECK_THAT(parsed<printed_text>({"run", "--help"}).text, Contains("--max-increments"));
@@ -193,17 +192,6 @@ TEST_CASE("every option is described with the kind of argument that it takes") {
   CHECK(option_in(command_in(program, "completion").positionals, "SHELL").words ==
         words{"bash", "zsh", "fish"});
   CHECK(option_in(command_in(program, "man").positionals, "PAGE").words == words{"problem", "result"});
-}
-
-TEST_CASE("contct convert takes two files") {
-  const auto o = parsed<convert_options>({"convert", "K.mtx", "--quiet", "K.petsc"});
-  CHECK(words{o.input, o.output} == words{"K.mtx", "K.petsc"});
-  CHECK(o.quiet);
-  CHECK_FALSE(parsed<convert_options>({"convert", "-", "-"}).quiet);
-  const program_description program = describe_contct(engines);
-  for (const option_description& p : command_in(program, "convert").positionals)
-    CHECK((p.required && p.kind == takes::file));
-  CHECK_THAT(refusal({"convert", "K.mtx"}), Contains("OUTPUT is required"));
 }
 
 TEST_CASE("contct man takes the name of a page, or none") {

@@ -45,8 +45,6 @@ expect "beam.toml" contct run --strict be
 expect "" contct run --max-increments 1
 expect "beam plate" contct new ""
 expect "beam.toml" contct new beam be
-expect "beam.toml" contct convert be
-expect "other.txt" contct convert beam.toml o
 expect "bash zsh fish" contct completion ""
 expect "problem result" contct man ""
 expect "" contct nonsense x

@@ -93,11 +93,7 @@ int digits_left(double rcond) {
 }
 
 stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
-  if (k_.is_remote()) {
-    sparse_ = k_.others().make_factor();
-  } else if (!k_.is_band()) {
-    sparse_ = sparse_factor::make(k_.columns());
-  }
+  if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
 }
 
 void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
@@ -114,7 +110,6 @@ void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double
 
 void stiffness_factor::solve_units_at(std::span<const int> rows, std::span<const int> at,
                                       std::vector<double>& x) {
-  if (sparse_ && sparse_->solve_units_at(rows, at, x)) return;
   solve_units(rows, all_rows_);
   x.resize(at.size() * block_width);
   for (std::size_t i = 0; i < at.size(); ++i)

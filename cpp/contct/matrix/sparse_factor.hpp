@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -47,13 +46,6 @@ class sparse_factor {
   /// x[row * block_width + i] for the i-th. A row of -1 leaves zeros.
   virtual void solve_units(std::span<const int> rows, std::vector<double>& x) = 0;
 
-  /// The same at some rows alone, x[i * block_width + j] at row `at[i]`, where the whole solution costs more
-  /// to come by. False where it does not: `solve_units` has them then.
-  [[nodiscard]] virtual bool solve_units_at(std::span<const int> /*rows*/, std::span<const int> /*at*/,
-                                            std::vector<double>& /*x*/) {
-    return false;
-  }
-
   /// Make an updatable factor that of A + k e e^T, or of A - k e e^T where `add` is false; e is the unit
   /// vector of `row`, k positive. False when the factor must be made anew.
   [[nodiscard]] virtual bool update(int row, double k, bool add) = 0;
@@ -64,10 +56,6 @@ class sparse_factor {
 
   /// Products and sums that a factorisation takes.
   [[nodiscard]] virtual double flops() const = 0;
-
-  /// No fewer than the entries of L that the last factorisation computed, each as a sum of products in some
-  /// order. Infinite where that is not known.
-  [[nodiscard]] virtual double most_entries() const { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace contct::matrix

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "contct/distributed/ranks.hpp"
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 #include "contct/solve/spring_engine.hpp"
@@ -50,7 +49,6 @@ class refactor_engine final : public spring_engine {
 std::vector<std::string> engine_names() {
   std::vector<std::string> names = {"refactor", "updated", "condensed"};
   if (sparse_factor::available()) names.insert(names.end(), {"cholmod", "dissected"});
-  if (distributed::joined_ranks() != nullptr) names.emplace_back("petsc");
   return names;
 }
 
@@ -71,7 +69,7 @@ std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linea
   refuse_unknown_engine(name);
   if (name == "condensed") return make_condensed_engine(s);
   if (name == "cholmod") return make_cholmod_engine(s);
-  if (name == "dissected" || name == "petsc") return make_updated_engine(s, name);
+  if (name == "dissected") return make_updated_engine(s, name);
   if (name == "refactor") return std::make_unique<refactor_engine>(s);
   if (!s.stiffness.is_band())
     throw std::invalid_argument(

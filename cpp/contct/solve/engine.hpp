@@ -61,8 +61,7 @@ class stiffness_engine {
 };
 
 /// Make an engine by name: "refactor" for anything, "updated" for any band, "condensed" for beams with pairs,
-/// "cholmod" and "dissected" for anything where the library is built in, "petsc" for anything where this
-/// process has joined an MPI job (contct/distributed/ranks.hpp). `s` must outlive it. Throws
+/// "cholmod" and "dissected" for anything where the library is built in. `s` must outlive it. Throws
 /// std::invalid_argument when there is none of that name, or when it does not suit `s`.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s);
 

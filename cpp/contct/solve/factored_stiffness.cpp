@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "contct/distributed/ranks.hpp"
 #include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/without_zeros.hpp"
 
@@ -45,22 +44,10 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
   to_dofs(s, x, u);
 }
 
-namespace {
-
-stiffness_factor factor_of(const stiffness_matrix& k, factored_by how) {
-  if (how != factored_by::ranks || k.is_remote()) return stiffness_factor(k);
-  distributed::ranks* const all = distributed::joined_ranks();
-  if (all == nullptr) throw std::logic_error("no ranks are joined that could factor a stiffness");
-  return {k, all->distribute(k.columns())};
-}
-
-}  // namespace
-
 factored_stiffness::factored_stiffness(const linear_structure& s, factored_by how)
     : structure_(s),
-      how_(how),
       entries_(how == factored_by::storage ? std::nullopt : entries_of_band(s)),
-      factor_(factor_of(entries_ ? *entries_ : s.stiffness, how)) {
+      factor_(entries_ ? *entries_ : s.stiffness) {
   for (std::size_t i = 0; i < s.pairs.size(); ++i) rows_of_pairs_.push_back(s.row_of(s.dof_of_pair(i)));
 }
 

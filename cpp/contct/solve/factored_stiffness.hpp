@@ -73,8 +73,8 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
 }
 
 /// What factors K: LAPACK where it is stored as a band, and CHOLMOD where not; CHOLMOD in either case, in its
-/// own order; or all ranks of the MPI job that this process has joined.
-enum class factored_by { storage, cholmod, ranks };
+/// own order.
+enum class factored_by { storage, cholmod };
 
 /// What factors K of `s` in the least time: CHOLMOD a wide band, where it is built in.
 [[nodiscard]] inline factored_by quickest_factor(const linear_structure& s) {
@@ -112,9 +112,6 @@ class factored_stiffness {
   /// x[pair * block_width + i] for the i-th.
   void solve_units_at_pairs(std::span<const int> dofs, std::vector<double>& x);
 
-  /// Is a solution at the pairs alone quicker to come by than all of it?
-  [[nodiscard]] bool is_distributed() const { return how_ == factored_by::ranks; }
-
   /// Solve K u = load, corrected with the residual in long double until that no longer helps: u has the
   /// digits that the stored matrix has, or 3 more than LAPACK alone where its condition takes more.
   void solve_refined(std::span<const double> load, std::span<double> u) {
@@ -135,7 +132,6 @@ class factored_stiffness {
   [[nodiscard]] const stiffness_matrix& for_products();
 
   const linear_structure& structure_;
-  factored_by how_;
   std::optional<stiffness_matrix> entries_;  // of a band that LAPACK does not factor
   std::optional<stiffness_matrix> sparse_;   // see matrix::without_zeros
   bool looked_for_zeros_ = false;

@@ -132,14 +132,9 @@ class inverse_columns {
 
   void solve_alone(int pair) {
     const int dof = structure_.dof_of_pair(pair);
-    if (k0_.is_distributed()) {
-      k0_.solve_units_at_pairs({&dof, 1}, one_);
-      for (std::size_t i = 0; i < pairs_; ++i) column_[i] = one_[i * block_width];
-    } else {
-      std::fill(dofs_.begin(), dofs_.end(), 0.0);
-      k0_.solve_unit(dof, dofs_);
-      gather_at_pairs(structure_, dofs_, column_);
-    }
+    std::fill(dofs_.begin(), dofs_.end(), 0.0);
+    k0_.solve_unit(dof, dofs_);
+    gather_at_pairs(structure_, dofs_, column_);
     correct(column_);
   }
 
@@ -191,8 +186,8 @@ class inverse_columns {
   std::vector<std::vector<double>> columns_;    // c_j [toggles][pairs]
   std::vector<std::vector<double>> at_toggle_;  // [j][l] = (c_l) at the pair of toggle j, l < j
   std::list<block> blocks_;
-  std::vector<double> column_;      // the last one asked for [pairs]
-  std::vector<double> dofs_, one_;  // working space: one solution [dofs], or a block at the pairs
+  std::vector<double> column_;  // the last one asked for [pairs]
+  std::vector<double> dofs_;    // working space: one solution
   int passes_ = 0;
   std::size_t solved_ahead_ = 0, used_ahead_ = 0;
 };

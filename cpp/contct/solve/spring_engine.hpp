@@ -105,8 +105,7 @@ class spring_engine : public stiffness_engine {
   std::vector<int> switched_;  // pairs that may differ
 };
 
-/// The engines that have a source of their own: see make_engine. The first: "updated", "dissected" and
-/// "petsc".
+/// The engines that have a source of their own: see make_engine. The first: "updated" and "dissected".
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s,
                                                                     std::string_view name);
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& s);

@@ -135,9 +135,7 @@ class updated_engine final : public spring_engine {
 }  // namespace
 
 std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s, std::string_view name) {
-  const factored_by how = name == "dissected" ? factored_by::cholmod
-                          : name == "petsc"   ? factored_by::ranks
-                                              : factored_by::storage;
+  const factored_by how = name == "dissected" ? factored_by::cholmod : factored_by::storage;
   return std::make_unique<updated_engine>(s, name, how);
 }
 
