@@ -198,7 +198,7 @@ plate read_plate(const table_reader& t) {
 /// solution's. Where K is sparse, CHOLMOD finds an ordering for it.
 std::int64_t bytes_of_run(const assembled& a) {
   if (a.as_band) return 3 * bytes_of_band(a.stiffness, a.rows);
-  // An engine's factor that is updated takes half as much again as the reference solution's.
+  // An engine has columns of the inverse besides: half a factor more is room enough.
   constexpr std::int64_t as_read = sizeof(matrix_entry);
   constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
   const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "contct/matrix/sparse_factor.hpp"
-#include "contct/solve/factored_stiffness.hpp"
 #include "contct/solve/spring_engine.hpp"
 #include "contct/text/strings.hpp"
 
@@ -47,15 +45,11 @@ class refactor_engine final : public spring_engine {
 }  // namespace
 
 std::vector<std::string> engine_names() {
-  std::vector<std::string> names = {"refactor", "updated", "condensed"};
-  if (sparse_factor::available()) names.insert(names.end(), {"cholmod", "dissected"});
-  return names;
+  return {"refactor", "updated", "condensed"};
 }
 
 std::string_view quickest_engine(const linear_structure& s) {
-  if (!s.stiffness.is_band()) return "cholmod";
-  if (can_be_condensed(s)) return "condensed";
-  return quickest_factor(s) == factored_by::cholmod ? "dissected" : "updated";
+  return can_be_condensed(s) ? "condensed" : "updated";
 }
 
 void refuse_unknown_engine(std::string_view name) {
@@ -68,14 +62,8 @@ void refuse_unknown_engine(std::string_view name) {
 std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s) {
   refuse_unknown_engine(name);
   if (name == "condensed") return make_condensed_engine(s);
-  if (name == "cholmod") return make_cholmod_engine(s);
-  if (name == "dissected") return make_updated_engine(s, name);
-  if (name == "refactor") return std::make_unique<refactor_engine>(s);
-  if (!s.stiffness.is_band())
-    throw std::invalid_argument(
-        "engine \"updated\": found a stiffness that is not stored as a band; allowed: refactor, cholmod or "
-        "dissected");
-  return make_updated_engine(s, name);
+  if (name == "updated") return make_updated_engine(s, name, quickest_factor(s));
+  return std::make_unique<refactor_engine>(s);
 }
 
 }  // namespace contct::solve

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/without_zeros.hpp"
 
 namespace contct::solve {
@@ -57,19 +56,16 @@ const stiffness_matrix& factored_stiffness::for_products() {
   return sparse_ ? *sparse_ : structure_.stiffness;
 }
 
-void factored_stiffness::solve_units_at_pairs(std::span<const int> dofs, std::vector<double>& x) {
-  std::vector<int> rows;
-  for (const int dof : dofs) rows.push_back(structure_.fixed[dof] != 0 ? -1 : structure_.row_of(dof));
-  factor_.solve_units_at(rows, rows_of_pairs_, x);
-}
-
-void factored_stiffness::solve_unit(int dof, std::span<double> x) {
-  if (structure_.fixed[dof] != 0) return;
-  x[dof] = 1.0;
-  if (entries_ || !structure_.stiffness.is_band()) return solve(x);
-  std::vector<double> b = in_rows(structure_, x);
-  solve_from(factor_.band(), structure_.row_of(dof), b);
-  to_dofs(structure_, b, x);
+std::vector<std::vector<double>> factored_stiffness::columns_at_pairs(std::span<const int> pairs) {
+  const std::size_t n = structure_.dofs();
+  std::vector<double> x(n * pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (structure_.fixed[structure_.dof_of_pair(pairs[i])] == 0) x[i * n + rows_of_pairs_[pairs[i]]] = 1.0;
+  factor_.solve(x);
+  std::vector<std::vector<double>> columns(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (const int row : rows_of_pairs_) columns[i].push_back(x[i * n + row]);
+  return columns;
 }
 
 }  // namespace contct::solve

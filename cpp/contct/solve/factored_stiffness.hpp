@@ -104,13 +104,9 @@ class factored_stiffness {
     to_dofs(structure_, b, x);
   }
 
-  /// Solve K x = e for the unit vector of one dof: x [dofs], which must be 0 before. Where K is a band this
-  /// reads less of the factor than `solve`: see solve_from.
-  void solve_unit(int dof, std::span<double> x);
-
-  /// The same for up to `block_width` dofs in one pass over the factor, at the pairs alone:
-  /// x[pair * block_width + i] for the i-th.
-  void solve_units_at_pairs(std::span<const int> dofs, std::vector<double>& x);
+  /// Columns of the inverse at the pairs: K x = e for the dofs of some pairs, solved for together [those
+  /// asked for][pairs]. Zeros where the dof is fixed.
+  [[nodiscard]] std::vector<std::vector<double>> columns_at_pairs(std::span<const int> pairs);
 
   /// Solve K u = load, corrected with the residual in long double until that no longer helps: u has the
   /// digits that the stored matrix has, or 3 more than LAPACK alone where its condition takes more.
