@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "app/job.hpp"
 #include "app/limits.hpp"
 #include "app/outputs.hpp"
 #include "app/problem_runs.hpp"
@@ -18,7 +19,7 @@ namespace {
 /// Nothing where the command line has no meaning, which is said.
 std::optional<command_options> asked_by(int argc, char** argv) {
   try {
-    return parse_contct(argc, argv, engine_names());
+    return parse_contct(argc, argv, engine_choices());
   } catch (const std::invalid_argument& e) {
     complain("{}", e.what());  // lines
   }
@@ -27,6 +28,7 @@ std::optional<command_options> asked_by(int argc, char** argv) {
 
 exit_status status_of_program(int argc, char** argv) {
   try {
+    if (!runs_the_program({argv, argv + argc})) return exit_status::solved;
     const std::optional<command_options> asked = asked_by(argc, argv);
     if (!asked) return exit_status::bad_input;
     const exit_status status = std::visit(
@@ -41,6 +43,7 @@ exit_status status_of_program(int argc, char** argv) {
     flush_standard_output();
     return status;
   } catch (const reader_gone&) {  // "contct run .. | head" ends as any filter does, its files written
+    leave_job();
     (void)std::signal(SIGPIPE, SIG_DFL);
     (void)std::raise(SIGPIPE);
   } catch (const kernel_failure& e) {
@@ -64,5 +67,7 @@ int main(int argc, char** argv) {
   contct::numeric::allocate_as_new_does();
   contct::app::hold_standard_streams();
   (void)std::signal(SIGPIPE, SIG_IGN);
-  return static_cast<int>(contct::app::status_of_program(argc, argv));
+  const contct::app::exit_status status = contct::app::status_of_program(argc, argv);
+  contct::app::leave_job();
+  return static_cast<int>(status);
 }

@@ -16,6 +16,9 @@ namespace contct::app {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
+/// The names that --engine takes, besides auto: those of this process, and "petsc".
+[[nodiscard]] std::vector<std::string> engine_choices();
+
 /// Throws std::invalid_argument for what --engine does not take: it takes an engine's name, or auto.
 void refuse_engine_option(const std::string& name);
 

@@ -42,6 +42,10 @@ class stiffness_factor {
   /// `k` must outlive this object.
   explicit stiffness_factor(const stiffness_matrix& k);
 
+  /// By a factor of K that is at hand; `k` is no band.
+  stiffness_factor(const stiffness_matrix& k, std::unique_ptr<sparse_factor> of_k)
+      : k_(k), sparse_(std::move(of_k)) {}
+
   /// False when a pivot is not positive. Rounding can give a mechanism a factor, too.
   [[nodiscard]] bool factor(std::span<const spring_at> springs) {
     if (sparse_) return sparse_->factor(k_.diagonal_with(springs));

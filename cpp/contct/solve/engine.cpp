@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "contct/solve/mpi_job.hpp"
 #include "contct/solve/spring_engine.hpp"
 #include "contct/text/strings.hpp"
 
@@ -45,7 +46,9 @@ class refactor_engine final : public spring_engine {
 }  // namespace
 
 std::vector<std::string> engine_names() {
-  return {"refactor", "updated", "condensed"};
+  std::vector<std::string> names = {"refactor", "updated", "condensed"};
+  if (joined_job() != nullptr) names.emplace_back("petsc");
+  return names;
 }
 
 std::string_view quickest_engine(const linear_structure& s) {
@@ -63,6 +66,7 @@ std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linea
   refuse_unknown_engine(name);
   if (name == "condensed") return make_condensed_engine(s);
   if (name == "updated") return make_updated_engine(s, name, quickest_factor(s));
+  if (name == "petsc") return make_updated_engine(s, name, factored_by::ranks);
   return std::make_unique<refactor_engine>(s);
 }
 

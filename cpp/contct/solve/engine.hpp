@@ -60,8 +60,10 @@ class stiffness_engine {
   [[nodiscard]] virtual double reciprocal_condition() = 0;
 };
 
-/// Make an engine by name: "refactor" and "updated" for anything, "condensed" for beams with pairs. `s` must
-/// outlive it. Throws std::invalid_argument when there is none of that name, or when it does not suit `s`.
+/// Make an engine by name: "refactor" and "updated" for anything, "condensed" for beams with pairs,
+/// "petsc", which is "updated" by a factor that ranks share, where this process has joined an MPI job
+/// (contct/solve/mpi_job.hpp). `s` must outlive it. Throws std::invalid_argument when there is none of that
+/// name, or when it does not suit `s`.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s);
 
 /// The engine that is quickest for `s`: "condensed" where it suits, otherwise "updated".

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contct/matrix/without_zeros.hpp"
+#include "contct/solve/mpi_job.hpp"
 
 namespace contct::solve {
 
@@ -43,10 +44,21 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
   to_dofs(s, x, u);
 }
 
+namespace {
+
+stiffness_factor factor_of(const stiffness_matrix& k, factored_by how) {
+  if (how != factored_by::ranks) return stiffness_factor(k);
+  mpi_job* const job = joined_job();
+  if (job == nullptr) throw std::logic_error("no job is joined that could factor a stiffness");
+  return {k, job->share(k.columns())};
+}
+
+}  // namespace
+
 factored_stiffness::factored_stiffness(const linear_structure& s, factored_by how)
     : structure_(s),
       entries_(how == factored_by::storage ? std::nullopt : entries_of_band(s)),
-      factor_(entries_ ? *entries_ : s.stiffness) {
+      factor_(factor_of(entries_ ? *entries_ : s.stiffness, how)) {
   for (std::size_t i = 0; i < s.pairs.size(); ++i) rows_of_pairs_.push_back(s.row_of(s.dof_of_pair(i)));
 }
 

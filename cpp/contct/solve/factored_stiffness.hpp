@@ -73,8 +73,8 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
 }
 
 /// What factors K: LAPACK where it is stored as a band, and CHOLMOD where not; CHOLMOD in either case, in its
-/// own order.
-enum class factored_by { storage, cholmod };
+/// own order; or the ranks of the MPI job that this process has joined.
+enum class factored_by { storage, cholmod, ranks };
 
 /// What factors K of `s` in the least time: CHOLMOD a wide band, where it is built in.
 [[nodiscard]] inline factored_by quickest_factor(const linear_structure& s) {
