@@ -41,9 +41,8 @@ struct run_options {
   bool free_run = false;
   bool final_only = false;
   bool strict = false;
-  bool detail = false;        ///< all numbers on the terminal
-  bool envelope = false;      ///< in the result
-  bool displacement = false;  ///< in the result of an MPI job too: every dof, and not only w
+  bool detail = false;    ///< all numbers on the terminal
+  bool envelope = false;  ///< in the result
   std::string
       watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
   int max_increments = 0;      ///< in a step; 0: the default limit
@@ -117,11 +116,6 @@ struct atlas_options {
   bool quiet = false;
 };
 
-struct convert_options {
-  std::string input, output;
-  bool quiet = false;
-};
-
 struct kernels_options {};
 
 /// What --help and --version print.
@@ -130,9 +124,9 @@ struct printed_text {
 };
 
 /// What a command line asks for: one command, or a text.
-using command_options = std::variant<printed_text, run_options, check_options, explain_options, exact_options,
-                                     new_options, verify_options, fuzz_options, replay_options, atlas_options,
-                                     convert_options, kernels_options>;
+using command_options =
+    std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
+                 verify_options, fuzz_options, replay_options, atlas_options, kernels_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -154,7 +148,6 @@ exit_status run_command(const verify_options& options);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
 exit_status run_command(const atlas_options& options);
-exit_status run_command(const convert_options& options);
 exit_status run_command(const kernels_options& options);
 inline exit_status run_command(const printed_text& t) {
   (void)std::fputs(t.text.c_str(), stdout);

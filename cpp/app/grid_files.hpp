@@ -1,5 +1,4 @@
-// The files of --vtu: grids of the increments and their collection, or the final state in pieces and their
-// list.
+// The files of --vtu: grids of the increments and their collection.
 #pragma once
 
 #include <string>
@@ -14,11 +13,8 @@ namespace contct::app {
 /// A file in the folder of `file`: its name without the extension, and `end`.
 [[nodiscard]] std::string beside(const std::string& file, const std::string& end);
 
-/// Is the grid in pieces, each a file?
-[[nodiscard]] bool is_in_pieces(const std::string& vtu);
-
 /// Every file of --vtu. Throws std::invalid_argument for a name that cannot be a grid's.
-void add_grid_files(const std::string& vtu, const std::string& engine, std::vector<output_option>& all);
+void add_grid_files(const std::string& vtu, std::vector<output_option>& all);
 
 /// For --vtu: throws std::invalid_argument where a structure given by its matrix has no coordinates, and
 /// warns of pairs that get no cell.

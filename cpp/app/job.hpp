@@ -6,19 +6,11 @@
 
 namespace contct::app {
 
-/// Does this command line ask for the engine petsc? Looked at before anything is parsed: where it does, rank
-/// 0 alone parses, reads, talks and writes.
-[[nodiscard]] bool asks_for_petsc(const std::vector<std::string>& arguments);
-
-/// What this process is to do.
-enum class part {
-  runs,     ///< the program
-  is_done,  ///< nothing: it has served rank 0 until that ended, or rank 0 says why it could not join
-};
-
-/// Join the job where the command line asks for it; on other ranks than 0, serve. Throws std::runtime_error
-/// on rank 0 where there is no module.
-[[nodiscard]] part take_part(const std::vector<std::string>& arguments);
+/// Join the job where the command line asks for it, through the module contct_petsc.so. This is looked at
+/// before anything is parsed: rank 0 alone parses, reads, talks and writes. False on the other ranks, when
+/// they have served it. Throws std::runtime_error where there is no module, where what it needs cannot be
+/// loaded, and where it was made for another version.
+[[nodiscard]] bool runs_the_program(const std::vector<std::string>& arguments);
 
 /// Let the other ranks go, where there are any. The last thing that rank 0 does.
 void leave_job() noexcept;

@@ -26,7 +26,7 @@ std::optional<command_options> asked_by(int argc, char** argv) {
 
 exit_status status_of_program(int argc, char** argv) {
   try {
-    if (take_part({argv, argv + argc}) == part::is_done) return exit_status::solved;
+    if (!runs_the_program({argv, argv + argc})) return exit_status::solved;
     const std::optional<command_options> asked = asked_by(argc, argv);
     if (!asked) return exit_status::bad_input;
     const exit_status status = std::visit([](const auto& options) { return run_command(options); }, *asked);

@@ -32,7 +32,6 @@ constexpr example all_examples[] = {
     {"contct run beam.toml --final-only", "no path: the reference solution at the end of each step"},
     {"contct run beam.toml --html beam.html", "a report as one HTML page"},
     {"contct check beam.toml", "a summary of a problem, without solving it"},
-    {"contct convert K.mtx K.petsc", "a stiffness matrix in PETSc's binary, whose doubles are equal"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
     {"contct explain beam.toml --all --hex", "every increment of a long run, with the bits of s"},
@@ -197,9 +196,7 @@ void declare_pictures(CLI::App* c, picture_options& o) {
   add_file(c, "--vtu", o.vtu,
            "For ParaView: write the final state to this file, and beside F.vtu the files F.000.vtu, "
            "F.001.vtu, .. for the start and each kept increment, with every step's final state, and F.pvd, "
-           "which lists them. A structure given by its matrix must have coordinates. With --engine petsc a "
-           "name F.pvtu is allowed: it lists one file a rank, at most 256, F_0.vtu, F_1.vtu, .., of the "
-           "final state");
+           "which lists them. A structure given by its matrix must have coordinates");
 }
 
 void declare_run(option_parser& p, const std::vector<std::string>& engines) {
@@ -222,9 +219,6 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   c->add_flag("--envelope", o.envelope,
               "Add to the result of --json the least and largest values over all increments; this takes one "
               "more solve for each increment");
-  c->add_flag("--displacement", o.displacement,
-              "With --engine petsc: add the displacement of every dof to the result of --json, which has w "
-              "alone then; results of other engines always have it");
   c->add_option(
        "--node", o.watched,
        "The node whose deflection --csv writes: its number, \"x = 4.5\" along a beam, or a dof's label [the "
@@ -356,17 +350,6 @@ void declare_atlas(option_parser& p) {
   add_quiet(c, o.quiet);
 }
 
-void declare_convert(option_parser& p) {
-  const auto [c, o] = p.command<convert_options>(
-      "convert", "Turn a stiffness matrix in Matrix Market into PETSc's binary, or back");
-  add_file(c, "INPUT", o.input,
-           "The matrix in either format, told by its first bytes; - reads standard input")
-      ->required();
-  add_file(c, "OUTPUT", o.output, "The file to write, in the other format (- is standard output)")
-      ->required();
-  add_quiet(c, o.quiet);
-}
-
 /// Each command's examples stand under its --help, and the first of each under the program's.
 void add_examples(CLI::App& program) {
   std::string first_ones;
@@ -399,7 +382,6 @@ constexpr std::pair<const char*, declare_command> all_commands[] = {
            p, p.program.add_subcommand("replay", "Repeat recorded calls with a kernel; needs no LAPACK"));
      }},
     {"atlas", [](option_parser& p, const auto&) { declare_atlas(p); }},
-    {"convert", [](option_parser& p, const auto&) { declare_convert(p); }},
     {"kernels",
      [](option_parser& p, const auto&) {
        p.command<kernels_options>("kernels", "What is built in, and how this machine computes");

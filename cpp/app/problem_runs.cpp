@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "contct/distributed/ranks.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
@@ -66,8 +65,7 @@ problem read_with_progress(const std::string& file, const std::vector<output_opt
   refuse_shared_outputs(outputs, inputs);
   problem p = [&] {
     const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
-    return read_problem(file, allow_outside ? reach::anywhere : reach::own_folder,
-                        distributed::joined_ranks());
+    return read_problem(file, allow_outside ? reach::anywhere : reach::own_folder);
   }();
   for (const std::string& named : p.files) inputs.push_back({named_by_problem, named});
   refuse_shared_outputs(outputs, inputs);
@@ -77,7 +75,7 @@ problem read_with_progress(const std::string& file, const std::vector<output_opt
 
 linear_structure build_with_progress(const problem& p, bool quiet) {
   const std::jthread here = shown_activity("building the structure", quiet);
-  return structure_of(p, distributed::joined_ranks());
+  return structure_of(p);
 }
 
 path_progress::path_progress(std::size_t steps, bool quiet)

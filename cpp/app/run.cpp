@@ -42,7 +42,7 @@ std::vector<output_option> outputs_of(const run_options& o) {
   std::vector<output_option> all = {{"--json", o.json},  {"--log", o.log}, {"--trace", o.trace},
                                     {"--html", html},    {"--csv", csv},   {csv_pairs, pairs_table(csv)},
                                     {"--proof", o.proof}};
-  if (!vtu.empty()) add_grid_files(vtu, o.engine, all);
+  if (!vtu.empty()) add_grid_files(vtu, all);
   return with_reports(std::move(all), o.report);
 }
 
@@ -171,9 +171,7 @@ std::vector<observer*> make_observers(observed_run& o) {
   if (run.prints)
     all.push_back(&o.rows.emplace(run.what, o.compared, o.judged, run.screen, run.options.detail));
   if (output_file* const file = o.files["--json"])
-    all.push_back(&o.json.emplace(
-        run.what, run.kernels, run.engine, o.judged, *file,
-        run.engine == "petsc" && !run.options.displacement ? displacements::only_w : displacements::all));
+    all.push_back(&o.json.emplace(run.what, run.kernels, run.engine, o.judged, *file));
   if (output_file* const file = o.files["--log"]) all.push_back(&o.log.emplace(*file));
   all.insert(all.end(), {&o.digits, &o.passages, o.shown.behind.get()});
   std::erase(all, nullptr);

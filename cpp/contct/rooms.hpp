@@ -17,9 +17,6 @@ using namespace trace;
 namespace contct::matrix {
 using namespace numeric;
 }
-namespace contct::distributed {
-using namespace matrix;
-}
 namespace contct::structure {
 using namespace kernels;
 using namespace matrix;

@@ -74,7 +74,6 @@ TEST_CASE("the options of contct run arrive where they belong, in any order") {
   CHECK(o.engine == "auto");
   CHECK(o.max_increments == 7);
   CHECK_FALSE(o.displacement);
-  CHECK(parsed<run_options>({"run", "f", "--engine", "petsc", "--displacement"}).displacement);
 }
 
 TEST_CASE("a final state has no path, so --final-only excludes what belongs to one") {
@@ -107,7 +106,7 @@ TEST_CASE("numbers outside their range are refused, with the range") {
 TEST_CASE("the options --help and --version are texts, not commands") {
   const auto help = parsed<printed_text>({"--help"}).text;
   for (const char* command :
-       {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "atlas", "convert", "kernels"})
+       {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "atlas", "kernels"})
     CHECK_THAT(help, Contains("\n  " + std::string(command) + " "));
   CHECK_THAT(help, Contains("Examples:\n  contct run beam.toml\n"));
   CHECK_THAT(parsed<printed_text>({"run", "--help"}).text, Contains("--max-increments"));
@@ -146,12 +145,4 @@ TEST_CASE("contct-replay takes what contct replay takes") {
   const std::vector<const char*> wrong = {"contct-replay", "a.trace", "--junti", "j"};
   CHECK_THROWS_WITH(parse_contct_replay(static_cast<int>(wrong.size()), wrong.data()),
                     Contains("(did you mean \"--junit\"?)") && !Contains("the commands are"));
-}
-
-TEST_CASE("contct convert takes two files") {
-  const auto o = parsed<convert_options>({"convert", "K.mtx", "--quiet", "K.petsc"});
-  CHECK(words{o.input, o.output} == words{"K.mtx", "K.petsc"});
-  CHECK(o.quiet);
-  CHECK_FALSE(parsed<convert_options>({"convert", "-", "-"}).quiet);
-  CHECK_THAT(refusal({"convert", "K.mtx"}), Contains("OUTPUT is required"));
 }

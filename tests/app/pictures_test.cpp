@@ -190,8 +190,7 @@ TEST_CASE(
                            {"--vtu", "out.vtu", "--log", "out.119.vtu"},
                            {"--html", "-", "--csv", "-"},
                            {"--vtu", "-"},
-                           {"--vtu", "out"},
-                           {"--vtu", "out.pvtu"}}) {
+                           {"--vtu", "out"}}) {
     INFO(two[0] << " " << two[1]);
     const finished f = contct_program(dir.path(), run_of(two));
     CHECK(f.exit == 2);

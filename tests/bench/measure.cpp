@@ -125,9 +125,9 @@ final_states time_final_states(const contct::app::problem& p, const contct::app:
 
 std::optional<double> entries_of_factor(const contct::app::linear_structure& s, const std::string& engine) {
   const contct::app::band_matrix& k = s.stiffness.band();
-  if (engine == "refactor" || engine == "updated")
+  if (engine == "condensed") return std::nullopt;
+  if (engine == "refactor" || contct::app::quickest_factor(s) == contct::app::factored_by::storage)
     return static_cast<double>(s.dofs()) * (k.subdiagonals() + 1);
-  if (engine != "dissected") return std::nullopt;
   const auto factor = contct::app::sparse_factor::make(columns_of(k));
   return static_cast<double>(factor->bytes()) / sizeof(double);
 }

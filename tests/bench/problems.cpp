@@ -74,25 +74,6 @@ std::string grid(int n) {
   return text + fmt::format("[[step]]\nuniform = {:.17g}\n", -1.0 / (0.00406 * std::pow(n, 4)));
 }
 
-/// The same plate over 200 stops, whatever its size, at places of Roberts' sequence.
-std::string stops(int n) {
-  std::string text = grid(n);
-  text.erase(text.find("[[contact]]"));
-  const double pi = std::acos(-1.0);
-  const auto place = [n](int k, double ratio) {
-    return 1 + static_cast<int>((k * ratio - std::floor(k * ratio)) * (n - 1));
-  };
-  for (int k = 1; k <= 200; ++k) {
-    const int i = place(k, 0.7548776662466927);
-    const int j = place(k, 0.5698402909980532);
-    text += fmt::format("[[contact]]\nnode = {}\nsurface = \"below\"\nface = {:.17g}\nstiffness = {:.17g}\n",
-                        j * (n + 1) + i + 1,
-                        -0.5 * (0.05 + 0.95 * phi(k)) * std::sin(pi * i / n) * std::sin(pi * j / n),
-                        20 * (0.7 + 0.6 * phi(2 * k)) / (n * n));
-  }
-  return text + fmt::format("[[step]]\nuniform = {:.17g}\n", -1.0 / (0.00406 * std::pow(n, 4)));
-}
-
 }  // namespace
 
 std::string problem_text(const std::string& name) {
@@ -105,17 +86,15 @@ std::string problem_text(const std::string& name) {
   if (size >= 2 && size <= 5000 && family == "rail") text = rail(size);
   if (size >= 4 && size <= 400 && family == "mat") text = mat(size);
   if (size >= 4 && size <= 400 && family == "grid") text = grid(size);
-  if (size >= 4 && size <= 600 && family == "stops") text = stops(size);
   if (text.empty())
     throw std::invalid_argument("--problem: found \"" + name +
                                 "\"; allowed: rail-S (2 to 5000 spans), mat-N, grid-N (4 to 400 elements a "
-                                "side), stops-N (4 to 600)");
+                                "side)");
   return text;
 }
 
-contct::app::problem make_problem(const std::string& name, contct::distributed::ranks* among) {
-  using contct::app::reach;
-  return contct::app::parse_problem(problem_text(name), name, reach::own_folder, among);
+contct::app::problem make_problem(const std::string& name) {
+  return contct::app::parse_problem(problem_text(name), name);
 }
 
 std::vector<std::string> usual_problems() {

@@ -8,14 +8,12 @@
 
 namespace bench {
 
-/// The problem file of "rail-50", "mat-100", "grid-50", "stops-100": the family and its size. Throws
+/// The problem file of "rail-50", "mat-100", "grid-50": the family and its size. Throws
 /// std::invalid_argument for others.
 [[nodiscard]] std::string problem_text(const std::string& name);
 
 /// The same, read.
-/// `among`: the ranks of a job, which may have a plate that is too large for one process.
-[[nodiscard]] contct::app::problem make_problem(const std::string& name,
-                                                contct::distributed::ranks* among = nullptr);
+[[nodiscard]] contct::app::problem make_problem(const std::string& name);
 
 /// The problems of the benchmark, smallest first.
 [[nodiscard]] std::vector<std::string> usual_problems();

@@ -123,7 +123,6 @@ def commands() -> list[Command]:
                               "--out", "found", "--json", "f.json", "--junit", "f.xml"], {"found/mine": b"mine"}, False),
              Command("exact", ["exact", "p.toml", "--kernels", "fortran", "--json", "x.json"], beam, True),
              Command("band", ["run", "mband.toml", "--quiet", "--json", "o.json"], matrix, True)]
-    found.append(Command("convert", ["convert", "K.mtx", "K.petsc"], matrix, True))
     try:
         found.append(Command("sparse", ["run", "msparse.toml", "--quiet", "--json", "o.json"], matrix, True))
     except SystemExit:

@@ -118,7 +118,7 @@ def main(program, root, plugin):
             if fault := check.fault(result):
                 return f"{problem} {options}: {fault}"
             if without := [step["step"] for step in result["steps"] if "displacement" not in step]:
-                return f"{problem} {options}: found steps {without} without displacement; allowed: only with --engine petsc"
+                return f"{problem} {options}: found steps {without} without displacement"
             count += 1
             seen_keys(schema, result, schema, seen)
         shown = blocks(text)

@@ -31,7 +31,7 @@ std::string written(Write write) {
 }
 
 /// Run a problem with FORTRAN leading C++, and read the JSON back.
-nlohmann::json result_of(const std::string& text, displacements shown = displacements::all) {
+nlohmann::json result_of(const std::string& text) {
   const problem p = parse_problem(text, "pb.toml");
   const auto leader = make_kernel("fortran");
   const std::vector<std::string> followers = {"cpp"};
@@ -40,7 +40,7 @@ nlohmann::json result_of(const std::string& text, displacements shown = displace
   output_file out(folder.at("result.json"));
   const linear_structure s = structure_of(p);
   certifier judged(p, s);
-  result_json json(p, {"fortran", "cpp"}, "refactor", judged, out, shown);
+  result_json json(p, {"fortran", "cpp"}, "refactor", judged, out);
   const path_end end = follow(p, s, "refactor", *leader, {&compared, &judged, &json});
   json.finish(status_name(end.status), end, &compared);
   return nlohmann::json::parse(folder.read("result.json"));
@@ -48,13 +48,9 @@ nlohmann::json result_of(const std::string& text, displacements shown = displace
 
 }  // namespace
 
-TEST_CASE("a result has the displacement of every dof, or w alone") {
-  nlohmann::json all = result_of(good_problem);
-  const nlohmann::json only_w = result_of(good_problem, displacements::only_w);
+TEST_CASE("a result has the displacement of every dof") {
+  const nlohmann::json all = result_of(good_problem);
   CHECK(all["steps"][0]["displacement"].size() == 2 * all["steps"][0]["w"].size());
-  CHECK_FALSE(only_w["steps"][0].contains("displacement"));
-  for (nlohmann::json& step : all["steps"]) step.erase("displacement");
-  CHECK(all == only_w);
 }
 
 TEST_CASE("members and elements stand on lines of their own, indented by their depth") {

@@ -47,7 +47,6 @@ bool can_be_proved_by_columns(const linear_structure& s) {
 
 /// A band, of which two more are held during a proof, besides those of the path and of the comparison.
 bool can_be_proved(const linear_structure& s) {
-  if (s.stiffness.is_remote()) return true;
   if (!s.stiffness.is_band()) return can_be_proved_by_columns(s);
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
   constexpr std::int64_t bytes = 40;  // of five doubles

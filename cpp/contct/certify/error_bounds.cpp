@@ -57,7 +57,7 @@ error_prover::error_prover(const problem& p, const linear_structure& s, exact_re
                            semidefinite_test exactly_semidefinite)
     : problem_(p),
       structure_(s),
-      true_(true_system_of(p, s.stiffness.is_remote() ? &s.stiffness.others() : nullptr)),
+      true_(true_system_of(p)),
       stiffness_(true_, rows_of(s),
                  s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt),
       exactly_(std::move(exactly)),
@@ -222,7 +222,6 @@ bool error_prover::is_semidefinite() {
 bool error_prover::last_digits_decide() const {
   const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
   if (a == nullptr || a->free_motions) return false;
-  if (a->remote) return remote_digits_decide(*a->remote);
   if (a->stiffness.last_digits.empty()) return false;
   std::vector<double> rows(true_.dofs());  // of S H S, where H has the half units
   for (std::size_t i = 0; i < a->stiffness.entries.size(); ++i) {
@@ -235,28 +234,12 @@ bool error_prover::last_digits_decide() const {
   return !(std::ranges::max(rows) * (1 + of_sums) < mu_);
 }
 
-bool error_prover::remote_digits_decide(matrix::remote_matrix& k) const {
-  std::vector<double> scale(true_.dofs());
-  for (std::size_t dof = 0; dof < scale.size(); ++dof)
-    scale[dof] = true_.fixed[dof] != 0 ? 0.0 : stiffness_.scale(dof);
-  const std::vector<double> units = k.half_units(scale);
-  double largest = 0.0;
-  for (std::size_t dof = 0; dof < scale.size(); ++dof) largest = std::max(largest, scale[dof] * units[dof]);
-  return !(largest * (1 + of_sums) < mu_);
-}
-
 /// A: at first all pairs beyond their faces; those that are not so for certain leave it again.
 bool error_prover::find_closed(std::span<const double_double> u, const residual& r, error_bounds& b) {
   b.closed = pressed(u);
   for (int tries = 0; tries < 3; ++tries) {
     if (!proves(b.closed)) {
-      b.not_proved =
-          stiffness_.has_no_factor() ? "the stiffness has no factor, which multigrid does without"
-          : stiffness_.is_remote()
-              ? "the stiffness is too ill-conditioned for a factor of so many entries, or it is not certain "
-                "that "
-                "the structure is held"
-              : "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
+      b.not_proved = "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
       return false;
     }
     if (last_digits_decide()) {

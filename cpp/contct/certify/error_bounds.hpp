@@ -125,7 +125,6 @@ class error_prover {
   /// Can half a unit in the last digits of a matrix, that does not say how many motions it leaves free, make
   /// K_A indefinite?
   [[nodiscard]] bool last_digits_decide() const;
-  [[nodiscard]] bool remote_digits_decide(matrix::remote_matrix& k) const;
   [[nodiscard]] std::optional<double> norm_of(const residual& r, double mu);
   void keep(const handed_out& state, const long_vector& u, const error_bounds& b);
   bool find_closed(std::span<const double_double> u, const residual& r, error_bounds& b);

@@ -125,36 +125,13 @@ bool scaled_stiffness::factor(std::span<const int> pairs) {
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
     if (true_.fixed[dof] != 0) continue;
     const double diagonal = true_.root[dof] * true_.root[dof] + springs_[dof].hi;
-    // The bound on a remote factor's rounding grows with the diagonal: this makes it at most 1, and nearly
-    // so.
-    scale_[dof] = true_.remote ? (1 - 0x1p-40) / std::sqrt(diagonal) : root_scale(diagonal);
+    scale_[dof] = root_scale(diagonal);
   }
   return factor_in_doubles() || factor_in_32_digits();
 }
 
-/// With `shift` off the diagonal.
-bool scaled_stiffness::factor_remotely(double shift) {
-  if (!sparse_) {
-    std::vector<double> scale = scale_;
-    for (std::size_t dof = 0; dof < scale.size(); ++dof)
-      if (true_.fixed[dof] != 0) scale[dof] = 0.0;
-    sparse_ = true_.remote->make_factor(scale);
-  }
-  std::vector<double> diagonal(true_.dofs(), 1.0 - shift);
-  for (std::size_t dof = 0; dof < diagonal.size(); ++dof) {
-    if (true_.fixed[dof] != 0) continue;
-    const double_double own = true_.diagonal[dof] + springs_[dof];
-    diagonal[dof] = (own * (scale_[dof] * scale_[dof]) - shift).hi;
-  }
-  return sparse_->factor(diagonal);
-}
-
 bool scaled_stiffness::factor_in_doubles() {
   long_.reset();
-  if (true_.remote) {
-    sparse_.reset();
-    return factor_remotely(0.0);
-  }
   if (!subdiagonals_) {
     matrix::sparse_columns all = columns(0.0);
     const std::vector<double> diagonal = diagonal_of(all);
@@ -303,33 +280,7 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   return largest_row_of_error_in(reordered(a, l->places()), l->lower()) + rounding;
 }
 
-/// L L', or L D L', of a matrix with entries t_i in row i of L is off by at most (t_i + 8) 2^-53 times the
-/// roots of the diagonal in row i and column j each (S. M. Rump 2006), in whatever order its products are
-/// summed: in norm by the sum over all rows. The diagonal is at most 1; its rounding, and that of the
-/// entries, is added.
-double scaled_stiffness::rounding_of_remote() const {
-  constexpr double of_a_row = 8;
-  const double entries = sparse_->most_entries() + of_a_row * static_cast<double>(true_.dofs());
-  const double of_the_matrix = true_.remote->widest_row() * (0x1p-52 + true_rounding);
-  return (entries * 0x1p-53 + of_the_matrix) * (1 + 0x1p-20);
-}
-
-/// K_A is factored once more without the shift: solutions are wanted.
-double scaled_stiffness::least_of_remote() {
-  const double estimate = least_estimate();
-  double mu = 0.0;
-  bool any = false;
-  for (const double below : {0.75, 0.25, 0.0625}) {
-    const double shift = below * estimate;
-    if (mu > 0.0 || !(shift > rounding_of_remote())) break;
-    any = true;
-    if (factor_remotely(shift)) mu = std::max(0.0, (shift - rounding_of_remote()) * (1 - 0x1p-50));
-  }
-  return !any || factor_remotely(0.0) ? mu : 0.0;
-}
-
 double scaled_stiffness::least_eigenvalue() {
-  if (true_.remote) return least_of_remote();
   if (const double mu = proved_below_estimate(); mu > 0.0 || long_) return mu;
   return factor_in_32_digits() ? proved_below_estimate() : 0.0;
 }

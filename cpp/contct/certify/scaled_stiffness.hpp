@@ -16,8 +16,8 @@
 
 namespace contct::certify {
 
-/// S K_A S, with powers of two in S such that the diagonal is between 1/8 and 1; or just below 1, without
-/// that, where the ranks of a job have K. Rows of fixed dofs are those of the unit matrix.
+/// S K_A S, with powers of two in S such that the diagonal is between 1/8 and 1. Rows
+/// of fixed dofs are those of the unit matrix.
 class scaled_stiffness {
  public:
   /// `row_of`: the row of each dof in a band of `subdiagonals`; without these, by sparse columns, which takes
@@ -29,12 +29,6 @@ class scaled_stiffness {
 
   /// mu with S K_A S >= mu I; 0 where none can be proved. Takes a factorisation or more, and four solves.
   [[nodiscard]] double least_eigenvalue();
-
-  [[nodiscard]] bool is_remote() const { return true_.remote != nullptr; }
-  /// Does multigrid alone solve with it?
-  [[nodiscard]] bool has_no_factor() const {
-    return true_.remote && sparse_ && std::isinf(sparse_->most_entries());
-  }
 
   /// Did the last factor take 32 digits?
   [[nodiscard]] bool has_32_digits() const { return long_.has_value(); }
@@ -61,7 +55,6 @@ class scaled_stiffness {
   void each_entry(double shift, Put put) const;
   void solve_rows(std::span<double> x) const;
   [[nodiscard]] bool factor_in_doubles();
-  [[nodiscard]] bool factor_remotely(double shift);
   bool factor_in_32_digits();
   [[nodiscard]] double proved_below_estimate();
   [[nodiscard]] double least_estimate() const;
@@ -70,8 +63,6 @@ class scaled_stiffness {
   [[nodiscard]] std::optional<double> error_of_long_band(double shift);
   [[nodiscard]] stiffness_proof proof_of(const long_band& l, double shift) const;
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
-  [[nodiscard]] double rounding_of_remote() const;
-  [[nodiscard]] double least_of_remote();
   [[nodiscard]] double largest_row_of_error(const matrix::band_matrix& factor, double shift) const;
 
   const true_system& true_;

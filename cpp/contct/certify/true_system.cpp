@@ -88,7 +88,7 @@ true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
   return f;
 }
 
-/// K here, with the elastic supports.
+/// K, with the elastic supports.
 template <class Kind>
 void assemble(const problem& p, const Kind& kind, true_system& t) {
   const int per_node = dofs_per_node(p.geometry);
@@ -100,32 +100,14 @@ void assemble(const problem& p, const Kind& kind, true_system& t) {
   t.k = rows.packed();
 }
 
-/// K on the ranks of a job, and the elastic supports here.
-void assemble_remotely(const problem& p, matrix::remote_matrix& k, true_system& t) {
-  const auto* const a = std::get_if<assembled>(&p.geometry.kind);
-  t.remote = a != nullptr ? a->remote->truth() : k.truth();
-  t.diagonal = t.remote->diagonal();
-  t.supports.assign(t.dofs(), 0.0);
-  for (const support& s : p.supports) {
-    if (s.fixed) continue;
-    const int dof = s.node * dofs_per_node(p.geometry) + s.dof;
-    t.supports[dof] += long_decimal(s.spring);
-    t.diagonal[dof] += long_decimal(s.spring);
-  }
-}
-
 template <class Kind>
-void fill(const problem& p, const Kind& kind, matrix::remote_matrix* remote, true_system& t) {
+void fill(const problem& p, const Kind& kind, true_system& t) {
   const std::size_t n = dofs(p.geometry);
   const int per_node = dofs_per_node(p.geometry);
   t.fixed.assign(n, 0);
   for (const support& s : p.supports)
     if (s.fixed) t.fixed[s.node * per_node + s.dof] = 1;
-  if (remote != nullptr) {
-    assemble_remotely(p, *remote, t);
-  } else {
-    assemble(p, kind, t);
-  }
+  assemble(p, kind, t);
   for (int dof = 0; dof < static_cast<int>(n); ++dof) {
     t.root.push_back(std::sqrt(t.diagonal[dof].hi) * (1 + 0x1p-50));
     t.deflects.push_back(dof % per_node == 0 ? 1 : 0);
@@ -139,39 +121,26 @@ void fill(const problem& p, const Kind& kind, matrix::remote_matrix* remote, tru
   };
 }
 
-/// Row i: K u, and where `sizes` is wanted sqrt(K_ii K_jj) |u_j|, added to what is there.
-void add_local_product(const true_system& t, std::span<const double_double> u, std::span<double_double> sum,
-                       std::span<double> sizes) {
-  for (std::size_t dof = 0; dof < t.dofs(); ++dof) {
-    double_double of_row = sum[dof];
-    double size = 0.0;
-    for (std::size_t at = t.k.starts[dof]; at < t.k.starts[dof + 1]; ++at) {
-      const int column = t.k.columns[at];
-      of_row += t.k.values[at] * u[column];
-      if (!sizes.empty()) size += t.root[column] * std::abs(u[column].hi);
-    }
-    sum[dof] = of_row;
-    if (!sizes.empty()) sizes[dof] += t.root[dof] * size;
-  }
-}
-
 }  // namespace
 
 void true_system::add_product(std::span<const double_double> u, std::span<double_double> sum,
                               std::span<double> sizes) const {
-  if (!remote) return add_local_product(*this, u, sum, sizes);
-  const long_vector product = remote->times(u);
-  for (std::size_t dof = 0; dof < dofs(); ++dof) sum[dof] += product[dof] + supports[dof] * u[dof];
-  if (sizes.empty()) return;
-  std::vector<double> magnitudes(dofs());
-  for (std::size_t dof = 0; dof < dofs(); ++dof) magnitudes[dof] = root[dof] * std::abs(u[dof].hi);
-  magnitudes = remote->sums(magnitudes);
-  for (std::size_t dof = 0; dof < dofs(); ++dof) sizes[dof] += root[dof] * magnitudes[dof];
+  for (std::size_t dof = 0; dof < dofs(); ++dof) {
+    double_double of_row = sum[dof];
+    double size = 0.0;
+    for (std::size_t at = k.starts[dof]; at < k.starts[dof + 1]; ++at) {
+      const int column = k.columns[at];
+      of_row += k.values[at] * u[column];
+      if (!sizes.empty()) size += root[column] * std::abs(u[column].hi);
+    }
+    sum[dof] = of_row;
+    if (!sizes.empty()) sizes[dof] += root[dof] * size;
+  }
 }
 
-true_system true_system_of(const problem& p, matrix::remote_matrix* remote) {
+true_system true_system_of(const problem& p) {
   true_system t;
-  std::visit([&](const auto& geometry) { fill(p, truly(geometry), remote, t); }, p.geometry.kind);
+  std::visit([&](const auto& geometry) { fill(p, truly(geometry), t); }, p.geometry.kind);
   return t;
 }
 

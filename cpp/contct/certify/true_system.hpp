@@ -4,12 +4,10 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "contct/matrix/remote_matrix.hpp"
 #include "contct/numeric/double_double.hpp"
 #include "contct/structure/problem.hpp"
 
@@ -65,13 +63,11 @@ using exact_residual = std::function<std::optional<long_vector>(int step, std::s
 using semidefinite_test = std::function<std::optional<bool>()>;
 
 struct true_system {
-  long_matrix k;                                 ///< of elements and elastic supports, rows of fixed dofs too
-  std::unique_ptr<matrix::remote_truth> remote;  ///< of elements, in place of k: see linear_structure
-  long_vector supports;                          ///< [dofs] elastic ones, where K is remote
-  long_vector diagonal;                          ///< [dofs] of K
-  std::vector<double> root;                      ///< [dofs] sqrt(K_ii), rounded up
-  std::vector<char> fixed;                       ///< [dofs]
-  std::vector<char> deflects;                    ///< [dofs] 1: a deflection, 0: a slope
+  long_matrix k;               ///< of elements and elastic supports, rows of fixed dofs too
+  long_vector diagonal;        ///< [dofs] of K
+  std::vector<double> root;    ///< [dofs] sqrt(K_ii), rounded up
+  std::vector<char> fixed;     ///< [dofs]
+  std::vector<char> deflects;  ///< [dofs] 1: a deflection, 0: a slope
   std::vector<true_pair> pairs;
   double span = 0.0;  ///< the largest side of the structure; 0 where it has none
   /// The least that the formulas of its elements multiply: a cube of a length, a stiffness.
@@ -89,7 +85,7 @@ struct true_system {
                    std::span<double> sizes = {}) const;
 };
 
-/// `p` must outlive it. `remote`: the structure's stiffness where the ranks of a job have it.
-[[nodiscard]] true_system true_system_of(const problem& p, matrix::remote_matrix* remote = nullptr);
+/// `p` must outlive it.
+[[nodiscard]] true_system true_system_of(const problem& p);
 
 }  // namespace contct::certify

@@ -54,8 +54,7 @@ double_double rounded_twice(const rational& x) {
 }  // namespace
 
 std::optional<exact_problem> small_exact_problem_of(const problem& p) {
-  const auto* const a = std::get_if<assembled>(&p.geometry.kind);
-  if (dofs(p.geometry) > most_dofs_beside_doubles || (a != nullptr && a->remote)) return std::nullopt;
+  if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
   try {
     std::optional<exact_problem> exactly = exact_problem_of(p);
     if (subdiagonals(*exactly) > most_subdiagonals_beside_doubles) exactly.reset();

@@ -1,48 +1,92 @@
 #include "contct/kernel/corrected.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace contct::kernels {
 namespace {
 
-/// d* of pair `i`.
-double response(const call<double>& c, std::size_t i) {
-  return c.dtest[c.dof.dof_of(c.id[i]) - 1];
+/// `take` over `number(i)`, i from 0 to `count`, begun with `start`: in four chains that do not wait for each
+/// other.
+template <class Number, class Take>
+double folded(std::size_t count, double start, Number number, Take take) {
+  std::array<double, 4> chains{};
+  chains.fill(start);
+  std::size_t i = 0;
+  for (; i + chains.size() <= count; i += chains.size())
+    for (std::size_t k = 0; k < chains.size(); ++k) chains[k] = take(chains[k], number(i + k));
+  for (; i < count; ++i) chains[0] = take(chains[0], number(i));
+  return take(take(chains[0], chains[1]), take(chains[2], chains[3]));
 }
 
-/// Rules 1 and 2: s of pair `i`, or 1 where it has no event ahead. `m` is the largest |d*|.
-double scale_factor(const call<double>& c, std::size_t i, double m) {
-  const double d = c.dd[c.dof.dof_of(c.id[i]) - 1];
-  const double sigma_n = c.isep[i] * c.isurf[i];
-  const double theta = c.isep[i] == separated ? quiet_share * m : 0.0;
-  const double sigma_v = sigma_n * response(c, i);
-  const double s = std::min(std::max(0.0, sigma_n * (c.cc[i] - d)) / sigma_v, 1.0);
-  return sigma_v > theta ? s : 1.0;  // a division in vain costs less than a wrongly guessed branch
+double larger(double a, double b) {
+  return std::max(a, b);
+}
+double smaller(double a, double b) {
+  return std::min(a, b);
+}
+
+/// Rules 1 and 2: s of each pair, or 1 where it has no event ahead; `dof(i)`: the dof of pair i, from 0. A
+/// division in vain costs less than a wrongly guessed branch, and a loop of its own lets the compiler divide
+/// for two pairs at a time.
+template <class Dof>
+void find_scale_factors(call<double>& c, Dof dof) {
+  const std::size_t nc = c.cc.size();
+  const double* const dd = c.dd.data();
+  const double* const dtest = c.dtest.data();
+  const double* const cc = c.cc.data();
+  const int* const isep = c.isep.data();
+  const int* const isurf = c.isurf.data();
+  double* const ss = c.ss.data();
+  const double m = folded(
+      nc, 0.0, [&](std::size_t i) { return std::abs(dtest[dof(i)]); }, larger);
+  for (std::size_t i = 0; i < nc; ++i) {
+    const double sigma_n = isep[i] * isurf[i];
+    const double gap = sigma_n * (cc[i] - dd[dof(i)]);
+    ss[i] = (gap > 0.0 ? gap : 0.0) / (sigma_n * dtest[dof(i)]);
+  }
+  const double quiet = quiet_share * m;
+  for (std::size_t i = 0; i < nc; ++i) {
+    const double sigma_v = static_cast<double>(isep[i] * isurf[i]) * dtest[dof(i)];
+    const double theta = isep[i] == separated ? quiet : 0.0;
+    const double s = ss[i] > 1.0 ? 1.0 : ss[i];
+    ss[i] = sigma_v > theta ? s : 1.0;
+  }
+  c.smin = folded(
+      nc, 1.0, [ss](std::size_t i) { return ss[i]; }, smaller);
+}
+
+/// The dof of pair `i`, from 0.
+std::size_t dof_at(const call<double>& c, std::size_t i) {
+  return static_cast<std::size_t>(c.dof.dof_of(c.id[i]) - 1);
+}
+
+/// Is the dof of each pair its own number, as on a path, which hands over the pairs' own D and d*?
+bool are_in_order(const call<double>& c) {
+  int differs = (c.dof.indof - 1) | (c.dof.ndofpn - 1);
+  for (std::size_t i = 0; i < c.id.size(); ++i) differs |= (c.id[i] - 1) ^ static_cast<int>(i);
+  return differs == 0;
 }
 
 }  // namespace
 
 void contct_corrected(call<double>& c) noexcept {
-  double m = 0.0;
-  for (std::size_t i = 0; i < c.cc.size(); ++i) m = std::max(m, std::abs(response(c, i)));
-  double s_min = 1.0;
-  for (std::size_t i = 0; i < c.cc.size(); ++i) {
-    const double s = scale_factor(c, i, m);
-    c.ss[i] = s;
-    s_min = std::min(s_min, s);
+  if (are_in_order(c)) {
+    find_scale_factors(c, [](std::size_t i) { return i; });
+  } else {
+    find_scale_factors(c, [&c](std::size_t i) { return dof_at(c, i); });
   }
-  c.smin = s_min;
   if (c.smin == 1.0) return;
 
   // Rules 3 and 4: the first pair at SMIN; but of those at their faces the one with the largest |d*|.
+  const auto size_of_response = [&c](std::size_t i) { return std::abs(c.dtest[dof_at(c, i)]); };
   const bool by_index = c.smin > 0.0 || c.at_rest >= quick_answers_at_rest(c.nc());
   std::size_t chosen = c.cc.size();
   for (std::size_t i = 0; i < c.cc.size(); ++i) {
     if (c.ss[i] != c.smin) continue;
-    if (chosen == c.cc.size() || (!by_index && std::abs(response(c, i)) > std::abs(response(c, chosen))))
-      chosen = i;
+    if (chosen == c.cc.size() || (!by_index && size_of_response(i) > size_of_response(chosen))) chosen = i;
   }
   c.isep[chosen] = c.isep[chosen] == separated ? in_contact : separated;
 }

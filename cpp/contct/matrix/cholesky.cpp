@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
 // gfortran passes the length of each CHARACTER argument behind the others.
@@ -69,9 +68,9 @@ void solve_with(const band_matrix& factor_of_a, std::span<double> b) {
   const int n = factor_of_a.order();
   const int kd = factor_of_a.subdiagonals();
   const int ldab = kd + 1;
-  const int one = 1;
+  const int columns = n > 0 ? static_cast<int>(b.size()) / n : 0;
   int info = 0;
-  CONTCT_FC_GLOBAL(dpbtrs, DPBTRS)("L", &n, &kd, &one, factor_of_a.data(), &ldab, b.data(), &n, &info, 1);
+  CONTCT_FC_GLOBAL(dpbtrs, DPBTRS)("L", &n, &kd, &columns, factor_of_a.data(), &ldab, b.data(), &n, &info, 1);
 }
 
 double reciprocal_condition(const stiffness_matrix& k, std::span<const double> diagonal,
@@ -93,32 +92,7 @@ int digits_left(double rcond) {
 }
 
 stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
-  if (k_.is_remote()) {
-    sparse_ = k_.others().make_factor();
-  } else if (!k_.is_band()) {
-    sparse_ = sparse_factor::make(k_.columns());
-  }
-}
-
-void stiffness_factor::solve_units(std::span<const int> rows, std::vector<double>& x) {
-  if (sparse_) return sparse_->solve_units(rows, x);
-  x.assign(band_.order() * block_width, 0.0);
-  int first = band_.order();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i] < 0) continue;
-    x[rows[i] * block_width + i] = 1.0;
-    first = std::min(first, rows[i]);
-  }
-  if (first < band_.order()) solve_block_from(band_, first, x);
-}
-
-void stiffness_factor::solve_units_at(std::span<const int> rows, std::span<const int> at,
-                                      std::vector<double>& x) {
-  if (sparse_ && sparse_->solve_units_at(rows, at, x)) return;
-  solve_units(rows, all_rows_);
-  x.resize(at.size() * block_width);
-  for (std::size_t i = 0; i < at.size(); ++i)
-    std::copy_n(&all_rows_[at[i] * block_width], block_width, &x[i * block_width]);
+  if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
 }
 
 double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {

@@ -18,7 +18,8 @@ namespace contct::matrix {
 /// pivot is not positive. Rounding can give the matrix of a mechanism a factor, too.
 [[nodiscard]] bool factor(band_matrix& matrix);
 
-/// Solve A x = b in place, with the factor of A (dpbtrs).
+/// Solve A x = b in place, with the factor of A (dpbtrs), for one right-hand side or several, one after the
+/// other.
 void solve_with(const band_matrix& factor_of_a, std::span<double> b);
 
 /// Solves A x = b in place.
@@ -52,18 +53,11 @@ class stiffness_factor {
     return contct::matrix::factor(band_);
   }
 
-  /// Solve in place, by rows.
+  /// Solve in place, by rows, for one right-hand side or several, one after the other.
   void solve(std::span<double> b) {
     if (sparse_) return sparse_->solve(b);
     solve_with(band_, b);
   }
-
-  /// Solve for the unit vectors of up to `block_width` rows in one pass over the factor:
-  /// x[row * block_width + i] for the i-th. A row of -1 leaves zeros.
-  void solve_units(std::span<const int> rows, std::vector<double>& x);
-
-  /// The same at some rows alone: x[i * block_width + j] at row `at[i]`.
-  void solve_units_at(std::span<const int> rows, std::span<const int> at, std::vector<double>& x);
 
   /// Products and sums that a factorisation takes.
   [[nodiscard]] double flops() const {
@@ -76,12 +70,6 @@ class stiffness_factor {
   /// Overwrites the factor.
   [[nodiscard]] double reciprocal_condition(std::span<const spring_at> springs);
 
-  /// The factor itself, of a band. Throws std::logic_error otherwise.
-  [[nodiscard]] const band_matrix& band() const {
-    if (!k_.is_band()) throw std::logic_error("a sparse stiffness has no band");
-    return band_;
-  }
-
  private:
   /// Overwrites the last factor.
   void assemble(std::span<const spring_at> springs) {
@@ -92,7 +80,6 @@ class stiffness_factor {
   const stiffness_matrix& k_;
   band_matrix band_;
   std::unique_ptr<sparse_factor> sparse_;  // of K where it is no band
-  std::vector<double> all_rows_;           // working space of solve_units_at
 };
 
 }  // namespace contct::matrix

@@ -9,8 +9,6 @@
 #include <new>
 #include <utility>
 
-#include "contct/matrix/block_solve.hpp"
-
 // Those of the OpenMP that CHOLMOD brings, if it brings one.
 extern "C" {
 __attribute__((weak)) int omp_get_max_active_levels();
@@ -81,23 +79,19 @@ class cholmod final : public sparse_factor {
       order_by(large ? std::initializer_list<int>{CHOLMOD_METIS, CHOLMOD_AMD}
                      : std::initializer_list<int>{CHOLMOD_AMD});
     } else {
-      work_.supernodal = CHOLMOD_SIMPLICIAL;  // cholmod_updown takes no other
-      work_.final_ll = k == kind::readable ? 1 : 0;
+      work_.supernodal = CHOLMOD_SIMPLICIAL;
+      work_.final_ll = 1;
     }
-    if (k == kind::updatable_amd) order_by({CHOLMOD_AMD});
     cholmod_sparse view = view_of_a();
     factor_ = made(cholmod_analyze(&view, &work_));
-    // x_, y_ and e_ are cholmod_solve2's, which crashes where it cannot make them.
-    for (cholmod_dense** vector : {&b_, &x_, &y_})
-      *vector = made(cholmod_zeros(view.nrow, 1, CHOLMOD_REAL, &work_));
-    e_ = made(cholmod_zeros(std::max<std::size_t>(factor_->maxesize, 1), 1, CHOLMOD_REAL, &work_));
+    make_room(1);
     places_.resize(view.nrow);
     const auto* const order = static_cast<const int*>(factor_->Perm);
     for (std::size_t i = 0; i < view.nrow; ++i) places_[order[i]] = static_cast<int>(i);
   }
   ~cholmod() override {
     cholmod_free_factor(&factor_, &work_);
-    for (cholmod_dense** vector : {&b_, &x_, &y_, &e_}) cholmod_free_dense(vector, &work_);
+    free_room();
   }
 
   [[nodiscard]] std::int64_t bytes() const override {
@@ -114,28 +108,19 @@ class cholmod final : public sparse_factor {
   }
 
   void solve(std::span<double> b) override {
-    std::copy(b.begin(), b.end(), static_cast<double*>(b_->x));
-    if (cholmod_solve2(CHOLMOD_A, factor_, b_, nullptr, &x_, nullptr, &y_, &e_, &work_) == 0)
+    const std::size_t columns = b.size() / factor_->n;
+    make_room(columns);
+    cholmod_dense all{};  // a view of b
+    all.nrow = factor_->n;
+    all.ncol = columns;
+    all.nzmax = b.size();
+    all.d = factor_->n;
+    all.x = b.data();
+    all.xtype = CHOLMOD_REAL;
+    all.dtype = CHOLMOD_DOUBLE;
+    if (cholmod_solve2(CHOLMOD_A, factor_, &all, nullptr, &x_, nullptr, &y_, &e_, &work_) == 0)
       throw std::bad_alloc();
     std::copy_n(static_cast<const double*>(x_->x), b.size(), b.begin());
-  }
-
-  void solve_units(std::span<const int> rows, std::vector<double>& x) override {
-    in_order_.assign(factor_->n * block_width, 0.0);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i] >= 0) in_order_[places_[rows[i]] * block_width + i] = 1.0;
-    solve_block(in_supernodes(), in_order_);
-    x.resize(in_order_.size());
-    for (std::size_t row = 0; row < factor_->n; ++row)
-      std::copy_n(&in_order_[places_[row] * block_width], block_width, &x[row * block_width]);
-  }
-
-  [[nodiscard]] bool update(int row, double k, bool add) override {
-    int starts[2] = {0, 1};
-    int place = places_[row];
-    double root = std::sqrt(k);
-    cholmod_sparse column = view_of(factor_->n, 1, starts, &place, &root, 1);
-    return cholmod_updown(add ? 1 : 0, &column, factor_, &work_) != 0 && work_.status == CHOLMOD_OK;
   }
 
   [[nodiscard]] sparse_columns lower() const override {
@@ -169,24 +154,25 @@ class cholmod final : public sparse_factor {
     return view;
   }
 
-  [[nodiscard]] supernodes in_supernodes() const {
-    const auto* const f = factor_;
-    const auto ints = [](const void* at, std::size_t count) {
-      return std::span<const int>(static_cast<const int*>(at), count);
-    };
-    return {ints(f->super, f->nsuper + 1),
-            ints(f->pi, f->nsuper + 1),
-            ints(f->px, f->nsuper),
-            ints(f->s, f->ssize),
-            {static_cast<const double*>(f->x), f->xsize}};
+  /// x_, y_ and e_ are cholmod_solve2's, which crashes where it cannot make them.
+  void make_room(std::size_t columns) {
+    if (columns == columns_) return;
+    free_room();
+    for (cholmod_dense** vector : {&x_, &y_})
+      *vector = made(cholmod_zeros(factor_->n, columns, CHOLMOD_REAL, &work_));
+    e_ = made(cholmod_zeros(std::max<std::size_t>(factor_->maxesize, 1), columns, CHOLMOD_REAL, &work_));
+    columns_ = columns;
+  }
+  void free_room() {
+    columns_ = 0;
+    for (cholmod_dense** vector : {&x_, &y_, &e_}) cholmod_free_dense(vector, &work_);
   }
 
   workspace work_;
   sparse_columns a_;
   std::vector<int> places_;  // of each row in the factor's order
-  std::vector<double> in_order_;
   cholmod_factor* factor_ = nullptr;
-  cholmod_dense* b_ = nullptr;
+  std::size_t columns_ = 0;  // right-hand sides for which x_, y_ and e_ are
   cholmod_dense* x_ = nullptr;
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;

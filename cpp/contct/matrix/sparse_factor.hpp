@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,9 +20,7 @@ class sparse_factor {
   enum class kind {
     supernodal,  ///< L L^T in dense blocks, in AMD's order; if there are many rows, in METIS's where that is
                  ///< better
-    updatable,   ///< L D L^T, in the best order that CHOLMOD finds
-    updatable_amd,  ///< L D L^T in AMD's order: enough for a band, and quick to find
-    readable        ///< L L^T by columns, for `lower`
+    readable     ///< L L^T by columns, for `lower`
   };
 
   /// Find the order, and keep A. Throws std::bad_alloc, and std::logic_error where CHOLMOD is not built in.
@@ -40,23 +37,8 @@ class sparse_factor {
   /// Factor A with `diagonal` [order] for its own. False when a pivot is not positive. Throws std::bad_alloc.
   [[nodiscard]] virtual bool factor(std::span<const double> diagonal) = 0;
 
-  /// Solve A x = b in place. Throws std::bad_alloc.
+  /// Solve A x = b in place, for one right-hand side or several, one after the other. Throws std::bad_alloc.
   virtual void solve(std::span<double> b) = 0;
-
-  /// Solve A x = e for the unit vectors of up to `block_width` rows in one pass over a supernodal factor:
-  /// x[row * block_width + i] for the i-th. A row of -1 leaves zeros.
-  virtual void solve_units(std::span<const int> rows, std::vector<double>& x) = 0;
-
-  /// The same at some rows alone, x[i * block_width + j] at row `at[i]`, where the whole solution costs more
-  /// to come by. False where it does not: `solve_units` has them then.
-  [[nodiscard]] virtual bool solve_units_at(std::span<const int> /*rows*/, std::span<const int> /*at*/,
-                                            std::vector<double>& /*x*/) {
-    return false;
-  }
-
-  /// Make an updatable factor that of A + k e e^T, or of A - k e e^T where `add` is false; e is the unit
-  /// vector of `row`, k positive. False when the factor must be made anew.
-  [[nodiscard]] virtual bool update(int row, double k, bool add) = 0;
 
   /// A readable factor's L by columns; row i of A is its row places()[i].
   [[nodiscard]] virtual sparse_columns lower() const = 0;
@@ -64,10 +46,6 @@ class sparse_factor {
 
   /// Products and sums that a factorisation takes.
   [[nodiscard]] virtual double flops() const = 0;
-
-  /// No fewer than the entries of L that the last factorisation computed, each as a sum of products in some
-  /// order. Infinite where that is not known.
-  [[nodiscard]] virtual double most_entries() const { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace contct::matrix

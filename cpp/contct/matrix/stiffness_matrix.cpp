@@ -144,7 +144,6 @@ std::vector<double> stiffness_matrix::diagonal_with(std::span<const spring_at> s
 }
 
 std::vector<matrix_entry> stiffness_matrix::entries_in(std::span<const char> columns) const {
-  if (is_remote()) return others().entries_in(columns);
   std::vector<matrix_entry> found;
   each_entry(
       stored_, [](std::size_t /*i*/, double /*own*/) {},
@@ -159,14 +158,6 @@ std::vector<matrix_entry> stiffness_matrix::entries_in(std::span<const char> col
 }
 
 void stiffness_matrix::fix(std::span<const double> pivots) {
-  if (is_remote()) {
-    std::vector<double> kept(pivots.size());
-    for (std::size_t row = 0; row < kept.size(); ++row) {
-      kept[row] = pivots[row] > 0.0 ? 0.0 : 1.0;
-      if (pivots[row] > 0.0) diagonal_at(row) = pivots[row];
-    }
-    return others().scale(kept);
-  }
   each_entry(
       stored_,
       [pivots](std::size_t i, double& value) {
@@ -178,40 +169,20 @@ void stiffness_matrix::fix(std::span<const double> pivots) {
 }
 
 void stiffness_matrix::scale(std::span<const double> d) {
-  if (is_remote()) {
-    for (std::size_t row = 0; row < d.size(); ++row) diagonal_at(row) = diagonal_at(row) * d[row] * d[row];
-    return others().scale(d);
-  }
   each_entry(
       stored_, [d](std::size_t i, double& value) { value = value * d[i] * d[i]; },  // d * d may overflow
       [d](std::size_t row, std::size_t column, double& value) { value = value * d[row] * d[column]; });
 }
 
-template <class Real>
-void stiffness_matrix::subtract_remote(std::span<const Real> x, std::span<long double> r) const {
-  const std::vector<long double> long_x(x.begin(), x.end());
-  const std::vector<long double> product = others().times(long_x);
-  for (std::size_t i = 0; i < long_x.size(); ++i) r[i] -= product[i] + diagonal(i) * long_x[i];
-}
-
 void stiffness_matrix::subtract_product(std::span<const double> x, std::span<long double> r) const {
-  if (is_remote()) return subtract_remote(x, r);
   subtract(stored_, x, r);
 }
 
 void stiffness_matrix::subtract_product(std::span<const long double> x, std::span<long double> r) const {
-  if (is_remote()) return subtract_remote(x, r);
   subtract(stored_, x, r);
 }
 
 double stiffness_matrix::one_norm(std::span<const double> diagonal, std::span<const double> d) const {
-  if (is_remote()) {
-    double largest = 0.0;
-    const std::vector<double> beside = others().magnitudes(d);
-    for (std::size_t i = 0; i < d.size(); ++i)
-      largest = std::max(largest, beside[i] + std::abs(diagonal[i] * (d[i] * d[i])));
-    return largest;
-  }
   std::vector<double> sums(d.size(), 0.0);
   each_entry(
       stored_, [&](std::size_t i, double /*own*/) { sums[i] += std::abs(diagonal[i] * (d[i] * d[i])); },

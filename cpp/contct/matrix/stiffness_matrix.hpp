@@ -1,4 +1,4 @@
-// Symmetric matrices without their zeros, in four storages; and the stiffness matrix K of a structure.
+// Symmetric matrices without their zeros, in three storages; and the stiffness matrix K of a structure.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "contct/matrix/remote_matrix.hpp"
 #include "contct/rooms.hpp"
 
 namespace contct::matrix {
@@ -130,31 +129,26 @@ struct spring_at {
   double stiffness;
 };
 
-/// K: a band, or, where a band would take too much memory, sparse columns; or rows that other processes have.
+/// K: a band, or, where a band would take too much memory, sparse columns.
 class stiffness_matrix {
  public:
   stiffness_matrix() = default;
   stiffness_matrix(band_matrix k) : stored_(std::move(k)) {}
   stiffness_matrix(sparse_columns k) : stored_(std::move(k)) {}
-  stiffness_matrix(remote_rows k) : stored_(std::move(k)) {}
 
   [[nodiscard]] int order() const {
     return std::visit([](const auto& k) { return k.order(); }, stored_);
   }
 
   [[nodiscard]] bool is_band() const { return std::holds_alternative<band_matrix>(stored_); }
-  [[nodiscard]] bool is_remote() const { return std::holds_alternative<remote_rows>(stored_); }
   /// These throw std::bad_variant_access when K has another storage.
   [[nodiscard]] band_matrix& band() { return std::get<band_matrix>(stored_); }
   [[nodiscard]] const band_matrix& band() const { return std::get<band_matrix>(stored_); }
   [[nodiscard]] sparse_columns& columns() { return std::get<sparse_columns>(stored_); }
   [[nodiscard]] const sparse_columns& columns() const { return std::get<sparse_columns>(stored_); }
 
-  [[nodiscard]] remote_matrix& others() const { return std::get<remote_rows>(stored_).others(); }
-
   [[nodiscard]] double diagonal(std::size_t row) const {
-    if (is_band()) return band().at(row, row);
-    return is_remote() ? std::get<remote_rows>(stored_).diagonal(row) : columns().diagonal(row);
+    return is_band() ? band().at(row, row) : columns().diagonal(row);
   }
 
   void add_to_diagonal(std::size_t row, double value) { diagonal_at(row) += value; }
@@ -178,13 +172,10 @@ class stiffness_matrix {
 
  private:
   [[nodiscard]] double& diagonal_at(std::size_t row) {
-    if (is_band()) return band().at(row, row);
-    return is_remote() ? std::get<remote_rows>(stored_).diagonal(row) : columns().diagonal(row);
+    return is_band() ? band().at(row, row) : columns().diagonal(row);
   }
-  template <class Real>
-  void subtract_remote(std::span<const Real> x, std::span<long double> r) const;
 
-  std::variant<band_matrix, sparse_columns, remote_rows> stored_;
+  std::variant<band_matrix, sparse_columns> stored_;
 };
 
 }  // namespace contct::matrix

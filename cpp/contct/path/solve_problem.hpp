@@ -32,14 +32,13 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
 }
 
 /// The structure that a problem describes; the supports that its steps move are built to settle.
-/// `among`: as build has it.
-[[nodiscard]] inline linear_structure structure_of(const problem& p, distributed::ranks* among = nullptr) {
+[[nodiscard]] inline linear_structure structure_of(const problem& p) {
   std::vector<support> supports = p.supports;
   std::set<std::pair<int, int>> settling;
   for (const load& l : p.steps)
     for (const prescribed_displacement& g : l.settlements) settling.emplace(g.node, g.dof);
   for (support& s : supports) s.settles = s.fixed && settling.contains({s.node, s.dof});
-  return build(p.geometry, supports, p.pairs, among);
+  return build(p.geometry, supports, p.pairs);
 }
 
 /// The loads of a problem's steps, as follow_path takes them. `p` and its structure must outlive them.

@@ -1,5 +1,4 @@
-// Entries of a matrix as lines of a file have them: read from a part of it, sorted and checked. A whole file
-// is a part, and ranks of a job have one each.
+// Entries of a matrix as lines of a file have them: read, sorted and checked.
 #pragma once
 
 #include <cstdint>

@@ -334,46 +334,23 @@ bool place_dofs(const assembled& a, placed_nodes& places) {
   return any;
 }
 
-/// Pairs of nodes, each once.
-class node_couples {
- public:
-  explicit node_couples(const placed_nodes& places) : places_(places) {}
-
-  void add(const std::vector<matrix_entry>& entries) {
-    for (const matrix_entry& e : entries) {
-      const int one = places_.dofs[e.row].node;
-      const int other = places_.dofs[e.column].node;
-      if (e.value == 0.0 || one < 0 || other < 0 || one == other) continue;
-      couples_.emplace_back(std::min(one, other), std::max(one, other));
-    }
-    std::sort(couples_.begin(), couples_.end());
-    couples_.erase(std::unique(couples_.begin(), couples_.end()), couples_.end());
+/// The pairs of nodes that entries couple, each once, ascending.
+std::vector<std::pair<int, int>> couples_of(const std::vector<matrix_entry>& entries,
+                                            const placed_nodes& places) {
+  std::vector<std::pair<int, int>> couples;
+  for (const matrix_entry& e : entries) {
+    const int one = places.dofs[e.row].node;
+    const int other = places.dofs[e.column].node;
+    if (e.value == 0.0 || one < 0 || other < 0 || one == other) continue;
+    couples.emplace_back(std::min(one, other), std::max(one, other));
   }
-  [[nodiscard]] const std::vector<std::pair<int, int>>& all() const { return couples_; }
-
- private:
-  const placed_nodes& places_;
-  std::vector<std::pair<int, int>> couples_;
-};
-
-/// The matrix is asked for some columns at a time where other processes have it.
-std::vector<std::pair<int, int>> couples_of(const assembled& a, const placed_nodes& places) {
-  node_couples couples(places);
-  if (!a.remote) {
-    couples.add(a.stiffness.entries);
-    return couples.all();
-  }
-  constexpr int at_a_time = 65536;
-  for (int first = 0; first < a.dofs(); first += at_a_time) {
-    std::vector<char> marked(static_cast<std::size_t>(a.dofs()), 0);
-    std::fill_n(marked.begin() + first, std::min(at_a_time, a.dofs() - first), 1);
-    couples.add(a.remote->entries_in(marked));
-  }
-  return couples.all();
+  std::sort(couples.begin(), couples.end());
+  couples.erase(std::unique(couples.begin(), couples.end()), couples.end());
+  return couples;
 }
 
 void add_coupling_edges(const assembled& a, placed_nodes& places) {
-  const std::vector<std::pair<int, int>> couples = couples_of(a, places);
+  const std::vector<std::pair<int, int>> couples = couples_of(a.stiffness.entries, places);
   if (couples.size() > most_couplings_of_a_node * places.nodes.size()) {
     places.said.push_back(fmt::format(
         "No edges are drawn, only nodes: the matrix couples {} pairs of its {} nodes, and such couplings are "

@@ -8,12 +8,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "contct/distributed/ranks.hpp"
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/matrix_places.hpp"
 #include "contct/read/mesh.hpp"
-#include "contct/read/petsc_matrix.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/memory.hpp"
 
@@ -103,8 +101,7 @@ beam read_beam(const table_reader& t, const table_reader& top) {
 }
 
 /// Refuse a grid that no machine could solve, before anything of its size is allocated.
-void check_size(const table_reader& t, std::int64_t along_x, std::int64_t along_y,
-                const distributed::ranks* among) {
+void check_size(const table_reader& t, std::int64_t along_x, std::int64_t along_y) {
   constexpr double gigabyte = 1e9 / sizeof(double);
   const std::int64_t shorter = std::min(along_x, along_y);
   const std::int64_t longer = std::max(along_x, along_y);
@@ -112,7 +109,7 @@ void check_size(const table_reader& t, std::int64_t along_x, std::int64_t along_
     t.refuse(fmt::format("{} x {} elements", along_x, along_y),
              fmt::format("at most {} elements", most_elements));
   const std::int64_t entries = 3 * (shorter + 1) * (longer + 1) * (3 * (shorter + 2) + 3);
-  if (among == nullptr && entries > most_band_entries)
+  if (entries > most_band_entries)
     t.refuse(fmt::format("{} x {} elements, whose stiffness matrix takes {:.1f} GB", along_x, along_y,
                          static_cast<double>(entries) / gigabyte),
              fmt::format("at most {:.1f} GB: it grows with the square of the shorter side",
@@ -127,18 +124,18 @@ std::vector<int> read_counts(const table_reader& t) {
   return counts;
 }
 
-void read_grid(const table_reader& t, plate& p, const distributed::ranks* among) {
+void read_grid(const table_reader& t, plate& p) {
   if (t.has("x") || t.has("y")) {
     t.refuse_beside({"size", "elements"}, "x or y", "either x and y, or size and elements");
     p.x = read_coordinates(t, "x", "line");
     p.y = read_coordinates(t, "y", "line");
-    check_size(t, p.x.size() - 1, p.y.size() - 1, among);
+    check_size(t, p.x.size() - 1, p.y.size() - 1);
     return;
   }
   const std::vector<double> size = t.reals("size", positive_real, 2);
   if (size.size() != 2) t.refuse_key("size", "two numbers: along x, along y");
   const std::vector<int> counts = read_counts(t);
-  check_size(t, counts[0], counts[1], among);
+  check_size(t, counts[0], counts[1]);
   mesh_line along_x = even_line(size[0], counts[0]);
   mesh_line along_y = even_line(size[1], counts[1]);
   p.x = std::move(along_x.x);
@@ -179,10 +176,10 @@ void check_elements(const table_reader& t, const plate& p) {
   }
 }
 
-plate read_plate(const table_reader& t, const distributed::ranks* among) {
+plate read_plate(const table_reader& t) {
   t.allow_only({"x", "y", "size", "elements", "E", "nu", "thickness", "D"});
   plate p;
-  read_grid(t, p, among);
+  read_grid(t, p);
   read_material(t, p);
   check_elements(t, p);
   return p;
@@ -201,7 +198,7 @@ plate read_plate(const table_reader& t, const distributed::ranks* among) {
 /// solution's. Where K is sparse, CHOLMOD finds an ordering for it.
 std::int64_t bytes_of_run(const assembled& a) {
   if (a.as_band) return 3 * bytes_of_band(a.stiffness, a.rows);
-  // An engine's factor that is updated takes half as much again as the reference solution's.
+  // An engine has columns of the inverse besides: half a factor more is room enough.
   constexpr std::int64_t as_read = sizeof(matrix_entry);
   constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
   const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());
@@ -250,17 +247,9 @@ std::vector<std::string> read_labels(const std::string& path) {
   return parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
 }
 
-/// By the ranks together: `stiffness` gets the order alone.
-void read_remotely(const std::string& path, int rows, distributed::ranks& among, assembled& a) {
-  a.remote = among.read_stiffness(path, a.name, rows);
-  a.stiffness.order = a.remote->order();
-  a.as_band = false;
-}
-
 /// The keys that both tables have, and the ordering.
 void finish(const table_reader& t, assembled& a) {
   if (t.has("free_motions")) a.free_motions = t.integer("free_motions", 0, most_rigid_motions);
-  if (a.remote) return (void)read_storage(t);
   a.rows = rows_for_small_band(a.stiffness);
   choose_storage(t, a);
 }
@@ -282,18 +271,12 @@ void find_mesh(const table_reader& t, const named_files& files, assembled& a) {
   if (t.has("mesh")) refuse_unknown_nodes(t, "mesh", path, a);
 }
 
-assembled read_matrix(const table_reader& t, const named_files& files, std::vector<std::string>& warnings,
-                      distributed::ranks* among) {
+assembled read_matrix(const table_reader& t, const named_files& files, std::vector<std::string>& warnings) {
   t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
   assembled a;
   const std::string path = files.path_of(t, "stiffness");
   a.name = shown_name(path);
-  if (among != nullptr) {
-    read_remotely(path, 0, *among, a);
-  } else {
-    a.stiffness =
-        parse_stiffness(read_input(path, "stiffness matrix", largest_matrix_file), a.name, &warnings);
-  }
+  a.stiffness = parse_symmetric(read_input(path, "stiffness matrix", largest_matrix_file), a.name, &warnings);
   if (t.has("dofs")) {
     const std::string of_labels = files.path_of(t, "dofs");
     a.labels_from = shown_name(of_labels);
@@ -311,8 +294,7 @@ assembled read_matrix(const table_reader& t, const named_files& files, std::vect
   return a;
 }
 
-assembled read_calculix(const table_reader& t, const named_files& files, std::vector<std::string>& warnings,
-                        distributed::ranks* among) {
+assembled read_calculix(const table_reader& t, const named_files& files, std::vector<std::string>& warnings) {
   t.allow_only({"job", "mesh", "free_motions", "storage"});
   assembled a;
   const std::string path = files.path_of(t, "job", ".sti");
@@ -321,12 +303,8 @@ assembled read_calculix(const table_reader& t, const named_files& files, std::ve
   a.labels_from = shown_name(of_labels);
   a.labels = read_labels(of_labels);
   const auto rows = static_cast<int>(a.labels.size());
-  if (among != nullptr) {
-    read_remotely(path, rows, *among, a);
-  } else {
-    a.stiffness = parse_calculix_stiffness(
-        read_input(path, "stiffness matrix of CalculiX", largest_matrix_file), a.name, rows, &warnings);
-  }
+  a.stiffness = parse_calculix_stiffness(
+      read_input(path, "stiffness matrix of CalculiX", largest_matrix_file), a.name, rows, &warnings);
   finish(t, a);
   find_mesh(t, files, a);
   return a;
@@ -334,8 +312,7 @@ assembled read_calculix(const table_reader& t, const named_files& files, std::ve
 
 }  // namespace
 
-model read_model(const table_reader& top, const named_files& files, std::vector<std::string>& warnings,
-                 distributed::ranks* among) {
+model read_model(const table_reader& top, const named_files& files, std::vector<std::string>& warnings) {
   const char* const allowed = "exactly one of [beam], [plate], [matrix] and [calculix]";
   const char* kind = nullptr;
   for (const char* other : {"beam", "plate", "matrix", "calculix"}) {
@@ -344,9 +321,9 @@ model read_model(const table_reader& top, const named_files& files, std::vector<
     kind = other;
   }
   if (top.has("beam")) return {read_beam(top.table("beam"), top)};
-  if (top.has("plate")) return {read_plate(top.table("plate"), among)};
-  if (top.has("matrix")) return {read_matrix(top.table("matrix"), files, warnings, among)};
-  if (top.has("calculix")) return {read_calculix(top.table("calculix"), files, warnings, among)};
+  if (top.has("plate")) return {read_plate(top.table("plate"))};
+  if (top.has("matrix")) return {read_matrix(top.table("matrix"), files, warnings)};
+  if (top.has("calculix")) return {read_calculix(top.table("calculix"), files, warnings)};
   top.refuse("neither beam nor plate, matrix or calculix", allowed);
 }
 

@@ -42,15 +42,15 @@ double rounded_down(double x) {
 /// Reads one file into one problem, table by table.
 class problem_reader {
  public:
-  problem_reader(const toml::table& document, std::string_view file, reach allowed, distributed::ranks* among)
-      : among_(among), files_(file, allowed), top_(document, "", file) {}
+  problem_reader(const toml::table& document, std::string_view file, reach allowed)
+      : files_(file, allowed), top_(document, "", file) {}
 
   problem read() {
     top_.allow_only(
         {"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
     if (top_.has("title")) problem_.title = top_.text("title");
     if (top_.has("units")) read_units(top_.table("units"));
-    problem_.geometry = read_model(top_, files_, problem_.warnings, among_);
+    problem_.geometry = read_model(top_, files_, problem_.warnings);
     places_.emplace(problem_.geometry);
     fixed_.assign(dofs(problem_.geometry), 0);
     if (places_->on_matrix() && top_.has("bed"))
@@ -241,7 +241,6 @@ class problem_reader {
     return numbers;
   }
 
-  distributed::ranks* among_;
   named_files files_;
   table_reader top_;
   problem problem_;
@@ -252,17 +251,16 @@ class problem_reader {
 
 }  // namespace
 
-problem parse_problem(std::string_view text, std::string_view file, reach allowed,
-                      distributed::ranks* among) {
+problem parse_problem(std::string_view text, std::string_view file, reach allowed) {
   const toml::table document = parse_toml(text, file);
-  problem p = problem_reader(document, file, allowed, among).read();
+  problem p = problem_reader(document, file, allowed).read();
   std::ranges::move(rounding_warnings(document, text, file), std::back_inserter(p.warnings));
   return p;
 }
 
-problem read_problem(const std::string& path, reach allowed, distributed::ranks* among) {
+problem read_problem(const std::string& path, reach allowed) {
   const std::string file = path == "-" ? "standard input" : path;
-  return parse_problem(read_input(path), file, allowed, among);
+  return parse_problem(read_input(path), file, allowed);
 }
 
 }  // namespace contct::read

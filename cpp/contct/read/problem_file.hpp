@@ -13,12 +13,11 @@ namespace contct::read {
 /// Read and check the problem in the file at `path`; "-" is standard input.
 /// Throws input_error: nothing is half-accepted. A number means the shortest decimal that reads as its
 /// double; one that is written as another is in problem::warnings. `allowed`: where files may be that it
-/// names. `among`: the ranks that read a matrix by parts, without such warnings; null: it is read here.
-[[nodiscard]] problem read_problem(const std::string& path, reach allowed = reach::own_folder,
-                                   distributed::ranks* among = nullptr);
+/// names.
+[[nodiscard]] problem read_problem(const std::string& path, reach allowed = reach::own_folder);
 
 /// The same for text already in memory; `file` is its name in messages.
 [[nodiscard]] problem parse_problem(std::string_view text, std::string_view file,
-                                    reach allowed = reach::own_folder, distributed::ranks* among = nullptr);
+                                    reach allowed = reach::own_folder);
 
 }  // namespace contct::read

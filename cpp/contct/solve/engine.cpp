@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "contct/distributed/ranks.hpp"
-#include "contct/matrix/sparse_factor.hpp"
-#include "contct/solve/factored_stiffness.hpp"
+#include "contct/solve/mpi_job.hpp"
 #include "contct/solve/spring_engine.hpp"
 #include "contct/text/strings.hpp"
 
@@ -49,15 +47,12 @@ class refactor_engine final : public spring_engine {
 
 std::vector<std::string> engine_names() {
   std::vector<std::string> names = {"refactor", "updated", "condensed"};
-  if (sparse_factor::available()) names.insert(names.end(), {"cholmod", "dissected"});
-  if (distributed::joined_ranks() != nullptr) names.emplace_back("petsc");
+  if (joined_job() != nullptr) names.emplace_back("petsc");
   return names;
 }
 
 std::string_view quickest_engine(const linear_structure& s) {
-  if (!s.stiffness.is_band()) return "cholmod";
-  if (can_be_condensed(s)) return "condensed";
-  return quickest_factor(s) == factored_by::cholmod ? "dissected" : "updated";
+  return can_be_condensed(s) ? "condensed" : "updated";
 }
 
 void refuse_unknown_engine(std::string_view name) {
@@ -70,14 +65,9 @@ void refuse_unknown_engine(std::string_view name) {
 std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s) {
   refuse_unknown_engine(name);
   if (name == "condensed") return make_condensed_engine(s);
-  if (name == "cholmod") return make_cholmod_engine(s);
-  if (name == "dissected" || name == "petsc") return make_updated_engine(s, name);
-  if (name == "refactor") return std::make_unique<refactor_engine>(s);
-  if (!s.stiffness.is_band())
-    throw std::invalid_argument(
-        "engine \"updated\": found a stiffness that is not stored as a band; allowed: refactor, cholmod or "
-        "dissected");
-  return make_updated_engine(s, name);
+  if (name == "updated") return make_updated_engine(s, name, quickest_factor(s));
+  if (name == "petsc") return make_updated_engine(s, name, factored_by::ranks);
+  return std::make_unique<refactor_engine>(s);
 }
 
 }  // namespace contct::solve

@@ -60,14 +60,13 @@ class stiffness_engine {
   [[nodiscard]] virtual double reciprocal_condition() = 0;
 };
 
-/// Make an engine by name: "refactor" for anything, "updated" for any band, "condensed" for beams with pairs,
-/// "cholmod" and "dissected" for anything where the library is built in, "petsc" for anything where this
-/// process has joined an MPI job (contct/distributed/ranks.hpp). `s` must outlive it. Throws
-/// std::invalid_argument when there is none of that name, or when it does not suit `s`.
+/// Make an engine by name: "refactor" and "updated" for anything, "condensed" for beams with pairs,
+/// "petsc", which is "updated" by a factor that ranks share, where this process has joined an MPI job
+/// (contct/solve/mpi_job.hpp). `s` must outlive it. Throws std::invalid_argument when there is none of that
+/// name, or when it does not suit `s`.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s);
 
-/// The engine that is quickest for `s`: "condensed" where it suits, or "updated". Where CHOLMOD is built in,
-/// "dissected" for wide bands, and "cholmod" where the stiffness is no band.
+/// The engine that is quickest for `s`: "condensed" where it suits, otherwise "updated".
 [[nodiscard]] std::string_view quickest_engine(const linear_structure& s);
 
 /// Throws std::invalid_argument, naming what there is, when no engine has that name.

@@ -5,9 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "contct/distributed/ranks.hpp"
-#include "contct/matrix/block_solve.hpp"
 #include "contct/matrix/without_zeros.hpp"
+#include "contct/solve/mpi_job.hpp"
 
 namespace contct::solve {
 
@@ -48,17 +47,16 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
 namespace {
 
 stiffness_factor factor_of(const stiffness_matrix& k, factored_by how) {
-  if (how != factored_by::ranks || k.is_remote()) return stiffness_factor(k);
-  distributed::ranks* const all = distributed::joined_ranks();
-  if (all == nullptr) throw std::logic_error("no ranks are joined that could factor a stiffness");
-  return {k, all->distribute(k.columns())};
+  if (how != factored_by::ranks) return stiffness_factor(k);
+  mpi_job* const job = joined_job();
+  if (job == nullptr) throw std::logic_error("no job is joined that could factor a stiffness");
+  return {k, job->share(k.columns())};
 }
 
 }  // namespace
 
 factored_stiffness::factored_stiffness(const linear_structure& s, factored_by how)
     : structure_(s),
-      how_(how),
       entries_(how == factored_by::storage ? std::nullopt : entries_of_band(s)),
       factor_(factor_of(entries_ ? *entries_ : s.stiffness, how)) {
   for (std::size_t i = 0; i < s.pairs.size(); ++i) rows_of_pairs_.push_back(s.row_of(s.dof_of_pair(i)));
@@ -70,19 +68,16 @@ const stiffness_matrix& factored_stiffness::for_products() {
   return sparse_ ? *sparse_ : structure_.stiffness;
 }
 
-void factored_stiffness::solve_units_at_pairs(std::span<const int> dofs, std::vector<double>& x) {
-  std::vector<int> rows;
-  for (const int dof : dofs) rows.push_back(structure_.fixed[dof] != 0 ? -1 : structure_.row_of(dof));
-  factor_.solve_units_at(rows, rows_of_pairs_, x);
-}
-
-void factored_stiffness::solve_unit(int dof, std::span<double> x) {
-  if (structure_.fixed[dof] != 0) return;
-  x[dof] = 1.0;
-  if (entries_ || !structure_.stiffness.is_band()) return solve(x);
-  std::vector<double> b = in_rows(structure_, x);
-  solve_from(factor_.band(), structure_.row_of(dof), b);
-  to_dofs(structure_, b, x);
+std::vector<std::vector<double>> factored_stiffness::columns_at_pairs(std::span<const int> pairs) {
+  const std::size_t n = structure_.dofs();
+  std::vector<double> x(n * pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (structure_.fixed[structure_.dof_of_pair(pairs[i])] == 0) x[i * n + rows_of_pairs_[pairs[i]]] = 1.0;
+  factor_.solve(x);
+  std::vector<std::vector<double>> columns(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (const int row : rows_of_pairs_) columns[i].push_back(x[i * n + row]);
+  return columns;
 }
 
 }  // namespace contct::solve

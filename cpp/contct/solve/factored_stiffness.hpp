@@ -73,7 +73,7 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
 }
 
 /// What factors K: LAPACK where it is stored as a band, and CHOLMOD where not; CHOLMOD in either case, in its
-/// own order; or all ranks of the MPI job that this process has joined.
+/// own order; or the ranks of the MPI job that this process has joined.
 enum class factored_by { storage, cholmod, ranks };
 
 /// What factors K of `s` in the least time: CHOLMOD a wide band, where it is built in.
@@ -104,16 +104,9 @@ class factored_stiffness {
     to_dofs(structure_, b, x);
   }
 
-  /// Solve K x = e for the unit vector of one dof: x [dofs], which must be 0 before. Where K is a band this
-  /// reads less of the factor than `solve`: see solve_from.
-  void solve_unit(int dof, std::span<double> x);
-
-  /// The same for up to `block_width` dofs in one pass over the factor, at the pairs alone:
-  /// x[pair * block_width + i] for the i-th.
-  void solve_units_at_pairs(std::span<const int> dofs, std::vector<double>& x);
-
-  /// Is a solution at the pairs alone quicker to come by than all of it?
-  [[nodiscard]] bool is_distributed() const { return how_ == factored_by::ranks; }
+  /// Columns of the inverse at the pairs: K x = e for the dofs of some pairs, solved for together [those
+  /// asked for][pairs]. Zeros where the dof is fixed.
+  [[nodiscard]] std::vector<std::vector<double>> columns_at_pairs(std::span<const int> pairs);
 
   /// Solve K u = load, corrected with the residual in long double until that no longer helps: u has the
   /// digits that the stored matrix has, or 3 more than LAPACK alone where its condition takes more.
@@ -135,7 +128,6 @@ class factored_stiffness {
   [[nodiscard]] const stiffness_matrix& for_products();
 
   const linear_structure& structure_;
-  factored_by how_;
   std::optional<stiffness_matrix> entries_;  // of a band that LAPACK does not factor
   std::optional<stiffness_matrix> sparse_;   // see matrix::without_zeros
   bool looked_for_zeros_ = false;

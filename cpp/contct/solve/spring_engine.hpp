@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "contct/solve/engine.hpp"
+#include "contct/solve/factored_stiffness.hpp"
 
 namespace contct::solve {
 
@@ -20,7 +20,6 @@ struct drift {
     size = std::max(size, std::abs(response));
     correction = std::max(correction, std::abs(corrected_by));
   }
-  [[nodiscard]] double relative() const { return size > 0.0 ? correction / size : 0.0; }
 };
 
 /// Checks every so many responses. The interval halves when the drift is more than allowed, and doubles when
@@ -42,9 +41,9 @@ class drift_monitor {
   void check_next() { until_check_ = 1; }
   void start_interval() { until_check_ = check_every_; }
 
-  /// False when the drift is more than is allowed, or than `rounding`, where that is more.
-  [[nodiscard]] bool accepts(const drift& found, double rounding = 0.0) {
-    const bool good = found.correction <= std::max(limits_.allowed, rounding) * found.size;
+  /// False when the drift is more than is allowed.
+  [[nodiscard]] bool accepts(const drift& found) {
+    const bool good = found.correction <= limits_.allowed * found.size;
     if (!good) check_every_ = std::max(check_every_ / 2, shortest);
     if (found.correction < limits_.negligible * found.size)
       check_every_ = std::min(2 * check_every_, limits_.longest);
@@ -105,12 +104,10 @@ class spring_engine : public stiffness_engine {
   std::vector<int> switched_;  // pairs that may differ
 };
 
-/// The engines that have a source of their own: see make_engine. The first: "updated", "dissected" and
-/// "petsc".
+/// The engines that have a source of their own: see make_engine.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s,
-                                                                    std::string_view name);
+                                                                    std::string_view name, factored_by how);
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& s);
-[[nodiscard]] std::unique_ptr<stiffness_engine> make_cholmod_engine(const linear_structure& s);
 
 /// Is this a beam with pairs, stored as a band: one that can be condensed?
 [[nodiscard]] bool can_be_condensed(const linear_structure& s);

@@ -1,9 +1,9 @@
 // One factor for many events: the response at the pairs is updated by one column of the inverse an event.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "contct/solve/factored_stiffness.hpp"
-#include "contct/solve/inverse_columns.hpp"
 #include "contct/solve/spring_engine.hpp"
 
 namespace contct::solve {
@@ -12,12 +12,107 @@ namespace {
 // The least 1 - k c when a stiff spring opens: with less, too many of its digits have cancelled.
 constexpr double least_denominator = 1e-2;
 
+// Columns that are solved for together: a factor is read from memory once for all of them.
+constexpr std::size_t block_width = 8;
+
 /// Columns until their sums cost what a factor costs: c^2 / 2 columns of pairs against n kd^2 / 2. Twice as
 /// many, since a factor's products come from the cache and the columns' do not: the total is then least.
 std::size_t columns_worth_keeping(double flops_of_factor, std::size_t pairs) {
   const double worth = std::sqrt(2 * flops_of_factor / static_cast<double>(std::max<std::size_t>(pairs, 1)));
   return static_cast<std::size_t>(std::clamp(worth, 8.0, 1000.0));
 }
+
+/// K0 is factored; K = K0 + the springs that have been taken in since, or less those taken out. With
+/// c_j = K_j^-1 e_j, the column of toggle j when it came, and g_j = sigma k / (1 + sigma k (c_j)_p),
+///
+///     K^-1 = K0^-1 - sum g_j c_j c_j^T                                  (Sherman and Morrison)
+///
+/// restricted to the pairs everywhere. Columns of K0^-1 do not depend on the toggles: those of pairs that
+/// are likely to be next are solved for together.
+class inverse_columns {
+ public:
+  /// Must outlive this object.
+  inverse_columns(factored_stiffness& k0, std::size_t pairs) : k0_(k0), pairs_(pairs) {}
+
+  struct toggle {
+    int pair;
+    double sigma_k;
+    double weight;               // g
+    std::vector<double> column;  // c [pairs]
+  };
+  [[nodiscard]] const std::vector<toggle>& toggles() const { return toggles_; }
+  [[nodiscard]] int passes() const { return passes_; }  ///< over the factor, so far
+
+  /// The factor is a new one: drop all that depended on the last.
+  void start_anew() {
+    toggles_.clear();
+    ahead_.clear();
+  }
+
+  /// K^-1 e for the dof of a pair, at the pairs [pairs]. `last_s`: the kernel's last scale factors [pairs],
+  /// or nothing; the pairs with the least are likely to be next.
+  [[nodiscard]] std::vector<double> column(int pair, std::span<const double> last_s) {
+    auto found = ahead_.find(pair);
+    if (found != ahead_.end()) {
+      ++used_ahead_;
+    } else {
+      solve_ahead(pair, last_s);
+      found = ahead_.find(pair);
+    }
+    std::vector<double> c = std::move(found->second);
+    ahead_.erase(found);
+    correct(c);
+    return c;
+  }
+
+  /// K becomes K + sigma_k e e^T; `c` is the pair's column. Returns g.
+  double take_in(int pair, double sigma_k, std::vector<double> c) {
+    const double g = sigma_k / (1.0 + sigma_k * c[pair]);
+    toggles_.push_back({pair, sigma_k, g, std::move(c)});
+    return g;
+  }
+
+  /// K0^-1 b becomes K^-1 b, at the pairs [pairs].
+  void correct(std::span<double> at_pairs) const {
+    for (const toggle& t : toggles_) {
+      const double factor = t.weight * at_pairs[t.pair];
+      const double* const c = t.column.data();
+      for (std::size_t i = 0; i < pairs_; ++i) at_pairs[i] -= factor * c[i];
+    }
+  }
+
+ private:
+  /// The pair, and as many others as fill a block: those with the least scale factors whose columns are not
+  /// yet solved for. Only the pair itself while fewer than half of such columns are used.
+  [[nodiscard]] std::vector<int> likely_next(int pair, std::span<const double> last_s) const {
+    std::vector<int> chosen = {pair};
+    constexpr std::size_t enough_to_judge = 4 * block_width;
+    const bool seldom_used = solved_ahead_ >= enough_to_judge && 2 * used_ahead_ < solved_ahead_;
+    if (last_s.size() != pairs_ || seldom_used) return chosen;
+    std::vector<std::pair<double, int>> nearest;
+    for (int i = 0; i < static_cast<int>(pairs_); ++i)
+      if (last_s[i] < 1.0 && i != pair && !ahead_.contains(i)) nearest.emplace_back(last_s[i], i);
+    const auto wanted = nearest.begin() + static_cast<int>(std::min(block_width - 1, nearest.size()));
+    std::partial_sort(nearest.begin(), wanted, nearest.end());
+    for (auto n = nearest.begin(); n != wanted; ++n) chosen.push_back(n->second);
+    return chosen;
+  }
+
+  void solve_ahead(int pair, std::span<const double> last_s) {
+    const std::vector<int> chosen = likely_next(pair, last_s);
+    std::vector<std::vector<double>> columns = k0_.columns_at_pairs(chosen);
+    for (std::size_t i = 0; i < chosen.size(); ++i) ahead_[chosen[i]] = std::move(columns[i]);
+    solved_ahead_ += chosen.size() - 1;
+    ++passes_;
+  }
+
+  factored_stiffness& k0_;
+  std::size_t pairs_;
+  std::vector<toggle> toggles_;
+  std::map<int, std::vector<double>> ahead_;  // columns of K0^-1 at the pairs, by their pair
+  int passes_ = 0;
+  std::size_t solved_ahead_ = 0, used_ahead_ = 0;
+};
 
 /// Keeps x, the response of every pair to the step's whole load increment. When the spring k of pair p goes
 /// in (sigma = 1) or out (-1), K' = K + sigma k e e^T, and with c = K^-1 e, a column of the inverse at the
@@ -37,7 +132,7 @@ class updated_engine final : public spring_engine {
       : spring_engine(s),
         name_(name),
         stiffness_(s, how),
-        columns_(s, stiffness_),
+        columns_(stiffness_, s.pairs.size()),
         most_toggles_(columns_worth_keeping(stiffness_.flops(), s.pairs.size())),
         response_(s.pairs.size()),
         work_(s.dofs()) {}
@@ -48,7 +143,7 @@ class updated_engine final : public spring_engine {
     if (!apply_switched([&](int pair) { return update(pair, residual.last_s); })) factor_anew();
     if (response_to_ != residual.version) {
       respond_anew(residual);
-    } else if (drift_.is_due() && columns_.toggles() > 0 && !still_solves(residual.increment)) {
+    } else if (drift_.is_due() && !columns_.toggles().empty() && !still_solves(residual.increment)) {
       factor_anew();
       respond_anew(residual);
     }
@@ -57,7 +152,7 @@ class updated_engine final : public spring_engine {
 
   void recover(std::span<const double> load, std::span<const double> pair_forces,
                std::span<double> u) override {
-    if (!has_factor_ || columns_.toggles() > 0 || applied_ != wanted_) factor_anew();
+    if (!has_factor_ || !columns_.toggles().empty() || applied_ != wanted_) factor_anew();
     apply_all();
     stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
   }
@@ -95,11 +190,13 @@ class updated_engine final : public spring_engine {
 
   /// Update the response by the toggle of one pair. False when that takes a new factor.
   [[nodiscard]] bool update(int pair, std::span<const double> last_s) {
-    if (columns_.toggles() >= most_toggles_) return false;
+    if (columns_.toggles().size() >= most_toggles_) return false;
     const double sigma_k = applied_[pair] != 0 ? stiffness_of(pair) : -stiffness_of(pair);
-    const std::span<const double> c = columns_.column(pair, last_s);
-    if (!(1.0 + sigma_k * c[pair] > least_denominator)) return false;
-    const double factor = columns_.take_in(pair, sigma_k) * response_[pair];
+    std::vector<double> column = columns_.column(pair, last_s);
+    if (!(1.0 + sigma_k * column[pair] > least_denominator)) return false;
+    const double g = columns_.take_in(pair, sigma_k, std::move(column));
+    const double factor = g * response_[pair];
+    const std::vector<double>& c = columns_.toggles().back().column;
     for (std::size_t i = 0; i < response_.size(); ++i) response_[i] -= factor * c[i];
     ++counts_.updates;
     return true;
@@ -109,7 +206,7 @@ class updated_engine final : public spring_engine {
   [[nodiscard]] bool still_solves(std::span<const double> increment) {
     ++counts_.checks;
     std::copy(increment.begin(), increment.end(), work_.begin());
-    for (const inverse_columns::toggle& t : columns_.all_toggles())
+    for (const inverse_columns::toggle& t : columns_.toggles())
       work_[structure_.dof_of_pair(t.pair)] -= t.sigma_k * response_[t.pair];
     stiffness_.solve(work_);
     ++counts_.solves;
@@ -134,10 +231,8 @@ class updated_engine final : public spring_engine {
 
 }  // namespace
 
-std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s, std::string_view name) {
-  const factored_by how = name == "dissected" ? factored_by::cholmod
-                          : name == "petsc"   ? factored_by::ranks
-                                              : factored_by::storage;
+std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s, std::string_view name,
+                                                      factored_by how) {
   return std::make_unique<updated_engine>(s, name, how);
 }
 

@@ -1,5 +1,3 @@
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -18,40 +16,13 @@ void refuse_without_stiffness(const assembled& a, const linear_structure& s) {
   }
 }
 
-/// As sparse_matrix::doubt and sparse_matrix::times.
-double doubt(matrix::remote_matrix& k, std::span<const double> x) {
-  constexpr double of_sums = 4 * std::numeric_limits<double>::epsilon() / 2;
-  const std::vector<double> diagonal = k.diagonal();
-  std::vector<double> sizes(x.size());
-  std::vector<double> scaled(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    sizes[i] = std::abs(x[i]);
-    scaled[i] = sizes[i] * std::sqrt(std::abs(diagonal[i]));
-  }
-  const std::vector<double> units = k.half_units(sizes);
-  const std::vector<double> sums = k.sums(scaled);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += sizes[i] * units[i] + of_sums * scaled[i] * sums[i];
-  return sum;
-}
-
-std::vector<long double> product(matrix::remote_matrix& k, std::span<const double> x) {
-  const std::vector<long double> long_x(x.begin(), x.end());
-  std::vector<long double> y = k.times(long_x);
-  const std::vector<double> diagonal = k.diagonal();
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += diagonal[i] * long_x[i];
-  return y;
-}
-
 }  // namespace
 
 linear_structure build(const assembled& a, std::span<const support> supports,
                        std::vector<contact_pair> pairs) {
   linear_structure s;
   s.dofs_per_node = assembled::dofs_per_node;
-  if (a.remote) {
-    s.stiffness = matrix::remote_rows(a.remote->copy());
-  } else if (a.as_band) {
+  if (a.as_band) {
     s.rows = a.rows;
     s.stiffness = band_of(a.stiffness, a.rows);
   } else {
@@ -68,7 +39,7 @@ linear_structure build(const assembled& a, std::span<const support> supports,
       std::vector<double> u(in_rows.size());
       for (std::size_t dof = 0; dof < u.size(); ++dof)
         u[dof] = s.fixed[dof] != 0 ? 0.0 : in_rows[s.row_of(dof)];
-      return a.remote ? doubt(*a.remote, u) : a.stiffness.doubt(u);
+      return a.stiffness.doubt(u);
     });
   } catch (const std::invalid_argument& e) {
     throw std::invalid_argument(a.name + ": " + e.what());
@@ -92,7 +63,7 @@ linear_structure build(const assembled& a, std::span<const support> supports,
 
 std::vector<double> reactions(const assembled& a, const load& l, std::span<const support> supports,
                               std::span<const double> u) {
-  const std::vector<long double> needs = a.remote ? product(*a.remote, u) : a.stiffness.times(u);
+  const std::vector<long double> needs = a.stiffness.times(u);
   return reactions_of(supports, l, u, assembled::dofs_per_node,
                       [&needs](int dof, int /*of_node*/) { return static_cast<double>(needs[dof]); });
 }

@@ -3,10 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contct/distributed/ranks.hpp"
 #include "contct/numeric/rational.hpp"
 #include "contct/structure/plate_element.hpp"
-#include "contct/structure/plate_rows.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/structure/true_plate.hpp"
 
@@ -247,19 +245,6 @@ std::array<curvature, 4> curvatures_at_corners(const plate_element& e, const ele
   return at;
 }
 
-matrix::full_rows<double> stiffness_rows(const plate& p, int first, int count) {
-  element_matrix12 k{};
-  matrix::full_rows<double> all = rows_of<double>(p, first, count, [&](int e) -> const element_matrix12& {
-    k = stiffness_of(element_of(p, e));
-    for (std::size_t i = 0; i < 12; ++i)
-      for (std::size_t j = i + 1; j < 12; ++j) k[i][j] = k[j][i];
-    return k;
-  });
-  if (!std::ranges::all_of(all.values, [](double x) { return std::isfinite(x); }))
-    throw std::invalid_argument("the stiffness of an element is not a finite number");
-  return all;
-}
-
 numeric::double_double stiffness_of(const plate& p) {
   if (p.E == 0.0) return numeric::long_decimal(p.D);
   const numeric::rational nu = numeric::decimal_of(p.nu);
@@ -267,17 +252,12 @@ numeric::double_double stiffness_of(const plate& p) {
   return numeric::long_rounded(numeric::decimal_of(p.E) * t * t * t / (12 * (1 - nu * nu)));
 }
 
-linear_structure build(const plate& p, std::span<const support> supports, std::vector<contact_pair> pairs,
-                       distributed::ranks* among) {
+linear_structure build(const plate& p, std::span<const support> supports, std::vector<contact_pair> pairs) {
   linear_structure s;
   s.dofs_per_node = plate::dofs_per_node;
-  if (among != nullptr) {
-    s.stiffness = matrix::remote_rows(among->stiffness_of(p));
-  } else {
-    s.stiffness = band_matrix(p.dofs(), 3 * (std::min(p.columns(), p.rows()) + 1) + 2);
-    s.rows = rows_along_shorter_side(p);
-    assemble_elements(p, s);
-  }
+  s.stiffness = band_matrix(p.dofs(), 3 * (std::min(p.columns(), p.rows()) + 1) + 2);
+  s.rows = rows_along_shorter_side(p);
+  assemble_elements(p, s);
   s.rigid_motions = 3;
   s.rigid_rows = rigid_rows_of(p);
   s.truth = std::make_shared<rigid_truth>(p);

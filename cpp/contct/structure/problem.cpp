@@ -42,9 +42,7 @@ resultant sum_of(const assembled& /*a*/, const load& l) {
 
 }  // namespace
 
-linear_structure build(const model& m, std::span<const support> supports, std::vector<contact_pair> pairs,
-                       distributed::ranks* among) {
-  if (const auto* p = std::get_if<plate>(&m.kind)) return build(*p, supports, std::move(pairs), among);
+linear_structure build(const model& m, std::span<const support> supports, std::vector<contact_pair> pairs) {
   return std::visit([&](const auto& kind) { return build(kind, supports, std::move(pairs)); }, m.kind);
 }
 

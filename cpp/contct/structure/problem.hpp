@@ -14,10 +14,6 @@
 #include "contct/structure/structure.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::distributed {
-class ranks;
-}
-
 namespace contct::structure {
 
 /// Coordinates at equal distances, each `end` of a run a number of the file.
@@ -138,8 +134,6 @@ struct assembled {
   std::optional<int> free_motions;  ///< how many motions it leaves free on its
                                     ///< supports, where that is known
   placed_nodes places;              ///< for pictures only
-  /// Where the ranks of a job have the stiffness; `stiffness` has its order alone then.
-  std::shared_ptr<matrix::remote_matrix> remote;
 
   static constexpr int dofs_per_node = 1;
   static constexpr std::array<const char*, 1> dof_names = {"value"};
@@ -191,15 +185,14 @@ struct model {
 /// matrix, the motions that its supports leave free are found from it: see find_free_motions. Throws
 /// std::invalid_argument when an entry of an element's stiffness is not a finite number, naming the element
 /// (from 1); where a dof of a matrix has neither stiffness nor support; and as find_free_motions does.
-/// `among`: the ranks among which the stiffness of a plate is distributed; null: it is here.
 [[nodiscard]] linear_structure build(const beam& b, std::span<const support> supports,
                                      std::vector<contact_pair> pairs);
 [[nodiscard]] linear_structure build(const plate& p, std::span<const support> supports,
-                                     std::vector<contact_pair> pairs, distributed::ranks* among = nullptr);
+                                     std::vector<contact_pair> pairs);
 [[nodiscard]] linear_structure build(const assembled& a, std::span<const support> supports,
                                      std::vector<contact_pair> pairs);
 [[nodiscard]] linear_structure build(const model& m, std::span<const support> supports,
-                                     std::vector<contact_pair> pairs, distributed::ranks* among = nullptr);
+                                     std::vector<contact_pair> pairs);
 
 /// Add the consistent load vector of `l` to `f` [dofs]. Loads on a matrix are forces at dofs. Throws
 /// std::invalid_argument for a distributed load on a plate that is not constant.

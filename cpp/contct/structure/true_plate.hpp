@@ -8,7 +8,7 @@
 
 #include "contct/numeric/double_double.hpp"
 #include "contct/structure/element_formulas.hpp"
-#include "contct/structure/plate_rows.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::structure {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -28,20 +27,6 @@ namespace contct::write {
 /// A structure from elsewhere is drawn where its nodes have places: its edges as lines, "displacement" and
 /// "reaction" as they are, "rotation" where it has any; pairs at dofs without a place have no cell.
 [[nodiscard]] std::string vtu_of_frame(const problem& p, const frame& f);
-
-/// The same grid in `count` pieces, 1 or more: files of their own, and one that lists them. The elements are
-/// shared evenly, a plate's by rows; each piece has the points of its elements, so that points between two
-/// pieces are in both. A pair, and a point of no element, is in one. Where there are fewer rows than pieces,
-/// some are empty.
-struct grid_pieces {
-  std::function<std::string(std::size_t number)> piece;  ///< from 0
-  /// The file that lists them; `stem` is their common name without folder: see name_of_piece.
-  std::function<std::string(const std::string& stem)> index;
-};
-[[nodiscard]] grid_pieces pieces_of_frame(const problem& p, const frame& f, std::size_t count);
-
-/// "out_7.vtu" for 7, of a stem "out".
-[[nodiscard]] std::string name_of_piece(const std::string& stem, std::size_t number);
 
 /// A collection of `count` files, by their place in which they were kept; "time" counts them from 0.
 /// `stem` is their common name without folder: see name_of_frame.

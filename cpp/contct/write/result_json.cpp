@@ -226,10 +226,9 @@ void put_place(json& entry, const model& m, int node) {
 }
 
 result_json::result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
-                         const certifier& judged, output_file& out, displacements shown)
+                         const certifier& judged, output_file& out)
     : problem_(p),
       judged_(judged),
-      shown_(shown),
       loads_(p),
       document_(out,
                 {{"format", "contct-result-1"},
@@ -249,7 +248,7 @@ void result_json::step_ended(const step_state& s) {
                   {"fraction", s.fraction},
                   {"increments", nullptr},
                   {"w", w}};
-  if (shown_ == displacements::all) members["displacement"] = s.displacement;
+  members["displacement"] = s.displacement;
   members.update({{"pairs", nullptr},
                   {"reactions", nullptr},
                   {"elements", nullptr},

@@ -73,16 +73,13 @@ class json_document {
 /// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
 void put_place(nlohmann::ordered_json& entry, const model& m, int node);
 
-/// Which displacements a step has in a result: those of all dofs, or only w.
-enum class displacements : char { all, only_w };
-
 /// Observes a path and writes it as it goes: memory does not grow with the number of steps.
 /// The file appears when `finish` is called.
 class result_json final : public observer {
  public:
   /// `p`, `judged` and `out` must outlive this object. It must observe behind the certifier.
   result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
-              const certifier& judged, output_file& out, displacements shown = displacements::all);
+              const certifier& judged, output_file& out);
 
   void incremented(const increment& i) override { increments_.emplace_back(i); }
   void step_ended(const step_state& s) override;
@@ -109,7 +106,6 @@ class result_json final : public observer {
   };
   const problem& problem_;
   const certifier& judged_;
-  displacements shown_;
   load_path loads_;
   json_document document_;
   std::vector<int> deflecting_ = deflecting_nodes(problem_);

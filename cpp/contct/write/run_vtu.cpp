@@ -61,23 +61,6 @@ std::string text_of(const data_array& a) {
       a.values);
 }
 
-/// Of these points or cells alone.
-data_array chosen(const data_array& a, const std::vector<int>& at) {
-  data_array part{a.name, a.components, {}};
-  std::visit(
-      [&](const auto& values) {
-        std::remove_cvref_t<decltype(values)> own;
-        own.reserve(at.size() * a.components);
-        for (const int i : at) {
-          const auto first = values.begin() + static_cast<std::ptrdiff_t>(a.components) * i;
-          own.insert(own.end(), first, first + static_cast<std::ptrdiff_t>(a.components));
-        }
-        part.values = std::move(own);
-      },
-      a.values);
-  return part;
-}
-
 /// A pair that has a cell, at a node, and what the cell says.
 struct placed_pair {
   int number, node, direction, surface, look;
@@ -217,53 +200,12 @@ struct grid {
   data_array points;
 };
 
-/// Points and cells of a grid, rising.
-struct grid_part {
-  std::vector<int> points, cells;
-};
-
-/// The elements in `count` parts of like size, with their points; a plate's by rows of elements. A pair, and
-/// a point of no element, is in one part.
-std::vector<grid_part> parts_of(const model& m, const grid& g, std::size_t count) {
-  std::vector<grid_part> parts(count);
-  std::vector<std::size_t> part_of(g.point_count(), count);  // the first that has the point
-  const auto* const on_plate = std::get_if<plate>(&m.kind);
-  const std::size_t in_row = on_plate == nullptr ? 1 : static_cast<std::size_t>(on_plate->columns() - 1);
-  for (std::size_t cell = 0; cell < g.elements; ++cell) {
-    const std::size_t number = cell / in_row * count / (g.elements / in_row);
-    parts[number].cells.push_back(static_cast<int>(cell));
-    for (const int node : g.cells[cell]) {
-      parts[number].points.push_back(node);
-      part_of[node] = std::min(part_of[node], number);
-    }
-  }
-  const auto lonely = static_cast<std::size_t>(std::ranges::count(part_of, count));
-  for (std::size_t node = 0, passed = 0; node < part_of.size(); ++node) {
-    if (part_of[node] < count) continue;
-    part_of[node] = passed++ * count / lonely;
-    parts[part_of[node]].points.push_back(static_cast<int>(node));
-  }
-  for (std::size_t cell = g.elements; cell < g.cells.size(); ++cell)
-    parts[part_of[g.cells[cell].front()]].cells.push_back(static_cast<int>(cell));
-  for (grid_part& part : parts) {
-    std::ranges::sort(part.points);
-    part.points.erase(std::unique(part.points.begin(), part.points.end()), part.points.end());
-  }
-  return parts;
-}
-
-/// The cells of a grid, or of a part of it.
-std::string cells_of(const grid& g, const grid_part* part) {
+std::string cells_of(const grid& g) {
   std::vector<int> connectivity;
   std::vector<int> offsets;
   std::vector<std::uint8_t> types;
-  const std::size_t count = part == nullptr ? g.cells.size() : part->cells.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::vector<int>& at = g.cells[part == nullptr ? i : static_cast<std::size_t>(part->cells[i])];
-    for (const int node : at)
-      connectivity.push_back(part == nullptr ? node
-                                             : static_cast<int>(std::ranges::lower_bound(part->points, node) -
-                                                                part->points.begin()));
+  for (const std::vector<int>& at : g.cells) {
+    connectivity.insert(connectivity.end(), at.begin(), at.end());
     offsets.push_back(static_cast<int>(connectivity.size()));
     types.push_back(at.size() == 1 ? vtk_vertex : at.size() == 2 ? vtk_line : vtk_quad);
   }
@@ -291,61 +233,22 @@ std::string file_of(std::string_view type, std::string_view content) {
       type, content);
 }
 
-/// A grid, or a part of it, as a file.
-std::string vtu_of(const grid& g, const std::string& field, const grid_part* part) {
-  const auto arrays = [](const std::vector<data_array>& all, const std::vector<int>* at) {
-    std::string text;
-    for (const data_array& a : all) text += at == nullptr ? text_of(a) : text_of(chosen(a, *at));
-    return text;
-  };
-  const std::vector<int>* const points = part == nullptr ? nullptr : &part->points;
-  const std::vector<int>* const cells = part == nullptr ? nullptr : &part->cells;
-  return file_of("UnstructuredGrid",
-                 field +
-                     fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                                 points == nullptr ? g.point_count() : points->size(),
-                                 cells == nullptr ? g.cells.size() : cells->size()) +
-                     section("PointData", g.of_points.attributes, arrays(g.of_points.arrays, points)) +
-                     section("CellData", "", arrays(g.of_cells, cells)) +
-                     section("Points", "", arrays({g.points}, points)) + cells_of(g, part) +
-                     "    </Piece>\n");
-}
-
-/// The file that lists `count` pieces of a grid.
-std::string list_of_pieces(const grid& g, std::size_t count, const std::string& stem) {
-  const auto declared = [](std::string_view name, std::string_view attributes,
-                           const std::vector<data_array>& arrays) {
-    std::string text = fmt::format("    <{}{}>\n", name, attributes);
-    for (const data_array& a : arrays) text += fmt::format("      <PDataArray {}/>\n", attributes_of(a));
-    return text + fmt::format("    </{}>\n", name);
-  };
-  std::string text = declared("PPointData", g.of_points.attributes, g.of_points.arrays) +
-                     declared("PCellData", "", g.of_cells) + declared("PPoints", "", {g.points});
-  for (std::size_t i = 0; i < count; ++i)
-    text += fmt::format("    <Piece Source=\"{}\"/>\n", markup_text(name_of_piece(stem, i)));
-  return file_of("PUnstructuredGrid", text);
-}
-
 }  // namespace
 
 std::string vtu_of_frame(const problem& p, const frame& f) {
-  return vtu_of(grid(p, f), field_data(f), nullptr);
-}
-
-grid_pieces pieces_of_frame(const problem& p, const frame& f, std::size_t count) {
-  struct all_parts {
-    grid whole;
-    std::string field;
-    std::vector<grid_part> parts;
+  const grid g(p, f);
+  const auto texts = [](const std::vector<data_array>& arrays) {
+    std::string all;
+    for (const data_array& a : arrays) all += text_of(a);
+    return all;
   };
-  const auto all = std::make_shared<all_parts>(all_parts{grid(p, f), field_data(f), {}});
-  all->parts = parts_of(p.geometry, all->whole, count);
-  return {[all](std::size_t number) { return vtu_of(all->whole, all->field, &all->parts[number]); },
-          [all](const std::string& stem) { return list_of_pieces(all->whole, all->parts.size(), stem); }};
-}
-
-std::string name_of_piece(const std::string& stem, std::size_t number) {
-  return fmt::format("{}_{}.vtu", stem, number);
+  return file_of("UnstructuredGrid",
+                 field_data(f) +
+                     fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", g.point_count(),
+                                 g.cells.size()) +
+                     section("PointData", g.of_points.attributes, texts(g.of_points.arrays)) +
+                     section("CellData", "", texts(g.of_cells)) + section("Points", "", text_of(g.points)) +
+                     cells_of(g) + "    </Piece>\n");
 }
 
 std::string pvd_of_frames(const std::string& stem, std::size_t count) {

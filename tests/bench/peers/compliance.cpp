@@ -1,16 +1,11 @@
 #include "bench/peers/compliance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
-#include "contct/matrix/block_solve.hpp"
-
 namespace bench::peers {
 namespace {
-
-using contct::matrix::block_width;
 
 /// As a band: these rows come in the order of a narrow one.
 contct::matrix::band_matrix band_of(const contct::matrix::sparse_columns& k) {
@@ -34,16 +29,18 @@ complementarity compliance::complementarity_problem() {
   const auto& springs = problem_.springs;
   const std::size_t n = springs.size();
   complementarity lcp{std::vector<double>(n * n), std::vector<double>(n)};
-  std::vector<int> at;
-  for (const one_sided_spring& s : springs) at.push_back(s.row);
-  std::vector<double> block;
-  for (std::size_t first = 0; first < n; first += block_width) {
-    std::array<int, block_width> rows{};
-    for (std::size_t j = 0; j < block_width; ++j) rows[j] = first + j < n ? at[first + j] : -1;
-    factor_.solve_units_at(rows, at, block);
-    for (std::size_t j = first; j < std::min(n, first + block_width); ++j)
+  constexpr std::size_t at_once = 8;
+  const auto order = static_cast<std::size_t>(problem_.stiffness.order());
+  for (std::size_t first = 0; first < n; first += at_once) {
+    const std::size_t end = std::min(n, first + at_once);
+    std::vector<double> columns((end - first) * order);
+    for (std::size_t j = first; j < end; ++j)
+      columns[(j - first) * order + static_cast<std::size_t>(springs[j].row)] = 1.0;
+    factor_.solve(columns);
+    for (std::size_t j = first; j < end; ++j)
       for (std::size_t i = 0; i < n; ++i)
-        lcp.m[j * n + i] = springs[i].side * springs[j].side * block[i * block_width + (j - first)];
+        lcp.m[j * n + i] = springs[i].side * springs[j].side *
+                           columns[(j - first) * order + static_cast<std::size_t>(springs[i].row)];
   }
   const std::vector<double> unloaded = displacement_under(std::vector<double>(n));
   for (std::size_t i = 0; i < n; ++i) {

@@ -205,10 +205,9 @@ answer solve(const std::string& method, const std::string& folder) {
   const given g(folder);
   if (method == "path" || method == "path-certified")
     return follow(g, std::string(app::quickest_engine(g.structure)), method == "path-certified");
-  if (method == "cholmod") return follow(g, "cholmod", false);
   if (method == "final" || method == "final-certified") return find_end(g, method == "final-certified");
   throw std::invalid_argument("found method " + method +
-                              "; allowed: state, path, path-certified, cholmod, final, final-certified");
+                              "; allowed: state, path, path-certified, final, final-certified");
 }
 
 }  // namespace

@@ -31,7 +31,6 @@ struct method {
 constexpr method methods[] = {
     {"ours", "path", "contct: the whole path, engine auto"},
     {"ours", "path-certified", "contct: the same, with its certificate"},
-    {"ours", "cholmod", "contct: the whole path, engine cholmod"},
     {"ours", "final", "contct: --final-only without a certificate"},
     {"ours", "final-certified", "contct: --final-only"},
     {"cholmod", "updown", "CHOLMOD: Newton, up/downdating"},

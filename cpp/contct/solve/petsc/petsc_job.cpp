@@ -1,0 +1,299 @@
+// The module contct_petsc: the ranks of an MPI job share a factor by PETSc and MUMPS. Rank 0 owns all rows
+// of the matrices, the right-hand sides and the solutions; MUMPS distributes the factor. Rank 0 sends a
+// command before everything that all ranks do together.
+#include <petscmat.h>
+#include <petscsys.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contct/solve/mpi_job.hpp"
+
+namespace contct::solve {
+namespace {
+
+static_assert(std::is_same_v<PetscInt, int> && std::is_same_v<PetscScalar, double>);
+
+// MUMPS' parameters, numbered as in its manual.
+constexpr PetscInt root_by_one_process = 13;  // ICNTL: 1 counts every pivot that is not positive
+constexpr PetscInt more_space_percent = 14;
+constexpr PetscInt factor_entries = 3;  // INFOG: estimated; in millions where negative
+constexpr PetscInt negative_pivots = 12;
+constexpr PetscInt estimated_flops = 1;  // RINFOG
+
+// INFOG(1) after a factorisation.
+constexpr int singular = -10, not_definite_root = -40, not_allocated = -13;
+constexpr int no_room[] = {-8, -9, -14, -15, -17, -20};
+
+/// Throws std::bad_alloc or std::runtime_error, with PETSc's words, where a call to PETSc has failed.
+void succeed(PetscErrorCode code) {
+  if (code == 0) return;  // PETSC_SUCCESS since PETSc 3.19
+  if (code == PETSC_ERR_MEM) throw std::bad_alloc();
+  const char* words = nullptr;
+  (void)PetscErrorMessage(code, &words, nullptr);
+  throw std::runtime_error("PETSc failed: " + std::string(words != nullptr ? words : "it does not say why"));
+}
+
+/// How a factorisation came out; the same on every rank.
+enum class outcome : int { factored, not_definite, no_memory, failed };
+
+/// A matrix and its factor, as each rank has them. All ranks call every function together; data count on
+/// rank 0 alone.
+class part_of_factor {
+ public:
+  /// Finds the order in which the matrix is factored. `a`: null on other ranks than 0.
+  part_of_factor(int order, const sparse_columns* a) : order_(order), own_(a != nullptr ? order : 0) {
+    // Column j of a lower triangle is row j of the upper one, diagonal first.
+    const std::vector<int> none = {0};
+    const int* const starts = a != nullptr ? a->starts.data() : none.data();
+    const int* const columns = a != nullptr ? a->rows.data() : nullptr;
+    const double* const values = a != nullptr ? a->values.data() : nullptr;
+    succeed(MatCreate(PETSC_COMM_WORLD, &matrix_));
+    succeed(MatSetSizes(matrix_, own_, own_, order, order));
+    succeed(MatSetType(matrix_, MATSBAIJ));
+    succeed(MatSeqSBAIJSetPreallocationCSR(matrix_, 1, starts, columns, values));
+    succeed(MatMPISBAIJSetPreallocationCSR(matrix_, 1, starts, columns, values));
+    succeed(MatSetOption(matrix_, MAT_SPD, PETSC_TRUE));
+    analyse();
+  }
+  ~part_of_factor() {
+    for (Mat* m : {&solutions_, &factor_, &matrix_}) (void)MatDestroy(m);
+  }
+  part_of_factor(const part_of_factor&) = delete;
+  part_of_factor& operator=(const part_of_factor&) = delete;
+
+  [[nodiscard]] int order() const { return order_; }
+  [[nodiscard]] double flops() const {
+    PetscReal all = 0.0;
+    succeed(MatMumpsGetRinfog(factor_, estimated_flops, &all));
+    return all;
+  }
+  [[nodiscard]] double bytes() const {
+    const PetscInt entries = infog(factor_entries);
+    return sizeof(double) * (entries < 0 ? -1e6 * entries : static_cast<double>(entries));
+  }
+  [[nodiscard]] PetscInt infog(PetscInt which) const {
+    PetscInt value = 0;
+    succeed(MatMumpsGetInfog(factor_, which, &value));
+    return value;
+  }
+
+  /// With `diagonal` [order] for the matrix's own.
+  [[nodiscard]] outcome factor(const double* diagonal) {
+    for (int row = 0; row < own_; ++row)
+      succeed(MatSetValue(matrix_, row, row, diagonal[row], INSERT_VALUES));
+    succeed(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
+    succeed(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+    constexpr PetscInt most_space = 1000;
+    for (PetscInt space = 0;; space = std::max<PetscInt>(2 * space, 50)) {
+      if (infog(1) < 0) analyse();  // PETSc factors no more once MUMPS has failed
+      if (space > 0) succeed(MatMumpsSetIcntl(factor_, more_space_percent, space));
+      MatFactorInfo info;
+      succeed(MatFactorInfoInitialize(&info));
+      succeed(MatCholeskyFactorNumeric(factor_, matrix_, &info));
+      const int code = infog(1);
+      if (code == singular || code == not_definite_root) return outcome::not_definite;
+      if (code == not_allocated) return outcome::no_memory;
+      if (code >= 0) return infog(negative_pivots) == 0 ? outcome::factored : outcome::not_definite;
+      const bool lacks_room = std::find(std::begin(no_room), std::end(no_room), code) != std::end(no_room);
+      if (!lacks_room || space >= most_space) return outcome::failed;
+    }
+  }
+
+  /// In place, for `columns` right-hand sides, one after the other.
+  void solve(double* b, int columns) {
+    if (columns != columns_) {
+      succeed(MatDestroy(&solutions_));
+      succeed(MatCreateDense(PETSC_COMM_WORLD, own_, PETSC_DECIDE, order_, columns, nullptr, &solutions_));
+      columns_ = columns;
+    }
+    Mat right_sides = nullptr;
+    succeed(MatCreateDense(PETSC_COMM_WORLD, own_, PETSC_DECIDE, order_, columns, b, &right_sides));
+    succeed(MatMatSolve(factor_, right_sides, solutions_));
+    succeed(MatDestroy(&right_sides));
+    const double* found = nullptr;
+    succeed(MatDenseGetArrayRead(solutions_, &found));
+    if (own_ > 0) std::copy_n(found, static_cast<std::size_t>(own_) * static_cast<std::size_t>(columns), b);
+    succeed(MatDenseRestoreArrayRead(solutions_, &found));
+  }
+
+ private:
+  void analyse() {
+    succeed(MatDestroy(&factor_));
+    succeed(MatGetFactor(matrix_, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor_));
+    succeed(MatMumpsSetIcntl(factor_, root_by_one_process, 1));
+    MatFactorInfo info;
+    succeed(MatFactorInfoInitialize(&info));
+    succeed(MatCholeskyFactorSymbolic(factor_, matrix_, nullptr, &info));
+  }
+
+  int order_, own_;  // own_: rows of this rank
+  Mat matrix_ = nullptr, factor_ = nullptr;
+  Mat solutions_ = nullptr;
+  int columns_ = 0;  // of solutions_
+};
+
+/// What rank 0 has all ranks do.
+enum class verb : int { make, factor, solve, drop, leave };
+struct command {
+  verb what;
+  int number = 0;  ///< of the factor
+  int count = 0;   ///< order of a new one, or right-hand sides
+};
+
+class petsc_job final : public mpi_job {
+ public:
+  petsc_job() {
+    std::string words[] = {"contct", "-no_signal_handler", "-skip_petscrc", "-options_left", "no"};
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    int argc = static_cast<int>(pointers.size());
+    pointers.push_back(nullptr);
+    char** argv = pointers.data();
+    MPI_Init(nullptr, nullptr);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    together([&] {
+      succeed(PetscInitialize(&argc, &argv, nullptr, nullptr));
+      succeed(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+    });
+  }
+
+  [[nodiscard]] int rank() const override { return rank_; }
+  void serve() override {
+    for (command c = next(); c.what != verb::leave; c = next())
+      together([&] { (void)act(c, nullptr, nullptr); });
+    end();
+  }
+  [[nodiscard]] std::unique_ptr<sparse_factor> share(const sparse_columns& a) override;
+  void leave() noexcept override {
+    tell({verb::leave});
+    end();
+  }
+
+  /// Rank 0: all ranks do this.
+  outcome command_all(const command& c, double* data, const sparse_columns* a = nullptr) {
+    tell(c);
+    outcome came_out = outcome::factored;
+    together([&] { came_out = act(c, data, a); });
+    return came_out;
+  }
+  [[nodiscard]] part_of_factor& at(int number) { return *factors_.at(number); }
+
+ private:
+  outcome act(const command& c, double* data, const sparse_columns* a) {
+    if (c.what == verb::make) factors_[c.number] = std::make_unique<part_of_factor>(c.count, a);
+    if (c.what == verb::factor) return at(c.number).factor(data);
+    if (c.what == verb::solve) at(c.number).solve(data, c.count);
+    if (c.what == verb::drop) factors_.erase(c.number);
+    return outcome::factored;
+  }
+
+  /// What all ranks do. The others would wait for ever for one that fails alone: the job ends.
+  template <class Work>
+  void together(Work work) {
+    std::string why = "out of memory";
+    try {
+      return work();
+    } catch (const std::bad_alloc&) {
+    } catch (const std::exception& e) {
+      why = e.what();
+    }
+    (void)std::fprintf(stderr, "contct: rank %d: %s\n", rank_, why.c_str());
+    constexpr int bad_input = 2;
+    MPI_Abort(MPI_COMM_WORLD, bad_input);
+    _exit(bad_input);
+  }
+
+  static void tell(command c) {
+    MPI_Request sent = MPI_REQUEST_NULL;
+    MPI_Ibcast(&c, sizeof c, MPI_BYTE, 0, MPI_COMM_WORLD, &sent);
+    MPI_Wait(&sent, MPI_STATUS_IGNORE);
+  }
+
+  /// Waits for rank 0, which may be long about something else: the longer, the less often this asks.
+  static command next() {
+    command c{verb::leave};
+    MPI_Request coming = MPI_REQUEST_NULL;
+    MPI_Ibcast(&c, sizeof c, MPI_BYTE, 0, MPI_COMM_WORLD, &coming);
+    using clock = std::chrono::steady_clock;
+    const auto begun = clock::now();
+    for (int arrived = 0;;) {
+      MPI_Test(&coming, &arrived, MPI_STATUS_IGNORE);
+      if (arrived != 0) return c;
+      const auto waited = std::chrono::duration_cast<std::chrono::microseconds>(clock::now() - begun).count();
+      constexpr std::int64_t patience = 2000, longest = 1000;  // microseconds
+      if (waited > patience) (void)usleep(static_cast<useconds_t>(std::min(waited / 64, longest)));
+    }
+  }
+
+  void end() {
+    factors_.clear();
+    (void)PetscFinalize();
+    MPI_Barrier(MPI_COMM_WORLD);  // mpirun ends a job as soon as a rank ends with another status than 0
+    MPI_Finalize();
+  }
+
+  int rank_ = 0, made_ = 0;
+  std::map<int, std::unique_ptr<part_of_factor>> factors_;
+};
+
+/// In the hands of rank 0.
+class shared_factor final : public sparse_factor {
+ public:
+  shared_factor(petsc_job& job, int number, const sparse_columns& a) : job_(job), number_(number) {
+    (void)job_.command_all({verb::make, number_, a.order()}, nullptr, &a);
+  }
+  ~shared_factor() override { (void)job_.command_all({verb::drop, number_}, nullptr); }
+
+  [[nodiscard]] std::int64_t bytes() const override {
+    return static_cast<std::int64_t>(job_.at(number_).bytes());
+  }
+  [[nodiscard]] double flops() const override { return job_.at(number_).flops(); }
+
+  [[nodiscard]] bool factor(std::span<const double> diagonal) override {
+    std::vector<double> data(diagonal.begin(), diagonal.end());
+    const outcome came_out = job_.command_all({verb::factor, number_}, data.data());
+    if (came_out == outcome::no_memory) throw std::bad_alloc();
+    if (came_out == outcome::failed)
+      throw std::runtime_error(
+          "MUMPS cannot factor the stiffness: INFOG(1) = " + std::to_string(job_.at(number_).infog(1)) +
+          ", INFOG(2) = " + std::to_string(job_.at(number_).infog(2)));
+    return came_out == outcome::factored;
+  }
+
+  void solve(std::span<double> b) override {
+    const int columns = static_cast<int>(b.size()) / job_.at(number_).order();
+    (void)job_.command_all({verb::solve, number_, columns}, b.data());
+  }
+
+  [[nodiscard]] sparse_columns lower() const override { throw cannot_be_read(); }
+  [[nodiscard]] const std::vector<int>& places() const override { throw cannot_be_read(); }
+
+ private:
+  static std::logic_error cannot_be_read() {
+    return std::logic_error("a factor that ranks share cannot be read");
+  }
+  petsc_job& job_;
+  int number_;
+};
+
+std::unique_ptr<sparse_factor> petsc_job::share(const sparse_columns& a) {
+  return std::make_unique<shared_factor>(*this, made_++, a);
+}
+
+}  // namespace
+}  // namespace contct::solve
+
+extern "C" __attribute__((visibility("default"))) contct::solve::mpi_job* contct_petsc_join(
+    const char* version) {
+  if (std::string(version) != CONTCT_VERSION) return nullptr;
+  return new contct::solve::petsc_job();  // as long as the process
+}
