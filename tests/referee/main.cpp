@@ -1,6 +1,7 @@
 // The exact path as referee of the corrected rule and its certificate:
-//     contct_referee COUNT SEED [--jobs N] [--kind KIND] [--exact-every N] [--ceilings FILE] [--list]
-//     [--examples] contct_referee --only NUMBER SEED contct_referee --file PROBLEM.toml
+//     contct_referee COUNT SEED [--jobs N] [--kind KIND] [--exact-every N] [--list] [--examples]
+//     contct_referee --only NUMBER SEED
+//     contct_referee --file PROBLEM.toml
 // Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails where a
 // count is above its ceiling or too little was compared. --list prints everything that is wrong, --examples
 // the worst problems as files; --only prints one problem and all that is wrong with it, --file does so for a
@@ -29,15 +30,12 @@ struct options {
   bool only_one = false, list = false, examples = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string problem_file = {}, kind = {};
-  std::string ceilings_file = CONTCT_REFEREE_CEILINGS;
 };
 
 [[noreturn]] void refuse(std::string_view found) {
   fmt::print(stderr,
              "contct_referee: found {}; allowed: COUNT SEED [--jobs N] [--kind KIND] [--exact-every N] "
-             "[--ceilings FILE] [--list] "
-             "[--examples], or --only "
-             "NUMBER SEED, or --file PROBLEM\n",
+             "[--list] [--examples], or --only NUMBER SEED, or --file PROBLEM\n",
              found);
   std::exit(2);
 }
@@ -59,8 +57,6 @@ options options_of(int argc, char** argv) {
       o.examples = true;
     } else if (a == "--list") {
       o.list = true;
-    } else if (a == "--ceilings") {
-      o.ceilings_file = value();
     } else if (a == "--kind") {
       o.kind = value();
     } else if (a == "--file") {
@@ -121,8 +117,8 @@ void print_findings(std::uint64_t number, const judged_problem& p) {
 }
 
 int judge_all(const options& o) {
-  std::ifstream file(o.ceilings_file);
-  if (!file) refuse("no file " + o.ceilings_file);
+  std::ifstream file(CONTCT_REFEREE_CEILINGS);
+  if (!file) refuse("no file " CONTCT_REFEREE_CEILINGS);
   ceilings allowed = read_ceilings(file, o.count, o.seed);
   if (!o.kind.empty()) std::erase_if(allowed, [&o](const auto& row) { return row.first != o.kind; });
   const auto started = std::chrono::steady_clock::now();
@@ -134,7 +130,7 @@ int judge_all(const options& o) {
   fmt::print("\n{}\n", ceilings_text(counts, o.count, o.seed));
   if (allowed.empty()) {
     fmt::print("{} has no ceilings for {} problems of seed {}: the block above would be theirs\nFAILED\n",
-               o.ceilings_file, o.count, o.seed);
+               CONTCT_REFEREE_CEILINGS, o.count, o.seed);
     return 1;
   }
   const std::vector<std::string> wrong = breaches(counts, allowed);
