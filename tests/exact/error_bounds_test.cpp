@@ -22,6 +22,7 @@ namespace {
 struct told_end {
   handed_out numbers;
   std::vector<double> displacement;
+  std::vector<int> isep;
   error_bounds bounds;
 };
 
@@ -33,9 +34,11 @@ struct prover_of_path final : observer {
     if (s.fraction != 1.0) return;
     told_end& end = ends.emplace_back();
     end.displacement.assign(s.displacement.begin(), s.displacement.end());
+    end.isep.assign(s.isep.begin(), s.isep.end());
     end.numbers = handed_out_at(what, s);
     end.bounds = prover.bound(end.numbers);
     end.numbers.displacement = {};
+    end.numbers.isep = {};
   }
 
   const problem& what;
@@ -146,6 +149,7 @@ struct one_end {
     truly = exact::follow_true_path(exact::exact_problem_of(what)).steps.back();
     end = watch.ends.back();
     end.numbers.displacement = end.displacement;
+    end.numbers.isep = end.isep;
   }
   /// Bounds for numbers with a fault in them.
   error_bounds again() { return watch.prover.bound(end.numbers); }

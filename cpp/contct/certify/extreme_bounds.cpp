@@ -25,17 +25,19 @@ double rounding_in(const std::vector<double>& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
 
-/// How far a polynomial in Bernstein's form can be above `top`; what is below `close` does not matter.
-double above(std::vector<double> b, double top, double close, int bisections) {
+/// How far a polynomial in Bernstein's form can be above `top`; what is below `close` does not matter. `reached`
+/// is how far it certainly is: its first and last coefficients are values.
+double above(std::vector<double> b, double top, double close, int bisections, double& reached) {
   const double beyond = std::ranges::max(b) - top;
-  if (beyond <= close || bisections == 0) return std::max(beyond, 0.0);
+  reached = std::max({reached, b.front() - top, b.back() - top});
+  if (beyond <= reached + close || bisections == 0) return std::max(beyond, 0.0);
   std::vector<double> left;  // P. de Casteljau: `b` becomes the right half
   for (std::size_t last = b.size(); last > 0; --last) {
     left.push_back(b.front());
     for (std::size_t i = 0; i + 1 < last; ++i) b[i] = b[i] / 2 + b[i + 1] / 2;
   }
-  return std::max(above(std::move(left), top, close, bisections - 1),
-                  above(std::move(b), top, close, bisections - 1));
+  return std::max(above(std::move(left), top, close, bisections - 1, reached),
+                  above(std::move(b), top, close, bisections - 1, reached));
 }
 
 /// How far the polynomial is from its printed extremes, and from what was handed out for its right end.
@@ -43,9 +45,11 @@ double off_extremes(const std::vector<double>& p, const structure::value_range& 
   constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
   const double close = rounding_in(p);
   std::vector<double> b = structure::bernstein_of(p);
-  double beyond = above(b, printed.most.value, close, bisections);
+  double reached = 0.0;
+  double beyond = above(b, printed.most.value, close, bisections, reached);
   for (double& x : b) x = -x;
-  beyond = std::max(beyond, above(std::move(b), -printed.least.value, close, bisections));
+  reached = 0.0;
+  beyond = std::max(beyond, above(std::move(b), -printed.least.value, close, bisections, reached));
   return beyond + std::abs(structure::polynomial_at(p, 1.0) - right_end) + close;
 }
 
