@@ -209,14 +209,6 @@ path_limits limits_of(const run_setup& run, certifier& judged) {
           exact::exact_follower_of(run.what)};
 }
 
-/// A grid in pieces is the final state alone: for that nothing must be solved by one process.
-frame_limits frames_of(const run_options& o) {
-  const picture_options& p = o.pictures;
-  frame_limits limits;
-  limits.only_ends = is_in_pieces(p.vtu) && p.html.empty() && p.csv.empty() && !o.envelope;
-  return limits;
-}
-
 /// The leader's path, observed by all that was asked for, and by `recorded` where that is not null.
 path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
   const run_setup& run = o.run;
@@ -228,8 +220,7 @@ path_end follow_leader(observed_run& o, kernel& leader, path_record* recorded) {
   output_file* const csv = o.files["--csv"];
   if (run.options.pictures.wants_frames() || run.options.envelope || csv != nullptr) {
     const bool forces_by_law = leader.facts().rule != "listing";
-    observers.push_back(&o.frames.emplace(run.structure, loads_of(run.what, run.structure), forces_by_law,
-                                          frames_of(run.options)));
+    observers.push_back(&o.frames.emplace(run.structure, loads_of(run.what, run.structure), forces_by_law));
     observers.push_back(&o.record.emplace(o.compared));
     if (run.options.envelope) o.frames->show_each_to([&o](const frame& f) { o.extremes->take(f); });
   }
