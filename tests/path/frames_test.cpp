@@ -55,25 +55,6 @@ class ends final : public observer {
 
 }  // namespace
 
-TEST_CASE("with only the ends of steps there are no increments, and the ends are those of all frames") {
-  const stopped_beam b({-30.0, -5.0});
-  frame_keeper all(b.structure, b.loads(), false);
-  frame_keeper few(b.structure, b.loads(), false, {.only_ends = true});
-  b.run("fortran", all);
-  b.run("fortran", few);
-  REQUIRE(all.frames().size() > 3);
-  REQUIRE(few.frames().size() == 3);
-  CHECK(few.increments() == all.increments());
-  std::vector<frame> ends_of_all;
-  for (const frame& f : all.frames())
-    if (f.at == 0 || f.step_end) ends_of_all.push_back(f);
-  REQUIRE(ends_of_all.size() == 3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    CHECK(few.frames()[i].displacement == ends_of_all[i].displacement);
-    CHECK(few.frames()[i].isep == ends_of_all[i].isep);
-  }
-}
-
 TEST_CASE("a frame in the middle of a step is the state that a path ends in at that load") {
   for (const std::string leader : {"fortran", "corrected"}) {
     INFO(leader);

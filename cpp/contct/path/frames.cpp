@@ -31,7 +31,6 @@ frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, b
     : structure_(s),
       total_load_(std::move(total_load)),
       forces_by_law_(forces_by_law),
-      only_ends_(limits.only_ends),
       refined_(limits.refined),
       most_frames_(
           std::max(fewest_frames,
@@ -76,7 +75,7 @@ void frame_keeper::incremented(const increment& i) {
            .isep = isep_,
            .pair_forces = forces_after(i)};
   show_latest();
-  const bool kept = !only_ends_ && increments_ % stride_ == 0;
+  const bool kept = increments_ % stride_ == 0;
   if (!kept && !solves_each_) return;
   frame f = last_;
   f.displacement = shape(i.fraction);

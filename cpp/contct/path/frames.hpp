@@ -42,8 +42,7 @@ struct frame {
 struct frame_limits {
   std::size_t most_frames = 120;          ///< at least 4
   std::size_t most_numbers = 16'000'000;  ///< in all their displacements together; 8 bytes each
-  bool only_ends = false;  ///< no increments: the start and the ends of steps, for which nothing is solved
-  bool refined = true;     ///< false: increments have the digits of one solve, enough for a picture
+  bool refined = true;  ///< false: increments have the digits of one solve, enough for a picture
 };
 
 /// Observes a path and keeps frames of it. The path itself knows the pairs' dofs only, so the
@@ -117,7 +116,6 @@ class frame_keeper final : public observer {
   const linear_structure& structure_;
   load_history total_load_;
   bool forces_by_law_;
-  bool only_ends_;
   bool refined_;
   std::size_t most_frames_;
   std::optional<factored_stiffness> stiffness_;  // with the springs of all pairs; made at the first use
