@@ -45,8 +45,11 @@ using namespace compare;
 using namespace certify;
 using namespace exact;
 }  // namespace contct::write
-namespace contct::lab {
+namespace contct::session {
 using namespace write;
+}
+namespace contct::lab {
+using namespace session;
 using namespace read;
 }  // namespace contct::lab
 namespace contct::serve {

@@ -16,19 +16,15 @@
 #include "contct/compare/explanation.hpp"
 #include "contct/exact/exact_follower.hpp"
 #include "contct/exact/exact_residual.hpp"
-#include "contct/matrix/lapack_identity.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/serve/exact_run.hpp"
 #include "contct/serve/states.hpp"
+#include "contct/session/run.hpp"
 #include "contct/write/exact_output.hpp"
 #include "contct/write/explain.hpp"
 #include "contct/write/pictures.hpp"
-#include "contct/write/proof_json.hpp"
-#include "contct/write/result_json.hpp"
-#include "contct/write/run_words.hpp"
-#include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 #include "fuzz/fuzz.hpp"
 #include "fuzz/problem_from_bytes.hpp"
@@ -65,8 +61,7 @@ class captured_output {
 
 /// The ends of the steps that a path reached, each with its certificate.
 struct certified_ends final : observer {
-  certified_ends(const problem& p, const linear_structure& s)
-      : what(p), judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p)) {}
+  explicit certified_ends(const problem& p) : what(p) {}
 
   void step_ended(const step_state& s) override {
     displacement.emplace_back(s.displacement.begin(), s.displacement.end());
@@ -74,13 +69,13 @@ struct certified_ends final : observer {
 
   /// The bound on a dof's displacement at the end of a step, from 0; none where nothing is proved.
   [[nodiscard]] std::optional<double> bound(std::size_t step, std::size_t dof) const {
-    const auto& c = step < judged.steps().size() ? judged.steps()[step] : std::optional<certificate>();
+    const auto& c = step < certificates.size() ? certificates[step] : std::optional<certificate>();
     if (!c || !c->proved || !c->unique) return std::nullopt;
     return c->error[dof % dofs_per_node(what.geometry) == 0 ? quantity::w : quantity::slope];
   }
 
   const problem& what;
-  certifier judged;
+  std::vector<std::optional<certificate>> certificates;  // of the run that told the ends
   std::vector<std::vector<double>> displacement;
 };
 
@@ -105,18 +100,25 @@ class whole_run {
   whole_run(const problem& p, FuzzedDataProvider& bytes, const captured_output& printed)
       : p_(p),
         file_("p" + words_from(bytes)),
-        leader_(make_kernel(bytes.PickValueInArray({"fortran", "cpp", "corrected"}))),
+        leader_(bytes.PickValueInArray({"fortran", "cpp", "corrected"})),
         engine_(engine_names()[bytes.ConsumeIntegralInRange<std::size_t>(0, engine_names().size() - 1)]),
         is_detailed_(bytes.ConsumeBool()),
         structure_(structure_of(p)),
         printed_(printed),
-        ends_(p_, structure_) {}
+        ends_(p_) {}
 
   void go() {
-    follow_and_write();
-    for (const std::string& name : engine_names()) follow_on(name);
-    find_ends();
-    if (leader_->facts().rule == "listing") explain_it();
+    try {
+      follow_and_write();
+    } catch (const std::invalid_argument&) {  // the engine does not suit
+      engine_ = "refactor";
+      ends_.displacement.clear();
+      follow_and_write();
+    }
+    for (const std::string& name : engine_names())
+      if (name != engine_) follow_on(name, {leader_});
+    follow_on("", {});
+    if (has_listings_rule()) explain_it();
   }
 
   void go_exactly() {
@@ -145,48 +147,50 @@ class whole_run {
   }
 
  private:
-  [[nodiscard]] path_limits limits(certifier& judged) const {
-    return {most_increments, judged.fallback(), judged.refiner(), exact::exact_follower_of(p_)};
+  [[nodiscard]] bool has_listings_rule() const { return leader_ != "corrected"; }
+
+  /// A run on an engine, of the leader and those that are compared with it, or of the ends alone.
+  [[nodiscard]] session::run_request request_for(const std::string& engine,
+                                                 std::vector<std::string> kernels) const {
+    return {.file = file_,
+            .kernels = std::move(kernels),
+            .engine = engine,
+            .envelope = true,
+            .pictures = true,
+            .max_increments = most_increments};
   }
 
   void follow_and_write();
   void read_back_pictures(const finished_run& r);
-  void read_back_reports(const path_end& end, bool equal);
+  void read_back_reports(const path_end& end);
 
-  /// The same path on an engine, where that suits.
-  void follow_on(const std::string& name) {
-    if (name == engine_) return;
-    certified_ends ends(p_, structure_);
+  /// The same path on an engine, where that suits; without kernels the ends alone.
+  void follow_on(const std::string& name, const std::vector<std::string>& kernels) {
+    certified_ends ends(p_);
+    session::run run(p_, structure_, request_for(name, kernels));
     try {
-      (void)follow(p_, structure_, name, *leader_, {&ends.judged, &ends}, limits(ends.judged));
+      run.go({}, {&ends});
     } catch (const std::invalid_argument&) {
       return;
     }
-    check_overlap(ends_, ends, engine_ + " and " + name);
-  }
-
-  /// The ends alone, without a path.
-  void find_ends() {
-    certified_ends ends(p_, structure_);
-    observer* const watching[] = {&ends.judged, &ends};
-    (void)find_final_states(structure_, static_cast<int>(p_.steps.size()), loads_of(p_, structure_), watching,
-                            &ends.judged);
-    check_overlap(ends_, ends, "path and final states");
+    ends.certificates = run.judged.steps();
+    check_overlap(ends_, ends, engine_ + " and " + (kernels.empty() ? "the ends alone" : name));
   }
 
   void explain_it() {
-    const explained_kernels of{p_, {leader_->facts().name}, 8, 0};
+    const std::unique_ptr<kernel> leader = make_kernel(leader_);
+    const explained_kernels of{p_, {leader_}, 8, 0};
     std::string text;
     output_file out(&text);
     explain_json json(of, out);
     explain_text words(of, terminal{}, {is_detailed_, true});
     std::size_t told = 0;
-    explained_path path(leader_->facts(), nullptr, {}, [&](const explained_increment& i) {
+    explained_path path(leader->facts(), nullptr, {}, [&](const explained_increment& i) {
       words.print(i);
       json.write(i, nullptr);
       ++told;
     });
-    const path_end end = follow(p_, structure_, "refactor", *leader_, {&path}, {most_increments});
+    const path_end end = follow(p_, structure_, "refactor", *leader, {&path}, {most_increments});
     words.finish();
     json.finish(status_name(end.status), path);
     require(json_in(text, "an explanation")["increments"].size() == told, "an explanation's increments");
@@ -195,7 +199,7 @@ class whole_run {
 
   const problem& p_;
   std::string file_;
-  std::unique_ptr<kernel> leader_;
+  std::string leader_;
   std::string engine_;
   bool is_detailed_;
   linear_structure structure_;
@@ -203,88 +207,48 @@ class whole_run {
   certified_ends ends_;
 };
 
+/// An output in memory.
+struct kept_text {
+  std::string text = {};
+  output_file file{&text};
+};
+
 /// All that `contct run` makes, in memory.
 void whole_run::follow_and_write() {
-  const std::string other = leader_->facts().name == "cpp" ? "fortran" : "cpp";
-  const std::vector<std::string> others(leader_->facts().rule == "listing" ? 1 : 0, other);
-  lockstep compared = make_lockstep(leader_->facts(), others);
-  lockstep* const watched = others.empty() ? nullptr : &compared;
-  std::string result_text;
-  std::string increments_text;
-  std::string pairs_text;
-  std::string trace_text;
-  output_file result_file(&result_text);
-  output_file increments_file(&increments_text);
-  output_file pairs_file(&pairs_text);
-  std::vector<std::string> names = {leader_->facts().name};
-  names.insert(names.end(), others.begin(), others.end());
-  certifier& judged = ends_.judged;
-  judged.keep_proofs();
-  early_toggles early;
-  passage_watch passages{p_};
-  digit_watch digits;
-  table rows(p_, watched, judged, terminal{}, is_detailed_);
-  result_json result(p_, names, engine_, judged, result_file);
-  trace_header header = header_for(leader_->facts(), "none", lapack_identity());
-  header.about = {"every call of " + on_one_line(file_), on_one_line(p_.title)};
-  trace_recorder trace(header, [&trace_text](std::string_view text) { trace_text += text; });
-  frame_keeper frames(structure_, loads_of(p_, structure_), watched == nullptr);
-  run_record record(watched);
-  envelope extremes(p_);
-  frames.show_each_to([&extremes](const frame& f) { extremes.take(f); });
-  run_csv tables(p_, watched, frames, 0, increments_file, &pairs_file);
-  std::vector<observer*> watching = {watched, &judged,   &ends_, &early,  &rows,   &result,
-                                     &digits, &passages, &trace, &frames, &record, &tables};
-  std::erase(watching, nullptr);
-  path_end end;
-  try {
-    end = follow(p_, structure_, engine_, *leader_, watching, limits(judged));
-  } catch (const std::invalid_argument&) {  // the engine does not suit
-    engine_ = "refactor";
-    end = follow(p_, structure_, engine_, *leader_, watching, limits(judged));
-  }
-  const bool equal = compared.compared().mismatches == 0;
-  require(equal, "FORTRAN and C++ are equal to the bit");
-  if (end.status == path_status::not_factored) return (void)printed_.take();
-  const std::string status(status_name(end.status));
-  result.finish(status, end, watched, &extremes);
-  tables.finish();
-  const auto document = json_in(result_text, "a result");
-  require(document["steps"].size() == judged.steps().size(), "a result's steps");
-  require(document["status"] == status, "a result's status");
+  std::vector<std::string> kernels = {leader_};
+  if (has_listings_rule()) kernels.emplace_back(leader_ == "cpp" ? "fortran" : "cpp");
+  kept_text result, increments, pairs, trace, proof;
+  session::run run(p_, structure_, request_for(engine_, kernels));
+  table rows(p_, run.compared(), run.judged, terminal{}, is_detailed_);
+  run.go({.result = &result.file,
+          .trace = &trace.file,
+          .proof = &proof.file,
+          .table = &increments.file,
+          .pairs = &pairs.file},
+         {&ends_, &rows});
+  ends_.certificates = run.judged.steps();
+  require(run.compares.equal, "FORTRAN and C++ are equal to the bit");
+  if (run.end.status == path_status::not_factored) return (void)printed_.take();
+  run.finish();
+  const auto document = json_in(result.text, "a result");
+  require(document["steps"].size() == run.judged.steps().size(), "a result's steps");
+  require(document["status"] == run.status(), "a result's status");
   require(document["title"] == p_.title, "a result's title");
-  const bool moved = end.status != path_status::mechanism;  // one may begin as a mechanism
-  require(rows_in_csv(increments_text).size() > (moved ? 1 : 0), "a table of increments");
-  const std::size_t states = rows_in_csv(increments_text).size() - 1;
-  require(rows_in_csv(pairs_text).size() == 1 + states * p_.pairs.size(), "a table of pairs");
-  trace_reader calls(trace_text, "trace");
+  const bool moved = run.end.status != path_status::mechanism;  // one may begin as a mechanism
+  require(rows_in_csv(increments.text).size() > (moved ? 1 : 0), "a table of increments");
+  const std::size_t states = rows_in_csv(increments.text).size() - 1;
+  require(rows_in_csv(pairs.text).size() == 1 + states * p_.pairs.size(), "a table of pairs");
+  trace_reader calls(trace.text, "trace");
   (void)calls.read_header();
   recorded_call call;
   std::int64_t count = 0;
   while (calls.next(call)) ++count;
-  require(watched == nullptr || count == compared.calls(), "a trace's calls");
-  const auto proof = json_in(proof_json(p_, judged), "a proof");
-  require(proof["steps"].size() <= judged.steps().size(), "a proof's steps");
+  require(run.compared() == nullptr || count == run.compared()->calls(), "a trace's calls");
+  require(json_in(proof.text, "a proof")["steps"].size() <= run.judged.steps().size(), "a proof's steps");
   for (const std::string& line : rows.legend()) print_text(line + "\n");
   check_printed(printed_.take());
-  const finished_run r{p_,
-                       frames,
-                       record,
-                       judged,
-                       early,
-                       file_,
-                       names,
-                       engine_,
-                       status,
-                       end_words(p_, end),
-                       watched != nullptr,
-                       equal,
-                       "compared",
-                       {"contct 0"},
-                       "",
-                       &extremes};
-  read_back_pictures(r);
-  read_back_reports(end, equal);
+  read_back_pictures(run.finished());
+  read_back_reports(run.end);
 }
 
 void whole_run::read_back_pictures(const finished_run& r) {
@@ -299,10 +263,10 @@ void whole_run::read_back_pictures(const finished_run& r) {
   (void)xml_in(pvd_of_frames(file_, r.kept.frames().size()), "VTKFile");
 }
 
-void whole_run::read_back_reports(const path_end& end, bool equal) {
+void whole_run::read_back_reports(const path_end& end) {
   check_report report{"contct run", common_facts(), {}, 0.0};
   report.facts.push_back(file_);
-  report.results = {{"kernels", passed_if(equal), p_.title, ""},
+  report.results = {{"kernels", outcome::passed, p_.title, ""},
                     {file_, outcome::failed, end_words(p_, end), p_.title},
                     {p_.title, outcome::skipped, file_, end_words(p_, end)}};
   require(xml_in(junit_xml(report), "testsuites").all("testcase").size() == report.results.size(),

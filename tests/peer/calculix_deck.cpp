@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "contct/kernel/call.hpp"
 #include "contct/structure/structure.hpp"
 
 namespace contct::app::peer {

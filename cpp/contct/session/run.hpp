@@ -1,0 +1,117 @@
+// A whole run: a problem's kernels, engine, path, comparison, certificate and outputs, put together here and
+// nowhere else.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contct/certify/certificate.hpp"
+#include "contct/compare/free_run.hpp"
+#include "contct/compare/lockstep.hpp"
+#include "contct/path/frames.hpp"
+#include "contct/write/finished_run.hpp"
+#include "contct/write/result_json.hpp"
+#include "contct/write/run_words.hpp"
+#include "contct/write/table.hpp"
+
+namespace contct::session {
+
+struct run_request {
+  std::string file = {};  ///< the problem's, as it was named
+  std::vector<std::string> kernels =
+      {};                   ///< the leader first; none: only the ends of steps, by the reference solution
+  std::string engine = {};  ///< empty: what suits the leader
+  bool free_run = false;    ///< each kernel follows a path of its own, see follow_alone
+  bool envelope = false;
+  bool pictures = false;  ///< states are kept, also where no output here needs them
+  frame_limits kept = {};
+  int max_increments = 0;  ///< in a step; 0: the default limit
+  int watched = 0;         ///< the node of the table, from 0
+  std::string date = {};   ///< of the page; may be empty
+};
+
+/// Null: not asked for.
+struct run_outputs {
+  output_file *result = nullptr, *log = nullptr, *trace = nullptr, *proof = nullptr, *page = nullptr;
+  output_file *table = nullptr, *pairs = nullptr;  ///< of run_csv
+};
+
+/// How the kernels compared.
+struct comparison {
+  bool equal = true;       ///< in lockstep: to the bit; on paths of their own: within the bound
+  std::string words = {};  ///< for reports; empty where nothing was compared
+};
+
+class run {
+ public:
+  /// `p` and `s`, its structure, must outlive this object. Throws std::invalid_argument for kernels that
+  /// cannot be compared.
+  run(const problem& p, const linear_structure& s, run_request wanted);
+
+  /// Follow the leader's path, or find the ends of the steps. `to` is written to here and in `finish`.
+  /// `shown`, who shows the path while it goes on, observes behind the comparison and the certificate.
+  void go(const run_outputs& to, const std::vector<observer*>& shown = {});
+
+  /// How the path of another kernel compares with the leader's, for the result too.
+  struct other_path {
+    free_run_difference difference;
+    bool certified;
+    std::string words;  ///< the distances
+  };
+  other_path follow_alone(const std::string& kernel);
+
+  /// Complete and name the outputs.
+  void finish();
+
+  /// For pictures, where states were kept.
+  [[nodiscard]] finished_run finished() const;
+  [[nodiscard]] bool keeps_states() const { return frames_.has_value(); }
+  /// Null where nothing is compared in lockstep.
+  [[nodiscard]] const lockstep* compared() const { return compared_ ? &*compared_ : nullptr; }
+  /// As results have it: "solved", "kernels-disagree", ..
+  [[nodiscard]] std::string status() const;
+  /// Of a run that need not be certified.
+  [[nodiscard]] exit_status exit() const;
+
+  const problem& what;
+  const linear_structure& structure;
+  const run_request wanted;
+  std::string engine = "reference";  ///< of the leader's path
+  certifier judged;
+  early_toggles early{};
+  digit_watch digits{};
+  passage_watch passages{what};
+  path_end end{};
+  comparison compares{};
+
+ private:
+  path_end follow_leader(std::vector<observer*>& all);
+  void keep_states(std::vector<observer*>& all);
+  path_end follow_with(const std::string& engine_name, kernel& leader, const std::vector<observer*>& all,
+                       certifier& judge) const;
+  [[nodiscard]] const envelope* extremes() const { return extremes_ ? &*extremes_ : nullptr; }
+
+  /// Writes what the leader writes to unit 26.
+  struct log_writer final : observer {
+    explicit log_writer(output_file& file) : out(file) {}
+    void called(const answered_call& c) override { out.write(c.text); }
+
+    output_file& out;
+  };
+
+  std::unique_ptr<kernel> leader_;
+  std::optional<lockstep> compared_;
+  run_outputs to_;
+  std::optional<result_json> json_;
+  std::optional<log_writer> log_;
+  std::optional<trace_recorder> trace_;
+  std::optional<frame_keeper> frames_;
+  std::optional<run_record> record_;
+  std::optional<envelope> extremes_;
+  std::optional<run_csv> tables_;
+  std::optional<path_record> own_path_;  // of the leader, in free run
+};
+
+}  // namespace contct::session
