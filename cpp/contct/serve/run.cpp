@@ -17,24 +17,26 @@ namespace contct::serve {
 namespace {
 
 struct served_request : session::run_request {
-  reach allowed;
-  bool page, log, trace, proof, states;
+  reach allowed = reach::own_folder;
+  bool page = false, log = false, trace = false, proof = false, states = false;
 };
 
 served_request read_run_request(const char* options) {
   const request r(options, {"file", "folder", "allow_outside", "kernels", "engine", "final_only", "envelope",
                             "max_increments", "page", "log", "trace", "proof", "states"});
-  served_request wanted{{.file = r.file(),
-                         .kernels = r.texts("kernels", {"fortran", "cpp"}),
-                         .engine = r.text("engine", ""),
-                         .envelope = r.flag("envelope"),
-                         .max_increments = r.whole("max_increments", 0, 0, most_increments)},
-                        r.allowed(),
-                        r.flag("page"),
-                        r.flag("log"),
-                        r.flag("trace"),
-                        r.flag("proof"),
-                        r.flag("states")};
+  // One by one: g++ 12 destroys the members of an aggregate twice where a later one throws.
+  served_request wanted;
+  wanted.file = r.file();
+  wanted.kernels = r.texts("kernels", {"fortran", "cpp"});
+  wanted.engine = r.text("engine", "");
+  wanted.envelope = r.flag("envelope");
+  wanted.max_increments = r.whole("max_increments", 0, 0, most_increments);
+  wanted.allowed = r.allowed();
+  wanted.page = r.flag("page");
+  wanted.log = r.flag("log");
+  wanted.trace = r.flag("trace");
+  wanted.proof = r.flag("proof");
+  wanted.states = r.flag("states");
   refuse_unknown_engine(wanted.engine);
   for (const std::string& name : wanted.kernels) {
     if (std::ranges::count(wanted.kernels, name) > 1)

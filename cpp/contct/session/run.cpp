@@ -38,9 +38,10 @@ run::run(const problem& p, const linear_structure& s, run_request request)
       judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p)) {
   if (wanted.kernels.empty()) return;
   leader_ = make_kernel(wanted.kernels.front());
+  leader_facts_ = leader_->facts();
   if (!wanted.free_run && wanted.kernels.size() > 1)
-    compared_.emplace(make_lockstep(leader_->facts(), std::span(wanted.kernels).subspan(1)));
-  engine = engine_for(leader_->facts(), wanted.engine, s);
+    compared_.emplace(make_lockstep(leader_facts_, std::span(wanted.kernels).subspan(1)));
+  engine = engine_for(leader_facts_, wanted.engine, s);
 }
 
 void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
@@ -58,11 +59,12 @@ void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
                                     all, &judged, exact::exact_follower_of(what));
   if (compared_) compares = {compared_->compared().mismatches == 0, counts_of(*compared_)};
   if (own_path_) own_path_->end = end;
+  leader_.reset();  // one FORTRAN kernel at a time has unit 26
 }
 
 path_end run::follow_leader(std::vector<observer*>& all) {
   if (to_.trace != nullptr)
-    all.push_back(&trace_.emplace(header_of_trace(*this, leader_->facts()),
+    all.push_back(&trace_.emplace(header_of_trace(*this, leader_facts_),
                                   [this](std::string_view text) { to_.trace->write(text); }));
   if (wanted.pictures || wanted.envelope || to_.page != nullptr || to_.table != nullptr) keep_states(all);
   if (wanted.free_run) all.push_back(&own_path_.emplace());
@@ -70,7 +72,7 @@ path_end run::follow_leader(std::vector<observer*>& all) {
 }
 
 void run::keep_states(std::vector<observer*>& all) {
-  const bool forces_by_law = leader_->facts().rule != "listing";
+  const bool forces_by_law = leader_facts_.rule != "listing";
   all.push_back(&frames_.emplace(structure, loads_of(what, structure), forces_by_law, wanted.kept));
   all.push_back(&record_.emplace(compared()));
   if (wanted.envelope) {
@@ -95,7 +97,7 @@ run::other_path run::follow_alone(const std::string& name) {
   own.end =
       follow_with(engine_for(facts, wanted.engine, structure), *make_kernel(name), {&judge, &own}, judge);
   const free_run_difference d =
-      compare_paths(*own_path_, own, free_run_bound(leader_->facts(), facts), structure.dofs_per_node);
+      compare_paths(*own_path_, own, free_run_bound(leader_facts_, facts), structure.dofs_per_node);
   other_path other{d, judge.all_exact(),
                    fmt::format("shares of the step within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
                                d.displacement, d.bound)};

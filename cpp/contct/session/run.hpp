@@ -101,7 +101,8 @@ class run {
     output_file& out;
   };
 
-  std::unique_ptr<kernel> leader_;
+  std::unique_ptr<kernel> leader_;  // while it follows the path
+  kernel_facts leader_facts_ = {};
   std::optional<lockstep> compared_;
   run_outputs to_;
   std::optional<result_json> json_;
