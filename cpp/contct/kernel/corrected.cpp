@@ -8,16 +8,16 @@
 namespace contct::kernels {
 namespace {
 
-/// `take` over `number(i)`, i from 0 to `count`, begun with `start`: in four chains that do not wait for each
-/// other.
+/// `take` over `number(i)`, i from `begin` to before `end`, begun with `start`: in four chains that do not
+/// wait for each other.
 template <class Number, class Take>
-double folded(std::size_t count, double start, Number number, Take take) {
+double folded(std::size_t begin, std::size_t end, double start, Number number, Take take) {
   std::array<double, 4> chains{};
   chains.fill(start);
-  std::size_t i = 0;
-  for (; i + chains.size() <= count; i += chains.size())
+  std::size_t i = begin;
+  for (; i + chains.size() <= end; i += chains.size())
     for (std::size_t k = 0; k < chains.size(); ++k) chains[k] = take(chains[k], number(i + k));
-  for (; i < count; ++i) chains[0] = take(chains[0], number(i));
+  for (; i < end; ++i) chains[0] = take(chains[0], number(i));
   return take(take(chains[0], chains[1]), take(chains[2], chains[3]));
 }
 
@@ -41,21 +41,35 @@ void find_scale_factors(call<double>& c, Dof dof) {
   const int* const isurf = c.isurf.data();
   double* const ss = c.ss.data();
   const double m = folded(
-      nc, 0.0, [&](std::size_t i) { return std::abs(dtest[dof(i)]); }, larger);
+      0, nc, 0.0, [&](std::size_t i) { return std::abs(dtest[dof(i)]); }, larger);
   for (std::size_t i = 0; i < nc; ++i) {
-    const double sigma_n = isep[i] * isurf[i];
+    const double sigma_n = static_cast<double>(isep[i]) * isurf[i];
     const double gap = sigma_n * (cc[i] - dd[dof(i)]);
     ss[i] = (gap > 0.0 ? gap : 0.0) / (sigma_n * dtest[dof(i)]);
   }
   const double quiet = quiet_share * m;
   for (std::size_t i = 0; i < nc; ++i) {
-    const double sigma_v = static_cast<double>(isep[i] * isurf[i]) * dtest[dof(i)];
+    const double sigma_v = static_cast<double>(isep[i]) * isurf[i] * dtest[dof(i)];
     const double theta = isep[i] == separated ? quiet : 0.0;
     const double s = ss[i] > 1.0 ? 1.0 : ss[i];
     ss[i] = sigma_v > theta ? s : 1.0;
   }
-  c.smin = folded(
-      nc, 1.0, [ss](std::size_t i) { return ss[i]; }, smaller);
+}
+
+/// Sets SMIN. The first pair at it is in the stretch of pairs that begins with the one returned.
+std::size_t find_smin(call<double>& c) {
+  constexpr std::size_t stretch = 256;
+  const double* const ss = c.ss.data();
+  const auto s = [ss](std::size_t i) { return ss[i]; };
+  std::size_t found = 0;
+  c.smin = 1.0;
+  for (std::size_t begin = 0; begin < c.cc.size(); begin += stretch) {
+    const double least = folded(begin, std::min(begin + stretch, c.cc.size()), 1.0, s, smaller);
+    if (!(least < c.smin)) continue;
+    c.smin = least;
+    found = begin;
+  }
+  return found;
 }
 
 /// The dof of pair `i`, from 0.
@@ -78,15 +92,17 @@ void contct_corrected(call<double>& c) noexcept {
   } else {
     find_scale_factors(c, [&c](std::size_t i) { return dof_at(c, i); });
   }
+  const std::size_t first = find_smin(c);
   if (c.smin == 1.0) return;
 
   // Rules 3 and 4: the first pair at SMIN; but of those at their faces the one with the largest |d*|.
   const auto size_of_response = [&c](std::size_t i) { return std::abs(c.dtest[dof_at(c, i)]); };
   const bool by_index = c.smin > 0.0 || c.at_rest >= quick_answers_at_rest(c.nc());
   std::size_t chosen = c.cc.size();
-  for (std::size_t i = 0; i < c.cc.size(); ++i) {
+  for (std::size_t i = first; i < c.cc.size(); ++i) {
     if (c.ss[i] != c.smin) continue;
     if (chosen == c.cc.size() || (!by_index && size_of_response(i) > size_of_response(chosen))) chosen = i;
+    if (by_index) break;
   }
   c.isep[chosen] = c.isep[chosen] == separated ? in_contact : separated;
 }
