@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "contct/lab/atlas.hpp"
 #include "contct/lab/fuzz.hpp"
 #include "contct/write/calculix_deck.hpp"
 #include "contct/write/exit_status.hpp"
@@ -95,7 +94,6 @@ struct new_options {
 
 struct verify_options {
   std::string reference;  ///< a folder
-  int jobs = 0;           ///< one for each processor
   std::string json;
   report_options report;
 };
@@ -104,10 +102,6 @@ struct fuzz_options {
   fuzz_request request;
   std::optional<std::int64_t> problems;  ///< by default one for 500 calls
   std::string shard;                     ///< "I/N"
-  int jobs = 0;                          ///< one for each processor
-  std::vector<std::string> merge;
-  std::string checkpoint;
-  bool resume = false;
   std::string json;
   std::string out;  ///< a folder
   report_options report;
@@ -117,13 +111,6 @@ struct replay_options {
   std::vector<std::string> traces;
   std::vector<std::string> kernels;
   report_options report;
-};
-
-struct atlas_options {
-  atlas_request request;
-  int jobs = 0;  ///< one for each processor
-  std::string csv, json;
-  bool quiet = false;
 };
 
 struct export_options {
@@ -154,7 +141,7 @@ struct printed_text {
 /// What a command line asks for: one command, or a text.
 using command_options =
     std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
-                 verify_options, fuzz_options, replay_options, atlas_options, export_options, convert_options,
+                 verify_options, fuzz_options, replay_options, export_options, convert_options,
                  kernels_options, completion_options, manual_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
@@ -220,7 +207,6 @@ exit_status run_command(const new_options& options);
 exit_status run_command(const verify_options& options);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
-exit_status run_command(const atlas_options& options);
 exit_status run_command(const export_options& options);
 exit_status run_command(const convert_options& options);
 exit_status run_command(const kernels_options& options);

@@ -116,8 +116,6 @@ TEST_CASE("numbers that are not given are told from numbers that are") {
 
 TEST_CASE("numbers outside their range are refused, with the range") {
   CHECK_THAT(refusal({"run", "f", "--max-increments", "0"}), Contains("--max-increments"));
-  CHECK_THAT(refusal({"atlas", "--problems", "1000001"}), Contains("1000000"));
-  CHECK_THAT(refusal({"atlas", "--seed", "-1"}), Contains("found -1; allowed: a whole number, at least 0"));
   CHECK_THAT(refusal({"fuzz", "--calls", "0"}), Contains("--calls"));
   CHECK_THAT(refusal({"export", "f", "--calculix", "c", "--refine", "65"}), Contains("64"));
   CHECK_THAT(refusal({"completion", "tcsh"}), Contains("tcsh") && Contains("bash"));
@@ -125,8 +123,8 @@ TEST_CASE("numbers outside their range are refused, with the range") {
 
 TEST_CASE("the options --help and --version are texts, not commands") {
   const auto help = parsed<printed_text>({"--help"}).text;
-  for (const char* command : {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "atlas",
-                              "export", "convert", "kernels", "completion", "man"})
+  for (const char* command : {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "export",
+                              "convert", "kernels", "completion", "man"})
     CHECK_THAT(help, Contains("\n  " + std::string(command) + " "));
   CHECK_THAT(help, Contains("Examples:\n  contct run beam.toml\n"));
   CHECK_THAT(parsed<printed_text>({"run", "--help"}).text, Contains("--max-increments"));
@@ -169,7 +167,7 @@ TEST_CASE("contct-replay takes what contct replay takes") {
 
 TEST_CASE("every option is described with the kind of argument that it takes") {
   const program_description program = describe_contct(engines);
-  CHECK(program.commands.size() == 14);
+  CHECK(program.commands.size() == 13);
   for (const command_description& c : program.commands) {
     for (const option_description& o : c.options) {
       INFO(c.name << " " << o.name);

@@ -50,7 +50,7 @@ expect "other.txt" contct convert beam.toml o
 expect "bash zsh fish" contct completion ""
 expect "problem result" contct man ""
 expect "" contct nonsense x
-for command in run explain new verify fuzz replay atlas kernels completion man; do
+for command in run explain new verify fuzz replay kernels completion man; do
   case " $(offered contct "") " in
     *" $command "*) ;;
     *) echo "$command is not offered" >&2; failures=$((failures + 1)) ;;
