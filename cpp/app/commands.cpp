@@ -1,11 +1,10 @@
-// The commands that need few lines: new, atlas and kernels.
+// The commands that need few lines: new and kernels.
 #include "app/commands.hpp"
 
 #include <filesystem>
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
-#include "contct/lab/atlas.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/text/strings.hpp"
@@ -128,25 +127,6 @@ exit_status run_command(const new_options& options) {
   out.write(text);
   out.finish();
   if (file != "-") print_text(fmt::format("{} is written; next: contct run {}\n", file, file));
-  return exit_status::solved;
-}
-
-/// Where the 1989 code goes wrong, measured on random problems.
-exit_status run_command(const atlas_options& options) {
-  const std::vector<output_option> outputs = {{"--csv", options.csv}, {"--json", options.json}};
-  refuse_shared_outputs(outputs);
-  const output_files files(outputs);
-  atlas a{options.request, atlas_cells()};
-  progress shown(static_cast<std::int64_t>(a.cells.size()) * options.request.problems, "problems",
-                 options.quiet);
-  std::int64_t done = 0;
-  fill(a.cells, options.request, options.jobs, [&](std::int64_t more) { shown.reached(done += more); });
-  shown.erase();
-  if (!options.quiet && !takes_standard_output(outputs))
-    print_text(fmt::format("{}", atlas_table(a, look_at_terminal())));
-  flush_standard_output();  // no files when the table is lost
-  files.write("--csv", atlas_csv(a));
-  files.write("--json", atlas_json(a));
   return exit_status::solved;
 }
 

@@ -10,7 +10,6 @@
 #include <variant>
 #include <vector>
 
-#include "contct/lab/atlas.hpp"
 #include "contct/lab/fuzz.hpp"
 #include "contct/write/exit_status.hpp"
 
@@ -85,7 +84,6 @@ struct new_options {
 
 struct verify_options {
   std::string reference;  ///< a folder
-  int jobs = 0;           ///< one for each processor
   std::string json;
   report_options report;
 };
@@ -94,10 +92,6 @@ struct fuzz_options {
   fuzz_request request;
   std::optional<std::int64_t> problems;  ///< by default one for 500 calls
   std::string shard;                     ///< "I/N"
-  int jobs = 0;                          ///< one for each processor
-  std::vector<std::string> merge;
-  std::string checkpoint;
-  bool resume = false;
   std::string json;
   std::string out;  ///< a folder
   report_options report;
@@ -107,13 +101,6 @@ struct replay_options {
   std::vector<std::string> traces;
   std::vector<std::string> kernels;
   report_options report;
-};
-
-struct atlas_options {
-  atlas_request request;
-  int jobs = 0;  ///< one for each processor
-  std::string csv, json;
-  bool quiet = false;
 };
 
 struct kernels_options {};
@@ -126,7 +113,7 @@ struct printed_text {
 /// What a command line asks for: one command, or a text.
 using command_options =
     std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
-                 verify_options, fuzz_options, replay_options, atlas_options, kernels_options>;
+                 verify_options, fuzz_options, replay_options, kernels_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -147,7 +134,6 @@ exit_status run_command(const new_options& options);
 exit_status run_command(const verify_options& options);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
-exit_status run_command(const atlas_options& options);
 exit_status run_command(const kernels_options& options);
 inline exit_status run_command(const printed_text& t) {
   (void)std::fputs(t.text.c_str(), stdout);

@@ -37,36 +37,14 @@ void write_file(const std::string& name, const std::string& text) {
   file.finish();
 }
 
-/// A run that was ended may have come far: its checkpoint is not overwritten by another.
-fuzz_keeper keeper_for(const fuzz_options& options, const fuzz_request& request) {
-  const std::string& file = options.checkpoint;
-  if (options.resume && file.empty())
-    throw std::invalid_argument("--resume: found no --checkpoint; allowed: with --checkpoint FILE");
-  if (file.empty()) return {};
-  if (!options.merge.empty())
-    throw std::invalid_argument("--checkpoint: found beside --merge; allowed: for a run");
-  fuzz_keeper keeper;
-  if (std::filesystem::exists(file)) {
-    if (!options.resume)
-      throw std::invalid_argument("--checkpoint: found " + file +
-                                  ", which exists; allowed: with --resume, or another file");
-    keeper.from = checkpoint_from(file, request);
-  }
-  keeper.keep = [&file](const fuzz_checkpoint& reached) { write_file(file, checkpoint_json(reached)); };
-  return keeper;
-}
-
-fuzz_run fuzzed(const fuzz_request& request, const fuzz_keeper& keeper, int jobs, bool quiet) {
+fuzz_run fuzzed(const fuzz_request& request, bool quiet) {
   std::optional<progress> shown;
   const char* shown_what = nullptr;
-  return run_fuzz(
-      request,
-      [&](std::int64_t done, std::int64_t all, const char* what) {
-        if (shown_what != what) shown.emplace(all, what, quiet);
-        shown_what = what;
-        shown->reached(done);
-      },
-      keeper, jobs);
+  return run_fuzz(request, [&](std::int64_t done, std::int64_t all, const char* what) {
+    if (shown_what != what) shown.emplace(all, what, quiet);
+    shown_what = what;
+    shown->reached(done);
+  });
 }
 
 std::string follower_words(const fuzz_follower& f, const std::string& leader) {
@@ -119,8 +97,8 @@ std::string file_name_of(const std::string& kernel) {
   return name.substr(0, longest);
 }
 
-/// Write each case to `folder`, which is made where it is missing: a trace, a Catch2 test and a FORTRAN main
-/// program. Returns the names of the files.
+/// Write each case to `folder`, which is made where it is missing: a trace and a FORTRAN main program.
+/// Returns the names of the files.
 std::vector<std::string> write_cases(const std::vector<found_case>& cases, const std::string& folder,
                                      std::uint64_t seed) {
   std::filesystem::create_directories(folder);
@@ -131,8 +109,8 @@ std::vector<std::string> write_cases(const std::vector<found_case>& cases, const
             .string();
     trace_header header = header_for(facts_of_kernel(c.what.leader), CONTCT_LISTING_SHA256);
     header.about = {"found by contct fuzz, and shrunk"};
-    const std::pair<const char*, std::string> files[] = {
-        {".trace", trace_of(c, header)}, {"_test.cpp", catch_test_of(c)}, {".f", fortran_main_of(c)}};
+    const std::pair<const char*, std::string> files[] = {{".trace", trace_of(c, header)},
+                                                         {".f", fortran_main_of(c)}};
     for (const auto& [end, text] : files) {
       write_file(names.emplace_back(stem + end), text);
     }
@@ -150,15 +128,9 @@ exit_status run_command(const fuzz_options& options) {
   if (request.kernels.size() < 2)
     throw std::invalid_argument("--kernels: found one kernel; allowed: two or more, the first one leads");
   const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
-  std::vector<output_option> inputs;
-  for (const std::string& file : options.merge) inputs.push_back({"a shard", file});
-  if (!options.checkpoint.empty()) inputs.push_back({"the checkpoint", options.checkpoint});
-  refuse_shared_outputs(outputs, inputs);
-  const fuzz_keeper keeper = keeper_for(options, request);
+  refuse_shared_outputs(outputs);
   const output_files files(outputs);
-  const bool merging = !options.merge.empty();
-  const fuzz_run run = merging ? fuzz_run{merged_fuzz(options.merge), {}}
-                               : fuzzed(request, keeper, options.jobs, options.report.quiet);
+  const fuzz_run run = fuzzed(request, options.report.quiet);
   const fuzz_result& r = run.result;
   const std::string missed = floors_missed(r);
   if (!options.report.quiet && !takes_standard_output(outputs)) print_result(r);

@@ -47,7 +47,6 @@ constexpr example all_examples[] = {
      "does a kernel of your own answer as CONTCT does?"},
     {"contct replay calls.trace", "repeat recorded calls with the 1989 code"},
     {"contct replay --kernel fortran,cpp calls.trace", "the same with two kernels"},
-    {"contct atlas --problems 2 --csv atlas.csv", "a quick estimate of how often the 1989 rule goes wrong"},
     {"contct kernels", "what is built in"},
 };
 
@@ -118,12 +117,6 @@ CLI::Option* add_kernels(CLI::App* command, const std::string& name, std::vector
 }
 void add_quiet(CLI::App* command, bool& quiet) {
   command->add_flag("--quiet", quiet, "Print only warnings and errors");
-}
-void add_jobs(CLI::App* command, int& jobs) {
-  command
-      ->add_option("--jobs", jobs,
-                   "Number of processes; results do not depend on it [one for each processor]")
-      ->check(CLI::Range(1, 1024));
 }
 void add_reports(CLI::App* command, report_options& o) {
   add_quiet(command, o.quiet);
@@ -303,7 +296,6 @@ void declare_verify(option_parser& p) {
       "verify",
       "Solve every problem in reference/ and compare it with published, closed-form and recomputed numbers");
   add_file(c, "--reference", o.reference, "The folder with verification.toml and problems/");
-  add_jobs(c, o.jobs);
   add_file(c, "--json", o.json, "Write all numbers to this file (- is standard output)");
   add_reports(c, o.report);
 }
@@ -320,34 +312,10 @@ void declare_fuzz(option_parser& p) {
       ->check(CLI::Range(std::int64_t{0}, most_random_cases));
   c->add_option("--seed", o.request.seed, "Seed of the random numbers")->capture_default_str();
   c->add_option("--shard", o.shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
-  add_jobs(c, o.jobs);
-  c->add_option("--merge", o.merge, "Add up the --json files of all shards instead of running");
-  add_file(c, "--checkpoint", o.checkpoint, "Keep in this file how far the run has come");
-  c->add_flag("--resume", o.resume, "Go on from the checkpoint, if there is one");
   add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
   add_file(c, "--out", o.out,
-           "Write each mismatch to this folder, reduced: a trace, a Catch2 test and a FORTRAN main program");
+           "Write each mismatch to this folder, reduced: a trace and a FORTRAN main program");
   add_reports(c, o.report);
-}
-
-/// CLI11 would take -1 for the largest unsigned number.
-std::string not_negative(const std::string& number) {
-  return number.rfind('-', 0) == 0 ? "found " + number + "; allowed: a whole number, at least 0" : "";
-}
-
-void declare_atlas(option_parser& p) {
-  const auto [c, o] =
-      p.command<atlas_options>("atlas", "Where the 1989 code goes wrong, measured on random problems");
-  c->add_option("--problems", o.request.problems, "Problems in each cell; the default takes a minute")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
-  c->add_option("--seed", o.request.seed, "Seed of the random numbers")
-      ->check(not_negative)
-      ->capture_default_str();
-  add_jobs(c, o.jobs);
-  add_file(c, "--csv", o.csv, "Write the cells to this file (- is standard output)");
-  add_file(c, "--json", o.json, "Write the cells to this file (- is standard output)");
-  add_quiet(c, o.quiet);
 }
 
 /// Each command's examples stand under its --help, and the first of each under the program's.
@@ -381,7 +349,6 @@ constexpr std::pair<const char*, declare_command> all_commands[] = {
        declare_replay(
            p, p.program.add_subcommand("replay", "Repeat recorded calls with a kernel; needs no LAPACK"));
      }},
-    {"atlas", [](option_parser& p, const auto&) { declare_atlas(p); }},
     {"kernels",
      [](option_parser& p, const auto&) {
        p.command<kernels_options>("kernels", "What is built in, and how this machine computes");

@@ -9,7 +9,6 @@
 
 #include "app/process.hpp"
 #include "catch.hpp"
-#include "support/well_formed.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -52,19 +51,6 @@ json run(const std::string& file, const char* kernel, int exit) {
   INFO(f.out << f.err);
   CHECK(f.exit == exit);
   return json::parse(dir.read("out.json"));
-}
-
-/// "| a | b |": "a", "b".
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream parts(line);
-  std::string part;
-  std::getline(parts, part, '|');
-  while (std::getline(parts, part, '|')) {
-    const std::size_t from = part.find_first_not_of(' ');
-    if (from != std::string::npos) cells.push_back(part.substr(from, part.find_last_not_of(' ') - from + 1));
-  }
-  return cells;
 }
 
 constexpr int right = 0, uncertified = 3, path_ended = 5;
@@ -205,28 +191,4 @@ TEST_CASE("every problem file of the divergences is named on the page, and every
     there.insert(entry.path().filename().string());
   CHECK(named == there);
   CHECK(there.size() == 8);
-}
-
-TEST_CASE("the page's shares are those of its picture, and the corrected ones are none") {
-  const std::string svg = file_text("atlas.svg");
-  CHECK(why_not_well_formed(svg).empty());
-  const std::string text = section("How often: the atlas");
-  std::istringstream lines(text);
-  int compared = 0;
-  for (std::string line; std::getline(lines, line);) {  // | fortran, unit 1e-12 | 92.7 (91.5 to 93.8) | ...
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != 3 || cells[1].find(" to ") == std::string::npos) continue;
-    for (const int free : {0, 1}) {
-      const std::string& share = cells[1 + static_cast<std::size_t>(free)];
-      const std::size_t blank = share.find(" (");
-      const std::string number = share.substr(0, blank);
-      const std::string range = share.substr(blank + 2, share.size() - blank - 3);
-      CHECK_THAT(svg, Contains("<title>" + cells[0] + (free == 1 ? ", free: " : ", held: ") + number +
-                               " % wrong (" + range + " %) of 2000</title>"));
-      if (cells[0].rfind("corrected", 0) == 0) CHECK(number == "0.0");
-      ++compared;
-    }
-  }
-  CHECK(compared >= 22);
-  CHECK_THAT(text, Contains("contct atlas --problems 2000 --seed 1989"));
 }

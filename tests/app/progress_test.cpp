@@ -24,7 +24,6 @@ std::vector<long_work> long_works() {
           {"explain", {"explain", "plate.toml", "--json", "/dev/null"}, "step 2 of 2, increment "},
           {"exact", {"exact", "plate.toml"}, "step 2 of 2, increment "},
           {"verify", {"verify", "--reference", CONTCT_ROOT "/reference"}, " problems"},
-          {"atlas", {"atlas", "--problems", "1"}, " problems"},
           {"fuzz", {"fuzz", "--calls", "2000"}, " % of "},
           {"replay", {"replay", CONTCT_ROOT "/reference/traces/ties.trace"}, "ties.trace: 1 calls"}};
 }

@@ -9,7 +9,6 @@
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
 
 namespace fs = std::filesystem;
 
@@ -29,17 +28,6 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
   CHECK(v["known_differences"] == 6);
   CHECK(v["exact"]["numbers"] == v["numbers"]);
   CHECK(v["exact"]["comparisons"].get<int>() >= 1200);
-  CHECK(v["exact"]["rounded"].get<int>() >= 455);
-  CHECK(v["exact"]["states"].get<int>() >= 77);
-  CHECK(v["exact"]["other_models"] == 111);
-  CHECK(v["exact"]["inexact"] == 3);
-  CHECK(v["exact"]["printed"].get<int>() >= 117);
-  REQUIRE(v["exact"]["cut"].size() == 2);
-  CHECK_THAT(v["exact"]["cut"][0],
-             StartsWith("pp04a-") && Contains(": -0.0020169449, exactly -0.00201694498736"));
-  CHECK_THAT(v["exact"]["cut"][1],
-             StartsWith("pp05b-") && Contains(": 0.0105685088, exactly 0.010568508877"));
-  CHECK_THAT(f.out, Contains("2 of these were cut, not rounded\n  pp04a-"));
   int uncertified = 0;
   int calls = 0;
   for (const auto& c : v["cases"]) {
@@ -56,22 +44,6 @@ TEST_CASE("verify passes every number of reference/, and says what kind of evide
   CHECK(v["cases"].size() >= 45);
   CHECK(uncertified > 0);  // PB5 after its early toggle, PB11 with 6 digits: said, not hidden
   CHECK(uncertified <= 68);
-}
-
-TEST_CASE("verify gives the same bytes with one job and with three") {
-  const scratch_folder dir;
-  const auto run = [&dir](const char* jobs) {
-    return contct_program(
-        dir.path(), {"verify", "--json", "v.json", "--junit", "v.xml", "--markdown", "v.md", "--jobs", jobs});
-  };
-  const finished one = run("1");
-  const std::vector<std::string> expected = {dir.read("v.json"), dir.read("v.xml"), dir.read("v.md")};
-  const finished three = run("3");
-  CHECK(one.exit == 0);
-  CHECK(three.exit == 0);
-  CHECK(three.out == one.out);
-  CHECK(expected[0].size() > 100'000);
-  CHECK(std::vector<std::string>{dir.read("v.json"), dir.read("v.xml"), dir.read("v.md")} == expected);
 }
 
 namespace {
@@ -107,14 +79,6 @@ TEST_CASE("verify fails on an exact number of which the sixth digit is wrong") {
   CHECK(f.exit == 1);
   CHECK_THAT(f.out, Contains("1 failed"));
   CHECK_THAT(f.out, Contains("exactly -0.00201695498736213"));
-}
-
-TEST_CASE("verify fails on a printed number that was cut, where the table says that it was rounded") {
-  const scratch_folder dir;
-  const finished f = verify_with(dir, "cut       = \"0.0105685088\"", "printed   = \"0.0105685088\"");
-  CHECK(f.exit == 1);
-  CHECK_THAT(f.out, Contains("1 failed"));
-  CHECK_THAT(f.out, Contains("printed 0.0105685088 is cut, not rounded"));
 }
 
 TEST_CASE("verify says what it misses when there is no table") {

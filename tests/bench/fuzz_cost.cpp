@@ -1,5 +1,5 @@
-// What a call campaign costs, against the FORTRAN calls alone with unit 26 on the null device: both in one
-// process, in turns, the least of several rounds. Prints times and the ratio; it is no test.
+// What a fuzz run on calls costs, against the FORTRAN calls alone with unit 26 on the null device: both in
+// one process, in turns, the least of several rounds. Prints times and the ratio; it is no test.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -44,10 +44,10 @@ int main() {
                            read += c.smin;
                          }
                        }));
-    lockstep = std::min(
-        lockstep, seconds_of([&] {
-          read += static_cast<double>(contct::app::put_calls({{"fortran", "cpp"}, calls, 0, seed}).calls);
-        }));
+    lockstep = std::min(lockstep, seconds_of([&] {
+                          read += static_cast<double>(
+                              contct::app::run_fuzz({{"fortran", "cpp"}, calls, 0, seed}).result.calls);
+                        }));
   }
   std::printf("%llu calls: making them %.0f ms; FORTRAN alone %.0f ms; in lockstep, all in all, %.0f ms\n",
               static_cast<unsigned long long>(calls), 1e3 * making, 1e3 * (fortran - making), 1e3 * lockstep);

@@ -176,7 +176,7 @@ TEST_CASE(
   int proved = 0;
   for (std::uint64_t number = 0; number < problems; ++number) {
     const lab::random_problem drawn = lab::make_random_problem(17, number, {.most_elements = 5});
-    const problem p = lab::as_problem(drawn);
+    const problem& p = drawn;
     const exact::exact_path truly = exact::follow_true_path(exact::exact_problem_of(p));
     const linear_structure s = structure_of(p);
     for (const bool refined : {true, false}) {

@@ -15,8 +15,6 @@
 
 namespace contct::exact {
 
-using lab::as_problem;
-
 struct comparison_counts {
   int problems = 0;          ///< followed exactly
   int steps = 0;             ///< whose ends were compared
@@ -34,7 +32,7 @@ using difference_sink = std::function<void(std::uint64_t number, const std::stri
 /// Follow one problem both ways and add what came of it.
 inline void compare_one(std::uint64_t number, const lab::random_problem& drawn, comparison_counts& counts,
                         const difference_sink& tell) {
-  const structure::problem p = as_problem(drawn);
+  const structure::problem& p = drawn;
   const exact_problem e = exact_problem_of(p);
   const exact_path exactly = follow_true_path(e);
   for (std::size_t step = 0; step < exactly.steps.size(); ++step) {

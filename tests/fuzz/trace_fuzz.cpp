@@ -43,8 +43,8 @@ void check(const read_trace& t) {
   }
 }
 
-/// Programs that show these calls: FORTRAN of fixed form, and C++ whose quotes are closed.
-void check_programs(const read_trace& t) {
+/// The program that shows these calls: FORTRAN of fixed form.
+void check_program(const read_trace& t) {
   contct::lab::found_case found;
   found.real_bytes = t.header.real_bytes;
   found.what.leader = t.header.kernel;
@@ -58,8 +58,6 @@ void check_programs(const read_trace& t) {
   for (contct::text::text_lines lines(fortran, "main"); lines.next();)
     require(lines.here().size() <= last_column || lines.here().starts_with("C"), "a line of fixed form",
             lines.here());
-  const std::string test = contct::lab::catch_test_of(found);
-  require(test.find("TEST_CASE(\"") != std::string::npos && test.ends_with("}\n"), "a test is whole");
   const std::string text = contct::lab::trace_of(found, t.header);
   trace_reader again(text, "again");
   require(is_read([&again] { (void)again.read_header(); }), "the trace of a case is read");
@@ -72,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!is_read([&] { first = read_whole(text_of(data, size)); })) return 0;
   check(first);
   constexpr std::size_t most_calls = 20;
-  if (first.calls.size() <= most_calls) check_programs(first);
+  if (first.calls.size() <= most_calls) check_program(first);
   const std::string text = written(first);
   require(is_read([&] { require(written(read_whole(text)) == text, "a trace is written as it was read"); }),
           "a trace that was written is read", text);

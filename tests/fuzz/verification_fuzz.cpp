@@ -2,7 +2,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "contct/lab/printed_number.hpp"
 #include "contct/lab/verify.hpp"
 #include "fuzz/fuzz.hpp"
 

@@ -1,4 +1,4 @@
-// Campaigns on calls and on whole problems: what they count, what they say of a follower that differs, and
+// Fuzz runs on calls and on whole problems: what they count, what they say of a follower that differs, and
 // what a run that compared too little says is missing.
 #include "contct/lab/fuzz.hpp"
 
@@ -12,9 +12,9 @@ using namespace contct::app;
 
 namespace {
 
-fuzz_request request_of(std::vector<std::string> kernels, std::int64_t calls = 1, std::uint64_t seed = 1,
-                        int shard = 1, int shards = 1) {
-  return {std::move(kernels), calls, 0, seed, shard, shards};
+fuzz_result of_calls(std::vector<std::string> kernels, std::int64_t calls = 1, int shard = 1,
+                     int shards = 1) {
+  return run_fuzz({std::move(kernels), calls, 0, 5, shard, shards}).result;
 }
 
 /// An answered call with one pair at its face and one a unit away.
@@ -45,11 +45,11 @@ TEST_CASE("shards together compare the calls of the whole run") {
     counts.emplace_back();
     calls.push_back(0);
     for (int shard = 1; shard <= stride; ++shard) {
-      const campaign_result h = put_calls(request_of({"fortran", "cpp"}, 3000, 5, shard, stride));
+      const fuzz_result h = of_calls({"fortran", "cpp"}, 3000, shard, stride);
       counts.back().add(h.branches);
       calls.back() += h.calls;
-      CHECK(h.each[0].compared.mismatches == 0);
-      CHECK(h.each[0].compared.values > 3 * h.calls);
+      CHECK(h.followers[0].compared.mismatches == 0);
+      CHECK(h.followers[0].compared.values > 3 * h.calls);
     }
   }
   CHECK(calls == std::vector<std::int64_t>{3000, 3000});
@@ -59,27 +59,22 @@ TEST_CASE("shards together compare the calls of the whole run") {
   }
 }
 
-TEST_CASE("a campaign refuses kernels that cannot be equal") {
-  CHECK_THROWS_AS(put_calls(request_of({"fortran", "corrected"})), std::invalid_argument);
-  CHECK_THROWS_AS(put_calls(request_of({"fortran", "cpp-r4"})), std::invalid_argument);
-  CHECK_THROWS_AS(put_calls(request_of({"fortran", "nobody"})), std::invalid_argument);
+TEST_CASE("a run refuses kernels that cannot be equal") {
+  CHECK_THROWS_AS(of_calls({"fortran", "corrected"}), std::invalid_argument);
+  CHECK_THROWS_AS(of_calls({"fortran", "cpp-r4"}), std::invalid_argument);
+  CHECK_THROWS_AS(of_calls({"fortran", "nobody"}), std::invalid_argument);
 }
 
 TEST_CASE("events are counted by kind, and those of pairs within EPSGAP of their face as stationary") {
   two_toggles t;
-  campaign_counts counts;
-  counts.count(t.c, t.before);
-  CHECK(counts.calls == 1);
-  CHECK(counts.events.make == 1);
-  CHECK(counts.events.break_ == 1);
-  CHECK(counts.events.stationary == 1);
-  counts.count(t.c, t.after);  // nothing toggled
-  counts.add(campaign_counts(counts));
-  CHECK(counts.calls == 4);
-  CHECK(counts.events.make == 2);
-  CHECK(counts.events.break_ == 2);
-  CHECK(counts.events.stationary == 2);
-  CHECK(counts.branches.of(branch::stationary, true) == 4);
+  fuzz_result r;
+  r.count(t.c, t.before);
+  r.count(t.c, t.after);  // nothing toggled
+  CHECK(r.calls == 2);
+  CHECK(r.events.make == 1);
+  CHECK(r.events.break_ == 1);
+  CHECK(r.events.stationary == 1);
+  CHECK(r.branches.of(branch::stationary, true) == 2);
 }
 
 TEST_CASE("how near a follower came is the largest distance, and whether its events were the same") {
@@ -92,7 +87,7 @@ TEST_CASE("how near a follower came is the largest distance, and whether its eve
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);
   REQUIRE(f.ask(1, led, in.isep, std::nullopt));
-  follower_result r;
+  fuzz_follower r;
   r.note_difference(led, f);
   CHECK(r.most_ulps == 2);
   CHECK(r.same_events);
@@ -101,32 +96,6 @@ TEST_CASE("how near a follower came is the largest distance, and whether its eve
   (void)f.ask(2, led, in.isep, std::nullopt);
   r.note_difference(led, f);
   CHECK_FALSE(r.same_events);
-  follower_result all;
-  all.compared = {10, 0};
-  r.compared = {5, 2};
-  r.first = f.first();
-  all.add(r);
-  CHECK(all.compared.values == 15);
-  CHECK(all.compared.mismatches == 2);
-  CHECK(all.most_ulps == 2);
-  CHECK_FALSE(all.same_events);
-  REQUIRE(all.first);
-  CHECK(all.first->call == 1);
-}
-
-TEST_CASE("a problem in lockstep has every call of its path compared, and is the same every time") {
-  const fuzz_request r = request_of({"fortran", "cpp"}, 1, 7);
-  const campaign_result p = follow_in_lockstep(r, 3);
-  CHECK(p.calls > 1);
-  REQUIRE(p.each.size() == 1);
-  CHECK(p.each[0].compared.mismatches == 0);
-  CHECK(p.each[0].compared.values >= 4 * p.calls);
-  CHECK_FALSE(p.each[0].first);
-  CHECK(p.each[0].calls.empty());
-  const campaign_result again = follow_in_lockstep(r, 3);
-  CHECK(again.calls == p.calls);
-  CHECK(again.events.make == p.events.make);
-  CHECK(certified_as_leader(request_of({"corrected", "corrected"}, 1, 7), 3, "corrected"));
 }
 
 TEST_CASE("a run is floored on calls, values, events by kind and every outcome of every IF") {
@@ -143,15 +112,19 @@ TEST_CASE("a run is floored on calls, values, events by kind and every outcome o
   CHECK_THAT(floors_missed(nobody), Catch::Matchers::Contains("nothing was compared"));
 }
 
-TEST_CASE("a fuzz run on whole problems compares every call of every path") {
+TEST_CASE("a run on whole problems compares every call of every path, and is the same every time") {
   fuzz_request r;
   r.calls = 1;
   r.problems = 20;
   const fuzz_run run = run_fuzz(r);
   CHECK(run.result.problems == 20);
   CHECK(run.result.calls > 40);
-  CHECK(run.result.followers.at(0).compared.mismatches == 0);
-  CHECK(run.result.followers.at(0).compared.values > 4 * run.result.calls);
-  CHECK(run.result.followers.at(0).highest == equality_level::bits);
+  REQUIRE(run.result.followers.size() == 1);
+  CHECK(run.result.followers[0].compared.mismatches == 0);
+  CHECK(run.result.followers[0].compared.values > 4 * run.result.calls);
+  CHECK(run.result.followers[0].highest == equality_level::bits);
   CHECK(run.cases.empty());
+  const fuzz_result again = run_fuzz(r).result;
+  CHECK(again.calls == run.result.calls);
+  CHECK(again.events.make == run.result.events.make);
 }

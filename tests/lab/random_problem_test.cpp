@@ -385,12 +385,6 @@ TEST_CASE("what to draw from can be said: units, shares and sizes") {
   }
 }
 
-TEST_CASE("layouts have names of their own") {
-  std::set<std::string_view> names;
-  for (int i = 0; i < face_layouts; ++i) names.insert(name_of(static_cast<face_layout>(i)));
-  CHECK(names.size() == face_layouts);
-}
-
 TEST_CASE("held by their supports, all of 2000 structures are certified at every step, without help") {
   random_problem_kind kind;
   kind.free_share = 0.0;
@@ -456,30 +450,4 @@ TEST_CASE("1500 free beams reach their ends without the reference solution") {
   INFO(t);
   CHECK(t.steps > 3000);
   CHECK(t.fallbacks < 3);
-}
-
-TEST_CASE("what a certificate measures is taken into account: the largest errors") {
-  certificate c;
-  c.exact = true;
-  c.rcond = 0.5;
-  c.displacement_error = 1e-12;
-  c.equilibrium = 3e-12;
-  problem_result r;
-  r.add(c);
-  CHECK(r.certificates.size() == 1);
-  CHECK(r.uncertified == 0);
-  CHECK(r.displacement_error == 1e-12);
-  CHECK(r.length_error == 1e-12);
-  CHECK(needed_by(r) == 3e-12);
-  c.exact = false;
-  c.unfounded = true;
-  c.rcond = 1e-6;
-  c.equilibrium = 0.0;
-  c.penetration = 2e-12;
-  r.add(c);
-  CHECK(r.certificates.size() == 2);
-  CHECK(r.uncertified == 1);
-  CHECK(r.unfounded == 1);
-  CHECK(r.length_error == 2e-12);
-  CHECK(needed_by(r) == 3e-12);  // of the step before
 }

@@ -2,12 +2,23 @@
 // fails the test.
 #include <atomic>
 #include <thread>
+#include <vector>
 
 #include "catch.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/outside/registry.hpp"
 
 using namespace contct::app;
+
+namespace {
+
+std::vector<double> errors_of(const problem_result& r) {
+  std::vector<double> errors;
+  for (const certificate& c : r.certificates) errors.push_back(c.displacement_error);
+  return errors;
+}
+
+}  // namespace
 
 TEST_CASE("sixteen threads follow paths of their own, and each gets the answer of one thread") {
   constexpr std::size_t threads = 16;
@@ -33,7 +44,7 @@ TEST_CASE("sixteen threads follow paths of their own, and each gets the answer o
         const problem_result found = result_of(t, i);
         const problem_result& wanted = expected[t * problems + i];
         if (found.came_to == wanted.came_to && found.increments == wanted.increments &&
-            found.displacement_error == wanted.displacement_error)
+            errors_of(found) == errors_of(wanted))
           ++right;
       }
     });

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
@@ -130,6 +131,32 @@ def compare(case, check, found):
     return False
 
 
+def printing(words, exact):
+    """How a printed decimal stands to the exact number: "rounded", "cut" after its digits, or "neither"."""
+    x, unit = Fraction(words), Fraction(10) ** Decimal(words).as_tuple().exponent
+    if x == exact:
+        return "rounded"
+    if x == 0 or exact == 0:
+        return "neither"
+    if 2 * abs(exact - x) <= unit:
+        return "rounded"
+    return "cut" if 0 < abs(exact) - abs(x) < unit and x * exact > 0 else "neither"
+
+
+def misprints(case, check):
+    """How many numbers of a check are not what the table says they are; says which. Its floats are texts, as they are written."""
+    if check["quantity"] == "state":
+        return 0
+    wrong = 0
+    for key, allowed in (("value", "neither" if "relation" in check else "rounded"), ("printed", "rounded"), ("cut", "cut")):
+        found = printing(str(check[key]), Fraction(check["exact"])) if key in check else allowed
+        if found != allowed and not (found == "cut" and "relation" in check and key == "value"):
+            print(f"{case['file']}, step {check['step']}, {check['quantity']}: {key} {check[key]} is {found}, not {allowed}: "
+                  f"exactly {check['exact']}")
+            wrong += 1
+    return wrong
+
+
 def main():
     sys.set_int_max_str_digits(0)
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -143,7 +170,9 @@ def main():
         parser.error("--most-nodes: found without --check; a table is written whole")
     table = options.reference / "verification.toml"
     text = table.read_text()
-    found, problems, wrong = [], 0, 0
+    found, problems, wrong, misprinted = [], 0, 0, 0
+    if options.check:
+        misprinted = sum(misprints(case, check) for case in tomllib.loads(text, parse_float=str)["case"] for check in case["check"])
     for case in tomllib.loads(text, parse_float=decimal)["case"]:
         path = ExactPath(options.program, str(options.reference / "problems" / case["file"]))
         if options.most_nodes and path.structure.nodes() > options.most_nodes:
@@ -157,10 +186,10 @@ def main():
         unfinished = table.with_suffix(".unfinished")
         unfinished.write_text(with_exact(text, found))
         unfinished.replace(table)
-    print(f"{len(found)} exact numbers of {problems} problems, {wrong} of them not in the table")
+    print(f"{len(found)} exact numbers of {problems} problems, {wrong} of them not in the table, {misprinted} misprinted")
     if len(found) < options.least:
         print(f"found {len(found)} numbers, allowed: {options.least} or more")
-    return 1 if wrong or len(found) < options.least else 0
+    return 1 if wrong or misprinted or len(found) < options.least else 0
 
 
 if __name__ == "__main__":

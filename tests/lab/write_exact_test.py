@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 from exact_structures import Beam, Plate, root_of_square, zeros_inside
-from write_exact import with_exact, words, zero_right_of
+from write_exact import printing, with_exact, words, zero_right_of
 
 HERE = Path(__file__).parent
 
@@ -26,6 +26,15 @@ class Words(unittest.TestCase):
         self.assertEqual(words(-two_thirds / 10**6), "-6." + "6" * 38 + "7e-7")
         self.assertEqual(words(1 - Fraction(1, 10**45)), "1." + "0" * 39)
         self.assertEqual(words(Fraction(12) + Fraction(1, 3 * 10**50)), "12." + "0" * 38)
+
+
+    def test_a_printed_number_is_the_exact_one_rounded_cut_or_neither(self):
+        for text, exact, found in (("0.667", "2/3", "rounded"), ("0.666", "2/3", "cut"), ("0.665", "2/3", "neither"),
+                                   ("0.668", "2/3", "neither"), ("-0.666", "-2/3", "cut"), ("0.667", "-2/3", "neither"),
+                                   ("6.67e-1", "2/3", "rounded"), ("1e1", "17", "cut"), ("0.12", "1/8", "rounded"),
+                                   ("0.13", "1/8", "rounded"), ("0.5", "0.504", "rounded"), ("0.500", "0.504", "neither"),
+                                   ("0.0", "0", "rounded"), ("0.0", "1/1000", "neither"), ("0.1", "0", "neither")):
+            self.assertEqual(printing(text, Fraction(exact)), found, (text, exact))
 
 
 class Structures(unittest.TestCase):
@@ -95,6 +104,16 @@ class Table(unittest.TestCase):
             self.assertEqual(found.returncode, 1)
             self.assertIn(f"exact: found {wrong}, allowed: {right}".replace('"', ""), found.stdout)
             self.assertIn("1 of them not in the table", found.stdout)
+
+    def test_a_printed_number_is_rounded_or_cut_as_the_table_says(self):
+        for right, wrong in (('printed   = "-0.00266667"', 'cut       = "-0.00266667"'),
+                             ("value     = -0.00266666667", "value     = -0.00266666666")):
+            self.assertIn(right, self.text)
+            self.table.write_text(self.text.replace(right, wrong, 1))
+            found = self.run_command("--check")
+            self.assertEqual(found.returncode, 1)
+            self.assertIn(": exactly -1/375", found.stdout)
+            self.assertIn("0 of them not in the table, 1 misprinted", found.stdout)
 
     def test_too_few_numbers_are_not_enough(self):
         self.table.write_text(self.text)

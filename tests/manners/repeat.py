@@ -38,7 +38,6 @@ def commands():
     engines = [[program, "run", f"reference/{PROBLEMS[1]}", "--engine", e, "--json", f"{e}.json"] for e in ("refactor", "updated", "condensed", "auto")]
     others = [[program, "verify", "--json", "verify.json", "--junit", "verify.xml", "--reference", "reference"],
               [program, "fuzz", "--calls", "3000", "--json", "fuzz.json", "--junit", "fuzz.xml", "--markdown", "fuzz.md"],
-              [program, "atlas", "--problems", "1", "--csv", "atlas.csv", "--json", "atlas.json"],
               [program, "kernels"],
               [program, "new", "beam", "-"], [program, "new", "plate", "-"], [program, "--version"], [program, "--help"],
               [replay, "--kernel", "fortran,cpp", "reference/traces/full-load.trace"]]

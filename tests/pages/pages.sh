@@ -2,7 +2,7 @@
 # pages.sh SOURCE PROGRAMS PAGE LEAST [HEADING]: runs the commands that a page shows, as they stand there: its sh blocks,
 # and what the CI jobs of its yaml blocks run. Every one must end with 0, and there must be LEAST or more. With HEADING, of
 # that section alone. What installs and builds this project is left out: PROGRAMS has it built. A command that the page
-# shows twice is run once, and one of a job array for two tasks. The script of a GitLab job is one command: its lines share variables, and it ends where one exits.
+# shows twice is run once. The script of a GitLab job is one command: its lines share variables, and it ends where one exits.
 set -eu
 source=$(cd "$1" && pwd)
 programs=$(cd "$2" && pwd)
@@ -43,9 +43,6 @@ count=$(wc -l <commands)
 [ "$count" -ge "$4" ] || { echo "$3: found $count commands, allowed: $4 or more" >&2; exit 1; }
 while IFS= read -r command; do
   echo "\$ $command"
-  case $command in
-    *SLURM_ARRAY_TASK_ID*) for task in 1 2; do SLURM_ARRAY_TASK_ID=$task SLURM_ARRAY_TASK_COUNT=2 sh -eu -c "$command" </dev/null; done ;;
-    *) sh -eu -c "$command" </dev/null ;;
-  esac
+  sh -eu -c "$command" </dev/null
 done <commands
 echo "$3: all $count commands ran"

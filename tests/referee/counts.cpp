@@ -26,10 +26,7 @@ drawn_problem draw_of_laboratory(std::uint64_t seed, std::uint64_t number) {
   const lab::random_problem r = lab::make_random_problem(seed, number, small);
   drawn_problem d;
   d.kind = std::string(r.held ? "held:" : "free:") + layouts[static_cast<int>(r.layout)];
-  d.problem.geometry = r.geometry;
-  d.problem.supports = r.supports;
-  d.problem.pairs = r.pairs;
-  d.problem.steps = r.steps;
+  d.problem = r;
   return d;
 }
 

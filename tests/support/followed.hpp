@@ -44,13 +44,12 @@ struct followed {
 /// or not.
 inline followed follow(const random_problem& p, bool refined = true) {
   const linear_structure s = build(p.geometry, p.supports, p.pairs);
-  const problem what = lab::as_problem(p);
-  certifier certifies(what, s);
+  certifier certifies(p, s);
   followed f;
   f.stride = static_cast<std::size_t>(s.dofs_per_node);
   observer* const observers[] = {&f.seen, &certifies};
   path_limits limits;
-  limits.fallback = fallback_to_reference(s, loads_of(what, s));
+  limits.fallback = fallback_to_reference(s, loads_of(p, s));
   if (refined) limits.refine = certifies.refiner();
   f.end = follow_steps(p.geometry, s, p.steps, "refactor", *make_kernel("corrected"), observers, limits);
   f.certificates = certifies.steps();

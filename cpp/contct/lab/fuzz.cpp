@@ -3,52 +3,27 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 
 #include "contct/kernel/contct.hpp"
-#include "contct/lab/packed.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/lab/random_problem.hpp"
-#include "contct/lab/workers.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct::lab {
-
-// What a worker sends of its part; found where it is packed, so in no namespace of this source alone.
-template <class Visit>
-void pack(Visit& visit, mismatch& m) {
-  visit(m.field, m.index, m.leader, m.follower, m.ulps);
-}
-template <class Visit>
-void pack(Visit& visit, mismatch_report& r) {
-  visit(r.call, r.leader, r.follower, r.where, r.decisions);
-}
-template <class Visit>
-void pack(Visit& visit, call_inputs<double>& in) {
-  visit(in.dd, in.dtest, in.cc, in.id, in.isep, in.isurf, in.dof);
-}
-template <class Visit>
-void pack(Visit& visit, follower_result& r) {
-  visit(r.compared, r.most_ulps, r.same_events, r.always_answered, r.first, r.calls);
-}
-template <class Visit>
-void pack(Visit& visit, campaign_result& r) {
-  visit(static_cast<campaign_counts&>(r), r.each);
-}
-
 namespace {
 
 constexpr std::int64_t calls_in_a_block = 2048;
 constexpr std::int64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
+constexpr std::int64_t problems_certified = 20;
 constexpr std::uint64_t few_ulps = 64;
 
 /// Problems small enough that thousands of them are quick.
-random_problem_kind quick_problems() {
+random_problem quick_problem(std::uint64_t seed, std::int64_t number) {
   random_problem_kind kind;
   kind.most_elements = 16;
   kind.most_lines = 4;
-  return kind;
+  return make_random_problem(seed, number, kind);
 }
 
 call_inputs<double> inputs_of(const answered_call& c) {
@@ -57,234 +32,166 @@ call_inputs<double> inputs_of(const answered_call& c) {
           owned(c.isep_before), owned(c.c.isurf), c.c.dof};
 }
 
-/// The first number after `after` that is the shard's.
-std::int64_t next_of_shard(const fuzz_request& r, std::int64_t after) {
-  return after < r.shard ? r.shard : r.shard + ((after - r.shard) / r.shards + 1) * r.shards;
+/// Does the follower's own path of the problem end as well as the leader's: certified, or truly without
+/// equilibrium? True where the leader's does not.
+bool certified_as_leader(const random_problem& p, const std::string& leader, const std::string& follower) {
+  const verdict leads = try_problem(p, *make_kernel(leader)).came_to;
+  if (leads != verdict::certified && leads != verdict::no_equilibrium) return true;
+  try {
+    return try_problem(p, *make_kernel(follower)).came_to == leads;
+  } catch (const kernel_failure&) {
+    return false;
+  }
 }
 
-/// A leader and its followers, and what comes of the calls that they are put. Observes a path of the leader.
-struct contest : observer {
-  std::unique_ptr<kernel> leader;
-  std::vector<std::unique_ptr<kernel>> kernels;
-  std::vector<follower> followers;
-  call_sequence path;  ///< the calls that were observed
-  campaign_result result;
+/// The first mismatch of a follower, and the calls up to it.
+struct first_mismatch {
+  mismatch_report what;
+  call_sequence calls;
+};
 
-  explicit contest(const std::vector<std::string>& names) {
-    for (const std::string& name : names) refuse_unequal(facts_of_kernel(names[0]), facts_of_kernel(name));
-    leader = make_kernel(names[0]);
-    for (const std::string& name : std::span(names).subspan(1)) {
-      kernels.push_back(make_kernel(name));
-      followers.emplace_back(leader->facts(), *kernels.back());
+/// Puts calls and problems to a leader and its followers. Observes the leader's paths.
+class fuzzing final : public observer {
+ public:
+  fuzzing(const fuzz_request& r, const fuzz_progress& progress)
+      : request_(r), progress_(progress), source_(r.seed, facts_of_kernel(r.kernels.at(0)).real_bytes) {
+    for (const std::string& name : r.kernels)
+      refuse_unequal(facts_of_kernel(r.kernels[0]), facts_of_kernel(name));
+    leader_ = make_kernel(r.kernels[0]);
+    run_.result.request = r;
+    for (const std::string& name : std::span(r.kernels).subspan(1)) {
+      kernels_.push_back(make_kernel(name));
+      followers_.emplace_back(leader_->facts(), *kernels_.back());
+      run_.result.followers.emplace_back().name = name;
     }
-    result.each.resize(followers.size());
+    firsts_.resize(followers_.size());
+  }
+
+  fuzz_run run() {
+    const auto started = std::chrono::steady_clock::now();
+    put_calls();
+    for (std::int64_t number = request_.shard; number <= request_.problems; number += request_.shards)
+      follow_problem(number);
+    for (std::size_t f = 0; f < followers_.size(); ++f)
+      run_.result.followers[f].compared = followers_[f].compared;
+    followers_.clear();  // unit 26 belongs to the process: the kernels make room for fresh ones
+    kernels_.clear();
+    leader_.reset();
+    for (std::size_t f = 0; f < firsts_.size(); ++f) conclude(run_.result.followers[f], firsts_[f]);
+    run_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return std::move(run_);
   }
 
   void called(const answered_call& c) override {
-    path.push_back(inputs_of(c));
-    const bool has_text = leader->facts().has_text;
-    compare(std::ssize(path), c.c, c.isep_before, has_text ? std::optional(c.text) : std::nullopt);
+    path_.push_back(inputs_of(c));
+    const bool has_text = leader_->facts().has_text;
+    compare(std::ssize(path_), c.c, c.isep_before, has_text ? std::optional(c.text) : std::nullopt);
+  }
+
+ private:
+  void put_calls() {
+    call_outputs outputs;
+    std::vector<std::int64_t> block;  // numbers of the calls whose text is not yet compared
+    for (std::int64_t number = request_.shard; number <= request_.calls; number += request_.shards) {
+      const call_inputs<double>& in = source_.at(number);
+      call<double> answered = outputs.prepare(in);
+      leader_->answer(answered);
+      compare(number, answered, in.isep, std::nullopt);
+      block.push_back(number);
+      if (std::ssize(block) == calls_in_a_block) end_block(block);
+    }
+    end_block(block);
+  }
+
+  void follow_problem(std::int64_t number) {
+    const random_problem p = quick_problem(request_.seed, number);
+    path_.clear();
+    const std::int64_t before = run_mismatches();
+    (void)follow(p, structure_of(p), "refactor", *leader_, {this});
+    if (run_mismatches() > before && std::ssize(differing_problems_) < problems_certified)
+      differing_problems_.push_back(number);
+    keep_firsts([this](std::int64_t last) { return call_sequence(path_.begin(), path_.begin() + last); });
+    for (const follower& f : followers_) (void)f.asked().take_text();  // compared above, or not at all
+    ++run_.result.problems;
+    if (progress_) progress_(run_.result.problems, request_.problems / request_.shards, "problems");
   }
 
   void compare(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
                std::optional<std::string_view> text) {
-    result.count(answered, isep_before);
-    for (std::size_t f = 0; f < followers.size(); ++f) {
-      if (followers[f].ask(number, answered, isep_before, text))
-        result.each[f].note_difference(answered, followers[f]);
+    run_.result.count(answered, isep_before);
+    for (std::size_t f = 0; f < followers_.size(); ++f) {
+      if (followers_[f].ask(number, answered, isep_before, text))
+        run_.result.followers[f].note_difference(answered, followers_[f]);
     }
   }
 
-  /// `up_to(number)`: the calls up to that one.
+  /// Compare unit 26 of the calls of `block`, which were put since the last time, and empty it.
+  void end_block(std::vector<std::int64_t>& block) {
+    const std::string text = leader_->take_text();
+    for (follower& f : followers_) {
+      const std::string its_text = f.asked().take_text();
+      if (block.empty() || !leader_->facts().has_text || !f.asked().facts().has_text) continue;
+      tally whole;
+      if (compare_text(text, its_text, whole, f.equality()))
+        find_text_difference(f, block);
+      else
+        f.compared.values += std::ssize(block);
+    }
+    keep_firsts([this](std::int64_t last) {
+      call_sequence calls;
+      for (std::int64_t k = std::min(most_calls_before, (last - 1) / request_.shards); k >= 0; --k)
+        calls.push_back(source_.at(last - k * request_.shards));
+      return calls;
+    });
+    block.clear();
+    if (progress_) progress_(run_.result.calls, request_.calls / request_.shards, "calls");
+  }
+
+  /// Put a block of calls once more, and compare the text call by call.
+  void find_text_difference(follower& f, std::span<const std::int64_t> block) {
+    call_outputs outputs;
+    call_outputs its_outputs;
+    for (const std::int64_t number : block) {
+      const call_inputs<double>& in = source_.at(number);
+      call<double> answered = outputs.prepare(in);
+      leader_->answer(answered);
+      const std::string text = leader_->take_text();
+      call<double> asked = its_outputs.prepare(in);
+      try {
+        f.asked().answer(asked);
+      } catch (const kernel_failure&) {
+        continue;  // counted already
+      }
+      if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
+        f.note(number, *found, answered, in.isep);
+    }
+  }
+
+  /// Keep what shows the first mismatch of each follower; `up_to(number)`: the calls up to that one.
   template <class Calls>
-  campaign_result conclude(Calls up_to) {
-    for (std::size_t f = 0; f < followers.size(); ++f) {
-      follower_result& r = result.each[f];
-      r.compared = followers[f].compared;
-      r.first = followers[f].first();
-      if (r.first) r.calls = up_to(r.first->call);
-    }
-    return std::move(result);
-  }
-};
-
-/// Put a block of calls once more, and compare the text call by call.
-void find_text_difference(contest& c, follower& f, call_source& source, std::span<const std::int64_t> block) {
-  call_outputs outputs;
-  call_outputs its_outputs;
-  for (const std::int64_t number : block) {
-    const call_inputs<double>& in = source.at(number);
-    call<double> answered = outputs.prepare(in);
-    c.leader->answer(answered);
-    const std::string text = c.leader->take_text();
-    call<double> asked = its_outputs.prepare(in);
-    try {
-      f.asked().answer(asked);
-    } catch (const kernel_failure&) {
-      continue;  // counted already
-    }
-    if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
-      f.note(number, *found, answered, in.isep);
-  }
-}
-
-/// Compare unit 26 of the calls of `block`, which were put since the last time.
-void compare_texts(contest& c, call_source& source, std::span<const std::int64_t> block) {
-  const std::string text = c.leader->take_text();
-  for (follower& f : c.followers) {
-    const std::string its_text = f.asked().take_text();
-    const bool both = c.leader->facts().has_text && f.asked().facts().has_text;
-    if (!both || block.empty()) continue;
-    tally whole;
-    if (compare_text(text, its_text, whole, f.equality()))
-      find_text_difference(c, f, source, block);
-    else
-      f.compared.values += std::ssize(block);
-  }
-}
-
-/// What is one task, and what is put between two checkpoints. Kernels are made anew for each, so that the
-/// result depends neither on checkpoints nor on the number of jobs.
-constexpr std::int64_t calls_in_a_task = 4 * calls_in_a_block;
-constexpr std::int64_t problems_in_a_task = 16;
-constexpr std::size_t most_differing_problems = 40;
-
-/// Calls or problems of a task: `after` < number <= `last`, those of the shard.
-struct stretch {
-  bool of_problems;
-  std::int64_t after, last;
-};
-
-/// What came of a problem, or of calls: problem 0.
-struct part_result {
-  std::int64_t problem = 0;
-  campaign_result result;
-
-  template <class Visit>
-  friend void pack(Visit& visit, part_result& p) {
-    visit(p.problem, p.result);
-  }
-};
-
-std::vector<part_result> parts_of(const fuzz_request& r, const stretch& s) {
-  std::vector<part_result> parts;
-  if (!s.of_problems) parts.push_back({0, put_calls(r, s.after, s.last)});
-  std::int64_t number = s.of_problems ? next_of_shard(r, s.after) : s.last + 1;
-  for (; number <= s.last; number += r.shards) parts.push_back({number, follow_in_lockstep(r, number)});
-  return parts;
-}
-
-class fuzzing {
- public:
-  fuzzing(const fuzz_request& r, const fuzz_progress& progress, const fuzz_keeper& keeper, int jobs)
-      : request_(r), progress_(progress), keeper_(keeper), jobs_(jobs) {
-    now_.result.request = r;
-    for (const std::string& name : std::span(r.kernels).subspan(1))
-      now_.result.followers.emplace_back().name = name;
-    now_.firsts.resize(now_.result.followers.size());
-    if (keeper.from) go_on_from(*keeper.from);
-  }
-
-  fuzz_run run() {
-    started_ = std::chrono::steady_clock::now();
-    seconds_before_ = now_.result.seconds;
-    do_all();
-    for (fuzz_follower& f : now_.result.followers) conclude(f);
-    take_time();
-    run_.result = std::move(now_.result);
-    return std::move(run_);
-  }
-
- private:
-  /// The mismatches are found once more: a checkpoint knows only where they are.
-  void go_on_from(const fuzz_checkpoint& from) {
-    now_ = from;
-    for (std::size_t f = 0; f < now_.firsts.size(); ++f) {
-      const auto [problem, call] = now_.firsts[f];
-      if (call == 0) continue;
-      const std::int64_t after = std::max<std::int64_t>(0, call - most_calls_before * request_.shards - 1);
-      campaign_result again =
-          problem > 0 ? follow_in_lockstep(request_, problem) : put_calls(request_, after, call);
-      now_.result.followers[f].first = std::move(again.each[f].first);
-      now_.result.followers[f].calls = std::move(again.each[f].calls);
+  void keep_firsts(Calls up_to) {
+    for (std::size_t f = 0; f < followers_.size(); ++f) {
+      const auto& found = followers_[f].first();
+      if (found && !firsts_[f]) firsts_[f] = {*found, up_to(found->call)};
     }
   }
 
-  /// What is left to do, in tasks of `step` numbers; the last of them ends at `most`.
-  struct tasks {
-    bool of_problems;
-    std::int64_t done, most, step;
-    [[nodiscard]] std::int64_t count() const { return done < most ? (most - done - 1) / step + 1 : 0; }
-    [[nodiscard]] stretch at(std::int64_t task) const {
-      const std::int64_t after = done + task * step;
-      return {of_problems, after, std::min(most, after + step)};
-    }
-  };
-
-  void do_all() {
-    const tasks calls{false, now_.calls_up_to, request_.calls, calls_in_a_task * request_.shards};
-    const tasks problems{true, now_.problems_up_to, request_.problems, problems_in_a_task * request_.shards};
-    const auto at = [&](std::int64_t task) {
-      return task < calls.count() ? calls.at(task) : problems.at(task - calls.count());
-    };
-    const auto work = [&](std::int64_t task) { return packed(parts_of(request_, at(task))); };
-    do_tasks(jobs_, calls.count() + problems.count(), work,
-             [&](std::int64_t task, const std::string& result) { take(at(task), result); });
-  }
-
-  void take(const stretch& done, const std::string& result) {
-    std::vector<part_result> parts;
-    unpack(result, parts);
-    for (const part_result& p : parts) add(p.result, p.problem);
-    (done.of_problems ? now_.problems_up_to : now_.calls_up_to) = done.last;
-    if (done.of_problems) take_problems(parts);
-    if (progress_ && done.of_problems)
-      progress_(now_.result.problems, request_.problems / request_.shards, "problems");
-    if (progress_ && !done.of_problems)
-      progress_(now_.result.calls, request_.calls / request_.shards, "calls");
-    keep();
-  }
-
-  void take_problems(const std::vector<part_result>& parts) {
-    now_.result.problems += std::ssize(parts);
-    for (const part_result& p : parts)
-      for (const follower_result& its : p.result.each)
-        if (its.first && now_.differing_problems.size() < most_differing_problems)
-          now_.differing_problems.push_back(p.problem);
-  }
-
-  /// The result of single calls, or of a problem's.
-  void add(const campaign_result& r, std::int64_t problem) {
-    now_.result.add(r);
-    for (std::size_t f = 0; f < r.each.size(); ++f) {
-      if (r.each[f].first && now_.firsts[f].call == 0) now_.firsts[f] = {problem, r.each[f].first->call};
-      now_.result.followers[f].add(r.each[f]);
-    }
-  }
-
-  void take_time() {
-    now_.result.seconds =
-        seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  }
-
-  void keep() {
-    if (!keeper_.keep) return;
-    take_time();
-    keeper_.keep(now_);
+  [[nodiscard]] std::int64_t run_mismatches() const {
+    std::int64_t all = 0;
+    for (const follower& f : followers_) all += f.compared.mismatches;
+    return all;
   }
 
   /// The result of a follower: its level of equality, and its first mismatch made small.
-  void conclude(fuzz_follower& total) {
+  void conclude(fuzz_follower& total, const std::optional<first_mismatch>& first) {
     total.highest = level_of(total);
+    if (!first) return;
     std::vector<std::string>& lines = total.mismatch_reports;
-    if (!total.first && total.compared.mismatches > 0)
-      lines = {"a mismatch before the checkpoint is not seen again: the kernel keeps state between calls"};
-    if (!total.first) return;
-    lines = words_of(*total.first);
+    lines = words_of(first->what);
     const std::unique_ptr<kernel> leader = make_kernel(request_.kernels[0]);
-    const std::string& field = total.first->where.field;
+    const std::string& field = first->what.where.field;
     const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs takes its time for every try
-    if (auto small = shrunk_case(*leader, total.name, total.calls, field, most_tries)) {
+    if (auto small = shrunk_case(*leader, total.name, first->calls, field, most_tries)) {
       lines.push_back("shrunk to " + std::to_string(small->calls.size()) + " call(s), " +
                       std::to_string(small->calls.back().pairs()) + " pair(s): " + words_of(small->what)[0]);
       run_.cases.push_back(std::move(*small));
@@ -303,28 +210,29 @@ class fuzzing {
   /// Are the follower's own paths certified: of the first problems, and of those in which a follower
   /// differed?
   bool certified_paths(const fuzz_follower& total) {
-    constexpr std::int64_t enough = 20;
     if (request_.problems == 0 || !total.always_answered) return false;
-    std::vector<std::int64_t> asked = now_.differing_problems;
-    for (std::int64_t n = 1; n <= std::min(enough, request_.problems); ++n) asked.push_back(n);
-    asked.resize(std::min<std::size_t>(asked.size(), 2 * enough));
-    return std::all_of(asked.begin(), asked.end(),
-                       [&](std::int64_t n) { return certified_as_leader(request_, n, total.name); });
+    std::vector<std::int64_t> asked = differing_problems_;
+    for (std::int64_t n = 1; n <= std::min(problems_certified, request_.problems); ++n) asked.push_back(n);
+    return std::ranges::all_of(asked, [&](std::int64_t n) {
+      return certified_as_leader(quick_problem(request_.seed, n), request_.kernels[0], total.name);
+    });
   }
 
   const fuzz_request& request_;
   const fuzz_progress& progress_;
-  const fuzz_keeper& keeper_;
-  int jobs_;
-  std::chrono::steady_clock::time_point started_;
-  double seconds_before_ = 0.0;
-  fuzz_checkpoint now_;
+  call_source source_;
+  std::unique_ptr<kernel> leader_;
+  std::vector<std::unique_ptr<kernel>> kernels_;
+  std::vector<follower> followers_;
+  std::vector<std::optional<first_mismatch>> firsts_;  // [followers]
+  call_sequence path_;                                 // the calls of the problem that is followed
+  std::vector<std::int64_t> differing_problems_;       // the first ones in which a follower differed
   fuzz_run run_;
 };
 
 }  // namespace
 
-void campaign_counts::count(const call<double>& answered, std::span<const int> isep_before) {
+void fuzz_result::count(const call<double>& answered, std::span<const int> isep_before) {
   ++calls;
   branches.count(answered, isep_before);
   for (std::size_t i = 0; i < isep_before.size(); ++i) {
@@ -336,15 +244,7 @@ void campaign_counts::count(const call<double>& answered, std::span<const int> i
   }
 }
 
-void campaign_counts::add(const campaign_counts& other) {
-  calls += other.calls;
-  branches.add(other.branches);
-  events.make += other.events.make;
-  events.break_ += other.events.break_;
-  events.stationary += other.events.stationary;
-}
-
-void follower_result::note_difference(const call<double>& leader, const follower& f) {
+void fuzz_follower::note_difference(const call<double>& leader, const follower& f) {
   if (!f.answered()) {
     always_answered = false;
     return;
@@ -357,65 +257,8 @@ void follower_result::note_difference(const call<double>& leader, const follower
   }
 }
 
-void follower_result::add(const follower_result& other) {
-  compared += other.compared;
-  most_ulps = std::max(most_ulps, other.most_ulps);
-  same_events = same_events && other.same_events;
-  always_answered = always_answered && other.always_answered;
-  if (first) return;
-  first = other.first;
-  calls = other.calls;
-}
-
-campaign_result put_calls(const fuzz_request& r) {
-  return put_calls(r, 0, r.calls);
-}
-
-campaign_result put_calls(const fuzz_request& r, std::int64_t after, std::int64_t last) {
-  contest c(r.kernels);
-  call_source source(r.seed, c.leader->facts().real_bytes);
-  call_outputs outputs;
-  std::vector<std::int64_t> block;  // numbers of the calls whose text is not yet compared
-  for (std::int64_t number = next_of_shard(r, after); number <= last; number += r.shards) {
-    const call_inputs<double>& in = source.at(number);
-    call<double> answered = outputs.prepare(in);
-    c.leader->answer(answered);
-    c.compare(number, answered, in.isep, std::nullopt);
-    block.push_back(number);
-    if (std::ssize(block) < calls_in_a_block) continue;
-    compare_texts(c, source, block);
-    block.clear();
-  }
-  compare_texts(c, source, block);
-  return c.conclude([&](std::int64_t up_to) {
-    call_sequence calls;
-    for (std::int64_t k = std::min(most_calls_before, (up_to - 1) / r.shards); k >= 0; --k)
-      calls.push_back(source.at(up_to - k * r.shards));
-    return calls;
-  });
-}
-
-campaign_result follow_in_lockstep(const fuzz_request& r, std::int64_t number) {
-  const random_problem p = make_random_problem(r.seed, number, quick_problems());
-  const linear_structure s = build(p.geometry, p.supports, p.pairs);
-  contest c(r.kernels);
-  (void)follow_steps(p.geometry, s, p.steps, "refactor", *c.leader, std::vector<observer*>{&c});
-  return c.conclude([&c](std::int64_t last) { return call_sequence(c.path.begin(), c.path.begin() + last); });
-}
-
-bool certified_as_leader(const fuzz_request& r, std::int64_t number, const std::string& follower) {
-  const random_problem p = make_random_problem(r.seed, number, quick_problems());
-  const verdict leads = try_problem(p, *make_kernel(r.kernels[0])).came_to;
-  if (leads != verdict::certified && leads != verdict::no_equilibrium) return true;
-  try {
-    return try_problem(p, *make_kernel(follower)).came_to == leads;
-  } catch (const kernel_failure&) {
-    return false;
-  }
-}
-
 std::string_view name_of(equality_level l) {
-  constexpr std::string_view names[equality_levels] = {"bits", "ulps", "events", "certificate", "none"};
+  constexpr std::string_view names[] = {"bits", "ulps", "events", "certificate", "none"};
   return names[static_cast<int>(l)];
 }
 
@@ -450,8 +293,8 @@ std::string floors_missed(const fuzz_result& r) {
          " each";
 }
 
-fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress, const fuzz_keeper& keeper, int jobs) {
-  return fuzzing(r, progress, keeper, jobs).run();
+fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress) {
+  return fuzzing(r, progress).run();
 }
 
 }  // namespace contct::lab

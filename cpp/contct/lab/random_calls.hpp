@@ -35,7 +35,7 @@ class random_calls {
 extern template class random_calls<float>;
 extern template class random_calls<double>;
 
-/// The calls of a campaign: odd numbers are random, even ones adversarial.
+/// The calls of a fuzz run: odd numbers are random, even ones adversarial.
 class call_source {
  public:
   /// `real_bytes`: 8, or 4 for numbers and thresholds of single precision.

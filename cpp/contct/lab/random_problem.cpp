@@ -266,47 +266,28 @@ verdict judge(const path_end& end, const certifier& judged) {
 
 }  // namespace
 
-problem as_problem(const random_problem& r) {
-  problem p;
-  p.geometry = r.geometry;
-  p.supports = r.supports;
-  p.pairs = r.pairs;
-  p.steps = r.steps;
-  return p;
-}
-
 random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
                                    const random_problem_kind& kind) {
   return drawing(seed, number, kind).draw();
 }
 
-void problem_result::add(const certificate& c) {
-  displacement_error = std::max(displacement_error, c.displacement_error);
-  length_error = std::max({length_error, c.displacement_error, c.penetration, c.tension});
-  certificates.push_back(c);
-  uncertified += c.exact ? 0 : 1;
-  unfounded += c.unfounded ? 1 : 0;
+problem_result try_problem(const problem& p, kernel& leader, std::string_view engine) {
+  return try_structure(p, structure_of(p), leader, engine);
 }
 
-problem_result try_problem(const random_problem& p, kernel& leader, std::string_view engine) {
-  return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, engine);
-}
-
-problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
+problem_result try_structure(const problem& p, const linear_structure& s, kernel& leader,
                              std::string_view engine, std::vector<observer*> watching) {
   problem_result t;
   increment_counter counted;
-  const problem what = as_problem(p);
-  const load_history total = loads_of(what, s);
-  certifier judged(what, s, exact::exact_residual_of(what), exact::semidefinite_test_of(what));
+  certifier judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
   watching.insert(watching.end(), {&counted, &judged});
   path_limits limits;
   limits.fallback = judged.fallback();
   limits.refine = judged.refiner();
-  limits.exactly = exact::exact_follower_of(what);
-  const path_end end = follow_steps(p.geometry, s, p.steps, engine, leader, watching, limits);
+  limits.exactly = exact::exact_follower_of(p);
+  const path_end end = follow(p, s, engine, leader, watching, limits);
   for (const auto& c : judged.steps())
-    if (c) t.add(*c);
+    if (c) t.certificates.push_back(*c);
   t.increments = counted.increments;
   t.came_to = judge(end, judged);
   return t;

@@ -27,18 +27,11 @@ struct random_problem_kind {
   int most_lines = 6;      ///< elements along a side of a plate
 };
 
-struct random_problem {
-  model geometry;
-  std::vector<support> supports;
-  std::vector<contact_pair> pairs;
-  std::vector<load> steps;
+struct random_problem : problem {
   bool held = true;  ///< by its supports
   face_layout layout = face_layout::gaps;
   double unit = 1.0;  ///< the unit of length
 };
-
-/// As a file would have it.
-[[nodiscard]] problem as_problem(const random_problem& r);
 
 /// Problem `number` of `seed`.
 [[nodiscard]] random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
@@ -55,24 +48,17 @@ enum class verdict {
 
 struct problem_result {
   verdict came_to = verdict::no_end;
-  double displacement_error = 0.0;  ///< the worst of any step, relative to the largest deflection
-  double length_error = 0.0;        ///< of that, and of how far pairs are on the wrong side of their faces
   std::vector<certificate> certificates = {};  ///< of the steps that reached their load
-  int uncertified = 0;                         ///< of these
-  int unfounded = 0;  ///< and of these: an equilibrium is claimed where there is none
   int increments = 0;
-
-  /// Take the certificate of one more step into account.
-  void add(const certificate& c);
 };
 
 /// Follow `p` with `leader` on the engine named, with the reference solution as a fallback where its rule
 /// allows one.
-[[nodiscard]] problem_result try_problem(const random_problem& p, kernel& leader,
+[[nodiscard]] problem_result try_problem(const problem& p, kernel& leader,
                                          std::string_view engine = "refactor");
 
 /// The same on `s`, which is p's structure, however its stiffness is stored.
-[[nodiscard]] problem_result try_structure(const random_problem& p, const linear_structure& s, kernel& leader,
+[[nodiscard]] problem_result try_structure(const problem& p, const linear_structure& s, kernel& leader,
                                            std::string_view engine, std::vector<observer*> watching = {});
 
 }  // namespace contct::lab

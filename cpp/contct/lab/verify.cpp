@@ -3,87 +3,46 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "contct/compare/lockstep.hpp"
-#include "contct/exact/exact_follower.hpp"
 #include "contct/exact/exact_residual.hpp"
-#include "contct/lab/packed.hpp"
-#include "contct/lab/printed_number.hpp"
-#include "contct/lab/workers.hpp"
+#include "contct/lab/random_problem.hpp"
+#include "contct/numeric/rational.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/read/toml_reader.hpp"
 
 namespace contct::lab {
-
-template <class Visit>
-void pack(Visit& visit, certificate& c) {
-  visit(c.exact, c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension, c.rcond,
-        c.tolerance, c.independent, c.unique, c.unfounded, c.proof_tried, c.proved, c.error, c.allowed,
-        c.worst_share, c.problem, c.pulling, c.pull);
-}
-template <class Visit>
-void pack(Visit& visit, verified_number& n) {  // without what was expected
-  visit(n.computed, n.corrected, n.certified, n.passed, n.apart, n.exact_comparisons);
-}
-template <class Visit>
-void pack(Visit& visit, verified_case& c) {
-  visit(c.file, c.title, c.numbers, c.certificates, c.calls, c.mismatches, c.failure);
-}
-
 namespace {
 
 constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
 constexpr int any_number = 1'000'000'000;
 
-using text_lines = std::vector<std::string_view>;
-
-text_lines lines_of(std::string_view text) {
-  text_lines lines;
-  for (std::size_t end = 0; end != std::string_view::npos;
-       text.remove_prefix(std::min(end + 1, text.size()))) {
-    end = text.find('\n');
-    lines.push_back(text.substr(0, end));
+/// The double nearest to an exact number: a fraction "p/q" in lowest terms, or a decimal. Nothing where
+/// `words` are neither.
+std::optional<double> nearest_to(std::string_view words) {
+  const std::size_t slash = words.find('/');
+  if (slash == std::string_view::npos) {
+    double x = 0.0;
+    const auto [end, error] = std::from_chars(words.data(), words.data() + words.size(), x);
+    const bool is_read = error == std::errc{} && end == words.data() + words.size() && std::isfinite(x);
+    return is_read ? std::optional(x) : std::nullopt;
   }
-  return lines;
+  const auto is_whole = [](std::string_view s) {  // Boost takes a leading 0 for the mark of an octal number
+    return s.find_first_not_of("0123456789") == std::string_view::npos && !s.empty() && s[0] != '0';
+  };
+  const std::size_t sign = words.starts_with('-') ? 1 : 0;
+  const std::string top(words.substr(sign, slash - sign));
+  const std::string bottom(words.substr(slash + 1));
+  if (!is_whole(top) || !is_whole(bottom)) return std::nullopt;
+  return (sign == 1 ? -1.0 : 1.0) * exact::rounded(rational(integer(top), integer(bottom)));
 }
 
-/// A number of the file as it is written there: zeros at the end tell how many digits are meant.
-std::string written_number(const toml::node& number, const text_lines& lines) {
-  const toml::source_position at = number.source().begin;
-  const std::string_view rest = lines.at(at.line - 1).substr(at.column - 1);
-  return std::string(rest.substr(0, rest.find_first_of(" \t\r#,}")));
-}
-
-/// The exact number, and how those that are printed stand to it.
-void read_exact(const table_reader& t, const text_lines& lines, expected_number& e) {
-  e.exact = t.text("exact");
-  if (t.has("relation")) {
-    (void)t.choice("relation", {"other model", "inexact"});
-    e.relation = t.text("relation");
-  }
-  for (const char* key : {"printed", "cut"})
-    if (t.has(key)) e.printed = t.text(key);
-  e.cut = t.has("cut");
-  if (e.cut && t.has("printed")) t.refuse_key("printed", "either printed or cut");
-  if (e.quantity == "state") return;
-  e.written = written_number(t.required("value", "a number"), lines);
-  const std::pair<const char*, std::string> numbers[] = {
-      {"value", e.written}, {"exact", e.exact}, {e.cut ? "cut" : "printed", e.printed}};
-  for (const auto& [key, words] : numbers) {
-    try {
-      if (!words.empty()) (void)number_printed(words);
-    } catch (const std::invalid_argument&) {
-      t.refuse_key(key, "a decimal, or a fraction \"p/q\"");
-    }
-  }
-}
-
-expected_number read_check(const table_reader& t, const text_lines& lines) {
+expected_number read_check(const table_reader& t) {
   t.allow_only({"step",   "quantity", "node",    "pair",      "element",  "end",   "corner",   "dof",
                 "change", "from",     "along",   "value",     "kind",     "exact", "relation", "printed",
                 "cut",    "source",   "because", "tolerance", "faithful", "reason"});
@@ -113,7 +72,9 @@ expected_number read_check(const table_reader& t, const text_lines& lines) {
     e.faithful = t.real("faithful", any_real);
     e.reason = t.text("reason");
   }
-  read_exact(t, lines, e);
+  e.exact = t.text("exact");
+  if (e.quantity != "state" && !nearest_to(e.exact))
+    t.refuse_key("exact", "a decimal, or a fraction \"p/q\"");
   return e;
 }
 
@@ -220,10 +181,6 @@ kind_of_number kind_of(const expected_number& e) {
   return kind_of_number::other;
 }
 
-std::string_view words_of(printing p) {
-  return p == printing::rounded ? "rounded" : p == printing::cut ? "cut" : "neither rounded nor cut";
-}
-
 /// The place of `name` among `names`; none where it is not there.
 template <class Names>
 std::optional<std::size_t> place_in(const Names& names, const std::string& name) {
@@ -231,18 +188,10 @@ std::optional<std::size_t> place_in(const Names& names, const std::string& name)
   return at == names.end() ? std::nullopt : std::optional<std::size_t>(at - names.begin());
 }
 
-/// The certificate of a step, from 1; null where there is none.
-const certificate* of_step(const certifier& judged, int step) {
-  const auto& steps = judged.steps();
-  const auto at = static_cast<std::size_t>(step - 1);
-  return at < steps.size() && steps[at] ? &*steps[at] : nullptr;
-}
-
 }  // namespace
 
 std::vector<verification_case> read_verification(const std::string& path) {
   const std::string text = read_input(path);
-  const text_lines lines = lines_of(text);
   const toml::table document = parse_toml(text, path);
   const table_reader top(document, "", path);
   top.allow_only({"case"});
@@ -250,7 +199,7 @@ std::vector<verification_case> read_verification(const std::string& path) {
   for (const table_reader& t : top.tables("case")) {
     t.allow_only({"file", "check"});
     verification_case c{t.text("file"), {}};
-    for (const table_reader& check : t.tables("check")) c.checks.push_back(read_check(check, lines));
+    for (const table_reader& check : t.tables("check")) c.checks.push_back(read_check(check));
     cases.push_back(std::move(c));
   }
   return cases;
@@ -316,53 +265,38 @@ std::string exact_disagreement(const expected_number& e, double computed, double
   if (e.quantity == "state")
     return e.exact == (e.value == in_contact ? "contact" : "separated") ? ""
                                                                         : "the exact state is " + e.exact;
-  const rational exactly = number_printed(e.exact);
-  const double nearest = exact::rounded(exactly);
-  if (allowed == 0.0) allowed = e.tolerance * (nearest == 0.0 ? 1.0 : std::abs(nearest));
-  if (!(std::abs(computed - nearest) <= allowed))
+  const double exactly = nearest_to(e.exact).value();
+  if (allowed == 0.0) allowed = e.tolerance * (exactly == 0.0 ? 1.0 : std::abs(exactly));
+  if (!(std::abs(computed - exactly) <= allowed))
     return fmt::format("computed {:.17g}, exactly {}; allowed: {:.0e} apart", computed, e.exact, allowed);
-  if (!agrees(nearest, e.value, e.tolerance))
-    return fmt::format("exactly {}; allowed: {:.0e} of {}", e.exact, e.tolerance, e.written);
-  const bool is_rounded = printing_of(e.written, exactly) == printing::rounded;
-  if (is_rounded != e.relation.empty())
-    return fmt::format("{} is {}exactly {}, rounded", e.written, is_rounded ? "" : "not ", e.exact);
-  if (e.printed.empty()) return {};
-  const printing found = printing_of(e.printed, exactly);
-  const printing said = e.cut ? printing::cut : printing::rounded;
-  if (found == said) return {};
-  return fmt::format("printed {} is {}, not {}: exactly {}", e.printed, words_of(found), words_of(said),
-                     e.exact);
+  if (!agrees(exactly, e.value, e.tolerance))
+    return fmt::format("exactly {}; allowed: {:.0e} of {}", e.exact, e.tolerance, e.value);
+  return {};
 }
 
 bool agrees(double measured, double value, double tolerance) {
   return std::abs(measured - value) <= tolerance * (value == 0.0 ? 1.0 : std::abs(value));
 }
 
-bool verified_case::passed() const {
-  return failure.empty() && !numbers.empty() &&
-         std::all_of(numbers.begin(), numbers.end(), [](const verified_number& n) { return n.passed; });
-}
-
 namespace {
 
-/// A path's numbers, and its certificates.
+/// A path's numbers, and the certificate of the step that is asked about; null where there is none.
 struct followed_path {
   const measurement& measured;
-  const certifier& judged;
+  const certificate* certified;
 };
 
 verified_number judged_number(const expected_number& e, const followed_path& listing,
                               const followed_path& corrected) {
   verified_number n{e, listing.measured.of(e), corrected.measured.of(e), false, false, "", 0};
-  const certificate* const of_listing = of_step(listing.judged, e.step);
-  n.certified = of_listing != nullptr && of_listing->exact;
-  const auto compare = [&](double found, const followed_path& path, const certificate* c) {
-    if (e.exact.empty() || c == nullptr || !n.apart.empty()) return;
-    n.apart = exact_disagreement(e, found, c->tolerance * path.measured.size_of(e));
+  n.certified = listing.certified != nullptr && listing.certified->exact;
+  const auto compare = [&](double found, const followed_path& path) {
+    if (e.exact.empty() || path.certified == nullptr || !n.apart.empty()) return;
+    n.apart = exact_disagreement(e, found, path.certified->tolerance * path.measured.size_of(e));
     ++n.exact_comparisons;
   };
-  compare(n.corrected, corrected, of_step(corrected.judged, e.step));
-  if (n.certified && !e.faithful) compare(n.computed, listing, of_listing);
+  compare(n.corrected, corrected);
+  if (n.certified && !e.faithful) compare(n.computed, listing);
   n.passed = n.apart.empty() && agrees(n.computed, e.faithful.value_or(e.value), e.tolerance) &&
              agrees(n.corrected, e.value, e.tolerance);
   return n;
@@ -382,13 +316,7 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   lockstep compared = make_lockstep(fortran->facts(), followers);
   const path_end end = follow(p, s, "refactor", *fortran, {&compared, &judged, &listing});
   measurement corrected(p);
-  certifier judged_corrected(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
-  path_limits limits;
-  limits.fallback = judged_corrected.fallback();
-  limits.refine = judged_corrected.refiner();
-  limits.exactly = exact::exact_follower_of(p);
-  const path_end corrected_end =
-      follow(p, s, "refactor", *make_kernel("corrected"), {&judged_corrected, &corrected}, limits);
+  const problem_result right = try_structure(p, s, *make_kernel("corrected"), "refactor", {&corrected});
 
   out.calls = compared.calls();
   out.mismatches = compared.compared().mismatches;
@@ -396,26 +324,18 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   if (out.calls == 0) out.failure = "the kernels were never called";
   if (out.mismatches > 0) out.failure = "FORTRAN and C++ differ";
   if (end.status != path_status::solved) out.failure = "FORTRAN's path does not reach its end";
-  if (corrected_end.status != path_status::solved) out.failure = "the corrected path does not reach its end";
-  if (!judged_corrected.all_exact()) out.failure = "the corrected kernel is not certified";
-  for (const expected_number& e : c.checks)
-    out.numbers.push_back(judged_number(e, {listing, judged}, {corrected, judged_corrected}));
+  if (right.came_to == verdict::wrong)
+    out.failure = "the corrected kernel is not certified";
+  else if (right.came_to != verdict::certified)
+    out.failure = "the corrected path does not reach its end";
+  for (const expected_number& e : c.checks) {
+    const auto at = static_cast<std::size_t>(e.step - 1);
+    const bool reached = at < out.certificates.size() && out.certificates[at];
+    out.numbers.push_back(
+        judged_number(e, {listing, reached ? &*out.certificates[at] : nullptr},
+                      {corrected, at < right.certificates.size() ? &right.certificates[at] : nullptr}));
+  }
   return out;
-}
-
-void verify_cases(const std::vector<verification_case>& cases, const std::string& folder, int jobs,
-                  const std::function<void(const verified_case& verified)>& take) {
-  const auto work = [&](std::int64_t task) {
-    const verification_case& c = cases[task];
-    return packed(verify_case(c, read_problem((std::filesystem::path(folder) / c.file).string())));
-  };
-  do_tasks(jobs, std::ssize(cases), work, [&](std::int64_t task, const std::string& result) {
-    verified_case verified;
-    unpack(result, verified);
-    for (std::size_t i = 0; i < verified.numbers.size(); ++i)
-      verified.numbers[i].expected = cases[task].checks[i];
-    take(verified);
-  });
 }
 
 }  // namespace contct::lab

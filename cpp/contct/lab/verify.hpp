@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,11 +29,7 @@ struct expected_number {
   double tolerance = 0.0;          ///< relative; absolute for a value of 0
   std::optional<double> faithful;  ///< what the 1989 rule gives instead
   std::string reason;              ///< why it does
-  std::string exact;     ///< the exact number, see number_printed; of a state, its name; empty: not known
-  std::string written;   ///< `value` with the digits that the file has
-  std::string printed;   ///< the same number elsewhere, with fewer digits; empty: nowhere
-  bool cut = false;      ///< `printed` is the exact number without its further digits, not rounded
-  std::string relation;  ///< why `value` is not the exact number rounded: "other model", "inexact"; or empty
+  std::string exact;  ///< the exact number, "p/q" or a decimal; of a state, its name; empty: not known
 };
 
 /// One problem file and its numbers.
@@ -86,9 +81,7 @@ class measurement final : public observer {
 
 /// What of one number does not agree with the exact one, in words; empty when all does, or when the exact
 /// number is not known. `computed` lies within `allowed` of it, or within the table's own tolerance where
-/// that is 0. What the table has as value is the exact number rounded to its digits, unless it says why not;
-/// then it is within its tolerance of it. What is printed elsewhere is the exact number rounded, or cut, as
-/// the table says.
+/// that is 0. The table's value is within its tolerance of it.
 [[nodiscard]] std::string exact_disagreement(const expected_number& e, double computed, double allowed);
 
 /// One number of the table, and what came out.
@@ -115,8 +108,6 @@ struct verified_case {
   std::vector<std::optional<certificate>> certificates;  ///< of the steps, on FORTRAN's path
   std::int64_t calls = 0, mismatches = 0;                ///< of the lockstep
   std::string failure;                                   ///< of the case as a whole; empty when there is none
-
-  [[nodiscard]] bool passed() const;
 };
 
 /// Run a problem twice, with FORTRAN leading C++ in lockstep and with the corrected kernel, and look at
@@ -125,10 +116,5 @@ struct verified_case {
 /// their certificates allow, which the table's numbers must agree with, too (see exact_disagreement). Not a
 /// bit may differ between FORTRAN and C++, and the corrected kernel's states must be certified.
 [[nodiscard]] verified_case verify_case(const verification_case& c, const problem& p);
-
-/// The same of all cases, whose problems are in `folder`, in `jobs` processes (0: one for each processor).
-/// `take` is told them in their order.
-void verify_cases(const std::vector<verification_case>& cases, const std::string& folder, int jobs,
-                  const std::function<void(const verified_case& verified)>& take);
 
 }  // namespace contct::lab
