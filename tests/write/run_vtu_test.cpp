@@ -14,21 +14,6 @@
 using namespace contct::app;
 using Catch::Matchers::Contains;
 
-namespace {
-
-/// All numbers of an array of a grid.
-std::vector<double> numbers(const std::string& vtu, const std::string& name) {
-  const std::size_t at = vtu.find(" Name=\"" + name + "\"");
-  REQUIRE(at != std::string::npos);
-  const std::size_t from = vtu.find(">\n", at) + 2;
-  std::istringstream text(vtu.substr(from, vtu.find('\n', from) - from));
-  std::vector<double> all;
-  for (double x = 0; text >> x;) all.push_back(x);
-  return all;
-}
-
-}  // namespace
-
 TEST_CASE("grids are well-formed, with as many points and cells as the structure and its pairs have") {
   for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
     const a_run r(text);
