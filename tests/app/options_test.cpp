@@ -89,7 +89,6 @@ TEST_CASE("the options of contct run arrive where they belong, in any order") {
   CHECK((o.strict && o.free_run && o.report.quiet));
   CHECK(o.engine == "auto");
   CHECK(o.max_increments == 7);
-  CHECK_FALSE(o.displacement);
 }
 
 TEST_CASE("a final state has no path, so --final-only excludes what belongs to one") {
