@@ -91,7 +91,7 @@ rm -r /tmp/fortran
 echo "-- libcontct-dev: a program in Fortran finds its module"
 remove libcontct-dev gfortran
 
-install python3-minimal
+install python3
 files /tmp/before
 install ./python3-contct_*.deb
 come python3-contct 5
