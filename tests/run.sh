@@ -66,15 +66,14 @@ with_tool() {
 }
 
 if [ "$full" = yes ]; then
-  need "for the sources' form" clang-format clang-tidy
+  need "for clang-tidy" clang-tidy
   need "for more compilers, as witnesses" flang-16 f2c libf2c2-dev clang
   need "for one more engine" libsuitesparse-dev
   need_petsc || true  # its tests are skipped where it cannot be had
   need "to compare with another program" calculix-ccx || true  # the same
   sh tests/bench/peers/siconos.sh build/release || true        # the same
   need "for the manual pages" mandoc
-  echo "== clang-format"
-  find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
+  sh tests/tree/format.sh
 fi
 for name in $legs; do
   build "$name"

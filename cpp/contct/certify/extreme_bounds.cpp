@@ -25,8 +25,8 @@ double rounding_in(const std::vector<double>& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
 
-/// How far a polynomial in Bernstein's form can be above `top`; what is below `close` does not matter. `reached`
-/// is how far it certainly is: its first and last coefficients are values.
+/// How far a polynomial in Bernstein's form can be above `top`; what is below `close` does not matter.
+/// `reached` is how far it certainly is: its first and last coefficients are values.
 double above(std::vector<double> b, double top, double close, int bisections, double& reached) {
   const double beyond = std::ranges::max(b) - top;
   reached = std::max({reached, b.front() - top, b.back() - top});

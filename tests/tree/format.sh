@@ -1,0 +1,11 @@
+#!/bin/sh
+# Is every source as clang-format writes it? A second or two.
+set -eu
+cd "$(dirname "$0")/../.."
+. cpp/install.sh
+need "for the sources' form" clang-format
+sources=$(find cpp tests -name '*.[ch]pp' -o -name '*.[ch]')
+count=$(echo "$sources" | wc -l)
+[ "$count" -ge 300 ] || { echo "only $count sources were found" >&2; exit 1; }
+echo "$sources" | xargs clang-format --dry-run --Werror
+echo "clang-format: $count sources"
