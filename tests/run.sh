@@ -90,7 +90,7 @@ if [ "$full" = yes ]; then
       build/release/tests/plugins/libvariant_reassociated.so --more
   done
   echo "== mutants of both kernels"
-  build/release/tests/contct_mutants
+  python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
   echo "== exact numbers of verification.toml"
   python3 tests/lab/write_exact.py build/release/contct reference --check --least 646
   echo "== proofs of all reference problems"
