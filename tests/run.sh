@@ -71,7 +71,6 @@ if [ "$full" = yes ]; then
   need "for one more engine" libsuitesparse-dev
   need_petsc || true  # its tests are skipped where it cannot be had
   need "to compare with another program" calculix-ccx || true  # the same
-  sh tests/bench/peers/siconos.sh build/release || true        # the same
   need "for the manual pages" mandoc
   echo "== clang-format"
   find cpp tests \( -name '*.[ch]pp' -o -name '*.[ch]' \) -exec clang-format --dry-run --Werror {} +
