@@ -208,21 +208,6 @@ void check_plates(const places& p, verdicts& v) {
   }
 }
 
-/// A test of the test: two decks that are wrong, and have to be noticed.
-void check_faults(const places& p, verdicts& v, const solved_problem& s) {
-  const calculix_deck deck = deck_of(s.given, s.steps[2], {3, 2, 500});
-  std::string linear = deck.text;
-  linear.replace(linear.find("*STEP,NLGEOM"), 12, "*STEP");
-  const difference without = compare_answers(s.steps[2], s.given, deck, run_calculix(p, "fault", linear));
-  v.check(!within(without, 1e-5, 3e-4), "a deck without NLGEOM is noticed: " + words_of(without));
-
-  problem moved = s.given;
-  moved.pairs[1].face *= 1.001;
-  const calculix_deck wrong = deck_of(moved, s.steps[2], {3, 2, 500});
-  const difference gap = compare_answers(s.steps[2], s.given, wrong, run_calculix(p, "fault", wrong.text));
-  v.check(!within(gap, 1e-5, 3e-4), "a gap wrong by a thousandth is noticed: " + words_of(gap));
-}
-
 }  // namespace
 
 void check_structures(const places& p, verdicts& v) {
@@ -238,7 +223,6 @@ void check_structures(const places& p, verdicts& v) {
   check_mesh(p, v);
   check_plates(p, v);
   check_settlements(p, v);
-  check_faults(p, v, gaps);
 }
 
 }  // namespace contct::app::peer
