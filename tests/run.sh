@@ -71,7 +71,6 @@ if [ "$full" = yes ]; then
   need "for one more engine" libsuitesparse-dev
   need_petsc || true  # its tests are skipped where it cannot be had
   need "to compare with another program" calculix-ccx || true  # the same
-  sh tests/bench/peers/siconos.sh build/release || true        # the same
   need "for the manual pages" mandoc
   sh tests/tree/format.sh
 fi
@@ -89,7 +88,7 @@ if [ "$full" = yes ]; then
       build/release/tests/plugins/libvariant_reassociated.so --more
   done
   echo "== mutants of both kernels"
-  build/release/tests/contct_mutants
+  python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
   echo "== exact numbers of verification.toml"
   python3 tests/lab/write_exact.py build/release/contct reference --check --least 646
   echo "== proofs of all reference problems"

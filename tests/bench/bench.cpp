@@ -18,7 +18,7 @@
 
 #include "bench/kernels.hpp"
 #include "bench/measure.hpp"
-#include "bench/peers/run_peers.hpp"
+#include "bench/peers.hpp"
 #include "bench/problems.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/lapack_identity.hpp"
@@ -38,8 +38,6 @@ struct options {
   std::string json_file;
   bool growth = false;
   bool without_kernels = false;
-  bool peers = false;
-  std::vector<std::string> programs = bench::peers::names();
 };
 
 /// One thread on one processor: ratios then mean what they say.
@@ -228,21 +226,26 @@ json bench_final_states(const std::string& name) {
           {"ratio", ratio}};
 }
 
-/// Other programs in place of the engines.
-int run_peers(const options& o) {
-  std::optional<contct::app::output_file> out;
-  if (!o.json_file.empty()) out.emplace(o.json_file);
-  pin();
-  const json rows = bench::peers::run(
-      o.programs, o.problems.empty() ? bench::peers::usual_problems() : o.problems, o.rounds);
-  if (!out) return 0;
-  out->write(json{{"blas", contct::app::lapack_identity()}, {"peers", rows}}.dump(1) + "\n");
-  out->finish();
-  return 0;
+/// CHOLMOD alone, where it was found, on a problem of one load step.
+void bench_peers(const options& o, const std::string& name, json& rows) {
+  show(name + ": CHOLMOD");
+  const contct::app::problem p = bench::make_problem(name);
+  if (p.steps.size() > 1) return;
+  for (const bench::peer_answer& a : bench::time_cholmod(p, contct::app::structure_of(p), o.rounds)) {
+    show("");
+    fmt::print("  CHOLMOD alone, {}: {:.1f} ms, {:.1f} digits, {} wrong statuses\n", a.method,
+               1e3 * a.seconds, a.digits, a.wrong_statuses);
+    rows.push_back({{"problem", name},
+                    {"method", a.method},
+                    {"ms", 1e3 * a.seconds},
+                    {"steps", a.steps},
+                    {"digits", a.digits},
+                    {"wrong_statuses", a.wrong_statuses},
+                    {"values", a.values}});
+  }
 }
 
 int run(options o) {
-  if (o.peers) return run_peers(o);
   if (o.problems.empty()) o.problems = bench::usual_problems();
   if (o.growth) o.problems = bench::growing_problems();
   std::optional<contct::app::output_file> out;
@@ -253,17 +256,18 @@ int run(options o) {
   json kernels = o.without_kernels ? json::array() : bench_kernels(o.rounds);
   json rows = json::array();
   json ends = json::array();
+  json peers = json::array();
   for (const std::string& name : o.problems) {
     bench_problem(o, name, rows);
-    if (!o.growth) ends.push_back(bench_final_states(name));
+    if (o.growth) continue;
+    ends.push_back(bench_final_states(name));
+    bench_peers(o, name, peers);
   }
   if (o.growth) print_exponents(rows);
   if (out) {
-    const json document = {{"blas", contct::app::lapack_identity()},
-                           {"core", core_type()},
-                           {"kernels", std::move(kernels)},
-                           {"rows", rows},
-                           {"final_states", std::move(ends)}};
+    const json document = {{"blas", contct::app::lapack_identity()}, {"core", core_type()},
+                           {"kernels", std::move(kernels)},          {"rows", rows},
+                           {"final_states", std::move(ends)},        {"peers", std::move(peers)}};
     out->write(document.dump(1) + "\n");
     out->finish();
   }
@@ -275,9 +279,7 @@ int run(options o) {
 int main(int argc, char** argv) {
   options o;
   CLI::App program("The engines side by side on problems by formula.", "contct_bench");
-  program
-      .add_option("--problem", o.problems,
-                  "Problems: rail-S, mat-N, grid-N, and with --peers solid-N; without it, the usual ones")
+  program.add_option("--problem", o.problems, "Problems: rail-S, mat-N, grid-N; without it, the usual ones")
       ->delimiter(',');
   program.add_option("--engine", o.engines, "Engines; refactor is what the others are measured by")
       ->delimiter(',')
@@ -291,12 +293,6 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 99))
       ->capture_default_str();
   program.add_flag("--growth", o.growth, "Run every family at sizes that grow, in place of --problem");
-  program.add_flag("--peers", o.peers, "Other programs in place of the engines, where they are found");
-  program.add_option("--peer", o.programs, "Only these programs")
-      ->delimiter(',')
-      ->check(CLI::IsMember(bench::peers::names()))
-      ->needs("--peers")
-      ->capture_default_str();
   program.add_flag("--without-kernels", o.without_kernels,
                    "Engines only; the kernels alone take some seconds");
   program.add_option("--json", o.json_file, "Write the rows to this file (- is standard output)");

@@ -76,7 +76,7 @@ std::string grid(int n) {
 
 }  // namespace
 
-std::string problem_text(const std::string& name) {
+contct::app::problem make_problem(const std::string& name) {
   const std::size_t dash = name.find('-');
   const std::string family = name.substr(0, dash);
   int size = 0;
@@ -90,11 +90,7 @@ std::string problem_text(const std::string& name) {
     throw std::invalid_argument("--problem: found \"" + name +
                                 "\"; allowed: rail-S (2 to 5000 spans), mat-N, grid-N (4 to 400 elements a "
                                 "side)");
-  return text;
-}
-
-contct::app::problem make_problem(const std::string& name) {
-  return contct::app::parse_problem(problem_text(name), name);
+  return contct::app::parse_problem(text, name);
 }
 
 std::vector<std::string> usual_problems() {

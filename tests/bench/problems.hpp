@@ -8,11 +8,7 @@
 
 namespace bench {
 
-/// The problem file of "rail-50", "mat-100", "grid-50": the family and its size. Throws
-/// std::invalid_argument for others.
-[[nodiscard]] std::string problem_text(const std::string& name);
-
-/// The same, read.
+/// "rail-50", "mat-100", "grid-50": the family and its size. Throws std::invalid_argument for others.
 [[nodiscard]] contct::app::problem make_problem(const std::string& name);
 
 /// The problems of the benchmark, smallest first.

@@ -42,21 +42,6 @@ def difference(patterns, lines):
     return None
 
 
-def headings(text):
-    """What the part of a link behind # can be, for a page."""
-    titles = re.findall(r"^#+ (.*)$", FENCE.sub("", text), re.M)
-    return {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}
-
-
-def broken_link(path, text):
-    """The first link of a page that leads to no file of the project, or to no heading there; None where all are good."""
-    for target, heading in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", FENCE.sub("", text)):
-        there = path.parent / target if target else path
-        if not there.exists() or (heading and heading not in headings(there.read_text())):
-            return f"{target}#{heading}" if heading else target
-    return None
-
-
 def wildcards(patterns):
     return sum(pattern.count(WILD) for pattern in patterns)
 

@@ -1,14 +1,15 @@
 /* A library to preload: it makes one call of the program fail, for tests.
  *
- *   FAULT_CALL   "memory": malloc, calloc, realloc and their kin; "new": of these what operator new and GMP
- * ask for; "malloc": the others; or the name of a system call: "write", "openat", .. FAULT_AT     the number
- * of the call that fails, from 1 at the beginning of main; 0: none FAULT_ERRNO  what the system call fails
- * with: 28 (ENOSPC) where nothing is said FAULT_MORE   "1": all calls behind it fail too FAULT_SIGNAL a
- * signal that the process gets at that call, which does not fail then FAULT_NO_LINK  "1": no file can be
- * linked to a name, as on some file systems: files are copied FAULT_CLOCK    N: the clock of the calendar
- * jumps, by hours and by centuries, the N-th of these jumps first FAULT_EVERY  K: every K-th allocation of
- * "new" fails, each in a process of its own that is forked there and must end with exit status 2: any other
- * ends the test with status 98 FAULT_COUNT  a file to which the number of calls is written at the end
+ * - FAULT_CALL: "memory": malloc, calloc, realloc and their kin; "new": of these what operator new and GMP
+ *   ask for; "malloc": the others; or the name of a system call: "write", "openat", ..
+ * - FAULT_AT: the number of the call that fails, from 1 at the beginning of main; 0: none
+ * - FAULT_ERRNO: what the system call fails with: 28 (ENOSPC) where nothing is said
+ * - FAULT_MORE: "1": all calls behind it fail too
+ * - FAULT_SIGNAL: a signal that the process gets at that call, which does not fail then
+ * - FAULT_NO_LINK: "1": no file can be linked to a name, as on some file systems: files are copied
+ * - FAULT_EVERY: K: every K-th allocation of "new" fails, each in a process of its own that is forked there
+ * and must end with exit status 2: any other ends the test with status 98
+ * - FAULT_COUNT: a file to which the number of calls is written at the end
  *
  * A system call is caught in the kernel (seccomp) and made again, or not, by the handler of SIGSYS: so calls
  * inside the C library are counted too. */
@@ -29,7 +30,6 @@
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -208,34 +208,6 @@ char* strndup(const char* text, size_t most) {
 int posix_memalign(void** block, size_t alignment, size_t bytes) {
   if (real_malloc == NULL) find_memory();
   return no_memory(__builtin_return_address(0)) ? ENOMEM : real_posix_memalign(block, alignment, bytes);
-}
-
-/* The clock of the calendar, and not the one that only counts, which nobody sets: it jumps to and fro. */
-
-static time_t jump(void) {
-  static const char* says = "";
-  static unsigned asked = 0;
-  if (says != NULL && *says == '\0') {
-    says = getenv("FAULT_CLOCK");
-    if (says != NULL) asked = (unsigned)atoi(says);
-  }
-  if (says == NULL) return 0;
-  static const time_t by[] = {0, -3600, 86400, -4000000000, 400000000000, -1};
-  return by[__atomic_fetch_add(&asked, 1, __ATOMIC_RELAXED) % (sizeof by / sizeof by[0])];
-}
-
-int clock_gettime(clockid_t clock, struct timespec* now) {
-  const int status = (int)syscall(SYS_clock_gettime, clock, now);
-  if (status == 0 && clock == CLOCK_REALTIME) now->tv_sec += jump();
-  return status;
-}
-
-time_t time(time_t* where) {
-  struct timespec now;
-  (void)syscall(SYS_clock_gettime, CLOCK_REALTIME, &now);
-  now.tv_sec += jump();
-  if (where != NULL) *where = now.tv_sec;
-  return now.tv_sec;
 }
 
 /* System calls. */

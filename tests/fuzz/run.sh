@@ -1,5 +1,5 @@
 #!/bin/sh
-# Feeds every reader and a whole run with inputs that libFuzzer makes up, under AddressSanitizer and
+# Feeds every reader with inputs that libFuzzer makes up, under AddressSanitizer and
 # UndefinedBehaviorSanitizer: sh tests/fuzz/run.sh [SECONDS] [NAME]...
 # SECONDS: for each fuzzer, 60 unless given; NAME: of tests/fuzz/targets.txt, all unless given.
 #     sh tests/fuzz/run.sh --coverage

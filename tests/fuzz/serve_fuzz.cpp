@@ -2,12 +2,12 @@
 // as JSON.
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "contct/serve/serve.h"
 #include "fuzz/fuzz.hpp"
-#include "fuzz/read_back.hpp"
 #include "read/good_problem.hpp"
 
 namespace {
@@ -48,7 +48,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (names_a_command(options)) return 0;
   const std::string answer = answer_to(text.substr(0, end), options);
   if (answer.empty()) return 0;
-  const auto read = json_in(answer, "an answer");
+  const auto read = nlohmann::json::parse(answer, nullptr, false);
+  require(!read.is_discarded(), "an answer is JSON in UTF-8", answer);
   const int exit = read["exit"].get<int>();
   require(exit >= 0 && exit <= 5, "an answer has an exit status", answer);
   require(read["error"].is_null() == (exit != 2), "an error goes with exit 2", answer);

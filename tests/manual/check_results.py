@@ -132,8 +132,7 @@ def plainly(program, root, plugin, bench, folder):
                               ["explain", "long.toml", "--exact", "--increment", "1.1"],
                               ["explain", root / "reference/structures/frame.toml"],
                               ["explain", pb07, "--kernels", f"fortran,plugin:{plugin}"]],
-        "speed.md": [["--problem", "rail-3", "--engine", "refactor,updated", "--rounds", "1"],
-                     ["--peers", "--peer", "ours", "--problem", "rail-3", "--rounds", "1"]]}
+        "speed.md": [["--problem", "rail-3", "--engine", "refactor,updated", "--rounds", "1"]]}
     count = 0
     for page, lines in results.items():
         text, found = (root / "reference" / page).read_text(), set()

@@ -1,4 +1,4 @@
-"""commands.py ROOT PROGRAMS NOT_RUN LEAST [PAGE..]: runs every command that the pages outside the course show, and compares what
+"""commands.py ROOT PROGRAMS NOT_RUN LEAST: runs every command that the pages outside the course show, and compares what
 comes out where a page shows that.
 
 A command stands in a block fenced as `sh` (the `text` block behind it is its output), in an indented line, or in a code span. FILE
@@ -100,11 +100,11 @@ def wrong_in(here, command, shown, allowed):
     return difference(shown, lines) if shown else None
 
 
-def main(root, programs, not_run, least, *only):
+def main(root, programs, not_run, least):
     root, programs = Path(root).resolve(), Path(programs).resolve()
     excused, used, ran = reasons(Path(not_run)), set(), 0
     pages = [root / "README.md", *sorted((root / "reference").rglob("*.md"))]
-    for page in [Path(name) for name in only] or [page for page in pages if page.parent.name != "course"]:
+    for page in (page for page in pages if page.parent.name != "course"):
         here, name = place(root, programs), str(page.resolve().relative_to(root))
         for line, command, shown in commands_of(page.read_text()):
             reason = excused.get((name, command), "")
@@ -116,7 +116,7 @@ def main(root, programs, not_run, least, *only):
             if wrong := wrong_in(here, command, shown, int(ends[1]) if ends else 0):
                 return f"{name}:{line}: {command}: {wrong}"
             ran += 1
-    if unused := [] if only else sorted(excused.keys() - used):
+    if unused := sorted(excused.keys() - used):
         return f"{not_run}: found {': '.join(unused[0])}; allowed: a command that this page shows"
     if ran < int(least):
         return f"found {ran} commands, allowed: {least} or more"

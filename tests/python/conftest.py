@@ -12,7 +12,7 @@ if os.environ.get("CONTCT_TEST_NUMPY") == "hidden":
 ROOT = Path(__file__).resolve().parents[2]
 PROBLEMS = ROOT / "reference/problems"
 sys.path.insert(0, os.environ["CONTCT_BUILD"])  # contct.py and libcontct.so
-sys.path.append(str(ROOT / "tests/course"))  # page.py and run_page.py
+sys.path.append(str(ROOT / "tests/course"))  # page.py
 
 
 @pytest.fixture

@@ -1,5 +1,5 @@
 """Fails when a sentence for users has a phrase of phrases.txt: the program's messages, help and page, README.md and reference/.
-Usage: words.py ROOT PHRASES LEAST [FILE..]   FILE: only these, instead of those of the project."""
+Usage: words.py ROOT PHRASES LEAST"""
 import glob
 import os
 import re
@@ -39,10 +39,10 @@ def phrases_in(path):
     return list_
 
 
-def main(root, phrases, least, *only):
+def main(root, phrases, least):
     looked_at, found = 0, []
     list_ = phrases_in(phrases)
-    for name in only or files_of(root):
+    for name in files_of(root):
         with open(os.path.join(root, name), encoding="utf-8") as file:
             texts = READERS[os.path.splitext(name)[1]](file.read())
         keys = name.endswith((".cpp", ".hpp", ".js", ".py"))

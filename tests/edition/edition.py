@@ -1,0 +1,137 @@
+"""edition.py [--write]: reference/parallel-edition.md and .html are what parallel-edition.toml and the sources make, and the map is
+complete: every statement of the listing is in it once, and every block of C++ stands in its file once. With --write they are
+written.
+"""
+import html
+import sys
+import tomllib
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).absolute().parents[2]  # a copy of the project may have a link to this folder
+LISTING = "fortran/contct.f"
+COMMAND = "python3 tests/edition/edition.py --write"
+STEPS = ["1", "2", "3", "4", "5, 6", "7", "8", "9 to 11", "12, 13", "14", "14", "14"]
+KEYS = {"step", "title", "paper", "equation", "note", "listing", "cpp"}
+STATEMENTS = 45
+# The section between these is what the page of a run embeds.
+HEAD = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>CONTCT: the parallel edition</title>
+<style>
+body { margin: 0 auto; max-width: 84rem; padding: 1rem clamp(0.8rem, 3vw, 2rem) 3rem; line-height: 1.5;
+  font-family: system-ui, "Helvetica Neue", "Noto Sans", "DejaVu Sans", sans-serif; overflow-wrap: anywhere; }
+p, blockquote { max-width: 46rem; }
+blockquote { margin: 0.3rem 0; padding-left: 0.8rem; border-left: 3px solid gray; }
+h3 { margin: 2rem 0 0.3rem; }
+table { width: 100%; table-layout: fixed; border-collapse: collapse; }
+th, td { vertical-align: top; text-align: left; padding: 0 0.6rem 0 0; }
+pre { overflow-x: auto; margin: 0.2rem 0 0.6rem; padding: 0.5rem; border: 1px solid gray; border-radius: 0.3rem;
+  font-size: 0.8rem; overflow-wrap: normal; }
+@media (max-width: 56rem) { table, tbody, tr, th, td { display: block; padding: 0; } th + th { display: none; } }
+@media print { pre { white-space: pre-wrap; } h3 { break-after: avoid; } }
+</style>
+</head>
+<body>
+<h1>CONTCT: the listing of 1989 and the C++ beside it</h1>
+"""
+TABLE = f"<table>\n<tr><th>FORTRAN, <code>{LISTING}</code></th><th>C++</th></tr>\n"
+
+
+def lines_of(file):
+    return (ROOT / file).read_text().splitlines()
+
+
+def quoted(block):
+    """The lines that a block of the map quotes, without indentation."""
+    return [line.strip() for line in block["text"].splitlines() if line.strip()]
+
+
+def places_of(block):
+    """Where in its file a block stands, the first line of each place, from 0."""
+    there, wanted = [line.strip() for line in lines_of(block["file"])], quoted(block)
+    return [at for at in range(len(there)) if there[at:at + len(wanted)] == wanted]
+
+
+def check(parts):
+    statements = {number for number, line in enumerate(lines_of(LISTING), 1) if line.strip() and line[0] not in "Cc*!"}
+    mapped = Counter(number for part in parts for number in part["listing"])
+    assert mapped == Counter(statements), f"{LISTING}: lines left out, twice or comments: {mapped - Counter(statements)}, " \
+                                          f"{Counter(statements) - mapped}"
+    assert len(statements) == STATEMENTS, f"found {len(statements)} statements, allowed: {STATEMENTS}"
+    assert [part["step"] for part in parts if part["step"]] == STEPS, "the steps of the paper's algorithm are not in their order"
+    for part in parts:
+        assert part.keys() == KEYS and part["cpp"], f"{part['title']}: found {sorted(part)}; allowed: {sorted(KEYS)}"
+        for block in part["cpp"]:
+            count = len(places_of(block))
+            assert count == 1, f"{block['file']}: {quoted(block)[0]} and what follows stands there {count} times; allowed: once"
+
+
+def heading(part):
+    return f"Step {part['step']}: {part['title']}" if part["step"] else part["title"]
+
+
+def listing_code(part):
+    """Fixed form keeps its columns: labels stand before column 6."""
+    there = lines_of(LISTING)
+    return "".join(f"{number} {there[number - 1]}\n" for number in part["listing"])
+
+
+def cpp_code(block):
+    """Numbered, and moved to the left as far as the lines go together."""
+    first, count = places_of(block)[0], len(quoted(block))
+    there = lines_of(block["file"])[first:first + count]
+    indent = min(len(line) - len(line.lstrip(" ")) for line in there)
+    return "".join(f"{first + i + 1:3}  {line[indent:]}\n" for i, line in enumerate(there))
+
+
+def plain(text):
+    """In Markdown a star and an underscore mean something."""
+    return "".join("\\" + ch if ch in "*_<" else ch for ch in text)
+
+
+def markdown_page(edition):
+    page = f"# The parallel edition\n\n{edition['introduction'].strip(chr(10))}\n\nMade from `reference/parallel-edition.toml` and the " \
+           f"sources, not by hand:\n\n```sh\n{COMMAND}\n```\n"
+    for part in edition["part"]:
+        page += f"\n## {plain(heading(part))}\n\n> {plain(part['paper'])}"
+        page += f" **Eq. {part['equation']}**" if part["equation"] else ""
+        page += f"\n\n{TABLE}<tr><td valign=\"top\">\n\n```fortran\n{listing_code(part)}```\n\n</td><td valign=\"top\">\n"
+        for block in part["cpp"]:
+            page += f"\n`{block['file']}`\n\n```cpp\n{cpp_code(block)}```\n"
+        page += f"\n</td></tr>\n</table>\n\n{plain(part['note'])}\n"
+    return page
+
+
+def html_page(edition):
+    def escaped(text):
+        return html.escape(text, quote=False)
+
+    page = HEAD + "<section class=\"parallel-edition\">\n<h2>The parallel edition</h2>\n" \
+                  f"<p>{escaped(edition['introduction'].strip(chr(10)))}</p>\n"
+    for part in edition["part"]:
+        page += f"<h3>{escaped(heading(part))}</h3>\n<blockquote>{escaped(part['paper'])}"
+        page += f" <b>Eq. {escaped(part['equation'])}</b>" if part["equation"] else ""
+        page += f"</blockquote>\n{TABLE}<tr><td><pre>{escaped(listing_code(part))}</pre></td>\n<td>"
+        for block in part["cpp"]:
+            page += f"<p><code>{escaped(block['file'])}</code></p>\n<pre>{escaped(cpp_code(block))}</pre>\n"
+        page += f"</td></tr>\n</table>\n<p>{escaped(part['note'])}</p>\n"
+    return page + "</section>\n</body>\n</html>\n"
+
+
+def main():
+    edition = tomllib.loads((ROOT / "reference/parallel-edition.toml").read_text())
+    check(edition["part"])
+    for ending, page in (("md", markdown_page(edition)), ("html", html_page(edition))):
+        file = ROOT / f"reference/parallel-edition.{ending}"
+        if "--write" in sys.argv:
+            file.write_text(page)
+        assert file.read_text() == page, f"{file.name} is not what the map and the sources make; {COMMAND} makes it"
+
+
+if __name__ == "__main__":
+    main()

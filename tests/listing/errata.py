@@ -1,0 +1,156 @@
+"""errata.py FORTRAN CMAKE ROOT: every erratum of reference/errata.toml is undone in turn on a copy of the listing, and what then
+happens must be what the file says. An erratum that nothing notices fails, and so does a table of ERRATA.md that says otherwise.
+"""
+import resource
+import subprocess
+import sys
+import tempfile
+import tomllib
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+from battery import BATTERY
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "support"))
+from edits import edited  # noqa: E402
+
+FORTRAN, CMAKE, ROOT = sys.argv[1], sys.argv[2], Path(sys.argv[3])
+LISTING = (ROOT / "fortran/contct.f").read_text()
+KEYS = {"number", "title", "ocr", "compiled", "class", "confidence", "evidence", "undo"}
+KEYS_OF_UNDO = {"name", "replace", "compile", "expect", "call", "field"}
+CLASSES = {"syntax", "semantics", "standard", "cosmetic"}
+CONFIDENCES = {"certain", "likely", "ambiguous"}
+OUTCOMES = {"does-not-compile", "aborts-under-bounds-check", "dies", "other-numbers", "other-text", "source-only"}
+LEAST_ERRATA, LEAST_UNDOS, LEAST_CALLS = 22, 80, 50
+
+
+@dataclass
+class Behaviour:
+    """All that one copy did: answers of the calls that returned, (call, field, value), and unit 26."""
+    compiles: bool
+    ends_well: bool = False
+    answers: tuple = ()
+    text: str = ""
+    complaint: str = ""
+
+
+def try_out(source, options):
+    """A copy, compiled and put to the battery."""
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "copy.f").write_text(source)
+        # The linker is told to miss CONTCT, so that a subroutine of another name is no success.
+        compiled = subprocess.run([FORTRAN, "-shared", "-fPIC", "-fdefault-real-8", "-ffp-contract=off", "-std=legacy", "-ffixed-form",
+                                   "-Wl,--require-defined=contct_", *options, "copy.f", "-o", "copy.so"],
+                                  cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+        if compiled.returncode < 0 or "internal compiler error" in compiled.stderr or "terminated program" in compiled.stderr:
+            raise ValueError(f"the compiler broke down: {compiled.stderr}")
+        if compiled.returncode != 0:
+            return Behaviour(False, complaint=compiled.stderr)
+        ran = subprocess.run([sys.executable, HERE / "battery.py", "./copy.so"], cwd=folder, capture_output=True, text=True, timeout=60,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (2, 2)), check=False)
+        answers = tuple(tuple(line.split("|")) for line in ran.stdout.splitlines())
+        unit_26 = Path(folder, "fort.26")
+        return Behaviour(True, ran.returncode == 0, answers, unit_26.read_text() if unit_26.exists() else "", ran.stderr)
+
+
+def checksum_refuses(source):
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "copy.f").write_text(source)
+        check = subprocess.run([CMAKE, "-DLISTING=copy.f", f"-DCHECKSUM={ROOT / 'reference/contct.f.sha256'}", "-P",
+                                HERE / "checksum.cmake"], cwd=folder, capture_output=True, text=True, check=False)
+    return check.returncode != 0 and "The listing has been edited" in check.stderr
+
+
+def outcome(listing, copy, source):
+    """How a copy differs from the listing, as (what, call, field): the first difference there is."""
+    if not copy.compiles:
+        return "does-not-compile", "", ""
+    if not copy.ends_well:
+        answered = {call for call, _, _ in copy.answers}
+        at_bounds = "Fortran runtime error: Index" in copy.complaint and " bound of " in copy.complaint
+        return "aborts-under-bounds-check" if at_bounds else "dies", next((c for c in BATTERY if c not in answered), ""), ""
+    for theirs, ours in zip(copy.answers, listing.answers):
+        if theirs != ours:
+            return "other-numbers", *theirs[:2]
+    if copy.text != listing.text:
+        return "other-text", "", ""
+    return "source-only" if checksum_refuses(source) else "unnoticed", "", ""
+
+
+def in_one_line(text):
+    """As the OCR shows it: every run of blanks and line ends is one blank."""
+    return " ".join(text.split())
+
+
+def check_undos(erratum, untouched):
+    """Carry out every undo of an erratum."""
+    undone = []
+    for undo in erratum["undo"]:
+        where = f"erratum {erratum['number']}, undo {undo['name']}"
+        assert undo.keys() <= KEYS_OF_UNDO and undo["expect"] in OUTCOMES, f"{where}: {undo}"
+        options = tuple(undo.get("compile", ()))
+        if options not in untouched:
+            untouched[options] = try_out(LISTING, options)
+        assert untouched[options].ends_well, f"{where}: these options spoil the listing itself: {untouched[options].complaint}"
+        copy = edited(LISTING, [(r["from"], r["to"]) for r in undo["replace"]])
+        seen = outcome(untouched[options], try_out(copy, options), copy)
+        expected = undo["expect"], undo.get("call", ""), undo.get("field", "")
+        assert seen == expected, f"{where}: found {seen}, allowed: {expected}"
+        undone.append(in_one_line(copy))
+    return undone
+
+
+def row(erratum):
+    """Of the first table of ERRATA.md; outcomes in order of first appearance, with how often each is seen."""
+    ocr, compiled = (", ".join(f"`{text}`" for text in erratum[key]) for key in ("ocr", "compiled"))
+    seen = Counter(undo["expect"] for undo in erratum["undo"])
+    outcomes = ", ".join(what + (f" ({n})" if n > 1 else "") for what, n in seen.items())
+    return f"| {erratum['number']} | {ocr} | {compiled} | {erratum['class']} | {erratum['confidence']} | {outcomes} |"
+
+
+def check_page(errata):
+    page = (ROOT / "reference/ERRATA.md").read_text()
+    rows = [line for line in page.splitlines() if line.startswith("| ") and line[2].isdigit()]
+    for wanted, found in zip(map(row, errata), rows, strict=True):
+        assert wanted == found, f"ERRATA.md: found {found}, allowed: {wanted}"
+    assert len(errata[5]["undo"]) == 8, "erratum 6: seven places, and all of them together"
+    for undo in errata[5]["undo"]:
+        wanted = f"| {undo['name']} | {undo['call']} | `{undo['field']}` |\n"
+        assert wanted in page, f"ERRATA.md has no row {wanted}"
+
+
+def check_battery(listing):
+    """It is large enough, and reaches every line."""
+    assert listing.ends_well and {call for call, _, _ in listing.answers} == set(BATTERY) and len(BATTERY) >= LEAST_CALLS, listing
+    for text in ("NO EVENTS", "MAKING CONTACT", "BREAKING CONTACT", "CONTACT PAIR:", "NODE: ***"):
+        assert text in listing.text, f"no call writes {text}"
+
+
+def main():
+    errata = tomllib.loads((ROOT / "reference/errata.toml").read_text())["erratum"]
+    untouched = {(): try_out(LISTING, ())}
+    check_battery(untouched[()])
+    assert outcome(untouched[()], try_out(LISTING, ()), LISTING)[0] == "unnoticed", "the listing differs from itself"
+    outcomes = Counter()
+    for number, erratum in enumerate(errata, 1):
+        where = f"erratum {number}"
+        assert erratum.keys() == KEYS and erratum["number"] == number, f"{where}: {erratum}"
+        assert erratum["class"] in CLASSES and erratum["confidence"] in CONFIDENCES, f"{where}: {erratum}"
+        undone = check_undos(erratum, untouched)
+        expected = [undo["expect"] for undo in erratum["undo"]]
+        assert erratum["class"] == "cosmetic" or set(expected) != {"source-only"}, f"{where} hides from everything but the checksum"
+        for part in erratum["compiled"]:
+            assert part in in_one_line(LISTING), f"{where}: {part} is not in the listing"
+        for part in erratum["ocr"]:
+            assert any(part in copy for copy in undone), f"{where}: {part} is in no undone copy"
+        outcomes.update(expected)
+    assert set(outcomes) == OUTCOMES, outcomes
+    assert len(errata) >= LEAST_ERRATA and outcomes.total() >= LEAST_UNDOS, f"found {len(errata)} errata, {outcomes.total()} undos"
+    check_page(errata)
+    print(f"{len(errata)} errata, {outcomes.total()} undos, {len(BATTERY)} calls")
+
+
+if __name__ == "__main__":
+    main()

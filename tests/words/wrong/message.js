@@ -1,2 +1,0 @@
-// An oracle in a comment is no sentence for users.
-const words = `State ${"of open pairs"}`;
