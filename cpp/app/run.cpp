@@ -162,7 +162,8 @@ void go(shown_run& o) {
         &rows.emplace(setup.what, o.run.compared(), o.run.judged, setup.screen, setup.options.detail));
   shown.push_back(progress.behind.get());
   const output_files& f = o.files;
-  o.run.go({f["--json"], f["--log"], f["--trace"], f["--proof"], f["--html"], f["--csv"], f[csv_pairs]},
+  o.run.go({f["--json"], result_parts::ends, f["--log"], f["--trace"], f["--proof"], f["--html"], f["--csv"],
+            f[csv_pairs]},
            shown);
   progress.line.erase();
   if (!rows) return;
@@ -241,7 +242,7 @@ check_report check_report_of(const shown_run& o) {
 /// Complete and name all files.
 void write_files(shown_run& o) {
   o.run.finish();
-  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.pictures.vtu, o.run.finished());
+  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.pictures.vtu, o.run.result());
   o.files.write(check_report_of(o));
 }
 

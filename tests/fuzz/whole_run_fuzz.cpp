@@ -20,7 +20,6 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/serve/exact_run.hpp"
-#include "contct/serve/states.hpp"
 #include "contct/session/run.hpp"
 #include "contct/write/exact_output.hpp"
 #include "contct/write/explain.hpp"
@@ -161,7 +160,7 @@ class whole_run {
   }
 
   void follow_and_write();
-  void read_back_pictures(const finished_run& r);
+  void read_back_pictures(const run_result& r);
   void read_back_reports(const path_end& end);
 
   /// The same path on an engine, where that suits; without kernels the ends alone.
@@ -247,20 +246,18 @@ void whole_run::follow_and_write() {
   require(json_in(proof.text, "a proof")["steps"].size() <= run.judged.steps().size(), "a proof's steps");
   for (const std::string& line : rows.legend()) print_text(line + "\n");
   check_printed(printed_.take());
-  read_back_pictures(run.finished());
+  read_back_pictures(run.result());
   read_back_reports(run.end);
 }
 
-void whole_run::read_back_pictures(const finished_run& r) {
-  const auto data = data_in_page(run_page(r));
-  require(data == nlohmann::json::parse(
-                      page_data(r).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)),
-          "a page has its data");
-  (void)json_in(states_json(r), "states");
+void whole_run::read_back_pictures(const run_result& r) {
+  kept_text whole;
+  write_result(r, whole.file, result_parts::report);
+  require(data_in_page(run_page(r)) == json_in(whole.text, "a result with states"), "a page has its data");
   const auto* a = std::get_if<assembled>(&p_.geometry.kind);
   if (a != nullptr && !a->places.known()) return;
-  for (const frame& f : r.kept.frames()) check_vtu(vtu_of_frame(p_, f));
-  (void)xml_in(pvd_of_frames(file_, r.kept.frames().size()), "VTKFile");
+  for (const frame& f : r.frames) check_vtu(vtu_of_frame(p_, f));
+  (void)xml_in(pvd_of_frames(file_, r.frames.size()), "VTKFile");
 }
 
 void whole_run::read_back_reports(const path_end& end) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <type_traits>
@@ -95,6 +96,38 @@ data_array points_of(const problem& p) {
   return {"points", 3, std::move(at)};
 }
 
+/// A displacement of a structure from elsewhere.
+using in_space = std::array<double, 3>;
+
+/// The dof, from 0, of a node along each axis and about it; -1 where it has none.
+struct dofs_of_node {
+  std::array<int, 3> along{-1, -1, -1};
+  std::array<int, 3> about{-1, -1, -1};
+
+  [[nodiscard]] bool operator==(const dofs_of_node&) const = default;
+};
+
+/// Of each node.
+std::vector<dofs_of_node> dofs_of_nodes(const placed_nodes& places) {
+  std::vector<dofs_of_node> list(places.nodes.size());
+  for (std::size_t dof = 0; dof < places.dofs.size(); ++dof) {
+    const placed_dof& at = places.dofs[dof];
+    if (at.node < 0) continue;
+    dofs_of_node& of = list[at.node];
+    const int axis = (at.direction - 1) % 3;
+    (at.is_length() ? of.along : of.about)[axis] = static_cast<int>(dof);
+  }
+  return list;
+}
+
+/// The numbers [dofs] at three dofs; 0 where there is none.
+in_space reading_at(const std::array<int, 3>& dofs, const std::vector<double>& numbers) {
+  in_space u{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (dofs[axis] >= 0) u[axis] = numbers[dofs[axis]];
+  return u;
+}
+
 /// The reaction at each dof; 0 where nothing holds it.
 std::vector<double> reactions_at_dofs(const problem& p, const frame& f) {
   const load now = load_path(p).at(f.step, f.fraction);
@@ -113,14 +146,14 @@ struct point_arrays {
 
 /// Displacements and reactions, and rotations where there are any.
 point_arrays mesh_point_data(const problem& p, const placed_nodes& places, const frame& f) {
-  const frame reacting{.displacement = reactions_at_dofs(p, f)};
+  const std::vector<double> reacting = reactions_at_dofs(p, f);
   std::vector<double> displacement;
   std::vector<double> rotation;
   std::vector<double> reaction;
   bool turns = false;
   for (const dofs_of_node& of : dofs_of_nodes(places)) {
-    const in_space u = reading_at(of.along, f);
-    const in_space r = reading_at(of.about, f);
+    const in_space u = reading_at(of.along, f.displacement);
+    const in_space r = reading_at(of.about, f.displacement);
     displacement.insert(displacement.end(), u.begin(), u.end());
     rotation.insert(rotation.end(), r.begin(), r.end());
     const in_space force = reading_at(of.along, reacting);
