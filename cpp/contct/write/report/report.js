@@ -983,20 +983,6 @@ function offerViews() {
   select.addEventListener("change", () => { view = Number(select.value); draw(frames[current]); });
 }
 
-// ---- and where they have none ----
-
-function drawNothingButNumbers(f) {
-  const none = () => element("td", {}, "–");
-  const rows = pairsOf(f).slice(0, mostPairRows).map((p) => row(element("th", { scope: "row", class: "words" }, p.name),
-    cell(`pair ${p.pair}, face ${p.surface} at ${short(p.face)}`), cell(lookWords(p)), cell(p.w), cell(p.gap), cell(p.force)));
-  rows.unshift(row(element("th", { scope: "row", class: "words" }, paths[0].name), cell("moves most on the path"), cell("–"), cell(paths[0].read(f)), none(), none()));
-  const table = element("table", { id: "state-table" }, head(["Dof", true], ["What it is", true], ["State", true], ["Displacement"], ["Gap"], ["Force"]), element("tbody", {}, ...rows));
-  // Kept, so that its place in a long table is too.
-  const holder = byId("picture");
-  if (!holder.firstChild) holder.append(element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Pairs, and the dof that moves most" }));
-  holder.firstChild.replaceChildren(table);
-}
-
 // ---- load against deflection ----
 
 const sumOf = (f) => f.load.force ?? f.load.sum ?? 0;
@@ -1311,13 +1297,15 @@ const quantityHead = (name) => inUnit(/^m[xy]/.test(name) || name === "w" ? name
 const largestBy = (list, value) => list.reduce((a, b) => (Math.abs(value(b)) > Math.abs(value(a)) ? b : a));
 
 const mostTableRows = 40;
-// The first rows, or those with the largest values; what is cut is told in the title and at the end of the page.
-function cutTable(title, names, rows, sizeOf = null) {
-  if (rows.length <= mostTableRows) return rows.length > 0 ? [tableOf({ title, head: names, rows })] : [];
+// The first rows, or those of the largest size; what is cut is told in the title and at the end of the page.
+function cutTable(title, names, rows, sizeOf = null, cellsOf = (row) => row) {
+  if (rows.length === 0) return [];
+  if (rows.length <= mostTableRows) return [tableOf({ title, head: names, rows: rows.map(cellsOf) })];
   const how = `${sizeOf ? "largest" : "first"} ${mostTableRows} of ${rows.length}`;
   cuts.add(`${title}: the table has the ${how} rows.`);
-  const kept = sizeOf ? new Set([...rows].sort((a, b) => sizeOf(b) - sizeOf(a)).slice(0, mostTableRows)) : new Set(rows.slice(0, mostTableRows));
-  return [tableOf({ title: `${title} (${how})`, head: names, rows: rows.filter((r) => kept.has(r)) })];
+  const order = sizeOf ? [...rows].sort((a, b) => sizeOf(b) - sizeOf(a)) : rows;
+  const kept = new Set(order.slice(0, mostTableRows));
+  return [tableOf({ title: `${title} (${how})`, head: names, rows: rows.filter((r) => kept.has(r)).map(cellsOf) })];
 }
 
 // The larger of both values by magnitude, then the other one where its sign differs.
@@ -1368,17 +1356,16 @@ const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" 
 
 // The ends of steps as columns, six in each table; rows that are 0 in all of them may be left out.
 function besideEachOther(steps, title, names, begins, read, zerosLeftOut) {
-  const rows = begins.map((begin, i) => ({ begin, values: steps.map((s) => read(s, i)) }));
-  const told = rows.filter((r) => !zerosLeftOut || r.values.some(([value]) => value !== 0));
+  const rows = begins.map((begin, i) => ({ begin, cells: steps.map((s) => read(s, i)) }));
+  const sizeOf = (r) => Math.max(...r.cells.map(([value]) => Math.abs(value)));
+  const told = rows.filter((r) => !zerosLeftOut || sizeOf(r) > 0);
   const zeros = rows.length - told.length;
   const whole = zeros === 0 ? title : `${title}; ${zeros} that are 0 at all of these ends have no row`;
   if (zeros > 0) cuts.add(`${whole}.`);
   const tables = [];
   for (let from = 0; from < steps.length; from += 6) {
-    const [some, cellsOf] = [steps.slice(from, from + 6), (r) => [...r.begin, ...r.values.slice(from, from + 6).map((value) => [value])]];
-    const sizes = new Map(told.map((r) => [r, Math.max(...r.values.map(([value]) => Math.abs(value)))]));
-    const listed = new Map(told.map((r) => [cellsOf(r), sizes.get(r)]));
-    tables.push(...cutTable(whole, [...names, ...some.map((s) => `Step ${stepName(s)}`)], [...listed.keys()], (cells) => listed.get(cells)));
+    const beside = steps.slice(from, from + 6).map((s) => `Step ${stepName(s)}`);
+    tables.push(...cutTable(whole, [...names, ...beside], told, sizeOf, (r) => [...r.begin, ...r.cells.slice(from, from + 6).map((c) => [c])]));
   }
   return tables;
 }
@@ -1485,7 +1472,7 @@ function showLog() {
 
 function showThinned() {
   for (const note of structure.notes || []) cuts.add(note);
-  const within = increments.length + 1 + result.steps.filter((s) => s.increments.length === 0 || s.ended_by === "oracle").length;
+  const within = increments.length + 1 + result.steps.filter((s) => !endsAt(s, s.increments.length - 1)).length;
   if (frames.length < within) cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the increments, evenly chosen, and the ends of steps.`);
   if (frames.some((f) => f.load.words !== "none" && f.load.words !== "" && !f.load.uniform && !f.load.point && !f.load.settlement)) cuts.add("Loads of more than 32 parts are not drawn: their sum is told.");
   if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
@@ -1534,8 +1521,8 @@ function showLegend() {
     byId("magnification-label").textContent = "Displacements drawn";
   } else if (!plate) {
     list.length = 0;
-    byId("picture-words").textContent = "No coordinates of this structure are known, so a table takes the picture's place: " +
-      "the dof that moves most on the path, and the pairs. [matrix] takes coordinates, [calculix] the mesh in CalculiX's input.";
+    byId("picture-words").textContent = "No coordinates of this structure are known, so it is not drawn. " +
+      "[matrix] takes coordinates, [calculix] the mesh in CalculiX's input.";
     byId("magnification").parentElement.hidden = true;
   } else {
     const down = svg("g", { class: "load" }, svg("circle", { cx: 11, cy: 9, r: 7, "fill-opacity": 0 }), svg("path", { d: "M7 5l8 8m-8 0l8 -8" }));
@@ -1564,7 +1551,6 @@ function draw(f) {
   if (beam) drawBeam(f);
   else if (plate) drawPlate(f);
   else if (mesh) drawMesh(f);
-  else drawNothingButNumbers(f);
 }
 
 function show(n) {

@@ -44,12 +44,15 @@ function placesOf({ structure }) {
   return { pairs: structure.pairs.map((p) => ({ ...p, ...placed(p), side: p.surface === "above" ? 1 : -1 })), supports: [...supports.values()] };
 }
 
+// Whether a step ends where its increment number `n`, from 0, does: the state is the step's then.
+const endsAt = ({ increments, fraction, ended_by }, n) => n >= 0 && n === increments.length - 1 && increments[n].fraction === fraction && ended_by !== "oracle";
+
 // The unloaded structure, then every state of the path that the result has.
 function framesOf(result, { pairs } = placesOf(result)) {
   const { structure } = result;
   const frames = [];
   const add = (state, how) => frames.push({
-    ...how, u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
+    end: false, exact: false, rescued: false, ...how, u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
     pairs: pairs.map((p, i) => {
       const [w, closed] = [state.displacement[p.u], state.pairs[i].state === "contact"];
       const look = Math.abs(p.face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // the listing's EPSGAP
@@ -69,10 +72,10 @@ function framesOf(result, { pairs } = placesOf(result)) {
     const rescued = step.ended_by === "oracle";
     step.increments.forEach((i, n) => {
       const how = { at: ++at, step: step.step, number: i.increment, fraction: i.fraction, s: i.s, snap: i.snap, events: i.events, load: i.load };
-      if (n === step.increments.length - 1 && !rescued) add(step, { ...how, ...end });
+      if (endsAt(step, n)) add(step, { ...how, ...end });
       else if (i.displacement) add(i, how);
     });
-    if (rescued || step.increments.length === 0) add(step, { ...end, at, number: 0, s: 0, events: [], rescued });
+    if (!endsAt(step, step.increments.length - 1)) add(step, { ...end, at, number: 0, s: 0, events: [], rescued });
   }
   return frames;
 }
