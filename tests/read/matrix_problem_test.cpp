@@ -76,7 +76,7 @@ std::string exported(const problem& p, const scratch_folder& to) {
 }
 
 struct run_of_problem {
-  run_recorder seen;
+  recorder seen;
   path_end end;
   std::int64_t calls = 0;
   std::int64_t mismatches = 0;
@@ -100,7 +100,7 @@ run_of_problem run(const problem& p) {
   return r;
 }
 
-double largest_of_all(const run_recorder& r) {
+double largest_of_all(const recorder& r) {
   double largest = 0.0;
   for (const auto& step : r.steps)
     for (const double u : step.u) largest = std::max(largest, std::abs(u));

@@ -1,18 +1,13 @@
 // The page of a run: what it draws from, what is embedded in it, and that no text of a problem becomes
 // markup.
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
 #include "contct/write/pictures.hpp"
-#include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
-#include "read/small_matrix.hpp"
 #include "support/a_run.hpp"
-#include "support/scratch_folder.hpp"
-#include "support/structures.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;

@@ -63,11 +63,7 @@ void tell(const session::run& run, std::vector<std::string>& messages) {
     messages.insert(messages.end(), lines.begin(), lines.end());
   };
   if (run.compared() != nullptr && run.compared()->first()) add(words_of(*run.compared()->first()));
-  add(certificate_complaints(run.what, run.judged, run.early));
-  const bool solved = run.end.status == path_status::solved;
-  if (!solved) messages.push_back(run.wanted.file + ": " + end_words(run.what, run.end));
-  for (const std::string& w : {solved ? run.digits.warning() : "", run.passages.warning()})
-    if (!w.empty()) messages.push_back("warning: " + w);
+  add(end_messages(run.result()));
 }
 
 void serve_run(const served_request& wanted, const problem& p, answer& a) {

@@ -53,7 +53,7 @@ void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
   all.insert(all.end(), {&judged, &early});
   all.insert(all.end(), shown.begin(), shown.end());
   if (to.log != nullptr) all.push_back(&log_.emplace(*to.log));
-  all.insert(all.end(), {&digits, &passages, &record_});
+  all.push_back(&record_);
   end = leader_ ? follow_leader(all)
                 : find_final_states(structure, static_cast<int>(what.steps.size()), loads_of(what, structure),
                                     all, &judged, exact::exact_follower_of(what));

@@ -82,8 +82,6 @@ class run {
   std::string engine = "reference";  ///< of the leader's path
   certifier judged;
   early_toggles early{};
-  digit_watch digits{};
-  passage_watch passages{what};
   path_end end{};
   comparison compares{};
 

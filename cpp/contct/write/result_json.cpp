@@ -27,14 +27,6 @@ json elements_json(const std::vector<int>& elements) {
   return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
 }
 
-json event_json(const problem& p, const event& e) {
-  const contact_pair& at = p.pairs[e.pair];
-  json entry = {{"pair", e.pair + 1}};
-  put_place(entry, p.geometry, at.node);
-  entry.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
-  return entry;
-}
-
 json value_json(const model& m, const placed_value& at) {
   json entry = {{"value", at.value}};
   if (std::holds_alternative<assembled>(m.kind)) {
@@ -220,6 +212,24 @@ void put_place(json& entry, const model& m, int node) {
   }
 }
 
+json event_json(const problem& p, const event& e) {
+  const contact_pair& at = p.pairs[e.pair];
+  json entry = {{"pair", e.pair + 1}};
+  put_place(entry, p.geometry, at.node);
+  entry.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
+  return entry;
+}
+
+json pair_state_json(const problem& p, std::size_t i, int isep, const json& gap, const json& force) {
+  json entry = {{"pair", i + 1}};
+  put_place(entry, p.geometry, p.pairs[i].node);
+  entry.update({{"surface", surface_name(p.pairs[i].surface)},
+                {"state", state_name(isep)},
+                {"gap", gap},
+                {"force", force}});
+  return entry;
+}
+
 json support_json(const model& m, const support& at) {
   json entry;
   put_place(entry, m, at.node);
@@ -250,7 +260,8 @@ class state_writer {
 
   /// `r` and `f` must outlive these lists.
   [[nodiscard]] std::vector<json_document::list> lists(const step_results& r, const frame& f) const {
-    return {{"pairs", p_.pairs.size(), [&](auto i) { return pair(i, f.isep[i], r.pairs[i]); }},
+    return {{"pairs", p_.pairs.size(),
+             [&](auto i) { return pair_state_json(p_, i, f.isep[i], r.pairs[i].gap, r.pairs[i].force); }},
             {"reactions", r.reactions.size(),
              [&](auto i) {
                json entry = support_json(m_, p_.supports[i]);
@@ -263,35 +274,25 @@ class state_writer {
  private:
   static constexpr int load_words_width = 60;
 
-  [[nodiscard]] json pair(std::size_t i, int isep, const pair_reading& r) const {
-    const contact_pair& at = p_.pairs[i];
-    json entry = {{"pair", i + 1}};
-    put_place(entry, m_, at.node);
-    entry.update({{"surface", surface_name(at.surface)},
-                  {"state", state_name(isep)},
-                  {"gap", r.gap},
-                  {"force", r.force}});
-    return entry;
-  }
-
   const problem& p_;
   const model& m_;
   load_path loads_;
   std::vector<int> deflecting_ = deflecting_nodes(p_);
 };
 
-/// Of the states within steps, those that are written: evenly chosen, so that all together have not too many
-/// numbers.
-std::map<std::pair<int, int>, const frame*> states_within(const run_result& r, std::size_t most_numbers) {
+/// Of the states within steps, those that are written: evenly chosen, so that all together take not too many
+/// bytes.
+std::map<std::pair<int, int>, const frame*> states_within(const run_result& r, std::size_t most_bytes) {
   constexpr std::size_t fewest = 4;
   const problem& p = r.what;
-  const std::size_t values = std::holds_alternative<plate>(p.geometry.kind) ? 12 : 4;
-  const std::size_t numbers =
-      dofs(p.geometry) + 2 * p.pairs.size() + p.supports.size() + values * elements(p.geometry);
+  const std::size_t of_element =
+      std::holds_alternative<plate>(p.geometry.kind) ? 300 : 120;  // about, as text
+  const std::size_t bytes = 20 * dofs(p.geometry) + 100 * p.pairs.size() + 55 * p.supports.size() +
+                            of_element * elements(p.geometry);
   std::vector<const frame*> within;
   for (const frame& f : r.frames)
     if (f.number > 0 && !f.step_end) within.push_back(&f);
-  const std::size_t most = std::max(fewest, most_numbers / std::max<std::size_t>(numbers, 1));
+  const std::size_t most = std::max(fewest, most_bytes / std::max<std::size_t>(bytes, 1));
   const std::size_t stride = (within.size() + most - 1) / most;
   std::map<std::pair<int, int>, const frame*> chosen;
   for (std::size_t i = 0; i < within.size(); i += stride)
@@ -304,7 +305,7 @@ class result_writer {
   result_writer(const run_result& r, output_file& out, result_parts parts)
       : r_(r), parts_(parts), document_(out, head(), "steps") {
     if (parts != result_parts::ends)
-      within_ = states_within(r, parts == result_parts::report ? 300'000 : 60'000);
+      within_ = states_within(r, parts == result_parts::report ? 6'000'000 : 1'500'000);
   }
 
   void write() {
@@ -329,13 +330,10 @@ class result_writer {
 
   /// What a terminal says when the run is over.
   [[nodiscard]] json words() const {
-    std::vector<std::string> complaints = certificate_complaints(r_.what, r_.judged, r_.early);
-    const std::string remedy = remedy_words(r_.kernels, r_.file);
-    if (!complaints.empty() && !remedy.empty()) complaints.push_back(remedy);
     return {{"end", end_words(r_.what, r_.end)},
             {"comparison", r_.comparison},
             {"certificate", certificate_summary(r_.judged, r_.status() == "solved")},
-            {"complaints", complaints},
+            {"complaints", complaints_of(r_)},
             {"program", r_.facts}};
   }
 

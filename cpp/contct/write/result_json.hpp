@@ -75,6 +75,12 @@ class json_document {
 /// What a support holds: its place, and its "dof".
 [[nodiscard]] nlohmann::ordered_json support_json(const model& m, const support& at);
 
+/// An event, and pair `i`, from 0, in a state: results and exact paths have the same keys.
+[[nodiscard]] nlohmann::ordered_json event_json(const problem& p, const event& e);
+[[nodiscard]] nlohmann::ordered_json pair_state_json(const problem& p, std::size_t i, int isep,
+                                                     const nlohmann::ordered_json& gap,
+                                                     const nlohmann::ordered_json& force);
+
 /// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
 void put_place(nlohmann::ordered_json& entry, const model& m, int node);
 
