@@ -45,8 +45,8 @@ void check_grid_coordinates(const problem& p) {
 }
 
 /// The collection last: whoever sees it finds all that it names.
-void write_grids(const output_files& files, const std::string& vtu, const finished_run& r) {
-  const auto& frames = r.kept.frames();
+void write_grids(const output_files& files, const std::string& vtu, const run_result& r) {
+  const std::span<const frame> frames = r.frames;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     output_file file(beside(vtu, name_of_frame("", i)));
     file.write(vtu_of_frame(r.what, frames[i]));

@@ -21,6 +21,6 @@ void add_grid_files(const std::string& vtu, std::vector<output_option>& all);
 void check_grid_coordinates(const problem& p);
 
 /// Write all files of --vtu. Throws as output_file does.
-void write_grids(const output_files& files, const std::string& vtu, const finished_run& r);
+void write_grids(const output_files& files, const std::string& vtu, const run_result& r);
 
 }  // namespace contct::app

@@ -162,7 +162,8 @@ void go(shown_run& o) {
         &rows.emplace(setup.what, o.run.compared(), o.run.judged, setup.screen, setup.options.detail));
   shown.push_back(progress.behind.get());
   const output_files& f = o.files;
-  o.run.go({f["--json"], f["--log"], f["--trace"], f["--proof"], f["--html"], f["--csv"], f[csv_pairs]},
+  o.run.go({f["--json"], result_parts::ends, f["--log"], f["--trace"], f["--proof"], f["--html"], f["--csv"],
+            f[csv_pairs]},
            shown);
   progress.line.erase();
   if (!rows) return;
@@ -241,23 +242,8 @@ check_report check_report_of(const shown_run& o) {
 /// Complete and name all files.
 void write_files(shown_run& o) {
   o.run.finish();
-  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.pictures.vtu, o.run.finished());
+  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.pictures.vtu, o.run.result());
   o.files.write(check_report_of(o));
-}
-
-/// What is wrong with the end of the run, and what to do about it.
-void complain_of_end(const session::run& run) {
-  const std::vector<std::string> complaints = certificate_complaints(run.what, run.judged, run.early);
-  complain_of(complaints);
-  if (const std::string remedy = remedy_words(run.wanted.kernels, run.wanted.file);
-      !complaints.empty() && !remedy.empty())
-    complain("{}", whole_line(remedy));
-  if (run.end.status != path_status::solved) {
-    complain("{}: {}", whole_line(run.wanted.file), end_words(run.what, run.end));
-  } else if (const std::string w = run.digits.warning(); !w.empty()) {
-    complain("warning: {}", w);
-  }
-  if (const std::string w = run.passages.warning(); !w.empty()) complain("warning: {}", w);
 }
 
 /// What every run ends with: certificate, files, messages, exit status.
@@ -270,7 +256,7 @@ exit_status finish(shown_run& o) {
   const exit_status status = o.run.exit();
   if (status != exit_status::bad_input) write_files(o);  // without numbers no files
   flush_standard_output();                               // the table before what is said about it
-  complain_of_end(o.run);
+  complain_of(end_messages(o.run.result()));
   return status == exit_status::solved && o.setup.options.strict && !certified ? exit_status::uncertified
                                                                                : status;
 }

@@ -218,16 +218,6 @@ class Event(Record):
     change: str
 
 
-class Increment(Record):
-    """One call of the kernel and what followed. `s`: SMIN, the share of the remaining load (eq. 9); `fraction`: the share
-    of the step's load that is applied now, 0 to 1."""
-    increment: int
-    s: float
-    fraction: float
-    load: Record
-    events: list[Event]
-
-
 class Pair(Record):
     """A contact pair. `state`: "separated" or "contact"; `gap`: n (c - w), a length (eq. 5); `force`: -n k (c - w)."""
     pair: int
@@ -254,6 +244,20 @@ class Element(Record):
     mx: Array
     my: Array
     mxy: Array
+
+
+class Increment(Record):
+    """One call of the kernel and what followed. `s`: SMIN, the share of the remaining load (eq. 9); `fraction`: the share
+    of the step's load that is applied now, 0 to 1. With `states` of `run` some have the state after them, as steps have."""
+    increment: int
+    s: float
+    fraction: float
+    load: Record
+    events: list[Event]
+    displacement: Array
+    pairs: list[Pair]
+    reactions: list[Reaction]
+    elements: list[Element]
 
 
 class Certificate(Record):
@@ -746,7 +750,7 @@ def _kernel_list(kernels: Kernels) -> list[str]:
 
 
 def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None, final_only: bool = False,
-        envelope: bool = False, max_increments: int = 0, strict: bool = False,
+        envelope: bool = False, states: bool = False, max_increments: int = 0, strict: bool = False,
         folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Result:
     """Follow the path of a problem, all kernels in lockstep: `contct run`.
 
@@ -754,6 +758,7 @@ def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Opti
     engine          how the stiffness equations are solved; None: what suits the leading kernel
     final_only      True: no path, the equilibrium under each step's load
     envelope        True: also least and largest values over all increments
+    states          True: also the structure and the states within steps: reference/result-file.md
     max_increments  limit for a step; 0: the program's own
     strict          True: raise NotSolved unless all steps are solved and certified, and the kernels equal
     folder          where files that a text or a dict names are looked for; None: where the process runs. Of a problem file
@@ -764,7 +769,7 @@ def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Opti
     """
     source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
     options = {"kernels": None if final_only else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
-               "envelope": envelope or None, "max_increments": max_increments or None}
+               "envelope": envelope or None, "states": states or None, "max_increments": max_increments or None}
     answer = _ask(_library.contct_run, source, options)
     result = Result(answer, None if final_only else (source, options))
     if strict and not (result.exit == 0 and result.certified):

@@ -11,7 +11,7 @@ const editor = byId("text");
 
 let program = null; // the compiled program
 let model = null;   // what contct_check says of the last text that it accepts
-let states = null;  // what the page draws: contct_run's "states"
+let states = null;  // what the page draws: of contct_run's result, see statesOf
 let told = null;    // contct_explain's answer for the increment that is shown
 let shown = 0;      // state of the path
 let chosen = 0;     // pair whose story is told, from 0
@@ -38,22 +38,6 @@ function ask(name, ...texts) {
 
 const askAbout = (name, options) => ask(name, editor.value, JSON.stringify({ file: "problem.toml", ...options }));
 const kernelNames = () => byId("kernels").value.split(",");
-
-// --------------------------------------------------------------------------------------------------- elements
-
-function element(name, attributes = {}, ...children) {
-  const made = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...children);
-  return made;
-}
-
-function svg(name, attributes = {}, ...children) {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...children);
-  return made;
-}
 
 // --------------------------------------------------------------------------------------- numbers of the text
 
@@ -172,7 +156,7 @@ function recompute({ asked = false } = {}) {
   if (!asked && model.dofs * model.steps.length > patient) return waitForButton();
   const answer = askAbout("run", { kernels: kernelNames(), states: true });
   if (answer.error) return complain(answer.error);
-  states = JSON.parse(answer.states);
+  states = statesOf(answer.result);
   tell(answer.messages);
   byId("stage").classList.remove("stale");
   const last = states.frames.length - 1;
@@ -187,6 +171,22 @@ function recompute({ asked = false } = {}) {
   window.contct = { answer, model, states, ask, milliseconds: performance.now() - begun };
   clearTimeout(later);
   later = setTimeout(afterPause, Math.max(250, 8 * (performance.now() - begun)));
+}
+
+/** The path's states, of a beam with deflections at places along it: in every element where there are few. */
+function statesOf(result) {
+  const [places, { structure }] = [placesOf(result), result];
+  const made = { result, structure, ...places, frames: framesOf(result, places), x: [] };
+  if (structure.kind !== "beam") return made;
+  const xs = structure.nodes.map((n) => n.x);
+  const parts = Math.max(1, Math.min(24, Math.floor(240 / (xs.length - 1))));
+  const stride = Math.ceil(xs.length / 240);
+  for (let e = 0; e + 1 < xs.length; e += stride)
+    for (let i = 0; i < parts; ++i) made.x.push([xs[e] + ((xs[e + 1] - xs[e]) * i) / parts, e]);
+  made.x.push([xs[xs.length - 1], xs.length - 2]);
+  for (const f of made.frames) f.w = made.x.map(([x, e]) => deflectionAt(structure, f, x, e));
+  made.x = made.x.map(([x]) => x);
+  return made;
 }
 
 function waitForButton() {
@@ -207,11 +207,12 @@ function afterPause() {
 function showVerdict(answer) {
   const equal = answer.exit !== 1;
   const lines = [];
-  if (states.kernels.length > 1)
-    lines.push([equal, `${states.kernels.join(" and ")} are ${equal ? "equal" : "NOT equal"} to the bit; ${states.comparison}`]);
-  if (states.ended) lines.push([false, states.ended]);
-  for (const words of states.certified) lines.push([states.certified_whole, words]);
-  byId("verdict").replaceChildren(...lines.map(([good, words]) => element("li", { class: good ? "good" : "bad" }, words)));
+  const { kernels, words, certified } = states.result;
+  if (kernels.length > 1)
+    lines.push([equal, `${kernels.join(" and ")} are ${equal ? "equal" : "NOT equal"} to the bit; ${words.comparison}`]);
+  if (words.end) lines.push([false, words.end]);
+  for (const said of words.certificate) lines.push([certified, said]);
+  byId("verdict").replaceChildren(...lines.map(([good, said]) => element("li", { class: good ? "good" : "bad" }, said)));
 }
 
 // ------------------------------------------------------------------------------------------------- the picture
@@ -247,20 +248,14 @@ function drawBeam(f) {
   return root;
 }
 
-const deflection = (f, x) => {
-  const xs = states.x;
-  let i = xs.findIndex((at) => at >= x);
-  if (i <= 0) return f.w[Math.max(i, 0)];
-  const share = (x - xs[i - 1]) / (xs[i] - xs[i - 1] || 1);
-  return f.w[i - 1] + share * (f.w[i] - f.w[i - 1]);
-};
+const deflection = (f, x) => deflectionAt(states.structure, f, x);
 
 function drawSupports(root, f) {
   for (const s of states.supports) {
     const [x, y] = [scale.X(s.x), scale.Y(deflection(f, s.x))];
     const clamped = s.dofs.length > 1;
     root.append(svg("path", { d: clamped ? `M${x} ${y - 14}v28` : `M${x} ${y}l-8 14h16z`, class: "support" },
-      svg("title", {}, `support at x = ${five(s.x)}: ${s.dofs.join(", ")}`)));
+      svg("title", {}, `support at x = ${five(s.x)}: ${s.dofs.map(([dof]) => dof).join(", ")}`)));
   }
 }
 
@@ -307,7 +302,7 @@ function drawPairs(root, f) {
   const half = Math.max(7, Math.min(22, ((scale.width - 2 * margin) / (states.pairs.length + 1)) * 0.4));
   states.pairs.forEach((p, i) => {
     const [x, y] = [scale.X(p.x), scale.Y(p.face)];
-    const look = f.looks[i];
+    const { look } = f.pairs[i];
     const far = p.side < 0 ? scale.height - 24 : 24;
     root.append(svg("line", { x1: x - half, x2: x + half, y1: y, y2: y, class: `face ${look}` }),
       svg("path", { d: `M${x} ${y}L${x} ${far}M${x - 8} ${far}h16`, class: "spring" }));
@@ -378,14 +373,14 @@ function drawOther() {
 
 function draw() {
   const f = states.frames[shown];
-  byId("stage").replaceChildren(states.kind === "beam" ? drawBeam(f) : drawOther());
+  byId("stage").replaceChildren(states.structure.kind === "beam" ? drawBeam(f) : drawOther());
 }
 
 // ---------------------------------------------------------------------------------------------- path and events
 
 function stateWords(f) {
   if (f.step === 0) return "At the start, without load.";
-  const share = `step ${f.step}, ${five(100 * f.fraction)} % of its load: ${f.load}`;
+  const share = `step ${f.step}, ${five(100 * f.fraction)} % of its load: ${f.load.words}`;
   const events = f.events.map((e) => `pair ${e.pair} ${e.change}s contact`);
   return `State ${shown} of ${states.frames.length - 1}: ${share}. ${events.length > 0 ? events.join(", ") : f.end ? "The step ends" : "No event"}.`;
 }
@@ -401,11 +396,13 @@ function show(n, { explain = true } = {}) {
   if (explain && !dragging) explainState(f);
 }
 
+const largestIn = ({ extremes: { w } }) => (w ? (-w.min.value > w.max.value ? w.min.value : w.max.value) : 0);
+
 function showEvents() {
   const head = element("tr", {}, ...["Increment", "Share of the step", "w max", "Events"].map((words) => element("th", { scope: "col" }, words)));
   const rows = states.frames.slice(1, 400).map((f, i) => {
     const events = f.events.map((e) => `pair ${e.pair} ${e.change}s`).join(", ");
-    const cells = [f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`, five(f.fraction), five(f.largest), events || "\u2013"];
+    const cells = [f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`, five(f.fraction), five(largestIn(f)), events || "\u2013"];
     const row = element("tr", { "data-frame": String(i + 1) }, ...cells.map((words) => element("td", {}, words)));
     row.addEventListener("click", () => show(i + 1));
     return row;

@@ -94,12 +94,12 @@ TEST_CASE("the exit status tells a mechanism from a limit and from bad numbers")
 }
 
 TEST_CASE("the step with the fewest digits is warned of, once they are fewer than five") {
-  digit_watch watch;
-  watch.step_ended(state_with(1e-3, 1));
-  CHECK(watch.warning().empty());
-  watch.step_ended(state_with(1e-13, 2));
-  watch.step_ended(state_with(1e-9, 3));
-  CHECK_THAT(watch.warning(), StartsWith("step 2: ") && Contains("rcond 1.0e-13"));
-  watch.step_ended(state_with(1e-17, 4));
-  CHECK_THAT(watch.warning(), StartsWith("step 4: no digit "));
+  run_recorder seen;
+  seen.step_ended(state_with(1e-3, 1));
+  CHECK(digit_warning(seen.steps).empty());
+  seen.step_ended(state_with(1e-13, 2));
+  seen.step_ended(state_with(1e-9, 3));
+  CHECK_THAT(digit_warning(seen.steps), StartsWith("step 2: ") && Contains("rcond 1.0e-13"));
+  seen.step_ended(state_with(1e-17, 4));
+  CHECK_THAT(digit_warning(seen.steps), StartsWith("step 4: no digit "));
 }

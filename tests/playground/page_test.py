@@ -90,7 +90,7 @@ def menu():
         check(value("document.getElementById('verdict').children.length") >= 1, f"{name}: has a verdict")
         check("NOT equal" not in value("document.getElementById('verdict').textContent"), f"{name}: FORTRAN and C++ are equal")
         check(value("document.querySelectorAll('#events tr').length") >= 2, f"{name}: has increments")
-        is_beam = value("contct.states.kind") == "beam"
+        is_beam = value("contct.states.structure.kind") == "beam"
         beams += is_beam
         check(value("document.querySelector('#stage svg') !== null") == is_beam, f"{name}: a beam has a picture of its own")
         check(is_beam or value("document.getElementById('report-details').open && document.querySelector('#stage').textContent.includes('report')"),
@@ -236,7 +236,7 @@ check(value("contct.model.pairs") == 100, "a beam of 1000 elements and 100 pairs
 for name in ("fortran,cpp", "corrected"):
     choose("kernels", name)
     times = value("[1, 2, 3, 4, 5].map(() => { document.getElementById('text').dispatchEvent(new Event('input')); return contct.milliseconds; })")
-    print(f"  1000 elements, 100 pairs, {value('contct.states.increments')} increments, {name}: median {sorted(times)[2]:.0f} ms")
+    print(f"  1000 elements, 100 pairs, {value('contct.answer.result.steps.reduce((n, s) => n + s.increments.length, 0)')} increments, {name}: median {sorted(times)[2]:.0f} ms")
 browser.close()
 if checked < LEAST_CHECKS:
     failed += 1

@@ -29,6 +29,17 @@ def test_a_run_has_the_bits_of_the_programs_json(path, ask):
     assert contct.run(path.read_text()) == found
 
 
+def test_a_run_has_states_within_steps_where_they_are_asked_for():
+    path = PROBLEMS / "pb07-three-gap-supports.toml"
+    plain, found = contct.run(path), contct.run(path, states=True)
+    assert "structure" not in plain and len(found.structure.nodes) == len(found.steps[0].w)
+    step = found.steps[2]
+    assert [p.state for p in step.pairs] == [p.state for p in plain.steps[2].pairs]
+    within = [i for i in step.increments if "displacement" in i]
+    assert len(within) == len(step.increments) - 1  # the step has the state after the last one
+    assert len(within[0].displacement) == len(step.displacement) and within[0].pairs[1].state == "contact"
+
+
 @pytest.mark.parametrize("name", ["pb01-cantilever-tip-stop", "pb07-three-gap-supports", "divergences/near-tie"])
 @pytest.mark.parametrize("rule", ["corrected", "1989"])
 def test_an_exact_path_has_the_numbers_of_the_programs_json(name, rule, ask):

@@ -310,9 +310,10 @@ TEST_CASE("a result on a matrix names dofs by their labels, and its w is its dis
   const linear_structure s = structure_of(p);
   certifier judged(p, s, contct::exact::exact_residual_of(p), contct::exact::semidefinite_test_of(p));
   output_file file((here.path() / "r.json").string());
-  result_json json(p, {"fortran"}, "refactor", judged, file);
-  const path_end end = follow(p, s, "refactor", *make_kernel("fortran"), {&judged, &json});
-  json.finish("solved", end, nullptr);
+  run_recorder record;
+  const early_toggles none;
+  const path_end end = follow(p, s, "refactor", *make_kernel("fortran"), {&judged, &record});
+  write_result({.what = p, .record = record, .judged = judged, .early = none, .end = end}, file);
   const std::string text = here.read("r.json");
   CHECK_THAT(text, Catch::Matchers::Contains(R"({"pair":1,"dof":"6.y","surface":"below","state":)"));
   CHECK_THAT(text, Catch::Matchers::Contains(R"({"pair":1,"dof":"6.y","surface":"below","change":"make"})"));

@@ -8,7 +8,7 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
-#include "contct/write/finished_run.hpp"
+#include "contct/write/run_result.hpp"
 #include "read/good_problem.hpp"
 
 namespace contct::app {
@@ -31,7 +31,7 @@ struct a_run {
   std::unique_ptr<kernel> leader;
   lockstep compared;
   frame_keeper kept;
-  run_record record;
+  run_recorder record;
   certifier judged;
   early_toggles early;
   path_end end;
@@ -43,7 +43,7 @@ struct a_run {
         leader(make_kernel(leads)),
         compared(make_lockstep(leader->facts(), std::vector<std::string>(leads == "fortran" ? 1 : 0, "cpp"))),
         kept(structure, loads_of(what, structure), false, limits),
-        record(&compared),
+        record(&compared, true),
         judged(what, structure) {
     std::vector<observer*> watching = {&compared, &judged, &early, &kept, &record};
     watching.insert(watching.end(), more.begin(), more.end());
@@ -51,9 +51,19 @@ struct a_run {
     leader.reset();  // unit 26 is there only once
   }
 
-  [[nodiscard]] finished_run finished() const {
-    return {what,       kept,     record, judged, early, "pb.toml",   {"fortran", "cpp"},
-            "refactor", "solved", "",     true,   true,  "all equal", {"contct 0"}};
+  [[nodiscard]] run_result result() const {
+    return {.what = what,
+            .record = record,
+            .judged = judged,
+            .early = early,
+            .end = end,
+            .file = "pb.toml",
+            .kernels = {"fortran", "cpp"},
+            .engine = "refactor",
+            .compared = &compared,
+            .comparison = "all equal",
+            .facts = {"contct 0"},
+            .frames = kept.frames()};
   }
 };
 

@@ -1,9 +1,8 @@
 // The summary of an explained run: a line for each increment. That it takes the place of the full text is
 // tested in explain_test.cpp.
-#include "contct/write/explain_summary.hpp"
-
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/write/explain.hpp"
 #include "write/explained_run.hpp"
 
 using namespace contct::app;
@@ -12,32 +11,30 @@ using Catch::Matchers::EndsWith;
 
 namespace {
 
-/// What a summary says of each increment, taken one at a time, and at its end.
-struct taken_summary {
+/// What a summary says of each increment, and at its end.
+struct made_summary {
   std::vector<std::string> each;
   std::string end;
 };
 
-taken_summary summary_of(const std::string& toml, int width = 80) {
+made_summary summary_of(const std::string& toml, int width = 80) {
   const problem p = parse_problem(toml, "pb.toml");
-  explain_summary summary({width, false}, p.title);
-  taken_summary taken;
-  explain_run(p, [&](const explained_increment& i) {
-    summary.add(i);
-    taken.each.push_back(summary.take());
-  });
-  taken.end = summary.end();
-  return taken;
+  const terminal t{width, false};
+  made_summary made;
+  explain_run(p, [&](const explained_increment& i) { made.each.push_back(summary_line(t, i)); });
+  made.each.at(0) = summary_head(t, p.title) + made.each[0];
+  made.end = summary_end(t, made.each.size());
+  return made;
 }
 
 }  // namespace
 
 TEST_CASE("title and columns stand above the first line of a summary only") {
-  const taken_summary taken = summary_of(std::string("title = \"A stop\"\n") + two_pairs);
-  CHECK(taken.each == std::vector<std::string>{
-                          "A stop\n  incr  share      events\n   1.1  0.25       make 1\n",
-                          "   1.2  1          no event\n",
-                      });
+  const made_summary made = summary_of(std::string("title = \"A stop\"\n") + two_pairs);
+  CHECK(made.each == std::vector<std::string>{
+                         "A stop\n  incr  share      events\n   1.1  0.25       make 1\n",
+                         "   1.2  1          no event\n",
+                     });
 }
 
 TEST_CASE("a summary ends with the number of increments and what explains one") {

@@ -1,6 +1,7 @@
 // JSON that is written value by value, and the result of a run.
 #include "contct/write/result_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 #include "support/scratch_folder.hpp"
+#include "support/structures.hpp"
 
 using namespace contct::app;
 
@@ -30,20 +32,16 @@ std::string written(Write write) {
   return folder.read("x.json");
 }
 
+nlohmann::json json_of(const run_result& r, result_parts parts = result_parts::ends) {
+  std::string text;
+  output_file out(&text);
+  write_result(r, out, parts);
+  return nlohmann::json::parse(text);
+}
+
 /// Run a problem with FORTRAN leading C++, and read the JSON back.
 nlohmann::json result_of(const std::string& text) {
-  const problem p = parse_problem(text, "pb.toml");
-  const auto leader = make_kernel("fortran");
-  const std::vector<std::string> followers = {"cpp"};
-  lockstep compared = make_lockstep(leader->facts(), followers);
-  const scratch_folder folder;
-  output_file out(folder.at("result.json"));
-  const linear_structure s = structure_of(p);
-  certifier judged(p, s);
-  result_json json(p, {"fortran", "cpp"}, "refactor", judged, out);
-  const path_end end = follow(p, s, "refactor", *leader, {&compared, &judged, &json});
-  json.finish(status_name(end.status), end, &compared);
-  return nlohmann::json::parse(folder.read("result.json"));
+  return json_of(a_run(text).result());
 }
 
 }  // namespace
@@ -263,15 +261,93 @@ TEST_CASE("the envelope names pairs and supports from 1 on") {
   const a_run r(loaded_and_freed);
   envelope all(r.what);
   for (const frame& f : r.kept.frames()) all.take(f);
-  const scratch_folder folder;
-  output_file out(folder.at("result.json"));
-  const linear_structure s = structure_of(r.what);
-  certifier judged(r.what, s);
-  result_json json(r.what, {"fortran"}, "refactor", judged, out);
-  const path_end end = follow(r.what, s, "refactor", *make_kernel("fortran"), {&judged, &json});
-  json.finish(status_name(end.status), end, nullptr, &all);
-  const nlohmann::json envelope_of = nlohmann::json::parse(folder.read("result.json"))["envelope"];
+  run_result result = r.result();
+  result.all_increments = &all;
+  const nlohmann::json envelope_of = json_of(result)["envelope"];
   REQUIRE(envelope_of["pairs"].size() == 2);
   CHECK(envelope_of["pairs"][0]["pair"] == 1);
   CHECK(envelope_of["pairs"][1]["pair"] == 2);
+}
+
+TEST_CASE("a result with states has those within steps as it has those at their ends") {
+  const a_run r(loaded_and_freed);
+  const nlohmann::json result = json_of(r.result(), result_parts::states);
+  std::size_t within = 0;
+  for (const frame& f : r.kept.frames()) {
+    if (f.number == 0 || f.step_end) continue;
+    ++within;
+    const auto& i = result["steps"][f.step - 1]["increments"][f.number - 1];
+    CHECK(i["displacement"] == f.displacement);
+    CHECK((i["pairs"][0]["state"] == "contact") == f.closed(0));
+    CHECK(i["pairs"][0]["force"] == f.pair_forces[0]);
+    CHECK(i["elements"].size() == 2);
+    CHECK(i["reactions"].size() == 2);
+    CHECK(i["extremes"].contains("moment"));
+  }
+  CHECK(within >= 2);
+  CHECK(result["steps"][0]["load"]["words"] == "w -60 at node 3");
+  CHECK_FALSE(result.contains("calls"));
+}
+
+TEST_CASE("of a large problem a bounded number of states within steps is written, the first among them") {
+  std::string text =
+      "[beam]\nlength = 50\nelements = 5000\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
+  for (int i = 1; i <= 20; ++i)
+    text += "[[contact]]\nnode = 5001\nsurface = \"below\"\nface = -" + std::to_string(i) +
+            "e-6\nstiffness = 10\n";
+  const a_run r(text + "[[step]]\npoint = [ { node = 5001, w = -10.0 } ]\n");
+  const nlohmann::json all = json_of(r.result(), result_parts::states)["steps"][0]["increments"];
+  REQUIRE(all.size() > 8);
+  CHECK(all[0].contains("displacement"));
+  CHECK(std::ranges::count_if(all, [](const auto& i) { return i.contains("displacement"); }) <= 4);
+}
+
+TEST_CASE("a report has every call with its distance from each follower's answer, and unit 26") {
+  const a_run r(good_problem);
+  const nlohmann::json result = json_of(r.result(), result_parts::report);
+  REQUIRE(result["calls"].size() == 2);
+  for (const auto& call : result["calls"])
+    CHECK(call["followers"] ==
+          nlohmann::json::array(
+              {{{"values", 4}, {"mismatches", 0}, {"smin_ulps", 0}, {"s_ulps", 0}, {"failed", false}}}));
+  CHECK(result["calls"][0]["smin"] == Approx(0.25));
+  CHECK(result["calls"][0]["s"] == std::vector<double>{r.record.calls[0].smin});
+  CHECK(result["calls"][1]["increment"] == 2);
+  CHECK(result["calls_made"] == 2);
+  CHECK_THAT(result["log"].get<std::string>(), Catch::Matchers::Contains("MAKING CONTACT"));
+  CHECK(result["words"]["comparison"] == "all equal");
+}
+
+TEST_CASE("the structure of a beam has its places, stiffnesses, supports and pairs") {
+  const nlohmann::json s = structure_json(parse_problem(good_problem, "pb.toml"));
+  CHECK(s["kind"] == "beam");
+  CHECK(s["nodes"][2] == nlohmann::json({{"node", 3}, {"x", 2.0}}));
+  CHECK(s["EI"] == std::vector<double>{1e4, 1e4});
+  CHECK(s["supports"][1] == nlohmann::json({{"node", 1}, {"dof", "theta"}, {"spring", nullptr}}));
+  CHECK(s["pairs"][0]["face"] == -0.004);
+  CHECK(s["pairs"][0]["state"] == "separated");
+  CHECK_FALSE(s["pairs"][0].contains("bed"));
+}
+
+TEST_CASE("the structure of a plate has its nodes row by row, and what its pairs have of a bed") {
+  problem p = parse_problem(good_plate, "pb.toml");
+  p.beds = {{4.0, {0.5}, 0}};
+  const nlohmann::json s = structure_json(p);
+  CHECK(s["columns"] == 3);
+  CHECK(s["nodes"][4] == nlohmann::json({{"node", 5}, {"x", 0.5}, {"y", 1.0}}));
+  CHECK(s["pairs"][0]["bed"] == 0.5);
+}
+
+TEST_CASE("the structure of a matrix has labels, and places and edges where they are known") {
+  const nlohmann::json placed = structure_json(parse_problem(portal_frame(), "p.toml", reach::anywhere));
+  CHECK(placed["nodes"].size() == 11);
+  CHECK(placed["nodes"][7] == nlohmann::json({{"node", "8"}, {"x", 4.0}, {"y", 3.0}, {"z", 0.0}}));
+  CHECK(placed["dofs"][16] == nlohmann::json({{"dof", "6.y"}, {"at", 6}, {"direction", 2}}));
+  CHECK(placed["edges"][0] == nlohmann::json({1, 2, 1}));
+  CHECK(placed["pairs"][0]["dof"] == "6.y");
+  CHECK(placed["notes"] == nlohmann::json({"Rotations, 11 of 33 dofs, are not drawn."}));
+  const nlohmann::json bare =
+      structure_json(parse_problem(frame_without_coordinates(), "p.toml", reach::anywhere));
+  CHECK(bare["nodes"].empty());
+  CHECK(bare["dofs"][16] == nlohmann::json({{"dof", "6.y"}}));
 }

@@ -150,8 +150,8 @@ TEST_CASE("Places and units are in words: nodes with coordinates, places between
 TEST_CASE("the warning of a beam that sags through a face names both pairs, from 1, and the step") {
   const problem p = beam_over_stops(0.0, -500.0);
   const linear_structure s = structure_of(p);
-  passage_watch watch(p);
-  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&watch});
-  CHECK_THAT(watch.warning(),
+  run_recorder seen;
+  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&seen});
+  CHECK_THAT(passage_warning(p, seen.steps),
              Catch::Matchers::StartsWith("step 1: between pairs 1 and 2 the beam passes through"));
 }

@@ -76,8 +76,7 @@ void certify_states(const char* text, const char* options, answer& a) {
   const linear_structure s = structure_of(p);
   const given_states states = read_states(r, p, s);
   certifier judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
-  output_file out(&a.result);
-  result_json written(p, {}, "given", judged, out);
+  run_recorder record;
   path_end end{path_status::solved, 0, 1.0, {}};
   for (std::size_t i = 0; i < states.displacement.size(); ++i) {
     const std::unique_ptr<stiffness_engine> factored = make_engine("refactor", s);
@@ -88,9 +87,12 @@ void certify_states(const char* text, const char* options, answer& a) {
     const step_state given{end.step, 1.0, states.displacement[i], states.isep[i],
                            factored->reciprocal_condition()};
     judged.step_ended(given);
-    written.step_ended(given);
+    record.step_ended(given);
   }
-  written.finish(status_name(end.status), end, nullptr);
+  output_file out(&a.result);
+  const early_toggles none;
+  write_result({.what = p, .record = record, .judged = judged, .early = none, .end = end, .engine = "given"},
+               out);
   const std::vector<std::string> complaints = certificate_complaints(p, judged, {});
   a.messages.insert(a.messages.end(), complaints.begin(), complaints.end());
   a.exit = judged.all_exact() ? exit_status::solved : exit_status::uncertified;

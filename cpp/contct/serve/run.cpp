@@ -10,7 +10,6 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
-#include "contct/serve/states.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::serve {
@@ -64,11 +63,7 @@ void tell(const session::run& run, std::vector<std::string>& messages) {
     messages.insert(messages.end(), lines.begin(), lines.end());
   };
   if (run.compared() != nullptr && run.compared()->first()) add(words_of(*run.compared()->first()));
-  add(certificate_complaints(run.what, run.judged, run.early));
-  const bool solved = run.end.status == path_status::solved;
-  if (!solved) messages.push_back(run.wanted.file + ": " + end_words(run.what, run.end));
-  for (const std::string& w : {solved ? run.digits.warning() : "", run.passages.warning()})
-    if (!w.empty()) messages.push_back("warning: " + w);
+  add(end_messages(run.result()));
 }
 
 void serve_run(const served_request& wanted, const problem& p, answer& a) {
@@ -79,8 +74,8 @@ void serve_run(const served_request& wanted, const problem& p, answer& a) {
         "options: found final_only with page, states or envelope; allowed: these with a path");
   kept_text result, log, trace, proof, page;
   const auto asked = [](bool flag, kept_text& to) { return flag ? &to.file : nullptr; };
-  run.go({&result.file, asked(wanted.log, log), asked(wanted.trace, trace), asked(wanted.proof, proof),
-          asked(wanted.page, page)});
+  run.go({&result.file, wanted.states ? result_parts::states : result_parts::ends, asked(wanted.log, log),
+          asked(wanted.trace, trace), asked(wanted.proof, proof), asked(wanted.page, page)});
   if (status_of(run.end.status) == exit_status::bad_input)
     throw std::invalid_argument(wanted.file + ": " + end_words(p, run.end));
   run.finish();
@@ -88,7 +83,6 @@ void serve_run(const served_request& wanted, const problem& p, answer& a) {
   a.result = std::move(result.text);
   tell(run, a.messages);
   if (wanted.page) a.texts.emplace_back("page", std::move(page.text));
-  if (wanted.states) a.texts.emplace_back("states", states_json(run.finished()));
   if (wanted.log) a.texts.emplace_back("log", std::move(log.text));
   if (wanted.trace) a.texts.emplace_back("trace", std::move(trace.text));
   if (wanted.proof) a.texts.emplace_back("proof", std::move(proof.text));

@@ -58,7 +58,7 @@ CONTCT_SERVE_EXPORT char* contct_about(void);
  *   "page", "log", "trace", "proof"
  *                     false; true: the answer has what --html, --log, --trace and --proof write, as a text
  *                     under the same key
- *   "states"          false; true: the states of the path, as JSON in a text, for a picture */
+ *   "states"          false; true: the result has the structure, and states within steps, for a picture */
 CONTCT_SERVE_EXPORT char* contct_run(const char* problem, const char* options);
 
 /* contct check: read a problem, solve nothing. "result": { "title", "kind": "beam" | "plate" | "matrix",

@@ -46,14 +46,14 @@ run::run(const problem& p, const linear_structure& s, run_request request)
 
 void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
   to_ = to;
+  record_ = run_recorder(compared(), to.page != nullptr);
   if (to.proof != nullptr) judged.keep_proofs();
   std::vector<observer*> all;
   if (compared_) all.push_back(&*compared_);
   all.insert(all.end(), {&judged, &early});
   all.insert(all.end(), shown.begin(), shown.end());
-  if (to.result != nullptr) all.push_back(&json_.emplace(what, wanted.kernels, engine, judged, *to.result));
   if (to.log != nullptr) all.push_back(&log_.emplace(*to.log));
-  all.insert(all.end(), {&digits, &passages});
+  all.push_back(&record_);
   end = leader_ ? follow_leader(all)
                 : find_final_states(structure, static_cast<int>(what.steps.size()), loads_of(what, structure),
                                     all, &judged, exact::exact_follower_of(what));
@@ -74,7 +74,6 @@ path_end run::follow_leader(std::vector<observer*>& all) {
 void run::keep_states(std::vector<observer*>& all) {
   const bool forces_by_law = leader_facts_.rule != "listing";
   all.push_back(&frames_.emplace(structure, loads_of(what, structure), forces_by_law, wanted.kept));
-  all.push_back(&record_.emplace(compared()));
   if (wanted.envelope) {
     extremes_.emplace(what);
     frames_->show_each_to([this](const frame& f) { extremes_->take(f); });
@@ -101,14 +100,15 @@ run::other_path run::follow_alone(const std::string& name) {
   other_path other{d, judge.all_exact(),
                    fmt::format("shares of the step within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
                                d.displacement, d.bound)};
-  if (json_) json_->add_free_run(name, d, other.certified);
+  free_runs_.push_back({name, d, other.certified});
   compares.equal = compares.equal && d.within_bound();
   compares.words += (compares.words.empty() ? "" : "; ") + name + ": " + other.words;
   return other;
 }
 
 void run::finish() {
-  if (json_) json_->finish(status(), end, compared(), extremes());
+  const run_result r = result();
+  if (to_.result != nullptr) write_result(r, *to_.result, to_.parts);
   for (output_file* const file : {to_.log, to_.trace})
     if (file != nullptr) file->finish();
   if (tables_) tables_->finish();
@@ -117,28 +117,27 @@ void run::finish() {
     file.finish();
   };
   if (to_.proof != nullptr) write_all(*to_.proof, proof_json(what, judged));
-  if (to_.page != nullptr) write_all(*to_.page, run_page(finished()));
+  if (to_.page != nullptr) write_all(*to_.page, run_page(r));
 }
 
-finished_run run::finished() const {
-  std::vector<std::string> facts = {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
-                                    "floating point: " + describe(probe_floating_point())};
-  return {what,
-          *frames_,
-          *record_,
-          judged,
-          early,
-          wanted.file,
-          wanted.kernels,
-          engine,
-          status(),
-          end_words(what, end),
-          compared() != nullptr,
-          compares.equal,
-          compares.words,
-          std::move(facts),
-          wanted.date,
-          extremes()};
+run_result run::result() const {
+  return {.what = what,
+          .record = record_,
+          .judged = judged,
+          .early = early,
+          .end = end,
+          .file = wanted.file,
+          .kernels = wanted.kernels,
+          .engine = engine,
+          .compared = compared(),
+          .free_runs = free_runs_,
+          .equal = compares.equal,
+          .comparison = compares.words,
+          .facts = {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
+                    "floating point: " + describe(probe_floating_point())},
+          .date = wanted.date,
+          .all_increments = extremes(),
+          .frames = frames_ ? std::span<const frame>(frames_->frames()) : std::span<const frame>()};
 }
 
 std::string run::status() const {

@@ -11,8 +11,8 @@
 #include "contct/compare/free_run.hpp"
 #include "contct/compare/lockstep.hpp"
 #include "contct/path/frames.hpp"
-#include "contct/write/finished_run.hpp"
 #include "contct/write/result_json.hpp"
+#include "contct/write/run_result.hpp"
 #include "contct/write/run_words.hpp"
 #include "contct/write/table.hpp"
 
@@ -34,7 +34,9 @@ struct run_request {
 
 /// Null: not asked for.
 struct run_outputs {
-  output_file *result = nullptr, *log = nullptr, *trace = nullptr, *proof = nullptr, *page = nullptr;
+  output_file* result = nullptr;
+  result_parts parts = result_parts::ends;  ///< of the result
+  output_file *log = nullptr, *trace = nullptr, *proof = nullptr, *page = nullptr;
   output_file *table = nullptr, *pairs = nullptr;  ///< of run_csv
 };
 
@@ -65,9 +67,8 @@ class run {
   /// Complete and name the outputs.
   void finish();
 
-  /// For pictures, where states were kept.
-  [[nodiscard]] finished_run finished() const;
-  [[nodiscard]] bool keeps_states() const { return frames_.has_value(); }
+  /// What outputs are made from, when the run is over.
+  [[nodiscard]] run_result result() const;
   /// Null where nothing is compared in lockstep.
   [[nodiscard]] const lockstep* compared() const { return compared_ ? &*compared_ : nullptr; }
   /// As results have it: "solved", "kernels-disagree", ..
@@ -81,8 +82,6 @@ class run {
   std::string engine = "reference";  ///< of the leader's path
   certifier judged;
   early_toggles early{};
-  digit_watch digits{};
-  passage_watch passages{what};
   path_end end{};
   comparison compares{};
 
@@ -105,14 +104,14 @@ class run {
   kernel_facts leader_facts_ = {};
   std::optional<lockstep> compared_;
   run_outputs to_;
-  std::optional<result_json> json_;
   std::optional<log_writer> log_;
   std::optional<trace_recorder> trace_;
   std::optional<frame_keeper> frames_;
-  std::optional<run_record> record_;
+  run_recorder record_;
   std::optional<envelope> extremes_;
   std::optional<run_csv> tables_;
   std::optional<path_record> own_path_;  // of the leader, in free run
+  std::vector<compared_path> free_runs_;
 };
 
 }  // namespace contct::session

@@ -18,39 +18,11 @@ json fractions(const vector& numbers) {
   return list_of(numbers, [](const rational& x) { return fraction_words(x); });
 }
 
-std::string_view name_of(path_status status) {
-  return status_name(status);
-}
-
 json increment_json(const problem& p, const exact_increment& i, std::size_t number) {
-  json entry = {
-      {"increment", number + 1}, {"fraction", fraction_words(i.fraction)}, {"events", json::array()}};
-  for (const event& e : i.events) {
-    const contact_pair& at = p.pairs[static_cast<std::size_t>(e.pair)];
-    json& shown = entry["events"].emplace_back(json{{"pair", e.pair + 1}});
-    put_place(shown, p.geometry, at.node);
-    shown.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
-  }
+  json entry = {{"increment", number + 1},
+                {"fraction", fraction_words(i.fraction)},
+                {"events", list_of(i.events, [&p](const event& e) { return event_json(p, e); })}};
   if (i.snaps) entry["snap"] = true;
-  return entry;
-}
-
-json pair_json(const problem& p, const exact_step_end& s, std::size_t pair) {
-  json entry = {{"pair", pair + 1}};
-  put_place(entry, p.geometry, p.pairs[pair].node);
-  entry.update({{"surface", surface_name(p.pairs[pair].surface)},
-                {"state", state_name(s.closed[pair] != 0 ? in_contact : separated)},
-                {"gap", fraction_words(s.gap[pair])},
-                {"force", fraction_words(s.force[pair])}});
-  return entry;
-}
-
-json reaction_json(const problem& p, const exact_step_end& s, std::size_t support) {
-  json entry;
-  put_place(entry, p.geometry, p.supports[support].node);
-  if (!entry.contains("dof"))
-    entry["dof"] = dof_names(p.geometry)[static_cast<std::size_t>(p.supports[support].dof)];
-  entry["value"] = fraction_words(s.reactions[support]);
   return entry;
 }
 
@@ -172,7 +144,7 @@ std::string exact_text(const exact_result& r, int digits, const terminal& t) {
 
 void write_exact_json(const exact_result& r, output_file& out) {
   json_document document(
-      out, {{"format", "contct-exact-1"}, {"title", r.what.title}, {"status", name_of(r.path.status)}},
+      out, {{"format", "contct-exact-1"}, {"title", r.what.title}, {"status", status_name(r.path.status)}},
       "steps");
   for (std::size_t step = 0; step < r.path.steps.size(); ++step) {
     const exact_step_end& s = r.path.steps[step];
@@ -187,11 +159,18 @@ void write_exact_json(const exact_result& r, output_file& out) {
                           {"w", fractions(w)},
                           {"pairs", nullptr},
                           {"reactions", nullptr}};
-    document.add(members,
-                 {{"increments", s.increments.size(),
-                   [&](auto i) { return increment_json(r.what, s.increments[i], i); }},
-                  {"pairs", s.closed.size(), [&](auto i) { return pair_json(r.what, s, i); }},
-                  {"reactions", s.reactions.size(), [&](auto i) { return reaction_json(r.what, s, i); }}});
+    document.add(members, {{"increments", s.increments.size(),
+                            [&](auto i) { return increment_json(r.what, s.increments[i], i); }},
+                           {"pairs", s.closed.size(),
+                            [&](auto i) {
+                              return pair_state_json(r.what, i, s.closed[i] != 0 ? in_contact : separated,
+                                                     fraction_words(s.gap[i]), fraction_words(s.force[i]));
+                            }},
+                           {"reactions", s.reactions.size(), [&](auto i) {
+                              json entry = support_json(r.what.geometry, r.what.supports[i]);
+                              entry["value"] = fraction_words(s.reactions[i]);
+                              return entry;
+                            }}});
   }
   json members = {{"kernels", list_of(r.kernels, kernel_json)}};
   if (r.path.mechanism)

@@ -423,7 +423,60 @@ json narrowest_json(const std::optional<decision>& d) {
   return out;
 }
 
+/// "1, 3" for the pairs that were toggled for this reason.
+std::string pairs_toggled(const explained_call& c, why_toggled why) {
+  std::vector<int> pairs;
+  for (const explained_pair& p : c.pairs)
+    if (p.why == why) pairs.push_back(p.pair + 1);
+  return fmt::format("{}", fmt::join(pairs, ", "));
+}
+
+/// "make 1, break 3", "too early: 3": the events of an increment, and those that came at the wrong place.
+std::vector<std::string> summary_words(const explained_increment& i) {
+  constexpr std::size_t most_named = 12;
+  std::vector<std::string> events;
+  for (const event& e : i.what.events.first(std::min(i.what.events.size(), most_named)))
+    events.push_back(fmt::format("{} {}", change_name(e.what), e.pair + 1));
+  if (i.what.events.size() > most_named)
+    events.push_back(fmt::format("{} more", i.what.events.size() - most_named));
+  std::vector<std::string> words = {
+      events.empty() ? i.left_undone ? "no event: the load left after it is rounding" : "no event"
+                     : fmt::format("{}", fmt::join(events, ", "))};
+  if (i.left_undone) return words;
+  if (const std::string early = pairs_toggled(i.call, why_toggled::too_early); !early.empty())
+    words.push_back("too early: " + early);
+  if (const std::string marked = pairs_toggled(i.call, why_toggled::by_mark); !marked.empty())
+    words.push_back("by its mark: " + marked);
+  return words;
+}
+
 }  // namespace
+
+std::string summary_head(const terminal& t, const std::string& title) {
+  return (title.empty() ? "" : painted(t, paint::strong, title) + "\n") +
+         painted(t, paint::strong, fmt::format("{:>6}  {:<9}  {}", "incr", "share", "events")) + "\n";
+}
+
+std::string summary_line(const terminal& t, const explained_increment& i) {
+  constexpr int indent = 6 + 2 + 9 + 2;
+  std::string text;
+  std::string head = fmt::format("{:>6}  {:<9}  ", fmt::format("{}.{}", i.what.step, i.what.number),
+                                 share_words(i.what.fraction));
+  for (const std::string& line : wrap(summary_words(i), t.width - indent)) {
+    text += head + line + "\n";
+    head.assign(indent, ' ');
+  }
+  return text;
+}
+
+std::string summary_end(const terminal& t, std::size_t increments) {
+  const std::vector<std::string> advice = {
+      fmt::format("{} increments; share: share of the step applied so far", increments),
+      "explain one with --increment STEP.INCREMENT, a step with --step, all with --all"};
+  std::string text = "\n";
+  for (const std::string& line : wrap(advice, t.width)) text += line + "\n";
+  return text;
+}
 
 void explain_text::print(const explained_increment& i, const explain_addition* more) {
   ++increments_;
@@ -432,15 +485,15 @@ void explain_text::print(const explained_increment& i, const explain_addition* m
   if (in_full) text = increment_printer(of_, terminal_, detail_.hex, i, more).text(increments_ == 1);
   if (detail_.all) return print_text(text);
   in_full_ += text;
-  summary_.add(i);
+  summary_ += summary_line(terminal_, i);
   if (in_full) return;
   in_full_.clear();
-  print_text(summary_.take());
+  print_text(std::exchange(summary_, ""));
 }
 
 void explain_text::finish() {
   if (detail_.all || increments_ == 0) return;
-  print_text(increments_ <= most_told_in_full ? in_full_ : summary_.end());
+  print_text(increments_ <= most_told_in_full ? in_full_ : summary_end(terminal_, increments_));
 }
 
 explain_json::explain_json(explained_kernels of, output_file& out)

@@ -10,7 +10,6 @@
 
 #include "contct/compare/explanation.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/explain_summary.hpp"
 #include "contct/write/result_json.hpp"
 
 namespace contct::write {
@@ -77,12 +76,18 @@ struct explain_detail {
 };
 inline constexpr std::size_t most_told_in_full = 20;
 
+/// A summary of many increments: what stands above its lines (`title`, the problem's, may be empty), the line
+/// of an increment with its share of the step, its events and which were too early, and what stands below.
+[[nodiscard]] std::string summary_head(const terminal& t, const std::string& title);
+[[nodiscard]] std::string summary_line(const terminal& t, const explained_increment& i);
+[[nodiscard]] std::string summary_end(const terminal& t, std::size_t increments);
+
 /// Prints increments, one at a time: the lines of the listing in the left margin, the paper's equations at
 /// the right. A summary is a line an increment; memory does not grow with their number.
 class explain_text {
  public:
   explain_text(explained_kernels of, const terminal& t, explain_detail detail = {})
-      : of_(std::move(of)), terminal_(t), detail_(detail), summary_(t, of_.what.title) {}
+      : of_(std::move(of)), terminal_(t), detail_(detail), summary_(summary_head(t, of_.what.title)) {}
 
   /// `more`: what else is told of it; null: nothing.
   void print(const explained_increment& i, const explain_addition* more = nullptr);
@@ -96,7 +101,7 @@ class explain_text {
   explain_detail detail_;
   std::size_t increments_ = 0;
   std::string in_full_;  // kept until it is known how many increments there are
-  explain_summary summary_;
+  std::string summary_;  // its lines that are not printed yet
 };
 
 /// Writes increments as they come, format "contct-explain-1" (reference/explain-format.md): memory does not

@@ -2,19 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "contct/write/finished_run.hpp"
+#include "contct/write/run_result.hpp"
 
 namespace contct::write {
 
-/// One HTML page that needs nothing else. The parallel edition of the two kernels is in it, folded.
-[[nodiscard]] std::string run_page(const finished_run& r);
-
-/// Everything the page shows, of a large problem the parts that choose_parts finds; numbers with all their
-/// digits.
-[[nodiscard]] nlohmann::ordered_json page_data(const finished_run& r);
+/// One HTML page that needs nothing else: it draws itself from the result in it. The parallel edition of the
+/// two kernels is in it, folded.
+[[nodiscard]] std::string run_page(const run_result& r);
 
 /// A frame as an unstructured grid, for everything that reads VTK's XML files: lines or quadrilaterals, and a
 /// vertex for each pair, at the undeformed places; beams lie along x, plates in x and y, z is up. Points have

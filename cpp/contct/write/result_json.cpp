@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
+#include "contct/write/run_words.hpp"
 
 namespace contct::write {
 namespace {
@@ -23,21 +25,6 @@ json elements_json(const std::vector<int>& elements) {
   if (elements.empty()) return "all";
   if (!is_run(elements)) return numbered(elements);
   return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
-}
-
-json event_json(const problem& p, const event& e) {
-  const contact_pair& at = p.pairs[e.pair];
-  json entry = {{"pair", e.pair + 1}};
-  put_place(entry, p.geometry, at.node);
-  entry.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
-  return entry;
-}
-
-json reaction_json(const model& m, const support& at) {
-  json entry;
-  put_place(entry, m, at.node);
-  if (!entry.contains("dof")) entry["dof"] = dof_names(m)[at.dof];
-  return entry;
 }
 
 json value_json(const model& m, const placed_value& at) {
@@ -84,7 +71,7 @@ json envelope_json(const problem& p, const envelope& e) {
     return entry;
   });
   out["reactions"] = list_of(e.reactions(), [&, i = 0](const envelope::reaction_range& r) mutable {
-    json entry = reaction_json(m, p.supports[i++]);
+    json entry = support_json(m, p.supports[i++]);
     entry.update({{"min", reached(r.least, r.least_reached)}, {"max", reached(r.most, r.most_reached)}});
     return entry;
   });
@@ -225,106 +212,247 @@ void put_place(json& entry, const model& m, int node) {
   }
 }
 
-result_json::result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
-                         const certifier& judged, output_file& out)
-    : problem_(p),
-      judged_(judged),
-      loads_(p),
-      document_(out,
-                {{"format", "contct-result-1"},
-                 {"title", p.title},
-                 {"units", units_json(p.units)},
-                 {"kernels", kernels},
-                 {"engine", engine}},
-                "steps") {}
-
-void result_json::step_ended(const step_state& s) {
-  const model& m = problem_.geometry;
-  const step_results r = results_of(problem_, loads_.at(s.step, s.fraction), s, deflecting_);
-  std::vector<double> w(nodes(m));
-  for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(problem_, s.displacement, node);
-  json members = {{"step", s.step},
-                  {"name", problem_.steps[s.step - 1].name},
-                  {"fraction", s.fraction},
-                  {"increments", nullptr},
-                  {"w", w}};
-  members["displacement"] = s.displacement;
-  members.update({{"pairs", nullptr},
-                  {"reactions", nullptr},
-                  {"elements", nullptr},
-                  {"extremes", extremes_json(m, r.ranges)},
-                  {"extremes_at", ranges_are_at(m)}});
-  if (s.from_fallback) members["ended_by"] = "oracle";
-  if (s.from_exact_path) members["ended_by"] = "exact";
-  const std::optional<certificate>& judged = judged_.steps().back();
-  members.update({{"rcond", s.rcond},
-                  {"digits", judged ? json(digits_of(*judged)) : json(nullptr)},
-                  {"error", error_json(problem_, judged)},
-                  {"certificate", certificate_json(judged)}});
-  document_.add(members,
-                {{"increments", increments_.size(), [this](auto i) { return increment_of(i); }},
-                 {"pairs", problem_.pairs.size(), [&](auto i) { return pair_in(s, i, r.pairs[i]); }},
-                 {"reactions", r.reactions.size(),
-                  [&](auto i) {
-                    json entry = reaction_json(m, problem_.supports[i]);
-                    entry["value"] = r.reactions[i];
-                    return entry;
-                  }},
-                 {"elements", r.elements.elements(), [&](auto i) { return element_json(r.elements, i); }}});
-  increments_.clear();
-}
-
-json result_json::increment_of(std::size_t at) const {
-  const increment_record& i = increments_[at];
-  json entry = {{"increment", i.number},
-                {"s", i.s},
-                {"fraction", i.fraction},
-                {"load", load_json(problem_.geometry, loads_, i.step, i.fraction)},
-                {"events", list_of(i.events, [this](const event& e) { return event_json(problem_, e); })}};
-  if (i.snaps) entry["snap"] = true;
+json event_json(const problem& p, const event& e) {
+  const contact_pair& at = p.pairs[e.pair];
+  json entry = {{"pair", e.pair + 1}};
+  put_place(entry, p.geometry, at.node);
+  entry.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
   return entry;
 }
 
-json result_json::pair_in(const step_state& s, std::size_t pair, const pair_reading& r) const {
-  const contact_pair& p = problem_.pairs[pair];
-  json entry = {{"pair", pair + 1}};
-  put_place(entry, problem_.geometry, p.node);
-  entry.update({{"surface", surface_name(p.surface)},
-                {"state", state_name(s.isep[pair])},
-                {"gap", r.gap},
-                {"force", r.force}});
+json pair_state_json(const problem& p, std::size_t i, int isep, const json& gap, const json& force) {
+  json entry = {{"pair", i + 1}};
+  put_place(entry, p.geometry, p.pairs[i].node);
+  entry.update({{"surface", surface_name(p.pairs[i].surface)},
+                {"state", state_name(isep)},
+                {"gap", gap},
+                {"force", force}});
   return entry;
 }
 
-void result_json::finish(std::string_view status, const path_end& end, const lockstep* compared,
-                         const envelope* all) {
-  json members = {{"end",
-                   {{"reason", end_reason(end.status)},
-                    {"step", end.step},
-                    {"fraction", end.fraction},
-                    {"pairs", numbered(end.pairs)}}},
-                  {"engine_work",
-                   {{"factors", end.work.factors},
-                    {"solves", end.work.solves},
-                    {"updates", end.work.updates},
-                    {"checks", end.work.checks}}}};
-  if (!free_runs_.empty()) members["free_run"] = nullptr;
-  members["lockstep"] = compared == nullptr ? json(nullptr) : lockstep_json(*compared);
-  members["status"] = status;
-  if (all != nullptr) members["envelope"] = envelope_json(problem_, *all);
-  members["certified"] = end.status == path_status::solved && judged_.all_exact();
-  document_.finish(members, {{"free_run", free_runs_.size(), [this](auto i) -> json {
-                                const auto& [kernel, d, certified] = free_runs_[i];
-                                return {{"kernel", kernel},
-                                        {"same_end", d.same_end},
-                                        {"same_events", d.same_events},
-                                        {"first_difference", d.first_difference},
-                                        {"fraction", d.fraction},
-                                        {"displacement", d.displacement},
-                                        {"bound", d.bound},
-                                        {"within_bound", d.within_bound()},
-                                        {"certified", certified}};
-                              }}});
+json support_json(const model& m, const support& at) {
+  json entry;
+  put_place(entry, m, at.node);
+  if (!entry.contains("dof")) entry["dof"] = dof_names(m)[at.dof];
+  return entry;
+}
+
+namespace {
+
+/// What a state has, in the order of steps' keys.
+class state_writer {
+ public:
+  explicit state_writer(const problem& p) : p_(p), m_(p.geometry), loads_(p) {}
+
+  [[nodiscard]] json load_in(int step, double fraction, bool in_words) const {
+    json out = load_json(m_, loads_, step, fraction);
+    if (in_words) out["words"] = loads_.words_at(step, fraction, load_words_width);
+    return out;
+  }
+
+  [[nodiscard]] step_results read(const frame& f) const {
+    step_results r = results_of(p_, loads_.at(f.step, f.fraction), f, deflecting_);
+    for (std::size_t i = 0; i < f.pair_forces.size() && !f.numbers; ++i) r.pairs[i].force = f.pair_forces[i];
+    return r;
+  }
+
+  [[nodiscard]] json extremes(const step_results& r) const { return extremes_json(m_, r.ranges); }
+
+  /// `r` and `f` must outlive these lists.
+  [[nodiscard]] std::vector<json_document::list> lists(const step_results& r, const frame& f) const {
+    return {{"pairs", p_.pairs.size(),
+             [&](auto i) { return pair_state_json(p_, i, f.isep[i], r.pairs[i].gap, r.pairs[i].force); }},
+            {"reactions", r.reactions.size(),
+             [&](auto i) {
+               json entry = support_json(m_, p_.supports[i]);
+               entry["value"] = r.reactions[i];
+               return entry;
+             }},
+            {"elements", r.elements.elements(), [&](auto i) { return element_json(r.elements, i); }}};
+  }
+
+ private:
+  static constexpr int load_words_width = 60;
+
+  const problem& p_;
+  const model& m_;
+  load_path loads_;
+  std::vector<int> deflecting_ = deflecting_nodes(p_);
+};
+
+/// Of the states within steps, those that are written: evenly chosen, so that all together take not too many
+/// bytes.
+std::map<std::pair<int, int>, const frame*> states_within(const run_result& r, std::size_t most_bytes) {
+  constexpr std::size_t fewest = 4;
+  const problem& p = r.what;
+  const std::size_t of_element =
+      std::holds_alternative<plate>(p.geometry.kind) ? 300 : 120;  // about, as text
+  const std::size_t bytes = 20 * dofs(p.geometry) + 100 * p.pairs.size() + 55 * p.supports.size() +
+                            of_element * elements(p.geometry);
+  std::vector<const frame*> within;
+  for (const frame& f : r.frames)
+    if (f.number > 0 && !f.step_end) within.push_back(&f);
+  const std::size_t most = std::max(fewest, most_bytes / std::max<std::size_t>(bytes, 1));
+  const std::size_t stride = (within.size() + most - 1) / most;
+  std::map<std::pair<int, int>, const frame*> chosen;
+  for (std::size_t i = 0; i < within.size(); i += stride)
+    chosen[{within[i]->step, within[i]->number}] = within[i];
+  return chosen;
+}
+
+class result_writer {
+ public:
+  result_writer(const run_result& r, output_file& out, result_parts parts)
+      : r_(r), parts_(parts), document_(out, head(), "steps") {
+    if (parts != result_parts::ends)
+      within_ = states_within(r, parts == result_parts::report ? 6'000'000 : 1'500'000);
+  }
+
+  void write() {
+    for (std::size_t step = 0; step < r_.record.steps.size(); ++step) add_step(step);
+    document_.finish(
+        foot(), {{"free_run", r_.free_runs.size(), [this](auto i) { return free_run(r_.free_runs[i]); }},
+                 {"calls", r_.record.calls.size(), [this](auto i) { return call(r_.record.calls[i]); }}});
+  }
+
+ private:
+  [[nodiscard]] json head() const {
+    json members = {{"format", "contct-result-1"},
+                    {"title", r_.what.title},
+                    {"units", units_json(r_.what.units)},
+                    {"kernels", r_.kernels},
+                    {"engine", r_.engine}};
+    if (parts_ == result_parts::ends) return members;
+    members.update(
+        {{"file", r_.file}, {"date", r_.date}, {"words", words()}, {"structure", structure_json(r_.what)}});
+    return members;
+  }
+
+  /// What a terminal says when the run is over.
+  [[nodiscard]] json words() const {
+    return {{"end", end_words(r_.what, r_.end)},
+            {"comparison", r_.comparison},
+            {"certificate", certificate_summary(r_.judged, r_.status() == "solved")},
+            {"complaints", complaints_of(r_)},
+            {"program", r_.facts}};
+  }
+
+  void add_step(std::size_t number) {
+    const step_record& s = r_.record.steps[number];
+    const model& m = r_.what.geometry;
+    const step_results read = state_.read(s.end);
+    std::vector<double> w(nodes(m));
+    for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(r_.what, s.end.displacement, node);
+    json members = {{"step", s.end.step},
+                    {"name", r_.what.steps[s.end.step - 1].name},
+                    {"fraction", s.end.fraction},
+                    {"increments", nullptr},
+                    {"w", w},
+                    {"displacement", s.end.displacement},
+                    {"pairs", nullptr},
+                    {"reactions", nullptr},
+                    {"elements", nullptr},
+                    {"extremes", state_.extremes(read)},
+                    {"extremes_at", ranges_are_at(m)}};
+    if (parts_ != result_parts::ends) members["load"] = state_.load_in(s.end.step, s.end.fraction, true);
+    if (s.end.from_fallback) members["ended_by"] = "oracle";
+    if (s.end.from_exact_path) members["ended_by"] = "exact";
+    const std::optional<certificate>& judged = r_.judged.steps()[number];
+    members.update({{"rcond", s.rcond},
+                    {"digits", judged ? json(digits_of(*judged)) : json(nullptr)},
+                    {"error", error_json(r_.what, judged)},
+                    {"certificate", certificate_json(judged)}});
+    std::vector<json_document::list> lists = state_.lists(read, s.end);
+    lists.push_back(
+        {"increments", s.increments.size(), [&](auto i) { return increment_of(s.increments[i]); }});
+    document_.add(members, lists);
+  }
+
+  [[nodiscard]] json increment_of(const increment_record& i) const {
+    json entry = {{"increment", i.number},
+                  {"s", i.s},
+                  {"fraction", i.fraction},
+                  {"load", state_.load_in(i.step, i.fraction, parts_ != result_parts::ends)},
+                  {"events", list_of(i.events, [this](const event& e) { return event_json(r_.what, e); })}};
+    if (i.snaps) entry["snap"] = true;
+    if (const auto found = within_.find({i.step, i.number}); found != within_.end())
+      put_state(entry, *found->second);
+    return entry;
+  }
+
+  void put_state(json& entry, const frame& f) const {
+    const step_results read = state_.read(f);
+    entry["displacement"] = f.displacement;
+    for (const json_document::list& l : state_.lists(read, f)) {
+      json& list = entry[std::string(l.name)] = json::array();
+      for (std::size_t i = 0; i < l.count; ++i) list.push_back(l.entry(i));
+    }
+    entry["extremes"] = state_.extremes(read);
+  }
+
+  [[nodiscard]] json foot() const {
+    const path_end& end = r_.end;
+    json members = {{"end",
+                     {{"reason", end_reason(end.status)},
+                      {"step", end.step},
+                      {"fraction", end.fraction},
+                      {"pairs", numbered(end.pairs)}}},
+                    {"engine_work",
+                     {{"factors", end.work.factors},
+                      {"solves", end.work.solves},
+                      {"updates", end.work.updates},
+                      {"checks", end.work.checks}}}};
+    if (!r_.free_runs.empty()) members["free_run"] = nullptr;
+    members["lockstep"] = r_.compared == nullptr ? json(nullptr) : lockstep_json(*r_.compared);
+    members["status"] = r_.status();
+    if (r_.all_increments != nullptr) members["envelope"] = envelope_json(r_.what, *r_.all_increments);
+    members["certified"] = end.status == path_status::solved && r_.judged.all_exact();
+    if (parts_ != result_parts::report) return members;
+    members.update({{"calls", nullptr},
+                    {"calls_made", r_.record.all_calls},
+                    {"log", r_.record.log},
+                    {"log_bytes", r_.record.all_log}});
+    return members;
+  }
+
+  [[nodiscard]] static json free_run(const compared_path& of) {
+    const free_run_difference& d = of.difference;
+    return {{"kernel", of.kernel},
+            {"same_end", d.same_end},
+            {"same_events", d.same_events},
+            {"first_difference", d.first_difference},
+            {"fraction", d.fraction},
+            {"displacement", d.displacement},
+            {"bound", d.bound},
+            {"within_bound", d.within_bound()},
+            {"certified", of.certified}};
+  }
+
+  [[nodiscard]] static json call(const call_record& c) {
+    return {{"step", c.step},
+            {"increment", c.number},
+            {"smin", c.smin},
+            {"s", c.ss},
+            {"followers", list_of(c.followers, [](const follower_answer& a) -> json {
+               return {{"values", a.values},
+                       {"mismatches", a.mismatches},
+                       {"smin_ulps", a.smin_ulps},
+                       {"s_ulps", a.ss_ulps},
+                       {"failed", a.failed}};
+             })}};
+  }
+
+  const run_result& r_;
+  result_parts parts_;
+  state_writer state_{r_.what};
+  std::map<std::pair<int, int>, const frame*> within_;
+  json_document document_;
+};
+
+}  // namespace
+
+void write_result(const run_result& r, output_file& out, result_parts parts) {
+  result_writer(r, out, parts).write();
 }
 
 }  // namespace contct::write

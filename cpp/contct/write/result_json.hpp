@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/compare/free_run.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/step_results.hpp"
 #include "contct/write/words.hpp"
@@ -70,47 +69,29 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
                                                double fraction);
 
+/// The structure as a run has it, in the order of its numbers: places of nodes, stiffnesses, supports, pairs.
+[[nodiscard]] nlohmann::ordered_json structure_json(const problem& p);
+
+/// What a support holds: its place, and its "dof".
+[[nodiscard]] nlohmann::ordered_json support_json(const model& m, const support& at);
+
+/// An event, and pair `i`, from 0, in a state: results and exact paths have the same keys.
+[[nodiscard]] nlohmann::ordered_json event_json(const problem& p, const event& e);
+[[nodiscard]] nlohmann::ordered_json pair_state_json(const problem& p, std::size_t i, int isep,
+                                                     const nlohmann::ordered_json& gap,
+                                                     const nlohmann::ordered_json& force);
+
 /// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
 void put_place(nlohmann::ordered_json& entry, const model& m, int node);
 
-/// Observes a path and writes it as it goes: memory does not grow with the number of steps.
-/// The file appears when `finish` is called.
-class result_json final : public observer {
- public:
-  /// `p`, `judged` and `out` must outlive this object. It must observe behind the certifier.
-  result_json(const problem& p, const std::vector<std::string>& kernels, std::string_view engine,
-              const certifier& judged, output_file& out);
-
-  void incremented(const increment& i) override { increments_.emplace_back(i); }
-  void step_ended(const step_state& s) override;
-
-  /// Add how another kernel's own path compares.
-  void add_free_run(std::string_view kernel, const free_run_difference& d, bool certified) {
-    free_runs_.push_back({std::string(kernel), d, certified});
-  }
-
-  /// Close the document. `compared` is null when there was one kernel only.
-  /// `all`: the envelope of the path, where it was asked for.
-  void finish(std::string_view status, const path_end& end, const lockstep* compared,
-              const envelope* all = nullptr);
-
- private:
-  [[nodiscard]] nlohmann::ordered_json increment_of(std::size_t at) const;
-  [[nodiscard]] nlohmann::ordered_json pair_in(const step_state& s, std::size_t pair,
-                                               const pair_reading& r) const;
-
-  struct compared_path {
-    std::string kernel;
-    free_run_difference difference;
-    bool certified;
-  };
-  const problem& problem_;
-  const certifier& judged_;
-  load_path loads_;
-  json_document document_;
-  std::vector<int> deflecting_ = deflecting_nodes(problem_);
-  std::vector<increment_record> increments_;  // of the current step
-  std::vector<compared_path> free_runs_;
+/// What else than the ends of steps is written.
+enum class result_parts {
+  ends,
+  states,  ///< also the structure, states within steps, and all in words: what draws the run needs no more
+  report   ///< also the leader's calls and unit 26
 };
+
+/// Writes a whole result; the file appears.
+void write_result(const run_result& r, output_file& out, result_parts parts = result_parts::ends);
 
 }  // namespace contct::write

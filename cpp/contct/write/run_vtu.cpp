@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
@@ -36,29 +35,15 @@ std::string section(std::string_view name, std::string_view attributes, std::str
 }
 
 /// Numbers at all points, or all cells.
-struct data_array {
-  std::string name;
-  std::size_t components = 1;
-  std::variant<std::vector<double>, std::vector<int>, std::vector<std::uint8_t>> values;
-};
-
-constexpr std::string_view type_of(const data_array& a) {
-  constexpr std::string_view types[] = {"Float64", "Int32", "UInt8"};  // as in the variant
-  return types[a.values.index()];
-}
-
-std::string attributes_of(const data_array& a) {
-  return fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}")", type_of(a), markup_text(a.name),
-                     a.components);
-}
-
-std::string text_of(const data_array& a) {
-  return std::visit(
-      [&a](const auto& values) {
-        return fmt::format("        <DataArray {} format=\"ascii\">\n{}\n        </DataArray>\n",
-                           attributes_of(a), fmt::join(values, " "));
-      },
-      a.values);
+template <class Number>
+std::string data_array(std::string_view name, std::size_t components, const std::vector<Number>& values) {
+  constexpr std::string_view type = std::is_same_v<Number, double> ? "Float64"
+                                    : std::is_same_v<Number, int>  ? "Int32"
+                                                                   : "UInt8";
+  return fmt::format(
+      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n        "
+      "</DataArray>\n",
+      type, markup_text(name), components, fmt::join(values, " "));
 }
 
 /// A pair that has a cell, at a node, and what the cell says.
@@ -82,7 +67,8 @@ std::vector<placed_pair> placed_pairs(const problem& p, const frame& f) {
   return list;
 }
 
-data_array points_of(const problem& p) {
+/// The places of all points, three numbers each.
+std::vector<double> points_of(const problem& p) {
   std::vector<double> at;
   if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) {
     for (const placed_node& n : a->places.nodes) at.insert(at.end(), n.at.begin(), n.at.end());
@@ -92,7 +78,39 @@ data_array points_of(const problem& p) {
       at.insert(at.end(), {where.x, where.y, 0.0});
     }
   }
-  return {"points", 3, std::move(at)};
+  return at;
+}
+
+/// A displacement of a structure from elsewhere.
+using in_space = std::array<double, 3>;
+
+/// The dof, from 0, of a node along each axis and about it; -1 where it has none.
+struct dofs_of_node {
+  std::array<int, 3> along{-1, -1, -1};
+  std::array<int, 3> about{-1, -1, -1};
+
+  [[nodiscard]] bool operator==(const dofs_of_node&) const = default;
+};
+
+/// Of each node.
+std::vector<dofs_of_node> dofs_of_nodes(const placed_nodes& places) {
+  std::vector<dofs_of_node> list(places.nodes.size());
+  for (std::size_t dof = 0; dof < places.dofs.size(); ++dof) {
+    const placed_dof& at = places.dofs[dof];
+    if (at.node < 0) continue;
+    dofs_of_node& of = list[at.node];
+    const int axis = (at.direction - 1) % 3;
+    (at.is_length() ? of.along : of.about)[axis] = static_cast<int>(dof);
+  }
+  return list;
+}
+
+/// The numbers [dofs] at three dofs; 0 where there is none.
+in_space reading_at(const std::array<int, 3>& dofs, const std::vector<double>& numbers) {
+  in_space u{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (dofs[axis] >= 0) u[axis] = numbers[dofs[axis]];
+  return u;
 }
 
 /// The reaction at each dof; 0 where nothing holds it.
@@ -108,29 +126,28 @@ std::vector<double> reactions_at_dofs(const problem& p, const frame& f) {
 /// What the points have, and which of it a viewer shows first.
 struct point_arrays {
   std::string_view attributes;
-  std::vector<data_array> arrays;
+  std::string arrays;
 };
 
 /// Displacements and reactions, and rotations where there are any.
 point_arrays mesh_point_data(const problem& p, const placed_nodes& places, const frame& f) {
-  const frame reacting{.displacement = reactions_at_dofs(p, f)};
+  const std::vector<double> reacting = reactions_at_dofs(p, f);
   std::vector<double> displacement;
   std::vector<double> rotation;
   std::vector<double> reaction;
   bool turns = false;
   for (const dofs_of_node& of : dofs_of_nodes(places)) {
-    const in_space u = reading_at(of.along, f);
-    const in_space r = reading_at(of.about, f);
+    const in_space u = reading_at(of.along, f.displacement);
+    const in_space r = reading_at(of.about, f.displacement);
     displacement.insert(displacement.end(), u.begin(), u.end());
     rotation.insert(rotation.end(), r.begin(), r.end());
     const in_space force = reading_at(of.along, reacting);
     reaction.insert(reaction.end(), force.begin(), force.end());
     turns = turns || of.about != dofs_of_node{}.about;
   }
-  point_arrays all{R"( Vectors="displacement")", {{"displacement", 3, std::move(displacement)}}};
-  if (turns) all.arrays.push_back({"rotation", 3, std::move(rotation)});
-  all.arrays.push_back({"reaction", 3, std::move(reaction)});
-  return all;
+  return {R"( Vectors="displacement")", data_array("displacement", 3, displacement) +
+                                            (turns ? data_array("rotation", 3, rotation) : "") +
+                                            data_array("reaction", 3, reaction)};
 }
 
 point_arrays point_data(const problem& p, const frame& f) {
@@ -142,28 +159,27 @@ point_arrays point_data(const problem& p, const frame& f) {
     displacement.insert(displacement.end(), {0.0, 0.0, f.displacement[i]});
     for (std::size_t dof = 0; dof < names.size(); ++dof) by_dof[dof].push_back(f.displacement[i + dof]);
   }
-  point_arrays all{R"( Vectors="displacement" Scalars="w")", {{"displacement", 3, std::move(displacement)}}};
-  for (std::size_t dof = 0; dof < names.size(); ++dof)
-    all.arrays.push_back({names[dof], 1, std::move(by_dof[dof])});
-  all.arrays.push_back({"reaction", names.size(), reactions_at_dofs(p, f)});
-  if (!p.beds.empty()) all.arrays.push_back({"pressure", 1, bed_pressure(p, f)});
-  return all;
+  std::string arrays = data_array("displacement", 3, displacement);
+  for (std::size_t dof = 0; dof < names.size(); ++dof) arrays += data_array(names[dof], 1, by_dof[dof]);
+  arrays += data_array("reaction", names.size(), reactions_at_dofs(p, f));
+  if (!p.beds.empty()) arrays += data_array("pressure", 1, bed_pressure(p, f));
+  return {R"( Vectors="displacement" Scalars="w")", std::move(arrays)};
 }
 
 /// A column has a number for each element, the same for all, then one for each pair; then comes what the
 /// elements read, with zeros for the pairs behind them.
-std::vector<data_array> cell_data(const problem& p, const frame& f, std::size_t elements,
-                                  const std::vector<placed_pair>& pairs) {
+std::string cell_data(const problem& p, const frame& f, std::size_t elements,
+                      const std::vector<placed_pair>& pairs) {
   const auto column = [&](const char* name, auto of_elements, auto of_pair) {
     std::vector<decltype(of_elements)> values(elements, of_elements);
     for (const placed_pair& at : pairs) values.push_back(at.*of_pair);
-    return data_array{name, 1, std::move(values)};
+    return data_array(name, 1, values);
   };
-  std::vector<data_array> arrays = {
-      column("pair", 0, &placed_pair::number),     column("state", -1, &placed_pair::look),
-      column("surface", 0, &placed_pair::surface), column("direction", 0, &placed_pair::direction),
-      column("face", 0.0, &placed_pair::face),     column("gap", 0.0, &placed_pair::gap),
-      column("force", 0.0, &placed_pair::force)};
+  std::string arrays = column("pair", 0, &placed_pair::number) + column("state", -1, &placed_pair::look) +
+                       column("surface", 0, &placed_pair::surface) +
+                       column("direction", 0, &placed_pair::direction) +
+                       column("face", 0.0, &placed_pair::face) + column("gap", 0.0, &placed_pair::gap) +
+                       column("force", 0.0, &placed_pair::force);
   const load now = load_path(p).at(f.step, f.fraction);
   const element_results results = elements_in(p, now, f);
   const auto places = static_cast<std::size_t>(results.places);
@@ -174,44 +190,24 @@ std::vector<data_array> cell_data(const problem& p, const frame& f, std::size_t 
       values.insert(values.end(), at.begin(), at.end());
     }
     values.resize((elements + pairs.size()) * places);
-    arrays.push_back({std::string(results.names[name]), places, std::move(values)});
+    arrays += data_array(results.names[name], places, values);
   }
   return arrays;
 }
 
-/// A frame as numbers.
-struct grid {
-  grid(const problem& p, const frame& f)
-      : pairs(placed_pairs(p, f)), cells(elements_of(p.geometry)), elements(cells.size()) {
-    of_points = point_data(p, f);
-    of_cells = cell_data(p, f, elements, pairs);
-    points = points_of(p);
-    for (const placed_pair& at : pairs) cells.push_back({at.node});
-  }
-  [[nodiscard]] std::size_t point_count() const {
-    return std::get<std::vector<double>>(points.values).size() / points.components;
-  }
-
-  std::vector<placed_pair> pairs;
-  std::vector<std::vector<int>> cells;  ///< the nodes of elements, then those of pairs
-  std::size_t elements;
-  point_arrays of_points;
-  std::vector<data_array> of_cells;
-  data_array points;
-};
-
-std::string cells_of(const grid& g) {
+/// The nodes of each cell: elements, then pairs.
+std::string cells_of(const std::vector<std::vector<int>>& cells) {
   std::vector<int> connectivity;
   std::vector<int> offsets;
   std::vector<std::uint8_t> types;
-  for (const std::vector<int>& at : g.cells) {
+  for (const std::vector<int>& at : cells) {
     connectivity.insert(connectivity.end(), at.begin(), at.end());
     offsets.push_back(static_cast<int>(connectivity.size()));
     types.push_back(at.size() == 1 ? vtk_vertex : at.size() == 2 ? vtk_line : vtk_quad);
   }
   return section("Cells", "",
-                 text_of({"connectivity", 1, std::move(connectivity)}) +
-                     text_of({"offsets", 1, std::move(offsets)}) + text_of({"types", 1, std::move(types)}));
+                 data_array("connectivity", 1, connectivity) + data_array("offsets", 1, offsets) +
+                     data_array("types", 1, types));
 }
 
 std::string field_data(const frame& f) {
@@ -236,19 +232,20 @@ std::string file_of(std::string_view type, std::string_view content) {
 }  // namespace
 
 std::string vtu_of_frame(const problem& p, const frame& f) {
-  const grid g(p, f);
-  const auto texts = [](const std::vector<data_array>& arrays) {
-    std::string all;
-    for (const data_array& a : arrays) all += text_of(a);
-    return all;
-  };
+  const std::vector<placed_pair> pairs = placed_pairs(p, f);
+  std::vector<std::vector<int>> cells = elements_of(p.geometry);
+  const std::size_t elements = cells.size();
+  for (const placed_pair& at : pairs) cells.push_back({at.node});
+  const std::vector<double> points = points_of(p);
+  const point_arrays of_points = point_data(p, f);
   return file_of("UnstructuredGrid",
                  field_data(f) +
-                     fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", g.point_count(),
-                                 g.cells.size()) +
-                     section("PointData", g.of_points.attributes, texts(g.of_points.arrays)) +
-                     section("CellData", "", texts(g.of_cells)) + section("Points", "", text_of(g.points)) +
-                     cells_of(g) + "    </Piece>\n");
+                     fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                                 points.size() / 3, cells.size()) +
+                     section("PointData", of_points.attributes, of_points.arrays) +
+                     section("CellData", "", cell_data(p, f, elements, pairs)) +
+                     section("Points", "", data_array("points", 3, points)) + cells_of(cells) +
+                     "    </Piece>\n");
 }
 
 std::string pvd_of_frames(const std::string& stem, std::size_t count) {

@@ -81,16 +81,18 @@ exit_status status_of(path_status status) {
   return statuses[static_cast<int>(status)];  // in the order of path_status
 }
 
-void passage_watch::step_ended(const step_state& s) {
-  const auto here = deepest_passage(what, loads.at(s.step, s.fraction), s.displacement);
-  if (!here || (worst && here->depth <= worst->depth)) return;
-  worst = here;
-  step = s.step;
-}
-
-std::string passage_watch::warning() const {
+std::string passage_warning(const problem& p, std::span<const step_record> steps) {
+  const load_path loads(p);
+  std::optional<passage> worst;
+  int step = 0;
+  for (const step_record& s : steps) {
+    const auto here = deepest_passage(p, loads.at(s.end.step, s.end.fraction), s.end.displacement);
+    if (!here || (worst && here->depth <= worst->depth)) continue;
+    worst = here;
+    step = s.end.step;
+  }
   if (!worst) return "";
-  const contact_pair& left = what.pairs[worst->first];
+  const contact_pair& left = p.pairs[worst->first];
   return fmt::format(
       "step {}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g} "
       "at x = {:.6g}. Where these are separate stops, this is as it should be; where one surface runs "
@@ -99,23 +101,40 @@ std::string passage_watch::warning() const {
       step, worst->first + 1, worst->second + 1, left.face, worst->depth, worst->x);
 }
 
-void digit_watch::step_ended(const step_state& s) {
-  // Refined states, and those of the exact path, keep their digits.
-  if (s.numbers != nullptr || s.from_exact_path || digits_left(s.rcond) >= fewest) return;
-  fewest = digits_left(s.rcond);
-  step = s.step;
-  rcond = s.rcond;
-}
-
-std::string digit_watch::warning() const {
-  if (fewest >= 5) return "";
+std::string digit_warning(std::span<const step_record> steps) {
+  int fewest = 5;  // a state with as many needs no warning
+  const step_record* worst = nullptr;
+  for (const step_record& s : steps) {
+    // Refined states, and those of the exact path, keep their digits.
+    if (s.end.numbers || s.end.from_exact_path || digits_left(s.rcond) >= fewest) continue;
+    fewest = digits_left(s.rcond);
+    worst = &s;
+  }
+  if (worst == nullptr) return "";
   const std::string digits = fewest == 0   ? "no digit"
                              : fewest == 1 ? "about 1 digit"
                                            : fmt::format("about {} digits", fewest);
   return fmt::format(
       "step {}: {} of the answer can be relied on: the stiffness is ill-conditioned (rcond {:.1e}). Use "
       "fewer elements in a span, or more supports",
-      step, digits, rcond);
+      worst->end.step, digits, worst->rcond);
+}
+
+std::vector<std::string> complaints_of(const run_result& r) {
+  std::vector<std::string> lines = certificate_complaints(r.what, r.judged, r.early);
+  const std::string remedy = remedy_words(r.kernels, r.file);
+  if (!lines.empty() && !remedy.empty()) lines.push_back(remedy);
+  return lines;
+}
+
+std::vector<std::string> end_messages(const run_result& r) {
+  std::vector<std::string> lines = complaints_of(r);
+  const std::string why = end_words(r.what, r.end);
+  if (!why.empty()) lines.push_back(r.file + ": " + why);
+  for (const std::string& w :
+       {why.empty() ? digit_warning(r.record.steps) : "", passage_warning(r.what, r.record.steps)})
+    if (!w.empty()) lines.push_back("warning: " + w);
+  return lines;
 }
 
 }  // namespace contct::write

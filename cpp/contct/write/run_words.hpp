@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
@@ -27,32 +28,17 @@ template <class Comparing>
                      c.compared().mismatches);
 }
 
-/// Observes a path of a beam and remembers where, at the end of a step, it passes deepest through a face
-/// between pairs.
-struct passage_watch final : observer {
-  /// `p` must outlive this object.
-  explicit passage_watch(const problem& p) : what(p), loads(p) {}
-  void step_ended(const step_state& s) override;
+/// A warning where too few digits of the end of a step are left to rely on; empty otherwise.
+[[nodiscard]] std::string digit_warning(std::span<const step_record> steps);
 
-  /// A warning that names the remedy; empty where there is no such place.
-  [[nodiscard]] std::string warning() const;
+/// A warning where, at the end of a step, a beam passes through a face between pairs, and its remedy; empty
+/// where it does not.
+[[nodiscard]] std::string passage_warning(const problem& p, std::span<const step_record> steps);
 
-  const problem& what;
-  load_path loads;
-  std::optional<passage> worst;
-  int step = 0;
-};
+/// What is wrong with the ends of steps, and what to do about it.
+[[nodiscard]] std::vector<std::string> complaints_of(const run_result& r);
 
-/// Observes a path and remembers the step whose answer kept the fewest digits.
-struct digit_watch final : observer {
-  void step_ended(const step_state& s) override;
-
-  /// A warning where too few digits are left to rely on; empty otherwise.
-  [[nodiscard]] std::string warning() const;
-
-  int fewest = 16;
-  int step = 0;
-  double rcond = 1.0;
-};
+/// The same, why the path ended, and warnings.
+[[nodiscard]] std::vector<std::string> end_messages(const run_result& r);
 
 }  // namespace contct::write

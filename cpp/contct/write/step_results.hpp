@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contct/structure/extremes.hpp"
-#include "contct/write/finished_run.hpp"
+#include "contct/write/run_result.hpp"
 
 namespace contct::write {
 
