@@ -8,7 +8,6 @@
 #include "contct/compare/compare.hpp"
 #include "contct/kernel/limits.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/matrix/lapack_identity.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/serve/answer.hpp"

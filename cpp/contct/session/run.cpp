@@ -8,7 +8,7 @@
 
 #include "contct/exact/exact_follower.hpp"
 #include "contct/exact/exact_residual.hpp"
-#include "contct/matrix/lapack_identity.hpp"
+#include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
