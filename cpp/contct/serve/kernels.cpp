@@ -30,7 +30,7 @@ void tell_about(answer& a) {
     const kernel_facts k = facts_of_kernel(name);
     out["kernels"].push_back({{"name", k.name},
                               {"real_bytes", k.real_bytes},
-                              {"rule", k.rule},
+                              {"rule", name_of(k.rule)},
                               {"language", k.language},
                               {"compiler", k.compiler},
                               {"flags", k.flags}});

@@ -72,7 +72,7 @@ path_end run::follow_leader(std::vector<observer*>& all) {
 }
 
 void run::keep_states(std::vector<observer*>& all) {
-  const bool forces_by_law = leader_facts_.rule != "listing";
+  const bool forces_by_law = leader_facts_.rule != contact_rule::listing;
   all.push_back(&frames_.emplace(structure, loads_of(what, structure), forces_by_law, wanted.kept));
   all.push_back(&record_.emplace(compared()));
   if (wanted.envelope) {
