@@ -136,7 +136,8 @@ exit_status run_command(const kernels_options& /*options*/) {
   for (const std::string& name : kernel_names()) {
     const kernel_facts f = facts_of_kernel(name);
     print_text(fmt::format("{:<12} {} bytes  {:<9} {:<11} {}\n", f.name, f.real_bytes,
-                           f.rule == "listing" ? "1989" : f.rule, f.language, f.compiler));
+                           f.rule == contact_rule::listing ? "1989" : name_of(f.rule), f.language,
+                           f.compiler));
   }
   print_text(
       fmt::format("\nexternal kernels: plugin:LIBRARY (a shared library), pipe:COMMAND (calls as text)\n"));

@@ -127,6 +127,8 @@ exit_status run_command(const fuzz_options& options) {
   request.problems = options.problems.value_or(request.calls / calls_for_a_problem);
   if (request.kernels.size() < 2)
     throw std::invalid_argument("--kernels: found one kernel; allowed: two or more, the first one leads");
+  for (const std::string& name : request.kernels)
+    refuse_unequal(facts_of_kernel(request.kernels[0]), facts_of_kernel(name));
   const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
   refuse_shared_outputs(outputs);
   const output_files files(outputs);

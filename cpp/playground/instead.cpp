@@ -1,7 +1,7 @@
 // What a page has in place of other processes and of libraries that are looked for at run time.
 #include <stdexcept>
 
-#include "contct/matrix/lapack_identity.hpp"
+#include "contct/matrix/cholesky.hpp"
 #include "contct/outside/child_process.hpp"
 
 extern "C" void ilaver_(int* major, int* minor, int* patch);

@@ -21,7 +21,6 @@
 #include "bench/peers.hpp"
 #include "bench/problems.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/matrix/lapack_identity.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/solve/spring_engine.hpp"
 #include "contct/text/output_file.hpp"

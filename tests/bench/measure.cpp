@@ -113,7 +113,7 @@ final_states time_final_states(const contct::app::problem& p, const contct::app:
   f.factorisations = static_cast<int>(end.work.factors);
   const bool by_cholmod = contct::app::quickest_factor(s) == contct::app::factored_by::cholmod;
   const std::optional<contct::app::stiffness_matrix> entries =
-      by_cholmod ? contct::app::entries_of_band(s) : std::nullopt;
+      by_cholmod ? contct::app::entries_for(s, contct::app::factored_by::cholmod) : std::nullopt;
   contct::app::stiffness_factor factor(entries ? *entries : s.stiffness);
   const std::vector<contct::app::spring_at> springs =
       contct::app::springs_of(s, std::vector<char>(s.pairs.size(), 1));

@@ -28,7 +28,7 @@ class faulty_kernel final : public kernel {
   std::string take_text() override { return text_; }
 
  private:
-  kernel_facts facts_{"faulty", 8, "listing", "", "", "", true};
+  kernel_facts facts_{"faulty", 8, contact_rule::listing, "", "", "", true};
   std::unique_ptr<kernel> inner_ = make_kernel("cpp");
   std::function<void(call<double>&, std::string&)> fault_;
   std::string text_;

@@ -229,7 +229,7 @@ TEST_CASE("corrected: the kernel keeps nothing between calls: only at_rest decid
   for (int i = 0; i < 2 * quick_answers_at_rest(2); ++i) REQUIRE(chosen(0) == 1);
   CHECK(chosen(quick_answers_at_rest(2)) == 0);
   CHECK(chosen(0) == 1);
-  CHECK(k->facts().rule == "corrected");
+  CHECK(k->facts().rule == contact_rule::corrected);
   CHECK_FALSE(k->facts().has_text);
   CHECK(k->take_text().empty());
 }

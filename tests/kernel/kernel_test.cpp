@@ -56,6 +56,6 @@ TEST_CASE("a single-precision kernel sees the doubles rounded and gives its numb
 }
 
 TEST_CASE("messages call the rule of the listing the 1989 rule") {
-  CHECK(rule_words("listing") == "the 1989 rule");
-  CHECK(rule_words("corrected") == "the corrected rule");
+  CHECK(rule_words(contact_rule::listing) == "the 1989 rule");
+  CHECK(rule_words(contact_rule::corrected) == "the corrected rule");
 }

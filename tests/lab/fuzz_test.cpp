@@ -84,17 +84,18 @@ TEST_CASE("how near a follower came is the largest distance, and whether its eve
   led.smin = std::nextafter(0.5, 1.0);
   led.ss[0] = std::nextafter(led.smin, 1.0);
   led.isep[0] = in_contact;
-  const auto k = make_kernel("cpp");
-  follower f(k->facts(), *k);
-  REQUIRE(f.ask(1, led, in.isep, std::nullopt));
+  std::vector<std::unique_ptr<kernel>> followers;
+  followers.push_back(make_kernel("cpp"));
+  lockstep compared(facts_of_kernel("cpp"), std::move(followers));
+  compared.put(1, led, in.isep, std::nullopt);
   fuzz_follower r;
-  r.note_difference(led, f);
+  r.note(compared.last_answers()[0]);
   CHECK(r.most_ulps == 2);
   CHECK(r.same_events);
   CHECK(r.always_answered);
   led.isep[0] = separated;
-  (void)f.ask(2, led, in.isep, std::nullopt);
-  r.note_difference(led, f);
+  compared.put(2, led, in.isep, std::nullopt);
+  r.note(compared.last_answers()[0]);
   CHECK_FALSE(r.same_events);
 }
 

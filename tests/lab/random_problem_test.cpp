@@ -77,7 +77,6 @@ struct judged_problems {
   std::map<verdict, int> came_to;
   std::map<face_layout, int> layouts;
   long steps = 0, makes = 0, breaks = 0, at_rest = 0, snaps = 0, fallbacks = 0;
-  int most_increments = 0;
   int on_edge = 0;
 
   void add(const random_problem& p, const problem_result& t, const path_counts& counted) {
@@ -89,15 +88,14 @@ struct judged_problems {
     at_rest += counted.at_rest;
     snaps += counted.snaps;
     fallbacks += counted.fallbacks;
-    most_increments = std::max(most_increments, t.increments);
   }
 };
 
 std::ostream& operator<<(std::ostream& out, const judged_problems& t) {
   for (const auto& [v, times] : t.came_to) out << times << " " << name_of(v) << ", ";
   return out << t.steps << " steps, " << t.makes << " makes, " << t.breaks << " breaks, " << t.at_rest
-             << " at rest, " << t.snaps << " snaps, " << t.fallbacks << " fallbacks, at most "
-             << t.most_increments << " increments, " << t.on_edge << " on an edge";
+             << " at rest, " << t.snaps << " snaps, " << t.fallbacks << " fallbacks, " << t.on_edge
+             << " on an edge";
 }
 
 judged_problems try_problems(std::uint64_t seed, std::uint64_t count, const random_problem_kind& kind,

@@ -72,21 +72,23 @@ TEST_CASE("shrinking stops when its tries are used up, with calls whose answers 
 
 TEST_CASE("kernels that agree give nothing to shrink") {
   const auto leader = make_kernel("fortran");
-  CHECK_FALSE(shrunk_case(*leader, "cpp", some_calls(3), ""));
+  CHECK_FALSE(shrunk_case(
+      *leader, [] { return make_kernel("cpp"); }, some_calls(3), ""));
 }
 
 TEST_CASE("a mismatch is reproduced by fresh kernels, with the leader's answers") {
   const auto leader = make_kernel("fortran");
+  const fresh_kernel in_single_precision = [] { return make_kernel("cpp-r4"); };
   const call_sequence calls = some_calls(3);
   // Single precision answers otherwise: its numbers are another kernel's to these calls.
-  const auto found = reproduce(*leader, "cpp-r4", calls, "");
+  const auto found = reproduce(*leader, in_single_precision, calls, "");
   REQUIRE(found);
   CHECK(found->what.call == 3);
   CHECK(found->what.follower == "cpp-r4");
   CHECK(found->leader.size() == 3);
   CHECK(found->leader[2].ss.size() == calls[2].pairs());
-  CHECK_FALSE(reproduce(*leader, "cpp-r4", calls, "no such field"));
-  const auto small = shrunk_case(*leader, "cpp-r4", calls, found->what.where.field);
+  CHECK_FALSE(reproduce(*leader, in_single_precision, calls, "no such field"));
+  const auto small = shrunk_case(*leader, in_single_precision, calls, found->what.where.field);
   REQUIRE(small);
   CHECK(small->calls.size() == 1);
   CHECK(small->what.where.field == found->what.where.field);

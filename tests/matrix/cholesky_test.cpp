@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/matrix/lapack_identity.hpp"
 #include "contct/structure/problem.hpp"
 #include "support/matrices.hpp"
 

@@ -51,9 +51,9 @@ TEST_CASE("a sparse factor solves as LAPACK does, again with another diagonal") 
   check_solves(*f, stiffer);
 }
 
-TEST_CASE("a readable factor is L with L L' the matrix, in its own order") {
+TEST_CASE("a factor is L with L L' the matrix, in its own order") {
   const band_matrix k = random_band(unknowns, 7, 4);
-  const auto f = sparse_factor::make(columns_of(k), sparse_factor::kind::readable);
+  const auto f = sparse_factor::make(columns_of(k));
   REQUIRE(f->factor(diagonal_of(k)));
   check_solves(*f, k);
   const sparse_columns l = f->lower();

@@ -3,7 +3,6 @@
 
 #include "catch.hpp"
 #include "contct/kernel/call_inputs.hpp"
-#include "contct/outside/registry.hpp"
 
 using namespace contct::outside;
 
@@ -30,25 +29,21 @@ void changes_its_input(const double dd[], const double dtest[], const double cc[
 
 }  // namespace
 
-TEST_CASE("a function is a kernel by its name, as long as its owner lives") {
-  {
-    const own_kernel mine("halves", halves);
-    CHECK(facts_of_kernel("halves").language == "a function");
-    const auto k = make_kernel("halves");
-    const call_inputs<double> in = one_pair();
-    call_outputs out;
-    call<double> c = out.prepare(in);
-    k->answer(c);
-    CHECK(c.smin == 0.5);
-    CHECK(out.isep[0] == in_contact);
-    CHECK_THROWS_AS(own_kernel("another", halves), std::invalid_argument);
-  }
-  CHECK_THROWS_AS(make_kernel("halves"), std::invalid_argument);
+TEST_CASE("a function is a kernel of the 1989 rule, without text") {
+  const auto k = make_function_kernel("halves", halves);
+  CHECK(k->facts().name == "halves");
+  CHECK(k->facts().language == "a function");
+  const call_inputs<double> in = one_pair();
+  call_outputs out;
+  call<double> c = out.prepare(in);
+  k->answer(c);
+  CHECK(c.smin == 0.5);
+  CHECK(out.isep[0] == in_contact);
+  CHECK(k->take_text().empty());
 }
 
 TEST_CASE("a function that changes its input fails, and the caller's arrays stay as they were") {
-  const own_kernel mine("changes", changes_its_input);
-  const auto k = make_kernel("changes");
+  const auto k = make_function_kernel("changes", changes_its_input);
   const call_inputs<double> in = one_pair();
   call_outputs out;
   call<double> c = out.prepare(in);
@@ -58,5 +53,6 @@ TEST_CASE("a function that changes its input fails, and the caller's arrays stay
 
 TEST_CASE("a function's name may not be another kernel's") {
   for (const char* const name : {"cpp", "fortran", "", "a:b", "a,b"})
-    CHECK_THROWS_AS(own_kernel(name, halves), std::invalid_argument);
+    CHECK_THROWS_AS(refuse_name_of_function(name), std::invalid_argument);
+  CHECK_NOTHROW(refuse_name_of_function("mine"));
 }

@@ -161,7 +161,7 @@ TEST_CASE("a library that is no plug-in is refused with the reason") {
 TEST_CASE("a plug-in is asked calls of any size after a small one") {
   const leftovers left;
   {
-    const auto k = make_plugin(plugin("misbehaves"), short_patience());
+    const auto k = make_plugin(plugin("misbehaves"));
     for (const std::size_t dofs : {2U, 5000U, 2U, 200'000U, 2U}) {
       small_call<double> c = call_for(behaves);
       c.dd.resize(dofs, 7.0);

@@ -15,7 +15,7 @@ TEST_CASE("the prefix of a name says which kind of kernel it is, before any is m
   CHECK(pipe.name == "pipe:no-such-command");
   for (const kernel_facts& facts : {plugin, pipe}) {
     CHECK(facts.real_bytes == 8);
-    CHECK(facts.rule == "listing");
+    CHECK(facts.rule == contact_rule::listing);
     CHECK_FALSE(facts.has_text);
     CHECK_FALSE(facts.text_by_meaning);
   }

@@ -265,7 +265,7 @@ TEST_CASE(
 
 TEST_CASE("the same pair goes round in circles under the listing's rule") {
   restless_first_pair restless;
-  made_kernel k([&restless](call<double>& c) { restless(c); }, "listing");
+  made_kernel k([&restless](call<double>& c) { restless(c); }, contact_rule::listing);
   const path_end end = cantilever_on_two().run(k, {});
   CHECK(end.status == path_status::cycle);
   CHECK(end.pairs == std::vector<int>{0});
@@ -296,7 +296,7 @@ TEST_CASE("at a step's end D is where the springs' law has it, whatever the way 
 
 TEST_CASE("under the listing's rule an early toggle stays in the sum, as it did in 1989") {
   const beam_problem p = cantilever_over_a_stop();
-  made_kernel k(hasty, "listing");
+  made_kernel k(hasty, contact_rule::listing);
   recorder r;
   CHECK(p.run(k, {&r}).status == path_status::solved);
   REQUIRE(r.steps.size() == 4);
@@ -329,7 +329,7 @@ TEST_CASE("at full load the kernel is asked once more where a pair is on the wro
 namespace {
 
 /// Toggles both pairs in turn at a standstill, for ever.
-made_kernel endless(std::string rule = "made") {
+made_kernel endless(contact_rule rule = contact_rule::corrected) {
   return made_kernel(
       [calls = 0](call<double>& c) mutable {
         c.smin = 0.0;
@@ -427,7 +427,7 @@ TEST_CASE("what is followed by other means may end in a mechanism, at a pair's o
   CHECK(end.pairs == std::vector<int>{1});
   REQUIRE(r.steps.size() == 1);
   CHECK(r.steps[0].isep == std::vector<int>{separated, in_contact});  // as it was about to open
-  made_kernel listing = endless("listing");
+  made_kernel listing = endless(contact_rule::listing);
   CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule goes its own way
 }
 
@@ -444,7 +444,7 @@ TEST_CASE("nobody rescues a path under the listing's rule, nor one without an eq
   CHECK(asked == 7);  // for a state ahead, at six distances, and at the end
   REQUIRE(r.steps.size() == 1);
   CHECK_FALSE(r.steps[0].from_fallback);
-  made_kernel listing = endless("listing");
+  made_kernel listing = endless(contact_rule::listing);
   CHECK(p.run(listing, {}, none).status == path_status::cycle);
   CHECK(asked == 7);
 }

@@ -9,11 +9,11 @@
 
 namespace contct::app {
 
-/// A kernel made for a test, of another rule than the listing's unless it says so.
+/// A kernel made for a test, of the corrected rule unless it says so.
 class made_kernel final : public kernel {
  public:
-  explicit made_kernel(std::function<void(call<double>&)> answer, std::string rule = "made")
-      : facts_{"made", 8, std::move(rule), "", "", "", false}, answer_(std::move(answer)) {}
+  explicit made_kernel(std::function<void(call<double>&)> answer, contact_rule rule = contact_rule::corrected)
+      : facts_{"made", 8, rule, "", "", "", false}, answer_(std::move(answer)) {}
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
   void answer(call<double>& c) override { answer_(c); }
   std::string take_text() override { return {}; }

@@ -364,7 +364,7 @@ TEST_CASE("a header comes back") {
   const trace_header h{{"what it is for", "in two lines"},
                        "fortran-r4",
                        4,
-                       "corrected",
+                       contact_rule::corrected,
                        "c9f2",
                        "GNU 12.2.0",
                        "-O3 -ffp-contract=off",
@@ -377,7 +377,7 @@ TEST_CASE("a header comes back") {
   CHECK(back.about == h.about);
   CHECK(back.kernel == h.kernel);
   CHECK(back.real_bytes == 4);
-  CHECK(back.rule == "corrected");
+  CHECK(back.rule == contact_rule::corrected);
   CHECK(back.listing == h.listing);
   CHECK(back.compiler == h.compiler);
   CHECK(back.flags == h.flags);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/matrix/without_zeros.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 
 namespace contct::certify {
@@ -25,11 +24,6 @@ void multiply_minus(const stiffness_matrix& k, const std::vector<long double>& x
   k.subtract_product(std::span<const long double>(x), y);
 }
 
-/// The entries of a band that CHOLMOD factors, or that is mostly zeros.
-std::optional<stiffness_matrix> entries_for(const linear_structure& s) {
-  return quickest_factor(s) == factored_by::cholmod ? entries_of_band(s) : without_zeros(s.stiffness);
-}
-
 long double dot(const std::vector<long double>& a, const std::vector<long double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0L);
 }
@@ -40,7 +34,7 @@ class reference_solver::search {
  public:
   explicit search(const linear_structure& s)
       : structure_(s),
-        sparse_(entries_for(s)),
+        sparse_(entries_for(s, quickest_factor(s))),
         stiffness_(sparse_ ? *sparse_ : s.stiffness),
         load_(s.dofs()),
         u_(s.dofs()),

@@ -271,7 +271,7 @@ stiffness_proof scaled_stiffness::proof_of(const long_band& l, double shift) con
 
 std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   const matrix::sparse_columns a = columns(shift);
-  const auto l = matrix::sparse_factor::make(a, matrix::sparse_factor::kind::readable);
+  const auto l = matrix::sparse_factor::make(a);
   if (!l->factor(diagonal_of(a))) return std::nullopt;
   std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double
   for (std::size_t dof = 0; dof < true_.dofs(); ++dof)

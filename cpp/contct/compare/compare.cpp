@@ -37,7 +37,8 @@ bool mean_the_same(std::string_view a, std::string_view b) {
 }
 
 std::string described(const kernel_facts& k) {
-  return "\"" + k.name + "\" (" + std::to_string(k.real_bytes) + "-byte REAL, " + rule_words(k.rule) + ")";
+  return "\"" + k.name + "\" (" + std::to_string(k.real_bytes) + "-byte REAL, " +
+         std::string(rule_words(k.rule)) + ")";
 }
 
 /// "SS(3)", "text, line 2", "SMIN".

@@ -160,7 +160,7 @@ struct replay_report {
 
 /// Who is meant where no kernel is named: the 1989 code in the trace's precision, or the corrected rule.
 [[nodiscard]] inline std::string usual_kernel(const trace_header& h) {
-  if (h.rule == "corrected") return "corrected";
+  if (h.rule == contact_rule::corrected) return "corrected";
   return h.real_bytes == 4 ? "fortran-r4" : "fortran";
 }
 

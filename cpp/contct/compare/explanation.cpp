@@ -87,6 +87,13 @@ explained_call explain_in(const call<Real>& c, std::span<const int> isep_before,
   return out;
 }
 
+/// The kernel, if there is one.
+std::vector<std::unique_ptr<kernel>> list_of(std::unique_ptr<kernel> k) {
+  std::vector<std::unique_ptr<kernel>> list;
+  if (k) list.push_back(std::move(k));
+  return list;
+}
+
 }  // namespace
 
 explained_call explain(const call<double>& c, std::span<const int> isep_before, int real_bytes,
@@ -95,22 +102,19 @@ explained_call explain(const call<double>& c, std::span<const int> isep_before, 
   return as_float_call(c, [&](const call<float>& f) { return explain_in<float>(f, isep_before, largest); });
 }
 
-explained_path::explained_path(kernel_facts leader, std::unique_ptr<kernel> second, increments_wanted wanted,
-                               sink to)
-    : leader_(std::move(leader)), second_(std::move(second)), wanted_(wanted), to_(std::move(to)) {
-  if (!second_) return;
-  refuse_unequal(leader_, second_->facts());
-  follower_.emplace(leader_, *second_);
-}
+explained_path::explained_path(const kernel_facts& leader, std::unique_ptr<kernel> second,
+                               increments_wanted wanted, sink to)
+    : real_bytes_(leader.real_bytes),
+      compared_(leader, list_of(std::move(second))),
+      wanted_(wanted),
+      to_(std::move(to)) {}
 
 void explained_path::called(const answered_call& c) {
-  ++calls_;
   if (number_++ == 0) ++steps_;
-  if (follower_)
-    (void)follower_->ask(calls_, c.c, c.isep_before, leader_.has_text ? std::optional(c.text) : std::nullopt);
+  compared_.called(c);
   // Calls that are not wanted are explained too: the largest deflection decides what is rounding in later
   // ones.
-  call_ = explain(c.c, c.isep_before, leader_.real_bytes, largest_);
+  call_ = explain(c.c, c.isep_before, real_bytes_, largest_);
 }
 
 void explained_path::incremented(const increment& i) {
@@ -118,14 +122,9 @@ void explained_path::incremented(const increment& i) {
   if (wanted_.step == 0 || wanted_.step == i.step) most_increments_ = std::max(most_increments_, i.number);
   if (!wanted_.holds(i.step, i.number)) return;
   ++explained_;
-  const bool answered = follower_ && follower_->answered();
-  to_({i, before, call_, answered ? &follower_->answer() : nullptr,
-       follower_ ? follower_->difference() : std::nullopt, call_.winner >= 0 && i.events.empty()});
-}
-
-const std::optional<mismatch_report>& explained_path::first() const {
-  static const std::optional<mismatch_report> none;
-  return follower_ ? follower_->first() : none;
+  const follower* const second = compared_.followers().empty() ? nullptr : &compared_.followers().front();
+  to_({i, before, call_, second != nullptr && second->answered() ? &second->answer() : nullptr,
+       second != nullptr ? second->difference() : std::nullopt, call_.winner >= 0 && i.events.empty()});
 }
 
 void explained_path::step_ended(const step_state& /*s*/) {

@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "contct/compare/branches.hpp"
-#include "contct/compare/compare.hpp"
+#include "contct/compare/lockstep.hpp"
 #include "contct/kernel/call.hpp"
-#include "contct/kernel/way_to_s.hpp"
 #include "contct/path/observer.hpp"
 
 namespace contct::compare {
@@ -141,15 +140,16 @@ class explained_path final : public observer {
  public:
   using sink = std::function<void(const explained_increment&)>;
   /// `second` may be null. Throws std::invalid_argument when it differs in precision or rule.
-  explained_path(kernel_facts leader, std::unique_ptr<kernel> second, increments_wanted wanted, sink to);
+  explained_path(const kernel_facts& leader, std::unique_ptr<kernel> second, increments_wanted wanted,
+                 sink to);
 
   void called(const answered_call& c) override;
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
 
-  [[nodiscard]] std::int64_t calls() const { return calls_; }
-  [[nodiscard]] tally compared() const { return follower_ ? follower_->compared : tally{}; }
-  [[nodiscard]] const std::optional<mismatch_report>& first() const;
+  [[nodiscard]] std::int64_t calls() const { return compared_.calls(); }
+  [[nodiscard]] tally compared() const { return compared_.compared(); }
+  [[nodiscard]] const std::optional<mismatch_report>& first() const { return compared_.first(); }
   /// How many increments were handed on.
   [[nodiscard]] std::int64_t explained() const { return explained_; }
   /// Steps that were begun, and the increments of the longest among those that are wanted.
@@ -157,12 +157,11 @@ class explained_path final : public observer {
   [[nodiscard]] int most_increments() const { return most_increments_; }
 
  private:
-  kernel_facts leader_;
-  std::unique_ptr<kernel> second_;
-  std::optional<follower> follower_;  // asks the second kernel
+  int real_bytes_;
+  lockstep compared_;  // with the second kernel, if there is one
   increments_wanted wanted_;
   sink to_;
-  std::int64_t calls_ = 0, explained_ = 0;
+  std::int64_t explained_ = 0;
   int steps_ = 0, number_ = 0, most_increments_ = 0;
   double fraction_ = 0.0;  // share of the step's load consumed so far
   double largest_ = 0.0;   // deflection so far

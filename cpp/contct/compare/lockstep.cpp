@@ -12,12 +12,15 @@ namespace {
 
 /// How far the answer is from the leader's.
 follower_answer measured(const call<double>& leader, const follower& f, const tally& before) {
-  follower_answer m{f.compared.values - before.values, f.compared.mismatches - before.mismatches, 0, 0,
-                    !f.answered()};
+  follower_answer m;
+  m.values = f.compared.values - before.values;
+  m.mismatches = f.compared.mismatches - before.mismatches;
+  m.failed = !f.answered();
   if (m.failed || m.mismatches == 0) return m;
   m.smin_ulps = ulps_between(leader.smin, f.answer().smin);
   for (std::size_t i = 0; i < leader.ss.size(); ++i)
     m.ss_ulps = std::max(m.ss_ulps, ulps_between(leader.ss[i], f.answer().ss[i]));
+  m.same_events = std::ranges::equal(leader.isep, f.answer().isep);
   return m;
 }
 
@@ -39,12 +42,17 @@ lockstep make_lockstep(const kernel_facts& leader, std::span<const std::string> 
 }
 
 void lockstep::called(const answered_call& c) {
+  put(calls_ + 1, c.c, c.isep_before, leader_has_text_ ? std::optional(c.text) : std::nullopt);
+}
+
+void lockstep::put(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
+                   std::optional<std::string_view> text) {
   ++calls_;
   last_answers_.clear();
   for (follower& f : followers_) {
     const tally before = f.compared;
-    (void)f.ask(calls_, c.c, c.isep_before, leader_has_text_ ? std::optional(c.text) : std::nullopt);
-    last_answers_.push_back(measured(c.c, f, before));
+    (void)f.ask(number, answered, isep_before, text);
+    last_answers_.push_back(measured(answered, f, before));
   }
 }
 

@@ -23,6 +23,7 @@ struct follower_answer {
   std::uint64_t smin_ulps = 0;  ///< distance of SMIN
   std::uint64_t ss_ulps = 0;    ///< largest distance of an s
   bool failed = false;          ///< it gave no answer
+  bool same_events = true;      ///< ISEP is the leader's
 };
 
 /// Observes a path: each call that the leader answered goes to every follower, with identical
@@ -33,6 +34,9 @@ class lockstep final : public observer {
   lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kernel>> followers);
 
   void called(const answered_call& c) override;
+  /// The same for call `number`; `text` as follower::ask has it.
+  void put(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
+           std::optional<std::string_view> text);
 
   [[nodiscard]] std::int64_t calls() const { return calls_; }
   /// What was compared, of all followers together.
@@ -44,6 +48,7 @@ class lockstep final : public observer {
   /// How each follower answered the last call.
   [[nodiscard]] const std::vector<follower_answer>& last_answers() const { return last_answers_; }
   [[nodiscard]] const std::vector<follower>& followers() const { return followers_; }
+  [[nodiscard]] std::vector<follower>& followers() { return followers_; }
 
  private:
   bool leader_has_text_;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contct/exact/lifted_solver.hpp"
-#include "contct/kernel/way_to_s.hpp"
+#include "contct/kernel/call.hpp"
 
 namespace contct::exact {
 

@@ -109,8 +109,9 @@ struct entry {
 };
 
 entry compiled_by(fortran::compiled_listing& by) {
-  return {{by.kernel, 8, "listing", "FORTRAN 77", by.compiler, by.flags, true, by.text_by_meaning},
-          [&by](const kernel_facts& f) { return std::make_unique<fortran_kernel>(f, by); }};
+  return {
+      {by.kernel, 8, contact_rule::listing, "FORTRAN 77", by.compiler, by.flags, true, by.text_by_meaning},
+      [&by](const kernel_facts& f) { return std::make_unique<fortran_kernel>(f, by); }};
 }
 
 entry as_printed() {
@@ -122,7 +123,7 @@ entry as_printed() {
 }
 
 template <class Kernel>
-entry in_cpp(const char* name, int real_bytes, const char* rule, bool has_text) {
+entry in_cpp(const char* name, int real_bytes, contact_rule rule, bool has_text) {
   return {{name, real_bytes, rule, "C++20", cxx_compiler, cxx_flags, has_text},
           [](const kernel_facts& f) { return std::make_unique<Kernel>(f); }};
 }
@@ -131,9 +132,9 @@ const std::vector<entry>& known_kernels() {
   static const std::vector<entry> known = {
       compiled_by(fortran::gfortran),
       as_printed(),
-      in_cpp<cpp_kernel>("cpp", 8, "listing", true),
-      in_cpp<cpp_kernel>("cpp-r4", 4, "listing", true),
-      in_cpp<corrected_kernel>("corrected", 8, "corrected", false),
+      in_cpp<cpp_kernel>("cpp", 8, contact_rule::listing, true),
+      in_cpp<cpp_kernel>("cpp-r4", 4, contact_rule::listing, true),
+      in_cpp<corrected_kernel>("corrected", 8, contact_rule::corrected, false),
 #ifdef CONTCT_FLANG_COMPILER
       compiled_by(fortran::flang),
 #endif

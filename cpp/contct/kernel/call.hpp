@@ -35,6 +35,14 @@ struct event {
   friend bool operator==(const event&, const event&) = default;
 };
 
+/// Which branch of the listing's DO 10 loop gave a pair its s.
+enum class way_to_s {
+  no_response,       ///< d* = 0: s is 1, the mark for "no event"
+  stationary,        ///< at its face, and the load keeps it as it is: s is 1, the same mark
+  stationary_event,  ///< at its face, and the load changes it: eq. 12
+  moving,            ///< advancing or receding: eq. 4
+};
+
 /// The arguments of CONTCT in the listing's order, and COMMON /DOF/.
 /// `nc` is cc.size(); every array over pairs has that length. Every id[i] must address a dof
 /// inside dd and dtest; the listing does not check, and neither do the kernels.

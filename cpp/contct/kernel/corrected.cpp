@@ -74,7 +74,7 @@ std::size_t find_smin(call<double>& c) {
 
 /// The dof of pair `i`, from 0.
 std::size_t dof_at(const call<double>& c, std::size_t i) {
-  return static_cast<std::size_t>(c.dof.dof_of(c.id[i]) - 1);
+  return c.dof.dof_of(c.id[i]) - 1;
 }
 
 /// Is the dof of each pair its own number, as on a path, which hands over the pairs' own D and d*?

@@ -140,7 +140,7 @@ std::string unit_26::take() {
   do {
     got = pread(file_, block, sizeof block, static_cast<off_t>(taken_ + text.size()));
     if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
-    text.append(block, static_cast<std::size_t>(got));
+    text.append(block, got);
   } while (got == sizeof block);
   taken_ += text.size();
   if (taken_ >= enough_text) begin_anew();

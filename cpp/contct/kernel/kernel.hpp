@@ -2,22 +2,41 @@
 // corrected rule.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "contct/kernel/call.hpp"
 
 namespace contct::kernels {
 
+/// How a kernel decides about contact.
+enum class contact_rule {
+  listing,   ///< the 1989 rule
+  corrected  ///< reference/corrected-rule.md
+};
+
+/// As traces and JSON name the rules.
+inline constexpr std::array<std::string_view, 2> rule_names = {"listing", "corrected"};
+[[nodiscard]] constexpr std::string_view name_of(contact_rule r) {
+  return rule_names[r == contact_rule::corrected ? 1 : 0];
+}
+
+/// As messages name them.
+[[nodiscard]] constexpr std::string_view rule_words(contact_rule r) {
+  return r == contact_rule::listing ? "the 1989 rule" : "the corrected rule";
+}
+
 /// What a kernel is. Lockstep compares kernels of one precision and one rule.
 struct kernel_facts {
-  std::string name;              ///< as typed after --kernels
-  int real_bytes;                ///< 8, or 4 for the listing as printed
-  std::string rule;              ///< "listing" (the 1989 rule) or "corrected"
+  std::string name;  ///< as typed after --kernels
+  int real_bytes;    ///< 8, or 4 for the listing as printed
+  contact_rule rule;
   std::string language;          ///< for people
   std::string compiler;          ///< for people
   std::string flags;             ///< for people: how floating point was compiled
@@ -25,9 +44,10 @@ struct kernel_facts {
   bool text_by_meaning = false;  ///< its text may write .25 for 0.25, and is compared so
 };
 
-/// A rule as messages name it: "the 1989 rule".
-[[nodiscard]] inline std::string rule_words(const std::string& rule) {
-  return rule == "listing" ? "the 1989 rule" : "the " + rule + " rule";
+/// What is known of a kernel from outside by its name alone: the 1989 rule, 8-byte REAL, and no text of its
+/// own. `what` it is, for people.
+[[nodiscard]] inline kernel_facts facts_of_outside(std::string name, std::string what) {
+  return {std::move(name), 8, contact_rule::listing, std::move(what), "", "", false};
 }
 
 /// A kernel that gave no answer: it crashed, did not answer in time, wrote where it must not. Kernels from

@@ -32,18 +32,6 @@ call_inputs<double> inputs_of(const answered_call& c) {
           owned(c.isep_before), owned(c.c.isurf), c.c.dof};
 }
 
-/// Does the follower's own path of the problem end as well as the leader's: certified, or truly without
-/// equilibrium? True where the leader's does not.
-bool certified_as_leader(const random_problem& p, const std::string& leader, const std::string& follower) {
-  const verdict leads = try_problem(p, *make_kernel(leader)).came_to;
-  if (leads != verdict::certified && leads != verdict::no_equilibrium) return true;
-  try {
-    return try_problem(p, *make_kernel(follower)).came_to == leads;
-  } catch (const kernel_failure&) {
-    return false;
-  }
-}
-
 /// The first mismatch of a follower, and the calls up to it.
 struct first_mismatch {
   mismatch_report what;
@@ -53,18 +41,20 @@ struct first_mismatch {
 /// Puts calls and problems to a leader and its followers. Observes the leader's paths.
 class fuzzing final : public observer {
  public:
-  fuzzing(const fuzz_request& r, const fuzz_progress& progress)
-      : request_(r), progress_(progress), source_(r.seed, facts_of_kernel(r.kernels.at(0)).real_bytes) {
-    for (const std::string& name : r.kernels)
-      refuse_unequal(facts_of_kernel(r.kernels[0]), facts_of_kernel(name));
-    leader_ = make_kernel(r.kernels[0]);
+  fuzzing(const fuzz_request& r, const fuzz_progress& progress, const kernel_maker& make)
+      : request_(r),
+        progress_(progress),
+        make_(make),
+        leader_(make(r.kernels.at(0))),
+        source_(r.seed, leader_->facts().real_bytes) {
+    std::vector<std::unique_ptr<kernel>> kernels;
     run_.result.request = r;
     for (const std::string& name : std::span(r.kernels).subspan(1)) {
-      kernels_.push_back(make_kernel(name));
-      followers_.emplace_back(leader_->facts(), *kernels_.back());
+      kernels.push_back(make(name));
       run_.result.followers.emplace_back().name = name;
     }
-    firsts_.resize(followers_.size());
+    compared_.emplace(leader_->facts(), std::move(kernels));
+    firsts_.resize(followers().size());
   }
 
   fuzz_run run() {
@@ -72,10 +62,9 @@ class fuzzing final : public observer {
     put_calls();
     for (std::int64_t number = request_.shard; number <= request_.problems; number += request_.shards)
       follow_problem(number);
-    for (std::size_t f = 0; f < followers_.size(); ++f)
-      run_.result.followers[f].compared = followers_[f].compared;
-    followers_.clear();  // unit 26 belongs to the process: the kernels make room for fresh ones
-    kernels_.clear();
+    for (std::size_t f = 0; f < firsts_.size(); ++f)
+      run_.result.followers[f].compared = followers()[f].compared;
+    compared_.reset();  // unit 26 belongs to the process: the kernels make room for fresh ones
     leader_.reset();
     for (std::size_t f = 0; f < firsts_.size(); ++f) conclude(run_.result.followers[f], firsts_[f]);
     run_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -106,12 +95,12 @@ class fuzzing final : public observer {
   void follow_problem(std::int64_t number) {
     const random_problem p = quick_problem(request_.seed, number);
     path_.clear();
-    const std::int64_t before = run_mismatches();
+    const std::int64_t before = compared_->compared().mismatches;
     (void)follow(p, structure_of(p), "refactor", *leader_, {this});
-    if (run_mismatches() > before && std::ssize(differing_problems_) < problems_certified)
+    if (compared_->compared().mismatches > before && std::ssize(differing_problems_) < problems_certified)
       differing_problems_.push_back(number);
     keep_firsts([this](std::int64_t last) { return call_sequence(path_.begin(), path_.begin() + last); });
-    for (const follower& f : followers_) (void)f.asked().take_text();  // compared above, or not at all
+    for (const follower& f : followers()) (void)f.asked().take_text();  // compared above, or not at all
     ++run_.result.problems;
     if (progress_) progress_(run_.result.problems, request_.problems / request_.shards, "problems");
   }
@@ -119,16 +108,15 @@ class fuzzing final : public observer {
   void compare(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
                std::optional<std::string_view> text) {
     run_.result.count(answered, isep_before);
-    for (std::size_t f = 0; f < followers_.size(); ++f) {
-      if (followers_[f].ask(number, answered, isep_before, text))
-        run_.result.followers[f].note_difference(answered, followers_[f]);
-    }
+    compared_->put(number, answered, isep_before, text);
+    for (std::size_t f = 0; f < firsts_.size(); ++f)
+      run_.result.followers[f].note(compared_->last_answers()[f]);
   }
 
   /// Compare unit 26 of the calls of `block`, which were put since the last time, and empty it.
   void end_block(std::vector<std::int64_t>& block) {
     const std::string text = leader_->take_text();
-    for (follower& f : followers_) {
+    for (follower& f : followers()) {
       const std::string its_text = f.asked().take_text();
       if (block.empty() || !leader_->facts().has_text || !f.asked().facts().has_text) continue;
       tally whole;
@@ -170,17 +158,13 @@ class fuzzing final : public observer {
   /// Keep what shows the first mismatch of each follower; `up_to(number)`: the calls up to that one.
   template <class Calls>
   void keep_firsts(Calls up_to) {
-    for (std::size_t f = 0; f < followers_.size(); ++f) {
-      const auto& found = followers_[f].first();
+    for (std::size_t f = 0; f < firsts_.size(); ++f) {
+      const auto& found = followers()[f].first();
       if (found && !firsts_[f]) firsts_[f] = {*found, up_to(found->call)};
     }
   }
 
-  [[nodiscard]] std::int64_t run_mismatches() const {
-    std::int64_t all = 0;
-    for (const follower& f : followers_) all += f.compared.mismatches;
-    return all;
-  }
+  [[nodiscard]] std::vector<follower>& followers() { return compared_->followers(); }
 
   /// The result of a follower: its level of equality, and its first mismatch made small.
   void conclude(fuzz_follower& total, const std::optional<first_mismatch>& first) {
@@ -188,10 +172,11 @@ class fuzzing final : public observer {
     if (!first) return;
     std::vector<std::string>& lines = total.mismatch_reports;
     lines = words_of(first->what);
-    const std::unique_ptr<kernel> leader = make_kernel(request_.kernels[0]);
+    const std::unique_ptr<kernel> leader = make_(request_.kernels[0]);
     const std::string& field = first->what.where.field;
     const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs takes its time for every try
-    if (auto small = shrunk_case(*leader, total.name, first->calls, field, most_tries)) {
+    if (auto small = shrunk_case(
+            *leader, [&] { return make_(total.name); }, first->calls, field, most_tries)) {
       lines.push_back("shrunk to " + std::to_string(small->calls.size()) + " call(s), " +
                       std::to_string(small->calls.back().pairs()) + " pair(s): " + words_of(small->what)[0]);
       run_.cases.push_back(std::move(*small));
@@ -214,16 +199,28 @@ class fuzzing final : public observer {
     std::vector<std::int64_t> asked = differing_problems_;
     for (std::int64_t n = 1; n <= std::min(problems_certified, request_.problems); ++n) asked.push_back(n);
     return std::ranges::all_of(asked, [&](std::int64_t n) {
-      return certified_as_leader(quick_problem(request_.seed, n), request_.kernels[0], total.name);
+      return certified_as_leader(quick_problem(request_.seed, n), total.name);
     });
+  }
+
+  /// Does the follower's own path of the problem end as well as the leader's: certified, or truly without
+  /// equilibrium? True where the leader's does not.
+  bool certified_as_leader(const random_problem& p, const std::string& follower) {
+    const verdict leads = try_problem(p, *make_(request_.kernels[0])).came_to;
+    if (leads != verdict::certified && leads != verdict::no_equilibrium) return true;
+    try {
+      return try_problem(p, *make_(follower)).came_to == leads;
+    } catch (const kernel_failure&) {
+      return false;
+    }
   }
 
   const fuzz_request& request_;
   const fuzz_progress& progress_;
-  call_source source_;
+  const kernel_maker& make_;
   std::unique_ptr<kernel> leader_;
-  std::vector<std::unique_ptr<kernel>> kernels_;
-  std::vector<follower> followers_;
+  call_source source_;
+  std::optional<lockstep> compared_;
   std::vector<std::optional<first_mismatch>> firsts_;  // [followers]
   call_sequence path_;                                 // the calls of the problem that is followed
   std::vector<std::int64_t> differing_problems_;       // the first ones in which a follower differed
@@ -244,17 +241,10 @@ void fuzz_result::count(const call<double>& answered, std::span<const int> isep_
   }
 }
 
-void fuzz_follower::note_difference(const call<double>& leader, const follower& f) {
-  if (!f.answered()) {
-    always_answered = false;
-    return;
-  }
-  const call_outputs& answer = f.answer();
-  most_ulps = std::max(most_ulps, ulps_between(leader.smin, answer.smin));
-  for (std::size_t i = 0; i < leader.ss.size(); ++i) {
-    most_ulps = std::max(most_ulps, ulps_between(leader.ss[i], answer.ss[i]));
-    same_events = same_events && leader.isep[i] == answer.isep[i];
-  }
+void fuzz_follower::note(const follower_answer& a) {
+  most_ulps = std::max({most_ulps, a.smin_ulps, a.ss_ulps});
+  same_events = same_events && a.same_events;
+  always_answered = always_answered && !a.failed;
 }
 
 std::string_view name_of(equality_level l) {
@@ -293,8 +283,8 @@ std::string floors_missed(const fuzz_result& r) {
          " each";
 }
 
-fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress) {
-  return fuzzing(r, progress).run();
+fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress, const kernel_maker& make) {
+  return fuzzing(r, progress, make).run();
 }
 
 }  // namespace contct::lab

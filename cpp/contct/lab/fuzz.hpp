@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/compare/compare.hpp"
-#include "contct/trace/trace.hpp"
+#include "contct/compare/lockstep.hpp"
+#include "contct/outside/registry.hpp"
 
 namespace contct::lab {
 
@@ -35,13 +35,16 @@ struct found_case {
   std::vector<call_outputs> leader;  ///< the leader's answers [calls]
 };
 
+/// A follower that has not been asked anything yet.
+using fresh_kernel = std::function<std::unique_ptr<kernel>()>;
+
 /// Put `calls` to the leader and to a fresh follower. The mismatch in the last call, when there is one
 /// in that `field` ("" takes any), with the leader's answers.
-[[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const std::string& follower,
+[[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& follower,
                                                   const call_sequence& calls, const std::string& field);
 
 /// `calls` shrunk while they differ in the same field. Nothing when they do not differ at all.
-[[nodiscard]] std::optional<found_case> shrunk_case(kernel& leader, const std::string& follower,
+[[nodiscard]] std::optional<found_case> shrunk_case(kernel& leader, const fresh_kernel& follower,
                                                     const call_sequence& calls, const std::string& field,
                                                     int most_tries = 4000);
 
@@ -75,8 +78,8 @@ struct fuzz_follower {
   equality_level highest = equality_level::bits;
   std::vector<std::string> mismatch_reports;  ///< the first mismatch, in lines
 
-  /// Note how near `f` came in a call whose answer differs.
-  void note_difference(const call<double>& leader, const follower& f);
+  /// Note how near it came in a call.
+  void note(const follower_answer& a);
 };
 
 /// Events by kind. A pair at its face when its event came is counted as stationary, too.
@@ -113,8 +116,10 @@ using fuzz_progress = std::function<void(std::int64_t done, std::int64_t all, co
 
 /// Put the calls and problems of `r` to its kernels. SMIN, SS and ISEP are compared at once, the unit-26 text
 /// of single calls in blocks: reading it back after every call would cost several times the call. Throws
-/// std::invalid_argument for kernels that are unknown, or of another precision or rule.
-[[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr);
+/// std::invalid_argument for kernels that are unknown, or of another precision or rule. `make` knows them by
+/// their names.
+[[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr,
+                                const kernel_maker& make = make_kernel);
 
 /// The result as JSON, format "contct-fuzz-1".
 [[nodiscard]] std::string fuzz_json(const fuzz_result& r);

@@ -253,11 +253,6 @@ class drawing {
   double common_gap_ = 0.0;
 };
 
-struct increment_counter final : observer {
-  int increments = 0;
-  void incremented(const increment& /*i*/) override { ++increments; }
-};
-
 verdict judge(const path_end& end, const certifier& judged) {
   if (end.status == path_status::solved) return judged.all_exact() ? verdict::certified : verdict::wrong;
   if (end.status == path_status::mechanism) return verdict::no_equilibrium;
@@ -278,9 +273,8 @@ problem_result try_problem(const problem& p, kernel& leader, std::string_view en
 problem_result try_structure(const problem& p, const linear_structure& s, kernel& leader,
                              std::string_view engine, std::vector<observer*> watching) {
   problem_result t;
-  increment_counter counted;
   certifier judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
-  watching.insert(watching.end(), {&counted, &judged});
+  watching.push_back(&judged);
   path_limits limits;
   limits.fallback = judged.fallback();
   limits.refine = judged.refiner();
@@ -288,7 +282,6 @@ problem_result try_structure(const problem& p, const linear_structure& s, kernel
   const path_end end = follow(p, s, engine, leader, watching, limits);
   for (const auto& c : judged.steps())
     if (c) t.certificates.push_back(*c);
-  t.increments = counted.increments;
   t.came_to = judge(end, judged);
   return t;
 }

@@ -49,7 +49,6 @@ enum class verdict {
 struct problem_result {
   verdict came_to = verdict::no_end;
   std::vector<certificate> certificates = {};  ///< of the steps that reached their load
-  int increments = 0;
 };
 
 /// Follow `p` with `leader` on the engine named, with the reference solution as a fallback where its rule

@@ -7,7 +7,6 @@
 
 #include "contct/lab/fuzz.hpp"
 #include "contct/numeric/bits.hpp"
-#include "contct/outside/registry.hpp"
 
 namespace contct::lab {
 namespace {
@@ -172,9 +171,9 @@ call_sequence shrink(call_sequence calls, const still_differs& differs, int most
   return shrinker(std::move(calls), differs, most_tries).go();
 }
 
-std::optional<found_case> reproduce(kernel& leader, const std::string& follower_name,
-                                    const call_sequence& calls, const std::string& field) {
-  const std::unique_ptr<kernel> fresh = make_kernel(follower_name);
+std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make, const call_sequence& calls,
+                                    const std::string& field) {
+  const std::unique_ptr<kernel> fresh = make();
   follower asked(leader.facts(), *fresh);
   found_case c;
   c.real_bytes = leader.facts().real_bytes;
@@ -192,12 +191,12 @@ std::optional<found_case> reproduce(kernel& leader, const std::string& follower_
   }
   const std::optional<mismatch>& last = asked.difference();
   if (!last || (!field.empty() && last->field != field)) return {};
-  c.what = {std::ssize(calls), leader.facts().name, follower_name, *last, c.what.decisions};
+  c.what = {std::ssize(calls), leader.facts().name, fresh->facts().name, *last, c.what.decisions};
   return c;
 }
 
-std::optional<found_case> shrunk_case(kernel& leader, const std::string& follower, const call_sequence& calls,
-                                      const std::string& field, int most_tries) {
+std::optional<found_case> shrunk_case(kernel& leader, const fresh_kernel& follower,
+                                      const call_sequence& calls, const std::string& field, int most_tries) {
   const still_differs differs = [&](const call_sequence& candidate) {
     return reproduce(leader, follower, candidate, field).has_value();
   };

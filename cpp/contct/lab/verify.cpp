@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -27,10 +26,8 @@ constexpr int any_number = 1'000'000'000;
 std::optional<double> nearest_to(std::string_view words) {
   const std::size_t slash = words.find('/');
   if (slash == std::string_view::npos) {
-    double x = 0.0;
-    const auto [end, error] = std::from_chars(words.data(), words.data() + words.size(), x);
-    const bool is_read = error == std::errc{} && end == words.data() + words.size() && std::isfinite(x);
-    return is_read ? std::optional(x) : std::nullopt;
+    const auto x = number_in<double>(words);
+    return x && std::isfinite(*x) ? x : std::nullopt;
   }
   const auto is_whole = [](std::string_view s) {  // Boost takes a leading 0 for the mark of an octal number
     return s.find_first_not_of("0123456789") == std::string_view::npos && !s.empty() && s[0] != '0';
@@ -329,7 +326,7 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   else if (right.came_to != verdict::certified)
     out.failure = "the corrected path does not reach its end";
   for (const expected_number& e : c.checks) {
-    const auto at = static_cast<std::size_t>(e.step - 1);
+    const std::size_t at = e.step - 1;
     const bool reached = at < out.certificates.size() && out.certificates[at];
     out.numbers.push_back(
         judged_number(e, {listing, reached ? &*out.certificates[at] : nullptr},

@@ -25,6 +25,11 @@ void solve_with(const band_matrix& factor_of_a, std::span<double> b);
 /// Solves A x = b in place.
 using in_place_solver = std::function<void(std::span<double>)>;
 
+/// The LAPACK in use: its version as ILAVER has it, and the library that holds dpbtrf, as in
+/// "LAPACK 3.11.0, liblapack.so.3.11.0"; and the configuration of OpenBLAS where that is loaded. Results of
+/// solves differ between libraries, calls of CONTCT do not.
+[[nodiscard]] std::string lapack_identity();
+
 /// Reciprocal condition number, in the 1-norm, of `k` with `diagonal` [rows] in place of its own, scaled to a
 /// unit diagonal: 1 / (norm of A times norm of its inverse), estimated as dpbcon does, in linear time. The
 /// scaling makes it independent of units. `solve` solves with that matrix, unscaled.

@@ -1,5 +1,3 @@
-#include "contct/matrix/lapack_identity.hpp"
-
 #include <dlfcn.h>
 
 #include <cstddef>
@@ -7,6 +5,7 @@
 #include <new>
 #include <system_error>
 
+#include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
 extern "C" {

@@ -118,18 +118,13 @@ class supernode {
 
 class cholmod final : public sparse_factor {
  public:
-  cholmod(sparse_columns a, kind k) : a_(std::move(a)) {
+  explicit cholmod(sparse_columns a) : a_(std::move(a)) {
     work_.print = 0;
     work_.quick_return_if_not_posdef = 1;
+    work_.supernodal = CHOLMOD_SUPERNODAL;
     const bool large = a_.order() >= 25'000;  // here METIS's order saves more than the search for it takes
-    if (k == kind::supernodal) {
-      work_.supernodal = CHOLMOD_SUPERNODAL;
-      order_by(large ? std::initializer_list<int>{CHOLMOD_METIS, CHOLMOD_AMD}
-                     : std::initializer_list<int>{CHOLMOD_AMD});
-    } else {
-      work_.supernodal = CHOLMOD_SIMPLICIAL;
-      work_.final_ll = 1;
-    }
+    order_by(large ? std::initializer_list<int>{CHOLMOD_METIS, CHOLMOD_AMD}
+                   : std::initializer_list<int>{CHOLMOD_AMD});
     cholmod_sparse view = view_of_a();
     factor_ = made(cholmod_analyze(&view, &work_));
     // x_, y_ and e_ are cholmod_solve2's, which crashes where it cannot make them.
@@ -169,18 +164,16 @@ class cholmod final : public sparse_factor {
     for (std::size_t from = 0; from < b.size(); from += n) solve_one(b.subspan(from, n));
   }
 
-  [[nodiscard]] sparse_columns lower() const override {
-    const auto* const starts = static_cast<const int*>(factor_->p);
-    const auto* const counts = static_cast<const int*>(factor_->nz);
-    const auto* const rows = static_cast<const int*>(factor_->i);
-    const auto* const values = static_cast<const double*>(factor_->x);
-    sparse_columns l;
-    for (std::size_t column = 0; column < factor_->n; ++column) {  // room for fill may lie between columns
-      l.rows.insert(l.rows.end(), rows + starts[column], rows + starts[column] + counts[column]);
-      l.values.insert(l.values.end(), values + starts[column], values + starts[column] + counts[column]);
-      l.starts.push_back(static_cast<int>(l.rows.size()));
-    }
-    return l;
+  [[nodiscard]] sparse_columns lower() override {
+    cholmod_sparse* l = made(cholmod_factor_to_sparse(factor_, &work_));
+    const auto* const starts = static_cast<const int*>(l->p);
+    const auto* const rows = static_cast<const int*>(l->i);
+    const auto* const values = static_cast<const double*>(l->x);
+    const int entries = starts[l->ncol];
+    sparse_columns columns{
+        {starts, starts + l->ncol + 1}, {rows, rows + entries}, {values, values + entries}};
+    cholmod_free_sparse(&l, &work_);
+    return columns;
   }
   [[nodiscard]] const std::vector<int>& places() const override { return places_; }
 
@@ -234,8 +227,8 @@ bool sparse_factor::available() {
   return true;
 }
 
-std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns a, kind k) {
-  return std::make_unique<cholmod>(std::move(a), k);
+std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns a) {
+  return std::make_unique<cholmod>(std::move(a));
 }
 
 }  // namespace contct::matrix
@@ -249,7 +242,7 @@ bool sparse_factor::available() {
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
-std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns /*a*/, kind /*k*/) {
+std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns /*a*/) {
   throw std::logic_error("a sparse factor needs CHOLMOD, which is not built in");
 }
 

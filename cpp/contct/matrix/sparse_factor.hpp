@@ -17,21 +17,16 @@ class sparse_factor {
   /// Is CHOLMOD built in?
   [[nodiscard]] static bool available();
 
-  enum class kind {
-    supernodal,  ///< L L^T in dense blocks, in AMD's order; if there are many rows, in METIS's where that is
-                 ///< better
-    readable     ///< L L^T by columns, for `lower`
-  };
-
-  /// Find the order, and keep A. Throws std::bad_alloc, and std::logic_error where CHOLMOD is not built in.
-  [[nodiscard]] static std::unique_ptr<sparse_factor> make(sparse_columns a, kind k = kind::supernodal);
+  /// Find the order, AMD's or, if there are many rows, METIS's where that is better, and keep A. Throws
+  /// std::bad_alloc, and std::logic_error where CHOLMOD is not built in.
+  [[nodiscard]] static std::unique_ptr<sparse_factor> make(sparse_columns a);
 
   sparse_factor() = default;
   virtual ~sparse_factor() = default;
   sparse_factor(const sparse_factor&) = delete;
   sparse_factor& operator=(const sparse_factor&) = delete;
 
-  /// Bytes that a supernodal factor takes; known before it is made.
+  /// Bytes that the factor takes, in dense blocks; known before it is made.
   [[nodiscard]] virtual std::int64_t bytes() const = 0;
 
   /// Factor A with `diagonal` [order] for its own. False when a pivot is not positive. Throws std::bad_alloc.
@@ -40,8 +35,9 @@ class sparse_factor {
   /// Solve A x = b in place, for one right-hand side or several, one after the other. Throws std::bad_alloc.
   virtual void solve(std::span<double> b) = 0;
 
-  /// A readable factor's L by columns; row i of A is its row places()[i].
-  [[nodiscard]] virtual sparse_columns lower() const = 0;
+  /// L by columns; row i of A is its row places()[i]. This uses the factor up: nothing may be solved by it
+  /// any more.
+  [[nodiscard]] virtual sparse_columns lower() = 0;
   [[nodiscard]] virtual const std::vector<int>& places() const = 0;
 
   /// Products and sums that a factorisation takes.

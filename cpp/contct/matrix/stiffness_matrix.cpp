@@ -194,4 +194,11 @@ double stiffness_matrix::one_norm(std::span<const double> diagonal, std::span<co
   return sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
 }
 
+std::optional<stiffness_matrix> without_zeros(const stiffness_matrix& k) {
+  if (!k.is_band()) return std::nullopt;
+  const auto entries = k.band().entries();
+  if (2 * std::ranges::count(entries, 0.0) <= std::ssize(entries)) return std::nullopt;
+  return columns_of(k.band());
+}
+
 }  // namespace contct::matrix

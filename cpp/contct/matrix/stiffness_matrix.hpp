@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -46,6 +47,7 @@ class band_matrix {
 
   [[nodiscard]] double* data() { return entries_.data(); }
   [[nodiscard]] const double* data() const { return entries_.data(); }
+  [[nodiscard]] std::span<const double> entries() const { return entries_; }
 
  private:
   [[nodiscard]] std::size_t place(std::size_t row, std::size_t column) const {
@@ -150,8 +152,10 @@ class stiffness_matrix {
   [[nodiscard]] double diagonal(std::size_t row) const {
     return is_band() ? band().at(row, row) : columns().diagonal(row);
   }
-
-  void add_to_diagonal(std::size_t row, double value) { diagonal_at(row) += value; }
+  [[nodiscard]] double& diagonal(std::size_t row) {
+    return is_band() ? band().at(row, row) : columns().diagonal(row);
+  }
+  void add_to_diagonal(std::size_t row, double value) { diagonal(row) += value; }
 
   /// The diagonal of K with springs [rows].
   [[nodiscard]] std::vector<double> diagonal_with(std::span<const spring_at> springs) const;
@@ -171,11 +175,11 @@ class stiffness_matrix {
   [[nodiscard]] double one_norm(std::span<const double> diagonal, std::span<const double> d) const;
 
  private:
-  [[nodiscard]] double& diagonal_at(std::size_t row) {
-    return is_band() ? band().at(row, row) : columns().diagonal(row);
-  }
-
   std::variant<band_matrix, sparse_columns> stored_;
 };
+
+/// K by columns where it is a band of which more than half is zeros, as a plate's: its products are the same
+/// to the bit, and take a tenth of the time. Nothing of other matrices.
+[[nodiscard]] std::optional<stiffness_matrix> without_zeros(const stiffness_matrix& k);
 
 }  // namespace contct::matrix

@@ -124,36 +124,4 @@ std::string child_process::end() {
   return "ended with status " + std::to_string(WEXITSTATUS(status));
 }
 
-void become_command(const std::string& command, int channel) {
-  dup2(channel, STDIN_FILENO);
-  dup2(channel, STDOUT_FILENO);
-  close(channel);
-  execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
-  _exit(127);
-}
-
-kernel_in_child::kernel_in_child(kernel_facts facts, const outside_limits& limits)
-    : facts_(std::move(facts)), limits_(limits) {}
-
-void kernel_in_child::refuse_when_enough() const {
-  if (failures_ < limits_.most_failures && waits_ < limits_.most_waits) return;
-  throw kernel_failure("is not called again after " + std::to_string(failures_ + waits_) +
-                       " failures; the last: it " + last_);
-}
-
-void kernel_in_child::fail(const std::string& words, bool waited) {
-  child_.reset();
-  ++(waited ? waits_ : failures_);
-  last_ = words;
-  throw kernel_failure("it " + words);
-}
-
-void kernel_in_child::fail_without_answer(child_process::sent how) {
-  const std::string words = child_->end();
-  if (how == child_process::sent::late)
-    fail("did not answer within " + std::to_string(limits_.patience.count()) + " ms", true);
-  if (words == child_process::was_stopped) fail("closed its end of the pipe", true);  // and went on running
-  fail(words);
-}
-
 }  // namespace contct::outside

@@ -5,12 +5,15 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
 
 namespace contct::outside {
@@ -44,9 +47,6 @@ class child_process {
   int channel_ = -1;
 };
 
-/// What a child does for a command: become it, with the channel as its standard input and output.
-[[noreturn]] void become_command(const std::string& command, int channel);
-
 /// How long a kernel from outside may take for one call, and after how many failures it is given up. A crash
 /// costs a millisecond, and many may show what they have in common; a timeout costs the user `patience`.
 struct outside_limits {
@@ -55,48 +55,52 @@ struct outside_limits {
   int most_waits = 3;
 };
 
-/// What kernels from outside share: the child that answers, its deadline, and how often it may fail.
+/// A kernel that answers in a child process: one call as trace text in, one answer out (pipe_kernel.cpp).
 class kernel_in_child : public kernel {
  public:
-  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+  [[nodiscard]] const kernel_facts& facts() const final { return facts_; }
+  void answer(call<double>& c) final;
+  std::string take_text() final { return std::exchange(text_, {}); }
 
  protected:
   kernel_in_child(kernel_facts facts, const outside_limits& limits);
 
+  /// Make the child, ready to be asked; `fail` where it is not.
+  virtual void start() = 0;
   [[nodiscard]] child_process::clock::time_point deadline() const {
     return child_process::clock::now() + limits_.patience;
   }
-  /// Throws kernel_failure when the kernel has failed too often to be asked again.
-  void refuse_when_enough() const;
   /// End the child, and throw a failure, for which the caller had to wait or not.
   [[noreturn]] void fail(const std::string& words, bool waited = false);
-  /// End the child, and throw what kept a message from being sent or received whole.
-  [[noreturn]] void fail_without_answer(child_process::sent how);
 
   std::optional<child_process> child_;
 
  private:
+  /// Throws kernel_failure when the kernel has failed too often to be asked again.
+  void refuse_when_enough() const;
+  /// End the child, and throw what kept a message from being sent or received whole.
+  [[noreturn]] void fail_without_answer(child_process::sent how);
+  void refuse_stray_answer();
+  void read_answer(call<double>& c);
+
   kernel_facts facts_;
   outside_limits limits_;
   int failures_ = 0;
   int waits_ = 0;
   std::string last_;
+  std::int64_t calls_ = 0;
+  std::string asked_, answered_, text_;
+  call_outputs out_;
 };
 
-/// What is known of a kernel from outside by its name alone: the listing's rule, 8-byte REAL, and no text of
-/// its own.
-[[nodiscard]] inline kernel_facts facts_of_plugin(const std::string& path) {
-  return {"plugin:" + path, 8, "listing", "a shared library", "", "", false};
-}
-[[nodiscard]] inline kernel_facts facts_of_pipe(const std::string& command) {
-  return {"pipe:" + command, 8, "listing", "a command", "", "", false};
-}
+/// An answer that begins with this says in its first line what the kernel did that it must not.
+inline constexpr std::string_view fault_word = "fault ";
 
 /// "plugin:PATH". The library is loaded, and every call made, in a child process. Throws
 /// std::invalid_argument when it cannot be loaded, lacks a symbol, or has another ABI.
 [[nodiscard]] std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limits& limits = {});
 
-/// "pipe:COMMAND", run by the shell: one call as a block of trace text in, one answer out.
+/// "pipe:COMMAND", run by the shell.
 [[nodiscard]] std::unique_ptr<kernel> make_pipe(const std::string& command,
                                                 const outside_limits& limits = {});
 

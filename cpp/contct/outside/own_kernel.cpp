@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace contct::outside {
 namespace {
-
-thread_local const own_kernel* living = nullptr;  // NOLINT: only own_kernel changes it
 
 template <class T>
 bool same_bytes(const std::vector<T>& before, std::span<const T> now) {
@@ -18,8 +15,8 @@ bool same_bytes(const std::vector<T>& before, std::span<const T> now) {
 
 class function_kernel final : public kernel {
  public:
-  function_kernel(kernel_facts facts, kernel_procedure* procedure)
-      : facts_(std::move(facts)), procedure_(procedure) {}
+  function_kernel(const std::string& name, kernel_procedure* procedure)
+      : facts_(facts_of_outside(name, "a function")), procedure_(procedure) {}
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
   std::string take_text() override { return {}; }
 
@@ -58,28 +55,16 @@ class function_kernel final : public kernel {
 
 }  // namespace
 
-own_kernel::own_kernel(std::string name, kernel_procedure* procedure)
-    : name_(std::move(name)), procedure_(procedure) {
+void refuse_name_of_function(const std::string& name) {
   const std::vector<std::string> known = kernel_names();
-  if (name_.empty() || name_.find_first_of(":,\"") != std::string::npos ||
-      std::ranges::find(known, name_) != known.end())
-    throw std::invalid_argument("name: found \"" + name_ +
+  if (name.empty() || name.find_first_of(":,\"") != std::string::npos ||
+      std::ranges::find(known, name) != known.end())
+    throw std::invalid_argument("name: found \"" + name +
                                 "\"; allowed: a name that no kernel has, without colon, comma or quote");
-  if (living != nullptr)
-    throw std::invalid_argument("a kernel of the caller's is being judged already; allowed: one at a time");
-  living = this;
 }
 
-own_kernel::~own_kernel() {
-  living = nullptr;
-}
-
-std::unique_ptr<kernel> own_kernel::make() const {
-  return std::make_unique<function_kernel>(facts_of(*this), procedure_);
-}
-
-const own_kernel* own_kernel::here() {
-  return living;
+std::unique_ptr<kernel> make_function_kernel(const std::string& name, kernel_procedure* procedure) {
+  return std::make_unique<function_kernel>(name, procedure);
 }
 
 }  // namespace contct::outside

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "contct/outside/child_process.hpp"
-#include "contct/outside/own_kernel.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct::outside {
@@ -15,12 +14,6 @@ namespace {
 std::optional<std::string> after(std::string_view prefix, std::string_view name) {
   if (!name.starts_with(prefix) || name.size() == prefix.size()) return {};
   return std::string(name.substr(prefix.size()));
-}
-
-/// The caller's own kernel, where it has that name; otherwise null.
-const own_kernel* own(std::string_view name) {
-  const own_kernel* const here = own_kernel::here();
-  return here != nullptr && here->name() == name ? here : nullptr;
 }
 
 [[noreturn]] void refuse_unknown(std::string_view name) {
@@ -34,16 +27,14 @@ const own_kernel* own(std::string_view name) {
 std::unique_ptr<kernel> make_kernel(std::string_view name) {
   if (const auto path = after("plugin:", name)) return make_plugin(*path);
   if (const auto command = after("pipe:", name)) return make_pipe(*command);
-  if (const own_kernel* const mine = own(name)) return mine->make();
   std::unique_ptr<kernel> made = make_built_in(name);
   if (!made) refuse_unknown(name);
   return made;
 }
 
 kernel_facts facts_of_kernel(std::string_view name) {
-  if (const auto path = after("plugin:", name)) return facts_of_plugin(*path);
-  if (const auto command = after("pipe:", name)) return facts_of_pipe(*command);
-  if (const own_kernel* const mine = own(name)) return facts_of(*mine);
+  if (after("plugin:", name)) return facts_of_outside(std::string(name), "a shared library");
+  if (after("pipe:", name)) return facts_of_outside(std::string(name), "a command");
   const std::optional<kernel_facts> facts = facts_of_built_in(name);
   if (!facts) refuse_unknown(name);
   return *facts;

@@ -18,7 +18,7 @@ class path {
   path(const linear_structure& s, stiffness_engine& engine, kernel& leader,
        std::span<observer* const> observers, const path_limits& limits)
       : increments_allowed_(increments_allowed(limits, s.pairs.size())),
-        by_1989_rule_(leader.facts().rule == "listing"),
+        by_1989_rule_(leader.facts().rule == contact_rule::listing),
         now_(s, engine, observers, by_1989_rule_),
         cycles_(s.pairs.size()),
         limits_(limits),

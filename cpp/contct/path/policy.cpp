@@ -395,7 +395,7 @@ class stabilized_policy final : public path_policy {
 
 std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader, cycle_detector& cycles,
                                          const path_limits& limits) {
-  if (leader.facts().rule == "listing") return std::make_unique<policy_1989>(now, leader);
+  if (leader.facts().rule == contact_rule::listing) return std::make_unique<policy_1989>(now, leader);
   return std::make_unique<stabilized_policy>(now, leader, cycles, limits);
 }
 

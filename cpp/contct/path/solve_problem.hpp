@@ -57,7 +57,7 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
 /// others.
 [[nodiscard]] inline std::string engine_for(const kernel_facts& leader, const std::string& asked,
                                             const linear_structure& s) {
-  if (asked.empty() && leader.rule == "listing") return "refactor";
+  if (asked.empty() && leader.rule == contact_rule::listing) return "refactor";
   return asked.empty() || asked == "auto" ? std::string(quickest_engine(s)) : asked;
 }
 

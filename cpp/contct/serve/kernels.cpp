@@ -8,7 +8,6 @@
 #include "contct/compare/compare.hpp"
 #include "contct/kernel/limits.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/matrix/lapack_identity.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/serve/answer.hpp"
@@ -31,7 +30,7 @@ void tell_about(answer& a) {
     const kernel_facts k = facts_of_kernel(name);
     out["kernels"].push_back({{"name", k.name},
                               {"real_bytes", k.real_bytes},
-                              {"rule", k.rule},
+                              {"rule", name_of(k.rule)},
                               {"language", k.language},
                               {"compiler", k.compiler},
                               {"flags", k.flags}});

@@ -11,7 +11,7 @@ namespace contct::serve {
 
 void refuse_other_rules(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
-    if (facts_of_kernel(name).rule != "listing")
+    if (facts_of_kernel(name).rule != contact_rule::listing)
       throw std::invalid_argument(
           fmt::format("--kernels: \"{}\" has another rule, which is not in the listing; allowed: kernels "
                       "with the 1989 rule. reference/corrected-rule.md describes the other; contct run "

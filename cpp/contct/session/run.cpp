@@ -8,7 +8,7 @@
 
 #include "contct/exact/exact_follower.hpp"
 #include "contct/exact/exact_residual.hpp"
-#include "contct/matrix/lapack_identity.hpp"
+#include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -72,7 +72,7 @@ path_end run::follow_leader(std::vector<observer*>& all) {
 }
 
 void run::keep_states(std::vector<observer*>& all) {
-  const bool forces_by_law = leader_facts_.rule != "listing";
+  const bool forces_by_law = leader_facts_.rule != contact_rule::listing;
   all.push_back(&frames_.emplace(structure, loads_of(what, structure), forces_by_law, wanted.kept));
   if (wanted.envelope) {
     extremes_.emplace(what);

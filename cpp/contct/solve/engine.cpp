@@ -9,6 +9,8 @@
 namespace contct::solve {
 namespace {
 
+mpi_job* job_of_this_process = nullptr;  // MPI has no more than one for a process
+
 /// The 1989 way: copies the band, adds the springs now in contact, and factors (dpbtrf) at every response.
 /// Memory: two bands, the structure's own and the factor.
 class refactor_engine final : public spring_engine {
@@ -44,6 +46,14 @@ class refactor_engine final : public spring_engine {
 };
 
 }  // namespace
+
+mpi_job* joined_job() {
+  return job_of_this_process;
+}
+
+void set_joined_job(mpi_job* job) {
+  job_of_this_process = job;
+}
 
 std::vector<std::string> engine_names() {
   std::vector<std::string> names = {"refactor", "updated", "condensed"};

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "contct/matrix/without_zeros.hpp"
 #include "contct/solve/mpi_job.hpp"
 
 namespace contct::solve {
@@ -55,17 +53,18 @@ stiffness_factor factor_of(const stiffness_matrix& k, factored_by how) {
 
 }  // namespace
 
-factored_stiffness::factored_stiffness(const linear_structure& s, factored_by how)
-    : structure_(s),
-      entries_(how == factored_by::storage ? std::nullopt : entries_of_band(s)),
-      factor_(factor_of(entries_ ? *entries_ : s.stiffness, how)) {
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) rows_of_pairs_.push_back(s.row_of(s.dof_of_pair(i)));
+std::optional<stiffness_matrix> entries_for(const linear_structure& s, factored_by how) {
+  if (how == factored_by::storage) return without_zeros(s.stiffness);
+  if (!s.stiffness.is_band()) return {};
+  return columns_of(s.stiffness.band());
 }
 
-const stiffness_matrix& factored_stiffness::for_products() {
-  if (entries_) return *entries_;
-  if (!std::exchange(looked_for_zeros_, true)) sparse_ = matrix::without_zeros(structure_.stiffness);
-  return sparse_ ? *sparse_ : structure_.stiffness;
+factored_stiffness::factored_stiffness(const linear_structure& s, factored_by how)
+    : structure_(s),
+      entries_(entries_for(s, how)),
+      products_(entries_ ? *entries_ : s.stiffness),
+      factor_(factor_of(how == factored_by::storage ? s.stiffness : products_, how)) {
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) rows_of_pairs_.push_back(s.row_of(s.dof_of_pair(i)));
 }
 
 std::vector<std::vector<double>> factored_stiffness::columns_at_pairs(std::span<const int> pairs) {

@@ -66,12 +66,6 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
       "in double precision");
 }
 
-/// The entries of K without zeros where it is stored as a band; nothing otherwise.
-[[nodiscard]] inline std::optional<stiffness_matrix> entries_of_band(const linear_structure& s) {
-  if (!s.stiffness.is_band()) return {};
-  return columns_of(s.stiffness.band());
-}
-
 /// What factors K: LAPACK where it is stored as a band, and CHOLMOD where not; CHOLMOD in either case, in its
 /// own order; or the ranks of the MPI job that this process has joined.
 enum class factored_by { storage, cholmod, ranks };
@@ -83,6 +77,10 @@ enum class factored_by { storage, cholmod, ranks };
              ? factored_by::cholmod
              : factored_by::storage;
 }
+
+/// K by columns, without its zeros, where it is stored as a band that something else than LAPACK factors, or
+/// of which most is zeros; nothing otherwise.
+[[nodiscard]] std::optional<stiffness_matrix> entries_for(const linear_structure& s, factored_by how);
 
 /// K with the springs of some pairs, and its Cholesky factor. Dofs and pairs are numbered from 0.
 /// Memory: the factor, besides the structure's own.
@@ -112,7 +110,7 @@ class factored_stiffness {
   /// digits that the stored matrix has, or 3 more than LAPACK alone where its condition takes more.
   void solve_refined(std::span<const double> load, std::span<double> u) {
     contct::solve::solve_refined(
-        structure_, for_products(), springs_, [this](std::span<double> b) { factor_.solve(b); }, load, u);
+        structure_, products_, springs_, [this](std::span<double> b) { factor_.solve(b); }, load, u);
   }
 
   /// Reciprocal condition of K with these springs, its diagonal scaled to 1. Overwrites the factor.
@@ -124,15 +122,11 @@ class factored_stiffness {
   [[nodiscard]] double flops() const { return factor_.flops(); }
 
  private:
-  /// K as its products take least.
-  [[nodiscard]] const stiffness_matrix& for_products();
-
   const linear_structure& structure_;
-  std::optional<stiffness_matrix> entries_;  // of a band that LAPACK does not factor
-  std::optional<stiffness_matrix> sparse_;   // see matrix::without_zeros
-  bool looked_for_zeros_ = false;
-  std::vector<int> rows_of_pairs_;  // [pairs]
-  std::vector<spring_at> springs_;  // those in the factor
+  std::optional<stiffness_matrix> entries_;  // see entries_for
+  const stiffness_matrix& products_;         // K as its products take least
+  std::vector<int> rows_of_pairs_;           // [pairs]
+  std::vector<spring_at> springs_;           // those in the factor
   stiffness_factor factor_;
 };
 

@@ -89,14 +89,13 @@ std::optional<int> last_written_digit(std::string_view literal) {
 decimal shortest_decimal(double x) {
   std::array<char, 64> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
-  return *decimal_in({text.data(), static_cast<std::size_t>(end.ptr - text.data())});
+  return *decimal_in({text.data(), end.ptr});
 }
 
 bool is_shortest(std::string_view literal, double x) {
   // Of normal doubles, no two decimals of up to 15 digits read as the same one.
-  constexpr std::size_t always_kept = 15;
-  const auto digits = static_cast<std::size_t>(std::count_if(literal.begin(), literal.end(), is_digit));
-  if (digits <= always_kept && std::isnormal(x)) return true;
+  constexpr int always_kept = 15;
+  if (std::ranges::count_if(literal, is_digit) <= always_kept && std::isnormal(x)) return true;
   const std::optional<decimal> written = decimal_in(literal);
   return !written || *written == shortest_decimal(x);
 }

@@ -11,16 +11,12 @@
 namespace contct::trace {
 namespace {
 
-/// The lines "key value" of the header behind "about", in order; behind "kernel" stands "real". One whose
-/// value is empty is left out.
+/// The lines "key value" of the header behind "about", in order; behind "kernel" stand "real" and "rule". One
+/// whose value is empty is left out.
 constexpr std::pair<std::string_view, std::string trace_header::*> trace_facts[] = {
-    {"kernel", &trace_header::kernel},
-    {"rule", &trace_header::rule},
-    {"listing", &trace_header::listing},
-    {"compiler", &trace_header::compiler},
-    {"flags", &trace_header::flags},
-    {"lapack", &trace_header::lapack},
-    {"floating-point", &trace_header::floating_point}};
+    {"kernel", &trace_header::kernel},     {"listing", &trace_header::listing},
+    {"compiler", &trace_header::compiler}, {"flags", &trace_header::flags},
+    {"lapack", &trace_header::lapack},     {"floating-point", &trace_header::floating_point}};
 
 void append_line(std::string& text, std::string_view key, std::string_view value) {
   if (value.empty()) return;
@@ -133,7 +129,9 @@ void append_header(const trace_header& h, std::string& text) {
   for (const std::string& line : h.about) append_line(text, "about", line);
   for (const auto& [key, value] : trace_facts) {
     append_line(text, key, h.*value);
-    if (key == "kernel") append_line(text, "real", std::to_string(h.real_bytes));
+    if (key != "kernel") continue;
+    append_line(text, "real", std::to_string(h.real_bytes));
+    append_line(text, "rule", name_of(h.rule));
   }
 }
 
@@ -215,14 +213,18 @@ void trace_reader::read_header_line(std::string_view line, trace_header& h) cons
     h.real_bytes = value == "4" ? 4 : 8;
     return;
   }
+  if (takes(value, "rule")) {
+    const auto* const rule = std::ranges::find(rule_names, value);
+    if (rule == rule_names.end()) refuse(line, R"("rule listing" or "rule corrected")");
+    h.rule = static_cast<contact_rule>(rule - rule_names.begin());
+    return;
+  }
   const auto* const fact =
       std::ranges::find_if(trace_facts, [&](const auto& f) { return takes(value, f.first); });
   if (fact == std::end(trace_facts))
     refuse(line,
            "about, kernel, real, rule, listing, compiler, flags, lapack, floating-point, or an empty line");
   h.*fact->second = value;
-  if (fact->first == "rule" && value != "listing" && value != "corrected")
-    refuse(line, R"("rule listing" or "rule corrected")");
 }
 
 bool trace_reader::next(recorded_call& c) {

@@ -23,12 +23,12 @@ struct trace_header {
   std::vector<std::string> about;  ///< what the trace is there for, a line each
   std::string kernel;              ///< who answered
   int real_bytes = 8;              ///< 8, or 4 for the listing as printed
-  std::string rule = "listing";    ///< "listing" or "corrected"
-  std::string listing;             ///< checksum of fortran/contct.f
-  std::string compiler;            ///< of the kernel that answered
-  std::string flags;               ///< and its floating-point flags
-  std::string lapack;              ///< whose solves the inputs come from, or "none"
-  std::string floating_point;      ///< what the probe said
+  contact_rule rule = contact_rule::listing;
+  std::string listing;         ///< checksum of fortran/contct.f
+  std::string compiler;        ///< of the kernel that answered
+  std::string flags;           ///< and its floating-point flags
+  std::string lapack;          ///< whose solves the inputs come from, or "none"
+  std::string floating_point;  ///< what the probe said
 };
 
 /// One call, and the answer to it.

@@ -102,7 +102,7 @@ std::vector<std::string> certificate_complaints(const problem& p, const certifie
 }
 
 std::string remedy_words(const std::vector<std::string>& kernels, const std::string& file) {
-  if (kernels.empty() || facts_of_kernel(kernels.front()).rule != "listing") return "";
+  if (kernels.empty() || facts_of_kernel(kernels.front()).rule != contact_rule::listing) return "";
   return fmt::format("the corrected rule has no such errors: contct run {} --kernels corrected", file);
 }
 

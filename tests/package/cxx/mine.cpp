@@ -47,7 +47,7 @@ void call_every_kernel() {
     std::vector<double> s(1);
     call<double> c{d, d_star, faces, s, 0, nodes, status, below, {2, 3}};
     const auto kernel = make_kernel(name);
-    if (kernel->facts().rule != "listing") continue;
+    if (kernel->facts().rule != contct::kernels::contact_rule::listing) continue;
     kernel->answer(c);
     check(c.smin == 0.0625 && s[0] == c.smin && status[0] == separated, name.c_str());
     check(kernel->take_text().find("BREAKING CONTACT") != std::string::npos, "the text of unit 26");

@@ -121,7 +121,7 @@ class part_of_factor {
     succeed(MatDestroy(&right_sides));
     const double* found = nullptr;
     succeed(MatDenseGetArrayRead(solutions_, &found));
-    if (own_ > 0) std::copy_n(found, static_cast<std::size_t>(own_) * static_cast<std::size_t>(columns), b);
+    if (own_ > 0) std::copy_n(found, std::int64_t{own_} * columns, b);
     succeed(MatDenseRestoreArrayRead(solutions_, &found));
   }
 
@@ -274,7 +274,7 @@ class shared_factor final : public sparse_factor {
     (void)job_.command_all({verb::solve, number_, columns}, b.data());
   }
 
-  [[nodiscard]] sparse_columns lower() const override { throw cannot_be_read(); }
+  [[nodiscard]] sparse_columns lower() override { throw cannot_be_read(); }
   [[nodiscard]] const std::vector<int>& places() const override { throw cannot_be_read(); }
 
  private:
