@@ -1,11 +1,7 @@
-"""Runs the fuzzers of targets.txt, or measures what their inputs reach; tests/fuzz/run.sh builds them and says how.
-usage: fuzzers.py PROGRAMS CORPUS [SECONDS | --coverage] [NAME]..."""
-
-import json
+"""Runs the fuzzers of targets.txt; tests/fuzz/run.sh builds them and says how. usage: fuzzers.py PROGRAMS CORPUS [SECONDS] [NAME]..."""
 import os
 import pathlib
 import re
-import resource
 import shutil
 import subprocess
 import sys
@@ -13,7 +9,6 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-LEAST_COVERAGE = 90.0  # per cent of a source's lines
 LIMITS = ["-timeout=10", "-rss_limit_mb=2560"]
 
 
@@ -76,74 +71,18 @@ def fuzz(target, program, corpus, seconds, work):
     return True
 
 
-def processor_seconds():
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
-def hours_with(ledger, name, began):
-    """Of all fuzzers with this corpus, in processor hours; what has just run is added to the ledger."""
-    with open(ledger, "a", encoding="utf-8") as file:
-        file.write(f"{name} {processor_seconds() - began:.0f}\n")
-    return sum(int(line.split()[1]) for line in ledger.read_text(encoding="utf-8").splitlines()) / 3600.0
-
-
-def profile_of(target, program, corpus, work):
-    """What the seeds and the corpus of a fuzzer reach, as a file."""
-    raw = work / "raw"
-    seeds = target.copy_seeds(work / "seeds")
-    subprocess.run([program, "-runs=0", f"-max_len={target.longest}", corpus, seeds], cwd=work, check=True,
-                   env={**os.environ, "LLVM_PROFILE_FILE": str(raw)}, capture_output=True)
-    return raw
-
-
-def cover(programs, profiles, work):
-    """Which share of the lines of each reader all fuzzers together reach. True where that is enough everywhere."""
-    profile = work / "all"
-    subprocess.run(["llvm-profdata", "merge", "-sparse", *profiles, "-o", profile], check=True)
-    lines_of_list = (HERE / "readers.txt").read_text(encoding="utf-8").splitlines()
-    least = {s.split()[0]: float([*s.split(), LEAST_COVERAGE][1]) for s in lines_of_list if s and s[0] != "#"}
-    sources = list(least)
-    objects = [programs[0], *[f"-object={p}" for p in programs[1:]]]
-    export = ["llvm-cov", "export", "-summary-only", f"-instr-profile={profile}", *objects, *[ROOT / s for s in sources]]
-    told = json.loads(subprocess.run(export, check=True, capture_output=True).stdout)
-    counts = {f["filename"]: f["summary"]["lines"] for f in told["data"][0]["files"]}
-    short = []
-    for source in sources:
-        lines = counts[str(ROOT / source)]
-        share = 100.0 * lines["covered"] / lines["count"]
-        print(f"{source}: {lines['covered']} of {lines['count']} lines, {share:.1f} %")
-        short += [f"{source} {least[source]:.0f} %"] if share < least[source] else []
-    allowed = f"; allowed: at least {', '.join(short)}" if short else ""
-    print(f"readers: {len(sources) - len(short)} of {len(sources)} are covered{allowed}")
-    return not short
-
-
 def main():
     programs, corpora, *rest = sys.argv[1:]
-    coverage = rest[:1] == ["--coverage"]
-    seconds = 60
-    if rest and (coverage or rest[0].isdigit()):
-        seconds = 0 if coverage else int(rest[0])
-        rest = rest[1:]
+    seconds = int(rest.pop(0)) if rest and rest[0].isdigit() else 60
     good = []
-    profiles = {}
     with tempfile.TemporaryDirectory() as work:
         for target in read_targets(rest):
-            program = pathlib.Path(programs).resolve() / f"{target.name}_fuzz"
             corpus = pathlib.Path(corpora).resolve() / target.name
             corpus.mkdir(parents=True, exist_ok=True)
             own = pathlib.Path(work) / target.name
             own.mkdir()
-            if coverage:
-                profiles[program] = profile_of(target, program, corpus, own)
-            else:
-                began = processor_seconds()
-                good.append(fuzz(target, program, corpus, seconds, own))
-                hours = hours_with(corpus.parent / "ran.txt", target.name, began)
-        if coverage:
-            sys.exit(0 if cover(list(profiles), profiles.values(), pathlib.Path(work)) else 1)
-    print(f"fuzzers: {sum(good)} of {len(good)} found nothing; {hours:.1f} processor hours with this corpus")
+            good.append(fuzz(target, pathlib.Path(programs).resolve() / f"{target.name}_fuzz", corpus, seconds, own))
+    print(f"fuzzers: {sum(good)} of {len(good)} found nothing")
     sys.exit(0 if all(good) else 1)
 
 

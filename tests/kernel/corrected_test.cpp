@@ -234,23 +234,6 @@ TEST_CASE("corrected: the kernel keeps nothing between calls: only at_rest decid
   CHECK(k->take_text().empty());
 }
 
-TEST_CASE("corrected: the quick form is the plain one to the bit, NaN and infinities included") {
-  random_numbers r(104);
-  const double inf = std::numeric_limits<double>::infinity();
-  const double odd[] = {std::numeric_limits<double>::quiet_NaN(), inf, -inf, 0.0, -0.0, 1e-320, 1e308};
-  int events = 0;
-  for (int round = 0; round < 20000; ++round) {
-    std::vector<pair_at<double>> pairs(r.whole(1, 40));
-    for (auto& p : pairs) {
-      p = random_pair(r);
-      for (double* number : {&p.d, &p.d_star, &p.c})
-        if (r.chance(0.02)) *number = odd[r.whole(0, 6)];
-    }
-    events += answered(pairs, r.chance(0.5) ? 1000 : 0).happened ? 1 : 0;  // compares both
-  }
-  CHECK(events > 10000);
-}
-
 TEST_CASE("corrected: no pairs, no event, and NaN in, no event out") {
   CHECK(answered({}).happened == nothing);
   CHECK(answered({}).smin == 1.0);

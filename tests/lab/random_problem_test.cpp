@@ -47,31 +47,6 @@ bool is_nothing(const load& l) {
                      [](const distributed_load& d) { return d.polynomial[0] == 0.0; });
 }
 
-/// Is `b` just the opposite of `a`?
-bool is_reversed(const load& a, const load& b) {
-  if (is_nothing(a) || a.points.size() != b.points.size() || a.distributed.size() != b.distributed.size())
-    return false;
-  for (std::size_t i = 0; i < a.points.size(); ++i) {
-    if (b.points[i].value != -a.points[i].value) return false;
-  }
-  for (std::size_t i = 0; i < a.distributed.size(); ++i) {
-    if (b.distributed[i].polynomial[0] != -a.distributed[i].polynomial[0]) return false;
-  }
-  return true;
-}
-
-/// How a beam is held, in letters for its supports: w and t for a fixed deflection and rotation, e for an
-/// elastic support.
-std::string supports_of(const random_problem& p) {
-  std::string text;
-  const int last = nodes(p.geometry) - 1;
-  for (const support& s : p.supports) {
-    text += s.node == 0 ? "left " : s.node == last ? "right " : "inside ";
-    text += !s.fixed ? "e " : s.dof == 0 ? "w " : "t ";
-  }
-  return text;
-}
-
 /// What a number of problems came to.
 struct judged_problems {
   std::map<verdict, int> came_to;
@@ -98,10 +73,9 @@ std::ostream& operator<<(std::ostream& out, const judged_problems& t) {
              << " on an edge";
 }
 
-judged_problems try_problems(std::uint64_t seed, std::uint64_t count, const random_problem_kind& kind,
-                             const char* leader) {
+judged_problems try_problems(std::uint64_t seed, std::uint64_t count, const random_problem_kind& kind) {
   judged_problems all;
-  const auto k = make_kernel(leader);
+  const auto k = make_kernel("corrected");
   for (std::uint64_t number = 0; number < count; ++number) {
     const random_problem p = make_random_problem(seed, number, kind);
     path_counts counted;
@@ -111,8 +85,7 @@ judged_problems try_problems(std::uint64_t seed, std::uint64_t count, const rand
     // A load that balances exactly on the edge of tipping: nothing holds the structure for certain.
     const bool on_edge = p.layout == face_layout::symmetric && !p.held && t.came_to == verdict::wrong;
     all.on_edge += on_edge ? 1 : 0;
-    if (leader == std::string_view("corrected") && !on_edge)
-      CHECK((t.came_to == verdict::certified || t.came_to == verdict::no_equilibrium));
+    if (!on_edge) CHECK((t.came_to == verdict::certified || t.came_to == verdict::no_equilibrium));
   }
   return all;
 }
@@ -198,106 +171,6 @@ TEST_CASE("random problems are well formed") {
       CHECK(b->x.back() == Approx(p.unit).epsilon(1e-12));
     }
   }
-}
-
-TEST_CASE("random problems are of every layout, held and free, beams and plates, on every kind of support") {
-  std::map<face_layout, int> layouts;
-  std::map<std::string, int> beam_supports;
-  int held = 0;
-  int plates = 0;
-  int even = 0;
-  for (std::uint64_t number = 0; number < problems; ++number) {
-    const random_problem p = make_random_problem(22, number);
-    ++layouts[p.layout];
-    held += p.held ? 1 : 0;
-    plates += plate_of(p) != nullptr ? 1 : 0;
-    if (const beam* b = beam_of(p)) {
-      ++beam_supports[supports_of(p)];
-      const double h = b->length_of(0);
-      bool same = true;
-      for (int e = 1; e < b->elements(); ++e) same = same && std::abs(b->length_of(e) - h) < 1e-9 * h;
-      even += same ? 1 : 0;
-    }
-  }
-  CHECK(layouts.size() == face_layouts);
-  for (const auto& [layout, times] : layouts)
-    CHECK(times > static_cast<int>(problems) / face_layouts * 3 / 4);
-  CHECK(held == Approx(0.8 * problems).epsilon(0.05));
-  CHECK(plates == Approx(0.25 * problems).epsilon(0.1));
-  const int beams = static_cast<int>(problems) - plates;
-  CHECK(even == Approx(0.7 * beams).epsilon(0.1));
-  for (const char* kind : {"left w right w ", "left w left t ", "left w left t right w right t ",
-                           "left w left t right w ", "left w inside w ", "left e right e ", ""}) {
-    INFO(kind);
-    CHECK(beam_supports[kind] > 100);
-  }
-  CHECK(beam_supports.size() == 7);
-}
-
-TEST_CASE("random problems are loaded anew, unloaded, reversed, and by a share of what was there") {
-  std::map<std::size_t, int> counts;
-  int unloaded = 0;
-  int reversed = 0;
-  int moments = 0;
-  int spread = 0;
-  int upwards = 0;
-  for (std::uint64_t number = 0; number < problems; ++number) {
-    const random_problem p = make_random_problem(23, number);
-    ++counts[p.steps.size()];
-    for (std::size_t i = 0; i < p.steps.size(); ++i) {
-      const load& l = p.steps[i];
-      unloaded += is_nothing(l) ? 1 : 0;
-      reversed += i > 0 && is_reversed(p.steps[i - 1], l) ? 1 : 0;
-      spread += l.distributed.empty() ? 0 : 1;
-      upwards += !l.distributed.empty() && l.distributed[0].polynomial[0] > 0.0 ? 1 : 0;
-      if (std::any_of(l.points.begin(), l.points.end(), [](const point_load& f) { return f.dof > 0; }))
-        ++moments;
-    }
-  }
-  CHECK(counts.size() == 5);
-  for (const auto& [steps, times] : counts) CHECK(times > 600);
-  CHECK(unloaded > 1000);
-  CHECK(reversed > 500);
-  CHECK(moments > 1000);
-  CHECK(spread > 4000);
-  CHECK(upwards > 1000);
-}
-
-TEST_CASE("random problems have springs over eight decades and units over twenty-four") {
-  double softest = 1e300;
-  double stiffest = 0.0;
-  double widest = 1.0;  // within one problem
-  double least = 1e300;
-  double most = 0.0;
-  int alike = 0;
-  for (std::uint64_t number = 0; number < problems; ++number) {
-    const random_problem p = make_random_problem(24, number);
-    least = std::min(least, p.unit);
-    most = std::max(most, p.unit);
-    const beam* b = beam_of(p);
-    if (b == nullptr) continue;
-    double soft = 1e300;
-    double stiff = 0.0;
-    for (const contact_pair& c : p.pairs) {
-      const double relative = c.stiffness * std::pow(p.unit, 3) / b->EI[0];
-      soft = std::min(soft, relative);
-      stiff = std::max(stiff, relative);
-    }
-    softest = std::min(softest, soft);
-    stiffest = std::max(stiffest, stiff);
-    widest = std::max(widest, stiff / soft);
-    alike += p.pairs.size() > 1 && stiff < soft * (1 + 1e-12) ? 1 : 0;
-  }
-  CHECK(softest < 2.0);
-  CHECK(softest > 0.99);
-  CHECK(stiffest > 5e7);
-  CHECK(stiffest < 1.01e8);
-  CHECK(widest > 1e6);
-  CHECK(alike > 1000);
-  CHECK(least < 2e-12);
-  CHECK(least > 0.99e-12);
-  CHECK(most > 0.5e12);
-  CHECK(most < 1.01e12);
 }
 
 TEST_CASE("a layout is what it says") {
@@ -386,7 +259,7 @@ TEST_CASE("what to draw from can be said: units, shares and sizes") {
 TEST_CASE("held by their supports, all of 2000 structures are certified at every step, without help") {
   random_problem_kind kind;
   kind.free_share = 0.0;
-  const judged_problems t = try_problems(1, 2000, kind, "corrected");
+  const judged_problems t = try_problems(1, 2000, kind);
   INFO(t);
   CHECK(t.came_to.size() == 1);
   CHECK(t.came_to.count(verdict::certified) == 1);
@@ -404,7 +277,7 @@ TEST_CASE("held by their supports, all of 2000 structures are certified at every
 TEST_CASE("held by pairs alone, 1000 structures are certified, or mechanisms that the oracle confirms") {
   random_problem_kind kind;
   kind.free_share = 1.0;
-  const judged_problems t = try_problems(2, 1000, kind, "corrected");
+  const judged_problems t = try_problems(2, 1000, kind);
   INFO(t);
   CHECK(t.came_to.at(verdict::certified) > 500);
   CHECK(t.came_to.at(verdict::no_equilibrium) > 150);
@@ -414,38 +287,4 @@ TEST_CASE("held by pairs alone, 1000 structures are certified, or mechanisms tha
   CHECK(t.breaks > 3000);
   CHECK(t.at_rest > 1000);
   CHECK(t.snaps > 100);
-}
-
-TEST_CASE("plates of a few elements are certified too, where deflections may be rounding beside the slopes") {
-  random_problem_kind kind;
-  kind.free_share = 0.0;
-  kind.plate_share = 1.0;
-  kind.most_lines = 2;
-  const judged_problems t = try_problems(13, 1000, kind, "corrected");
-  INFO(t);
-  CHECK(t.came_to.size() == 1);
-  CHECK(t.makes + t.breaks > 2000);
-}
-
-TEST_CASE("the listing's rule is wrong often enough to be caught, and right at other times") {
-  random_problem_kind kind;
-  kind.least_unit = kind.most_unit = 1.0;
-  const judged_problems t = try_problems(3, 500, kind, "cpp");
-  INFO(t);
-  CHECK(t.came_to.at(verdict::certified) > 250);
-  CHECK(t.came_to.at(verdict::wrong) > 15);
-  // It gets no help, and what lies above its stops is a mechanism to it.
-  CHECK(t.came_to.at(verdict::false_mechanism) > 1);
-  CHECK(t.snaps == 0);
-  CHECK(t.fallbacks == 0);
-}
-
-TEST_CASE("1500 free beams reach their ends without the reference solution") {
-  random_problem_kind kind;
-  kind.free_share = 1.0;
-  kind.plate_share = 0.0;
-  const judged_problems t = try_problems(1, 1500, kind, "corrected");
-  INFO(t);
-  CHECK(t.steps > 3000);
-  CHECK(t.fallbacks < 3);
 }

@@ -3,18 +3,14 @@
 Without `all`, plates of 16 x 16 elements and more are left out, which take most of the time.
 """
 import copy
-import json
-import random
 import re
-import subprocess
 import sys
 import tempfile
 import tomllib
 import unittest.mock
-from fractions import Fraction
 from pathlib import Path
 
-from proofs import check_proof, end, fail, program, proof_of, reference, verdict
+from proofs import check_proof, end, fail, proof_of, reference, verdict
 
 
 def scaled(path, factor):
@@ -232,53 +228,8 @@ def check_faults(folder):
     print(f"{len(FAULTS) + 11 + len(OTHERS)} doctored proofs were tried")
 
 
-# Numbers with more digits than doubles have: with the digits as they are written, the contact force is another.
-LONG_NUMBERS = """
-[beam]
-x = [0, 1.00000000000000000001, 0x2]
-EI = 1
-[[support]]
-x = [0, 2]
-fix = "w"
-[[contact]]
-x = 1.0
-surface = "below"
-face = -1.0e-6
-stiffness = 10.0
-[[step]]
-point = [ { x = 1, w = 1000000000000.00001 }, { x = 1, w = -1000000000000 }, { x = 1, w = -0.00002 } ]
-[[step]]
-point = [ { x = 1, w = 9007199254740993 }, { x = 1, w = -9007199254740992.000 }, { x = 1, w = -0.00002 } ]
-"""
-
-
-def check_long_numbers(folder):
-    """A number is the shortest decimal of its double, whatever the file has: for the program, exactly, and for the checker."""
-    beam, matrix = Path(folder) / "long.toml", Path(folder) / "numpy.toml"
-    beam.write_text(LONG_NUMBERS)
-    n, generator = 12, random.Random(1)
-    entries = [(i, j, 8 + generator.random() if i == j else generator.uniform(-1, 1)) for i in range(n) for j in range(max(0, i - 2), i + 1)]
-    lines = [f"{i + 1} {j + 1} {k:.18e}" for i, j, k in entries]  # as numpy writes them
-    (Path(folder) / "numpy.mtx").write_text("\n".join(["%%MatrixMarket matrix coordinate real symmetric", f"{n} {n} {len(lines)}", *lines, ""]))
-    matrix.write_text('[matrix]\nstiffness = "numpy.mtx"\n[[contact]]\ndof = "3"\nsurface = "below"\nface = -0.01\nstiffness = 10.0\n'
-                      '[[step]]\npoint = [ { dof = "3", value = -1.0 } ]\n')
-    for problem, numbers in ((beam, 17), (matrix, 13)):
-        proof = proof_of(problem, folder, "--kernels", "corrected")
-        code, said = verdict(problem, proof, folder)
-        if code != 0 or said.count(f"{numbers} numbers are within") != len(proof["steps"]):
-            fail(f"{problem}: {code}: {said}")
-        path = Path(folder) / "exact.json"
-        subprocess.run([program, "exact", problem, "--quiet", "--json", path], check=True, capture_output=True)
-        for step, exactly in zip(proof["steps"], json.loads(path.read_text())["steps"], strict=True):
-            for x, true in zip(step["displacement"], exactly["displacement"], strict=True):
-                if abs(Fraction(x) - Fraction(true)) > max(map(Fraction, step["error"].values())):
-                    fail(f"{problem}: {x} is certified, and exactly it is {true}")
-    print("2 problems of numbers with many digits are accepted, and agree with the exact path")
-
-
 with tempfile.TemporaryDirectory() as scratch:
     check_reference(scratch)
     check_faults(scratch)
     check_semidefinite(scratch)
-    check_long_numbers(scratch)
 end()

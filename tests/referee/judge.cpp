@@ -326,7 +326,6 @@ judgement judge(const structure::problem& p, const exact_answer& exactly, way ho
     j.findings.push_back(*wrong);
     return j;
   }
-  j.mechanism = run.end.status == path_status::mechanism;
   if (how == way::final_only) return j;
   constexpr double tie = 1e-9;
   const kernel_digits r = counter.result("corrected", run.end.status, tie);
@@ -354,11 +353,7 @@ judgement judge_end(const structure::problem& p, way how) {
     expected = {path_status::mechanism, step};
     break;
   }
-  if (const auto wrong = compare_ends(run.end, expected)) {
-    j.findings.push_back(*wrong);
-  } else {
-    j.mechanism = run.end.status == path_status::mechanism;
-  }
+  if (const auto wrong = compare_ends(run.end, expected)) j.findings.push_back(*wrong);
   return j;
 }
 

@@ -66,10 +66,9 @@ struct finding {
 
 /// What was wrong with one run, and how much was looked at.
 struct judgement {
-  int steps = 0;           ///< that reached their load on both paths
-  int certified = 0;       ///< of these
-  long values = 0;         ///< compared with exact ones
-  bool mechanism = false;  ///< rightly
+  int steps = 0;      ///< that reached their load on both paths
+  int certified = 0;  ///< of these
+  long values = 0;    ///< compared with exact ones
   std::vector<finding> findings;
 };
 
