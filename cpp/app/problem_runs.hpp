@@ -7,7 +7,7 @@
 #include "app/outputs.hpp"
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
-#include "contct/write/run_words.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct::app {
 

@@ -1,6 +1,4 @@
 // A proof has what its checker needs, and says why where there is none.
-#include "contct/write/proof_json.hpp"
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +8,7 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/write/result_json.hpp"
 
 using namespace contct::app;
 

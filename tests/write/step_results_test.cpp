@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/write/run_words.hpp"
+#include "contct/write/words.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"

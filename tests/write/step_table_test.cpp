@@ -1,8 +1,7 @@
-#include "contct/write/step_table.hpp"
-
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/write/table.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 

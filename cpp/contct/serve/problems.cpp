@@ -14,7 +14,6 @@
 #include "contct/serve/serve.h"
 #include "contct/write/exact_output.hpp"
 #include "contct/write/explain.hpp"
-#include "contct/write/run_words.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::serve {

@@ -14,7 +14,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/pictures.hpp"
-#include "contct/write/proof_json.hpp"
+#include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::session {

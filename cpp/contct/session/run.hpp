@@ -13,8 +13,8 @@
 #include "contct/path/frames.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/run_result.hpp"
-#include "contct/write/run_words.hpp"
 #include "contct/write/table.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct::session {
 

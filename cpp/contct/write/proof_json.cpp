@@ -1,5 +1,3 @@
-#include "contct/write/proof_json.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

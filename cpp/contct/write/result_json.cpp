@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/write/run_words.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct::write {
 namespace {

@@ -84,6 +84,10 @@ class json_document {
 /// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
 void put_place(nlohmann::ordered_json& entry, const model& m, int node);
 
+/// The proof of a run's bounds, for whoever checks it without this program (--proof): format
+/// "contct-proof-2", of reference/proof-format.md. `judged` has kept its proofs of `p`.
+[[nodiscard]] std::string proof_json(const problem& p, const certifier& judged);
+
 /// What else than the ends of steps is written.
 enum class result_parts {
   ends,

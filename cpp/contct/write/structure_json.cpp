@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "contct/write/result_json.hpp"
@@ -51,7 +50,7 @@ void put_kind(json& out, const assembled& a) {
 std::vector<double> tributary_shares(const problem& p) {
   std::vector<double> of_pair(p.pairs.size());
   for (const bed& b : p.beds)
-    std::ranges::copy(b.share, of_pair.begin() + static_cast<std::ptrdiff_t>(b.first_pair));
+    for (std::size_t i = 0; i < b.share.size(); ++i) of_pair[b.first_pair + i] = b.share[i];
   return of_pair;
 }
 

@@ -1,6 +1,8 @@
 // The run as tables, an increment a row: on the terminal, and in files for spreadsheets and data frames.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -8,13 +10,25 @@
 
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/step_table.hpp"
+#include "contct/write/step_results.hpp"
 
 namespace contct::write {
 
 /// A share in at most nine columns, with as many digits as fit. What is less than 1 is never shown as 1,
 /// which means the whole load: "1-3e-09".
 [[nodiscard]] std::string share_words(double x);
+
+/// The largest of each quantity on a path so far, by name: what is nothing but rounding of it is printed as
+/// 0.
+using sizes_so_far = std::map<std::string, double, std::less<>>;
+
+/// The largest deflection, moment, contact force and reaction with their places, a line each, of at most
+/// `width` columns where that is 60 or more.
+[[nodiscard]] std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
+                                                     sizes_so_far& sizes);
+
+/// Tables of all pairs, reactions and ends of elements, 80 columns wide.
+[[nodiscard]] std::string detail_tables(const problem& p, const step_state& s, const step_results& r);
 
 /// Observes a path and prints it as it goes. Place it behind the lockstep and the
 /// certifier that it reports on.
