@@ -27,6 +27,13 @@ void changes_its_input(const double dd[], const double dtest[], const double cc[
   const_cast<double*>(dd)[1] = 3.0;  // NOLINT: what no kernel may do
 }
 
+void writes_past_its_arrays(const double dd[], const double dtest[], const double cc[], double ss[],
+                            double* smin, const int id[], int isep[], const int isurf[], int nc, int indof,
+                            int ndofpn, int ndof) {
+  halves(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof);
+  ss[nc] = 0.5;
+}
+
 }  // namespace
 
 TEST_CASE("a function is a kernel of the 1989 rule, without text") {
@@ -49,6 +56,15 @@ TEST_CASE("a function that changes its input fails, and the caller's arrays stay
   call<double> c = out.prepare(in);
   CHECK_THROWS_WITH(k->answer(c), "changes: changed its input DD");
   CHECK(in.dd[1] == 0.0);
+}
+
+TEST_CASE("a function that writes past an array fails, and its answer is not taken") {
+  const auto k = make_function_kernel("writes", writes_past_its_arrays);
+  const call_inputs<double> in = one_pair();
+  call_outputs out;
+  call<double> c = out.prepare(in);
+  CHECK_THROWS_WITH(k->answer(c), "writes: wrote past the end of SS");
+  CHECK(c.smin == not_an_answer);
 }
 
 TEST_CASE("a function's name may not be another kernel's") {

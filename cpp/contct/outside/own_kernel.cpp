@@ -1,17 +1,48 @@
 #include "contct/outside/own_kernel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
 namespace contct::outside {
 namespace {
 
+/// A copy of an array, with bytes in front of it and behind it that no kernel may touch.
 template <class T>
-bool same_bytes(const std::vector<T>& before, std::span<const T> now) {
-  return now.empty() || std::memcmp(before.data(), now.data(), now.size_bytes()) == 0;
-}
+class fenced {
+ public:
+  fenced(const char* name, std::span<const T> values)
+      : name_(name), values_(values), copy_(values.size() + 2 * fence) {
+    std::memset(copy_.data(), fence_byte, copy_.size() * sizeof(T));
+    std::ranges::copy(values, data());
+  }
+  [[nodiscard]] T* data() { return copy_.data() + fence; }
+
+  /// What a kernel did to it that it must not; empty when nothing.
+  [[nodiscard]] std::string fault(bool is_input) {
+    if (!is_intact(copy_.data())) return std::string("wrote before the start of ") + name_;
+    if (!is_intact(data() + values_.size())) return std::string("wrote past the end of ") + name_;
+    const bool changed = !values_.empty() && std::memcmp(data(), values_.data(), values_.size_bytes()) != 0;
+    return is_input && changed ? std::string("changed its input ") + name_ : "";
+  }
+
+ private:
+  static constexpr std::size_t fence = 256 / sizeof(T);
+  static constexpr unsigned char fence_byte = 0xA5;
+
+  static bool is_intact(const T* from) {
+    std::array<unsigned char, fence * sizeof(T)> bytes{};
+    std::memcpy(bytes.data(), from, bytes.size());
+    return std::ranges::all_of(bytes, [](unsigned char b) { return b == fence_byte; });
+  }
+
+  const char* name_;
+  std::span<const T> values_;
+  std::vector<T> copy_;
+};
 
 class function_kernel final : public kernel {
  public:
@@ -20,40 +51,34 @@ class function_kernel final : public kernel {
   [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
   std::string take_text() override { return {}; }
 
-  /// It gets copies: what it writes where it must not does not reach those who are asked next.
   void answer(call<double>& c) override {
-    keep(c.dd, dd_);
-    keep(c.dtest, dtest_);
-    keep(c.cc, cc_);
-    keep(c.id, id_);
-    keep(c.isurf, isurf_);
-    procedure_(dd_.data(), dtest_.data(), cc_.data(), c.ss.data(), &c.smin, id_.data(), c.isep.data(),
-               isurf_.data(), c.nc(), c.dof.indof, c.dof.ndofpn, static_cast<int>(c.dd.size()));
-    refuse_change("DD", dd_, c.dd);
-    refuse_change("DTEST", dtest_, c.dtest);
-    refuse_change("CC", cc_, c.cc);
-    refuse_change("ID", id_, c.id);
-    refuse_change("ISURF", isurf_, c.isurf);
+    try {
+      put_guarded(c, procedure_);
+    } catch (const kernel_failure& failure) {
+      throw kernel_failure(facts_.name + ": " + failure.what());
+    }
   }
 
  private:
-  template <class T>
-  static void keep(std::span<const T> from, std::vector<T>& to) {
-    to.assign(from.begin(), from.end());
-  }
-
-  template <class T>
-  void refuse_change(const char* what, const std::vector<T>& copy, std::span<const T> before) const {
-    if (!same_bytes(copy, before)) throw kernel_failure(facts_.name + ": changed its input " + what);
-  }
-
   kernel_facts facts_;
   kernel_procedure* procedure_;
-  std::vector<double> dd_, dtest_, cc_;
-  std::vector<int> id_, isurf_;
 };
 
 }  // namespace
+
+void put_guarded(call<double>& c, kernel_procedure* procedure) {
+  fenced<double> dd("DD", c.dd), dtest("DTEST", c.dtest), cc("CC", c.cc), ss("SS", c.ss);
+  fenced<double> smin("SMIN", std::span(&c.smin, 1));
+  fenced<int> id("ID", c.id), isep("ISEP", c.isep), isurf("ISURF", c.isurf);
+  procedure(dd.data(), dtest.data(), cc.data(), ss.data(), smin.data(), id.data(), isep.data(), isurf.data(),
+            c.nc(), c.dof.indof, c.dof.ndofpn, static_cast<int>(c.dd.size()));
+  for (const std::string& fault : {dd.fault(true), dtest.fault(true), cc.fault(true), ss.fault(false),
+                                   smin.fault(false), id.fault(true), isep.fault(false), isurf.fault(true)})
+    if (!fault.empty()) throw kernel_failure(fault);
+  c.smin = *smin.data();
+  std::copy_n(ss.data(), c.ss.size(), c.ss.begin());
+  std::copy_n(isep.data(), c.isep.size(), c.isep.begin());
+}
 
 void refuse_name_of_function(const std::string& name) {
   const std::vector<std::string> known = kernel_names();

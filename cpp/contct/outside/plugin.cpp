@@ -4,76 +4,28 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <cstring>
-#include <span>
 #include <stdexcept>
-#include <vector>
 
 #include "contct/kernel/fortran.hpp"
 #include "contct/outside/child_process.hpp"
+#include "contct/outside/own_kernel.hpp"
 #include "contct/trace/trace.hpp"
 
 namespace contct::outside {
 namespace {
 
 using abi_function = decltype(&contct_kernel_abi);
-using kernel_function = decltype(&contct_kernel);
 constexpr std::string_view ready_word = "ready";
 constexpr const char* too_slow = "did not load within its time";
 
-/// A copy of an array, with bytes in front of it and behind it that no kernel may touch.
-template <class T>
-class fenced {
- public:
-  fenced(const char* name, std::span<const T> values)
-      : name_(name), values_(values), copy_(values.size() + 2 * fence) {
-    std::memset(copy_.data(), fence_byte, copy_.size() * sizeof(T));
-    std::ranges::copy(values, data());
-  }
-  [[nodiscard]] T* data() { return copy_.data() + fence; }
-  [[nodiscard]] std::span<const T> all() { return {data(), values_.size()}; }
-
-  /// What a kernel did to it that it must not; empty when nothing.
-  [[nodiscard]] std::string fault(bool is_input) {
-    if (!is_intact(copy_.data())) return std::string("wrote before the start of ") + name_;
-    if (!is_intact(data() + values_.size())) return std::string("wrote past the end of ") + name_;
-    const bool changed = !values_.empty() && std::memcmp(data(), values_.data(), values_.size_bytes()) != 0;
-    return is_input && changed ? std::string("changed its input ") + name_ : "";
-  }
-
- private:
-  static constexpr std::size_t fence = 256 / sizeof(T);
-  static constexpr unsigned char fence_byte = 0xA5;
-
-  static bool is_intact(const T* from) {
-    std::array<unsigned char, fence * sizeof(T)> bytes{};
-    std::memcpy(bytes.data(), from, bytes.size());
-    return std::ranges::all_of(bytes, [](unsigned char b) { return b == fence_byte; });
-  }
-
-  const char* name_;
-  std::span<const T> values_;
-  std::vector<T> copy_;
-};
-
 /// Make the call, and say what came of it as trace text.
-std::string answer_to(std::string_view asked, kernel_function ask) {
-  recorded_call c;
-  trace_reader(asked, "the call").next_inputs(c);
-  const call_inputs<double>& in = c.in;
-  const std::vector<double> unanswered(in.pairs() + 1, not_an_answer);
-  fenced<double> dd("DD", in.dd), dtest("DTEST", in.dtest), cc("CC", in.cc);
-  fenced<double> ss("SS", std::span(unanswered).subspan(1)), smin("SMIN", std::span(unanswered).first(1));
-  fenced<int> id("ID", in.id), isep("ISEP", in.isep), isurf("ISURF", in.isurf);
-  ask(dd.data(), dtest.data(), cc.data(), ss.data(), smin.data(), id.data(), isep.data(), isurf.data(),
-      static_cast<int>(in.pairs()), in.dof.indof, in.dof.ndofpn, static_cast<int>(in.dd.size()));
-  for (const std::string& fault : {dd.fault(true), dtest.fault(true), cc.fault(true), ss.fault(false),
-                                   smin.fault(false), id.fault(true), isep.fault(false), isurf.fault(true)})
-    if (!fault.empty()) throw kernel_failure(fault);
+std::string answer_to(std::string_view asked, kernel_procedure* ask) {
+  recorded_call recorded;
+  trace_reader(asked, "the call").next_inputs(recorded);
+  call<double> c = recorded.out.prepare(recorded.in);
+  put_guarded(c, ask);
   std::string text;
-  append_answer(*smin.data(), ss.all(), isep.all(), "", text);
+  append_answer(c.smin, c.ss, c.isep, "", text);
   return text;
 }
 
@@ -86,7 +38,7 @@ void say(int channel, std::string_view words) {
 }
 
 /// What the child does until its channel is closed: wait for a call, make it, say what came of it.
-void serve(kernel_function ask, int channel) {
+void serve(kernel_procedure* ask, int channel) {
   char block[1 << 14];
   std::string asked;
   for (ssize_t n = 0; (n = ::read(channel, block, sizeof block)) > 0;) {
@@ -110,7 +62,7 @@ void host(const std::string& path, int channel) {
   if (library == nullptr) return say(channel, std::string("cannot be loaded: ") + dlerror());
   // NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast): dlsym gives no other type
   const auto version = reinterpret_cast<abi_function>(dlsym(library, "contct_kernel_abi"));
-  const auto ask = reinterpret_cast<kernel_function>(dlsym(library, "contct_kernel"));
+  const auto ask = reinterpret_cast<kernel_procedure*>(dlsym(library, "contct_kernel"));
   // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
   if (version == nullptr || ask == nullptr)
     return say(channel, std::string("found no symbol ") +
