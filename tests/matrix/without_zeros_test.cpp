@@ -1,5 +1,5 @@
 // A stiffness matrix for products.
-#include "contct/matrix/without_zeros.hpp"
+#include "contct/matrix/stiffness_matrix.hpp"
 
 #include "catch.hpp"
 #include "contct/numeric/random.hpp"

@@ -25,8 +25,8 @@ double rounding_in(const std::vector<double>& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
 
-/// How far a polynomial in Bernstein's form can be above `top`; what is below `close` does not matter. `reached`
-/// is how far it certainly is: its first and last coefficients are values.
+/// How far a polynomial in Bernstein's form can be above `top`; what is below `close` does not matter.
+/// `reached` is how far it certainly is: its first and last coefficients are values.
 double above(std::vector<double> b, double top, double close, int bisections, double& reached) {
   const double beyond = std::ranges::max(b) - top;
   reached = std::max({reached, b.front() - top, b.back() - top});
@@ -64,7 +64,7 @@ void widen(const structure::beam& b, const handed_out& state, const structure::l
   by_quantity inside;
   for (int e = 0; e < b.elements(); ++e) {
     const structure::element_line line = lines.at(e);
-    const std::size_t right = 2 * static_cast<std::size_t>(e) + 2;
+    const std::size_t right = 2 * e + 2;
     const double slope = std::abs(structure::polynomial_at(line.slope, 1.0) - state.displacement[right + 1]);
     const double of_slope = line.h / 4 * (error[quantity::slope].value_or(0.0) + slope);
     // Where parts of a load cancel, their sum has errors of 2^-89 of the parts.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/matrix/without_zeros.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 
 namespace contct::certify {

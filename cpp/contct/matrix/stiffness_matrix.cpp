@@ -194,4 +194,17 @@ double stiffness_matrix::one_norm(std::span<const double> diagonal, std::span<co
   return sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
 }
 
+std::optional<stiffness_matrix> without_zeros(const stiffness_matrix& k) {
+  if (!k.is_band()) return std::nullopt;
+  const band_matrix& band = k.band();
+  std::size_t zeros = 0;
+  for (int column = 0; column < band.order(); ++column) {
+    const int last = std::min(column + band.subdiagonals(), band.order() - 1);
+    for (int row = column; row <= last; ++row) zeros += band.at(row, column) == 0.0 ? 1 : 0;
+  }
+  const auto stored = std::size_t{1} * band.order() * (band.subdiagonals() + 1);
+  if (2 * zeros <= stored) return std::nullopt;
+  return columns_of(band);
+}
+
 }  // namespace contct::matrix

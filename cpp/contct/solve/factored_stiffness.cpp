@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "contct/matrix/without_zeros.hpp"
 #include "contct/solve/mpi_job.hpp"
 
 namespace contct::solve {
