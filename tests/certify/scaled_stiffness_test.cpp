@@ -6,12 +6,12 @@
 #include <numeric>
 
 #include "catch.hpp"
-#include "contct/exact/elements.hpp"
+#include "contct/numeric/rational.hpp"
 #include "contct/path/solve_problem.hpp"
 
 using namespace contct::app;
 using namespace contct::certify;
-namespace exact = contct::exact;
+using contct::numeric::rational;
 
 namespace {
 
@@ -19,13 +19,12 @@ namespace {
 /// more + 4 sin^2(j pi / 2 (n + 1)).
 true_system chain(int n, double more = 0.0) {
   true_system t;
+  t.stiffness.resize(n);
   for (int i = 0; i < n; ++i) {
     for (const int j : {i - 1, i, i + 1}) {
       if (j < 0 || j >= n) continue;
-      t.k.columns.push_back(j);
-      t.k.values.push_back(i == j ? 2.0 + more : -1.0);
+      t.stiffness[i][j] = i == j ? 2.0 + more : -1.0;
     }
-    t.k.starts.push_back(t.k.columns.size());
     t.root.push_back(std::sqrt(2.0 + more) * (1 + 1e-15));
   }
   t.fixed.assign(n, 0);
@@ -34,21 +33,20 @@ true_system chain(int n, double more = 0.0) {
 }
 
 /// The largest sum of magnitudes in a row of S A S - shift I - L L', for a chain A.
-exact::rational error_of(const true_system& a, const stiffness_proof& p) {
-  using exact::binary_value;
+rational error_of(const true_system& a, const stiffness_proof& p) {
+  using contct::numeric::binary_value;
   const int n = p.factor.order();
-  exact::rational most = 0;
+  rational most = 0;
   for (int i = 0; i < n; ++i) {
-    exact::rational sum = 0;
+    rational sum = 0;
     for (int j = 0; j < n; ++j) {
-      exact::rational entry = i == j ? -binary_value(p.shift) : exact::rational(0);
-      for (std::size_t at = a.k.starts[i]; at < a.k.starts[i + 1]; ++at)
-        if (a.k.columns[at] == j)
-          entry += (binary_value(a.k.values[at].hi) + binary_value(a.k.values[at].lo)) *
-                   binary_value(p.scale[i]) * binary_value(p.scale[j]);
+      rational entry = i == j ? -binary_value(p.shift) : rational(0);
+      const double_double of_a = a.stiffness[i].at(j);
+      entry += (binary_value(of_a.hi) + binary_value(of_a.lo)) * binary_value(p.scale[i]) *
+               binary_value(p.scale[j]);
       for (int m = std::max({0, i - 1, j - 1}); m <= std::min(i, j); ++m)
         entry -= binary_value(p.factor.at(i, m)) * binary_value(p.factor.at(j, m));
-      sum += entry < 0 ? exact::rational(-entry) : entry;
+      sum += entry < 0 ? rational(-entry) : entry;
     }
     most = std::max(most, sum);
   }
@@ -79,8 +77,8 @@ TEST_CASE("the least eigenvalue of a chain is bounded from below, and by no less
 
 TEST_CASE("what doubles cannot factor is proved in 32 digits, with L as a sum of two") {
   true_system t = chain(20);
-  t.k.values.front() = double_double(1.0) + 0x1p-60;  // free at both ends but for a soft spring
-  t.k.values.back() = 1.0;
+  t.stiffness[0][0] = double_double(1.0) + 0x1p-60;  // free at both ends but for a soft spring
+  t.stiffness[19][19] = 1.0;
   t.root.front() = t.root.back() = 1 + 1e-15;
   scaled_stiffness k(t, in_order(20), 1);
   k.keep_proof();
@@ -92,7 +90,7 @@ TEST_CASE("what doubles cannot factor is proved in 32 digits, with L as a sum of
   REQUIRE(k.proof());
   CHECK(k.proof()->factor_low);
 
-  t.k.values.front() = double_double(1.0) - 0x1p-60;
+  t.stiffness[0][0] = double_double(1.0) - 0x1p-60;
   CHECK((!k.factor({}) || k.least_eigenvalue() == 0.0));
 }
 
@@ -119,7 +117,8 @@ TEST_CASE("a bound is no more than the shift less the error of the factor, in ra
     const double mu = k.least_eigenvalue();
     if (mu == 0.0 || !k.proof() || k.proof()->factor_low) continue;
     CAPTURE(n, i, mu);
-    CHECK(exact::binary_value(mu) <= exact::binary_value(k.proof()->shift) - error_of(t, *k.proof()));
+    CHECK(contct::numeric::binary_value(mu) <=
+          contct::numeric::binary_value(k.proof()->shift) - error_of(t, *k.proof()));
     ++proved;
   }
   CHECK(proved >= 100);

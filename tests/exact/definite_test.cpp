@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t plenty = std::int64_t{1} << 30;
 
 struct matrix {
-  sparse_rows rows;
+  contct::exact::sparse_rows rows;
 
   explicit matrix(std::size_t n) : rows(n) {}
   void put(int i, int j, const rational& x) {

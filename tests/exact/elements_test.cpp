@@ -1,12 +1,21 @@
 // Element matrices without rounding.
-#include "contct/exact/elements.hpp"
-
 #include <cmath>
 
 #include "catch.hpp"
-#include "contct/structure/plate_element.hpp"
+#include "contct/exact/lifted_solver.hpp"
+#include "contct/structure/element_formulas.hpp"
 
 using namespace contct::exact;
+using namespace contct::structure::formulas;
+
+namespace {
+
+/// Work of the load q(x) on the element from `left` to left + h.
+std::array<rational, 4> load_on(const vector& q, const rational& left, const rational& h) {
+  return beam_load<rational>(in_element<rational>(q, left, h), h);
+}
+
+}  // namespace
 
 TEST_CASE("a beam's element resists neither of its rigid motions, and bends as EI / h says") {
   const rational h(3, 7);
@@ -27,7 +36,7 @@ TEST_CASE("a polynomial load does the work of its resultant on rigid motions, an
   const rational left(1, 3);
   const rational h(1, 2);
   const std::vector<rational> q = {2, -3, 5};
-  const auto f = beam_load(q, left, h);
+  const auto f = load_on(q, left, h);
   // The integral of x^n from left to left + h.
   const auto integral = [&](int n) {
     rational top = 1;
@@ -51,12 +60,12 @@ TEST_CASE("a polynomial load does the work of its resultant on rigid motions, an
 
 TEST_CASE("a uniform load has the consistent vector of the textbook") {
   const std::vector<rational> q = {12};
-  CHECK(beam_load(q, 5, 2) == std::array<rational, 4>{12, 4, 12, -4});
+  CHECK(load_on(q, 5, 2) == std::array<rational, 4>{12, 4, 12, -4});
 }
 
 TEST_CASE("a plate's element is the one in doubles, without its rounding") {
   const auto exactly = plate_stiffness(rational(1, 4), rational(3, 8), rational(7, 2), rational(3, 10));
-  const auto in_doubles = contct::structure::stiffness_of({0.25, 0.375, 3.5, 0.3});
+  const auto in_doubles = plate_stiffness(0.25, 0.375, 3.5, 0.3);
   for (std::size_t i = 0; i < 12; ++i) {
     for (std::size_t j = 0; j < 12; ++j) {
       CHECK(exactly[i][j] == exactly[j][i]);
@@ -64,14 +73,14 @@ TEST_CASE("a plate's element is the one in doubles, without its rounding") {
     }
   }
   const auto load = plate_unit_load(rational(1, 4), rational(3, 8));
-  const auto load_in_doubles = contct::structure::unit_pressure_on({0.25, 0.375, 3.5, 0.3});
+  const auto load_in_doubles = plate_unit_load(0.25, 0.375);
   for (std::size_t i = 0; i < 12; ++i) CHECK(std::abs(rounded(load[i]) - load_in_doubles[i]) < 1e-15);
 }
 
 TEST_CASE("a plate's element resists none of its rigid motions") {
   const rational a(1, 3);
   const rational b(2, 5);
-  const auto k = plate_stiffness(a, b, 1, rational(1, 5));
+  const auto k = plate_stiffness(a, b, rational(1), rational(1, 5));
   for (std::size_t i = 0; i < 12; ++i) {
     rational up;
     rational about_y;

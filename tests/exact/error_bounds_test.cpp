@@ -6,14 +6,15 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
-#include "contct/exact/elements.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/structure/element_formulas.hpp"
 #include "exact/random_comparison.hpp"
 #include "support/beams.hpp"
 
 using namespace contct::app;
 using namespace contct::certify;
 namespace exact = contct::exact;
+namespace formulas = contct::structure::formulas;
 namespace lab = contct::lab;
 
 namespace {
@@ -70,7 +71,7 @@ exact::vector beam_values(const problem& p, const beam& b, int step, const exact
     const auto at = static_cast<std::size_t>(e);
     const exact::rational left = exact::decimal_of(b.x[at]);
     const exact::rational h = exact::decimal_of(b.x[at + 1]) - left;
-    const auto k = exact::beam_stiffness(exact::decimal_of(b.EI[at]), h);
+    const auto k = formulas::beam_stiffness(exact::decimal_of(b.EI[at]), h);
     std::array<exact::rational, 4> f;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) f[i] += k[i][j] * u[2 * at + j];
@@ -78,7 +79,8 @@ exact::vector beam_values(const problem& p, const beam& b, int step, const exact
       if (!d.elements.empty() && std::ranges::find(d.elements, e) == d.elements.end()) continue;
       exact::vector q;
       for (const double a : d.polynomial) q.push_back(exact::decimal_of(a));
-      const auto work = exact::beam_load(q, left, h);
+      const auto work =
+          formulas::beam_load<exact::rational>(formulas::in_element<exact::rational>(q, left, h), h);
       for (std::size_t i = 0; i < 4; ++i) f[i] -= work[i];
     }
     all.insert(all.end(), {f[0], -f[2], -f[1], f[3]});

@@ -7,7 +7,6 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
-#include "contct/exact/elements.hpp"
 #include "contct/exact/exact_problem.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/numeric/random.hpp"
@@ -19,6 +18,7 @@
 using namespace contct::app;
 using namespace contct::certify;
 namespace exact = contct::exact;
+namespace formulas = contct::structure::formulas;
 using exact::rational;
 
 namespace {
@@ -43,9 +43,9 @@ std::array<exact::vector, 3> exact_line(const beam& b, const load& l, int e, con
   const rational EI = exact::decimal_of(b.EI[at]);
   exact::vector coefficients;
   for (const double a : l.distributed.front().polynomial) coefficients.push_back(exact::decimal_of(a));
-  const exact::vector q = contct::structure::formulas::in_element<rational>(coefficients, left, h);
-  const auto k = exact::beam_stiffness(EI, h);
-  const auto work = exact::beam_load(coefficients, left, h);
+  const exact::vector q = formulas::in_element<rational>(coefficients, left, h);
+  const auto k = formulas::beam_stiffness(EI, h);
+  const auto work = formulas::beam_load<rational>(q, h);
   rational force[2] = {-work[0], -work[1]};
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 4; ++j) force[i] += k[i][j] * u[2 * at + j];

@@ -17,7 +17,8 @@ std::vector<int> in_order(std::size_t n) {
 }
 
 /// (K + springs) x.
-vector product(const sparse_rows& k, const std::vector<added_spring>& springs, const vector& x) {
+vector product(const contct::exact::sparse_rows& k, const std::vector<added_spring>& springs,
+               const vector& x) {
   vector y(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
     for (const auto& [j, entry] : k[i]) y[i] += entry * x[static_cast<std::size_t>(j)];
@@ -27,8 +28,8 @@ vector product(const sparse_rows& k, const std::vector<added_spring>& springs, c
 }
 
 /// A chain of springs of stiffness 1/3 + i, held nowhere.
-sparse_rows chain(std::size_t n) {
-  sparse_rows k(n);
+contct::exact::sparse_rows chain(std::size_t n) {
+  contct::exact::sparse_rows k(n);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const rational stiffness = rational(1, 3) + static_cast<int>(i);
     const auto a = static_cast<int>(i);
@@ -43,7 +44,7 @@ sparse_rows chain(std::size_t n) {
 }  // namespace
 
 TEST_CASE("a held chain is solved exactly, in any order of its places") {
-  const sparse_rows k = chain(7);
+  const contct::exact::sparse_rows k = chain(7);
   const std::vector<char> fixed(7, 0);
   const std::vector<added_spring> springs = {{0, rational(1, 7)}, {4, rational(22, 7)}};
   vector b(7);
@@ -58,7 +59,7 @@ TEST_CASE("a held chain is solved exactly, in any order of its places") {
 }
 
 TEST_CASE("dofs that are fixed stay where they are") {
-  const sparse_rows k = chain(3);
+  const contct::exact::sparse_rows k = chain(3);
   const std::vector<char> fixed = {1, 0, 0};
   const std::vector<int> places = in_order(3);
   lifted_solver solver(k, fixed, places);
@@ -67,7 +68,7 @@ TEST_CASE("dofs that are fixed stay where they are") {
 }
 
 TEST_CASE("the free motion of a chain that nothing holds is found, and loads without work on it are solved") {
-  const sparse_rows k = chain(5);
+  const contct::exact::sparse_rows k = chain(5);
   const std::vector<char> fixed(5, 0);
   const std::vector<int> places = in_order(5);
   lifted_solver solver(k, fixed, places);
@@ -79,7 +80,7 @@ TEST_CASE("the free motion of a chain that nothing holds is found, and loads wit
 }
 
 TEST_CASE("a stiffness that is 0 modulo the first prime is solved with another") {
-  sparse_rows k(2);
+  contct::exact::sparse_rows k(2);
   k[0] = {{0, rational(integer((std::uint64_t{1} << 61U) - 1))}};
   k[1] = {{1, rational(2)}};
   const std::vector<char> fixed(2, 0);
@@ -91,7 +92,7 @@ TEST_CASE("a stiffness that is 0 modulo the first prime is solved with another")
 }
 
 TEST_CASE("an indefinite matrix with a zero on its diagonal is refused") {
-  sparse_rows k(2);
+  contct::exact::sparse_rows k(2);
   k[0] = {{0, rational(0)}, {1, rational(1)}};
   k[1] = {{0, rational(1)}, {1, rational(0)}};
   const std::vector<char> fixed(2, 0);
@@ -101,7 +102,7 @@ TEST_CASE("an indefinite matrix with a zero on its diagonal is refused") {
 }
 
 TEST_CASE("numbers that become too long are refused with the figure") {
-  sparse_rows k = chain(30);
+  contct::exact::sparse_rows k = chain(30);
   for (std::size_t i = 0; i < k.size(); ++i)
     k[i][static_cast<int>(i)] += rational(1, 1000003 + 2 * static_cast<int>(i));
   const std::vector<char> fixed(30, 0);

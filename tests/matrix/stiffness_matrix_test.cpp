@@ -9,7 +9,7 @@ using namespace contct::app;
 namespace {
 
 constexpr int order = 40;
-constexpr int subdiagonals = 7;
+constexpr int half_bandwidth = 7;
 
 std::vector<long double> minus_product(const stiffness_matrix& k, std::span<const double> x) {
   std::vector<long double> r(x.size());
@@ -21,12 +21,12 @@ std::vector<long double> minus_product(const stiffness_matrix& k, std::span<cons
 
 TEST_CASE("a band and its entries alone are one matrix, to the bit") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const band_matrix band = random_band(order, subdiagonals, seed);
+    const band_matrix band = random_band(order, half_bandwidth, seed);
     stiffness_matrix wide(band);
     stiffness_matrix narrow(columns_of(band));
     CHECK(wide.is_band());
     CHECK_FALSE(narrow.is_band());
-    CHECK(narrow.columns().values.size() < static_cast<std::size_t>(order * (subdiagonals + 1)) * 2 / 3);
+    CHECK(narrow.columns().values.size() < static_cast<std::size_t>(order * (half_bandwidth + 1)) * 2 / 3);
     const std::vector<double> x = random_vector(order, seed + 100);
     const auto compare = [&] {
       REQUIRE(narrow.order() == wide.order());

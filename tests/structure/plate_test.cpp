@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/structure/true_plate.hpp"
+#include "contct/structure/line.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct::app;
@@ -420,7 +420,7 @@ TEST_CASE("a pressure's consistent vector has its resultant and moments, on the 
   CHECK(part[2] == Approx(3.0 * 0.09 * 0.85 + 5.0).epsilon(1e-14));
   // The moments that keep a clamped element straight: q a^2 b / 3 at each corner.
   std::vector<double> f(12, 0.0);
-  add_consistent_loads({{0, 2}, {0, 4}, 1.0, 0.3}, {{}, {{{1.0}, {}}}}, f);
+  add_consistent_loads(plate{{0, 2}, {0, 4}, 1.0, 0.3}, {{}, {{{1.0}, {}}}}, f);
   CHECK(f == std::vector<double>{2, 2.0 / 3, 4.0 / 3, 2, -2.0 / 3, 4.0 / 3, 2, 2.0 / 3, -4.0 / 3, 2, -2.0 / 3,
                                  -4.0 / 3});
 }
@@ -507,7 +507,7 @@ TEST_CASE("what holds the plate is told to the path: three points not on a line,
 TEST_CASE("D of a plate is right to 32 digits where 1 - nu^2 cancels in doubles") {
   const plate p{{0, 1}, {0, 1}, 1.0, -0.9999999999999999, 2484, 0.1};
   // 1 - nu^2 = 1e-16 (2 - 1e-16), and D = 0.207 / (1 - nu^2).
-  const double_double D = stiffness_of(p);
+  const double_double D = stiffness_of<double_double>(p);
   const double_double bracket = long_decimal(1e-16) * (2 - long_decimal(1e-16));
   CHECK(std::abs((D * bracket - long_decimal(0.207)).hi) < 1e-30);
   CHECK(std::abs(bending_stiffness(p.E, p.nu, p.thickness) / D.hi - 1) > 0.05);

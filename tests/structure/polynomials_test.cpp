@@ -6,7 +6,6 @@
 #include "catch.hpp"
 
 using namespace contct::app;
-using contct::structure::load_on_element;
 
 namespace {
 
@@ -18,9 +17,10 @@ struct visited {
 
 std::vector<visited> visits(const beam& b, const load& l) {
   std::vector<visited> all;
-  contct::structure::loads_on_elements(b).for_each(l, [&](int e, const load_on_element& on) {
+  const contct::structure::line<double_double> x(b.x, b.runs);
+  contct::structure::for_each_polynomial<double_double>(x, l, [&](int e, const auto& on) {
     visited& v = all.emplace_back(visited{e, {}, on.size});
-    for (const auto& x : on.q) v.q.push_back(x.hi);
+    for (const auto& coefficient : on.q) v.q.push_back(coefficient.hi);
   });
   return all;
 }
@@ -31,19 +31,19 @@ const std::vector<double> sixth_power = {1e18, -6e15, 1.5e13, -2e10, 1.5e7, -600
 
 TEST_CASE("A polynomial face is rounded once, though its terms are 1e33 times as large") {
   const beam b{{0.0, 1.1, 2.2}, {1e4, 1e4}};
-  const auto faces = contct::structure::values_at(b, std::vector<double>{-0.001, -1.21e30, 0.0, 1e30},
-                                                  std::vector<int>{1, 0});
+  const auto faces = contct::structure::values_at<double_double>(
+      b, std::vector<double>{-0.001, -1.21e30, 0.0, 1e30}, std::vector<int>{1, 0});
   REQUIRE(faces.size() == 2);
   for (const auto& face : faces) {
     CHECK(face.hi == -0.001);
-    CHECK(face == contct::numeric::long_decimal(-0.001));
+    CHECK(face == long_decimal(-0.001));
   }
 }
 
 TEST_CASE("Nodes that are equal parts of a length have faces at the exact parts") {
   const beam thirds{{0.0, 1.0 / 3, 2.0 / 3, 1.0}, {1, 1, 1}, {{1.0, 3}}};
-  const auto faces =
-      contct::structure::values_at(thirds, std::vector<double>{-1.0, 3.0}, std::vector<int>{1, 2});
+  const auto faces = contct::structure::values_at<double_double>(thirds, std::vector<double>{-1.0, 3.0},
+                                                                 std::vector<int>{1, 2});
   CHECK(faces[0] == 0.0);
   CHECK(faces[1] == 1.0);
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "catch.hpp"
+#include "contct/structure/line.hpp"
 
 using namespace contct::app;
 
@@ -115,7 +116,7 @@ TEST_CASE("a distributed load without elements acts on all, another on those it 
 }
 
 TEST_CASE("each point of a line stands for half of the intervals beside it") {
-  CHECK(tributary_lengths(std::vector<double>{0, 2, 3}) == std::vector<double>{1, 1.5, 0.5});
+  CHECK(tributary_lengths<double>(std::vector<double>{2, 1}) == std::vector<double>{1, 1.5, 0.5});
 }
 
 TEST_CASE("n points integrate every polynomial up to degree 2 n - 1, and not beyond") {

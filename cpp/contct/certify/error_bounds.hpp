@@ -15,6 +15,9 @@
 
 namespace contct::certify {
 
+/// Sums of doubles are off by less than this share of their magnitudes.
+inline constexpr double summation_slack = 0x1p-30;
+
 /// The kinds of numbers that a state has.
 enum class quantity { w, slope, force, reaction, moment, shear, gap };
 inline constexpr std::array<const char*, 7> quantity_names = {"w",      "slope", "force", "reaction",

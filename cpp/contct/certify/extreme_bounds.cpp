@@ -64,7 +64,7 @@ void widen(const structure::beam& b, const handed_out& state, const structure::l
   by_quantity inside;
   for (int e = 0; e < b.elements(); ++e) {
     const structure::element_line line = lines.at(e);
-    const std::size_t right = 2 * static_cast<std::size_t>(e) + 2;
+    const std::size_t right = 2 * e + 2;
     const double slope = std::abs(structure::polynomial_at(line.slope, 1.0) - state.displacement[right + 1]);
     const double of_slope = line.h / 4 * (error[quantity::slope].value_or(0.0) + slope);
     // Where parts of a load cancel, their sum has errors of 2^-89 of the parts.

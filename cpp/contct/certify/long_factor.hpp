@@ -2,40 +2,13 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/numeric/double_double.hpp"
 
 namespace contct::certify {
 
-/// The lower triangle of a symmetric band, row by row.
-class long_band {
- public:
-  long_band(int order, int subdiagonals)
-      : order_(order),
-        subdiagonals_(subdiagonals),
-        entries_(static_cast<std::size_t>(order) * (static_cast<std::size_t>(subdiagonals) + 1)) {}
-
-  [[nodiscard]] int order() const { return order_; }
-  [[nodiscard]] int subdiagonals() const { return subdiagonals_; }
-  /// The first column of a row in the band.
-  [[nodiscard]] int first(int row) const { return row < subdiagonals_ ? 0 : row - subdiagonals_; }
-
-  /// Entry (row, column), row >= column >= first(row).
-  [[nodiscard]] numeric::double_double& at(int row, int column) { return entries_[place(row, column)]; }
-  [[nodiscard]] const numeric::double_double& at(int row, int column) const {
-    return entries_[place(row, column)];
-  }
-
- private:
-  [[nodiscard]] std::size_t place(int row, int column) const {
-    return static_cast<std::size_t>(row) * (static_cast<std::size_t>(subdiagonals_) + 1) +
-           static_cast<std::size_t>(column - row + subdiagonals_);
-  }
-
-  int order_, subdiagonals_;
-  std::vector<numeric::double_double> entries_;
-};
+using long_band = matrix::band_of_numbers<numeric::double_double>;
 
 /// May a band be factored so, by the time that takes?
 [[nodiscard]] bool can_be_factored_long(int order, int subdiagonals);

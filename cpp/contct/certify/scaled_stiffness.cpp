@@ -25,21 +25,21 @@ double root_scale(double x) {
 class last_rows {
  public:
   explicit last_rows(const band_matrix& l)
-      : l_(l), width_(l.subdiagonals() + 1), kept_(static_cast<std::size_t>(width_) * width_, 0.0) {}
+      : l_(l), width_(l.subdiagonals() + 1), kept_(std::size_t{1} * width_ * width_, 0.0) {}
 
   /// Rows come in their order.
   void read(int i) {
     const int b = width_ - 1;
     double* const row = &kept_[place(i)];
-    for (int column = std::max(0, i - b); column <= i; ++column) row[column - i + b] = l_.at(i, column);
+    for (int column = l_.first(i); column <= i; ++column) row[column - i + b] = l_.at(i, column);
   }
   /// From `column` on.
   [[nodiscard]] const double* at(int i, int column) const {
-    return &kept_[place(i) + static_cast<std::size_t>(column - i + width_ - 1)];
+    return &kept_[place(i) + (column - i + width_ - 1)];
   }
 
  private:
-  [[nodiscard]] std::size_t place(int i) const { return static_cast<std::size_t>(i % width_) * width_; }
+  [[nodiscard]] std::size_t place(int i) const { return std::size_t{1} * (i % width_) * width_; }
   const band_matrix& l_;
   int width_;
   std::vector<double> kept_;
@@ -76,25 +76,24 @@ scaled_stiffness::scaled_stiffness(const true_system& t, std::vector<int> row_of
   for (std::size_t dof = 0; dof < row_of_.size(); ++dof) dof_at_[row_of_[dof]] = static_cast<int>(dof);
 }
 
-/// Calls put(row, column, value) for every entry of the lower triangle that is not 0.
+/// Calls put(column, value) for every entry of a dof's row in the lower triangle that is not 0.
 template <class Put>
-void scaled_stiffness::each_entry(double shift, Put put) const {
-  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
-    const int row = row_of_[dof];
-    if (true_.fixed[dof] != 0) {
-      put(row, row, double_double(1.0) - shift);
-      continue;
-    }
-    for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
-      const int column = true_.k.columns[at];
-      if (true_.fixed[column] != 0 || row_of_[column] > row) continue;
-      double_double entry = true_.k.values[at];
-      if (column == static_cast<int>(dof)) entry += springs_[dof];
-      entry = entry * (scale_[dof] * scale_[column]);
-      if (column == static_cast<int>(dof)) entry -= shift;
-      put(row, row_of_[column], entry);
-    }
+void scaled_stiffness::each_in_row(int dof, double shift, const Put& put) const {
+  const int row = row_of_[dof];
+  if (true_.fixed[dof] != 0) return put(row, double_double(1.0) - shift);
+  for (const auto& [column, of_true] : true_.stiffness[dof]) {
+    if (true_.fixed[column] != 0 || row_of_[column] > row) continue;
+    double_double entry = column == dof ? of_true + springs_[dof] : of_true;
+    entry = entry * (scale_[dof] * scale_[column]);
+    put(row_of_[column], column == dof ? entry - shift : entry);
   }
+}
+
+/// Calls put(row, column, value) for every such entry.
+template <class Put>
+void scaled_stiffness::each_entry(double shift, const Put& put) const {
+  for (int dof = 0; dof < static_cast<int>(true_.dofs()); ++dof)
+    each_in_row(dof, shift, [&](int column, const double_double& x) { put(row_of_[dof], column, x); });
 }
 
 band_matrix scaled_stiffness::band(double shift) const {
@@ -209,21 +208,9 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
   for (int i = 0; i < n; ++i) {
     l.read(i);
     std::fill(row.begin(), row.end(), 0.0);
-    const std::size_t dof = dof_at_[i];
-    if (true_.fixed[dof] != 0) {
-      row[b] = 1.0;
-    } else {
-      for (std::size_t at = true_.k.starts[dof]; at < true_.k.starts[dof + 1]; ++at) {
-        const int column = true_.k.columns[at];
-        const int j = row_of_[column];
-        if (true_.fixed[column] == 0 && j <= i)
-          row[j - i + b] = true_.k.values[at] * (scale_[dof] * scale_[column]);
-      }
-      row[b] += springs_[dof] * (scale_[dof] * scale_[dof]);
-    }
-    row[b] -= shift;
-    for (int j = std::max(0, i - b); j <= i; ++j) {
-      const int first = std::max(0, i - b);
+    each_in_row(dof_at_[i], shift, [&](int j, const double_double& x) { row[j - i + b] = x; });
+    const int first = factor.first(i);
+    for (int j = first; j <= i; ++j) {
       const int count = j - first + 1;
       const double* const of_i = l.at(i, first);
       const double* const of_j = l.at(j, first);
@@ -274,8 +261,7 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   const auto l = matrix::sparse_factor::make(a);
   if (!l->factor(diagonal_of(a))) return std::nullopt;
   std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double
-  for (std::size_t dof = 0; dof < true_.dofs(); ++dof)
-    most = std::max(most, true_.k.starts[dof + 1] - true_.k.starts[dof]);
+  for (const auto& row : true_.stiffness) most = std::max(most, row.size());
   const double rounding = static_cast<double>(most) * (0x1p-53 + true_rounding);
   return largest_row_of_error_in(reordered(a, l->places()), l->lower()) + rounding;
 }

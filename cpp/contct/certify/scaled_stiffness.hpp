@@ -52,7 +52,9 @@ class scaled_stiffness {
   [[nodiscard]] long_band band_of_32_digits(double shift) const;
   [[nodiscard]] matrix::sparse_columns columns(double shift) const;
   template <class Put>
-  void each_entry(double shift, Put put) const;
+  void each_in_row(int dof, double shift, const Put& put) const;
+  template <class Put>
+  void each_entry(double shift, const Put& put) const;
   void solve_rows(std::span<double> x) const;
   [[nodiscard]] bool factor_in_doubles();
   bool factor_in_32_digits();

@@ -2,123 +2,133 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-
-#include "contct/certify/true_kinds.hpp"
+#include <limits>
 
 namespace contct::certify {
 namespace {
 
-true_beam truly(const beam& b) {
-  return true_beam(b);
-}
-true_plate truly(const plate& p) {
-  return true_plate(p);
-}
-true_matrix truly(const assembled& a) {
-  return true_matrix(a);
-}
+using structure::beam_elements;
+using structure::plate_elements;
 
-template <class Kind>
-void add_pairs(const problem& p, const Kind& kind, true_system& t) {
-  for (const contact_pair& c : p.pairs)
-    t.pairs.push_back(
-        {c.node * dofs_per_node(p.geometry), c.surface, long_decimal(c.face), long_decimal(c.stiffness)});
-  if (p.beds.empty()) return;
-  const long_vector shares = kind.shares();
-  for (const bed& b : p.beds)
-    for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
-      t.pairs[i].stiffness = long_decimal(b.modulus) * shares[p.pairs[i].node];
-  for (const bed& b : p.beds) {
-    if (b.face.empty()) continue;
-    std::vector<int> nodes;
-    for (std::size_t i = 0; i < b.share.size(); ++i) nodes.push_back(p.pairs[b.first_pair + i].node);
-    const long_vector faces = kind.faces_at(nodes, b.face);
-    for (std::size_t i = 0; i < faces.size(); ++i) t.pairs[b.first_pair + i].face = faces[i];
-  }
-}
-
-/// Do these loads add up to 0?
-bool cancel(std::span<const distributed_load* const> loads) {
-  std::vector<std::vector<double>> coefficients;
-  const auto add = [&](std::span<const double> polynomial) {
-    coefficients.resize(std::max(coefficients.size(), polynomial.size()));
-    for (std::size_t i = 0; i < polynomial.size(); ++i) coefficients[i].push_back(polynomial[i]);
-  };
-  for (const distributed_load* d : loads) {
-    if (d->parts.empty()) add(d->polynomial);
-    for (const std::vector<double>& part : d->parts) add(part);
-  }
-  return std::ranges::all_of(coefficients,
-                             [](const auto& parts) { return numeric::decimal_sum(parts) == 0.0; });
-}
-
-/// The loads that act: none on elements where several of them together are 0.
-load without_what_cancels(const load& l, int elements) {
+/// Loads that act on the same elements as one load there, of which together nothing may be left.
+load merged(const load& l, int elements) {
   if (l.distributed.size() < 2) return l;
   std::vector<std::vector<const distributed_load*>> on(elements);
   for (const distributed_load& d : l.distributed)
-    for_each_loaded_element({{}, {d}}, elements,
-                            [&](int e, const auto& /*polynomial*/) { on[e].push_back(&d); });
-  std::vector<char> loaded(elements, 1);
-  for (int e = 0; e < elements; ++e)
-    loaded[e] = e > 0 && on[e] == on[e - 1] ? loaded[e - 1] : on[e].size() > 1 && cancel(on[e]) ? 0 : 1;
-  if (std::ranges::find(loaded, 0) == loaded.end()) return l;
-  load left = l;
-  left.distributed.clear();
-  for (int e = 0; e < elements; ++e)
-    for (const distributed_load* d : on[e])
-      if (loaded[e] != 0) left.distributed.push_back({d->polynomial, {e}, d->parts});
-  return left;
-}
-
-template <class Kind>
-true_loads loads_of_step(const problem& p, const Kind& kind, int step) {
-  const std::size_t n = dofs(p.geometry);
-  const int per_node = dofs_per_node(p.geometry);
-  true_loads f{step, long_vector(n), std::vector<double>(n, 0.0), long_vector(n)};
-  const load l = without_what_cancels(p.steps[step - 1], elements(p.geometry));
-  for (const auto& [dof, values] : point_loads_at(l, per_node)) {
-    f.force[dof] = numeric::decimal_sum(values);
-    f.size[dof] = std::abs(f.force[dof].hi);
+    for_each_loaded_element(d, elements, [&](int e) { on[e].push_back(&d); });
+  load together = l;
+  together.distributed.clear();
+  for (int e = 0; e < elements; ++e) {
+    if (on[e].empty()) continue;
+    if (e == 0 || on[e] != on[e - 1]) {
+      distributed_load& sum = together.distributed.emplace_back();
+      for (const distributed_load* d : on[e]) {
+        sum.polynomial.resize(std::max(sum.polynomial.size(), d->polynomial.size()));
+        if (d->parts.empty()) sum.parts.push_back(d->polynomial);
+        sum.parts.insert(sum.parts.end(), d->parts.begin(), d->parts.end());
+      }
+    }
+    together.distributed.back().elements.push_back(e);
   }
-  kind.add_distributed(l, f);
-  for (const prescribed_displacement& g : l.settlements)
-    f.settlement[g.node * per_node + g.dof] += long_decimal(g.value);
-  return f;
+  return together;
 }
 
-/// K, with the elastic supports.
-template <class Kind>
-void assemble(const problem& p, const Kind& kind, true_system& t) {
-  const int per_node = dofs_per_node(p.geometry);
-  sparse_rows rows(t.dofs());
-  kind.assemble(rows);
-  for (const support& s : p.supports)
-    if (const int dof = s.node * per_node + s.dof; !s.fixed) rows.at(dof, dof) += long_decimal(s.spring);
-  for (int dof = 0; dof < static_cast<int>(t.dofs()); ++dof) t.diagonal.push_back(rows.at(dof, dof));
-  t.k = rows.packed();
-}
-
-template <class Kind>
-void fill(const problem& p, const Kind& kind, true_system& t) {
-  const std::size_t n = dofs(p.geometry);
-  const int per_node = dofs_per_node(p.geometry);
-  t.fixed.assign(n, 0);
-  for (const support& s : p.supports)
-    if (s.fixed) t.fixed[s.node * per_node + s.dof] = 1;
-  assemble(p, kind, t);
-  for (int dof = 0; dof < static_cast<int>(n); ++dof) {
-    t.root.push_back(std::sqrt(t.diagonal[dof].hi) * (1 + 0x1p-50));
-    t.deflects.push_back(dof % per_node == 0 ? 1 : 0);
+/// Shears and moments at the ends of a beam's elements. Their energies: a beam's moment is linear.
+std::vector<element_value> values_of(const beam_elements<double_double>& beam, const load& l,
+                                     std::span<const double_double> u) {
+  std::vector<element_value> all;
+  const auto forces = beam.end_forces(l, u);
+  for (int e = 0; e < beam.count(); ++e) {
+    const double h = beam.lengths()[e].hi;
+    const double stiffness = 2 * beam.EI(e).hi / h;
+    const double chord = ((u[2 * e + 2] - u[2 * e]) / h).hi;
+    const double moment =
+        3 * stiffness * (std::abs(u[2 * e + 1].hi) + std::abs(u[2 * e + 3].hi) + 2 * std::abs(chord));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const bool shears = i < 2;
+      all.push_back({forces[e][i], shears ? 2 * moment / h : moment,
+                     shears ? std::sqrt(6 * stiffness) / h : std::sqrt(2 * stiffness), !shears});
+    }
   }
-  t.span = kind.span();
-  t.least_product = kind.least_product();
-  add_pairs(p, kind, t);
-  t.loads = [&p, kind](int step) { return loads_of_step(p, kind, step); };
-  t.element_values = [&p, kind](int step, std::span<const double_double> u) {
-    return kind.values(without_what_cancels(p.steps[step - 1], elements(p.geometry)), u);
-  };
+  beam.for_each_work(l, [&](int e, const auto& work) {
+    for (std::size_t i = 0; i < 4; ++i) all[4 * e + i].size += work.size[i < 2 ? 0 : 1];
+  });
+  return all;
+}
+
+/// The magnitudes that w_xx and w_yy, and w_xy, at a corner are summed from.
+struct curvature_size {
+  double bends = 0.0, twists = 0.0;
+};
+
+/// An element's slopes come in beside those of the plane that is taken from them.
+std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double>& plate, int e,
+                                              std::span<const double_double> u) {
+  const double a = plate.halves_of(e).a.hi;
+  const double b = plate.halves_of(e).b.hi;
+  const std::array<double_double, 12> own = plate.displacement(e, u);
+  const std::array<double_double, 12> v = plate.deformation(e, u);
+  const double tilt = std::abs((own[3] - own[0]).hi) + std::abs((own[9] - own[0]).hi);
+  std::array<curvature_size, 4> sizes;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto [xi, eta] = structure::formulas::corners[k];
+    const auto c = structure::formulas::curvatures_at<double>(xi, eta);
+    for (std::size_t i = 0; i < 12; ++i) {
+      const double size = std::abs(v[i].hi) + tilt;
+      sizes[k].bends += size * (std::abs(c.xx[i]) / (a * a) + std::abs(c.yy[i]) / (b * b));
+      sizes[k].twists += size * std::abs(c.xy[i]) / (a * b);
+    }
+  }
+  return sizes;
+}
+
+/// Moments at the corners: w_xx and w_yy are bilinear and w_xy has five terms, so a corner's value is at most
+/// 4 and sqrt(17) times its root mean square over the element, which the energy bounds.
+std::vector<element_value> values_of(const plate_elements<double_double>& plate, const load& /*l*/,
+                                     std::span<const double_double> u) {
+  std::vector<element_value> all;
+  const double D = plate.D().hi;
+  for (int e = 0; e < plate.count(); ++e) {
+    const auto [a, b] = plate.halves_of(e);
+    const double area = 4 * a.hi * b.hi;
+    const double bends = 4 * std::sqrt(D / area);
+    const double twists = std::sqrt(17 * D * (1 - plate.nu().hi) / (2 * area));
+    const std::array<std::array<double_double, 4>, 3> moments = plate.moments(e, u);
+    const std::array<curvature_size, 4> sizes = curvature_sizes(plate, e, u);
+    for (std::size_t name = 0; name < 3; ++name) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double size = name < 2 ? sizes[k].bends : 2 * sizes[k].twists;
+        all.push_back({moments[name][k], D * size, name < 2 ? bends : twists, true});
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<element_value> values_of(const structure::no_elements<double_double>& /*none*/, const load& /*l*/,
+                                     std::span<const double_double> /*u*/) {
+  return {};
+}
+
+double least_cube(std::span<const double> x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) least = std::min(least, std::pow(x[i + 1] - x[i], 3));
+  return least;
+}
+
+/// See true_system.
+struct extent {
+  double span = 0.0, least_product = 1.0;
+};
+extent extent_of(const beam& b) {
+  return {b.x.back() - b.x.front(), std::min(least_cube(b.x), std::ranges::min(b.EI))};
+}
+extent extent_of(const plate& p) {
+  return {std::max(p.x.back() - p.x.front(), p.y.back() - p.y.front()),
+          std::min({least_cube(p.x), least_cube(p.y), p.D})};
+}
+extent extent_of(const assembled& /*a*/) {
+  return {};
 }
 
 }  // namespace
@@ -128,9 +138,8 @@ void true_system::add_product(std::span<const double_double> u, std::span<double
   for (std::size_t dof = 0; dof < dofs(); ++dof) {
     double_double of_row = sum[dof];
     double size = 0.0;
-    for (std::size_t at = k.starts[dof]; at < k.starts[dof + 1]; ++at) {
-      const int column = k.columns[at];
-      of_row += k.values[at] * u[column];
+    for (const auto& [column, entry] : stiffness[dof]) {
+      of_row += entry * u[column];
       if (!sizes.empty()) size += root[column] * std::abs(u[column].hi);
     }
     sum[dof] = of_row;
@@ -139,8 +148,24 @@ void true_system::add_product(std::span<const double_double> u, std::span<double
 }
 
 true_system true_system_of(const problem& p) {
-  true_system t;
-  std::visit([&](const auto& geometry) { fill(p, truly(geometry), t); }, p.geometry.kind);
+  true_system t(structure::equations_of<double_double>(p));
+  for (int dof = 0; dof < static_cast<int>(t.dofs()); ++dof) {
+    t.root.push_back(std::sqrt(t.stiffness[dof].at(dof).hi) * (1 + 0x1p-50));
+    t.deflects.push_back(dof % dofs_per_node(p.geometry) == 0 ? 1 : 0);
+  }
+  const auto acting = [&p](int step) { return merged(p.steps[step - 1], elements(p.geometry)); };
+  t.loads = [acting, loads_of = t.loads_of](int step) { return true_loads{loads_of(acting(step)), step}; };
+  std::visit(
+      [&](const auto& kind) {
+        const extent of_kind = extent_of(kind);
+        t.span = of_kind.span;
+        t.least_product = of_kind.least_product;
+        t.element_values = [acting, elements = structure::elements_of<double_double>(kind)](
+                               int step, std::span<const double_double> u) {
+          return values_of(elements, acting(step), u);
+        };
+      },
+      p.geometry.kind);
   return t;
 }
 

@@ -1,15 +1,14 @@
-// A problem's equations without the rounding of its assembly: K, loads, faces and springs as pairs of
-// doubles, from the decimals that its file has. exact/exact_problem assembles the same in fractions; these
-// share the element formulas and nothing else, so that the exact answer can judge a proof.
+// A problem's equations in pairs of doubles, from the decimals that its file has, and how far rounding can
+// put them off.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "contct/numeric/double_double.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/structure/equations.hpp"
 
 namespace contct::certify {
 
@@ -21,28 +20,11 @@ using long_vector = std::vector<double_double>;
 /// on decimals good to 2^-94.
 inline constexpr double true_rounding = 0x1p-90;
 
-/// Symmetric, all entries of each row.
-struct long_matrix {
-  std::vector<std::size_t> starts = {0};  ///< [rows + 1]
-  std::vector<int> columns;               ///< [entries]
-  long_vector values;                     ///< [entries]
-
-  [[nodiscard]] std::size_t order() const { return starts.size() - 1; }
-};
-
-/// A candidate pair: n, its face c and its stiffness k.
-struct true_pair {
-  int dof = 0;
-  int surface = 0;
-  double_double face, stiffness;
-};
+using true_pair = structure::pair_in<double_double>;
 
 /// What acts at the end of a step.
-struct true_loads {
-  int step = 0;              ///< at whose end they act, from 1; 0 in between
-  long_vector force;         ///< [dofs] consistent loads
-  std::vector<double> size;  ///< [dofs] the sum of their parts' magnitudes
-  long_vector settlement;    ///< [dofs] what fixed dofs are moved to; 0 at all others
+struct true_loads : structure::loads_in<double_double> {
+  int step = 0;  ///< at whose end they act, from 1; 0 in between
 };
 
 /// A value at the end of an element, in the order of structure::element_results.
@@ -62,22 +44,19 @@ using exact_residual = std::function<std::optional<long_vector>(int step, std::s
 /// long.
 using semidefinite_test = std::function<std::optional<bool>()>;
 
-struct true_system {
-  long_matrix k;               ///< of elements and elastic supports, rows of fixed dofs too
-  long_vector diagonal;        ///< [dofs] of K
+struct true_system : structure::equations<double_double> {
+  true_system() = default;
+  explicit true_system(structure::equations<double_double> e) : equations(std::move(e)) {}
+
   std::vector<double> root;    ///< [dofs] sqrt(K_ii), rounded up
-  std::vector<char> fixed;     ///< [dofs]
   std::vector<char> deflects;  ///< [dofs] 1: a deflection, 0: a slope
-  std::vector<true_pair> pairs;
-  double span = 0.0;  ///< the largest side of the structure; 0 where it has none
+  double span = 0.0;           ///< the largest side of the structure; 0 where it has none
   /// The least that the formulas of its elements multiply: a cube of a length, a stiffness.
   double least_product = 1.0;
   /// Loads at the end of a step, from 1.
   std::function<true_loads(int step)> loads;
   /// What is read off the elements under displacements u [dofs] at the end of a step.
   std::function<std::vector<element_value>(int step, std::span<const double_double> u)> element_values;
-
-  [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
 
   /// sum += K u; and sizes_i += the sum of sqrt(K_ii K_jj) |u_j| over the entries of row i, unless `sizes` is
   /// empty. All [dofs].

@@ -96,8 +96,7 @@ class scaled_matrix {
       exponent_.push_back(bits >= 0 ? bits / 2 : -((1 - bits) / 2));
       std::size_t first = i;
       for (const auto& [column, value] : k[dof_[i]])
-        if (const std::size_t j = row_[static_cast<std::size_t>(column)]; j < i && value != 0)
-          first = std::min(first, j);
+        if (const std::size_t j = row_[column]; j < i && value != 0) first = std::min(first, j);
       first_.push_back(first);
       width_ = std::max(width_, i - first);
     }
@@ -114,15 +113,14 @@ class scaled_matrix {
   }
 
   [[nodiscard]] rational entry(std::size_t row, std::size_t column) const {
-    const auto found = k_[dof_[row]].find(static_cast<int>(dof_[column]));
-    return found == k_[dof_[row]].end() ? rational(0) : found->second;
+    return k_[dof_[row]].at(static_cast<int>(dof_[column]));
   }
 
   /// The entries of a row up to its diagonal, with `bits` bits behind the point, rounded down.
   [[nodiscard]] std::vector<integer> scaled_row(std::size_t row, int bits) const {
     std::vector<integer> entries(row - first_[row] + 1);
     for (const auto& [column, value] : k_[dof_[row]])
-      if (const std::size_t j = row_[static_cast<std::size_t>(column)]; j <= row && value != 0)
+      if (const std::size_t j = row_[column]; j <= row && value != 0)
         entries[j - first_[row]] = floor_of(value, bits - exponent_[row] - exponent_[j]);
     return entries;
   }
@@ -134,8 +132,7 @@ class scaled_matrix {
       if (x[i] != 0) w.motion[dof_[i]] = shifted(rational(x[i]), -bits - exponent_[i]);
     for (std::size_t dof = 0; dof < k_.size(); ++dof) {
       if (w.motion[dof] == 0) continue;
-      for (const auto& [column, value] : k_[dof])
-        w.work += w.motion[dof] * value * w.motion[static_cast<std::size_t>(column)];
+      for (const auto& [column, value] : k_[dof]) w.work += w.motion[dof] * value * w.motion[column];
     }
     return w.work < 0 ? std::optional(std::move(w)) : std::nullopt;
   }
@@ -146,7 +143,7 @@ class scaled_matrix {
     for (std::size_t i = 0; i < order(); ++i) {
       const rational own = entry(i, i);
       for (const auto& [column, value] : k_[dof_[i]]) {
-        const std::size_t j = row_[static_cast<std::size_t>(column)];
+        const std::size_t j = row_[column];
         if (j > i || value == 0) continue;
         const rational other = entry(j, j);
         if (own > 0 && (i == j || value * value <= own * other)) continue;
@@ -163,7 +160,7 @@ class scaled_matrix {
   }
 
  private:
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static constexpr std::size_t none = -1;
   static std::size_t bits_in(const integer& n) { return boost::multiprecision::msb(n) + 1; }
 
   const sparse_rows& k_;

@@ -25,7 +25,8 @@ void put_structure(const assembled& a, demand& d) {
 
 constexpr std::int64_t bits_of_double = std::int64_t{17} * 4;  // its shortest decimal has 17 digits at most
 
-// A rational is two numbers of 16 bytes and their bits; a node of a map has 40 more and its place.
+// A rational is two numbers of 16 bytes and their bits; a row that grows may have as much room again as it
+// needs.
 constexpr std::int64_t bytes_of_rational = 32;
 constexpr std::int64_t bytes_of_entry = 48 + bytes_of_rational + 32;
 

@@ -5,27 +5,14 @@
 
 #include "contct/exact/lifted_solver.hpp"
 #include "contct/numeric/rational.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/structure/equations.hpp"
 
 namespace contct::exact {
 
 /// More dofs than this would take more than a machine has: their numbers grow with them.
 inline constexpr int most_exact_dofs = 50'000;
 
-/// A candidate contact pair.
-struct exact_pair {
-  int dof;
-  int surface;  ///< n: face_above (+1) or face_below (-1)
-  rational face, stiffness;
-  bool closed;  ///< in contact at the start
-};
-
-/// A permanent support.
-struct exact_support {
-  int dof;
-  bool fixed;
-  rational spring;
-};
+using exact_pair = structure::pair_in<rational>;
 
 /// What acts at the end of a step.
 struct exact_step {
@@ -33,12 +20,8 @@ struct exact_step {
   vector settlement;  ///< where fixed dofs are moved to; 0 at all others [dofs]
 };
 
-struct exact_problem {
-  sparse_rows stiffness;    ///< with elastic supports, and with the rows of fixed dofs
-  std::vector<char> fixed;  ///< [dofs]
-  std::vector<int> place;   ///< of each dof in a narrow band
-  std::vector<exact_support> supports;
-  std::vector<exact_pair> pairs;
+struct exact_problem : structure::equations<rational> {
+  std::vector<int> place;  ///< of each dof in a narrow band
   std::vector<exact_step> steps;
   /// Weights of the squares of displacements by which rigid motions are measured, at dofs that hold all of
   /// them: those that the load does not drive keep what they have, and it drives others the steepest way. Of
@@ -47,8 +30,6 @@ struct exact_problem {
 
   /// The longest that numbers of its path may become, in bits.
   std::size_t longest = lifted_solver::most_bits;
-
-  [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
 };
 
 /// Every number is the shortest decimal of its double. Coordinates that the problem has as runs of equal

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
@@ -13,14 +12,6 @@ namespace contct::exact {
 namespace {
 
 using numeric::double_double;
-
-int subdiagonals(const exact_problem& p) {
-  int most = 0;
-  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
-    for (const auto& [column, k] : p.stiffness[dof])
-      most = std::max(most, std::abs(p.place[dof] - p.place[static_cast<std::size_t>(column)]));
-  return most;
-}
 
 vector exactly(const exact_problem& p, const exact_step& s, std::span<const double_double> u) {
   vector all;
@@ -35,30 +26,23 @@ vector residual(const exact_problem& p, const exact_step& s, const vector& u) {
   vector needed(p.dofs());
   for (std::size_t dof = 0; dof < p.dofs(); ++dof) {
     needed[dof] = -s.load[dof];
-    for (const auto& [column, k] : p.stiffness[dof]) needed[dof] += k * u[static_cast<std::size_t>(column)];
+    for (const auto& [column, k] : p.stiffness[dof]) needed[dof] += k * u[column];
   }
   for (const exact_pair& c : p.pairs) {
-    const auto dof = static_cast<std::size_t>(c.dof);
-    const rational off = u[dof] - c.face;
-    if (c.surface * off > 0) needed[dof] += c.stiffness * off;
+    const rational off = u[c.dof] - c.face;
+    if (c.surface * off > 0) needed[c.dof] += c.stiffness * off;
   }
   return needed;
-}
-
-double_double rounded_twice(const rational& x) {
-  const double high = numeric::rounded(x);
-  if (!std::isfinite(high)) return high;  // no bound is proved by it
-  return {high, numeric::rounded(rational(x - numeric::binary_value(high)))};
 }
 
 }  // namespace
 
 std::optional<exact_problem> small_exact_problem_of(const problem& p) {
-  if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
+  if (dofs(p.geometry) > most_dofs_beside_doubles ||
+      subdiagonals(p.geometry) > most_subdiagonals_beside_doubles)
+    return std::nullopt;
   try {
-    std::optional<exact_problem> exactly = exact_problem_of(p);
-    if (subdiagonals(*exactly) > most_subdiagonals_beside_doubles) exactly.reset();
-    return exactly;
+    return exact_problem_of(p);
   } catch (const std::runtime_error&) {  // a number is too long
     return std::nullopt;
   }
@@ -73,9 +57,10 @@ exact_residual_of(const problem& p) {
     if (!*made || !std::ranges::all_of(u, [](const double_double& x) { return std::isfinite(x.hi); }))
       return all;
     const exact_problem& exact = **made;
-    const exact_step& s = exact.steps[static_cast<std::size_t>(step) - 1];
+    const exact_step& s = exact.steps[step - 1];
     all.emplace();
-    for (const rational& x : residual(exact, s, exactly(exact, s, u))) all->push_back(rounded_twice(x));
+    for (const rational& x : residual(exact, s, exactly(exact, s, u)))
+      all->push_back(numeric::long_rounded(x));
     return all;
   };
 }

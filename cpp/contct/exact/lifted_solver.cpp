@@ -71,8 +71,7 @@ bool fraction_of(const integer& y, const integer& m, const integer& bound, integ
 
 std::vector<int> inverse_of(std::span<const int> places) {
   std::vector<int> inverse(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
-    inverse[static_cast<std::size_t>(places[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < places.size(); ++i) inverse[places[i]] = static_cast<int>(i);
   return inverse;
 }
 
@@ -146,8 +145,7 @@ class lifted_solver::lifting {
     of_.solve_modulo(x);
     for (std::uint64_t& digit : x) digit = f.out(digit);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      for (const auto& [column, entry] : rows_[i].entries)
-        subtract_product(rest_[i], entry, x[static_cast<std::size_t>(column)]);
+      for (const auto& [column, entry] : rows_[i].entries) subtract_product(rest_[i], entry, x[column]);
       if (rest_[i] != 0) divide_exactly(rest_[i], f.prime());
     }
     digits_.push_back(std::move(x));
@@ -213,8 +211,7 @@ class lifted_solver::lifting {
   [[nodiscard]] bool solves(const std::vector<integer>& numerators, const integer& denominator) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       integer sum = right_[i] * denominator;
-      for (const auto& [column, entry] : rows_[i].entries)
-        sum -= entry * numerators[static_cast<std::size_t>(column)];
+      for (const auto& [column, entry] : rows_[i].entries) sum -= entry * numerators[column];
       if (sum != 0) return false;
     }
     return true;
@@ -243,13 +240,12 @@ lifted_solver::lifted_solver(const sparse_rows& k, std::span<const char> fixed, 
       free_(k.size(), 0) {
   for (std::size_t i = 0; i < k.size(); ++i)
     for (const auto& [j, entry] : k[i])
-      band_ =
-          std::max(band_, static_cast<std::size_t>(std::abs(place[i] - place[static_cast<std::size_t>(j)])));
+      band_ = std::max(band_, static_cast<std::size_t>(std::abs(place[i] - place[j])));
 }
 
 void lifted_solver::factor(const std::vector<added_spring>& springs) {
   std::fill(spring_.begin(), spring_.end(), rational(0));
-  for (const added_spring& s : springs) spring_[static_cast<std::size_t>(s.dof)] += s.stiffness;
+  for (const added_spring& s : springs) spring_[s.dof] += s.stiffness;
   for (const std::uint64_t prime : primes)
     if (factor_modulo(prime) && find_free_motions()) return;
   throw std::runtime_error("the stiffness matrix is indefinite: no structure has it");
@@ -267,18 +263,17 @@ bool lifted_solver::factor_modulo(std::uint64_t prime) {
   factor_.assign(n * width, 0);
   for (std::size_t i = 0; i < n; ++i) {
     for (const auto& [j, k] : k_[i]) {
-      const auto column = static_cast<std::size_t>(j);
+      const std::size_t column = j;
       if (place_[i] < place_[column] || fixed_[i] != 0 || fixed_[column] != 0) continue;
-      const auto at = static_cast<std::size_t>(place_[column]);
-      if (!field_.take(entry(i, j, k), factor_[at * width + static_cast<std::size_t>(place_[i]) - at]))
-        return false;
+      const std::size_t at = place_[column];
+      if (!field_.take(entry(i, j, k), factor_[at * width + place_[i] - at])) return false;
     }
   }
   inverse_.assign(n, 0);
   std::fill(free_.begin(), free_.end(), 0);
   for (std::size_t j = 0; j < n; ++j) {
     std::uint64_t* const column = &factor_[j * width];
-    const auto dof = static_cast<std::size_t>(dof_at_[j]);
+    const std::size_t dof = dof_at_[j];
     if (fixed_[dof] != 0) continue;
     if (column[0] == 0) {  // of a semidefinite matrix, the whole column is 0
       if (std::any_of(column, column + width, [](std::uint64_t x) { return x != 0; })) return false;
@@ -304,10 +299,9 @@ bool lifted_solver::factor_modulo(std::uint64_t prime) {
 lifted_solver::whole_row lifted_solver::whole(std::size_t dof) const {
   whole_row row{{}, 1};
   for (const auto& [j, k] : k_[dof])
-    if (is_unknown(static_cast<std::size_t>(j)))
-      row.scale = least_multiple(row.scale, denominator(entry(dof, j, k)));
+    if (is_unknown(j)) row.scale = least_multiple(row.scale, denominator(entry(dof, j, k)));
   for (const auto& [j, k] : k_[dof])
-    if (is_unknown(static_cast<std::size_t>(j)) && entry(dof, j, k) != 0)
+    if (is_unknown(j) && entry(dof, j, k) != 0)
       row.entries.emplace_back(j, numerator(rational(entry(dof, j, k) * rational(row.scale))));
   return row;
 }
@@ -317,7 +311,7 @@ void lifted_solver::solve_modulo(std::vector<std::uint64_t>& x) const {
   const std::size_t n = x.size();
   const std::size_t width = band_ + 1;
   std::vector<std::uint64_t> y(n);
-  for (std::size_t j = 0; j < n; ++j) y[j] = x[static_cast<std::size_t>(dof_at_[j])];
+  for (std::size_t j = 0; j < n; ++j) y[j] = x[dof_at_[j]];
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t a = 1; a < width && j + a < n && y[j] != 0; ++a)
       y[j + a] = field_.minus(y[j + a], field_.times(factor_[j * width + a], y[j]));
@@ -325,7 +319,7 @@ void lifted_solver::solve_modulo(std::vector<std::uint64_t>& x) const {
   for (std::size_t j = n; j-- > 0;)
     for (std::size_t a = 1; a < width && j + a < n; ++a)
       y[j] = field_.minus(y[j], field_.times(factor_[j * width + a], y[j + a]));
-  for (std::size_t j = 0; j < n; ++j) x[static_cast<std::size_t>(dof_at_[j])] = y[j];
+  for (std::size_t j = 0; j < n; ++j) x[dof_at_[j]] = y[j];
 }
 
 /// One for each dof without a pivot, which it moves by 1. False where one of them is not free after all.
@@ -334,14 +328,13 @@ bool lifted_solver::find_free_motions() {
   for (std::size_t j = 0; j < free_.size(); ++j) {
     if (free_[j] == 0) continue;
     vector b(free_.size());
-    for (const auto& [row, k] : k_[j]) b[static_cast<std::size_t>(row)] = -entry(j, row, k);
+    for (const auto& [row, k] : k_[j]) b[row] = -entry(j, row, k);
     vector motion = lifting(*this, b).solution();
     motion[j] = 1;
     for (std::size_t row = 0; row < free_.size(); ++row) {
       if (free_[row] == 0) continue;
       rational force;
-      for (const auto& [column, k] : k_[row])
-        force += entry(row, column, k) * motion[static_cast<std::size_t>(column)];
+      for (const auto& [column, k] : k_[row]) force += entry(row, column, k) * motion[column];
       if (force != 0) return false;
     }
     free_motions_.push_back(std::move(motion));

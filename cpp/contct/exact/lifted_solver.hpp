@@ -3,19 +3,19 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "contct/numeric/rational.hpp"
+#include "contct/structure/equations.hpp"
 
 namespace contct::exact {
 
 using vector = std::vector<rational>;
 
 /// All entries of a symmetric matrix, row by row.
-using sparse_rows = std::vector<std::map<int, rational>>;
+using sparse_rows = structure::sparse_rows<rational>;
 
 /// What is added to the diagonal at a dof.
 struct added_spring {

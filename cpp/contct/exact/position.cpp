@@ -74,7 +74,7 @@ vector position::reactions(const vector& forces) const {
   const exact_step& after = problem.steps[step];
   std::set<int> reacted;
   vector values;
-  for (const exact_support& s : problem.supports) {
+  for (const auto& s : problem.supports) {
     const auto dof = static_cast<std::size_t>(s.dof);
     rational value = -s.spring * u[dof];
     if (s.fixed && reacted.insert(s.dof).second) {

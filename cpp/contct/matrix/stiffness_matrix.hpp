@@ -25,29 +25,32 @@ namespace contct::matrix {
 ///             a42 a43 a44              column 4: a44  *   *
 ///
 /// The places marked * exist and are never read. Memory: 8 (kd + 1) bytes a row.
-class band_matrix {
+template <class Number>
+class band_of_numbers {
  public:
-  band_matrix() = default;
-  band_matrix(int order, int subdiagonals)
-      : order_(order),
-        subdiagonals_(subdiagonals),
-        entries_(static_cast<std::size_t>(order) * (subdiagonals + 1), 0.0) {}
+  band_of_numbers() = default;
+  band_of_numbers(int order, int subdiagonals)
+      : order_(order), subdiagonals_(subdiagonals), entries_(std::size_t{1} * order * (subdiagonals + 1)) {}
 
   [[nodiscard]] int order() const { return order_; }
   [[nodiscard]] int subdiagonals() const { return subdiagonals_; }
 
   /// Entry (row, column), row >= column, row - column <= kd.
-  [[nodiscard]] double& at(std::size_t row, std::size_t column) { return entries_[place(row, column)]; }
-  [[nodiscard]] double at(std::size_t row, std::size_t column) const { return entries_[place(row, column)]; }
+  [[nodiscard]] Number& at(std::size_t row, std::size_t column) { return entries_[place(row, column)]; }
+  [[nodiscard]] const Number& at(std::size_t row, std::size_t column) const {
+    return entries_[place(row, column)];
+  }
+  /// The first column of a row in the band.
+  [[nodiscard]] int first(int row) const { return row < subdiagonals_ ? 0 : row - subdiagonals_; }
 
   /// Add `value` at (row, column) and, by symmetry, at (column, row); any order of the two.
-  void add(std::size_t row, std::size_t column, double value) {
+  void add(std::size_t row, std::size_t column, const Number& value) {
     at(std::max(row, column), std::min(row, column)) += value;
   }
 
-  [[nodiscard]] double* data() { return entries_.data(); }
-  [[nodiscard]] const double* data() const { return entries_.data(); }
-  [[nodiscard]] std::span<const double> entries() const { return entries_; }
+  [[nodiscard]] Number* data() { return entries_.data(); }
+  [[nodiscard]] const Number* data() const { return entries_.data(); }
+  [[nodiscard]] std::span<const Number> entries() const { return entries_; }
 
  private:
   [[nodiscard]] std::size_t place(std::size_t row, std::size_t column) const {
@@ -56,8 +59,10 @@ class band_matrix {
 
   int order_ = 0;
   int subdiagonals_ = 0;
-  std::vector<double> entries_;
+  std::vector<Number> entries_;
 };
+
+using band_matrix = band_of_numbers<double>;
 
 /// One entry of the lower triangle, row >= column; from 0.
 struct matrix_entry {

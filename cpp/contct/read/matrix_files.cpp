@@ -7,14 +7,35 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
-#include "contct/read/matrix_entries.hpp"
 #include "contct/text/decimal.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct::read {
 namespace {
+
+/// Rows, and entries, that a file may say it has.
+constexpr std::int64_t most_rows = std::numeric_limits<int>::max() - 1;
+constexpr std::int64_t most_entries = most_rows;
+
+/// An entry of the lower triangle, row >= column, from 0, and the line that it was read from. 32 bytes.
+struct read_entry {
+  int row, column;
+  double value;
+  std::int64_t line;
+  int last_digit;  // its power of ten, or sparse_matrix::exact_entry
+};
+
+/// Matrix Market's files have the lower triangle, CalculiX's the upper one.
+enum class entry_format { matrix_market, calculix };
+
+bool same_word(std::string_view a, std::string_view lower) {
+  return std::equal(a.begin(), a.end(), lower.begin(), lower.end(), [](char x, char y) {
+    return (x >= 'A' && x <= 'Z' ? static_cast<char>(x - 'A' + 'a') : x) == y;
+  });
+}
 
 constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and its line's end
 
@@ -41,13 +62,126 @@ class rounded_numbers {
   std::string first_;
 };
 
-/// [rows] 1 where the diagonal is not 0.
-std::vector<char> stiff_rows(const std::vector<read_entry>& entries, int order) {
+/// The first line: "%%MatrixMarket matrix coordinate real" and `symmetry`, in any case; true where it says
+/// "array" in place of "coordinate".
+bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_array) {
+  const std::string allowed = fmt::format("%%MatrixMarket matrix {} real {}",
+                                          may_be_array ? "array (or coordinate)" : "coordinate", symmetry);
+  if (!lines.next() || lines.line() != 1) lines.refuse("no header", allowed);
+  const bool sound = lines.fields() == 5 && same_word(lines.field(0), "%%matrixmarket") &&
+                     same_word(lines.field(1), "matrix") && same_word(lines.field(3), "real") &&
+                     same_word(lines.field(4), symmetry);
+  const bool array = sound && may_be_array && same_word(lines.field(2), "array");
+  if (!sound || (!array && !same_word(lines.field(2), "coordinate")))
+    lines.refuse(same_word(lines.field(0), "%%matrixmarket") ? in_quotes(lines.here())
+                                                             : field_words(lines.here(), "a line"),
+                 allowed);
+  return array;
+}
+
+/// To the line behind the comments: the size.
+void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed) {
+  do {
+    if (!lines.next()) lines.refuse("the end of the file", allowed);
+  } while (lines.field(0).front() == '%');
+  lines.expect(fields, allowed);
+}
+
+/// The line "row column value", from 1 in the file and from 0 in the answer; `what` the value is.
+read_entry entry_in(const field_lines& lines, int rows, int columns, std::string_view what,
+                    bool fortran = false) {
+  lines.expect(3, "row, column and value");
+  return {lines.whole(0, 1, rows, "the row") - 1, lines.whole(1, 1, columns, "the column") - 1,
+          lines.real(2, what, fortran), lines.line(),
+          last_written_digit(lines.field(2)).value_or(sparse_matrix::exact_entry)};
+}
+
+/// The same of a stiffness: in its triangle, and turned into the lower one.
+read_entry parse_entry(const field_lines& lines, int rows, entry_format format) {
+  read_entry e = entry_in(lines, rows, rows, "an entry", format == entry_format::calculix);
+  if (format == entry_format::matrix_market) {
+    if (e.row < e.column)
+      lines.refuse(fmt::format("row {} and column {}, above the diagonal", e.row + 1, e.column + 1),
+                   "the lower triangle, row >= column: what symmetric means in this format");
+    return e;
+  }
+  if (e.row > e.column)
+    lines.refuse(fmt::format("row {} and column {}, below the diagonal", e.row + 1, e.column + 1),
+                 "the upper triangle, row <= column, as CalculiX writes it");
+  std::swap(e.row, e.column);
+  return e;
+}
+
+/// By columns, and by rows in each; linear.
+void sort_entries(std::vector<read_entry>& entries, int columns) {
+  std::vector<std::size_t> starts(columns + std::size_t{1}, 0);
+  for (const read_entry& e : entries) ++starts[e.column + 1];
+  for (std::size_t column = 1; column < starts.size(); ++column) starts[column] += starts[column - 1];
+  std::vector<std::size_t> next = starts;
+  std::vector<read_entry> sorted(entries.size());
+  for (const read_entry& e : entries) sorted[next[e.column]++] = e;
+  for (std::size_t column = 0; column + 1 < starts.size(); ++column) {
+    std::sort(sorted.data() + starts[column], sorted.data() + starts[column + 1],
+              [](const read_entry& a, const read_entry& b) {
+                return a.row != b.row ? a.row < b.row : a.line < b.line;
+              });
+  }
+  entries = std::move(sorted);
+}
+
+void refuse_repeated(std::span<const read_entry> entries, std::string_view file) {
+  const auto same = std::adjacent_find(
+      entries.begin(), entries.end(),
+      [](const read_entry& a, const read_entry& b) { return a.row == b.row && a.column == b.column; });
+  if (same == entries.end()) return;
+  refuse_line(file, std::next(same)->line,
+              fmt::format("the place of row {} and column {} again, which line {} has", same->row + 1,
+                          same->column + 1, same->line),
+              "each place once: sum what belongs together");
+}
+
+void refuse_negative(std::span<const read_entry> entries, std::string_view file) {
+  for (const read_entry& e : entries)
+    if (e.row == e.column && e.value < 0)
+      refuse_line(file, e.line, fmt::format("{:g} on the diagonal of row {}", e.value, e.row + 1),
+                  "0 or more: a stiffness matrix is positive semidefinite");
+}
+
+/// Refuse an entry in a row or column that has 0 on its diagonal.
+void refuse_bare(std::span<const read_entry> entries, int order, std::string_view file) {
   std::vector<char> stiff(order, 0);
   for (const read_entry& e : entries)
     if (e.row == e.column && e.value != 0) stiff[e.row] = 1;
-  return stiff;
+  for (const read_entry& e : entries) {
+    const int bare = stiff[e.row] == 0 ? e.row : e.column;
+    if (e.value == 0 || stiff[bare] != 0) continue;
+    refuse_line(file, e.line, fmt::format("{:g} in row {}, which has 0 on its diagonal", e.value, bare + 1),
+                "a matrix that is positive semidefinite");
+  }
 }
+
+int first_digit(const read_entry& e) {
+  return static_cast<int>(std::floor(std::log10(std::abs(e.value))));
+}
+
+/// How a program rounded what it wrote: to as many places behind the point, or to as many digits, of which it
+/// may leave out zeros at the end. Whole numbers are exact.
+struct written_digits {
+  int most_digits = 0;
+  std::optional<int> lowest, highest;  // the last digits' places that there are; none: all are exact
+
+  void include(const read_entry& e) {
+    if (e.value == 0 || e.last_digit == sparse_matrix::exact_entry) return;
+    most_digits = std::max(most_digits, first_digit(e) - e.last_digit + 1);
+    lowest = std::min(lowest.value_or(e.last_digit), e.last_digit);
+    highest = std::max(highest.value_or(e.last_digit), e.last_digit);
+  }
+  /// The last digit that an entry other than 0 was rounded to, or sparse_matrix::exact_entry.
+  [[nodiscard]] int last_digit_of(const read_entry& e) const {
+    if (e.last_digit == sparse_matrix::exact_entry) return e.last_digit;
+    return lowest == highest ? *lowest : first_digit(e) - most_digits + 1;
+  }
+};
 
 /// Of all entries that are not 0; nothing where all are exact.
 std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries) {
@@ -66,10 +200,10 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   if (order > static_cast<std::int64_t>(entries.size()))
     refuse_line(file, 0, fmt::format("{} rows and {} entries", order, entries.size()),
                 "an entry on the diagonal of every row");
-  sort_entries(entries, 0, order);
+  sort_entries(entries, order);
   refuse_repeated(entries, file);
   refuse_negative(entries, file);
-  refuse_bare(entries, stiff_rows(entries, order), file);
+  refuse_bare(entries, order, file);
   sparse_matrix matrix{order, {}, last_digits_of(entries)};
   for (const read_entry& e : entries)
     if (e.value != 0) matrix.entries.push_back({e.row, e.column, e.value});
@@ -115,18 +249,23 @@ std::size_t fields_before_comment(const field_lines& lines) {
 
 sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
                               std::vector<std::string>* warnings) {
-  const matrix_head head = parse_matrix_head(text, file);
-  field_lines lines(text.substr(head.begins), file, head.line);
+  field_lines lines(text, file);
+  (void)read_header(lines, "symmetric", false);
+  go_to_size(lines, 3, "rows, columns and the number of entries");
+  const int rows = lines.whole(0, 1, most_rows, "the rows");
+  const int columns = lines.whole(1, 1, most_rows, "the columns");
+  if (rows != columns) lines.refuse(fmt::format("{} rows and {} columns", rows, columns), "a square matrix");
+  const int count = lines.whole(2, 1, most_entries, "the number of entries");
   std::vector<read_entry> entries;
   rounded_numbers rounded;
   // The declared entry count alone is not used to allocate memory.
-  entries.reserve(std::min<std::size_t>(head.entries, lines.rest().size() / least_bytes_of_entry + 1));
-  read_lines(lines, head.entries, "entries than that", [&] {
-    entries.push_back(parse_entry(lines, head.rows, entry_format::matrix_market));
+  entries.reserve(std::min<std::size_t>(count, lines.rest().size() / least_bytes_of_entry + 1));
+  read_lines(lines, count, "entries than that", [&] {
+    entries.push_back(parse_entry(lines, rows, entry_format::matrix_market));
     rounded.count(lines, 2, entries.back().value);
   });
   rounded.warn(warnings);
-  return matrix_of(std::move(entries), head.rows, file);
+  return matrix_of(std::move(entries), rows, file);
 }
 
 sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view file, int rows,

@@ -97,10 +97,11 @@ std::vector<placed_number> placed_numbers(const toml::table& document, std::stri
   std::vector<placed_number> numbers;
   for_each_number(document, {}, [&](const toml::node& node, double value, const key_chain& key) {
     const toml::source_position& at = node.source().begin;
-    const auto length = static_cast<int>(in.number_at(at).size());
-    if (length > 0)
+    const std::string_view literal = in.number_at(at);
+    if (!literal.empty())
       numbers.push_back({key.words(), value, node.is_integer(), static_cast<int>(at.line),
-                         static_cast<int>(at.column), length});
+                         static_cast<int>(at.column), static_cast<int>(literal.size()), literal,
+                         is_meant(node, literal, value)});
   });
   std::ranges::sort(numbers, {}, [](const placed_number& n) { return std::pair(n.line, n.column); });
   return numbers;
@@ -109,20 +110,14 @@ std::vector<placed_number> placed_numbers(const toml::table& document, std::stri
 std::vector<std::string> rounding_warnings(const toml::table& document, std::string_view text,
                                            std::string_view file) {
   constexpr std::size_t most = 10;
-  document_text in(text);
-  std::vector<std::pair<toml::source_position, std::string>> rounded;
-  for_each_number(document, {}, [&](const toml::node& node, double value, const key_chain& key) {
-    const toml::source_position& at = node.source().begin;
-    const std::string_view literal = in.number_at(at);
-    if (is_meant(node, literal, value)) return;
-    rounded.emplace_back(at, fmt::format("{}:{}:{}: {}: {}", file, at.line, at.column, key.words(),
-                                         rounding_words(literal, value)));
-  });
-  std::ranges::sort(rounded, {}, [](const auto& r) { return std::pair(r.first.line, r.first.column); });
   std::vector<std::string> warnings;
-  for (std::size_t i = 0; i < std::min(rounded.size(), most); ++i) warnings.push_back(rounded[i].second);
-  if (rounded.size() > most)
-    warnings.back() += fmt::format(" (the first {} of {} such numbers are shown)", most, rounded.size());
+  std::size_t count = 0;
+  for (const placed_number& n : placed_numbers(document, text))
+    if (!n.is_shortest && count++ < most)
+      warnings.push_back(
+          fmt::format("{}:{}:{}: {}: {}", file, n.line, n.column, n.key, rounding_words(n.literal, n.value)));
+  if (count > most)
+    warnings.back() += fmt::format(" (the first {} of {} such numbers are shown)", most, count);
   return warnings;
 }
 

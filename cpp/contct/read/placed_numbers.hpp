@@ -17,6 +17,8 @@ struct placed_number {
   double value = 0;
   bool is_whole = false;
   int line = 0, column = 0, length = 0;  ///< from 1, in code points
+  std::string_view literal = {};         ///< as it stands there
+  bool is_shortest = true;               ///< is the literal the shortest decimal of its double?
 };
 
 /// All finite numbers of a document, in the order in which they stand. `text` is the document's.

@@ -61,15 +61,4 @@ linear_structure build(const assembled& a, std::span<const support> supports,
   return s;
 }
 
-std::vector<double> reactions(const assembled& a, const load& l, std::span<const support> supports,
-                              std::span<const double> u) {
-  const std::vector<long double> needs = a.stiffness.times(u);
-  return reactions_of(supports, l, u, assembled::dofs_per_node,
-                      [&needs](int dof, int /*of_node*/) { return static_cast<double>(needs[dof]); });
-}
-
-std::vector<double> tributary_shares(const assembled& a) {
-  throw std::invalid_argument(a.name + ": a matrix knows no lengths or areas");
-}
-
 }  // namespace contct::structure

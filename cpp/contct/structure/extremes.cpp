@@ -131,8 +131,7 @@ std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<con
   };
   std::vector<value_range> all;
   extremes w("w", at(0, u[0]));
-  for (int node = 1; node < p.nodes(); ++node)
-    w.take(at(node, u[static_cast<std::size_t>(node) * plate::dofs_per_node]));
+  for (int node = 1; node < p.nodes(); ++node) w.take(at(node, u[plate::dofs_per_node * node]));
   all.push_back(w.range());
   element_results moments = results_in_elements(model{p}, {}, u);
   if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
@@ -186,10 +185,10 @@ beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
     const auto v = element_values.subspan(4 * e, 4);
     forces_[e] = {{v[0], v[1]}, {v[2], v[3]}};
   }
-  const loads_on_elements loads(b);
-  for (const numeric::double_double& h : loads.line().h) h_.push_back(h.hi);
-  loads.for_each(l, [&](int e, const load_on_element& on) {
-    load_on_element& sum = loads_[e];
+  const line<numeric::double_double> x(b.x, b.runs);
+  for (const numeric::double_double& h : x.lengths()) h_.push_back(h.hi);
+  for_each_polynomial<numeric::double_double>(x, l, [&](int e, const auto& on) {
+    auto& sum = loads_[e];
     sum.q.resize(std::max(sum.q.size(), on.q.size()));
     for (std::size_t i = 0; i < on.q.size(); ++i) sum.q[i] += on.q[i];
     sum.size += on.size;
@@ -214,7 +213,7 @@ element_line beam_lines::at(int e) const {
     line.moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
   }
   line.w[0] = w_at(u_, e);
-  line.w[1] = u_[2 * static_cast<std::size_t>(e) + 1] * h;
+  line.w[1] = u_[2 * e + 1] * h;
   for (std::size_t i = 0; i < line.moment.size(); ++i) {  // EI w'' = M
     const auto n = static_cast<double>(i);
     line.w[i + 2] = line.moment[i] * h * h / EI / (n + 1) / (n + 2);

@@ -34,8 +34,8 @@ class beam_lines {
   const beam& beam_;
   std::span<const double> u_;
   std::vector<element_forces> forces_;
-  std::vector<double> h_;               // of each element
-  std::vector<load_on_element> loads_;  // likewise; without coefficients: none
+  std::vector<double> h_;                                       // of each element
+  std::vector<load_on_element<numeric::double_double>> loads_;  // likewise; without coefficients: none
 };
 
 /// The coefficients of a polynomial in Bernstein's form: from t = 0 to 1 it is between the least and the

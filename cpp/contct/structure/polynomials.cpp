@@ -2,15 +2,17 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "contct/structure/element_formulas.hpp"
-#include "contct/structure/exact_line.hpp"
+#include "contct/structure/exact_numbers.hpp"
 
 namespace contct::structure {
-namespace {
 
 using numeric::double_double;
 using numeric::rational;
+
+namespace {
 
 std::vector<double_double> rounded_once(std::span<const rational> exactly) {
   std::vector<double_double> all;
@@ -25,9 +27,9 @@ double sum_of_sizes(std::span<const double_double> q) {
 
 /// In 32 digits. Coefficients and coordinates are good to 2^-94 and come in at most 21 times, so four times
 /// the sum of the terms' magnitudes bounds 2^89 times the error.
-load_on_element about(const std::vector<double_double>& a, const double_double& left,
-                      const double_double& h) {
-  load_on_element on{formulas::in_element<double_double>(a, left, h), 0.0};
+load_on_element<double_double> about(const std::vector<double_double>& a, const double_double& left,
+                                     const double_double& h) {
+  load_on_element<double_double> on{formulas::in_element<double_double>(a, left, h), 0.0};
   double power = 4.0;
   for (const double_double& coefficient : a) {
     on.size += std::abs(coefficient.hi) * power;
@@ -38,47 +40,74 @@ load_on_element about(const std::vector<double_double>& a, const double_double& 
 
 }  // namespace
 
-std::vector<double_double> values_at(const beam& b, std::span<const double> polynomial,
-                                     std::span<const int> nodes) {
-  const exact_line line(b.x, b.runs);
-  const std::vector<rational> a = polynomial_of({{polynomial.begin(), polynomial.end()}, {}});
-  std::vector<double_double> values;
+template <>
+std::vector<double_double> coefficients_of(const distributed_load& d) {
+  return rounded_once(coefficients_of<rational>(d));
+}
+
+template <>
+double_double stiffness_of(const plate& p) {
+  return p.E == 0.0 ? numeric::long_decimal(p.D) : numeric::long_rounded(stiffness_of<rational>(p));
+}
+
+template <>
+std::vector<rational> values_at(const beam& b, std::span<const double> polynomial,
+                                std::span<const int> nodes) {
+  const line<rational> x(b.x, b.runs);
+  const std::vector<rational> a = coefficients_of<rational>({{polynomial.begin(), polynomial.end()}, {}});
+  std::vector<rational> values;
   for (const int node : nodes) {
-    const rational x = line.at(static_cast<std::size_t>(node));
+    const rational at = x.at(node);
     rational sum;
-    for (std::size_t i = a.size(); i-- > 0;) sum = sum * x + a[i];
-    values.push_back(numeric::long_rounded(sum));
+    for (std::size_t i = a.size(); i-- > 0;) sum = sum * at + a[i];
+    values.push_back(sum);
   }
   return values;
 }
 
-std::vector<double_double> long_polynomial_of(const distributed_load& d) {
-  return rounded_once(polynomial_of(d));
+template <>
+std::vector<double> values_at(const beam& b, std::span<const double> polynomial, std::span<const int> nodes) {
+  std::vector<double> values;
+  for (const rational& x : values_at<rational>(b, polynomial, nodes)) values.push_back(numeric::rounded(x));
+  return values;
 }
 
-loads_on_elements::loads_on_elements(const beam& b)
-    : line_(line_of(b.x, b.runs)), exactly_(std::make_shared<exact_line>(b.x, b.runs)) {}
+template <>
+std::vector<double_double> values_at(const beam& b, std::span<const double> polynomial,
+                                     std::span<const int> nodes) {
+  return rounded_once(values_at<rational>(b, polynomial, nodes));
+}
 
-void loads_on_elements::for_each(const load& l,
-                                 const std::function<void(int, const load_on_element&)>& visit) const {
+template <>
+void for_each_polynomial(const line<rational>& x, const load& l, const load_visitor<rational>& visit) {
+  for (const distributed_load& d : l.distributed) {
+    const std::vector<rational> a = coefficients_of<rational>(d);
+    for_each_loaded_element(d, x.intervals(), [&](int e) {
+      visit(e, {formulas::in_element<rational>(a, x.at(e), x.length(e))});
+    });
+  }
+}
+
+template <>
+void for_each_polynomial(const line<double_double>& x, const load& l,
+                         const load_visitor<double_double>& visit) {
   constexpr double most_cancelled = 256;  // of what 32 digits keep; beyond that, fractions
   for (const distributed_load& d : l.distributed) {
-    const std::vector<rational> exactly = polynomial_of(d);
+    const std::vector<rational> exactly = coefficients_of<rational>(d);
     const std::vector<double_double> a = rounded_once(exactly);
-    const load_on_element uniform{a, std::abs(a[0].hi)};
+    const load_on_element<double_double> uniform{a, std::abs(a[0].hi)};
+    std::optional<line<rational>> fractions;
     const auto on = [&](int e) {
-      const auto at = static_cast<std::size_t>(e);
-      load_on_element in_32_digits = about(a, line_.x[at], line_.h[at]);
+      load_on_element<double_double> in_32_digits = about(a, x.at(e), x.length(e));
       if (in_32_digits.size <= most_cancelled * sum_of_sizes(in_32_digits.q)) return in_32_digits;
-      const rational left = exactly_->at(at);
-      const rational h = exactly_->at(at + 1) - left;
-      load_on_element once{rounded_once(formulas::in_element<rational>(exactly, left, h)), 0.0};
+      if (!fractions) fractions.emplace(x);
+      load_on_element<double_double> once{
+          rounded_once(formulas::in_element<rational>(exactly, fractions->at(e), fractions->length(e))), 0.0};
       once.size = sum_of_sizes(once.q);
       return once;
     };
-    const auto take = [&](int e) { a.size() == 1 ? visit(e, uniform) : visit(e, on(e)); };
-    for (const int e : d.elements) take(e);
-    for (int e = 0; d.elements.empty() && e < static_cast<int>(line_.h.size()); ++e) take(e);
+    for_each_loaded_element(d, x.intervals(),
+                            [&](int e) { a.size() == 1 ? visit(e, uniform) : visit(e, on(e)); });
   }
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -146,8 +147,13 @@ struct assembled {
 };
 
 /// A structure of any kind, without its supports. A new kind joins the variant, and has the members above
-/// that all kinds have and each function below that is there for every kind.
+/// that all kinds have, and elements in structure/elements.hpp.
 struct model {
+  model() = default;
+  model(beam b) : kind(std::move(b)) {}       // NOLINT(google-explicit-constructor): a beam is a structure
+  model(plate p) : kind(std::move(p)) {}      // NOLINT(google-explicit-constructor)
+  model(assembled a) : kind(std::move(a)) {}  // NOLINT(google-explicit-constructor)
+
   std::variant<beam, plate, assembled> kind;
 };
 
@@ -181,44 +187,29 @@ struct model {
   return a != nullptr ? "dof " + on_one_line(a->label_of(node)) : "node " + std::to_string(node + 1);
 }
 
-/// Assemble it on its supports. A plate is numbered along its shorter side (linear_structure::rows). Of a
-/// matrix, the motions that its supports leave free are found from it: see find_free_motions. Throws
-/// std::invalid_argument when an entry of an element's stiffness is not a finite number, naming the element
-/// (from 1); where a dof of a matrix has neither stiffness nor support; and as find_free_motions does.
-[[nodiscard]] linear_structure build(const beam& b, std::span<const support> supports,
-                                     std::vector<contact_pair> pairs);
-[[nodiscard]] linear_structure build(const plate& p, std::span<const support> supports,
+/// The row of each dof in its band; empty: its own number. A plate is numbered along its shorter side.
+[[nodiscard]] std::vector<int> rows_in_band(const model& m);
+/// Of that band.
+[[nodiscard]] int subdiagonals(const model& m);
+
+/// Assemble it on its supports. Of a matrix, the motions that its supports leave free are found from it: see
+/// find_free_motions. Throws std::invalid_argument when an entry of an element's stiffness is not a finite
+/// number, naming the element (from 1); where a dof of a matrix has neither stiffness nor support; and as
+/// find_free_motions does.
+[[nodiscard]] linear_structure build(const model& m, std::span<const support> supports,
                                      std::vector<contact_pair> pairs);
 [[nodiscard]] linear_structure build(const assembled& a, std::span<const support> supports,
-                                     std::vector<contact_pair> pairs);
-[[nodiscard]] linear_structure build(const model& m, std::span<const support> supports,
                                      std::vector<contact_pair> pairs);
 
 /// Add the consistent load vector of `l` to `f` [dofs]. Loads on a matrix are forces at dofs. Throws
 /// std::invalid_argument for a distributed load on a plate that is not constant.
-void add_consistent_loads(const beam& b, const load& l, std::span<double> f);
-void add_consistent_loads(const plate& p, const load& l, std::span<double> f);
-inline void add_consistent_loads(const assembled& /*a*/, const load& l, std::span<double> f) {
-  add_point_loads(l, assembled::dofs_per_node, f);
-}
 void add_consistent_loads(const model& m, const load& l, std::span<double> f);
 
 /// The length or area of the structure that each node stands for [nodes]: of a plate, a quarter of each
 /// element beside it. Throws std::invalid_argument for a matrix, which has no lengths or areas.
-[[nodiscard]] inline std::vector<double> tributary_shares(const beam& b) {
-  return tributary_lengths(b.x);
-}
-[[nodiscard]] std::vector<double> tributary_shares(const plate& p);
-[[nodiscard]] std::vector<double> tributary_shares(const assembled& a);
 [[nodiscard]] std::vector<double> tributary_shares(const model& m);
 
 /// The force (or moment) on the structure by each support, in their order: see reactions_of.
-[[nodiscard]] std::vector<double> reactions(const beam& b, const load& l, std::span<const support> supports,
-                                            std::span<const double> u);
-[[nodiscard]] std::vector<double> reactions(const plate& p, const load& l, std::span<const support> supports,
-                                            std::span<const double> u);
-[[nodiscard]] std::vector<double> reactions(const assembled& a, const load& l,
-                                            std::span<const support> supports, std::span<const double> u);
 [[nodiscard]] std::vector<double> reactions(const model& m, const load& l, std::span<const support> supports,
                                             std::span<const double> u);
 

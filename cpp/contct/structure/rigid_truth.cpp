@@ -9,7 +9,8 @@
 
 #include "contct/numeric/rational.hpp"
 #include "contct/numeric/rational_cone.hpp"
-#include "contct/structure/exact_line.hpp"
+#include "contct/structure/exact_numbers.hpp"
+#include "contct/structure/rigid_shape.hpp"
 
 namespace contct::structure {
 
@@ -23,7 +24,7 @@ struct rigid_work::numbers {
 
 namespace {
 
-using motion_numbers = std::array<rational, 3>;
+using motion_numbers = rigid_shape<rational>::row;
 
 rational dot(const motion_numbers& a, const motion_numbers& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -75,38 +76,23 @@ void for_each_run(const std::vector<int>& elements, int all, const Visit& visit)
 
 }  // namespace
 
-double exact_line::rounding() const {
-  const double largest = std::max(std::abs(x_.front()), std::abs(x_.back()));
-  return 8 * std::numeric_limits<double>::epsilon() * (1 + largest / (x_.back() / 2 - x_.front() / 2));
+namespace {
+
+/// What rounding can make of `across` at any point.
+double rounding_along(const centred_line<rational>& l) {
+  const std::span<const double> x = l.points().rounded();
+  const double largest = std::max(std::abs(x.front()), std::abs(x.back()));
+  return 8 * std::numeric_limits<double>::epsilon() * (1 + largest / (x.back() / 2 - x.front() / 2));
 }
 
+}  // namespace
+
 /// A line for each direction in which it extends.
-struct rigid_truth::shape {
-  explicit shape(const beam& b) : along_x(b.x, b.runs) {}
-  explicit shape(const plate& p) : along_x(p.x, p.x_runs), along_y(std::in_place, p.y, p.y_runs) {}
-
-  exact_line along_x;
-  std::optional<exact_line> along_y;
-
-  [[nodiscard]] int dofs_per_node() const { return along_y ? plate::dofs_per_node : beam::dofs_per_node; }
-  [[nodiscard]] std::size_t column_of(int dof) const {
-    return static_cast<std::size_t>(dof / dofs_per_node()) % along_x.points();
-  }
-  [[nodiscard]] std::size_t line_of(int dof) const {
-    return static_cast<std::size_t>(dof / dofs_per_node()) / along_x.points();
-  }
-  /// 0: a deflection; otherwise the slope along x (1) or y (2).
-  [[nodiscard]] int kind_of(int dof) const { return dof % dofs_per_node(); }
-
-  [[nodiscard]] motion_numbers row_of(int dof) const {
-    if (kind_of(dof) == 1) return {0, 1 / along_x.half(), 0};
-    if (kind_of(dof) == 2) return {0, 0, 1 / along_y->half()};
-    const rational x = along_x.across(along_x.at(column_of(dof)));
-    return {1, x, along_y ? along_y->across(along_y->at(line_of(dof))) : rational(0)};
-  }
+struct rigid_truth::shape : rigid_shape<rational> {
+  using rigid_shape<rational>::rigid_shape;
 
   [[nodiscard]] double rounding() const {
-    return std::max(along_x.rounding(), along_y ? along_y->rounding() : 0.0);
+    return std::max(rounding_along(along_x), along_y ? rounding_along(*along_y) : 0.0);
   }
 
   /// is_independent, where that needs no arithmetic.
@@ -128,13 +114,13 @@ struct rigid_truth::shape {
   }
 
   void add_distributed(const distributed_load& d, motion_numbers& work) const {
-    const std::vector<rational> q = polynomial_of(d);
-    const int columns = static_cast<int>(along_x.points()) - 1;
+    const std::vector<rational> q = coefficients_of<rational>(d);
+    const int columns = along_x.points().intervals();
     if (!along_y) {
       for_each_run(d.elements, columns, [&](int first, int last) { add_strip(q, first, last, work); });
       return;
     }
-    const int lines = static_cast<int>(along_y->points()) - 1;
+    const int lines = along_y->points().intervals();
     if (d.elements.empty()) return add_rectangle(q[0], 0, columns - 1, 0, lines - 1, work);
     for_each_run(d.elements, columns * lines, [&](int first, int last) {
       for (int line = first / columns; line <= last / columns; ++line)
@@ -145,8 +131,7 @@ struct rigid_truth::shape {
 
  private:
   void add_strip(std::span<const rational> q, int first, int last, motion_numbers& work) const {
-    const integrals over = integrate(q, along_x.at(static_cast<std::size_t>(first)),
-                                     along_x.at(static_cast<std::size_t>(last) + 1));
+    const integrals over = integrate(q, along_x.points().at(first), along_x.points().at(last + 1));
     work[0] += over.plain;
     work[1] += over.by_x / along_x.half() + over.plain * along_x.across(0);
   }
@@ -154,8 +139,8 @@ struct rigid_truth::shape {
   /// A uniform pressure acts at the middle of the rectangle.
   void add_rectangle(const rational& pressure, int left, int right, int below, int above,
                      motion_numbers& work) const {
-    const auto ends = [](const exact_line& line, int first, int last) {
-      return std::pair(line.at(static_cast<std::size_t>(first)), line.at(static_cast<std::size_t>(last) + 1));
+    const auto ends = [](const centred_line<rational>& l, int first, int last) {
+      return std::pair(l.points().at(first), l.points().at(last + 1));
     };
     const auto [x1, x2] = ends(along_x, left, right);
     const auto [y1, y2] = ends(*along_y, below, above);
@@ -213,7 +198,7 @@ rigid_work rigid_truth::work_of(const load& l) const {
 
 resultant rigid_truth::resultant_of(const load& l) const {
   const motion_numbers work = work_of(l).exactly().all;
-  const auto about_origin = [&work](const exact_line& line, const rational& about_middle) {
+  const auto about_origin = [&work](const centred_line<rational>& line, const rational& about_middle) {
     return numeric::rounded(about_middle * line.half() + work[0] * line.middle());
   };
   resultant r{numeric::rounded(work[0]), {about_origin(shape_->along_x, work[1])}};

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "contct/structure/line.hpp"
+
 namespace contct::structure {
 
 load mix(const load& before, const load& after, double fraction) {
@@ -29,6 +31,10 @@ load mix(const load& before, const load& after, double fraction) {
     sum.settlements.push_back({place.first, place.second, value});
   sum.name = after.name;
   return sum;
+}
+
+void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
+  for (const auto& [dof, values] : point_loads_at(l, dofs_per_node)) f[dof] += sum_of<double>(values);
 }
 
 void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share) {

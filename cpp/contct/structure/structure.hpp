@@ -6,7 +6,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,11 +59,7 @@ struct load {
 
 /// Add the point loads of `l` to `f` [dofs]. Those at one dof that are 0 as decimals are no load: 0.1, 0.2
 /// and -0.3.
-inline void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
-  for (const auto& [dof, values] : point_loads_at(l, dofs_per_node))
-    if (values.size() == 1 || !(numeric::decimal_sum(values) == 0.0))
-      for (const double value : values) f[dof] += value;
-}
+void add_point_loads(const load& l, int dofs_per_node, std::span<double> f);
 
 /// sum += share * part, for polynomials from the constant on.
 void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share);
@@ -76,24 +71,17 @@ void add_polynomial(std::vector<double>& sum, std::span<const double> part, doub
   return sum;
 }
 
-/// Call visit(element, polynomial) for every element, from 0, that a distributed load acts on.
+/// Call visit(element) for every element, from 0, that a distributed load acts on.
+template <class Visit>
+void for_each_loaded_element(const distributed_load& d, int elements, Visit visit) {
+  for (const int e : d.elements) visit(e);
+  for (int e = 0; d.elements.empty() && e < elements; ++e) visit(e);
+}
+/// Call visit(element, polynomial) for every element that one of the loads acts on.
 template <class Visit>
 void for_each_loaded_element(const load& l, int elements, Visit visit) {
-  std::vector<int> all(elements);
-  std::iota(all.begin(), all.end(), 0);
   for (const distributed_load& d : l.distributed)
-    for (const int e : d.elements.empty() ? all : d.elements) visit(e, d.polynomial);
-}
-
-/// The length that each point of a line stands for: half of each interval beside it. `x` increases.
-[[nodiscard]] inline std::vector<double> tributary_lengths(std::span<const double> x) {
-  std::vector<double> lengths(x.size(), 0.0);
-  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    const double half = (x[i + 1] - x[i]) / 2;
-    lengths[i] += half;
-    lengths[i + 1] += half;
-  }
-  return lengths;
+    for_each_loaded_element(d, elements, [&](int e) { visit(e, d.polynomial); });
 }
 
 /// Gauss-Legendre quadrature on [0, 1].

@@ -48,10 +48,8 @@ template <class Number, class... Format>
 /// Goes through a text line by line. Refusals are input_errors: "K.mtx:12: found ...; allowed: ...".
 class text_lines {
  public:
-  /// `text` must outlive this object; `file` is its name in messages. `lines_before`: of the file, where the
-  /// text is not all of it.
-  text_lines(std::string_view text, std::string_view file, std::int64_t lines_before = 0)
-      : rest_(text), file_(file), line_(lines_before) {}
+  /// `text` must outlive this object; `file` is its name in messages.
+  text_lines(std::string_view text, std::string_view file) : rest_(text), file_(file) {}
 
   /// Go to the next line; false where there is none.
   bool next();

@@ -1,0 +1,193 @@
+// Which pairs are certainly in contact, and how far a state can be from the equilibrium in the norm of their
+// stiffness (reference/certificate.md).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contct/certify/error_bounds.hpp"
+
+namespace contct::certify {
+namespace {
+
+/// What products of numbers that are all but 0 may lose.
+constexpr double underflow = 1e-300;
+
+}  // namespace
+
+/// rho: the norm of the residual in K_A^-1, from above. z is about K_A^-1 r, e = r - K_A z, and
+/// rho^2 = r'z + z'e + e' K_A^-1 e.
+std::optional<double> error_prover::norm_of(const residual& r, double mu) {
+  const std::size_t n = true_.dofs();
+  long_vector z(n);
+  std::vector<double> e(n);
+  long_vector left = r.force;
+  long_vector product;
+  std::vector<double> sizes;  // of the products in row i
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t dof = 0; dof < n; ++dof) e[dof] = left[dof].hi;
+    stiffness_.solve(e);
+    for (std::size_t dof = 0; dof < n; ++dof) z[dof] += e[dof];
+    if (pass == 1) sizes.assign(n, 0.0);
+    product = stiffness_.times(z, sizes);
+    for (std::size_t dof = 0; dof < n; ++dof)
+      left[dof] = true_.fixed[dof] != 0 ? double_double(0.0) : r.force[dof] - product[dof];
+  }
+  double_double work;
+  double slack = 0.0;
+  double rest = 0.0;
+  for (std::size_t dof = 0; dof < n; ++dof) {
+    if (true_.fixed[dof] != 0) continue;
+    work += z[dof] * (r.force[dof] + left[dof]);
+    double size = sizes[dof];
+    const double root = 1.0 / stiffness_.scale(dof);
+    size += root * root * std::abs(z[dof].hi) * 2;  // the springs of A
+    const double off = r.slack[dof] + 2 * true_rounding * size;
+    slack += 2 * std::abs(z[dof].hi) * off;
+    const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
+    rest += scaled * scaled;
+  }
+  bool any = false;  // residual, or one that underflows
+  for (std::size_t dof = 0; dof < n; ++dof)
+    any = any || (true_.fixed[dof] == 0 && (r.force[dof].hi != 0.0 || r.slack[dof] > 0.0));
+  const double square =
+      (std::max(work.hi, 0.0) + slack + rest / mu + (any ? underflow : 0.0)) * (1 + summation_slack);
+  z_ = std::move(z);
+  if (!std::isfinite(square)) return std::nullopt;
+  return std::sqrt(square) * (1 + summation_slack);
+}
+
+std::vector<int> error_prover::pressed(std::span<const double_double> u) const {
+  std::vector<int> pairs;
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i)
+    if (true_.fixed[true_.pairs[i].dof] == 0 && depth(i, u).hi > 0.0) pairs.push_back(static_cast<int>(i));
+  return pairs;
+}
+
+rigid_rank error_prover::held_by(const std::vector<int>& closed) const {
+  return structure_.held_by(
+      [&](std::size_t i) { return std::ranges::binary_search(closed, static_cast<int>(i)); });
+}
+
+/// `closed`, and where these do not hold the structure, those nearest to their faces that do.
+std::vector<int> error_prover::holding(std::span<const double_double> u, std::vector<int> closed) const {
+  rigid_rank rank = held_by(closed);
+  if (structure_.is_held(rank)) return closed;
+  std::vector<int> nearest;
+  for (int i = 0; i < static_cast<int>(true_.pairs.size()); ++i)
+    if (true_.fixed[true_.pairs[i].dof] == 0 && !std::ranges::binary_search(closed, i)) nearest.push_back(i);
+  std::ranges::stable_sort(nearest, {}, [&](int i) { return -depth(i, u).hi; });
+  for (const int i : nearest) {
+    const int before = rank.rank();
+    rank.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
+    if (rank.rank() > before) closed.push_back(i);
+  }
+  std::ranges::sort(closed);
+  return closed;
+}
+
+/// Factor K_A; is it definite for certain?
+bool error_prover::proves(const std::vector<int>& closed) {
+  if (factored_ != closed) {
+    factored_ = closed;
+    mu_ = stiffness_.factor(closed) ? stiffness_.least_eigenvalue() : 0.0;
+    inverse_root_mu_ = (1 + summation_slack) / std::sqrt(mu_);
+  }
+  return mu_ > 0.0;
+}
+
+bool error_prover::is_semidefinite() {
+  if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // by its elements' formulas
+  if (!semidefinite_)
+    semidefinite_ = proves({}) || (exactly_semidefinite_ && exactly_semidefinite_() == true);
+  return *semidefinite_;
+}
+
+bool error_prover::last_digits_decide() const {
+  const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
+  if (a == nullptr || a->free_motions) return false;
+  if (a->stiffness.last_digits.empty()) return false;
+  std::vector<double> rows(true_.dofs());  // of S H S, where H has the half units
+  for (std::size_t i = 0; i < a->stiffness.entries.size(); ++i) {
+    const matrix_entry& e = a->stiffness.entries[i];
+    if (true_.fixed[e.row] != 0 || true_.fixed[e.column] != 0) continue;
+    const double scaled = a->stiffness.half_unit(i) * stiffness_.scale(e.row) * stiffness_.scale(e.column);
+    rows[e.row] += scaled;
+    if (e.row != e.column) rows[e.column] += scaled;
+  }
+  return !(std::ranges::max(rows) * (1 + summation_slack) < mu_);
+}
+
+/// A: at first all pairs beyond their faces; those that are not so for certain leave it again.
+bool error_prover::find_closed(std::span<const double_double> u, const residual& r, error_bounds& b) {
+  b.closed = pressed(u);
+  for (int tries = 0; tries < 3; ++tries) {
+    if (!proves(b.closed)) {
+      b.not_proved = "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
+      return false;
+    }
+    if (last_digits_decide()) {
+      b.not_proved =
+          "half a unit in the last digits that the matrix is written with decides whether it is held: "
+          "`free_motions` says how many motions it leaves free";
+      return false;
+    }
+    const std::optional<double> rho = norm_of(r, mu_);
+    if (!rho) {
+      b.not_proved = "the numbers are too large or too small";
+      return false;
+    }
+    if (!erase_doubtful(u, *rho, b.closed)) {
+      b.rho = *rho;
+      return true;
+    }
+  }
+  b.not_proved = "which pairs are in contact is not certain";
+  return false;
+}
+
+bool error_prover::erase_doubtful(std::span<const double_double> u, double rho,
+                                  std::vector<int>& closed) const {
+  return std::erase_if(closed, [&](int i) {
+           const true_pair& p = true_.pairs[i];
+           const double moved =
+               std::min(reach(p.dof), (1 + summation_slack) / std::sqrt(p.stiffness.hi)) * rho;
+           return !(depth(i, u).hi * (1 - summation_slack) - doubt(i, u) > moved);
+         }) > 0;
+}
+
+/// Where the pairs of A leave rigid motions free on which the load does no work at all: springs without force
+/// hold the structure where it is, and change nothing else.
+bool error_prover::find_balanced(int step, std::span<const double_double> u, const residual& r,
+                                 error_bounds& b) {
+  if (!structure_.truth) return false;
+  b.closed = pressed(u);
+  for (int tries = 0; tries < 3; ++tries) {
+    if (!proves(holding(u, b.closed))) return false;
+    const std::optional<double> rho = norm_of(r, mu_);
+    if (!rho) return false;
+    if (erase_doubtful(u, *rho, b.closed)) continue;
+    b.rho = *rho;
+    b.unique = false;
+    if (!stands_free(step, u, b)) break;
+    b.not_proved.clear();
+    return true;
+  }
+  b.rho = std::numeric_limits<double>::infinity();
+  b.unique = true;
+  return false;
+}
+
+/// No work on what A leaves free, and no pair that this moves can be in contact.
+bool error_prover::stands_free(int step, std::span<const double_double> u, const error_bounds& b) const {
+  const rigid_rank held = held_by(b.closed);
+  const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);
+  if (structure_.is_held(held) || structure_.truth->driven_by(work, held.dofs())) return false;
+  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+    rigid_rank with_it = held;
+    with_it.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
+    if (with_it.rank() > held.rank() && !is_certainly_open(i, u, b.rho)) return false;
+  }
+  return true;
+}
+
+}  // namespace contct::certify
