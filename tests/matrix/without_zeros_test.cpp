@@ -1,7 +1,6 @@
 // A stiffness matrix for products.
-#include "contct/matrix/stiffness_matrix.hpp"
-
 #include "catch.hpp"
+#include "contct/matrix/stiffness_matrix.hpp"
 #include "contct/numeric/random.hpp"
 
 using namespace contct::app;
