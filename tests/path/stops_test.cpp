@@ -112,7 +112,6 @@ TEST_CASE("a stiffness that loses its factor on the way: the share reached is to
   class failing_engine final : public stiffness_engine {
    public:
     explicit failing_engine(const linear_structure& s) : inner_(make_engine("refactor", s)) {}
-    [[nodiscard]] std::string_view name() const override { return "failing"; }
     void switch_spring(int pair, bool closed) override { inner_->switch_spring(pair, closed); }
     void respond(const residual_load& residual, std::span<double> d_star) override {
       if (solved_) throw no_factor("made for a test");

@@ -11,7 +11,6 @@ namespace {
 class recording_engine final : public spring_engine {
  public:
   explicit recording_engine(const linear_structure& s) : spring_engine(s) {}
-  [[nodiscard]] std::string_view name() const override { return "recording"; }
   void respond(const residual_load& /*residual*/, std::span<double> /*d_star*/) override {
     order.clear();
     accepted = apply_switched([this](int pair) {

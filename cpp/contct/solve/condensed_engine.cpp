@@ -107,7 +107,6 @@ class condensed_engine final : public spring_engine {
     load_.resize(kept_.size());
     column_.resize(kept_.size());
   }
-  [[nodiscard]] std::string_view name() const override { return "condensed"; }
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
     if (!is_condensed_) condense();

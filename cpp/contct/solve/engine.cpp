@@ -16,7 +16,6 @@ mpi_job* job_of_this_process = nullptr;  // MPI has no more than one for a proce
 class refactor_engine final : public spring_engine {
  public:
   explicit refactor_engine(const linear_structure& s) : spring_engine(s), stiffness_(s), w_star_(s.dofs()) {}
-  [[nodiscard]] std::string_view name() const override { return "refactor"; }
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
     factor();
@@ -75,8 +74,8 @@ void refuse_unknown_engine(std::string_view name) {
 std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s) {
   refuse_unknown_engine(name);
   if (name == "condensed") return make_condensed_engine(s);
-  if (name == "updated") return make_updated_engine(s, name, quickest_factor(s));
-  if (name == "petsc") return make_updated_engine(s, name, factored_by::ranks);
+  if (name == "updated") return make_updated_engine(s, quickest_factor(s));
+  if (name == "petsc") return make_updated_engine(s, factored_by::ranks);
   return std::make_unique<refactor_engine>(s);
 }
 

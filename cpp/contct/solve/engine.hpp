@@ -42,7 +42,6 @@ class no_factor : public std::runtime_error {
 class stiffness_engine {
  public:
   virtual ~stiffness_engine() = default;
-  [[nodiscard]] virtual std::string_view name() const = 0;
 
   /// Put the spring of pair `pair` (from 0) in, or take it out.
   virtual void switch_spring(int pair, bool closed) = 0;

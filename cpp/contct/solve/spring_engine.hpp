@@ -106,7 +106,7 @@ class spring_engine : public stiffness_engine {
 
 /// The engines that have a source of their own: see make_engine.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s,
-                                                                    std::string_view name, factored_by how);
+                                                                    factored_by how);
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& s);
 
 /// Is this a beam with pairs, stored as a band: one that can be condensed?

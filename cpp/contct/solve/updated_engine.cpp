@@ -128,15 +128,13 @@ class inverse_columns {
 /// its digits.
 class updated_engine final : public spring_engine {
  public:
-  updated_engine(const linear_structure& s, std::string_view name, factored_by how)
+  updated_engine(const linear_structure& s, factored_by how)
       : spring_engine(s),
-        name_(name),
         stiffness_(s, how),
         columns_(stiffness_, s.pairs.size()),
         most_toggles_(columns_worth_keeping(stiffness_.flops(), s.pairs.size())),
         response_(s.pairs.size()),
         work_(s.dofs()) {}
-  [[nodiscard]] std::string_view name() const override { return name_; }
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
     if (!has_factor_) factor_anew();
@@ -218,7 +216,6 @@ class updated_engine final : public spring_engine {
     return drift_.accepts(found);
   }
 
-  std::string name_;
   factored_stiffness stiffness_;
   inverse_columns columns_;
   bool has_factor_ = false;
@@ -231,9 +228,8 @@ class updated_engine final : public spring_engine {
 
 }  // namespace
 
-std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s, std::string_view name,
-                                                      factored_by how) {
-  return std::make_unique<updated_engine>(s, name, how);
+std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s, factored_by how) {
+  return std::make_unique<updated_engine>(s, how);
 }
 
 }  // namespace contct::solve
