@@ -135,8 +135,8 @@ TEST_CASE("A plate's moments are largest at corners of elements, with their node
 TEST_CASE("the place of a plate's largest and least deflection has both coordinates of its node") {
   const plate p{{0, 1, 3}, {0, 2, 5, 9}, 10.0, 0.3};
   std::vector<double> u(p.dofs(), 0.0);
-  u[3 * 7] = 2.0;   // the middle node of the third line
-  u[3 * 5] = -1.0;  // the last node of the second one
+  u[21] = 2.0;   // the middle node of the third line
+  u[15] = -1.0;  // the last node of the second one
   const value_range w = range_named(ranges_of({p}, {}, u, {}), "w");
   CHECK((w.most.node == 7 && w.most.x == 1.0 && w.most.y == 5.0));
   CHECK((w.least.node == 5 && w.least.x == 3.0 && w.least.y == 2.0));
@@ -176,9 +176,9 @@ TEST_CASE("the lines of all elements begin with the shears and moments that they
   const std::vector<double> u(8, 0.0);
   const beam_lines lines(b, {}, u, given);
   for (int e = 0; e < 3; ++e) {
-    CHECK(lines.at(e).shear[0] == given[4 * e]);
-    CHECK(lines.at(e).moment[0] == given[4 * e + 2]);
-    CHECK(lines.ends(e).moment[1] == given[4 * e + 3]);
+    CHECK(lines.at(e).shear[0] == given[std::size_t{4} * e]);
+    CHECK(lines.at(e).moment[0] == given[std::size_t{4} * e + 2]);
+    CHECK(lines.ends(e).moment[1] == given[std::size_t{4} * e + 3]);
   }
 }
 

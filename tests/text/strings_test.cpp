@@ -67,6 +67,7 @@ TEST_CASE(
     "nothing that a terminal obeys is shown as it is: C0, DEL, C1, marks of direction, and what is no "
     "UTF-8") {
   CHECK(terminal_text("a\x1b[31m\x07\x7f\n") == "a\\x1b[31m\\x07\\x7f\n");
+  // NOLINTNEXTLINE(misc-misleading-bidirectional): these marks are what is escaped
   CHECK(terminal_text("\u009b31m\u202e\u2067x") == "\\xc2\\x9b31m\\xe2\\x80\\xae\\xe2\\x81\\xa7x");
   for (const char* kept :
        {"\u00a0\u00e9", "\u2029\u202f\u2065\u206a", "\U0001F600", "\u05d0", "\ud7ff\ue000"})
@@ -86,6 +87,7 @@ TEST_CASE("a title on one line has blanks for line ends, and JSON has escapes of
   CHECK(on_one_line("two\nlines\r\tand \x1b") == "two lines  and \\x1b");
   CHECK(json_escaped("{\"a\": \"\x7f\u0085\u202e\u00e9\"}\n") ==
         "{\"a\": \"\\u007f\\u0085\\u202e\u00e9\"}\n");
+  // NOLINTNEXTLINE(misc-misleading-bidirectional): the same
   CHECK(markup_text("\u009b\u2066\xff") == "\uFFFD\uFFFD\uFFFD");
 }
 

@@ -40,7 +40,7 @@ handed_out handed_out_at(const problem& p, const step_state& s) {
                reactions(p, now, s.displacement, s.isep),
                results_in_elements(p.geometry, now, s.displacement).values};
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const double w = s.displacement[p.pairs[i].node * dofs_per_node(p.geometry)];
+    const double w = s.displacement[std::size_t{1} * p.pairs[i].node * dofs_per_node(p.geometry)];
     h.pair_forces.push_back(force_of(p.pairs[i], w, s.isep[i] == in_contact));
   }
   return h;

@@ -38,12 +38,13 @@ std::vector<element_value> values_of(const beam_elements<double_double>& beam, c
                                      std::span<const double_double> u) {
   std::vector<element_value> all;
   const auto forces = beam.end_forces(l, u);
+  all.reserve(4 * forces.size());
   for (int e = 0; e < beam.count(); ++e) {
+    const auto own = u.subspan(beam.dofs_of(e)[0]).first<4>();
     const double h = beam.lengths()[e].hi;
     const double stiffness = 2 * beam.EI(e).hi / h;
-    const double chord = ((u[2 * e + 2] - u[2 * e]) / h).hi;
-    const double moment =
-        3 * stiffness * (std::abs(u[2 * e + 1].hi) + std::abs(u[2 * e + 3].hi) + 2 * std::abs(chord));
+    const double chord = ((own[2] - own[0]) / h).hi;
+    const double moment = 3 * stiffness * (std::abs(own[1].hi) + std::abs(own[3].hi) + 2 * std::abs(chord));
     for (std::size_t i = 0; i < 4; ++i) {
       const bool shears = i < 2;
       all.push_back({forces[e][i], shears ? 2 * moment / h : moment,
@@ -51,7 +52,7 @@ std::vector<element_value> values_of(const beam_elements<double_double>& beam, c
     }
   }
   beam.for_each_work(l, [&](int e, const auto& work) {
-    for (std::size_t i = 0; i < 4; ++i) all[4 * e + i].size += work.size[i < 2 ? 0 : 1];
+    for (std::size_t i = 0; i < 4; ++i) all[std::size_t{4} * e + i].size += work.size[i < 2 ? 0 : 1];
   });
   return all;
 }

@@ -22,6 +22,7 @@ std::vector<added_spring> ground_of(const plate& p) {
 
 std::vector<added_spring> ground_of(const assembled& a) {
   std::vector<added_spring> everywhere;
+  everywhere.reserve(a.dofs());
   for (int dof = 0; dof < a.dofs(); ++dof) everywhere.push_back({dof, 1});
   return everywhere;
 }

@@ -40,7 +40,7 @@ using fresh_kernel = std::function<std::unique_ptr<kernel>()>;
 
 /// Put `calls` to the leader and to a fresh follower. The mismatch in the last call, when there is one
 /// in that `field` ("" takes any), with the leader's answers.
-[[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& follower,
+[[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make,
                                                   const call_sequence& calls, const std::string& field);
 
 /// `calls` shrunk while they differ in the same field. Nothing when they do not differ at all.

@@ -67,9 +67,14 @@ class function_kernel final : public kernel {
 }  // namespace
 
 void put_guarded(call<double>& c, kernel_procedure* procedure) {
-  fenced<double> dd("DD", c.dd), dtest("DTEST", c.dtest), cc("CC", c.cc), ss("SS", c.ss);
+  fenced<double> dd("DD", c.dd);
+  fenced<double> dtest("DTEST", c.dtest);
+  fenced<double> cc("CC", c.cc);
+  fenced<double> ss("SS", c.ss);
   fenced<double> smin("SMIN", std::span(&c.smin, 1));
-  fenced<int> id("ID", c.id), isep("ISEP", c.isep), isurf("ISURF", c.isurf);
+  fenced<int> id("ID", c.id);
+  fenced<int> isep("ISEP", c.isep);
+  fenced<int> isurf("ISURF", c.isurf);
   procedure(dd.data(), dtest.data(), cc.data(), ss.data(), smin.data(), id.data(), isep.data(), isurf.data(),
             c.nc(), c.dof.indof, c.dof.ndofpn, static_cast<int>(c.dd.size()));
   for (const std::string& fault : {dd.fault(true), dtest.fault(true), cc.fault(true), ss.fault(false),

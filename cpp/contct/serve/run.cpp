@@ -68,7 +68,7 @@ void tell(const session::run& run, std::vector<std::string>& messages) {
 
 void serve_run(const served_request& wanted, const problem& p, answer& a) {
   const linear_structure structure = structure_of(p);
-  session::run run(p, structure, wanted);
+  session::run run(p, structure, static_cast<const session::run_request&>(wanted));
   if (wanted.kernels.empty() && (wanted.page || wanted.states || wanted.envelope))
     throw std::invalid_argument(
         "options: found final_only with page, states or envelope; allowed: these with a path");

@@ -50,7 +50,7 @@ class run {
  public:
   /// `p` and `s`, its structure, must outlive this object. Throws std::invalid_argument for kernels that
   /// cannot be compared.
-  run(const problem& p, const linear_structure& s, run_request wanted);
+  run(const problem& p, const linear_structure& s, run_request request);
 
   /// Follow the leader's path, or find the ends of the steps. `to` is written to here and in `finish`.
   /// `shown`, who shows the path while it goes on, observes behind the comparison and the certificate.
@@ -62,7 +62,7 @@ class run {
     bool certified;
     std::string words;  ///< the distances
   };
-  other_path follow_alone(const std::string& kernel);
+  other_path follow_alone(const std::string& name);
 
   /// Complete and name the outputs.
   void finish();

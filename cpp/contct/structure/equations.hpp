@@ -24,6 +24,8 @@ class sparse_row {
 
   /// The entry, which is 0 at first.
   Number& operator[](int column) {
+    constexpr std::size_t of_a_beam = 6;  // most structures are beams, and have as many entries a row
+    if (entries_.empty()) entries_.reserve(of_a_beam);
     const auto place = std::ranges::lower_bound(entries_, column, {}, &entry::first);
     if (place != entries_.end() && place->first == column) return place->second;
     return entries_.insert(place, {column, Number(0)})->second;

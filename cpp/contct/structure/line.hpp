@@ -103,6 +103,7 @@ class line {
 
   [[nodiscard]] std::vector<Number> lengths() const {
     std::vector<Number> all;
+    all.reserve(intervals());
     for (int i = 0; i < intervals(); ++i) all.push_back(length(i));
     return all;
   }

@@ -229,7 +229,8 @@ class petsc_job final : public mpi_job {
       MPI_Test(&coming, &arrived, MPI_STATUS_IGNORE);
       if (arrived != 0) return c;
       const auto waited = std::chrono::duration_cast<std::chrono::microseconds>(clock::now() - begun).count();
-      constexpr std::int64_t patience = 2000, longest = 1000;  // microseconds
+      constexpr std::int64_t patience = 2000;  // microseconds
+      constexpr std::int64_t longest = 1000;
       if (waited > patience) (void)usleep(static_cast<useconds_t>(std::min(waited / 64, longest)));
     }
   }
