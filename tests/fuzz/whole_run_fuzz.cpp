@@ -14,8 +14,7 @@
 
 #include "app/outputs.hpp"
 #include "contct/compare/explanation.hpp"
-#include "contct/exact/exact_follower.hpp"
-#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"

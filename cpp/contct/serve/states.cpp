@@ -47,7 +47,7 @@ class states_writer {
                 {"comparison", run_.comparison},
                 {"ended", run_.end},
                 {"certified", certificate_summary(run_.judged, run_.status == "solved")},
-                {"certified_whole", run_.status == "solved" && run_.judged.all_exact()},
+                {"certified_whole", run_.status == "solved" && run_.judged.all_certified()},
                 {"increments", run_.kept.increments()},
                 {"x", json::array()},
                 {"supports", json::array()},

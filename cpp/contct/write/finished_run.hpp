@@ -58,7 +58,7 @@ class load_path {
 /// How a pair stands, and its gap and force as results have them.
 struct pair_reading {
   double w, gap, force;
-  pair_look look;
+  pair_state look;
 };
 /// At deflection `w`.
 [[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
@@ -89,8 +89,8 @@ struct extreme {
 /// Pairs of each look: open, closed, at their faces.
 struct pair_counts {
   std::size_t open = 0, closed = 0, at_face = 0;
-  [[nodiscard]] std::size_t& of(pair_look look) {
-    return look == pair_look::open ? open : look == pair_look::closed ? closed : at_face;
+  [[nodiscard]] std::size_t& of(pair_state look) {
+    return look == pair_state::open ? open : look == pair_state::closed ? closed : at_face;
   }
 };
 [[nodiscard]] pair_counts count_pairs(const problem& p, const frame& f);
@@ -149,8 +149,7 @@ inline constexpr std::array<structure_view, 4> all_views = {{
 /// One increment of the path, with events of its own: the path's are gone when it goes on.
 struct increment_record : increment {
   explicit increment_record(const increment& i)
-      : increment{i.step, i.number, i.s, i.fraction, {}, i.snaps, {}},
-        events(i.events.begin(), i.events.end()) {}
+      : increment{i.step, i.number, i.s, i.fraction, {}, i.snaps}, events(i.events.begin(), i.events.end()) {}
 
   std::vector<event> events;
 };

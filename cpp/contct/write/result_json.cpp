@@ -152,16 +152,11 @@ void json_document::finish(const json& members, const std::vector<list>& lists) 
 
 json certificate_json(const std::optional<certificate>& c) {
   if (!c) return nullptr;
-  json out = {{"exact", c->exact},
-              {"displacement_error", c->displacement_error},
-              {"equilibrium", c->equilibrium},
-              {"penetration", c->penetration},
-              {"tension", c->tension},
-              {"rcond", c->rcond},
-              {"tolerance", c->tolerance},
-              {"shape_error", c->shape_error},
-              {"unique", c->unique},
-              {"independent", c->independent},
+  json out = {{"exact", c->certified},         {"displacement_error", c->displacement_error},
+              {"equilibrium", c->equilibrium}, {"penetration", c->penetration},
+              {"tension", c->tension},         {"rcond", c->rcond},
+              {"tolerance", certified_share},  {"shape_error", c->shape_error},
+              {"unique", c->unique},           {"independent", c->independent},
               {"digits", digits_of(*c)}};
   if (!c->unique) out["displacement_error"] = out["shape_error"] = nullptr;
   if (!c->problem.empty()) out["problem"] = c->problem;
@@ -312,7 +307,7 @@ void result_json::finish(std::string_view status, const path_end& end, const loc
   members["lockstep"] = compared == nullptr ? json(nullptr) : lockstep_json(*compared);
   members["status"] = status;
   if (all != nullptr) members["envelope"] = envelope_json(problem_, *all);
-  members["certified"] = end.status == path_status::solved && judged_.all_exact();
+  members["certified"] = end.status == path_status::solved && judged_.all_certified();
   document_.finish(members, {{"free_run", free_runs_.size(), [this](auto i) -> json {
                                 const auto& [kernel, d, certified] = free_runs_[i];
                                 return {{"kernel", kernel},

@@ -115,7 +115,7 @@ class page_writer {
                                    return {{"mark", certificate_mark(c)}, {"numbers", certificate_json(c)}};
                                  })},
         {"certified", certificate_summary(r.judged, r.status == "solved")},
-        {"certified_whole", r.status == "solved" && r.judged.all_exact()},
+        {"certified_whole", r.status == "solved" && r.judged.all_certified()},
         {"uncertified", complaints_of(r)},
         {"input", input_},
         {"ends", ends_},
@@ -431,7 +431,7 @@ class page_writer {
                 {"s", f.s},
                 {"snap", f.snaps},
                 {"end", f.step_end},
-                {"rescued", f.from_fallback},
+                {"from_fallback", f.from_fallback},
                 {"exact", f.from_exact_path},
                 {"load", f.step == 0 ? "none" : loads_.words_at(f.step, f.fraction, load_words_width)},
                 {"force", loads_.force_at(f.step, f.fraction)},

@@ -137,8 +137,8 @@ void write_state(const std::string& folder) {
   last_state end;
   app::certifier judge(g.problem, g.structure);
   app::observer* const observers[] = {&judge, &end};
-  (void)app::find_final_states(g.structure, 1, app::loads_of(g.problem, g.structure), observers, &judge);
-  if (!judge.all_exact() || end.fraction != 1.0 || !judge.steps().front()->proved)
+  (void)judge.find_final_states(observers);
+  if (!judge.all_certified() || end.fraction != 1.0 || !judge.steps().front()->proved)
     throw std::runtime_error("the end of " + g.problem.title + " is not certified");
   const app::certificate& c = *judge.steps().front();
   bench::peers::write_problem(folder, problem_for_others(g));
@@ -167,13 +167,13 @@ answer follow(const given& g, const std::string& engine, bool certified) {
   app::path_limits limits;
   if (certified) {
     judge = std::make_unique<app::certifier>(g.problem, g.structure);
-    limits.refine = judge->refiner();
+    limits.ends = judge->ends();
     observers.insert(observers.begin(), judge.get());
   }
   const auto solves = app::make_engine(engine, g.structure);
   const app::path_end how = app::follow_path(g.structure, 1, loads, *solves, *leader, observers, limits);
   a.seconds = bench::peers::process_seconds() - start;
-  a.found = how.status == app::path_status::solved && (!judge || judge->all_exact());
+  a.found = how.status == app::path_status::solved && (!judge || judge->all_certified());
   a.steps = static_cast<int>(solves->counts().solves);
   a.u = at_free_dofs(g, end.u);
   a.forces = forces_of(g, end);
@@ -188,12 +188,19 @@ answer find_end(const given& g, bool certified) {
   if (certified) {
     app::certifier judge(g.problem, g.structure);
     app::observer* const observers[] = {&judge, &end};
-    a.steps = static_cast<int>(app::find_final_states(g.structure, 1, loads, observers, &judge).work.factors);
-    a.found = judge.all_exact();
+    a.steps = static_cast<int>(judge.find_final_states(observers).work.factors);
+    a.found = judge.all_certified();
   } else {
-    app::observer* const observers[] = {&end};
-    a.steps = static_cast<int>(app::find_final_states(g.structure, 1, loads, observers).work.factors);
-    a.found = end.fraction == 1.0;
+    app::reference_solver finds(g.structure);
+    std::vector<double> load(g.structure.dofs());
+    loads(1, load);
+    const app::reference_answer answer = finds.solve(load, loads.work(1));
+    a.steps = finds.factorisations();
+    a.found = answer.how == app::reference_answer::outcome::found;
+    end.u = answer.displacement;
+    end.isep.clear();
+    for (const char pressed : answer.pressed)
+      end.isep.push_back(pressed != 0 ? app::in_contact : app::separated);
   }
   a.seconds = bench::peers::process_seconds() - start;
   a.u = at_free_dofs(g, end.u);

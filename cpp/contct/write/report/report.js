@@ -980,10 +980,10 @@ function stateWords(f) {
   const place = f.step === 0 ? "Before any load."
     : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid-body motion at constant load; " : ""}load: ${minus(f.load)}, share ${short(f.fraction)} of the step.`;
   const event = f.all_events > 0 ? ` Then ${allEventWords(f.events, f.all_events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
-  const rescued = f.rescued ? " This state is the reference solution: the path could not reach it."
-    : f.exact ? " Doubles have too few digits to follow this step to its end: its last increments are those of the exact path." : "";
+  const fallback = f.exact ? " This state is the end of the exact path: the path in doubles could not reach it."
+    : f.from_fallback ? " This state is the reference solution: the path could not reach it." : "";
   const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} in contact, ${open} separated, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
-  return `${place}${event}${rescued}${pairs} Largest ${moves} ${short(f.largest.w)} at ${placeOf(f.largest)}.`;
+  return `${place}${event}${fallback}${pairs} Largest ${moves} ${short(f.largest.w)} at ${placeOf(f.largest)}.`;
 }
 
 function showReadings(f) {
@@ -1326,7 +1326,7 @@ function between(a, b, share) {
 
 function glide(from, to) {
   const [a, b] = [frames[from], frames[to]];
-  const straight = b.at - a.at <= 1 && !b.rescued;
+  const straight = b.at - a.at <= 1 && !b.from_fallback;
   const heavy = geometry.kind === "none" || data.pairs.length > 200 || (mesh && Math.max(mesh.edges, mesh.nodes) > mostMovingEdges);
   if (calm.matches || !straight || heavy) return show(to);
   const began = performance.now();
