@@ -85,13 +85,13 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
   const clock::time_point start = clock::now();
   contct::app::certifier judge(p, s);
   const contct::app::full_load_state reached = w.last_state();
-  const contct::app::full_load_state end = judge.ends()(w.last_step(), &reached).state.value();
+  const contct::app::full_load_state proved = judge.ends()(w.last_step(), &reached).state.value();
   judge.step_ended({.step = w.last_step(),
                     .fraction = 1.0,
-                    .displacement = end.displacement,
-                    .isep = end.isep,
+                    .displacement = proved.displacement,
+                    .isep = proved.isep,
                     .rcond = 0.0,
-                    .numbers = end.numbers ? &*end.numbers : nullptr});
+                    .numbers = proved.numbers ? &*proved.numbers : nullptr});
   r.certificate_seconds = seconds_since(start);
   r.certified = judge.all_certified();
   return r;
