@@ -69,9 +69,9 @@ void print_comparison(const std::vector<std::string>& kernels, const explained_p
 }
 
 /// The exact path, for as far as it is wanted, and what is told of it.
-class exact_companion {
+class exact_explanation {
  public:
-  exact_companion(const problem& p, const increments_wanted& wanted) {
+  exact_explanation(const problem& p, const increments_wanted& wanted) {
     if (dofs(p.geometry) > most_exact_dofs) {
       told.emplace(nullptr, fmt::format("found {} dofs; allowed: at most {} in exact arithmetic",
                                         dofs(p.geometry), most_exact_dofs));
@@ -83,7 +83,7 @@ class exact_companion {
     told.emplace(&*path);
   }
 
-  std::optional<exact_beside> path;
+  std::optional<exact_companion> path;
   std::optional<exact_addition> told;
 
  private:
@@ -109,7 +109,7 @@ exit_status run_command(const explain_options& options) {
   if (!options.quiet && !takes_standard_output(outputs))
     text.emplace(of, look_at_terminal(), explain_detail{chosen, options.hex});
   if (output_file* const file = files["--json"]) json.emplace(of, *file);
-  std::optional<exact_companion> exactly;
+  std::optional<exact_explanation> exactly;
   explained_path told(leader->facts(), second_kernel(options.kernels), wanted, [&](const auto& i) {
     if (exactly) exactly->told->begin(i);
     const explain_addition* const more = exactly ? &*exactly->told : nullptr;

@@ -42,23 +42,20 @@ class watch final : public contct::app::observer {
   }
   void step_ended(const contct::app::step_state& s) override {
     r_.displacement.assign(s.displacement.begin(), s.displacement.end());
+    last_step_ = s.step;
     isep_.assign(s.isep.begin(), s.isep.end());
-    last_state_ =
-        contct::app::step_state{s.step, s.fraction, r_.displacement, isep_, s.rcond, s.from_fallback};
   }
 
   void start() { last_ = start_ = clock::now(); }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(last_ - start_).count(); }
-  [[nodiscard]] contct::app::step_state last_state() const {
-    return {last_state_.step,  last_state_.fraction,     r_.displacement, isep_,
-            last_state_.rcond, last_state_.from_fallback};
-  }
+  [[nodiscard]] int last_step() const { return last_step_; }
+  [[nodiscard]] contct::app::full_load_state last_state() const { return {r_.displacement, isep_}; }
 
  private:
   run_of_engine& r_;
   clock::time_point start_, last_;
   std::vector<int> isep_;
-  contct::app::step_state last_state_{};
+  int last_step_ = 0;
 };
 
 }  // namespace
@@ -87,15 +84,16 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
   };
   const clock::time_point start = clock::now();
   contct::app::certifier judge(p, s);
-  contct::app::observer* const judges[] = {&judge};
-  contct::app::tell_end(w.last_state(), judge.refiner(), judges);
+  const contct::app::full_load_state reached = w.last_state();
+  const contct::app::full_load_state proved = judge.ends()(w.last_step(), &reached).state.value();
+  judge.step_ended({.step = w.last_step(),
+                    .fraction = 1.0,
+                    .displacement = proved.displacement,
+                    .isep = proved.isep,
+                    .rcond = 0.0,
+                    .numbers = proved.numbers ? &*proved.numbers : nullptr});
   r.certificate_seconds = seconds_since(start);
-  r.certified = judge.all_exact();
-  const clock::time_point again = clock::now();
-  contct::app::certifier compares(s, loads);
-  contct::app::observer* const comparing[] = {&compares};
-  contct::app::tell_end(w.last_state(), nullptr, comparing);
-  r.comparison_seconds = seconds_since(again);
+  r.certified = judge.all_certified();
   return r;
 }
 
@@ -106,11 +104,15 @@ final_states time_final_states(const contct::app::problem& p, const contct::app:
   };
   const contct::app::load_history loads = contct::app::loads_of(p, s);
   const clock::time_point start = clock::now();
-  const contct::app::path_end end =
-      contct::app::find_final_states(s, static_cast<int>(p.steps.size()), loads, {});
+  contct::app::reference_solver finds(s);
+  for (int step = 1; step <= std::ssize(p.steps); ++step) {
+    std::vector<double> load(s.dofs());
+    loads(step, load);
+    if (finds.solve(load, loads.work(step)).how != contct::app::reference_answer::outcome::found)
+      throw std::runtime_error("no final states");
+  }
   f.seconds = seconds_since(start);
-  if (end.status != contct::app::path_status::solved) throw std::runtime_error("no final states");
-  f.factorisations = static_cast<int>(end.work.factors);
+  f.factorisations = finds.factorisations();
   const bool by_cholmod = contct::app::quickest_factor(s) == contct::app::factored_by::cholmod;
   const std::optional<contct::app::stiffness_matrix> entries =
       by_cholmod ? contct::app::entries_for(s, contct::app::factored_by::cholmod) : std::nullopt;

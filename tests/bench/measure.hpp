@@ -29,7 +29,6 @@ struct run_of_engine {
   bool whole = true;  ///< the path came to its end
   bool certified = false;
   double certificate_seconds = 0.0;  ///< of the last state: refined and proved
-  double comparison_seconds = 0.0;   ///< compared with the reference solution in place of a proof
 };
 
 /// Follow the path under the corrected rule. `most_events` in a step, 0: all. The certificate is asked for

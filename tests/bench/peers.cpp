@@ -193,8 +193,8 @@ class certified_end final : public app::observer {
   certified_end(const app::problem& p, const app::linear_structure& s) {
     app::certifier judge(p, s);
     app::observer* const observers[] = {&judge, this};
-    (void)app::find_final_states(s, 1, app::loads_of(p, s), observers, &judge);
-    if (!judge.all_exact() || !judge.steps().front() || !judge.steps().front()->proved)
+    (void)judge.find_final_states(observers);
+    if (!judge.all_certified() || !judge.steps().front() || !judge.steps().front()->proved)
       throw std::runtime_error("the end of " + p.title + " is not certified");
     const app::certificate& c = *judge.steps().front();
     for (const app::quantity q : {app::quantity::w, app::quantity::slope, app::quantity::force})

@@ -1,4 +1,4 @@
-// The oracle against closed forms, and against every set of closed pairs there is.
+// The reference solution against closed forms, and against every set of closed pairs there is.
 #include "contct/certify/reference_solution.hpp"
 
 #include <algorithm>
@@ -107,7 +107,8 @@ double rounded_residuals(int elements, double compliance) {
 
 }  // namespace
 
-TEST_CASE("the oracle has PB1's hand calculation at every step, loading, unloading and reversed") {
+TEST_CASE(
+    "the reference solution has PB1's hand calculation at every step, loading, unloading and reversed") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -124,7 +125,7 @@ TEST_CASE("the oracle has PB1's hand calculation at every step, loading, unloadi
   }
 }
 
-TEST_CASE("the oracle has PB6's closed form: a span over a settled middle support") {
+TEST_CASE("the reference solution has PB6's closed form: a span over a settled middle support") {
   beam_problem p{even_beam(10.0, 10, 5e6), {{0, 0, true}, {10, 0, true}}, {{5, -1, -0.02, 2e6, false}}, {}};
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -139,7 +140,9 @@ TEST_CASE("the oracle has PB6's closed form: a span over a settled middle suppor
   }
 }
 
-TEST_CASE("of all sets of closed pairs the oracle finds the one that is right: thousands of held beams") {
+TEST_CASE(
+    "of all sets of closed pairs the reference solution finds the one that is right: thousands of held "
+    "beams") {
   std::map<std::string_view, int> of_layout;
   int two_sided_pressed = 0;
   int several_pressed = 0;
@@ -178,7 +181,7 @@ TEST_CASE("of all sets of closed pairs the oracle finds the one that is right: t
   CHECK(of_layout.size() == face_layouts);
 }
 
-TEST_CASE("of all sets of closed pairs the oracle finds the one that is right: small plates") {
+TEST_CASE("of all sets of closed pairs the reference solution finds the one that is right: small plates") {
   double worst = 0.0;
   int compared = 0;
   int several_pressed = 0;
@@ -259,7 +262,8 @@ TEST_CASE("held by pairs alone, a beam has the right equilibrium where there is 
   CHECK(balanced > 10);
 }
 
-TEST_CASE("where the plain active set goes round in circles the oracle ends, at the right answer") {
+TEST_CASE(
+    "where the plain active set goes round in circles the reference solution ends, at the right answer") {
   // A cantilever between stops. From the undeformed structure: none, then 2 and 3, then 3 and 4 press,
   // then none again; right is 3 alone. Nothing is near a tie: every pair stays 0.08 off its face.
   const beam_problem p{even_beam(3.0, 3, 1.0),
@@ -285,7 +289,7 @@ TEST_CASE("where the plain active set goes round in circles the oracle ends, at 
     CHECK(a.displacement[dof] == Approx(static_cast<double>(truth.u[dof])).epsilon(1e-14));
 }
 
-TEST_CASE("plain active sets that cycle are not so rare, and where they do the oracle ends") {
+TEST_CASE("plain active sets that cycle are not so rare, and where they do the reference solution ends") {
   // One in a thousand beams between two-sided stops. Cycles by ties are left out: zero faces make them.
   random_problem_kind kind;
   kind.free_share = 0.0;
@@ -298,7 +302,7 @@ TEST_CASE("plain active sets that cycle are not so rare, and where they do the o
     if (p.layout != face_layout::two_sided) continue;
     const linear_structure s = build(p.geometry, p.supports, p.pairs);
     const std::vector<double> f = forces_of(p.geometry, p.steps[0]);
-    pair_bits closed = 0;  // where the oracle begins too
+    pair_bits closed = 0;  // where the reference solution begins too
     for (std::size_t i = 0; i < p.pairs.size(); ++i) closed |= (p.pairs[i].closed ? 1U : 0U) << i;
     const plain_active_set plain = follow_plain_active_set(s, f, closed);
     ++tried;
@@ -331,7 +335,7 @@ TEST_CASE("a free beam lifted off its faces, or tipped off them, has no equilibr
   }
 }
 
-TEST_CASE("after a load without equilibrium the oracle has the next one's") {
+TEST_CASE("after a load without equilibrium the reference solution has the next one's") {
   const beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -472,7 +476,7 @@ TEST_CASE("a load beyond the range of double precision is no answer, and no word
   std::vector<double> f(6, 0.0);
   f[4] = std::numeric_limits<double>::infinity();
   CHECK(o.solve(f).how == outcome::not_found);
-  f[4] = -10.0;  // and it has not spoilt the oracle
+  f[4] = -10.0;  // and it has not spoilt the reference solution
   const reference_answer after = o.solve(f);
   CHECK(after.how == outcome::found);
   CHECK(after.displacement[4] == Approx(-10 * 8.0 / 3 / 1e4).epsilon(1e-14));

@@ -42,9 +42,9 @@ solved_path follow_certified(const problem& p, const std::string& engine = "refa
   const linear_structure s = structure_of(p);
   certifier judged(p, s);
   solved_path path;
-  path.end = follow(p, s, engine, *make_kernel(kernel), {&judged, &path.seen}, {.refine = judged.refiner()});
+  path.end = follow(p, s, engine, *make_kernel(kernel), {&judged, &path.seen}, {0, judged.ends()});
   path.certificates = judged.steps();
-  for (const auto& c : path.certificates) CHECK(c.value().exact);
+  for (const auto& c : path.certificates) CHECK(c.value().certified);
   return path;
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("Forces that are nothing but rounding have no size, and are not certif
   certifier judged(p, s);
   (void)follow(p, s, "refactor", *make_kernel("fortran"), {&judged});
   REQUIRE(judged.steps().size() == 1);
-  CHECK_FALSE(judged.steps()[0]->exact);
+  CHECK_FALSE(judged.steps()[0]->certified);
   CHECK(judged.steps()[0]->proved);
 }
 
@@ -188,14 +188,14 @@ TEST_CASE("The reference solution finds the same without a path, and tells a sup
   const linear_structure s = structure_of(p);
   recorder ends;
   observer* const observers[] = {&ends};
-  CHECK(find_final_states(s, 1, loads_of(p, s), observers).status == path_status::solved);
+  CHECK(certifier(p, s).find_final_states(observers).status == path_status::solved);
   for (std::size_t dof = 0; dof < path.u(1).size(); ++dof)
     CHECK(ends.steps.at(0).u[dof] == Approx(path.u(1)[dof]).epsilon(1e-10).margin(1e-15));
   certifier judged(p, s);
   std::vector<double> u = path.u(1);
   u[8] *= 1 + 1e-5;
   judged.step_ended({1, 1.0, u, path.seen.steps[0].isep, 1e-3});
-  CHECK_FALSE(judged.all_exact());
+  CHECK_FALSE(judged.all_certified());
 }
 
 TEST_CASE("A settlement of a dof that no support was built to settle is refused") {

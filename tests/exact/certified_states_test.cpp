@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
-#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/outside/registry.hpp"
@@ -23,10 +23,9 @@ struct judged_run final : observer {
   judged_run(problem given, const std::string& kernel)
       : what(std::move(given)),
         structure(structure_of(what)),
-        judged(what, structure, exact::exact_residual_of(what), exact::semidefinite_test_of(what)) {
+        judged(what, structure, exact::exact_means_of(what)) {
     const auto leader = make_kernel(kernel);
-    end = follow(what, structure, "refactor", *leader, {&judged, this},
-                 {.fallback = judged.fallback(), .refine = judged.refiner()});
+    end = follow(what, structure, "refactor", *leader, {&judged, this}, {0, judged.ends()});
   }
   judged_run(const std::string& text, const std::string& kernel)
       : judged_run(parse_problem(text, "p.toml"), kernel) {}
@@ -137,7 +136,7 @@ TEST_CASE(
       const exact::exact_path truly = exact::follow_true_path(exact::exact_problem_of(r.what));
       for (std::size_t step = 1; step <= r.judged.steps().size(); ++step) {
         const std::optional<certificate>& c = r.judged.steps()[step - 1];
-        if (!c || !c->exact) continue;
+        if (!c || !c->certified) continue;
         ++certified;
         const std::string claim = false_claim(r, truly, step);
         INFO(kernel << ", beam " << number << ", step " << step << ": " << claim);
@@ -157,11 +156,11 @@ TEST_CASE(
       "[[step]]\nuniform = -100.0\nsettlement = [ { x = 0.0, w = -0.02 } ]\n";
   const judged_run faithful(text, "fortran");
   CHECK(std::abs(faithful.told.at(0).reactions[0] - 200.0) > 1e-3);
-  CHECK_FALSE(faithful.of_step(1).exact);
+  CHECK_FALSE(faithful.of_step(1).certified);
   CHECK(digits_of(faithful.of_step(1)) < 6);
   const judged_run corrected(text, "corrected");
   CHECK(corrected.told.at(0).reactions[0] == Approx(200.0).epsilon(1e-15));
-  CHECK(corrected.of_step(1).exact);
+  CHECK(corrected.of_step(1).certified);
 }
 
 TEST_CASE(
@@ -175,7 +174,7 @@ TEST_CASE(
   const judged_run r(text, "fortran");
   REQUIRE(r.end.status == path_status::solved);
   REQUIRE(r.statuses.at(1)[0] == in_contact);
-  CHECK_FALSE(r.of_step(2).exact);
+  CHECK_FALSE(r.of_step(2).certified);
   CHECK(*r.of_step(2).error[quantity::gap] >= 0.0009);
 }
 
@@ -194,13 +193,13 @@ TEST_CASE("The corrected rule gives a pair of next to no stiffness the status th
   // The third one, 18600 beyond its face, carries 3.3e-7 of a load of 5.5e5.
   CHECK(r.statuses.at(0) ==
         std::vector<int>{in_contact, separated, in_contact, separated, separated, in_contact});
-  CHECK(r.of_step(1).exact);
+  CHECK(r.of_step(1).certified);
 }
 
 TEST_CASE("A matrix with a negative eigenvalue of 1e-11 has two equilibria: neither is certified") {
   const judged_run r(two_dofs(1 + 1e-11, 1e-9, -1e-11), "corrected");
   REQUIRE(r.judged.steps().size() == 1);
-  CHECK_FALSE(r.of_step(1).exact);
+  CHECK_FALSE(r.of_step(1).certified);
   CHECK(r.of_step(1).problem.find("semidefinite") != std::string::npos);
 }
 
@@ -209,7 +208,7 @@ TEST_CASE("A singular matrix that is semidefinite without rounding is certified 
   std::get<assembled>(p.geometry.kind).free_motions = 1;
   const judged_run r(p, "corrected");
   CHECK(r.told.at(0).pair_forces[0] == Approx(5.0).epsilon(1e-15));
-  CHECK(r.of_step(1).exact);
+  CHECK(r.of_step(1).certified);
 }
 
 TEST_CASE(
@@ -226,7 +225,7 @@ TEST_CASE(
       INFO(kernel << ": " << loads);
       const judged_run r(beam + loads + "\n", kernel);
       for (const double u : r.displacements.at(0)) CHECK(u == 0.0);
-      CHECK(r.of_step(1).exact);
+      CHECK(r.of_step(1).certified);
       CHECK(digits_of(r.of_step(1)) == 15);
     }
   }
@@ -240,7 +239,7 @@ TEST_CASE("Below the normal range of doubles nothing is certified, and the reaso
             "\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 3\nsurface = \"below\"\n"
             "face = -1.0e-42\nstiffness = 1.0e-203\n[[step]]\npoint = [ { node = 3, w = -4.0e-244 } ]\n",
         "corrected");
-    CHECK_FALSE(r.of_step(1).exact);
+    CHECK_FALSE(r.of_step(1).certified);
     CHECK(r.of_step(1).problem.find("smallest normal double") != std::string::npos);
     CHECK(digits_of(r.of_step(1)) == 0);
   }

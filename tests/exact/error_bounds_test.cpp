@@ -138,15 +138,21 @@ const std::string beam_over_stop =
     "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.0037\nstiffness = 1e5\n"
     "[[step]]\npoint = [ { node = 4, w = -60 } ]\n";
 
+/// Steps end in the states that the path reaches, refined.
+path_limits refined_by(error_prover& prover) {
+  return {0, [&prover](int step, const full_load_state* reached) {
+            if (reached == nullptr) return found_end();
+            full_load_state refined = *reached;
+            refined.numbers = prover.refine(step, refined.displacement, refined.isep);
+            return found_end{std::move(refined), true};
+          }};
+}
+
 /// The one step of a problem, told by a refined path.
 struct one_end {
   explicit one_end(const std::string& text, bool refined = true)
       : what(parse_problem(text, "b.toml")), structure(structure_of(what)), watch(what, structure) {
-    path_limits limits;
-    if (refined)
-      limits.refine = [this](int step, std::span<double> u, std::span<int> isep) {
-        return watch.prover.refine(step, u, isep);
-      };
+    const path_limits limits = refined ? refined_by(watch.prover) : path_limits();
     (void)follow(what, structure, "refactor", *make_kernel("corrected"), {&watch}, limits);
     truly = exact::follow_true_path(exact::exact_problem_of(what)).steps.back();
     end = watch.ends.back();
@@ -183,11 +189,7 @@ TEST_CASE(
     const linear_structure s = structure_of(p);
     for (const bool refined : {true, false}) {
       prover_of_path watch(p, s);
-      path_limits limits{0, fallback_to_reference(s, loads_of(p, s)), nullptr};
-      if (refined)
-        limits.refine = [&](int step, std::span<double> u, std::span<int> isep) {
-          return watch.prover.refine(step, u, isep);
-        };
+      const path_limits limits = refined ? refined_by(watch.prover) : path_limits();
       (void)follow(p, s, "refactor", *make_kernel("corrected"), {&watch}, limits);
       for (std::size_t i = 0; i < std::min(watch.ends.size(), truly.steps.size()); ++i) {
         if (truly.steps[i].fraction != 1) continue;

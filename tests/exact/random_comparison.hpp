@@ -46,9 +46,7 @@ inline void compare_one(std::uint64_t number, const lab::random_problem& drawn, 
   const auto leader = outside::make_kernel("corrected");
   digit_counter counter(p, exactly);
   certify::certifier judged(p, s);
-  const path::path_end end =
-      path::follow(p, s, "refactor", *leader, {&judged, &counter},
-                   {0, certify::fallback_to_reference(s, loads_of(p, s)), judged.refiner()});
+  const path::path_end end = path::follow(p, s, "refactor", *leader, {&judged, &counter}, {0, judged.ends()});
   const kernel_digits r = counter.result("corrected", end.status, 1e-9);
   ++counts.problems;
   counts.steps += static_cast<int>(judged.steps().size());
@@ -63,11 +61,10 @@ inline void compare_one(std::uint64_t number, const lab::random_problem& drawn, 
     ++counts.other_events;
     tell(number, "events: " + r.first_difference);
   }
-  double allowed = 1e-15;
+  constexpr double allowed = certify::certified_share;
   bool unique = true;
   for (const auto& c : judged.steps()) {
-    if (!c || !c->exact) return;
-    allowed = std::max(allowed, c->tolerance);
+    if (!c || !c->certified) return;
     unique = unique && c->unique;
   }
   if (!unique) return;

@@ -31,10 +31,9 @@ std::optional<event> event_between(const std::vector<int>& before, const std::ve
 struct answered : small_call<double> {
   std::optional<event> happened;
 
-  explicit answered(const std::vector<pair_at<double>>& pairs, int at_rest = 0) : small_call<double>(pairs) {
+  explicit answered(const std::vector<pair_at<double>>& pairs) : small_call<double>(pairs) {
     const std::vector<int> before = isep;
     call<double> c = arguments();
-    c.at_rest = at_rest;
     contct_corrected(c);
     smin = c.smin;
     happened = event_between(before, isep);
@@ -200,35 +199,16 @@ TEST_CASE("corrected: at rest the largest response goes first, of equal ones the
   CHECK(c.isep == std::vector<int>{apart, apart, touching, apart});
 }
 
-TEST_CASE("corrected: at rest for long enough, the pair of least index goes first") {
-  const std::vector<pair_at<double>> pairs = {{0.0, -1.0, -0.5, apart, below},  // not at its face
-                                              {0.0, -0.5, 0.0, apart, below},
-                                              {0.0, 2.0, 0.0, touching, below}};
-  CHECK(quick_answers_at_rest(3) == 32);
-  CHECK(answered(pairs, 0).happened == breaks(2));
-  CHECK(answered(pairs, 31).happened == breaks(2));
-  CHECK(answered(pairs, 32).happened == makes(1));
-  CHECK(answered(pairs, 1000).happened == makes(1));
-  // It is a rule for pairs at rest only.
-  const std::vector<pair_at<double>> moving = {{0.0, -1.0, -0.5, apart, below},
-                                               {0.0, -1.0, -0.25, apart, below}};
-  CHECK(answered(moving, 1000).happened == makes(1));
-}
-
-TEST_CASE("corrected: the kernel keeps nothing between calls: only at_rest decides who goes first") {
+TEST_CASE("corrected: the kernel keeps nothing between calls") {
   const auto k = make_kernel("corrected");
   const std::vector<pair_at<double>> resting = {{0.0, -0.5, 0.0, apart, below},
                                                 {0.0, 2.0, 0.0, touching, below}};
-  const auto chosen = [&](int at_rest) {
+  for (int i = 0; i < 100; ++i) {
     small_call<double> c(resting);
     call<double> arguments = c.arguments();
-    arguments.at_rest = at_rest;
     k->answer(arguments);
-    return c.isep[0] != resting[0].isep ? 0 : 1;
-  };
-  for (int i = 0; i < 2 * quick_answers_at_rest(2); ++i) REQUIRE(chosen(0) == 1);
-  CHECK(chosen(quick_answers_at_rest(2)) == 0);
-  CHECK(chosen(0) == 1);
+    REQUIRE(c.isep == std::vector<int>{apart, apart});
+  }
   CHECK(k->facts().rule == contact_rule::corrected);
   CHECK_FALSE(k->facts().has_text);
   CHECK(k->take_text().empty());
@@ -261,15 +241,14 @@ TEST_CASE("corrected: there are no absolute lengths, in other units the answer i
   int resting = 0;
   for (int round = 0; round < 20000; ++round) {
     const std::vector<pair_at<double>> pairs = random_pairs(r);
-    const int at_rest = r.chance(0.2) ? 1000 : 0;
-    const answered here(pairs, at_rest);
+    const answered here(pairs);
     events += here.happened ? 1 : 0;
     resting += here.smin == 0.0 ? 1 : 0;
     for (const int power : {-600, -40, 33, 600}) {
       std::vector<pair_at<double>> scaled = pairs;
       for (auto& p : scaled)
         p = {std::ldexp(p.d, power), std::ldexp(p.d_star, power), std::ldexp(p.c, power), p.isep, p.isurf};
-      const answered there(scaled, at_rest);
+      const answered there(scaled);
       INFO(round << ", " << power);
       REQUIRE(same_bits(there.smin, here.smin));
       for (std::size_t i = 0; i < pairs.size(); ++i) REQUIRE(same_bits(there.ss[i], here.ss[i]));
@@ -303,7 +282,7 @@ TEST_CASE("corrected: whatever the call, s is from 0 to 1, SMIN the least, and w
   random_numbers r(103);
   for (int round = 0; round < 20000; ++round) {
     const std::vector<pair_at<double>> pairs = random_pairs(r);
-    const answered a(pairs, r.whole(0, 100));
+    const answered a(pairs);
     INFO(round);
     double least = 1.0;
     int toggled = 0;

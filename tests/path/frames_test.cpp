@@ -86,9 +86,9 @@ TEST_CASE("a frame knows its events, and a pair at its face from one that is pre
     const contact_pair& p = b.structure.pairs[pair];
     return look_of(p, f.displacement[static_cast<std::size_t>(p.node) * 2], f.closed(pair));
   };
-  CHECK(look(made, 0) == pair_look::at_face);
-  CHECK(look(made, 1) == pair_look::open);
-  CHECK(look(kept.frames()[2], 0) == pair_look::closed);
+  CHECK(look(made, 0) == pair_state::at_face);
+  CHECK(look(made, 1) == pair_state::open);
+  CHECK(look(kept.frames()[2], 0) == pair_state::closed);
   CHECK(kept.frames()[3].step_end);
   CHECK_FALSE(kept.frames()[2].step_end);
 }

@@ -65,10 +65,10 @@ TEST_CASE("a response that is not finite at any one pair is not put to the kerne
         ++calls;
         c.smin = 1.0;
       });
-      CHECK(now.ask(k, now.d_star, -1) == 1.0);
+      CHECK(now.ask(k, now.d_star) == 1.0);
       now.d_star[pair] = bad;
       CAPTURE(bad, pair);
-      CHECK_THROWS_AS(now.ask(k, now.d_star, -1), no_factor);
+      CHECK_THROWS_AS(now.ask(k, now.d_star), no_factor);
       CHECK(calls == 1);
     }
   }

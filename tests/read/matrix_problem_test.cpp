@@ -9,8 +9,7 @@
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
-#include "contct/exact/exact_follower.hpp"
-#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/matrix_files.hpp"
@@ -90,12 +89,11 @@ run_of_problem run(const problem& p) {
   const auto leader = make_kernel("fortran");
   const std::vector<std::string> others = {"cpp"};
   lockstep compared = make_lockstep(leader->facts(), others);
-  certifier judged(p, s, contct::exact::exact_residual_of(p), contct::exact::semidefinite_test_of(p));
-  r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen},
-                 {0, nullptr, nullptr, contct::exact::exact_follower_of(p)});
+  certifier judged(p, s, contct::exact::exact_means_of(p));
+  r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen}, {0, judged.ends()});
   r.calls = compared.calls();
   r.mismatches = compared.compared().mismatches;
-  r.certified = judged.all_exact();
+  r.certified = judged.all_certified();
   for (const auto& c : judged.steps()) r.unique = r.unique && c && c->unique;
   return r;
 }
@@ -308,7 +306,7 @@ TEST_CASE("a result on a matrix names dofs by their labels, and its w is its dis
   const problem p = read_problem((reference / "structures" / "frame.toml").string());
   const scratch_folder here;
   const linear_structure s = structure_of(p);
-  certifier judged(p, s, contct::exact::exact_residual_of(p), contct::exact::semidefinite_test_of(p));
+  certifier judged(p, s, contct::exact::exact_means_of(p));
   output_file file((here.path() / "r.json").string());
   run_recorder record;
   const early_toggles none;
@@ -438,18 +436,18 @@ TEST_CASE("where half a unit in a matrix's last digits decides whether it is hel
             "[[contact]]\ndof = \"2\"\nsurface = \"above\"\nface = 1\nstiffness = 1e-13\n"
             "[[step]]\npoint = [{ dof = \"1\", value = 1 }, { dof = \"2\", value = -0.9999999 }]\n"));
     const linear_structure s = structure_of(p);
-    certifier judged(p, s, contct::exact::exact_residual_of(p), contct::exact::semidefinite_test_of(p));
+    certifier judged(p, s, contct::exact::exact_means_of(p));
     observer* const watching[] = {&judged};
-    (void)find_final_states(s, 1, loads_of(p, s), watching, &judged);
+    (void)judged.find_final_states(watching);
     REQUIRE(judged.steps().size() == 1);
     return *judged.steps()[0];
   };
-  CHECK(certificate_of("1.00000000000005", "").exact);  // 5e-14 is stiffness, but for half of 1e-14
+  CHECK(certificate_of("1.00000000000005", "").certified);  // 5e-14 is stiffness, but for half of 1e-14
   const certificate doubtful = certificate_of("1.0000000000000", "");  // as CalculiX writes a free body
-  CHECK_FALSE(doubtful.exact);
+  CHECK_FALSE(doubtful.certified);
   CHECK_THAT(doubtful.problem, Catch::Matchers::Contains("`free_motions` says"));
-  CHECK(certificate_of("1.0000000000000", "free_motions = 1\n").exact);
-  CHECK(certificate_of("1", "").exact);  // whole numbers are not rounded
+  CHECK(certificate_of("1.0000000000000", "free_motions = 1\n").certified);
+  CHECK(certificate_of("1", "").certified);  // whole numbers are not rounded
 }
 
 TEST_CASE(

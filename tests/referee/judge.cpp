@@ -9,8 +9,7 @@
 #include <stdexcept>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/exact/exact_follower.hpp"
-#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/exact/kernel_digits.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -38,7 +37,7 @@ struct state_keeper final : observer {
   explicit state_keeper(const problem& p) : what(p) {}
 
   void step_ended(const step_state& s) override {
-    lost = lost || s.from_fallback;
+    lost = lost || (s.from_fallback && !s.from_exact_path);
     exact = exact || s.from_exact_path;
     states.push_back({s.step,
                       {s.displacement.begin(), s.displacement.end()},
@@ -118,7 +117,7 @@ class comparing {
     seen_.include(here_);
     worst_ = 0.0;
     ++result_.steps;
-    result_.certified += c.exact ? 1 : 0;
+    result_.certified += c.certified ? 1 : 0;
     if (exactly_.unique[step] != 0) compare_displacements();
     compare_forces();
     compare_reactions();
@@ -180,7 +179,8 @@ class comparing {
     };
     const double bound = bound_of(kind, at);
     if (error > bound) report(static_cast<int>(fault::outside_deflection), share(error, bound));
-    if (judged_->exact && relative > promised) report(static_cast<int>(fault::beyond_deflection), relative);
+    if (judged_->certified && relative > promised)
+      report(static_cast<int>(fault::beyond_deflection), relative);
   }
 
   void compare_digits() {
@@ -192,11 +192,11 @@ class comparing {
     if (claimed - there <= 0.5) return;
     result_.findings.push_back({fault::digits, claimed - there,
                                 fmt::format("step {}: claims {} digits; there are {:.1f}{}", kept_->step,
-                                            claimed, there, judged_->exact ? ", certified" : "")});
+                                            claimed, there, judged_->certified ? ", certified" : "")});
   }
 
   void compare_bounds(bool unique) {
-    if (!unique || !is_refined_ || !judged_->proved || judged_->exact) return;
+    if (!unique || !is_refined_ || !judged_->proved || judged_->certified) return;
     result_.findings.push_back(
         {fault::loose, judged_->worst_share, fmt::format("step {}: {}", kept_->step, judged_->problem)});
   }
@@ -214,13 +214,10 @@ class comparing {
 
 path_end solve(const problem& p, const linear_structure& s, way how, const std::vector<observer*>& observers,
                certifier& judged) {
-  if (how == way::final_only)
-    return find_final_states(s, static_cast<int>(p.steps.size()), loads_of(p, s), observers, &judged,
-                             exact_follower_of(p));
+  if (how == way::final_only) return judged.find_final_states(observers);
   const auto leader = outside::make_kernel(how == way::listing ? "cpp" : "corrected");
   const std::string engine(how == way::default_engine ? quickest_engine(s) : "refactor");
-  return path::follow(p, s, engine, *leader, observers,
-                      {0, judged.fallback(), judged.refiner(), exact_follower_of(p)});
+  return path::follow(p, s, engine, *leader, observers, {0, judged.ends()});
 }
 
 struct true_end {
@@ -276,7 +273,7 @@ namespace {
 struct judged_run {
   judged_run(const structure::problem& p, way how, const std::vector<observer*>& watching,
              const linear_structure& s, judgement& j)
-      : kept(p), judged(p, s, exact_residual_of(p), semidefinite_test_of(p)) {
+      : kept(p), judged(p, s, exact_means_of(p)) {
     std::vector<observer*> observers = {&kept, &judged};
     observers.insert(observers.end(), watching.begin(), watching.end());
     try {
@@ -288,7 +285,7 @@ struct judged_run {
   }
 
   void note_lost_path(judgement& j) const {
-    if (kept.exact) j.findings.push_back({fault::exactly, 1.0, "followed in rational numbers"});
+    if (kept.exact) j.findings.push_back({fault::exactly, 1.0, "ended by the exact path"});
     if (kept.lost) j.findings.push_back({fault::fallback, 1.0, "the path was lost"});
   }
 
@@ -326,7 +323,8 @@ judgement judge(const structure::problem& p, const exact_answer& exactly, way ho
     j.findings.push_back(*wrong);
     return j;
   }
-  if (how == way::final_only) return j;
+  if (how == way::final_only || run.kept.exact || run.kept.lost)
+    return j;  // the events of a lost path end early
   constexpr double tie = 1e-9;
   const kernel_digits r = counter.result("corrected", run.end.status, tie);
   if (!r.same_events) j.findings.push_back({fault::other_events, 1.0, r.first_difference});
@@ -341,7 +339,7 @@ judgement judge_end(const structure::problem& p, way how) {
   if (run.refused) return j;
   for (const auto& c : run.judged.steps()) {
     j.steps += c ? 1 : 0;
-    j.certified += c && c->exact ? 1 : 0;
+    j.certified += c && c->certified ? 1 : 0;
   }
   run.note_lost_path(j);
   const load_history loads = loads_of(p, *s);

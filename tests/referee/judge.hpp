@@ -39,9 +39,9 @@ enum class fault {
   false_mechanism,  ///< no equilibrium found where there is one
   refused,          ///< exit 2, though there is an equilibrium or a mechanism
   other_end,        ///< a cycle, the limit of increments, or a mechanism in another step
-  other_events,     ///< in another order than exactly, ties aside
+  other_events,     ///< in another order than exactly, ties aside, of a path that was not lost
   fallback,         ///< the path could not reach the end of a step: its state is the reference solution's
-  exactly,          ///< nor could it, in doubles: from some share on it is the exact path
+  exactly,          ///< the same, and its state is the end of the exact path
 };
 inline constexpr int faults = 17;
 [[nodiscard]] std::string_view name_of(fault f);

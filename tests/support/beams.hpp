@@ -19,6 +19,14 @@ struct beam_problem {
   std::vector<load> steps;
 
   [[nodiscard]] linear_structure structure() const { return build(geometry, supports, pairs); }
+  [[nodiscard]] problem as_problem() const {
+    problem p;
+    p.geometry.kind = geometry;
+    p.supports = supports;
+    p.pairs = pairs;
+    p.steps = steps;
+    return p;
+  }
 
   path_end run(kernel& k, std::vector<observer*> observers, const path_limits& limits = {}) const {
     return follow_steps(geometry, structure(), steps, "refactor", k, observers, limits);

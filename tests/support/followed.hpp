@@ -26,9 +26,6 @@ struct followed {
   /// The deflection of a node at the end of the last step.
   [[nodiscard]] double deflection(std::size_t node) const { return seen.steps.back().u[node * stride]; }
   [[nodiscard]] std::size_t nodes() const { return seen.steps.back().u.size() / stride; }
-  /// What a deflection may be off by at the end of the last step, relative to the largest.
-  [[nodiscard]] double tolerance() const { return certificates.back()->tolerance; }
-
   /// The largest deflection that any step told.
   [[nodiscard]] double largest() const {
     double most = 0.0;
@@ -40,17 +37,14 @@ struct followed {
   }
 };
 
-/// Follow `p` under the corrected rule, with the oracle's help where the path cannot go on; its ends refined
-/// or not.
-inline followed follow(const random_problem& p, bool refined = true) {
+/// Follow `p` under the corrected rule; its ends are proved, or as the path reached them.
+inline followed follow(const random_problem& p, bool proved = true) {
   const linear_structure s = build(p.geometry, p.supports, p.pairs);
   certifier certifies(p, s);
   followed f;
   f.stride = static_cast<std::size_t>(s.dofs_per_node);
   observer* const observers[] = {&f.seen, &certifies};
-  path_limits limits;
-  limits.fallback = fallback_to_reference(s, loads_of(p, s));
-  if (refined) limits.refine = certifies.refiner();
+  const path_limits limits{0, proved ? certifies.ends() : nullptr};
   f.end = follow_steps(p.geometry, s, p.steps, "refactor", *make_kernel("corrected"), observers, limits);
   f.certificates = certifies.steps();
   return f;

@@ -34,7 +34,7 @@ struct path_counts final : observer {
     snaps += i.snaps ? 1 : 0;
     for (const event& e : i.events) ++(e.what == change::make ? makes : breaks);
   }
-  void step_ended(const step_state& s) override { fallbacks += s.from_fallback ? 1 : 0; }
+  void step_ended(const step_state& s) override { fallbacks += s.from_reference ? 1 : 0; }
 };
 
 /// The worst of all that the certificates measure.

@@ -32,7 +32,7 @@ explained_call one_pair(double c, double d, double d_star, double s) {
 nlohmann::ordered_json explained_exactly(const std::string& text) {
   const problem p = parse_problem(text, "pb.toml");
   const exact_problem exactly = exact_problem_of(p);
-  exact_beside beside(exactly);
+  exact_companion beside(exactly);
   exact_addition more(&beside);
   const scratch_folder folder;
   output_file out(folder.at("x.json"));

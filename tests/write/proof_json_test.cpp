@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
-#include "contct/exact/exact_follower.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/kernel/call.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -18,13 +18,10 @@ namespace {
 nlohmann::json proof_of(const std::string& text) {
   const problem p = parse_problem(text, "b.toml");
   const linear_structure s = structure_of(p);
-  certifier judged(p, s);
+  certifier judged(p, s, contct::exact::exact_means_of(p));
   judged.keep_proofs();
-  path_limits limits;
-  limits.refine = judged.refiner();
-  limits.exactly = contct::exact::exact_follower_of(p);
   const auto k = make_kernel("corrected");
-  (void)follow(p, s, "refactor", *k, {&judged}, limits);
+  (void)follow(p, s, "refactor", *k, {&judged}, {0, judged.ends()});
   return nlohmann::json::parse(proof_json(p, judged));
 }
 

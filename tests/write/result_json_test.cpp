@@ -89,7 +89,7 @@ TEST_CASE(
     "a certificate that is not unique has no errors of displacement, and a problem only when there is one") {
   CHECK(certificate_json({}).is_null());
   certificate c;
-  c.exact = true;
+  c.certified = true;
   c.displacement_error = 1e-12;
   const auto good = certificate_json(c);
   CHECK(good["displacement_error"] == 1e-12);

@@ -111,12 +111,12 @@ TEST_CASE("a pair is read at its deflection: gap or force, never both") {
   const pair_reading open = reading_of(p.pairs[0], -0.001, false);
   CHECK(open.gap == Approx(0.003));
   CHECK(open.force == 0.0);
-  CHECK(open.look == pair_look::open);
+  CHECK(open.look == pair_state::open);
   const pair_reading closed = reading_of(p.pairs[0], -0.005, true);
   CHECK(closed.gap == 0.0);
   CHECK(closed.force == Approx(50.0));
-  CHECK(closed.look == pair_look::closed);
-  CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_look::at_face);
+  CHECK(closed.look == pair_state::closed);
+  CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_state::at_face);
 }
 
 TEST_CASE("the largest value is so by magnitude, and the first of equals") {

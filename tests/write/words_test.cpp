@@ -18,7 +18,7 @@ TEST_CASE("sides, events and states have the words of a problem file") {
   CHECK(change_name(change::break_) == "break");
   CHECK(state_name(in_contact) == "contact");
   CHECK(state_name(separated) == "separated");
-  CHECK(look_name(pair_look::at_face) == "at its face");
+  CHECK(look_name(pair_state::at_face) == "at its face");
 }
 
 TEST_CASE("a path that stops short of its load has one of three statuses, and a reason of its own") {
@@ -35,9 +35,9 @@ TEST_CASE("a path that stops short of its load has one of three statuses, and a 
 
 TEST_CASE("a step is certified, not certified, or without a certificate") {
   certificate c;
-  c.exact = true;
+  c.certified = true;
   CHECK(certificate_mark(c) == "certified");
-  c.exact = false;
+  c.certified = false;
   CHECK(certificate_mark(c) == "NOT certified");
   CHECK(certificate_mark({}) == "no certificate");
 }
@@ -103,7 +103,7 @@ TEST_CASE("the digits that are proved of a run are those of its worst step") {
 
 TEST_CASE("a toggle too early by no more than rounding of the step's deflections is not told as the cause") {
   const a_run r(read_input(CONTCT_REFERENCE "/problems/divergences/near-tie.toml"));
-  REQUIRE_FALSE(r.judged.all_exact());
+  REQUIRE_FALSE(r.judged.all_certified());
   const auto complaint = [&r](const early_toggles& early) {
     const std::vector<std::string> all = certificate_complaints(r.what, r.judged, early);
     REQUIRE_FALSE(all.empty());

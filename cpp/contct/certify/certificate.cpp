@@ -29,7 +29,7 @@ std::string worst_of(const certificate& c) {
       {c.equilibrium, "loads and forces do not balance: they differ"},
   };
   for (const auto& [amount, words] : parts) {
-    if (amount <= c.tolerance) continue;
+    if (amount <= certified_share) continue;
     char text[120];
     (void)std::snprintf(text, sizeof text, "%s by %.2g", words, amount);
     return text;
@@ -53,12 +53,18 @@ bool can_be_proved(const linear_structure& s) {
   return bytes * s.dofs() * width <= text::memory_limit();
 }
 
-/// The pressed pairs, and where these and the supports leave a motion free, open ones that would stop it: at
-/// rest, their springs take no force.
-std::vector<char> holding(const linear_structure& s, std::vector<char> pressed) {
-  rigid_rank rank = s.held_by([&](std::size_t i) { return pressed[i] != 0; });
-  for (const int pair : s.pairs_that_hold(rank)) pressed[pair] = 1;
-  return pressed;
+/// The pairs in contact, and where these and the supports leave a motion free, separated ones that would stop
+/// it: at rest, their springs take no force.
+std::vector<char> holding(const linear_structure& s, std::span<const int> isep) {
+  std::vector<char> held;
+  for (const int status : isep) held.push_back(status == in_contact ? 1 : 0);
+  rigid_rank rank = s.held_by([&](std::size_t i) { return held[i] != 0; });
+  for (const int pair : s.pairs_that_hold(rank)) held[pair] = 1;
+  return held;
+}
+
+bool is_finite(std::span<const double> x) {
+  return std::ranges::all_of(x, [](double part) { return std::isfinite(part); });
 }
 
 }  // namespace
@@ -69,33 +75,21 @@ int digits_of(const certificate& c) {
   return c.worst_share > 0.0 ? std::min(most, static_cast<int>(-std::log10(c.worst_share))) : most;
 }
 
-certifier::certifier(const linear_structure& s, load_history total_load)
-    : structure_(s), total_load_(std::move(total_load)) {
+certifier::certifier(const problem& p, const linear_structure& s, exact_means exactly)
+    : problem_(p), structure_(s), total_load_(loads_of(p, s)), exact_path_(std::move(exactly.path)) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
     scale_.push_back(std::sqrt(s.stiffness.diagonal(s.row_of(dof))));
     const std::size_t at = dof;
     if (deflects(at) && s.fixed[at] == 0) largest_scale_ = std::max(largest_scale_, scale_[at]);
   }
-}
-
-certifier::certifier(const problem& p, const linear_structure& s, exact_residual exactly,
-                     semidefinite_test exactly_semidefinite)
-    : certifier(s, loads_of(p, s)) {
-  problem_ = &p;  // NOLINT(cppcoreguidelines-prefer-member-initializer): a delegating constructor has none
   if (can_be_proved(s))
-    prover_ = std::make_unique<error_prover>(p, s, std::move(exactly), std::move(exactly_semidefinite));
-}
-
-state_refiner certifier::refiner() {
-  if (!prover_) return nullptr;
-  return [this](int step, std::span<double> displacement, std::span<int> isep) {
-    return prover_->refine(step, displacement, isep);
-  };
+    prover_ =
+        std::make_unique<error_prover>(p, s, std::move(exactly.residual), std::move(exactly.semidefinite));
 }
 
 void certifier::step_ended(const step_state& s) {
   steps_.push_back(s.fraction == 1.0 ? std::optional(judge(s)) : std::nullopt);
-  proofs_.push_back(prover_ && s.fraction == 1.0 ? prover_->take_proof() : std::nullopt);
+  proofs_.push_back(s.fraction == 1.0 ? std::exchange(proof_, std::nullopt) : std::nullopt);
   if (proofs_.back()) proofs_.back()->statuses.assign(s.isep.begin(), s.isep.end());
 }
 
@@ -103,34 +97,54 @@ void certifier::keep_proofs() {
   if (prover_) prover_->keep_proof();
 }
 
-bool certifier::all_exact() const {
-  return std::all_of(steps_.begin(), steps_.end(), [](const auto& c) { return c && c->exact; });
+bool certifier::all_certified() const {
+  return std::ranges::all_of(steps_, [](const auto& c) { return c && c->certified; });
 }
 
 certificate certifier::judge(const step_state& s) {
   certificate c;
-  const auto finite = [](double x) { return std::isfinite(x); };
-  if (!std::all_of(s.displacement.begin(), s.displacement.end(), finite)) {
+  if (!is_finite(s.displacement)) {
     c.problem = "a displacement is not a finite number";  // it would slip through every comparison below
     return c;
   }
-  std::vector<double> load(s.displacement.size(), 0.0);
-  total_load_(s.step, load);
+  const std::vector<double> load = load_at(s.step);
+  remember_sizes(s.displacement);
+  c = proof_of(s);
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
-  remember_sizes(s.displacement);
-  if (prover_) {
-    prove(s, c);
-  } else if (problem_ != nullptr) {
-    c.proof_tried = true;
-    c.tolerance = certified_share;
+  if (c.certified) measure_state(s, load, c);
+  const bool beyond_face = !c.unique && c.penetration > certified_share;  // no bound knows where it may stand
+  if (!c.certified || beyond_face) compare(s, load, c);
+  if (!c.certified) find_pulling_pair(s, c);
+  return c;
+}
+
+std::vector<double> certifier::load_at(int step) const {
+  std::vector<double> load(structure_.dofs());
+  total_load_(step, load);
+  return load;
+}
+
+/// What is proved of a state. That of the state proved last is known.
+certificate certifier::proof_of(const step_state& s) {
+  if (last_ && last_->step == s.step && std::ranges::equal(last_->displacement, s.displacement)) {
+    allowed_ = last_->allowed;
+    proof_ = std::move(last_->proof);
+    const certificate known = last_->what;
+    last_.reset();
+    return known;
+  }
+  certificate c;
+  if (!prover_) {
     c.problem =
         "no error bound is proved: its factors take too much memory or time, or CHOLMOD is not built in";
+    return c;
   }
-  if (c.exact) measure_state(s, load, c);
-  const bool beyond_face = !c.unique && c.penetration > certified_share;  // no bound knows where it may stand
-  if (!c.exact || beyond_face) compare(s, load, c);
-  if (!c.exact) find_pulling_pair(s, c);
+  const handed_out handed = handed_out_at(problem_, s);
+  take(prover_->bound(handed), s, c);
+  if (c.proved && !c.certified)
+    if (const std::optional<error_bounds> closer = prover_->bound_closely(handed)) take(*closer, s, c);
+  proof_ = prover_->take_proof();
   return c;
 }
 
@@ -149,13 +163,6 @@ void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   if (c.pull <= certified_share * largest) c.pulling = -1;
 }
 
-void certifier::prove(const step_state& s, certificate& c) {
-  const handed_out handed = handed_out_at(*problem_, s);
-  take(prover_->bound(handed), s, c);
-  if (!c.proved || c.exact) return;
-  if (const std::optional<error_bounds> closer = prover_->bound_closely(handed)) take(*closer, s, c);
-}
-
 std::string certifier::status_words(std::size_t pair, const step_state& s) const {
   const contact_pair& p = structure_.pairs[pair];
   const double off = p.surface * (p.face - s.displacement[structure_.dof_of_pair(pair)]);
@@ -167,9 +174,7 @@ std::string certifier::status_words(std::size_t pair, const step_state& s) const
 }
 
 void certifier::take(const error_bounds& b, const step_state& s, certificate& c) {
-  c.proof_tried = true;
   c.unique = b.unique;
-  c.tolerance = certified_share;
   if (!b.not_proved.empty()) {
     c.problem = "no error bound is proved: " + b.not_proved;
     return;
@@ -180,25 +185,21 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
   c.worst_share = worst_share(c.error, c.allowed);
   c.problem = worst_bound(c.error, c.allowed);
   if (c.problem.empty() && b.wrong_status) c.problem = status_words(*b.wrong_status, s);
-  c.exact = c.problem.empty();
+  c.certified = c.problem.empty();
   c.displacement_error = share_of(c.error[quantity::w], c.allowed[quantity::w]);
   c.shape_error = c.worst_share;
 }
 
-/// With the reference solution: the verdict where no proof was tried, and what is wrong where one failed.
+/// With the reference solution: what is wrong where a proof failed.
 void certifier::compare(const step_state& s, std::span<const double> load, certificate& c) {
-  if (!reference_) reference_.emplace(structure_);
-  const reference_answer answer = reference_->solve(load, total_load_.work(s.step));
+  const reference_answer answer = reference_at(s.step);
   remember_sizes(answer.displacement);
-  if (!c.proof_tried)
-    c.tolerance = std::min(certificate_factor * std::numeric_limits<double>::epsilon() / s.rcond,
-                           certificate_never_above);
   c.displacement_error = c.shape_error = 0.0;
   c.unique = answer.unique;
   measure_state(s, load, c);
-  c.unfounded = answer.how == outcome::no_equilibrium;
+  c.no_equilibrium = answer.how == outcome::no_equilibrium;
   const std::string of_proof = std::exchange(c.problem, "");
-  if (c.unfounded) {
+  if (c.no_equilibrium) {
     c.problem =
         "there is no equilibrium: no support and no face stops a rigid-body motion on which the load does "
         "work";
@@ -219,8 +220,8 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
                                 c.displacement_error * largest_length() >
                                     c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
   const bool of_bounds = c.proved && !of_proof.empty();
-  if (c.problem.empty() || (of_bounds && !c.unfounded && reference_is_off)) c.problem = of_proof;
-  c.exact = c.problem.empty();
+  if (c.problem.empty() || (of_bounds && !c.no_equilibrium && reference_is_off)) c.problem = of_proof;
+  c.certified = c.problem.empty();
 }
 
 void certifier::remember_sizes(std::span<const double> displacement) {
@@ -286,94 +287,93 @@ void certifier::compare_with(const reference_answer& a, const step_state& s, cer
   c.shape_error = share(any, largest_displacement_);
 }
 
-namespace {
-
-/// The reference solution, and where that gives up, what the proofs' own residuals lead to from there.
-reference_answer solve_for(reference_solver& finds, std::span<const double> load, const rigid_work& work,
-                           int step, double share, certifier* helper) {
-  reference_answer answer = finds.solve(load, work);
-  if (answer.how != outcome::not_found || helper == nullptr) return answer;
-  std::vector<int> isep;
-  for (const char pressed : answer.pressed) isep.push_back(pressed != 0 ? in_contact : separated);
-  if (!helper->search(step, share, answer.displacement, isep)) return answer;
-  for (std::size_t i = 0; i < isep.size(); ++i) answer.pressed[i] = isep[i] == in_contact ? 1 : 0;
-  answer.how = outcome::found;
-  return answer;
-}
-
-fallback_solver fallback(const linear_structure& s, load_history total_load, certifier* helper) {
-  return [&s, loads = std::move(total_load), helper](
-             int step, double share, std::span<const double> load) -> std::optional<equilibrium_state> {
-    reference_solver finds(s);
-    reference_answer answer = solve_for(finds, load, loads.work(step, share), step, share, helper);
-    if (answer.how != outcome::found) return {};
-    return equilibrium_state{std::move(answer.displacement), std::move(answer.pressed)};
-  };
-}
-
-}  // namespace
-
-fallback_solver fallback_to_reference(const linear_structure& s, load_history total_load) {
-  return fallback(s, std::move(total_load), nullptr);
-}
-
-fallback_solver certifier::fallback() {
-  return certify::fallback(structure_, total_load_, this);
-}
-
-bool certifier::search(int step, double share, std::span<double> displacement, std::span<int> isep) {
-  return prover_ && prover_->search(step, share, displacement, isep);
+reference_answer certifier::reference_at(int step) {
+  if (!reference_) reference_.emplace(structure_);
+  return reference_->solve(load_at(step), total_load_.work(step));
 }
 
 namespace {
 
-/// What the exact path says of a load for which doubles find no equilibrium, and cannot exclude one.
-void decide_exactly(std::optional<followed_step> end, reference_answer& found) {
-  if (!end) return;
-  if (end->status != path_status::solved) {
-    found.how = outcome::no_equilibrium;
-    return;
-  }
-  found.displacement = std::move(end->displacement);
-  found.pressed = std::move(end->closed);
-  found.how = outcome::found;
+full_load_state state_of(const reference_answer& a) {
+  full_load_state s{.displacement = a.displacement, .isep = {}, .numbers = {}, .from_reference = true};
+  for (const char pressed : a.pressed) s.isep.push_back(pressed != 0 ? in_contact : separated);
+  return s;
 }
 
-path_status status_without(outcome how) {
-  if (how == outcome::no_equilibrium) return path_status::mechanism;
+path_status status_without(outcome how, const found_end& end) {
+  if (how == outcome::no_equilibrium || end.exists == false) return path_status::mechanism;
   return how == outcome::none_seen ? path_status::path_ended : path_status::not_factored;
 }
 
 }  // namespace
 
-path_end find_final_states(const linear_structure& s, int steps, const load_history& total_load,
-                           std::span<observer* const> observers, certifier* helper,
-                           const exact_follower& exactly) {
-  const state_refiner refine = helper != nullptr ? helper->refiner() : nullptr;
-  reference_solver finds(s);
-  std::vector<double> total(s.dofs());
+/// Refines a state, and tells whether it is then proved.
+bool certifier::is_certified(int step, full_load_state& s) {
+  last_.reset();
+  if (!prover_ || !is_finite(s.displacement)) return false;
+  s.numbers = prover_->refine(step, s.displacement, s.isep);
+  const allowed_errors before = allowed_;
+  const certificate c = proof_of({.step = step,
+                                  .fraction = 1.0,
+                                  .displacement = s.displacement,
+                                  .isep = s.isep,
+                                  .rcond = 0.0,
+                                  .numbers = s.numbers ? &*s.numbers : nullptr});
+  last_ = {step, s.displacement, c, std::exchange(allowed_, before), std::exchange(proof_, std::nullopt)};
+  return c.certified;
+}
+
+/// A state of the path that is not proved is kept where no other is proved either. What takes too much memory
+/// to be proved is not looked for elsewhere either.
+found_end certifier::end_of(int step, const full_load_state* reached) {
+  std::optional<full_load_state> refined;
+  if (reached != nullptr) {
+    refined = *reached;
+    if (is_certified(step, *refined) || !prover_) return {std::move(refined), true};
+  }
+  const auto kept = [&] {
+    (void)is_certified(step, *refined);  // the digits that doubles leave over are its own again
+    return found_end{std::move(refined), true};
+  };
+  if (found_end exactly = exact_path_ ? exact_path_(step) : found_end(); exactly.exists) {
+    const bool is_better = !exactly.state || is_certified(step, *exactly.state) || !refined;
+    return is_better ? std::move(exactly) : kept();
+  }
+  const reference_answer answer = reference_at(step);
+  if (answer.how == outcome::no_equilibrium) return {std::nullopt, false};
+  full_load_state reference = state_of(answer);
+  if (is_certified(step, reference) || (answer.how == outcome::found && !refined))
+    return {std::move(reference), true};
+  return refined ? kept() : found_end();
+}
+
+end_finder certifier::ends() {
+  return [this](int step, const full_load_state* reached) { return end_of(step, reached); };
+}
+
+path_end certifier::find_final_states(std::span<observer* const> observers) {
   path_end end;
-  for (int step = 1; step <= steps; ++step) {
-    std::fill(total.begin(), total.end(), 0.0);
-    total_load(step, total);
-    reference_answer found = solve_for(finds, total, total_load.work(step), step, 1.0, helper);
-    if (found.how != outcome::found && found.how != outcome::no_equilibrium && exactly)
-      decide_exactly(exactly(step), found);
-    end.work.factors = finds.factorisations();
-    if (found.how != outcome::found) return {status_without(found.how), step, 0.0, {}, end.work};
-    std::vector<int> status;
-    for (const char pressed : found.pressed) status.push_back(pressed != 0 ? in_contact : separated);
-    const double rcond = finds.reciprocal_condition(holding(s, found.pressed));
-    end.work.factors = finds.factorisations();
-    tell_end({.step = step,
-              .fraction = 1.0,
-              .displacement = found.displacement,
-              .isep = status,
-              .rcond = rcond,
-              .from_fallback = false,
-              .from_reference = true},
-             refine, observers);
+  for (int step = 1; step <= std::ssize(problem_.steps); ++step) {
+    const reference_answer answer = reference_at(step);
+    const full_load_state reference = state_of(answer);
+    const found_end found = answer.how == outcome::no_equilibrium
+                                ? found_end()
+                                : end_of(step, answer.how == outcome::found ? &reference : nullptr);
     end.step = step;
+    end.work.factors = reference_->factorisations();
+    if (!found.state) return {status_without(answer.how, found), step, 0.0, {}, end.work};
+    const full_load_state& s = *found.state;
+    const double rcond = reference_->reciprocal_condition(holding(structure_, s.isep));
+    end.work.factors = reference_->factorisations();
+    for (observer* o : observers)
+      o->step_ended({.step = step,
+                     .fraction = 1.0,
+                     .displacement = s.displacement,
+                     .isep = s.isep,
+                     .rcond = rcond,
+                     .from_reference = s.from_reference,
+                     .from_exact_path = s.from_exact_path,
+                     .numbers = s.numbers ? &*s.numbers : nullptr});
   }
   return end;
 }

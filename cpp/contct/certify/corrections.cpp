@@ -8,8 +8,8 @@
 namespace contct::certify {
 namespace {
 
-/// Displacements that are none: products of them underflow.
-void drop_rounding_of_nothing(long_vector& u) {
+/// Displacements so small that products of them underflow become 0.
+void flush_tiny(long_vector& u) {
   constexpr double none = 1e-140;
   for (double_double& x : u)
     if (std::abs(x.hi) < none) x = 0.0;
@@ -50,7 +50,7 @@ bool error_prover::correct(const true_loads& l, long_vector& u) {
   constexpr int most = 40;
   constexpr double none = 0x1p-150;  // of the loads' work: displacements are right to 2^-75
   refined_step_ = 0;                 // what was kept of it is overwritten
-  drop_rounding_of_nothing(u);
+  flush_tiny(u);
   std::vector<int> closed = pressed(u);
   long_vector best;
   double least = std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ bool error_prover::correct(const true_loads& l, long_vector& u) {
     before = square;
     for (std::size_t dof = 0; dof < u.size(); ++dof)
       if (true_.fixed[dof] == 0) u[dof] += correction[dof];
-    drop_rounding_of_nothing(u);
+    flush_tiny(u);
   }
   if (best.empty()) return false;
   u = std::move(best);
@@ -149,46 +149,9 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   return numbers_of(u, isep);
 }
 
-bool error_prover::search(int step, double share, std::span<double> displacement, std::span<int> isep) {
-  const true_loads l = share == 1.0 ? loads_of(step) : loads_at(step, share);
-  long_vector u = long_displacement(step, displacement, l);
-  error_bounds b;
-  if (!correct(l, u) || !find_closed(u, residual_of(u, l), b)) return false;
-  for (std::size_t dof = 0; dof < displacement.size(); ++dof) displacement[dof] = u[dof].hi;
-  settle_statuses(u, l, isep);
-  return true;
-}
-
 const true_loads& error_prover::loads_of(int step) {
   if (loads_.step != step) loads_ = true_.loads(step);
   return loads_;
-}
-
-/// What acts in between two ends of steps; nothing acts before the first one.
-true_loads error_prover::loads_at(int step, double share) const {
-  true_loads l = true_.loads(step);
-  l.step = 0;
-  if (step == 1) {
-    for (double_double& f : l.force) f = f * share;
-    for (double_double& s : l.settlement) s = s * share;
-    return l;
-  }
-  const true_loads before = true_.loads(step - 1);
-  long_vector moved(true_.dofs());
-  bool any = false;
-  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
-    l.force[dof] = before.force[dof] + (l.force[dof] - before.force[dof]) * share;
-    l.size[dof] += before.size[dof];
-    const double moves = std::abs(l.settlement[dof].hi) + std::abs(before.settlement[dof].hi);
-    l.settlement[dof] = before.settlement[dof] + (l.settlement[dof] - before.settlement[dof]) * share;
-    moved[dof] = moves;
-    any = any || moves != 0.0;
-  }
-  if (any) {  // what cancels in the sum
-    long_vector none(true_.dofs());
-    true_.add_product(moved, none, l.size);
-  }
-  return l;
 }
 
 }  // namespace contct::certify

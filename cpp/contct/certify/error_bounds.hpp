@@ -74,13 +74,10 @@ class error_prover {
   /// The same with exact residuals where there are any, which takes longer; otherwise nothing.
   [[nodiscard]] std::optional<error_bounds> bound_closely(const handed_out& state);
 
-  /// A state_refiner: corrections with this residual, as long as each makes it smaller. Nothing where nothing
+  /// Corrections with this residual, as long as each makes it smaller. Nothing where nothing
   /// certain holds the structure. What is left over from doubles is kept for `bound`.
   [[nodiscard]] std::optional<end_numbers> refine(int step, std::span<double> displacement,
                                                   std::span<int> isep);
-  /// Look for the equilibrium at a share of the load of a step from here on: false, and nothing written,
-  /// where the pairs in contact of what is found are not certain.
-  [[nodiscard]] bool search(int step, double share, std::span<double> displacement, std::span<int> isep);
   [[nodiscard]] double span() const { return true_.span; }
 
   /// Keep what proves the bounds.
@@ -135,7 +132,6 @@ class error_prover {
   [[nodiscard]] bool stands_free(int step, std::span<const double_double> u, const error_bounds& b) const;
   /// The pairs that may not be in contact leave `closed`; false where there are none.
   bool erase_doubtful(std::span<const double_double> u, double rho, std::vector<int>& closed) const;
-  [[nodiscard]] true_loads loads_at(int step, double share) const;
   /// At the end of a step, from 1; kept until another step is asked for.
   [[nodiscard]] const true_loads& loads_of(int step);
   /// How far rounding can put a pair's depth off.

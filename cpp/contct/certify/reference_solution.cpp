@@ -47,7 +47,6 @@ class reference_solver::search {
   }
 
   reference_answer solve(std::span<const double> load, const rigid_work& work) {
-    held_in_doubles_ = false;
     take(load, work);
     if (exists_ == false) return end(outcome::no_equilibrium, false);  // otherwise none is certain
     reference_answer answer = from_here();
@@ -122,7 +121,7 @@ class reference_solver::search {
   }
 
   [[nodiscard]] rigid_rank held_by(const pair_set& set) const {
-    return structure_.held_by([&set](std::size_t i) { return set[i] != 0; }, held_in_doubles_);
+    return structure_.held_by([&set](std::size_t i) { return set[i] != 0; });
   }
 
   /// Do the supports and the pairs that press with more than the rounding of the load hold the structure?
@@ -283,10 +282,7 @@ class reference_solver::search {
           held ? std::nullopt : structure_.driven_motion(rank, given_, work_);
       if (!driven) {
         if (!held) add_holding_springs(rank);
-        if (!factor()) {
-          if (std::exchange(held_in_doubles_, true)) return end(outcome::not_found, held);
-          continue;
-        }
+        if (!factor()) return end(outcome::not_found, held);
         numbers target = u_;
         const long double error = refined_solve(target);
         if (error >= 0 && pressed_at(target, 4 * error) == set_) {
@@ -323,7 +319,6 @@ class reference_solver::search {
   std::optional<pair_set> in_factor_;  // the pairs whose springs it has, where it has no others
   std::vector<double> scale_;          // square roots of K's diagonal [rows]
   int factorisations_ = 0;
-  bool held_in_doubles_ = false;  // only what doubles see counts as held
 };
 
 reference_solver::reference_solver(const linear_structure& s) : search_(std::make_unique<search>(s)) {}

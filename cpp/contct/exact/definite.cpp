@@ -10,8 +10,6 @@
 namespace contct::exact {
 namespace {
 
-__extension__ using wide_int = __int128;
-
 /// floor(x 2^shift).
 integer floor_of(const rational& x, int shift) {
   integer top = numerator(x);
@@ -29,53 +27,10 @@ rational shifted(const rational& x, int shift) {
   return shift < 0 ? rational(x / rational(power)) : rational(x * rational(power));
 }
 
-/// Numbers with 60 bits behind the point in single words, and their products in two.
-struct short_numbers {
-  using number = std::int64_t;
-  using product = wide_int;
-  static constexpr int bits = 60;
-
-  static product product_of(const integer& x) {
-    const integer size = abs(x);
-    const integer top = size >> 64U;
-    const integer low = size - (top << 64U);
-    const product p =
-        (static_cast<product>(top.convert_to<std::int64_t>()) << 64U) + low.convert_to<std::uint64_t>();
-    return x < 0 ? -p : p;
-  }
-  static product times(number a, number b) { return static_cast<product>(a) * b; }
-  static number root(product x) {
-    auto r = static_cast<number>(std::sqrt(static_cast<long double>(x)));
-    while (times(r, r) > x) --r;
-    while (times(r + 1, r + 1) <= x) ++r;
-    return r;
-  }
-  /// The quotient, or the largest number where that is larger: its square is more than any pivot.
-  static number divided(product a, number b) {
-    constexpr product largest = product{1} << 62U;
-    return static_cast<number>(std::clamp(a / b, -largest, largest));
-  }
-};
-
-/// Numbers with as many bits behind the point as are asked for.
-struct long_numbers {
-  using number = integer;
-  using product = integer;
-  int bits;
-
-  static product product_of(const integer& x) { return x; }
-  static product times(const number& a, const number& b) { return a * b; }
-  static number root(const product& x) { return sqrt(x); }
-  static number divided(const product& a, const number& b) { return a / b; }
-};
-
 /// A row of the lower triangle, from its first column that is not 0 on; the diagonal is its last.
-template <class Number>
-struct row_of {
+struct triangle_row {
   std::size_t first = 0;
-  std::vector<Number> values;
-
-  [[nodiscard]] std::size_t diagonal() const { return first + values.size() - 1; }
+  std::vector<integer> values;
 };
 
 /// K on the dofs with pivots in the order of the band, each scaled by a power of two so that the diagonal is
@@ -170,18 +125,14 @@ class scaled_matrix {
   std::size_t width_ = 0;
 };
 
-/// Cholesky's method on the scaled matrix less c, in numbers of one kind.
-template <class Numbers>
+/// Cholesky's method on the scaled matrix less c, in numbers with as many bits behind the point as are asked
+/// for.
 class triangle {
  public:
-  using number = typename Numbers::number;
-  using product = typename Numbers::product;
-
-  triangle(const scaled_matrix& of, Numbers kind) : of_(of), kind_(kind) {
+  triangle(const scaled_matrix& of, int bits) : of_(of), bits_(static_cast<unsigned>(bits)) {
     // With l < 3 on the diagonal and below it, and products that are exact, what is left of an entry is less
     // than 6 units of the last bit of L, and its own rounding less than 1.
-    shift_ =
-        Numbers::product_of(integer(integer(8 * (2 * of.width() + 1)) << static_cast<unsigned>(kind_.bits)));
+    shift_ = integer(8 * (2 * of.width() + 1)) << bits_;
   }
 
   /// True where L is whole: the matrix is definite.
@@ -194,17 +145,16 @@ class triangle {
 
   /// Where it failed: x' (K - c) x <= 0 for the x that ends with 1 in the failed row, up to rounding.
   [[nodiscard]] std::vector<integer> suspect() const {
-    const row_of<number>& failed = rows_.back();
+    const triangle_row& failed = rows_.back();
     const std::size_t end = failed.first + failed.values.size();  // columns that it had reached
-    const auto bits = static_cast<unsigned>(kind_.bits);
     std::vector<integer> x(rows_.size());
-    x.back() = integer(1) << bits;
-    for (std::size_t j = failed.first; j < end; ++j) x[j] = -integer(failed.values[j - failed.first]);
+    x.back() = integer(1) << bits_;
+    for (std::size_t j = failed.first; j < end; ++j) x[j] = -failed.values[j - failed.first];
     for (std::size_t j = end; j-- > 0;) {
       if (x[j] == 0) continue;
-      const row_of<number>& row = rows_[j];
-      x[j] = (x[j] << bits) / integer(row.values.back());
-      for (std::size_t k = row.first; k < j; ++k) x[k] -= (integer(row.values[k - row.first]) * x[j]) >> bits;
+      const triangle_row& row = rows_[j];
+      x[j] = (x[j] << bits_) / row.values.back();
+      for (std::size_t k = row.first; k < j; ++k) x[k] -= (row.values[k - row.first] * x[j]) >> bits_;
     }
     return x;
   }
@@ -212,42 +162,29 @@ class triangle {
  private:
   /// False where its pivot is not positive. Then the row has the columns up to there.
   bool add_row(std::size_t i) {
-    const std::vector<integer> entries = of_.scaled_row(i, 2 * kind_.bits);
+    const std::vector<integer> entries = of_.scaled_row(i, 2 * static_cast<int>(bits_));
     rows_.push_back({of_.first(i), {}});
-    row_of<number>& row = rows_.back();
-    product pivot = Numbers::product_of(entries.back()) - shift_;
+    triangle_row& row = rows_.back();
+    integer pivot = entries.back() - shift_;
     for (std::size_t j = row.first; j < i; ++j) {
       if (pivot <= 0) return false;
-      product rest = Numbers::product_of(entries[j - row.first]);
-      const row_of<number>& other = rows_[j];
+      integer rest = entries[j - row.first];
+      const triangle_row& other = rows_[j];
       for (std::size_t k = std::max(row.first, other.first); k < j; ++k)
-        rest -= Numbers::times(row.values[k - row.first], other.values[k - other.first]);
-      row.values.push_back(Numbers::divided(rest, other.values.back()));
-      pivot -= Numbers::times(row.values.back(), row.values.back());
+        rest -= row.values[k - row.first] * other.values[k - other.first];
+      row.values.push_back(rest / other.values.back());
+      pivot -= row.values.back() * row.values.back();
     }
     if (pivot <= 0) return false;
-    row.values.push_back(Numbers::root(pivot));
+    row.values.push_back(sqrt(pivot));
     return row.values.back() > 0;
   }
 
   const scaled_matrix& of_;
-  Numbers kind_;
-  product shift_;
-  std::vector<row_of<number>> rows_;
+  unsigned bits_;
+  integer shift_;
+  std::vector<triangle_row> rows_;
 };
-
-/// Decided with so many bits, or not.
-struct verdict {
-  bool definite = false;
-  std::optional<negative_work> otherwise;
-};
-
-template <class Numbers>
-verdict decide(const scaled_matrix& of, Numbers kind) {
-  triangle<Numbers> l(of, kind);
-  if (l.factor()) return {true, std::nullopt};
-  return {false, of.work_on(l.suspect(), kind.bits)};
-}
 
 }  // namespace
 
@@ -258,16 +195,16 @@ std::optional<negative_work> find_negative_work(const sparse_rows& k, std::span<
   pivots.factor({});
   const scaled_matrix scaled(k, place, pivots);
   if (std::optional<negative_work> found = scaled.negative_pair()) return found;
-  verdict v = decide(scaled, short_numbers{});
-  for (int bits = 128; !v.definite && !v.otherwise; bits *= 2) {
+  for (int bits = 64;; bits *= 2) {
     const double bytes = static_cast<double>(scaled.entries()) * (24.0 + bits / 8.0);
     if (bits > most_bits || bytes > static_cast<double>(most_bytes))
       throw std::runtime_error("whether the stiffness matrix is positive semidefinite is not decided with " +
                                std::to_string(bits / 2) + " bits; " + std::to_string(bits) + " would take " +
                                std::to_string(static_cast<std::int64_t>(bytes / (1 << 20)) + 1) + " MiB");
-    v = decide(scaled, long_numbers{bits});
+    triangle l(scaled, bits);
+    if (l.factor()) return std::nullopt;
+    if (std::optional<negative_work> found = scaled.work_on(l.suspect(), bits)) return found;
   }
-  return std::move(v.otherwise);
 }
 
 }  // namespace contct::exact

@@ -91,7 +91,7 @@ void digit_counter::step_ended(const path::step_state& s) {
 digit_counter::event_list digit_counter::decided(const event_list& events, double tie) const {
   event_list kept;
   for (const placed_event& e : events) {
-    if (is_open_question(e, tie)) continue;
+    if (is_ambiguous_event(e, tie)) continue;
     const auto before = std::find_if(kept.rbegin(), kept.rend(),
                                      [&e](const placed_event& k) { return k.what.pair == e.what.pair; });
     if (before != kept.rend() && e.place - before->place < tie) {
@@ -106,7 +106,7 @@ digit_counter::event_list digit_counter::decided(const event_list& events, doubl
 /// Does the event happen at the end of a step, where its pair exactly stands at its face, without force? It
 /// may then be of that step or of the next one, or not be at all. So may what is toggled where a mechanism is
 /// found.
-bool digit_counter::is_open_question(const placed_event& e, double tie) const {
+bool digit_counter::is_ambiguous_event(const placed_event& e, double tie) const {
   const std::size_t last = exactly_.steps.size() - 1;
   const double reached = static_cast<double>(last) + rounded(exactly_.steps[last].fraction);
   const bool nothing_holds =

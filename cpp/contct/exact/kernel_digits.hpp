@@ -43,7 +43,7 @@ class digit_counter final : public path::observer {
   };
   using event_list = std::vector<placed_event>;
 
-  [[nodiscard]] bool is_open_question(const placed_event& e, double tie) const;
+  [[nodiscard]] bool is_ambiguous_event(const placed_event& e, double tie) const;
   [[nodiscard]] event_list decided(const event_list& events, double tie) const;
   [[nodiscard]] event_list exact_events() const;
   void compare_events(kernel_digits& r, double tie) const;

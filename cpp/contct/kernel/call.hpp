@@ -57,7 +57,6 @@ struct call {
   std::span<int> isep;          ///< ISEP: in and out: +1 separated, -1 in contact [nc]
   std::span<const int> isurf;   ///< ISURF: +1 face above, -1 face below [nc]
   dof_layout dof;               ///< COMMON /DOF/
-  int at_rest = 0;  ///< calls in a row, right before this one, answered with SMIN = 0: none in the listing
 
   [[nodiscard]] int nc() const { return static_cast<int>(cc.size()); }
 };

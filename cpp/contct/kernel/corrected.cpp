@@ -97,7 +97,7 @@ void contct_corrected(call<double>& c) noexcept {
 
   // Rules 3 and 4: the first pair at SMIN; but of those at their faces the one with the largest |d*|.
   const auto size_of_response = [&c](std::size_t i) { return std::abs(c.dtest[dof_at(c, i)]); };
-  const bool by_index = c.smin > 0.0 || c.at_rest >= quick_answers_at_rest(c.nc());
+  const bool by_index = c.smin > 0.0;
   std::size_t chosen = c.cc.size();
   for (std::size_t i = first; i < c.cc.size(); ++i) {
     if (c.ss[i] != c.smin) continue;

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contct/exact/exact_follower.hpp"
-#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/random.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -254,7 +253,7 @@ class drawing {
 };
 
 verdict judge(const path_end& end, const certifier& judged) {
-  if (end.status == path_status::solved) return judged.all_exact() ? verdict::certified : verdict::wrong;
+  if (end.status == path_status::solved) return judged.all_certified() ? verdict::certified : verdict::wrong;
   if (end.status == path_status::mechanism) return verdict::no_equilibrium;
   return end.status == path_status::path_ended ? verdict::false_mechanism : verdict::no_end;
 }
@@ -273,13 +272,9 @@ problem_result try_problem(const problem& p, kernel& leader, std::string_view en
 problem_result try_structure(const problem& p, const linear_structure& s, kernel& leader,
                              std::string_view engine, std::vector<observer*> watching) {
   problem_result t;
-  certifier judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
+  certifier judged(p, s, exact::exact_means_of(p));
   watching.push_back(&judged);
-  path_limits limits;
-  limits.fallback = judged.fallback();
-  limits.refine = judged.refiner();
-  limits.exactly = exact::exact_follower_of(p);
-  const path_end end = follow(p, s, engine, leader, watching, limits);
+  const path_end end = follow(p, s, engine, leader, watching, {0, judged.ends()});
   for (const auto& c : judged.steps())
     if (c) t.certificates.push_back(*c);
   t.came_to = judge(end, judged);

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "contct/compare/lockstep.hpp"
-#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/numeric/rational.hpp"
 #include "contct/outside/registry.hpp"
@@ -286,10 +286,10 @@ struct followed_path {
 verified_number judged_number(const expected_number& e, const followed_path& listing,
                               const followed_path& corrected) {
   verified_number n{e, listing.measured.of(e), corrected.measured.of(e), false, false, "", 0};
-  n.certified = listing.certified != nullptr && listing.certified->exact;
+  n.certified = listing.certified != nullptr && listing.certified->certified;
   const auto compare = [&](double found, const followed_path& path) {
     if (e.exact.empty() || path.certified == nullptr || !n.apart.empty()) return;
-    n.apart = exact_disagreement(e, found, path.certified->tolerance * path.measured.size_of(e));
+    n.apart = exact_disagreement(e, found, certified_share * path.measured.size_of(e));
     ++n.exact_comparisons;
   };
   compare(n.corrected, corrected);
@@ -307,7 +307,7 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   out.title = p.title;
   const linear_structure s = structure_of(p);
   measurement listing(p);
-  certifier judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
+  certifier judged(p, s, exact::exact_means_of(p));
   const auto fortran = make_kernel("fortran");
   const std::string followers[] = {"cpp"};
   lockstep compared = make_lockstep(fortran->facts(), followers);

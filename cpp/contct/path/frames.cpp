@@ -11,19 +11,27 @@ namespace contct::path {
 
 namespace {
 
+/// By the spring's law from D at each pair.
+std::vector<double> forces_by_law(const linear_structure& s, std::span<const double> d,
+                                  std::span<const int> isep) {
+  std::vector<double> forces;
+  for (std::size_t p = 0; p < d.size(); ++p)
+    forces.push_back(force_of(s.pairs[p], d[p], isep[p] == in_contact));
+  return forces;
+}
+
 std::vector<double> forces_at(const linear_structure& s, const step_state& end) {
   if (end.numbers != nullptr) return end.numbers->pair_forces;
-  std::vector<double> forces;
-  for (std::size_t p = 0; p < s.pairs.size(); ++p)
-    forces.push_back(force_of(s.pairs[p], end.displacement[s.dof_of_pair(p)], end.isep[p] == in_contact));
-  return forces;
+  std::vector<double> d;
+  for (std::size_t p = 0; p < s.pairs.size(); ++p) d.push_back(end.displacement[s.dof_of_pair(p)]);
+  return forces_by_law(s, d, end.isep);
 }
 
 }  // namespace
 
-pair_look look_of(const contact_pair& p, double w, bool closed) {
-  if (std::abs(p.face - w) < constants<double>::epsgap) return pair_look::at_face;
-  return closed ? pair_look::closed : pair_look::open;
+pair_state look_of(const contact_pair& p, double w, bool closed) {
+  if (std::abs(p.face - w) < constants<double>::epsgap) return pair_state::at_face;
+  return closed ? pair_state::closed : pair_state::open;
 }
 
 frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, bool forces_by_law,
@@ -36,35 +44,16 @@ frame_keeper::frame_keeper(const linear_structure& s, load_history total_load, b
           std::max(fewest_frames,
                    std::min(limits.most_frames, limits.most_numbers / std::max<std::size_t>(s.dofs(), 1)))),
       before_(s.dofs()),
-      after_(before_),
-      d_(s.pairs.size()),
-      d_star_(s.pairs.size()),
-      pair_force_(s.pairs.size()) {
-  for (const contact_pair& p : s.pairs) isep_.push_back(p.closed ? in_contact : separated);
+      after_(before_) {
   frame start;
   start.displacement.resize(before_.size());
-  start.isep = isep_;
+  for (const contact_pair& p : s.pairs) start.isep.push_back(p.closed ? in_contact : separated);
   frames_.push_back(std::move(start));
-}
-
-void frame_keeper::called(const answered_call& c) {
-  for (std::size_t i = 0; i < d_.size(); ++i) {
-    const std::size_t dof = c.c.dof.dof_of(c.c.id[i]) - 1;
-    d_[i] = c.c.dd[dof];
-    d_star_[i] = c.c.dtest[dof];
-  }
-  isep_.assign(c.isep_before.begin(), c.isep_before.end());
 }
 
 void frame_keeper::incremented(const increment& i) {
   begin_step(i.step);
   ++increments_;
-  for (std::size_t p = 0; p < d_.size(); ++p) {  // as the path itself advances
-    if (isep_[p] == in_contact) pair_force_[p] -= structure_.pairs[p].stiffness * (i.s * d_star_[p]);
-    d_[p] += i.s * d_star_[p];
-  }
-  if (!i.ahead.empty()) d_.assign(i.ahead.begin(), i.ahead.end());
-  for (const event& e : i.events) isep_[e.pair] = e.what == change::make ? in_contact : separated;
   last_ = {.at = increments_,
            .step = i.step,
            .number = i.number,
@@ -72,13 +61,13 @@ void frame_keeper::incremented(const increment& i) {
            .s = i.s,
            .snaps = i.snaps,
            .events = {i.events.begin(), i.events.end()},
-           .isep = isep_,
-           .pair_forces = forces_after(i)};
+           .isep = {i.isep.begin(), i.isep.end()},
+           .pair_forces = forces_by_law(structure_, i.d, i.isep)};
   show_latest();
   const bool kept = increments_ % stride_ == 0;
   if (!kept && !solves_each_) return;
   frame f = last_;
-  f.displacement = shape(i.fraction);
+  f.displacement = shape_after(i);
   const bool solved = !f.displacement.empty();
   if (solves_each_) latest_ = f;
   unshown_ = solved && solves_each_;
@@ -97,8 +86,6 @@ void frame_keeper::step_ended(const step_state& s) {
   f.isep.assign(s.isep.begin(), s.isep.end());
   if (s.numbers != nullptr) f.numbers = *s.numbers;
   f.pair_forces = forces_at(structure_, s);
-  for (std::size_t p = 0; forces_by_law_ && p < pair_force_.size(); ++p)
-    pair_force_[p] = -structure_.pairs[p].surface * f.pair_forces[p];
   if (after_increment) unshown_ = false;
   show_latest();
   if (visit_) visit_(f);
@@ -106,31 +93,18 @@ void frame_keeper::step_ended(const step_state& s) {
   keep(std::move(f));
 }
 
-/// Of the 1989 rule by the spring's law from D, otherwise as gathered since the pair came into contact: a
-/// stiff spring's compression has more digits alone than within D.
-std::vector<double> frame_keeper::forces_after(const increment& i) {
-  std::vector<double> forces;
-  for (std::size_t p = 0; p < d_.size(); ++p) {
-    const contact_pair& at = structure_.pairs[p];
-    forces.push_back(force_of(at, d_[p], isep_[p] == in_contact));
-    if (!forces_by_law_) continue;
-    if (!i.ahead.empty() || isep_[p] != in_contact) pair_force_[p] = -at.surface * forces[p];
-    forces[p] = -at.surface * pair_force_[p];
-  }
-  return forces;
-}
-
 /// Empty where even all pairs together do not hold the structure.
-std::vector<double> frame_keeper::shape(double fraction) {
+std::vector<double> frame_keeper::shape_after(const increment& i) {
   try {
     if (!can_be_solved()) return {};
     std::vector<double> load(before_.size());
-    for (std::size_t i = 0; i < load.size(); ++i) load[i] = before_[i] + fraction * (after_[i] - before_[i]);
-    std::vector<double> forces(d_.size());
+    for (std::size_t dof = 0; dof < load.size(); ++dof)
+      load[dof] = before_[dof] + i.fraction * (after_[dof] - before_[dof]);
+    std::vector<double> forces(i.d.size());
     for (std::size_t p = 0; p < forces.size(); ++p) {
       const contact_pair& at = structure_.pairs[p];
-      const double by_law = isep_[p] == in_contact ? -at.stiffness * (d_[p] - at.face) : 0.0;
-      forces[p] = (forces_by_law_ ? by_law : pair_force_[p]) + at.stiffness * d_[p];
+      const double by_law = i.isep[p] == in_contact ? -at.stiffness * (i.d[p] - at.face) : 0.0;
+      forces[p] = (forces_by_law_ ? by_law : i.pair_force[p]) + at.stiffness * i.d[p];
     }
     std::vector<double> u = with_pair_forces(structure_, load, forces);
     if (refined_) {

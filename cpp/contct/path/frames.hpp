@@ -15,9 +15,9 @@ namespace contct::path {
 
 /// What a picture tells apart: at its face are pairs whose gap the listing takes for zero (under EPSGAP),
 /// whatever their status: stationary ones, which carry no force worth the name.
-enum class pair_look { open, closed, at_face };
+enum class pair_state { open, closed, at_face };
 
-[[nodiscard]] pair_look look_of(const contact_pair& p, double w, bool closed);
+[[nodiscard]] pair_state look_of(const contact_pair& p, double w, bool closed);
 
 /// The structure after one increment.
 struct frame {
@@ -29,11 +29,11 @@ struct frame {
   bool snaps = false;            ///< the increment was a rigid motion at constant load
   bool step_end = false;         ///< the state that the step ended in, exactly
   bool from_fallback = false;    ///< that came from elsewhere
-  bool from_exact_path = false;  ///< that the exact path led to
+  bool from_exact_path = false;  ///< from the exact path
   std::vector<event> events = {};
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]
-  std::vector<double> pair_forces = {};     ///< as force_of has them, with more digits [pairs]
+  std::vector<double> pair_forces = {};     ///< as force_of has them [pairs]
   std::optional<end_numbers> numbers = {};  ///< of the end of a step
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
@@ -70,7 +70,6 @@ class frame_keeper final : public observer {
   /// The state after the last increment, under solve_each; its displacement is empty where it was not found.
   [[nodiscard]] const frame& latest() const { return latest_; }
 
-  void called(const answered_call& c) override;
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
 
@@ -101,14 +100,13 @@ class frame_keeper final : public observer {
   }
 
   void thin();
-  [[nodiscard]] std::vector<double> shape(double fraction);
-  [[nodiscard]] std::vector<double> forces_after(const increment& i);
+  [[nodiscard]] std::vector<double> shape_after(const increment& i);
 
   /// Do supports and all pairs together hold the structure? Then the factor is there.
   [[nodiscard]] bool can_be_solved() {
     if (stiffness_ || unsolvable_) return !unsolvable_;
     unsolvable_ = !structure_.is_held(structure_.held_by([](std::size_t) { return true; }));
-    if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(d_.size(), 1));
+    if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(structure_.pairs.size(), 1));
     return !unsolvable_;
   }
 
@@ -124,10 +122,7 @@ class frame_keeper final : public observer {
   int step_ = 0;
   int increments_ = 0;
   int stride_ = 1, step_stride_ = 1;
-  std::vector<double> d_, d_star_;  // at the pairs, of the last call [pairs]
-  std::vector<double> pair_force_;  // on the structure, gathered [pairs]
-  std::vector<int> isep_;           // before the last call's toggles, then after them [pairs]
-  frame last_;                      // the last increment, without its shape
+  frame last_;  // the last increment, without its shape
   std::vector<frame> frames_;
   std::function<void(const frame&)> visit_;
   bool solves_each_ = false;

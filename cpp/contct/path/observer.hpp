@@ -1,8 +1,6 @@
 // What one may see of a path while it is followed.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -20,14 +18,16 @@ struct answered_call {
 
 /// One increment of a step.
 struct increment {
-  int step;                       ///< from 1
-  int number;                     ///< within the step, from 1
-  double s;                       ///< s_min
-  double fraction;                ///< share of the step's load consumed by now
-  std::span<const event> events;  ///< in order of pairs
-  bool snaps = false;             ///< a rigid motion to the next face, at constant load
-  /// D at each pair [pairs], where the path went on ahead to a state that no call led to; empty otherwise.
-  std::span<const double> ahead = {};
+  int step;                        ///< from 1
+  int number;                      ///< within the step, from 1
+  double s;                        ///< s_min
+  double fraction;                 ///< share of the step's load consumed by now
+  std::span<const event> events;   ///< in order of pairs
+  bool snaps = false;              ///< a rigid motion to the next face, at constant load
+  std::span<const double> d = {};  ///< D at each pair after it [pairs]
+  std::span<const int> isep = {};  ///< ISEP behind its events [pairs]
+  /// The force on the structure that each spring has gathered under the 1989 rule; 0 under any other [pairs].
+  std::span<const double> pair_force = {};
 };
 
 /// Numbers of the end of a step that are more accurate than what its displacements, rounded to doubles, give.
@@ -44,10 +44,9 @@ struct step_state {
   std::span<const double> displacement;  ///< D at every dof [dofs]
   std::span<const int> isep;             ///< status of each pair [pairs]
   double rcond;                          ///< of the equilibrated stiffness; 0 when it has no factor
-  bool from_fallback = false;            ///< the path could not reach it
-  bool from_reference = false;  ///< it is the reference solution's own: a fallback's, or a final state's
-  bool from_exact_path =
-      false;  ///< doubles could not follow the path: from some share on it is the exact one
+  bool from_fallback = false;            ///< the path was lost, or its end not proved: it is one of these
+  bool from_reference = false;           ///< the reference solution's own
+  bool from_exact_path = false;          ///< the end of the exact path's step
   const end_numbers* numbers = nullptr;  ///< null: there are none
 };
 
@@ -59,13 +58,5 @@ class observer {
   virtual void incremented(const increment& /*i*/) {}
   virtual void step_ended(const step_state& /*s*/) {}
 };
-
-/// Betters the displacements [dofs] and statuses [pairs] of the end of a step, from 1, which reached its
-/// load. Nothing: they are as they were.
-using state_refiner =
-    std::function<std::optional<end_numbers>(int step, std::span<double> displacement, std::span<int> isep)>;
-
-/// Tell the end of a step; where it reached its load, as `refine` betters it.
-void tell_end(step_state end, const state_refiner& refine, std::span<observer* const> observers);
 
 }  // namespace contct::path

@@ -27,11 +27,11 @@ enum class path_status {
 
 struct path_end {
   path_status status = path_status::solved;
-  int step = 0;             ///< the step in which it ended, from 1
-  double fraction = 1.0;    ///< share of that step's load reached
-  std::vector<int> pairs;   ///< mechanism and path_ended: whose opening freed the structure; cycle and
-                            ///< limit: those that keep toggling; from 0, empty when none did
-  engine_counts work = {};  ///< what the engine did
+  int step = 0;                 ///< the step in which it ended, from 1
+  double fraction = 1.0;        ///< share of that step's load reached
+  std::vector<int> pairs = {};  ///< mechanism and path_ended: whose opening freed the structure; cycle and
+                                ///< limit: those that keep toggling; from 0, empty when none did
+  engine_counts work = {};      ///< what the engine did
   /// Not solved: has the step's full load an equilibrium? Nothing where that is not decided.
   std::optional<bool> has_equilibrium = {};
   bool by_1989_rule = false;  ///< the leader's
@@ -55,55 +55,35 @@ class load_history {
   void operator()(int step, std::span<double> total) const { total_(step, total); }
   /// Not known, where only rounded loads are given, and in step 0.
   [[nodiscard]] rigid_work work(int step) const { return work_ && step > 0 ? work_(step) : rigid_work(); }
-  /// The same at a share of the step.
-  [[nodiscard]] rigid_work work(int step, double share) const {
-    return share == 1.0 ? work(step) : work(step).mixed(share, work(step - 1));
-  }
 
  private:
   totals total_;
   works work_;
 };
 
-/// An equilibrium found without a path.
-struct equilibrium_state {
-  std::vector<double> displacement;  ///< [dofs]
-  std::vector<char> closed;          ///< [pairs] 1 in contact
+/// A state under the full load of a step.
+struct full_load_state {
+  std::vector<double> displacement;         ///< [dofs]
+  std::vector<int> isep;                    ///< [pairs]
+  std::optional<end_numbers> numbers = {};  ///< where the state was refined
+  bool from_reference = false, from_exact_path = false;
 };
 
-/// Finds the equilibrium under the load [dofs] at a share, up to 1, of a step, from 1; nothing where there is
-/// none.
-using fallback_solver =
-    std::function<std::optional<equilibrium_state>(int step, double share, std::span<const double> load)>;
-
-/// An increment that no kernel was asked for.
-struct followed_increment {
-  double fraction;            ///< of the step's load
-  std::vector<event> events;  ///< in order of pairs
-  bool snaps;                 ///< a rigid motion at constant load led to it
-  std::vector<double> d;      ///< D at each pair [pairs]
+/// What is known of the equilibrium under the full load of a step.
+struct found_end {
+  std::optional<full_load_state> state = {};
+  std::optional<bool> exists = {};  ///< nothing: it is not decided
 };
 
-/// A step that was followed by other means than doubles.
-struct followed_step {
-  path_status status;  ///< solved or mechanism
-  std::vector<followed_increment> increments;
-  double fraction;                   ///< of the step's load that was reached
-  std::vector<double> displacement;  ///< [dofs]
-  std::vector<char> closed;          ///< [pairs] 1 in contact
-};
-
-/// Follows a step, from 1, in arithmetic that does not round; nothing where that would take too long.
-using exact_follower = std::function<std::optional<followed_step>(int step)>;
+/// Ends a step, from 1: refines and proves the state that a path has reached. Where that fails, or the path
+/// was lost and there is none (null), it finds the equilibrium by other means.
+using end_finder = std::function<found_end(int step, const full_load_state* reached)>;
 
 struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
-  // These lead on only when the leader's rule is not the listing's. With that, they tell whether a load that
-  // its path did not reach has an equilibrium.
-  fallback_solver fallback = nullptr;
-  state_refiner refine = nullptr;
-  exact_follower exactly =
-      nullptr;  ///< asked before `fallback`, for all of a step that doubles cannot follow
+  /// Ends the steps of a leader whose rule is not the listing's. With that rule, it tells whether a load that
+  /// its path did not reach has an equilibrium.
+  end_finder ends = nullptr;
 };
 
 /// Most increments of a step that anybody may ask for.
@@ -113,8 +93,8 @@ inline constexpr int most_increments = 1'000'000'000;
 [[nodiscard]] int increments_allowed(const path_limits& limits, std::size_t pairs);
 
 /// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch. What else has
-/// to be decided is up to a policy: the 1989 driver's for a leader with the listing's rule, the stabilized
-/// one for any other (contct/path/policy.hpp).
+/// to be decided is up to a policy: the 1989 driver's for a leader with the listing's rule, the corrected
+/// rule's for any other (contct/path/policy.hpp).
 ///
 /// The engine must be fresh: the springs of the pairs that start closed in, all others out.
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,

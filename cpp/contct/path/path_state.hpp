@@ -58,10 +58,7 @@ struct path_state {
 
   const linear_structure& structure;
   stiffness_engine& engine;
-  state_refiner refine = nullptr;        ///< see path_limits
-  bool held_in_doubles = false;          ///< only what doubles see counts as held
   int step = 0;                          ///< from 1
-  int increments = 0;                    ///< of this step that the observers were told
   std::vector<double> total;             ///< load at the end of the step [dofs]
   std::vector<double> increment;         ///< total less the previous step's [dofs]
   residual_load residual{};              ///< R*
@@ -88,7 +85,6 @@ struct path_state {
   /// R* becomes the load of step `number` less the previous one's.
   void begin_step(int number, const load_history& total_load) {
     step = number;
-    increments = 0;
     for (std::size_t i = 0; i < total.size(); ++i) increment[i] = -total[i];
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
@@ -118,11 +114,11 @@ struct path_state {
     return structure.driven_motion(held_by(), total, work).has_value();
   }
 
-  /// Put one call to the kernel, with `d_test` [pairs] for d* and `at_rest` for call::at_rest, and tell the
-  /// observers. Sets s, status and events; returns s_min. Throws no_factor when d* is not finite.
-  double ask(kernel& leader, std::span<const double> d_test, int at_rest) {
+  /// Put one call to the kernel, with `d_test` [pairs] for d*, and tell the observers. Sets s, status and
+  /// events; returns s_min. Throws no_factor when d* is not finite.
+  double ask(kernel& leader, std::span<const double> d_test) {
     if (!response_is_finite()) throw no_factor("the response to the residual load is not finite");
-    call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}, at_rest};
+    call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
     if (as_listed_) {
       for (std::size_t i = 0; i < pairs(); ++i) {
         dd_[at_dof[i]] = d[i];
@@ -140,9 +136,10 @@ struct path_state {
     return arguments.smin;
   }
 
-  /// The pairs in contact are those of `closed` [pairs], whatever the last call said: the others toggle.
-  void take_over(std::span<const char> closed) {
-    for (std::size_t i = 0; i < pairs(); ++i) status[i] = closed[i] != 0 ? in_contact : separated;
+  /// Toggle this pair, and no other, whatever the last call said.
+  void toggle_alone(int pair) {
+    status = sprung;
+    status[pair] = -status[pair];
     find_events();
   }
 
@@ -177,9 +174,17 @@ struct path_state {
     sprung = status;
   }
 
+  /// Where the pairs act, D is `u` [dofs], and their statuses are `isep` [pairs].
+  void put_at(std::span<const double> u, std::span<const int> isep) {
+    for (std::size_t i = 0; i < pairs(); ++i) d[i] = u[at_dof[i]];
+    status.assign(isep.begin(), isep.end());
+    adopt_statuses();
+  }
+
   /// The rigid-body motions that supports and pairs in contact stop, and whether these are all.
-  [[nodiscard]] rigid_rank held_by() const {
-    return structure.held_by([this](std::size_t i) { return status[i] == in_contact; }, held_in_doubles);
+  [[nodiscard]] rigid_rank held_by() const { return held_by(status); }
+  [[nodiscard]] rigid_rank held_by(const std::vector<int>& isep) const {
+    return structure.held_by([&isep](std::size_t i) { return isep[i] == in_contact; });
   }
   [[nodiscard]] bool held() const { return structure.is_held(held_by()); }
 
@@ -216,19 +221,17 @@ struct path_state {
   }
 
   /// Tell the observers.
-  void tell_increment(int number, double s_min, bool rigid, std::span<const double> ahead = {}) {
-    increments = number;
-    for (observer* o : observers_) o->incremented({step, number, s_min, fraction(), events, rigid, ahead});
+  void tell_increment(int number, double s_min, bool rigid) const {
+    for (observer* o : observers_)
+      o->incremented({step, number, s_min, fraction(), events, rigid, d, status, pair_force});
   }
-
-  /// The same of the end of a step, refined where it reached its load.
   void tell_end(const step_state& end) {
     shape.assign(end.displacement.begin(), end.displacement.end());
-    contct::path::tell_end(end, refine, observers_);
+    for (observer* o : observers_) o->step_ended(end);
   }
 
  private:
-  /// Thousands of pairs, and one or two events: whole stretches are the same.
+  /// Events are rare, so 16 statuses are compared at once.
   void find_events() {
     constexpr std::size_t stretch = 16;
     events.clear();
@@ -265,24 +268,24 @@ struct path_state {
 /// saved set.
 class cycle_detector {
  public:
-  explicit cycle_detector(std::size_t pairs) : toggles_(pairs) {}
+  explicit cycle_detector(std::size_t pairs) : pairs_(pairs) {}
 
   /// A new step begins.
   void reset() {
     saved_.clear();
     recent_.clear();
-    std::fill(toggles_.begin(), toggles_.end(), 0);
   }
 
   /// Tell of one increment: whether D or R* moved, the statuses after it, and its events.
   /// Returns true when these statuses came before and nothing has moved since.
   bool repeats(bool moved, std::span<const int> status, std::span<const event> events) {
-    remember(events);
+    recent_.emplace_back(events.begin(), events.end());
+    if (recent_.size() > remembered_increments) recent_.pop_front();
     if (moved) {
       saved_.clear();
       return false;
     }
-    if (!saved_.empty() && std::equal(status.begin(), status.end(), saved_.begin())) return true;
+    if (std::ranges::equal(status, saved_)) return !saved_.empty();
     if (saved_.empty() || ++steps_since_saved_ == next_save_) {
       next_save_ = saved_.empty() ? 1 : 2 * next_save_;
       steps_since_saved_ = 0;
@@ -293,27 +296,21 @@ class cycle_detector {
 
   /// Pairs, from 0, that toggled more than once in the last increments (at most 200 of them).
   [[nodiscard]] std::vector<int> restless_pairs() const {
-    std::vector<int> pairs;
-    for (std::size_t i = 0; i < toggles_.size(); ++i)
-      if (toggles_[i] > 1) pairs.push_back(static_cast<int>(i));
+    std::vector<int> toggles(pairs_), pairs;
+    for (const std::vector<event>& events : recent_)
+      for (const event& e : events)
+        if (++toggles[e.pair] == 2) pairs.push_back(e.pair);
+    std::ranges::sort(pairs);
     return pairs;
   }
 
  private:
-  void remember(std::span<const event> events) {
-    for (const event& e : events) ++toggles_[e.pair];
-    recent_.emplace_back(events.begin(), events.end());
-    if (recent_.size() <= remembered_increments) return;
-    for (const event& e : recent_.front()) --toggles_[e.pair];
-    recent_.pop_front();
-  }
-
   static constexpr std::size_t remembered_increments = 200;
+  std::size_t pairs_;
   std::vector<int> saved_;
   long steps_since_saved_ = 0;
   long next_save_ = 1;
   std::deque<std::vector<event>> recent_;
-  std::vector<int> toggles_;  // of each pair, in recent_
 };
 
 }  // namespace contct::path

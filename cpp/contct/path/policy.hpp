@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 
 #include "contct/kernel/kernel.hpp"
@@ -17,8 +16,14 @@ enum class response {
   none,     ///< nothing holds it
 };
 
-/// The decisions of one path. A policy reads and changes the path's state; the loop calls these verbs in this
-/// order. The defaults are the 1989 driver's.
+/// For how many answers in a row with SMIN = 0 the corrected kernel's choice among `nc` pairs is taken,
+/// before the pair of least index toggles.
+[[nodiscard]] constexpr int quick_answers_at_rest(std::size_t nc) {
+  return 20 + 4 * static_cast<int>(nc);
+}
+
+/// The decisions of one path: the 1989 driver's, which solves, and takes the kernel's word, except for events
+/// within rounding of full load. The loop calls these verbs in this order.
 class path_policy {
  public:
   /// Both must outlive this object.
@@ -31,58 +36,30 @@ class path_policy {
   virtual void begin_step() {}
 
   /// Write d* [pairs] to the state. Throws no_factor.
-  virtual response respond() = 0;
+  virtual response respond();
 
   /// Put the call to the kernel, which toggles statuses; returns s_min.
-  virtual double ask() { return now_.ask(leader_, now_.d_star, 0); }
+  virtual double ask() { return now_.ask(leader_, now_.d_star); }
 
   /// Replace the kernel's s_min, and its toggles, where the driver knows better. False when a rigid motion
   /// meets no face: a mechanism.
-  virtual bool accept(double& s_min) = 0;
+  virtual bool accept(double& s_min);
 
   /// May the path go on after the events of this increment, or do they leave a mechanism?
-  [[nodiscard]] virtual bool goes_on() const = 0;
+  [[nodiscard]] virtual bool goes_on() const { return now_.held(); }
 
-  /// The step's load is applied; `number` increments were made.
-  virtual void end_step(int /*number*/) {}
-
-  /// u [dofs] under the load applied so far. Throws no_factor.
-  virtual void displace(std::span<double> u) = 0;
+  /// Write u [dofs] under the load applied so far. False where the structure cannot be held for a solve.
+  /// Throws no_factor.
+  virtual bool displace(std::span<double> u);
 
   /// Reciprocal condition of the stiffness that holds the structure now; equilibrated.
   [[nodiscard]] virtual double reciprocal_condition() { return now_.engine.reciprocal_condition(); }
-
-  /// Can the structure be solved for as it stands?
-  [[nodiscard]] virtual bool can_be_held() { return now_.held(); }
-
-  /// The same pairs toggle for ever, or nothing stops the structure, and rounding alone may be the reason: go
-  /// on from a state a little further along the load, as an increment of this number. False when there is no
-  /// such means, or no such state.
-  virtual bool go_on_ahead(int /*number*/) { return false; }
-
-  /// Is there an equilibrium at the end of the step? Nothing where that is not certain.
-  [[nodiscard]] virtual std::optional<bool> can_stand() const { return std::nullopt; }
-
-  /// The path cannot reach the end of the step: follow what is left of it without rounding, and tell the
-  /// observers. Nothing when there is no such means.
-  virtual std::optional<path_end> follow_exactly() { return std::nullopt; }
-
-  /// The path cannot reach the end of `step`: put the state at its equilibrium by other means, and tell the
-  /// observers. False when there is no such means, or no equilibrium.
-  virtual bool fall_back(int /*step*/) { return false; }
 
  protected:
   /// Is what would be left of the step's load after s_min no more than the error of an event's load: 1e-9 of
   /// it, or eps / rcond up to 1e-6? Unloading to nothing opens the last pairs exactly at full load; computed,
   /// that may come a rounding too early.
-  [[nodiscard]] bool reaches_full_load(double s_min) const {
-    constexpr double never_less = 1e-9;
-    constexpr double never_more = 1e-6;
-    const double share_left = now_.residual.share * (1.0 - s_min);
-    if (share_left > never_more) return false;
-    if (share_left <= never_less) return true;
-    return share_left <= std::numeric_limits<double>::epsilon() / now_.engine.reciprocal_condition();
-  }
+  [[nodiscard]] bool reaches_full_load(double s_min) const;
 
   /// Undo the kernel's toggles and apply all of R*: as the listing does with an event exactly at s = 1.
   void leave_undone(double& s_min) {
@@ -94,9 +71,9 @@ class path_policy {
   kernel& leader_;
 };
 
-/// The 1989 driver's policy for a leader whose rule is the listing's, or else the stabilized one, which the
-/// corrected rule takes, with the means that `limits` has. All must outlive it.
+/// The 1989 driver's policy for a leader whose rule is the listing's, otherwise that of the corrected rule.
+/// All must outlive it.
 [[nodiscard]] std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader,
-                                                       cycle_detector& cycles, const path_limits& limits);
+                                                       cycle_detector& cycles);
 
 }  // namespace contct::path

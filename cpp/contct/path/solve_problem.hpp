@@ -15,20 +15,28 @@
 
 namespace contct::path {
 
-/// Follow the path of `s`, which was built from `geometry`, through load steps given by their totals,
-/// on an engine of its own. add_consistent_loads must know the geometry.
+/// Load steps given by their totals, on `s`, which was built from `geometry`. All must outlive what is
+/// returned. add_consistent_loads must know the geometry.
+template <class Geometry>
+load_history loads_of(const Geometry& geometry, std::span<const load> steps, const linear_structure& s) {
+  const auto total = [&geometry, steps, &s](int step, std::span<double> f) {
+    add_consistent_loads(geometry, steps[step - 1], f);
+    add_settlements(s, steps[step - 1], f);
+  };
+  const auto work = [steps, truth = s.truth](int step) {
+    return truth ? truth->work_of(steps[step - 1]) : rigid_work();
+  };
+  return {total, work};
+}
+
+/// Follow the path of `s` through these steps on an engine of its own.
 template <class Geometry>
 path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::span<const load> steps,
                       std::string_view engine, kernel& leader, std::span<observer* const> observers,
                       const path_limits& limits = {}) {
   const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
-  const auto total = [&](int step, std::span<double> f) {
-    add_consistent_loads(geometry, steps[step - 1], f);
-    add_settlements(s, steps[step - 1], f);
-  };
-  const auto work = [&](int step) { return s.truth ? s.truth->work_of(steps[step - 1]) : rigid_work(); };
-  return follow_path(s, static_cast<int>(steps.size()), load_history(total, work), *solves, leader, observers,
-                     limits);
+  return follow_path(s, static_cast<int>(steps.size()), loads_of(geometry, steps, s), *solves, leader,
+                     observers, limits);
 }
 
 /// The structure that a problem describes; the supports that its steps move are built to settle.
@@ -41,15 +49,9 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
   return build(p.geometry, supports, p.pairs);
 }
 
-/// The loads of a problem's steps, as follow_path takes them. `p` and its structure must outlive them.
+/// The loads of a problem's steps. `p` and its structure must outlive them.
 [[nodiscard]] inline load_history loads_of(const problem& p, const linear_structure& s) {
-  const auto total = [&p, &s](int step, std::span<double> f) {
-    add_consistent_loads(p.geometry, p.steps[step - 1], f);
-    add_settlements(s, p.steps[step - 1], f);
-  };
-  return {total, [&p, truth = s.truth](int step) {
-            return truth ? truth->work_of(p.steps[step - 1]) : rigid_work();
-          }};
+  return loads_of(p.geometry, p.steps, s);
 }
 
 /// The engine of a path that a kernel leads: the one that was asked for, by name or as "auto", the quickest;

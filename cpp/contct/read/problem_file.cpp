@@ -180,8 +180,7 @@ class problem_reader {
     face.allow_only({"polynomial"});
     coefficients = read_polynomial(face, problem_.geometry,
                                    "numbers for face: only along a beam it may be a polynomial");
-    const std::vector<double> values =
-        values_at<double>(std::get<beam>(problem_.geometry.kind), coefficients, at);
+    std::vector<double> values = values_at<double>(std::get<beam>(problem_.geometry.kind), coefficients, at);
     if (!std::ranges::all_of(values, [](double c) { return std::isfinite(c); }))
       face.refuse_key("polynomial", "coefficients whose value is finite at every node");
     return values;

@@ -7,7 +7,7 @@
 
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
-#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
@@ -75,7 +75,7 @@ void certify_states(const char* text, const char* options, answer& a) {
   const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   const linear_structure s = structure_of(p);
   const given_states states = read_states(r, p, s);
-  certifier judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p));
+  certifier judged(p, s, exact::exact_means_of(p));
   run_recorder record;
   path_end end{path_status::solved, 0, 1.0, {}};
   for (std::size_t i = 0; i < states.displacement.size(); ++i) {
@@ -95,7 +95,7 @@ void certify_states(const char* text, const char* options, answer& a) {
                out);
   const std::vector<std::string> complaints = certificate_complaints(p, judged, {});
   a.messages.insert(a.messages.end(), complaints.begin(), complaints.end());
-  a.exit = judged.all_exact() ? exit_status::solved : exit_status::uncertified;
+  a.exit = judged.all_certified() ? exit_status::solved : exit_status::uncertified;
 }
 
 }  // namespace

@@ -72,7 +72,11 @@ void serve_run(const served_request& wanted, const problem& p, answer& a) {
   if (wanted.kernels.empty() && (wanted.page || wanted.states || wanted.envelope))
     throw std::invalid_argument(
         "options: found final_only with page, states or envelope; allowed: these with a path");
-  kept_text result, log, trace, proof, page;
+  kept_text result;
+  kept_text log;
+  kept_text trace;
+  kept_text proof;
+  kept_text page;
   const auto asked = [](bool flag, kept_text& to) { return flag ? &to.file : nullptr; };
   run.go({&result.file, wanted.states ? result_parts::states : result_parts::ends, asked(wanted.log, log),
           asked(wanted.trace, trace), asked(wanted.proof, proof), asked(wanted.page, page)});

@@ -6,8 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "contct/exact/exact_follower.hpp"
-#include "contct/exact/exact_residual.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"
@@ -32,10 +31,7 @@ trace_header header_of_trace(const run& r, const kernel_facts& leader) {
 }  // namespace
 
 run::run(const problem& p, const linear_structure& s, run_request request)
-    : what(p),
-      structure(s),
-      wanted(std::move(request)),
-      judged(p, s, exact::exact_residual_of(p), exact::semidefinite_test_of(p)) {
+    : what(p), structure(s), wanted(std::move(request)), judged(p, s, exact::exact_means_of(p)) {
   if (wanted.kernels.empty()) return;
   leader_ = make_kernel(wanted.kernels.front());
   leader_facts_ = leader_->facts();
@@ -54,9 +50,7 @@ void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
   all.insert(all.end(), shown.begin(), shown.end());
   if (to.log != nullptr) all.push_back(&log_.emplace(*to.log));
   all.push_back(&record_);
-  end = leader_ ? follow_leader(all)
-                : find_final_states(structure, static_cast<int>(what.steps.size()), loads_of(what, structure),
-                                    all, &judged, exact::exact_follower_of(what));
+  end = leader_ ? follow_leader(all) : judged.find_final_states(all);
   if (compared_) compares = {compared_->compared().mismatches == 0, counts_of(*compared_)};
   if (own_path_) own_path_->end = end;
   leader_.reset();  // one FORTRAN kernel at a time has unit 26
@@ -85,19 +79,18 @@ void run::keep_states(std::vector<observer*>& all) {
 
 path_end run::follow_with(const std::string& engine_name, kernel& leader, const std::vector<observer*>& all,
                           certifier& judge) const {
-  return follow(what, structure, engine_name, leader, all,
-                {wanted.max_increments, judge.fallback(), judge.refiner(), exact::exact_follower_of(what)});
+  return follow(what, structure, engine_name, leader, all, {wanted.max_increments, judge.ends()});
 }
 
 run::other_path run::follow_alone(const std::string& name) {
   path_record own;
-  certifier judge(what, structure, exact::exact_residual_of(what), exact::semidefinite_test_of(what));
+  certifier judge(what, structure, exact::exact_means_of(what));
   const kernel_facts facts = facts_of_kernel(name);
   own.end =
       follow_with(engine_for(facts, wanted.engine, structure), *make_kernel(name), {&judge, &own}, judge);
   const free_run_difference d =
       compare_paths(*own_path_, own, free_run_bound(leader_facts_, facts), structure.dofs_per_node);
-  other_path other{d, judge.all_exact(),
+  other_path other{d, judge.all_certified(),
                    fmt::format("shares of the step within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
                                d.displacement, d.bound)};
   free_runs_.push_back({name, d, other.certified});

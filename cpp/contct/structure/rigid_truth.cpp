@@ -162,15 +162,6 @@ rigid_work rigid_work::less(const rigid_work& other) const {
   return rigid_work(std::move(difference));
 }
 
-rigid_work rigid_work::mixed(double share, const rigid_work& before) const {
-  if (!is_known()) return {};
-  auto sum = std::make_shared<numbers>();
-  const rational exactly = numeric::binary_value(share);
-  subtract(sum->all, exactly_->all, -exactly);
-  if (before.is_known()) subtract(sum->all, before.exactly_->all, exactly - 1);
-  return rigid_work(std::move(sum));
-}
-
 double free_motion::at(int dof, const rigid_row& row) const {
   const double rounded = along(parts_, row);
   if (std::abs(rounded) >= still_ * largest_of(row)) return rounded;

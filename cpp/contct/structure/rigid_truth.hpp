@@ -28,8 +28,6 @@ class rigid_work {
   [[nodiscard]] const numbers& exactly() const { return *exactly_; }
   /// This work less another; not known where one of them is not.
   [[nodiscard]] rigid_work less(const rigid_work& other) const;
-  /// A share of this work, and what is left to 1 of `before`, which is none where it is not known.
-  [[nodiscard]] rigid_work mixed(double share, const rigid_work& before) const;
 
  private:
   std::shared_ptr<const numbers> exactly_;

@@ -167,11 +167,9 @@ struct linear_structure {
     return truth ? rigid_rank(*truth) : rigid_rank(std::max(1e-12, rigid_rounding));
   }
   /// The motions that the supports and those pairs stop, from 0, for which `closed(pair)` is true.
-  /// `in_doubles`: only where a factor in doubles sees it. A lever of 1e-9 of a length is stiff by its
-  /// square.
   template <class Closed>
-  [[nodiscard]] rigid_rank held_by(Closed closed, bool in_doubles = false) const {
-    rigid_rank rank = in_doubles ? rigid_rank(1e-9) : nothing_held();
+  [[nodiscard]] rigid_rank held_by(Closed closed) const {
+    rigid_rank rank = nothing_held();
     for (std::size_t i = 0; i < held_by_supports.size() && !is_held(rank); ++i)
       rank.hold(held_by_supports[i], supported_dofs[i]);
     for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/exact/exact_beside.hpp"
+#include "contct/exact/exact_companion.hpp"
 #include "contct/write/explain.hpp"
 
 namespace contct::write {
@@ -19,7 +19,7 @@ class exact_addition final : public explain_addition {
  public:
   /// `path` observes the same run, in front of what explains it, and must outlive this object; null where the
   /// exact path is not followed, for the reason in `why_no_path`.
-  explicit exact_addition(const exact_beside* path, std::string why_no_path = {})
+  explicit exact_addition(const exact_companion* path, std::string why_no_path = {})
       : path_(path), why_no_path_(std::move(why_no_path)) {}
 
   void begin(const explained_increment& i) override { call_ = answer_of(i.call); }
@@ -38,7 +38,7 @@ class exact_addition final : public explain_addition {
   [[nodiscard]] nlohmann::ordered_json path_json(const explained_kernels& of,
                                                  const explained_increment& i) const;
 
-  const exact_beside* path_;
+  const exact_companion* path_;
   std::string why_no_path_;
   std::optional<listing_answer> call_;  // of the increment at hand
 };

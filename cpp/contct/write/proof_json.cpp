@@ -72,7 +72,7 @@ std::string proof_json(const problem& p, const certify::certifier& judged) {
   for (std::size_t i = 0; i < judged.steps().size(); ++i) {
     const auto& c = judged.steps()[i];
     const auto& proof = judged.proofs()[i];
-    json step = {{"step", i + 1}, {"certified", c && c->exact}, {"error", nullptr}};
+    json step = {{"step", i + 1}, {"certified", c && c->certified}, {"error", nullptr}};
     if (proof) {
       step["error"] = error_json(p, c);
       step.update(step_json(*proof));

@@ -139,16 +139,11 @@ void json_document::finish(const json& members, const std::vector<list>& lists) 
 
 json certificate_json(const std::optional<certificate>& c) {
   if (!c) return nullptr;
-  json out = {{"exact", c->exact},
-              {"displacement_error", c->displacement_error},
-              {"equilibrium", c->equilibrium},
-              {"penetration", c->penetration},
-              {"tension", c->tension},
-              {"rcond", c->rcond},
-              {"tolerance", c->tolerance},
-              {"shape_error", c->shape_error},
-              {"unique", c->unique},
-              {"independent", c->independent},
+  json out = {{"exact", c->certified},         {"displacement_error", c->displacement_error},
+              {"equilibrium", c->equilibrium}, {"penetration", c->penetration},
+              {"tension", c->tension},         {"rcond", c->rcond},
+              {"tolerance", certified_share},  {"shape_error", c->shape_error},
+              {"unique", c->unique},           {"independent", c->independent},
               {"digits", digits_of(*c)}};
   if (!c->unique) out["displacement_error"] = out["shape_error"] = nullptr;
   if (!c->problem.empty()) out["problem"] = c->problem;
@@ -406,7 +401,7 @@ class result_writer {
     members["lockstep"] = r_.compared == nullptr ? json(nullptr) : lockstep_json(*r_.compared);
     members["status"] = r_.status();
     if (r_.all_increments != nullptr) members["envelope"] = envelope_json(r_.what, *r_.all_increments);
-    members["certified"] = end.status == path_status::solved && r_.judged.all_exact();
+    members["certified"] = end.status == path_status::solved && r_.judged.all_certified();
     if (parts_ != result_parts::report) return members;
     members.update({{"calls", nullptr},
                     {"calls_made", r_.record.all_calls},

@@ -60,7 +60,7 @@ class load_path {
 /// How a pair stands, and its gap and force as results have them.
 struct pair_reading {
   double w, gap, force;
-  pair_look look;
+  pair_state look;
 };
 /// At deflection `w`.
 [[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
@@ -88,8 +88,8 @@ struct extreme {
 /// Pairs of each look: open, closed, at their faces.
 struct pair_counts {
   std::size_t open = 0, closed = 0, at_face = 0;
-  [[nodiscard]] std::size_t& of(pair_look look) {
-    return look == pair_look::open ? open : look == pair_look::closed ? closed : at_face;
+  [[nodiscard]] std::size_t& of(pair_state look) {
+    return look == pair_state::open ? open : look == pair_state::closed ? closed : at_face;
   }
 };
 

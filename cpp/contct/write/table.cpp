@@ -148,8 +148,10 @@ void table::step_ended(const step_state& s) {
     items.insert(items.begin() + 1, digits_words(*judged));
   if (const std::string& name = problem_.steps[s.step - 1].name; !name.empty())
     items.insert(items.begin(), on_one_line(name));
-  if (s.from_fallback) items.emplace_back("from the reference solution");
-  if (s.from_exact_path) items.emplace_back("followed in rational numbers");
+  if (s.from_exact_path)
+    items.emplace_back("from the exact path");
+  else if (s.from_fallback)
+    items.emplace_back("from the reference solution");
   for (const std::string& line : wrap(items, width)) {
     print_text(fmt::format("{}\n", label + line));
     label.assign(label.size(), ' ');
@@ -194,40 +196,30 @@ run_csv::run_csv(const problem& p, const lockstep* compared, const frame_keeper&
       states_(states),
       watched_(watched),
       increments_(increments),
-      pairs_(pairs),
-      d_(p.pairs.size()),
-      d_star_(p.pairs.size()) {
-  for (const contact_pair& of : p.pairs) isep_.push_back(of.closed ? in_contact : separated);
+      pairs_(pairs) {
   increments_.write("step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w\r\n");
   if (pairs_ != nullptr) pairs_->write("step,increment,pair,node,surface,state,look,w,gap,force\r\n");
 }
 
 void run_csv::called(const answered_call& c) {
-  for (std::size_t i = 0; i < d_.size(); ++i) {
-    const int dof = c.c.dof.dof_of(c.c.id[i]) - 1;
-    d_[i] = c.c.dd[dof];
-    d_star_[i] = c.c.dtest[dof];
-  }
-  isep_.assign(c.isep_before.begin(), c.isep_before.end());
   if (pending_) write_pending();
   smin_ = c.c.smin;
   agreement_ = compared_ == nullptr ? "" : compared_->last_call_equal() ? "equal" : "differ";
 }
 
 void run_csv::incremented(const increment& i) {
-  last_ = {
-      i.step, i.number, i.snaps ? "snap" : "load",    i.s, i.fraction, {i.events.begin(), i.events.end()},
-      d_,     isep_,    states_.latest().pair_forces, {}};
+  last_ = {i.step,
+           i.number,
+           i.snaps ? "snap" : "load",
+           i.s,
+           i.fraction,
+           {i.events.begin(), i.events.end()},
+           {i.d.begin(), i.d.end()},
+           {i.isep.begin(), i.isep.end()},
+           states_.latest().pair_forces,
+           {}};
   const frame& now = states_.latest();
   if (!now.displacement.empty()) last_.watched = deflection_of(problem_, now, watched_);
-  for (std::size_t p = 0; p < d_.size(); ++p) last_.w[p] += i.s * d_star_[p];
-  for (const event& e : i.events) last_.isep[e.pair] = e.what == change::make ? in_contact : separated;
-  if (!i.ahead.empty()) {  // without a call
-    last_.w.assign(i.ahead.begin(), i.ahead.end());
-    isep_ = last_.isep;
-    smin_.reset();
-    agreement_ = "";
-  }
   pending_ = true;
 }
 

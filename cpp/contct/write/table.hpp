@@ -114,8 +114,6 @@ class run_csv final : public observer {
   int watched_;
   output_file& increments_;
   output_file* pairs_;
-  std::vector<double> d_, d_star_;  // of the last call [pairs]
-  std::vector<int> isep_;           // before its toggles [pairs]
   std::optional<double> smin_;
   std::string_view agreement_;
   bool pending_ = false;  // the last increment waits for its step's end, which knows it better

@@ -49,7 +49,7 @@ std::string pull_words(const certificate& c, const problem& p) {
 
 std::string certificate_mark(const std::optional<certificate>& c) {
   if (!c) return "no certificate";
-  return c->exact ? "certified" : "NOT certified";
+  return c->certified ? "certified" : "NOT certified";
 }
 
 std::string digits_words(const certificate& c) {
@@ -61,10 +61,10 @@ std::string digits_words(const certificate& c) {
 
 std::vector<std::string> certificate_summary(const certifier& judged, bool solved) {
   const auto& steps = judged.steps();
-  const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->exact; });
+  const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->certified; });
   if (bad != steps.end()) {
     return {fmt::format("step {} is NOT certified: {}", bad - steps.begin() + 1, (*bad)->problem),
-            fmt::format("allowed: {:.1e}", (*bad)->tolerance)};
+            fmt::format("allowed: {:.1e}", certified_share)};
   }
   double worst = 0.0;
   const auto certified = std::ranges::count_if(steps, [](const auto& c) { return c.has_value(); });
@@ -94,9 +94,9 @@ std::vector<std::string> certificate_complaints(const problem& p, const certifie
                                                 const early_toggles& early) {
   std::vector<std::string> lines;
   for (int step = 1; const auto& c : judged.steps()) {
-    if (c && !c->exact)
+    if (c && !c->certified)
       lines.push_back(fmt::format("step {} is not certified: {}; allowed: {:.1e}{}{}", step, c->problem,
-                                  c->tolerance, pull_words(*c, p), worst_until(step, *c, p, early)));
+                                  certified_share, pull_words(*c, p), worst_until(step, *c, p, early)));
     ++step;
   }
   return lines;

@@ -33,7 +33,7 @@ constexpr std::string_view state_name(int isep) {
 }
 
 /// As --csv has it.
-constexpr std::string_view look_name(pair_look look) {
+constexpr std::string_view look_name(pair_state look) {
   constexpr std::string_view names[] = {"open", "closed", "at its face"};
   return names[static_cast<std::size_t>(look)];
 }

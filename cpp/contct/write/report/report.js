@@ -1079,10 +1079,10 @@ function stateWords(f) {
   const place = f.step === 0 ? "Before any load."
     : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid-body motion at constant load; " : ""}load: ${minus(f.load.words)}, share ${short(f.fraction)} of the step.`;
   const event = f.events.length > 0 ? ` Then ${allEventWords(f.events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
-  const rescued = f.rescued ? " This state is the reference solution: the path could not reach it."
-    : f.exact ? " Doubles have too few digits to follow this step to its end: its last increments are those of the exact path." : "";
+  const fallback = f.exact ? " This state is the end of the exact path: the path in doubles could not reach it."
+    : f.from_fallback ? " This state is the reference solution: the path could not reach it." : "";
   const pairs = n === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} in contact, ${open} separated, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
-  return `${place}${event}${rescued}${pairs} Largest ${moves} ${short(mostOf(f).value)} at ${placeOf(mostOf(f))}.`;
+  return `${place}${event}${fallback}${pairs} Largest ${moves} ${short(mostOf(f).value)} at ${placeOf(mostOf(f))}.`;
 }
 
 function showReadings(f) {

@@ -52,7 +52,7 @@ function framesOf(result, { pairs } = placesOf(result)) {
   const { structure } = result;
   const frames = [];
   const add = (state, how) => frames.push({
-    end: false, exact: false, rescued: false, ...how, u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
+    end: false, exact: false, from_fallback: false, ...how, u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
     pairs: pairs.map((p, i) => {
       const [w, closed] = [state.displacement[p.u], state.pairs[i].state === "contact"];
       const look = Math.abs(p.face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // the listing's EPSGAP
@@ -69,13 +69,13 @@ function framesOf(result, { pairs } = placesOf(result)) {
   let at = 0;
   for (const step of result.steps) {
     const end = { step: step.step, fraction: step.fraction, end: true, exact: step.ended_by === "exact", load: step.load };
-    const rescued = step.ended_by === "oracle";
+    const from_fallback = step.ended_by === "oracle";
     step.increments.forEach((i, n) => {
       const how = { at: ++at, step: step.step, number: i.increment, fraction: i.fraction, s: i.s, snap: i.snap, events: i.events, load: i.load };
       if (endsAt(step, n)) add(step, { ...how, ...end });
       else if (i.displacement) add(i, how);
     });
-    if (!endsAt(step, step.increments.length - 1)) add(step, { ...end, at, number: 0, s: 0, events: [], rescued });
+    if (!endsAt(step, step.increments.length - 1)) add(step, { ...end, at, number: 0, s: 0, events: [], from_fallback });
   }
   return frames;
 }

@@ -1,16 +1,16 @@
-#include "contct/exact/exact_beside.hpp"
+#include "contct/exact/exact_companion.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
 namespace contct::exact {
 
-bool exact_beside::is_behind_last(const path::increment& i) const {
+bool exact_companion::is_behind_last(const path::increment& i) const {
   if (!last_ || i.step < last_->step) return false;
   return i.step > last_->step || (last_->increment > 0 && i.number > last_->increment);
 }
 
-void exact_beside::incremented(const path::increment& i) {
+void exact_companion::incremented(const path::increment& i) {
   has_call_ = false;
   if (parted_ || !stopped_.empty() || is_behind_last(i)) return;
   try {

@@ -1,5 +1,5 @@
 // The exact path beside a kernel's, call by call.
-#include "contct/exact/exact_beside.hpp"
+#include "contct/exact/exact_companion.hpp"
 
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ namespace {
 
 /// What was beside each increment.
 struct beside_log final : observer {
-  explicit beside_log(const exact_beside& b) : beside(b) {}
+  explicit beside_log(const exact_companion& b) : beside(b) {}
   void incremented(const contct::path::increment& i) override {
     const exact_call* const c = beside.call();
     calls.push_back(c == nullptr ? "-" : std::to_string(c->step) + "." + std::to_string(c->increment));
@@ -28,7 +28,7 @@ struct beside_log final : observer {
       ++compared;
     }
   }
-  const exact_beside& beside;
+  const exact_companion& beside;
   std::vector<std::string> calls;
   int compared = 0;
 };
@@ -43,7 +43,7 @@ struct path_beside {
 path_beside follow_beside(const std::string& file, const char* kernel, std::optional<path_place> last = {}) {
   const auto p = contct::read::read_problem(std::string(CONTCT_REFERENCE "/problems/") + file);
   const exact_problem exactly = exact_problem_of(p);
-  exact_beside beside(exactly, last);
+  exact_companion beside(exactly, last);
   beside_log log(beside);
   const auto leader = make_kernel(kernel);
   (void)contct::path::follow(p, contct::path::structure_of(p), "refactor", *leader, {&beside, &log});
@@ -83,7 +83,7 @@ TEST_CASE("an exact path that ends before the kernel's says why") {
   // A kernel that answers "no event" goes on where the exact path has become a mechanism.
   const auto p = contct::read::read_problem(CONTCT_REFERENCE "/problems/divergences/standstill.toml");
   const exact_problem exactly = exact_problem_of(p);
-  exact_beside beside(exactly);
+  exact_companion beside(exactly);
   const contct::kernels::event first[] = {{0, contct::kernels::change::make}};
   path_1989 walk(exactly);
   int number = 0;

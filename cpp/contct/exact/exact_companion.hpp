@@ -17,11 +17,11 @@ struct path_place {
 /// Observes the path of a kernel with the listing's rule and asks the exact path one call for each of its
 /// calls. Both are comparable as long as they had the same events: then the call of the same number is the
 /// same one but for rounding.
-class exact_beside final : public path::observer {
+class exact_companion final : public path::observer {
  public:
   /// `p` must outlive this object. Nothing is computed behind `last`, where that is given; an increment 0 in
   /// it means all of the step.
-  explicit exact_beside(const exact_problem& p, std::optional<path_place> last = {})
+  explicit exact_companion(const exact_problem& p, std::optional<path_place> last = {})
       : path_(p), last_(last) {}
 
   void incremented(const path::increment& i) override;

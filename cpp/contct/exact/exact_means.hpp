@@ -1,0 +1,28 @@
+// What rational numbers decide beside a path in doubles.
+#pragma once
+
+#include <optional>
+
+#include "contct/certify/certificate.hpp"
+#include "contct/exact/exact_problem.hpp"
+
+namespace contct::exact {
+
+/// Where numbers of a path in doubles are asked of rational ones, structures are no larger, nor their bands
+/// wider, nor numbers of the path longer, than this: it would take longer than anybody waits who did not ask
+/// for exact numbers.
+inline constexpr int most_dofs_beside_doubles = 1000;
+inline constexpr int most_subdiagonals_beside_doubles = 64;
+inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
+
+/// Of its band.
+[[nodiscard]] int subdiagonals(const exact_problem& p);
+
+/// The problem in rational numbers, where it is as small as that.
+[[nodiscard]] std::optional<exact_problem> small_exact_problem_of(const problem& p);
+
+/// The ends of its exact path, residuals, and whether its stiffness is positive semidefinite without pairs:
+/// nothing of a larger problem. `p` must outlive what is returned.
+[[nodiscard]] certify::exact_means exact_means_of(const problem& p);
+
+}  // namespace contct::exact
