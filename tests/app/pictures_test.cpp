@@ -113,7 +113,7 @@ TEST_CASE(
 
 TEST_CASE("one kernel alone: nothing is said to be compared") {
   const auto data = written(good_problem, 0, {"--kernels", "cpp"});
-  CHECK(data["words"]["comparison"] == "");
+  CHECK(data["words"]["comparison"].get<std::string>().empty());
   CHECK(data["lockstep"].is_null());
   CHECK(data["calls"][0]["followers"].empty());
 }

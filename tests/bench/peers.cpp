@@ -68,6 +68,7 @@ contact_problem contact_problem_of(const app::problem& p, const app::linear_stru
 
 class newton {
  public:
+  // NOLINTBEGIN(cppcoreguidelines-prefer-member-initializer): CHOLMOD is to be started first
   newton(const contact_problem& p, bool updown) : problem_(p), updown_(updown), closed_(p.springs.size()) {
     (void)cholmod_start(&common_);
     common_.supernodal = updown ? CHOLMOD_SIMPLICIAL : CHOLMOD_SUPERNODAL;
@@ -81,6 +82,7 @@ class newton {
     if (cholmod_factorize(matrix_, factor_, &common_) == 0 || common_.status != CHOLMOD_OK)
       throw std::runtime_error("the supports alone do not hold the structure");
   }
+  // NOLINTEND(cppcoreguidelines-prefer-member-initializer)
   newton(const newton&) = delete;
   newton& operator=(const newton&) = delete;
   ~newton() {

@@ -458,7 +458,7 @@ TEST_CASE("a state that a path reached and nothing proves is replaced by the ref
   const problem stop = cantilever_over_a_stop().as_problem();
   const linear_structure s = structure_of(stop);
   certifier judged(stop, s);
-  full_load_state far(std::vector<double>(s.dofs()), {in_contact});
+  full_load_state far{std::vector<double>(s.dofs()), {in_contact}};
   far.displacement[4] = 1.0;
   const found_end end = judged.ends()(2, &far);
   REQUIRE(end.state);

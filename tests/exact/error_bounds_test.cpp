@@ -155,7 +155,7 @@ struct one_end {
     const path_limits limits = refined ? refined_by(watch.prover) : path_limits();
     (void)follow(what, structure, "refactor", *make_kernel("corrected"), {&watch}, limits);
     truly = exact::follow_true_path(exact::exact_problem_of(what)).steps.back();
-    end = watch.ends.back();
+    end = watch.ends.back();  // NOLINT(cppcoreguidelines-prefer-member-initializer): the path comes first
     end.numbers.displacement = end.displacement;
     end.numbers.isep = end.isep;
   }

@@ -7,6 +7,10 @@
 
 namespace {
 
+#ifndef CONTCT_REFERENCE  // clang-tidy reads this without the build of fuzzers
+#define CONTCT_REFERENCE "reference"
+#endif
+
 using namespace contct::fuzz;
 using namespace contct::read;
 

@@ -280,7 +280,7 @@ made_kernel endless(contact_rule rule = contact_rule::corrected) {
         const std::size_t i = calls++ % 2 == 0 ? 0 : 1;
         c.isep[i] = -c.isep[i];
       },
-      std::move(rule));
+      rule);
 }
 
 }  // namespace

@@ -28,7 +28,6 @@
 #include "referee/problem_text.hpp"
 
 using namespace contct::referee;
-using contct::structure::problem;
 
 namespace {
 
@@ -92,7 +91,8 @@ drawn_problem draw_of_laboratory(std::uint64_t seed, std::uint64_t number) {
   small.most_elements = 8;
   small.most_lines = 2;
   const contct::lab::random_problem r = contct::lab::make_random_problem(seed, number, small);
-  return {std::string(r.held ? "held:" : "free:") + layouts[static_cast<int>(r.layout)], r};
+  return {std::string(r.held ? "held:" : "free:") + layouts[static_cast<int>(r.layout)],
+          static_cast<const contct::structure::problem&>(r)};
 }
 
 /// Problem `number` of `seed`: the even ones are the laboratory's, small ones, named by their layouts; the

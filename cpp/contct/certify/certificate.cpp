@@ -130,7 +130,7 @@ certificate certifier::proof_of(const step_state& s) {
   if (last_ && last_->step == s.step && std::ranges::equal(last_->displacement, s.displacement)) {
     allowed_ = last_->allowed;
     proof_ = std::move(last_->proof);
-    const certificate known = last_->what;
+    certificate known = last_->what;
     last_.reset();
     return known;
   }

@@ -296,7 +296,8 @@ class cycle_detector {
 
   /// Pairs, from 0, that toggled more than once in the last increments (at most 200 of them).
   [[nodiscard]] std::vector<int> restless_pairs() const {
-    std::vector<int> toggles(pairs_), pairs;
+    std::vector<int> toggles(pairs_);
+    std::vector<int> pairs;
     for (const std::vector<event>& events : recent_)
       for (const event& e : events)
         if (++toggles[e.pair] == 2) pairs.push_back(e.pair);

@@ -189,7 +189,7 @@ std::array<std::array<Number, 12>, 12> scaled_plate_stiffness(const Number& a, c
   const Number yy = over_area / slenderness / slenderness;
   const Number both = over_area * 2 * nu;
   const Number twist = over_area * 2 * (1 - nu);
-  std::array<std::array<Number, 12>, 12> k;
+  std::array<std::array<Number, 12>, 12> k{};
   for (std::size_t i = 0; i < 12; ++i)
     for (std::size_t j = 0; j < 12; ++j)
       k[i][j] = xx * integral.xx_xx[i][j] + yy * integral.yy_yy[i][j] + both * integral.xx_yy[i][j] +
@@ -266,7 +266,7 @@ std::array<curvature<Number>, 4> curvatures_at_corners(const Number& a, const Nu
 /// Work of a unit pressure on its shape functions.
 template <class Number>
 std::array<Number, 12> plate_unit_load(const Number& a, const Number& b) {
-  std::array<Number, 12> f;
+  std::array<Number, 12> f{};
   for (std::size_t k = 0; k < 4; ++k) {
     f[3 * k] = a * b;
     f[3 * k + 1] = -corners[k].xi * a * a * b / 3;

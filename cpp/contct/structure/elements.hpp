@@ -189,7 +189,7 @@ class plate_elements {
   [[nodiscard]] std::array<std::array<Number, 4>, 3> moments(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     const auto at = formulas::curvatures_at_corners(own.a, own.b, deformation(e, u));
-    std::array<std::array<Number, 4>, 3> m;
+    std::array<std::array<Number, 4>, 3> m{};
     for (std::size_t k = 0; k < 4; ++k) {
       m[0][k] = D_ * (at[k].xx + nu_ * at[k].yy);
       m[1][k] = D_ * (at[k].yy + nu_ * at[k].xx);

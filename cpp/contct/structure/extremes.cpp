@@ -131,7 +131,7 @@ std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<con
   };
   std::vector<value_range> all;
   extremes w("w", at(0, u[0]));
-  for (int node = 1; node < p.nodes(); ++node) w.take(at(node, u[plate::dofs_per_node * node]));
+  for (int node = 1; node < p.nodes(); ++node) w.take(at(node, u[std::size_t{plate::dofs_per_node} * node]));
   all.push_back(w.range());
   element_results moments = results_in_elements(model{p}, {}, u);
   if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());

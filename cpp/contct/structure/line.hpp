@@ -90,7 +90,7 @@ class line {
   [[nodiscard]] Number at(std::size_t point) const {
     if (parts_.empty()) return number_of<Number>(x_[point]);
     const even_part& p = part_from(point);
-    const Number length = difference_of<Number>(p.run.end, p.start);
+    const auto length = difference_of<Number>(p.run.end, p.start);
     return number_of<Number>(p.start) + length * static_cast<int>(point - p.first) / p.run.elements;
   }
 

@@ -282,8 +282,8 @@ std::map<std::pair<int, int>, const frame*> states_within(const run_result& r, s
   const problem& p = r.what;
   const std::size_t of_element =
       std::holds_alternative<plate>(p.geometry.kind) ? 300 : 120;  // about, as text
-  const std::size_t bytes = 20 * dofs(p.geometry) + 100 * p.pairs.size() + 55 * p.supports.size() +
-                            of_element * elements(p.geometry);
+  const std::size_t bytes = std::size_t{20} * dofs(p.geometry) + 100 * p.pairs.size() +
+                            55 * p.supports.size() + of_element * elements(p.geometry);
   std::vector<const frame*> within;
   for (const frame& f : r.frames)
     if (f.number > 0 && !f.step_end) within.push_back(&f);
