@@ -26,6 +26,7 @@ need_core
 need_program
 need "to test" catch2 pkgconf python3 groff-base
 need "for quicker exact numbers" libgmp-dev || true  # without it a few tests have fewer problems
+need "to prove the kernels" python3-capstone python3-z3 || true  # those tests are skipped where they cannot be had
 need "to test contct.py" python3-pytest python3-numpy mypy || true  # those tests are skipped where they cannot be had
 
 # build NAME: configure and build the preset of that name, quietly unless it fails.
@@ -103,6 +104,7 @@ if [ "$full" = yes ]; then
   with_tool "the page in a browser" browser/run.sh build/release
   with_tool "the playground in a browser" playground/run.sh build/release
   with_tool "grids read back by VTK" vtk/run.sh build/release
+  with_tool "faults that the prover refuses" prove/run.sh build/release
   with_tool "fuzzers" fuzz/run.sh 60
   with_tool "Debian packages" package/debian.sh
   sh tests/tree/tidy.sh
