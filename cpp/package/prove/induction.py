@@ -68,7 +68,7 @@ class Proof:
         self.places = machine.heads(entry)
         self.heads: dict[int, Head] = {}
         self.known_paths: dict[int, tuple[int, list[Arrival]]] = {}  # from each head, under the assumptions of a version
-        self.passed: set[tuple[int, int]] = set()  # arrivals that agreed with a version of their head's assumptions
+        self.passed: dict[tuple[int, int], Arrival] = {}  # those that agreed with a version of their head's assumptions
 
     def prove(self) -> None:
         if not comparisons_are_ieee(self.spec.width) or not self.spec.is_kept():
@@ -87,7 +87,7 @@ class Proof:
         else:
             raise Undecided(f"no invariant after {MOST_ROUNDS} rounds")
         self.machine.strict = True
-        self.known_paths, self.passed = {}, set()
+        self.known_paths, self.passed = {}, {}
         arrivals = self._arrivals()
         for a in arrivals:
             if (a.s.pc and a.s.pc not in self.heads) or self._weaken(a, set()):
@@ -268,7 +268,7 @@ class Proof:
         if changed:
             head.version += 1
         else:
-            self.passed.add((id(a), head.version))
+            self.passed[id(a), head.version] = a
         return changed
 
     def _agrees(self, a: Arrival, slot: Slot, value: z3.BitVecRef, to: Position) -> bool:

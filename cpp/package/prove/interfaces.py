@@ -114,7 +114,7 @@ class Cpp(Interface):
         for name, at in self.spans.items():
             s.set_cells("CALL", at, self.machine.base[name])
             s.set_cells("CALL", at + 8, z3.simplify(self.machine.lengths[name]))
-        s.set_cells("CALL", 128, self.machine.fresh(32))  # at_rest
+        s.set_cells("CALL", 128, z3.BitVec("entry at_rest", 32))
         s.set_cells("CALL", 64, z3.BitVec("entry SMIN", self.spec.width))
         s.set_cells("CALL", 120, self.spec.indof)
         s.set_cells("CALL", 124, self.spec.ndofpn)
@@ -162,4 +162,4 @@ class Plugin(Interface):
         super().fill(s)
         numbers = [self.spec.nc, self.spec.indof, self.spec.ndofpn, z3.Extract(31, 0, self.spec.dofs)]
         for k, value in enumerate(numbers):
-            s.set_cells("STACK", 24 + 8 * k, z3.simplify(z3.Concat(self.machine.fresh(32), value)))
+            s.set_cells("STACK", 24 + 8 * k, z3.simplify(z3.Concat(z3.BitVec(f"entry upper {k}", 32), value)))
