@@ -54,7 +54,7 @@ def main() -> int:
             print(f"{verdict.kernel.words} ({verdict.kernel.symbol}): {verdict.words}", flush=True)
     if Outcome.PROVED in outcomes:
         stated = "; ".join(PRECONDITIONS.values())
-        print(CLAIM.format(stated, ".".join(map(str, capstone.cs_version())), z3.get_version_string()))
+        print(CLAIM.format(stated, capstone.__version__, z3.get_version_string()))
     return next(o for o in (Outcome.DIFFERS, Outcome.UNDECIDED, Outcome.PROVED) if o in outcomes)
 
 

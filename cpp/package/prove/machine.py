@@ -36,7 +36,6 @@ class Machine:
         self.static_read: set[int] = set()  # bytes of writable data whose value is the file's,
         self.static_written: set[int] = set()  # and bytes that change: no byte may be both
         self.constants: set[int] = set()  # that the function uses
-        self.mnemonics: dict[str, bytes] = {}  # every form of an instruction that was executed
         self._decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
         self._decoder.detail = True
         self._decoded: dict[int, capstone.CsInsn] = {}
@@ -305,8 +304,6 @@ class Machine:
 
     def _step(self, s: State) -> list[State]:
         ins = self.instruction(s.pc)
-        self.constants: set[int] = set()  # that the function uses
-        self.mnemonics.setdefault(f"{ins.mnemonic} {[(o.type, o.size) for o in ins.operands]}", bytes(ins.bytes))
         self.constants |= {op.imm % (1 << 8 * max(op.size, 1)) for op in ins.operands if op.type == names.X86_OP_IMM}
         o = x86.Operands(self, s, ins)
         after = ins.address + ins.size

@@ -86,8 +86,7 @@ def tried_calls(constants: set[int]) -> Iterator[Call]:
                  for n in (3 * ndofpn, 3 * ndofpn, nc)]  # fmt: skip
         signs = [[draw.choice((1, -1, 1, -1, 2, 0, 7)) for _ in range(nc)] for _ in range(2)]
         yield Call(*reals, [draw.randint(1, 3) for _ in range(nc)], *signs, draw.randint(1, ndofpn), ndofpn)
-    for n in sorted({n for n in small if 5 < n <= MOST_PAIRS}):
-        nc = n + 3
+    numbers = [n // size for size in (1, 4, 8) for n in sorted(small) if n % size == 0]  # of a pair, or its offset
+    for nc in dict.fromkeys(n + 3 for n in numbers if 5 < n <= MOST_PAIRS):
         near = [bits(0.5 + k % 7 * 1e-4) for k in range(nc)]
         yield Call([0], [one], near, [1] * nc, [1 - k % 2 * 2 for k in range(nc)], [1] * nc, 1, 1)
-        yield Call([0], [one], [0] * nc, [1] * nc, [1] * nc, [1] * nc, 1, 1)
