@@ -104,7 +104,6 @@ if [ "$full" = yes ]; then
   with_tool "the page in a browser" browser/run.sh build/release
   with_tool "the playground in a browser" playground/run.sh build/release
   with_tool "grids read back by VTK" vtk/run.sh build/release
-  with_tool "faults that the prover refuses" prove/run.sh build/release
   with_tool "fuzzers" fuzz/run.sh 60
   with_tool "Debian packages" package/debian.sh
   sh tests/tree/tidy.sh
