@@ -103,6 +103,11 @@ struct replay_options {
   report_options report;
 };
 
+struct prove_options {
+  std::string library;  ///< a file with kernels; empty: this program
+  std::string symbol;
+};
+
 struct kernels_options {};
 
 /// What --help and --version print.
@@ -113,7 +118,7 @@ struct printed_text {
 /// What a command line asks for: one command, or a text.
 using command_options =
     std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
-                 verify_options, fuzz_options, replay_options, kernels_options>;
+                 verify_options, fuzz_options, replay_options, prove_options, kernels_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
 /// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
@@ -134,6 +139,7 @@ exit_status run_command(const new_options& options);
 exit_status run_command(const verify_options& options);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
+exit_status run_command(const prove_options& options);
 exit_status run_command(const kernels_options& options);
 inline exit_status run_command(const printed_text& t) {
   (void)std::fputs(t.text.c_str(), stdout);

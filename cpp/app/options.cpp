@@ -47,6 +47,8 @@ constexpr example all_examples[] = {
      "does a kernel of your own answer as CONTCT does?"},
     {"contct replay calls.trace", "repeat recorded calls with the 1989 code"},
     {"contct replay --kernel fortran,cpp calls.trace", "the same with two kernels"},
+    {"contct prove", "the built-in kernels are CONTCT for every input"},
+    {"contct prove mine.so", "is a kernel of your own?"},
     {"contct kernels", "what is built in"},
 };
 
@@ -318,6 +320,14 @@ void declare_fuzz(option_parser& p) {
   add_reports(c, o.report);
 }
 
+void declare_prove(option_parser& p) {
+  const auto [c, o] = p.command<prove_options>(
+      "prove",
+      "Prove that the machine code of kernels is CONTCT for every input; needs Python's capstone and z3");
+  add_file(c, "LIBRARY", o.library, "A file with a kernel, such as mine.so; by default this program");
+  c->add_option("--symbol", o.symbol, "The kernel's name, if it is not contct_kernel");
+}
+
 /// Each command's examples stand under its --help, and the first of each under the program's.
 void add_examples(CLI::App& program) {
   std::string first_ones;
@@ -349,6 +359,7 @@ constexpr std::pair<const char*, declare_command> all_commands[] = {
        declare_replay(
            p, p.program.add_subcommand("replay", "Repeat recorded calls with a kernel; needs no LAPACK"));
      }},
+    {"prove", [](option_parser& p, const auto&) { declare_prove(p); }},
     {"kernels",
      [](option_parser& p, const auto&) {
        p.command<kernels_options>("kernels", "What is built in, and how this machine computes");

@@ -9,3 +9,11 @@ else()
   install(EXPORT contct-serve-targets NAMESPACE contct:: DESTINATION ${cmake_files} COMPONENT python)
 endif()
 install(FILES contct.py DESTINATION ${python_folder} COMPONENT python)
+
+# The prover, a package of its own beside the module.
+file(GLOB prover RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS prove/*.py)
+foreach(file IN LISTS prover)
+  cmake_path(GET file FILENAME name)
+  configure_file(${file} ${PROJECT_BINARY_DIR}/contct_prove/${name} COPYONLY)
+endforeach()
+install(FILES ${prover} DESTINATION ${python_folder}/contct_prove COMPONENT python)

@@ -45,7 +45,9 @@ enum class way_to_s {
 
 /// The arguments of CONTCT in the listing's order, and COMMON /DOF/.
 /// `nc` is cc.size(); every array over pairs has that length. Every id[i] must address a dof
-/// inside dd and dtest; the listing does not check, and neither do the kernels.
+/// inside dd and dtest, nc must be below 2^31 - 1, and neither (id[i] - 1) * ndofpn + indof nor isep[i] *
+/// isurf[i] may leave 32 bits; the listing does not check, and neither do the kernels. limits.hpp refuses
+/// what is beyond that.
 template <class Real>
 struct call {
   std::span<const Real> dd;     ///< DD: D, accumulated deflection [system dofs]

@@ -35,7 +35,7 @@ CONTCT_KERNEL_EXPORT int contct_kernel_abi(void);
  *   isep    both [nc]    +1 separated, -1 in contact; toggle the pairs that have an event
  *   isurf   in   [nc]    the side on which a pair's face stands: +1 above, -1 below; the product of
  *                        isep[i] and isurf[i] fits 32 bits
- *   nc      in           number of pairs, 0 to 1000000
+ *   nc      in           number of pairs, 0 to 10000000
  *   indof   in           INDOF: which dof of a node deflects, from 1 to ndofpn
  *   ndofpn  in           NDOFPN: dofs of a node
  *   ndof    in           length of dd and dtest; the element of pair i,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -37,11 +38,11 @@ std::vector<std::size_t> addressed_dofs(const call<double>& c) {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 // Invalid ISEP and ISURF values are accepted, as in 1989; their product must not overflow.
-constexpr int most_status = 10'000;
+constexpr int most_status = std::numeric_limits<int>::max();  // of ISEP, ISURF and their product
 constexpr std::int64_t most_calls = 1'000'000'000'000'000'000;
 
 constexpr std::string_view dofs_line =
-    "\"indof I ndofpn N dofs M nc K\", I and N from 1, M up to 10000000, K up to 1000000";
+    "\"indof I ndofpn N dofs M nc K\", I and N from 1, M up to 10000000, K up to 10000000";
 
 /// A hexfloat, as in -0x1.8p+1, or a decimal number; inf; nan.
 std::optional<double> real_in(std::string_view word) {
@@ -252,7 +253,7 @@ bool trace_reader::next_inputs(recorded_call& c) {
 }
 
 void trace_reader::read_layout(call_inputs<double>& in) {
-  constexpr int most_pairs = 1'000'000;
+  constexpr int most_pairs = 10'000'000;
   constexpr std::size_t shortest_pair = std::string_view("pair 1 id 1 isep 1 isurf 1 cc 0\n").size();
   std::size_t dofs = 0;
   std::size_t nc = 0;
@@ -307,7 +308,8 @@ void trace_reader::read_pairs(call_inputs<double>& in) {
   in.isurf.resize(nc);
   for (std::size_t i = 0; i < nc; ++i) {
     const std::string allowed = "\"pair " + std::to_string(i + 1) +
-                                " id N isep S isurf S cc X\", N a node from 1, S from -10000 to 10000";
+                                " id N isep S isurf S cc X\", N a node from 1, the S and their product "
+                                "from -2147483647 to 2147483647";
     const std::string_view line = need_line(allowed);
     std::size_t number = 0;
     if (!trace_words(line)
@@ -316,7 +318,8 @@ void trace_reader::read_pairs(call_inputs<double>& in) {
              .whole("isep", in.isep[i], -most_status, most_status)
              .whole("isurf", in.isurf[i], -most_status, most_status)
              .real("cc", in.cc[i])
-             .done())
+             .done() ||
+        std::abs(std::int64_t{in.isep[i]} * in.isurf[i]) > most_status)
       refuse(line, allowed);
     const std::int64_t dof = static_cast<std::int64_t>(in.id[i] - 1) * in.dof.ndofpn + in.dof.indof;
     if (dof > static_cast<std::int64_t>(in.dd.size()))

@@ -1,0 +1,3 @@
+"""The prover: symbolic execution of a kernel's machine code against the specification of CONTCT.
+
+`python3 -m contct_prove LIBRARY` is its command line, and reference/proved-equal.md says what is proved and how."""

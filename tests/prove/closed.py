@@ -1,0 +1,56 @@
+"""closed.py BUILD ROOT: what the prover cannot read leaves a kernel undecided; a kernel that does nothing differs."""
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+build, root = Path(sys.argv[1]), Path(sys.argv[2])
+ABI = ".globl contct_kernel_abi\ncontct_kernel_abi:\nmov $1, %eax\nret\n"
+KERNEL = ABI + ".globl contct_kernel\n.type contct_kernel,@function\ncontct_kernel:\n{}\nud2\n.size contct_kernel, .-contct_kernel\n.section .note.GNU-stack\n"
+CASES = {  # what the prover must say of a kernel with this body, which ends when it is run
+    "cpuid": "this mnemonic is not known",
+    ".rept 5000\nnop\n.endr": "no end of the path after 4000 instructions",
+    "jmp *%rax": "where does it lead?",
+    "mov (%rax), %rax": "an address that is in no region",
+    "mov %rax, (%rdi)": "DD is written, which is an input",
+    "mov -4(%rdi), %eax": "32 bits of DD",
+    "mov %rax, -12(%rip)": "a write to constant data",
+    "call abort@plt": "abort is called, of which nothing is known",
+    "mov %rdi, (%rsp)\nret": "a return address that was overwritten",
+    "mov %rax, -4096(%rsp)": "a write below the red zone",
+}  # fmt: skip
+
+
+def prove(*words: str, python: tuple[str, ...] = ("/usr/bin/python3",)) -> tuple[int, str]:
+    """Exit status, and all that was said."""
+    said = subprocess.run([*python, "-m", "contct_prove", *words], env=os.environ | {"PYTHONPATH": str(build)},
+                          capture_output=True, text=True)  # fmt: skip
+    return said.returncode, said.stdout + said.stderr
+
+
+def check(name: str, found: tuple[int, str], expected: str) -> None:
+    """Undecided, for this reason."""
+    assert found[0] == 2 and expected in found[1], f"{name}: expected exit 2 and {expected!r}; found {found}"
+    assert "proved:" not in found[1], name
+
+
+with tempfile.TemporaryDirectory() as folder:
+    library = f"{folder}/mine.so"
+    for body, expected in CASES.items():
+        Path(f"{folder}/mine.s").write_text(KERNEL.format(body))
+        subprocess.run(["cc", "-shared", "-o", library, f"{folder}/mine.s"], check=True)
+        check(body, prove(library), expected)
+    Path(f"{folder}/mine.s").write_text(KERNEL.format("ret"))
+    subprocess.run(["cc", "-shared", "-o", library, f"{folder}/mine.s"], check=True)
+    status, said = prove(library)
+    assert status == 1 and "differs: SMIN is " in said, f"a kernel that does nothing: {status} {said}"
+    check("no such symbol", prove(library, "--symbol", "other"), "found no symbol other")
+check("no ELF file", prove(str(root / "README.md")), "found no ELF file of x86-64")
+check("no file", prove("/no/such.so"), "No such file")
+check("no kernel", prove("/bin/true"), "found no kernel")
+check("no packages", prove("/bin/true", python=("/usr/bin/python3", "-S")), "apt-get install python3-capstone python3-z3")
+said = subprocess.run([build / "contct", "prove", root / "README.md"], capture_output=True, text=True)
+check("by the program", (said.returncode, said.stdout + said.stderr), "found no ELF file of x86-64")
+print(f"{len(CASES) + 6} cases are undecided")

@@ -1,0 +1,239 @@
+"""processor.py BUILD ROOT: every instruction of the kernels does in the interpreter what the processor does with it, on
+random and special states; and a wrong meaning put in on purpose is noticed for each mnemonic."""
+
+import ctypes
+import mmap
+import random
+import struct
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+build, root = Path(sys.argv[1]), Path(sys.argv[2])
+sys.path.insert(0, str(build))
+import capstone
+import z3
+from contct_prove import reals, x86
+from contct_prove.elf import Image
+from contct_prove.state import REGISTERS, State
+from contct_prove.verdict import KERNELS
+
+STATES = 12
+ORDER = ["rax", "rcx", "rdx", "rbx", "rsp", "rbp", "rsi", "rdi"] + [f"r{k}" for k in range(8, 16)]
+PAGE, DATA = 4096, 8192  # the state's place, and that of the memory which instructions address
+FLAG_BITS = {"c": 0, "p": 2, "z": 6, "s": 7, "o": 11}
+draw = random.Random(1989)
+
+
+class Processor:
+    """Runs the bytes of one instruction on a state."""
+
+    def __init__(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(["as", "-o", f"{folder}/stub.o", str(root / "tests/prove/stub.s")], check=True)
+            subprocess.run(["objcopy", "-O", "binary", f"{folder}/stub.o", f"{folder}/stub"], check=True)
+            code = Path(f"{folder}/stub").read_bytes()
+        self.memory = mmap.mmap(-1, 4 * PAGE, prot=mmap.PROT_READ | mmap.PROT_WRITE | mmap.PROT_EXEC)
+        self.base = ctypes.addressof(ctypes.c_char.from_buffer(self.memory))
+        self.memory[: len(code)] = code
+        self.hole = code.index(b"\x90" * 16)
+        self.call = ctypes.CFUNCTYPE(None)(self.base)
+
+    def run(self, code: bytes, state: bytes) -> bytes:
+        """The state afterwards: registers, flags, vectors, and the memory behind them."""
+        self.memory[self.hole : self.hole + 16] = code.ljust(16, b"\x90")
+        self.memory[PAGE : PAGE + len(state)] = state
+        self.call()
+        return self.memory[PAGE : PAGE + len(state)]
+
+
+processor = Processor()
+
+
+class Concrete:
+    """The machine's side for a single instruction: memory is bytes, and every value is a number."""
+
+    def __init__(self, data: bytes):
+        self.data = bytearray(data)
+        self.names = 0
+
+    def at(self, address: z3.BitVecRef) -> int:
+        return z3.simplify(address).as_long() - processor.base - DATA
+
+    def load(self, s: State, address: z3.BitVecRef, width: int) -> z3.BitVecRef:
+        at = self.at(address)
+        return z3.BitVecVal(int.from_bytes(self.data[at : at + width // 8], "little"), width)
+
+    def store(self, s: State, address: z3.BitVecRef, value: z3.BitVecRef) -> None:
+        at, size = self.at(address), value.size() // 8
+        self.data[at : at + size] = number(value).to_bytes(size, "little")
+
+    def in_image(self, address: int) -> z3.BitVecRef:
+        return z3.BitVecVal(address, 64)
+
+    def push(self, s: State, value: z3.BitVecRef) -> None:
+        s.set_register("rsp", s.registers["rsp"] - 8)
+        self.store(s, s.registers["rsp"], value)
+
+    def pop(self, s: State) -> z3.BitVecRef:
+        value = self.load(s, s.registers["rsp"], 64)
+        s.set_register("rsp", s.registers["rsp"] + 8)
+        return value
+
+    def fresh(self, width: int) -> z3.BitVecRef:
+        self.names += 1
+        return z3.BitVec(f"unknown{self.names}", width)
+
+
+SCALAR = {"add": 0x58, "mul": 0x59, "sub": 0x5C, "div": 0x5E}
+
+
+def number(value: z3.BitVecRef) -> int:
+    """A value in which the unknown functions stand for what the processor's scalar instructions do: that is their meaning."""
+    value = z3.simplify(value)
+    if z3.is_bv_value(value):
+        return value.as_long()
+    if value.decl().kind() == z3.Z3_OP_UNINTERPRETED and value.num_args():
+        return applied(value.decl().name(), value.size(), [(number(a), a.size()) for a in value.children()])
+    return number(value.decl()(*(z3.BitVecVal(number(a), a.size()) if z3.is_bv(a) else truth(a) for a in value.children())))
+
+
+def truth(claim: z3.BoolRef) -> z3.BoolRef:
+    claim = z3.simplify(claim)
+    if z3.is_true(claim) or z3.is_false(claim):
+        return claim
+    return truth(claim.decl()(*(z3.BitVecVal(number(a), a.size()) if z3.is_bv(a) else truth(a) for a in claim.children())))
+
+
+def applied(name: str, width: int, arguments: list[tuple[int, int]]) -> int:
+    if name.startswith("product"):
+        return arguments[0][0] * arguments[1][0] % (1 << width)
+    prefix = b"\xf2" if width == 64 else b"\xf3"
+    state = bytearray(128 + 16 + 256 + 64)
+    if name.startswith("from_int"):
+        wide = b"\x48" if arguments[0][1] == 64 else b""
+        struct.pack_into("<Q", state, 0, arguments[0][0])
+        code = prefix + wide + b"\x0f\x2a\xc0"
+    else:
+        for k in range(2):
+            struct.pack_into("<Q", state, 144 + 16 * k, arguments[k][0])
+        code = prefix + bytes([0x0F, SCALAR[name[:3]], 0xC1])
+    return struct.unpack_from("<Q", processor.run(code, bytes(state)), 144)[0] % (1 << width)
+
+
+SPECIAL = [0, 1, 2, (1 << 64) - 1, 1 << 63, 1 << 31, (1 << 31) - 1, 0x7FF0000000000000, 0xFFF8000000000000, 0x3FF0000000000000,
+           0x7FC000007F800000, 0x3F8000003F800000, 0x80000000, 0x7FFFFFFFFFFFFFFF, 0xBFF0000000000000]  # fmt: skip
+
+
+def any_64() -> int:
+    return draw.choice(SPECIAL) if draw.random() < 0.4 else draw.getrandbits(64)
+
+
+def prepared(ins: capstone.CsInsn) -> tuple[bytes, bytes, int]:
+    """The instruction's bytes, and a state in which what it addresses is in the memory that is there; where it stands."""
+    code, address = bytearray(ins.bytes), processor.base + processor.hole
+    values = {name: any_64() for name in ORDER}
+    values["rsp"] = processor.base + DATA + 1024
+    for op in ins.operands:
+        if op.type == capstone.x86.X86_OP_MEM:
+            base, index = (ins.reg_name(r) if r else "" for r in (op.mem.base, op.mem.index))
+            target = processor.base + DATA + 1024 + 16 * draw.randrange(8)
+            if base == "rip":
+                code[ins.disp_offset : ins.disp_offset + 4] = struct.pack("<i", target - address - ins.size)
+                continue
+            scaled = draw.randrange(-8, 8) if index and index != base else 0
+            if index:
+                values[REGISTERS[index][0]] = scaled % (1 << 64)
+            if base and base != "rsp":
+                values[REGISTERS[base][0]] = (target - op.mem.disp - scaled * op.mem.scale) % (1 << 64)
+    vectors = [any_64() for _ in range(32)]
+    if draw.random() < 0.3:
+        vectors[2:4] = vectors[0:2]  # equal operands
+    flags = 0x202 | sum(draw.getrandbits(1) << bit for bit in FLAG_BITS.values())
+    data = b"".join(struct.pack("<Q", any_64()) for _ in range(256))
+    state = struct.pack("<16QQ8x32Q", *(values[name] for name in ORDER), flags, *vectors)
+    return bytes(code), state.ljust(DATA - PAGE, b"\0") + data, address
+
+
+def interpreted(code: bytes, state: bytes, address: int, act) -> tuple[list[int | None], bytes]:
+    """Registers, vectors and flags afterwards, none for a flag that is undefined; and the memory."""
+    decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
+    decoder.detail = True
+    ins = next(decoder.disasm(code, address, 1))
+    s, machine = State(), Concrete(state[DATA - PAGE :])
+    held = struct.unpack_from("<16QQ8x32Q", state)
+    s.registers = {name: z3.BitVecVal(v, 64) for name, v in zip(ORDER, held)}
+    s.registers |= {f"xmm{k}": z3.BitVecVal(held[17 + 2 * k] | held[18 + 2 * k] << 64, 128) for k in range(16)}
+    s.flags = {f: lambda bit=bit: z3.BoolVal(bool(held[16] >> bit & 1)) for f, bit in FLAG_BITS.items()}
+    act(x86.Operands(machine, s, ins))
+    values = [number(s.registers[name]) for name in [*ORDER, *(f"xmm{k}" for k in range(16))]]
+    for flag in FLAG_BITS:
+        claim = z3.simplify(s.flags[flag]())
+        values.append(None if "unknown" in str(claim) else int(z3.is_true(truth(claim))))
+    return values, bytes(machine.data)
+
+
+def natively(code: bytes, state: bytes) -> tuple[list[int], bytes]:
+    after = processor.run(code, state)
+    held = struct.unpack_from("<16QQ8x32Q", after)
+    values = [*held[:16], *(held[17 + 2 * k] | held[18 + 2 * k] << 64 for k in range(16))]
+    return values + [held[16] >> bit & 1 for bit in FLAG_BITS.values()], after[DATA - PAGE :]
+
+
+def agrees(ins: capstone.CsInsn, act) -> bool:
+    """Whether a meaning is the processor's on one state."""
+    code, state, address = prepared(ins)
+    (found, memory), (expected, memory_expected) = interpreted(code, state, address, act), natively(code, state)
+    return memory == memory_expected and all(a is None or a == b for a, b in zip(found, expected))
+
+
+def wrong(mnemonic: str):
+    """Another meaning for a mnemonic: that of its neighbour, or none at all."""
+    neighbour = {"add": "sub", "sub": "add", "and": "or", "or": "and", "xor": "or", "cmp": "test", "test": "cmp", "movzx": "movsx",
+                 "movsx": "movzx", "subsd": "addsd", "divsd": "mulsd", "mulsd": "divsd", "subss": "addss", "divss": "mulss",
+                 "mulss": "divss", "minsd": "maxsd", "minss": "maxss", "sete": "setne", "setne": "sete"}  # fmt: skip
+    other = neighbour.get(mnemonic)
+    if other is None:
+        return lambda o: None
+
+    def act(o) -> None:
+        o.ins = type("Other", (), {"mnemonic": other, "reg_name": o.ins.reg_name, "address": o.ins.address, "size": o.ins.size})()
+        x86.ACTIONS[other](o)
+
+    return act
+
+
+def jump(suffix: str):
+    """A jump's condition, as setcc of the same one shows it."""
+    return lambda o: o.s.set_register("al", z3.If(x86.condition(o.s, suffix), z3.BitVecVal(1, 8), z3.BitVecVal(0, 8)))
+
+
+image = Image(build / "contct")
+decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
+decoder.detail = True
+forms: dict[str, capstone.CsInsn] = {}
+for kernel in KERNELS[:4]:
+    symbol = image.symbol(kernel.symbol)
+    for ins in decoder.disasm(image.bytes_at(symbol.address, symbol.size)[0], symbol.address):
+        forms.setdefault(f"{ins.mnemonic} {[(o.type, o.size) for o in ins.operands]}", ins)
+compared, unnoticed, mnemonics = 0, [], set()
+for form, ins in forms.items():
+    mnemonic = ins.mnemonic
+    if mnemonic in ("jmp", "call", "ret") or mnemonic == "nop":
+        continue
+    meant, otherwise = x86.ACTIONS.get(mnemonic), wrong(mnemonic)
+    if mnemonic.startswith("j"):
+        codes = {"o": 0, "no": 1, "b": 2, "ae": 3, "e": 4, "ne": 5, "be": 6, "a": 7, "s": 8, "ns": 9, "p": 10, "np": 11, "l": 12,
+                 "ge": 13, "le": 14, "g": 15}  # fmt: skip
+        meant, otherwise = jump(mnemonic[1:]), jump({"p": "np", "e": "ne"}.get(mnemonic[1:], "e"))
+        ins = next(decoder.disasm(bytes([0x0F, 0x90 + codes[mnemonic[1:]], 0xC0]), 0))
+    for _ in range(STATES):
+        assert agrees(ins, meant), f"{ins.mnemonic} {ins.op_str}: the interpreter is not the processor"
+        compared += 1
+    mnemonics.add(mnemonic)
+    if all(agrees(ins, otherwise) for _ in range(STATES)):
+        unnoticed.append(form)
+assert not unnoticed, f"a wrong meaning is not noticed: {unnoticed}"
+assert len(mnemonics) >= 30, mnemonics
+print(f"{len(mnemonics)} mnemonics, {len(forms)} forms, {compared} states: the interpreter does what the processor does")
