@@ -62,6 +62,18 @@ TEST_CASE("the engines agree that the frame is certified, and so does the oracle
   }
 }
 
+TEST_CASE(
+    "the corrected rule is advised where it may prove more, and not for a matrix that may be indefinite") {
+  const scratch_folder here;
+  here.write("p.toml",
+             "[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndof = \"1\"\nsurface = \"below\"\nface = 0\n"
+             "stiffness = 1e-9\n[[step]]\npoint = [ { dof = \"1\", value = -1e-11 } ]\n");
+  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 1.00000000001\n2 2 1\n");
+  const finished f = contct_program(here.path(), {"run", "p.toml"});
+  CHECK_THAT(f.err, Contains("it is not certain that the matrix is positive semidefinite"));
+  CHECK_THAT(f.err, !Contains("--kernels corrected"));
+}
+
 TEST_CASE("a matrix that is no stiffness, is missing or too large ends in exit 2 and one line that says so") {
   const scratch_folder here;
   here.write("p.toml", spring_problem);

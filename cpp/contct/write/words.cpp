@@ -223,8 +223,11 @@ std::string digit_warning(std::span<const step_record> steps) {
 
 std::vector<std::string> complaints_of(const run_result& r) {
   std::vector<std::string> lines = certificate_complaints(r.what, r.judged, r.early);
+  // Where not even bounds are proved, the other rule may prove none either.
+  const bool is_bounded =
+      std::ranges::all_of(r.judged.steps(), [](const auto& c) { return !c || c->proved; });
   const std::string remedy = remedy_words(r.kernels, r.file);
-  if (!lines.empty() && !remedy.empty()) lines.push_back(remedy);
+  if (!lines.empty() && is_bounded && !remedy.empty()) lines.push_back(remedy);
   return lines;
 }
 
