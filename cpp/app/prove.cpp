@@ -1,6 +1,7 @@
 // contct prove: the prover is a Python package, which stands beside contct.py.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -36,12 +37,13 @@ exit_status run_command(const prove_options& options) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   const std::string folder = folder_of_prover(program);
   const std::string library = options.library.empty() ? program.string() : options.library;
-  const std::string symbol = "--symbol=" + options.symbol;
-  const std::array<const char*, 8> words = {
-      python, "-P", "-m", "contct_prove", symbol.c_str(), "--", library.c_str(), nullptr};
+  std::array<std::string, 7> words = {python, "-P",   "-m", "contct_prove", "--symbol=" + options.symbol,
+                                      "--",   library};
+  std::array<char*, words.size() + 1> arguments{};
+  std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
   flush_standard_output();
   (void)setenv("PYTHONPATH", folder.c_str(), 1);
-  execv(python, const_cast<char* const*>(words.data()));
+  execv(python, arguments.data());
   throw std::system_error(errno, std::generic_category(), std::string("cannot run ") + python);
 }
 

@@ -17,7 +17,7 @@ class fenced {
   fenced(const char* name, std::span<const T> values)
       : name_(name), values_(values), copy_(values.size() + 2 * fence) {
     std::memset(copy_.data(), fence_byte, copy_.size() * sizeof(T));
-    std::ranges::copy(values, data());
+    std::copy(values.begin(), values.end(), data());
   }
   [[nodiscard]] T* data() { return copy_.data() + fence; }
 

@@ -113,7 +113,8 @@ class line {
   friend class line;
 
   [[nodiscard]] const even_part& part_from(std::size_t point) const {
-    return *(std::ranges::upper_bound(parts_, point, {}, &even_part::first) - 1);
+    const auto is_before = [](std::size_t wanted, const even_part& p) { return wanted < p.first; };
+    return *(std::upper_bound(parts_.begin(), parts_.end(), point, is_before) - 1);
   }
 
   std::vector<double> x_;

@@ -89,7 +89,7 @@ std::optional<int> last_written_digit(std::string_view literal) {
 decimal shortest_decimal(double x) {
   std::array<char, 64> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
-  return *decimal_in({text.data(), end.ptr});
+  return *decimal_in(std::string_view(text.data(), end.ptr - text.data()));
 }
 
 bool is_shortest(std::string_view literal, double x) {
