@@ -12,13 +12,15 @@ KERNEL = ABI + ".globl contct_kernel\n.type contct_kernel,@function\ncontct_kern
 CASES = {  # what the prover must say of a kernel with this body, which ends when it is run
     "cpuid": "this mnemonic is not known",
     ".rept 5000\nnop\n.endr": "no end of the path after 4000 instructions",
-    "jmp *%rax": "where does it lead?",
-    "mov (%rax), %rax": "an address that is in no region",
-    "mov %rax, (%rdi)": "DD is written, which is an input",
+    "jmp *%rax": "an address that is not known to be in one region",
+    "mov 4(%r9), %eax": "a subscript of ID that is not the next pair's",
+    "mov here(%rip), %eax\n.data\nhere: .long 1\n.text": "static data is read",
+    "mov (%rax), %rax": "an address that is not known to be in one region",
+    "mov %rax, (%rdi)": "DD is written, which is not the function's",
     "mov -4(%rdi), %eax": "32 bits of DD",
-    "mov %rax, -12(%rip)": "a write to constant data",
+    "mov %rax, -12(%rip)": "IMAGE is written",
     "call abort@plt": "abort is called, of which nothing is known",
-    "mov %rdi, (%rsp)\nret": "a return address that was overwritten",
+    "mov %rdi, (%rsp)\nret": "where does it lead?",
     "mov %rax, -4096(%rsp)": "a write below the red zone",
 }  # fmt: skip
 
