@@ -7,6 +7,9 @@ import tempfile
 from pathlib import Path
 
 build, root = Path(sys.argv[1]), Path(sys.argv[2])
+sys.path.insert(0, str(build))
+import contct
+
 ABI = ".globl contct_kernel_abi\ncontct_kernel_abi:\nmov $1, %eax\nret\n"
 KERNEL = ABI + ".globl contct_kernel\n.type contct_kernel,@function\ncontct_kernel:\n{}\nud2\n.size contct_kernel, .-contct_kernel\n.section .note.GNU-stack\n"
 CASES = {  # what the prover must say of a kernel with this body, which ends when it is run
@@ -44,6 +47,8 @@ with tempfile.TemporaryDirectory() as folder:
         Path(f"{folder}/mine.s").write_text(KERNEL.format(body))
         subprocess.run(["cc", "-shared", "-o", library, f"{folder}/mine.s"], check=True)
         check(body, prove(library), expected)
+    found = contct.prove(library)["contct_kernel"]
+    assert found.startswith("undecided: ") and expected in found, f"by the Python module: {found}"
     Path(f"{folder}/mine.s").write_text(KERNEL.format("ret"))
     subprocess.run(["cc", "-shared", "-o", library, f"{folder}/mine.s"], check=True)
     status, said = prove(library)

@@ -15,6 +15,8 @@ try:
     import capstone
     import z3
 except ImportError as missing:
+    if __name__ != "__main__":
+        raise
     print(f"contct prove: {missing.name} is not found; it needs the Python packages capstone and z3.\n"
           "On Debian: apt-get install python3-capstone python3-z3", file=sys.stderr)  # fmt: skip
     sys.exit(2)
