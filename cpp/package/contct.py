@@ -45,7 +45,7 @@ from typing import Annotated, Any, Callable, Iterable, Iterator, Mapping, NamedT
 __all__ = ["Answer", "Call", "Certificate", "Check", "Error", "Event", "Exact", "ExactEvent", "ExactIncrement", "ExactPair",
            "ExactReaction", "ExactStep", "Explanation", "Increment", "InputError", "Inputs", "Judgement", "NotSolved", "Pair",
            "Reaction", "Record", "Replay", "Result", "Step", "about", "call", "certify", "check", "exact", "explain", "judge",
-           "read", "replay", "run", "to_toml"]
+           "prove", "read", "replay", "run", "to_toml"]
 
 Problem = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Kernels = Union[str, Iterable[str]]
@@ -971,6 +971,18 @@ def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None)
     """
     return Replay(_ask(_library.contct_replay, _source(trace, ".trace", "trace", None),
                        {"kernel": kernel})["result"])
+
+
+def prove(library: Union[str, os.PathLike[str]], symbol: str = "") -> dict[str, str]:
+    """Prove that the machine code of each kernel in an ELF file is CONTCT: `contct prove`. It needs capstone and z3.
+
+    symbol  the name of a function with the plug-in's interface, if it is not contct_kernel
+
+    Each kernel's verdict, by its symbol: "proved: ..", "differs: .." or "undecided: ..".
+    """
+    prover = importlib.import_module("contct_prove.__main__")
+    path = os.fspath(library)
+    return {k.symbol: prover.judge(path, k)[1] for k in prover.kernels_of(prover.Image(path), symbol)}
 
 
 def about() -> Record:

@@ -1,5 +1,6 @@
 // The listing and its twin are equal to the bit: shown exhaustively for one pair and for two, and at
-// random for up to 64, in both precisions, with a floor under everything that is counted.
+// random for up to 64, in both precisions, with a floor under everything that is counted. What random calls
+// cannot find is proved by `contct prove`; these check the wrapper and the text too.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -150,10 +151,10 @@ TEMPLATE_TEST_CASE("two pairs: equal through ties, and near ties at 2^-8 exactly
   for (const int reached : near_ties) CHECK(reached >= 16);
 }
 
-TEMPLATE_TEST_CASE("a million random calls: equal with up to 64 pairs, shared nodes and every dof layout", "",
+TEMPLATE_TEST_CASE("100,000 random calls: equal with up to 64 pairs, shared nodes and every dof layout", "",
                    float, double) {
   using Real = TestType;
-  constexpr int calls = 1'000'000;
+  constexpr int calls = 100'000;
   random_calls<Real> source(1989);
   side_by_side<Real> both;
   std::set<std::pair<int, int>> layouts;
@@ -168,9 +169,9 @@ TEMPLATE_TEST_CASE("a million random calls: equal with up to 64 pairs, shared no
   }
   require_no_mismatch(both);
   CHECK(both.calls() == calls);
-  CHECK(both.compared().values > 30'000'000);
-  CHECK(both.branches().rarest() > 50'000);
+  CHECK(both.compared().values > 3'000'000);
+  CHECK(both.branches().rarest() > 5'000);
   CHECK(layouts.size() == 9);
   CHECK(most_pairs == 64);
-  CHECK(shared_nodes > 10'000);
+  CHECK(shared_nodes > 1'000);
 }

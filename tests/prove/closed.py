@@ -7,18 +7,23 @@ import tempfile
 from pathlib import Path
 
 build, root = Path(sys.argv[1]), Path(sys.argv[2])
+sys.path.insert(0, str(build))
+import contct
+
 ABI = ".globl contct_kernel_abi\ncontct_kernel_abi:\nmov $1, %eax\nret\n"
 KERNEL = ABI + ".globl contct_kernel\n.type contct_kernel,@function\ncontct_kernel:\n{}\nud2\n.size contct_kernel, .-contct_kernel\n.section .note.GNU-stack\n"
 CASES = {  # what the prover must say of a kernel with this body, which ends when it is run
     "cpuid": "this mnemonic is not known",
     ".rept 5000\nnop\n.endr": "no end of the path after 4000 instructions",
-    "jmp *%rax": "where does it lead?",
-    "mov (%rax), %rax": "an address that is in no region",
-    "mov %rax, (%rdi)": "DD is written, which is an input",
+    "jmp *%rax": "an address that is not known to be in one region",
+    "mov 4(%r9), %eax": "a subscript of ID that is not the next pair's",
+    "mov here(%rip), %eax\n.data\nhere: .long 1\n.text": "static data is read",
+    "mov (%rax), %rax": "an address that is not known to be in one region",
+    "mov %rax, (%rdi)": "DD is written, which is not the function's",
     "mov -4(%rdi), %eax": "32 bits of DD",
-    "mov %rax, -12(%rip)": "a write to constant data",
+    "mov %rax, -12(%rip)": "IMAGE is written",
     "call abort@plt": "abort is called, of which nothing is known",
-    "mov %rdi, (%rsp)\nret": "a return address that was overwritten",
+    "mov %rdi, (%rsp)\nret": "where does it lead?",
     "mov %rax, -4096(%rsp)": "a write below the red zone",
 }  # fmt: skip
 
@@ -42,6 +47,8 @@ with tempfile.TemporaryDirectory() as folder:
         Path(f"{folder}/mine.s").write_text(KERNEL.format(body))
         subprocess.run(["cc", "-shared", "-o", library, f"{folder}/mine.s"], check=True)
         check(body, prove(library), expected)
+    found = contct.prove(library)["contct_kernel"]
+    assert found.startswith("undecided: ") and expected in found, f"by the Python module: {found}"
     Path(f"{folder}/mine.s").write_text(KERNEL.format("ret"))
     subprocess.run(["cc", "-shared", "-o", library, f"{folder}/mine.s"], check=True)
     status, said = prove(library)

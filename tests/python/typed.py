@@ -30,6 +30,7 @@ def kernel(call: contct.Inputs) -> tuple[list[float], float, list[int]]:
 
 judgement: contct.Judgement = contct.judge(kernel, calls=1000, problems=1, seed=1)
 verdict: tuple[bool, str, list[str]] = (judgement.equal, judgement.level, judgement.findings)
+proofs: dict[str, str] = contct.prove("mine.so", symbol="my_kernel")
 calls: int = contct.replay(result.trace, kernel="cpp").calls
 try:
     contct.run(problem)

@@ -2,66 +2,124 @@
 
 import argparse
 import functools
+import hashlib
 import multiprocessing
 import os
 import sys
-from typing import Any
+import time
+from typing import Any, Callable, NamedTuple
 
-MISSING = """contct prove: {} is not found; it needs the Python packages capstone and z3.
-On Debian: apt-get install python3-capstone python3-z3"""
-CLAIM = """
+from . import Undecided
+
+try:
+    import capstone
+    import z3
+except ImportError as missing:
+    if __name__ != "__main__":
+        raise
+    print(f"contct prove: {missing.name} is not found; it needs the Python packages capstone and z3.\n"
+          "On Debian: apt-get install python3-capstone python3-z3", file=sys.stderr)  # fmt: skip
+    sys.exit(2)
+
+from . import interfaces, replay
+from .elf import Image
+from .induction import Differs, Proof
+from .machine import Machine
+from .specification import PRECONDITIONS, Specification
+
+PROVED, DIFFERS, UNDECIDED = 0, 1, 2  # the exit status
+CLAIM = f"""
 For every call within the preconditions, each kernel that is proved leaves the bits of the specification in SS, SMIN and
 ISEP and makes its events, by machine-checked induction.
-Preconditions: {}; no array overlaps another; one rounding
-mode, subnormals kept, floating-point exceptions masked.
-Trusted: capstone {}, Z3 {}, and the interpreter; that libgfortran changes only its parameter block.
+Preconditions: {"; ".join(PRECONDITIONS.values())};
+no array overlaps another; one rounding mode, subnormals kept, floating-point exceptions masked.
+Trusted: capstone {capstone.__version__}, Z3 {z3.get_version_string()}, and the interpreter; that libgfortran changes only its parameter block.
 Not covered: the digits that a FORMAT writes, and other builds."""
 
 
-def parsed() -> argparse.Namespace:
-    """The command line."""
-    p = argparse.ArgumentParser("contct prove", description=__doc__)
-    p.add_argument("library", metavar="LIBRARY", help="an ELF file of x86-64 with a kernel, such as mine.so")
-    p.add_argument("--symbol", default="", help="the kernel's name, if it is not contct_kernel")
-    return p.parse_args()
+class Kernel(NamedTuple):
+    """A function that answers calls of CONTCT."""
+
+    symbol: str
+    width: int  # of REAL, in bits
+    interface: Callable[[Machine], interfaces.Interface]
+    words: str
+
+
+_CPP = "_ZN6contct7kernels6contctI{}EEiRNS0_4callIT_EESt4spanINS0_5eventELm18446744073709551615EE"
+KERNELS = [
+    Kernel("contc8_", 64, interfaces.fortran, "contct.f, 8-byte REAL"),
+    Kernel("contc4_", 32, interfaces.fortran, "contct.f, 4-byte REAL"),
+    Kernel(_CPP.format("d"), 64, interfaces.cpp, "contct<double>"),
+    Kernel(_CPP.format("f"), 32, interfaces.cpp, "contct<float>"),
+    Kernel("contct_kernel", 64, interfaces.plugin, "contct_kernel"),
+]
+
+
+def kernels_of(image: Image, symbol: str) -> list[Kernel]:
+    """The kernels of a file whose interfaces are known, or the one of that name, by default with plugin.h's interface."""
+    found = [k for k in KERNELS if k.symbol in ([symbol] if symbol else image.symbols)]
+    if symbol and image.symbol(symbol) and not found:
+        return [Kernel(symbol, 64, interfaces.plugin, symbol)]
+    if not found:
+        allowed = ", ".join(k.symbol for k in KERNELS)
+        raise Undecided(f"{image.path}: found no kernel; allowed: a file with one of {allowed}, or --symbol")
+    return found
+
+
+def judge(path: str, kernel: Kernel) -> tuple[int, str]:
+    """The verdict on one kernel of a file: exit status and words."""
+    start, image = time.process_time(), Image(path)
+    machine = Machine(image, Specification(kernel.width))
+    try:
+        proof = Proof(machine, kernel.interface(machine), image.symbol(kernel.symbol).address)
+        proof.prove()
+    except (Undecided, Differs, z3.Z3Exception, LookupError) as why:  # the latter from code of a form not thought of
+        return _refuted(path, kernel, machine, str(why))
+    code = image.code_of(kernel.symbol)
+    return PROVED, (f"proved: {len(code)} bytes of SHA-256 {hashlib.sha256(code).hexdigest()}; {len(proof.heads)} loops, "
+                    f"{machine.paths} paths, {machine.questions} questions, {time.process_time() - start:.1f} s of "
+                    "processor time")  # fmt: skip
+
+
+def _refuted(path: str, kernel: Kernel, machine: Machine, why: str) -> tuple[int, str]:
+    """Only a call that the kernel answers otherwise, both having been run, is a difference."""
+    if kernel.symbol != "contct_kernel":
+        return UNDECIDED, f"undecided: {why}"
+    try:
+        found = replay.search(os.path.abspath(path), machine.constants)
+    except Exception as failure:  # no library, a kernel that crashes: no call was compared
+        return UNDECIDED, f"undecided: {why}; run with contct.py: {failure}"
+    return (DIFFERS, f"differs: {found}") if found else (UNDECIDED, f"undecided: {why}; no call that differs was found")
 
 
 def main() -> int:
     """Print the verdicts; return the exit status."""
-    o = parsed()
-    try:
-        import capstone
-        import z3
-    except ImportError as missing:
-        print(MISSING.format(missing.name), file=sys.stderr)
-        return 2
-    from .elf import Image
-    from .specification import PRECONDITIONS
-    from .undecided import Undecided
-    from .verdict import Outcome, judge, kernels_of
-
+    p = argparse.ArgumentParser("contct prove", description=__doc__)
+    p.add_argument("library", metavar="LIBRARY", help="an ELF file of x86-64 with a kernel, such as mine.so")
+    p.add_argument("--symbol", default="", help="the kernel's name, if it is not contct_kernel")
+    o = p.parse_args()
     try:
         image = Image(o.library)
         kernels = kernels_of(image, o.symbol)
     except (OSError, Undecided) as error:
         print(f"contct prove: {error}", file=sys.stderr)
-        return 2
-    print(f"{o.library}\nSHA-256 {image.sha256}\n", flush=True)
-    outcomes = set()
+        return UNDECIDED
+    print(f"{o.library}\nSHA-256 {hashlib.sha256(image.data).hexdigest()}\n", flush=True)
+    found = set()
     with multiprocessing.Pool(2) as pool:
-        for verdict in pool.imap(functools.partial(judge, o.library), kernels):
-            outcomes.add(verdict.outcome)
-            print(f"{verdict.kernel.words} ({verdict.kernel.symbol}): {verdict.words}", flush=True)
-    if Outcome.PROVED in outcomes:
-        stated = "; ".join(PRECONDITIONS.values())
-        print(CLAIM.format(stated, capstone.__version__, z3.get_version_string()))
-    return next(o for o in (Outcome.DIFFERS, Outcome.UNDECIDED, Outcome.PROVED) if o in outcomes)
+        for kernel, (status, words) in zip(kernels, pool.imap(functools.partial(judge, o.library), kernels)):
+            found.add(status)
+            print(f"{kernel.words} ({kernel.symbol}): {words}", flush=True)
+    if PROVED in found:
+        print(CLAIM)
+    return next(status for status in (DIFFERS, UNDECIDED, PROVED) if status in found)
 
 
 def fail_closed(*failure: Any) -> None:
     """An error of the prover itself is no verdict, and Python's own exit status would be that of a difference."""
     sys.__excepthook__(*failure)
-    os._exit(2)
+    os._exit(UNDECIDED)
 
 
 if __name__ == "__main__":

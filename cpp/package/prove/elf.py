@@ -1,13 +1,13 @@
 """A linked ELF file of x86-64: its bytes, its symbols, and what the loader puts where."""
 
-import hashlib
 import struct
-from pathlib import Path
 from typing import NamedTuple
 
-from .undecided import Undecided
+from . import Undecided
 
-_X86_64, _WRITABLE, _LOAD, _RELA, _SYMBOLS, _DYNAMIC_SYMBOLS = 62, 2, 1, 4, 2, 11
+_HEADER = "<6s12xH12xQQ6xHHHH"  # of the file: magic number, machine, places, sizes and counts of its tables
+_X86_64, _LOAD, _RELOCATIONS, _SYMBOLS, _DYNAMIC_SYMBOLS = 62, 1, 4, 2, 11
+_WRITABLE = 2
 _R_64, _R_GLOB_DAT, _R_JUMP_SLOT, _R_RELATIVE = 1, 6, 7, 8
 
 
@@ -22,44 +22,35 @@ class Symbol(NamedTuple):
 class Image:
     """The file as it stands in memory, loaded at an address that only the loader knows."""
 
-    def __init__(self, path: str | Path):
-        self.path = str(path)
-        self.data = Path(path).read_bytes()
-        if self.data[:6] != b"\x7fELF\x02\x01" or struct.unpack_from("<H", self.data, 18)[0] != _X86_64:
+    def __init__(self, path: str):
+        self.path = path
+        with open(path, "rb") as file:
+            self.data = file.read()
+        found = struct.unpack_from(_HEADER, self.data) if len(self.data) >= 64 else (b"", 0)
+        if found[:2] != (b"\x7fELF\x02\x01", _X86_64):
             raise Undecided(f"{path}: found no ELF file of x86-64, the only machine code that is read")
-        self.sha256 = hashlib.sha256(self.data).hexdigest()
-        first, size, count = self._at("<Q", 32), *struct.unpack_from("<HH", self.data, 54)
-        headers = [struct.unpack_from("<IIQQQQQQ", self.data, first + size * k) for k in range(count)]
-        self.segments = [h for h in headers if h[0] == _LOAD]
+        programs, sections, program_size, program_count, section_size, section_count = found[2:]
+        self._segments = self._rows("<IIQQQQQQ", programs, program_size * program_count)
+        sections = self._rows("<IIQQQQIIQQ", sections, section_size * section_count)
         self.symbols: dict[str, Symbol] = {}
         self.relocations: dict[int, str | int] = {}  # a name of another file, or an address of this one
-        sections = self._sections()
-        for section in sections:
-            if section[1] in (_SYMBOLS, _DYNAMIC_SYMBOLS):
-                self.symbols |= {s.name: s for s in self._table(section, sections) if s.address}
-        for section in sections:
-            if section[1] == _RELA and sections[section[6]][1] == _DYNAMIC_SYMBOLS:
-                self._relocate(section, self._table(sections[section[6]], sections))
+        for _, kind, _, _, at, size, link, *_ in sections:
+            if kind in (_SYMBOLS, _DYNAMIC_SYMBOLS):
+                self.symbols |= {s.name: s for s in self._table(at, size, sections[link]) if s.address}
+            if kind == _RELOCATIONS and sections[link][1] == _DYNAMIC_SYMBOLS:
+                _, _, _, _, symbols_at, symbols_size, names, *_ = sections[link]
+                self._relocate(at, size, self._table(symbols_at, symbols_size, sections[names]))
 
-    def _at(self, form: str, place: int) -> int:
-        return struct.unpack_from(form, self.data, place)[0]
+    def _rows(self, form: str, at: int, size: int) -> list[tuple]:
+        return list(struct.iter_unpack(form, self.data[at : at + size]))
 
-    def _sections(self) -> list[tuple]:
-        first, (size, count) = self._at("<Q", 40), struct.unpack_from("<HH", self.data, 58)
-        return [struct.unpack_from("<IIQQQQIIQQ", self.data, first + size * k) for k in range(count)]
+    def _table(self, at: int, size: int, names: tuple) -> list[Symbol]:
+        text = self.data[names[4] : names[4] + names[5]]
+        return [Symbol(text[name : text.index(b"\0", name)].decode(), value if where else 0, length)
+                for name, _, _, where, value, length in self._rows("<IBBHQQ", at, size)]  # fmt: skip
 
-    def _table(self, section: tuple, sections: list[tuple]) -> list[Symbol]:
-        names = sections[section[6]][4]
-        found = []
-        for place in range(section[4], section[4] + section[5], 24):
-            name, _, _, where, value, size = struct.unpack_from("<IBBHQQ", self.data, place)
-            end = self.data.index(b"\0", names + name)
-            found.append(Symbol(self.data[names + name : end].decode(), value if where else 0, size))
-        return found
-
-    def _relocate(self, section: tuple, symbols: list[Symbol]) -> None:
-        for place in range(section[4], section[4] + section[5], 24):
-            where, kind, addend = struct.unpack_from("<QQq", self.data, place)
+    def _relocate(self, at: int, size: int, symbols: list[Symbol]) -> None:
+        for where, kind, addend in self._rows("<QQq", at, size):
             symbol = symbols[kind >> 32]
             if kind & 0xFFFFFFFF == _R_RELATIVE:
                 self.relocations[where] = addend
@@ -67,11 +58,11 @@ class Image:
                 self.relocations[where] = symbol.address + addend if symbol.address else symbol.name
 
     def bytes_at(self, address: int, size: int) -> tuple[bytes, bool]:
-        """`size` bytes from the file, and whether the program may write them."""
-        for _, flags, offset, start, _, in_file, in_memory, _ in self.segments:
-            if start <= address and address + size <= start + in_memory:
-                held = self.data[offset + address - start : offset + min(address - start + size, in_file)]
-                return held.ljust(size, b"\0"), bool(flags & _WRITABLE)
+        """`size` bytes, or as many as are left in their segment; and whether the program may write them."""
+        for kind, flags, offset, start, _, in_file, in_memory, _ in self._segments:
+            if kind == _LOAD and start <= address < start + in_memory:
+                held = self.data[offset + address - start : offset + in_file][:size]
+                return held.ljust(min(size, start + in_memory - address), b"\0"), bool(flags & _WRITABLE)
         raise Undecided(f"{self.path}: address {address:#x} is not in the file")
 
     def symbol(self, name: str) -> Symbol:
@@ -79,3 +70,7 @@ class Image:
         if name not in self.symbols:
             raise Undecided(f"{self.path}: found no symbol {name}; a stripped file keeps exported symbols only")
         return self.symbols[name]
+
+    def code_of(self, name: str) -> bytes:
+        """The bytes of a function."""
+        return self.bytes_at(self.symbol(name).address, self.symbol(name).size)[0]

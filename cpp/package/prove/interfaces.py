@@ -1,165 +1,100 @@
-"""How a kernel is called: where the arguments stand on entry, and how what it did is read at the end. The three
-interfaces are contct_'s (FORTRAN), contct<Real>'s (contct.hpp) and contct_kernel's (plugin.h)."""
+"""How a kernel is called: where the arguments stand on entry, and how what it did is read at the end."""
+
+from typing import Callable, NamedTuple
 
 import z3
 
-from .machine import Machine
+from .machine import BASE, RETURN, Machine
+from .runtime import END
 from .specification import Toggle
 from .state import GENERAL, KEPT, State
 
-
-class Interface:
-    """What the interfaces share."""
-
-    registers: list[str] = []  # what rdi, rsi, rdx, rcx, r8 and r9 point to
-    on_stack: list[str] = []  # what the arguments above the return address point to
-
-    def __init__(self, machine: Machine):
-        self.machine, self.spec = machine, machine.spec
-
-    def entry(self, address: int) -> State:
-        """The state in which the function is called."""
-        s = State()
-        s.pc = address
-        s.registers = {name: z3.BitVec(f"entry {name}", 64) for name in GENERAL}
-        s.registers |= {f"xmm{k}": z3.BitVec(f"entry xmm{k}", 128) for k in range(16)}
-        s.registers["rsp"] = self.machine.base["STACK"]
-        for register, name in zip(["rdi", "rsi", "rdx", "rcx", "r8", "r9"], self.registers):
-            s.registers[register] = self.machine.base[name]
-        s.flags = {flag: lambda: self.machine.fresh(1) == 1 for flag in "zcsop"}
-        s.set_cells("STACK", 0, z3.BitVec("return", 64))
-        for k, name in enumerate(self.on_stack):
-            s.set_cells("STACK", 8 + 8 * k, self.machine.base[name])
-        self.fill(s)
-        self.constants = {key: cell for key, cell in s.cells.items() if key[0] != "STACK" and key not in self.outputs()}
-        return s
-
-    def fill(self, s: State) -> None:
-        """Arguments that are no arrays."""
-        s.set_cells("SMIN", 0, z3.BitVec("entry SMIN", self.spec.width))
-
-    def smin_at(self) -> tuple[str, int]:
-        """The place of SMIN."""
-        return "SMIN", 0
-
-    def outputs(self) -> set[tuple[str, int]]:
-        region, offset = self.smin_at()
-        return {(region, offset + k) for k in range(self.spec.width // 8)}
-
-    def smin(self, s: State) -> z3.BitVecRef:
-        region, offset = self.smin_at()
-        return s.cells_at(region, offset, self.spec.width // 8)
-
-    def fault_of_events(self, s: State, toggles: list[Toggle], ends_at_1: bool) -> str:
-        """What is wrong with the events of a path, on which the listing makes these; empty if nothing is."""
-        return ""
-
-    def fault_of_return(self, s: State, toggled: z3.BitVecRef) -> str:
-        """What is wrong with the state in which the function returns: SMIN is judged elsewhere."""
-        start = self.machine.base["STACK"]
-        wrong = [name for name in KEPT if not self.machine.same(s, s.registers[name], z3.BitVec(f"entry {name}", 64))]
-        if not self.machine.same(s, s.registers["rsp"], start + 8):
-            wrong.append("rsp")
-        wrong += [f"{region} at {at}" for (region, at), (value, k) in self.constants.items()
-                  if not self._is_kept(s, (region, at), value, k)]  # fmt: skip
-        return f"{', '.join(wrong)} must be as on entry" if wrong else ""
-
-    def _is_kept(self, s: State, key: tuple[str, int], value: z3.BitVecRef, k: int) -> bool:
-        return self.machine.same(s, s.cells_at(*key, 1), z3.Extract(8 * k + 7, 8 * k, value))
-
-    def decided(self, s: State, claim: z3.BoolRef) -> bool | None:
-        """Whether `claim` holds on a path, or does not; none where both can be."""
-        return True if self.machine.holds(s, claim) else False if self.machine.holds(s, z3.Not(claim)) else None
+REGISTERS = ["rdi", "rsi", "rdx", "rcx", "r8", "r9"]  # of the first arguments; the others are on the stack
+POINTERS = [BASE[name] for name in ("DD", "DTEST", "CC", "SS", "SMIN", "ID", "ISEP", "ISURF")]
 
 
-class Fortran(Interface):
+class Interface(NamedTuple):
+    """One of the three interfaces, for one function."""
+
+    arguments: list[z3.BitVecRef]
+    cells: dict[tuple[str, int], z3.BitVecRef]  # what stands in memory on entry
+    told: Callable[[State], list[z3.BitVecRef]]  # the events of a path
+    expected: Callable[[list[Toggle], bool], list[z3.BitVecRef]]  # those of toggled pairs, or of a return without any
+    smin: tuple[str, int] = ("SMIN", 0)
+    returns_count: bool = False
+
+
+def fortran(machine: Machine) -> Interface:
     """contct_: pointers to everything, COMMON /DOF/, and WRITEs."""
+    spec, common = machine.spec, machine.image.symbol("dof_").address
 
-    registers = ["DD", "DTEST", "CC", "SS", "SMIN", "ID"]
-    on_stack = ["ISEP", "ISURF", "NC"]
-
-    def fill(self, s: State) -> None:
-        super().fill(s)
-        s.set_cells("NC", 0, self.spec.nc)
-        common = self.machine.image.symbol("dof_").address
-        s.set_cells("IMAGE", common, self.spec.indof)
-        s.set_cells("IMAGE", common + 4, self.spec.ndofpn)
-
-    def fault_of_events(self, s: State, toggles: list[Toggle], ends_at_1: bool) -> str:
-        expected: list[list] = []
+    def expected(toggles: list[Toggle], no_event: bool) -> list[z3.BitVecRef]:
+        label = lambda number: z3.BitVecVal(number, 32)
+        events = [label(20), spec.one, END] if no_event else []
         for t in toggles:
-            happens, makes = self.decided(s, t.happens), self.decided(s, t.makes)
-            if happens is None or (happens and makes is None):
-                return "this path does not tell whether a pair has an event"
-            if happens:
-                expected += [[40 if makes else 50], [60, z3.Extract(31, 0, t.i) + 1, t.node, t.isurf, t.smin]]
-        if ends_at_1:
-            expected.append([20, self.spec.one])
-        found = [event[:-1] for event in s.events if event[-1] == "end"]
-        if [e[0] for e in found] != [e[0] for e in expected] or len(found) != len(s.events):
-            return f"WRITEs of {[e[0] for e in s.events]}; the listing has {[e[0] for e in expected]}"
-        for ours, listing in zip(found, expected):
-            if len(ours) != len(listing) or not all(self.machine.same(s, a, b) for a, b in zip(ours[1:], listing[1:])):
-                return f"other values in WRITE(26,{listing[0]})"
-        return ""
+            events += [z3.If(t.makes, label(40), label(50)), END]
+            events += [label(60), z3.Extract(31, 0, t.i) + 1, t.node, t.isurf, t.smin, END]
+        return events
+
+    cells = {("NC", 0): spec.nc, ("IMAGE", common): spec.indof, ("IMAGE", common + 4): spec.ndofpn}
+    return Interface([*POINTERS, BASE["NC"]], cells, lambda s: s.events, expected)
 
 
-class Cpp(Interface):
-    """contct<Real>: a struct, and events as data, as many as it returns."""
+def cpp(machine: Machine) -> Interface:
+    """contct<Real> of contct.hpp: a struct with spans, and events as data, as many as it returns."""
+    spec = machine.spec
+    places = {"DD": 0, "DTEST": 16, "CC": 32, "SS": 48, "ID": 72, "ISEP": 88, "ISURF": 104}
+    cells = {("CALL", at): BASE[name] for name, at in places.items()}
+    cells |= {("CALL", at + 8): spec.length(name) for name, at in places.items()}
+    cells |= {("CALL", 120): spec.indof, ("CALL", 124): spec.ndofpn, ("CALL", 128): z3.BitVec("entry at_rest", 32)}
 
-    registers = ["CALL", "EVENTS"]
-    spans = {"DD": 0, "DTEST": 16, "CC": 32, "SS": 48, "ID": 72, "ISEP": 88, "ISURF": 104}
+    def told(s: State) -> list[z3.BitVecRef]:
+        halves = {k: value for (array, k), value in s.elements.items() if array == "EVENTS"}
+        return [halves.get(k, z3.BitVec("nothing", 32)) for k in range(len(halves))]
 
-    def fill(self, s: State) -> None:
-        for name, at in self.spans.items():
-            s.set_cells("CALL", at, self.machine.base[name])
-            s.set_cells("CALL", at + 8, z3.simplify(self.machine.lengths[name]))
-        s.set_cells("CALL", 128, z3.BitVec("entry at_rest", 32))
-        s.set_cells("CALL", 64, z3.BitVec("entry SMIN", self.spec.width))
-        s.set_cells("CALL", 120, self.spec.indof)
-        s.set_cells("CALL", 124, self.spec.ndofpn)
+    def expected(toggles: list[Toggle], no_event: bool) -> list[z3.BitVecRef]:
+        what = lambda t: z3.If(t.makes, z3.BitVecVal(0, 32), z3.BitVecVal(1, 32))
+        return [half for t in toggles for half in (z3.Extract(31, 0, t.i), what(t))]
 
-    def smin_at(self) -> tuple[str, int]:
-        return "CALL", 64
-
-    def fault_of_events(self, s: State, toggles: list[Toggle], ends_at_1: bool) -> str:
-        expected: dict[int, z3.BitVecRef] = {}  # halves of events, counted from the first of this path
-        for t in toggles:
-            happens = self.decided(s, t.happens)
-            if happens is None:
-                return "this path does not tell whether a pair has an event"
-            if happens:
-                expected[len(expected)] = z3.Extract(31, 0, t.i)
-                expected[len(expected)] = z3.If(t.makes, z3.BitVecVal(0, 32), z3.BitVecVal(1, 32))
-        first = z3.ZeroExt(32, self.machine.at.toggled) * 8
-        found = {}
-        for offset, value in s.written.get("EVENTS", []):
-            half = next((k for k in expected if self.machine.same(s, offset, first + 4 * k)), None)
-            if half is None:
-                return "an event that the listing does not have"
-            found |= {half: value} if value.size() == 32 else self._halves(half, value)
-        if found.keys() != expected.keys():
-            return f"{len(found) / 2:g} events; the listing has {len(expected) // 2}"
-        wrong = [k for k in expected if not self.machine.same(s, found[k], expected[k])]
-        return "other values in an event" if wrong else ""
-
-    def _halves(self, half: int, value: z3.BitVecRef) -> dict[int, z3.BitVecRef]:
-        return {half + k: z3.Extract(32 * k + 31, 32 * k, value) for k in range(value.size() // 32)}
-
-    def fault_of_return(self, s: State, toggled: z3.BitVecRef) -> str:
-        if not self.machine.same(s, z3.Extract(31, 0, s.registers["rax"]), toggled):
-            return "another number of events is returned"
-        return super().fault_of_return(s, toggled)
+    return Interface([BASE["CALL"], BASE["EVENTS"]], cells, told, expected, smin=("CALL", 64), returns_count=True)
 
 
-class Plugin(Interface):
+def plugin(machine: Machine) -> Interface:
     """contct_kernel of plugin.h: no events."""
+    spec = machine.spec
+    numbers = [spec.nc, spec.indof, spec.ndofpn, z3.Extract(31, 0, spec.dofs)]
+    arguments = [z3.Concat(z3.BitVec(f"entry upper {k}", 32), n) for k, n in enumerate(numbers)]
+    return Interface([*POINTERS, *arguments], {}, lambda s: [], lambda toggles, no_event: [])
 
-    registers = ["DD", "DTEST", "CC", "SS", "SMIN", "ID"]
-    on_stack = ["ISEP", "ISURF"]
 
-    def fill(self, s: State) -> None:
-        super().fill(s)
-        numbers = [self.spec.nc, self.spec.indof, self.spec.ndofpn, z3.Extract(31, 0, self.spec.dofs)]
-        for k, value in enumerate(numbers):
-            s.set_cells("STACK", 24 + 8 * k, z3.simplify(z3.Concat(z3.BitVec(f"entry upper {k}", 32), value)))
+def _on_entry(name: str, width: int) -> z3.BitVecRef:
+    return z3.BitVec("entry " + name, width)
+
+
+def entry(machine: Machine, interface: Interface, address: int) -> State:
+    """The state in which the function is called."""
+    machine.output = interface.smin
+    s, real = State(address), machine.spec.width
+    for name in GENERAL:
+        s.set_register(name, _on_entry(name, 64))
+    for k in range(16):
+        s.write(f"xmm{k}", 0, _on_entry(f"xmm{k}", real))
+        s.write(f"xmm{k}", real // 8, _on_entry(f"upper xmm{k}", 128 - real))
+    s.set_register("rsp", BASE["STACK"])
+    s.write("STACK", 0, RETURN)
+    for register, value in zip(REGISTERS, interface.arguments):
+        s.set_register(register, value)
+    for k, value in enumerate(interface.arguments[len(REGISTERS) :]):
+        s.write("STACK", 8 * (k + 1), value)
+    for (region, at), value in (interface.cells | {interface.smin: _on_entry("SMIN", real)}).items():
+        s.write(region, at, value)
+    return s
+
+
+def fault_of_return(machine: Machine, interface: Interface, s: State, smin: z3.BitVecRef, toggled: z3.BitVecRef) -> str:
+    """What is wrong with the state in which the function returns; empty if nothing is."""
+    expected = {name: _on_entry(name, 64) for name in KEPT} | {"rsp": BASE["STACK"] + 8}
+    expected |= {"eax": toggled} if interface.returns_count else {}
+    wrong = [name for name, value in expected.items() if not machine.same(s, s.register(name), value)]
+    wrong += [] if machine.same(s, s.read(*interface.smin, smin.size() // 8), smin) else ["SMIN"]
+    return f"the function returns with another {', '.join(wrong)}" if wrong else ""

@@ -1,37 +1,38 @@
 """Reals as bits. Comparisons are exact; +, -, *, / and conversions are functions of which nothing is known but that
 the same bits in the same order give the same bits."""
 
-import functools
-
 import z3
 
 z3.set_param("rewriter.elim_sign_ext", False)  # whole terms are quicker than single bits
 
+EFFORT = 100_000_000  # of Z3 for a question, by its own count, so that no verdict depends on the machine's load
 INFINITY = {32: 0x7F800000, 64: 0x7FF0000000000000}
 
 
-@functools.cache
-def function(name: str, width: int, *inputs: int) -> z3.FuncDeclRef:
+def function(name: str, width: int, *arguments: z3.BitVecRef) -> z3.BitVecRef:
     """An unknown function of bits, for each name and width the same one."""
-    return z3.Function(f"{name}{width}", *(z3.BitVecSort(w) for w in inputs), z3.BitVecSort(width))
+    return z3.Function(f"{name}{width}", *(a.sort() for a in arguments), z3.BitVecSort(width))(*arguments)
 
 
 def arithmetic(name: str, a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
-    """`a` + `b` and so on: add, sub, mul, div, in operand order."""
-    return function(name, a.size(), a.size(), a.size())(a, b)
+    """`a` + `b` and so on: add, sub, mul, div, in operand order. Order decides only which of two NaNs a sum or product
+    becomes, so a number that is known, and is none, comes second."""
+    if name in ("add", "mul") and z3.is_bv_value(a) and z3.is_false(z3.simplify(is_nan(a))):
+        a, b = b, a
+    return function(name, a.size(), a, b)
 
 
 def from_integer(value: z3.BitVecRef, width: int) -> z3.BitVecRef:
-    """A whole number as a real."""
-    return function(f"from_int{value.size()}_", width, value.size())(value)
+    """A whole number as a real: the same one whether 32 or 64 bits hold it."""
+    return function("from_int", width, z3.SignExt(64 - value.size(), value))
 
 
 def product(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
     """A product of whole numbers: with a constant as it is, else a function like those of reals, but for the order."""
-    a, b = z3.simplify(a), z3.simplify(b)
+    a, b = sorted((z3.simplify(a), z3.simplify(b)), key=z3.AstRef.sexpr)
     if z3.is_bv_value(a) or z3.is_bv_value(b):
         return a * b
-    return function("product", a.size(), a.size(), a.size())(*sorted((a, b), key=z3.AstRef.get_id))
+    return function("product", a.size(), z3.If(z3.ULE(a, b), a, b), z3.If(z3.ULE(a, b), b, a))
 
 
 def magnitude(x: z3.BitVecRef) -> z3.BitVecRef:
@@ -58,11 +59,16 @@ def less(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BoolRef:
     return z3.And(z3.Not(unordered(a, b)), below)
 
 
+def follows(claim: z3.BoolRef, *facts: z3.BoolRef) -> bool:
+    """Whether Z3 proves a lemma."""
+    solver = z3.Solver()
+    solver.set("rlimit", EFFORT)
+    solver.add(*facts, z3.Not(claim))
+    return solver.check() == z3.unsat
+
+
 def comparisons_are_ieee(width: int) -> bool:
     """Z3's own theory of IEEE 754 says the same of every two bit patterns."""
     a, b = z3.BitVecs("a b", width)
-    sort = {32: z3.Float32(), 64: z3.Float64()}[width]
-    x, y = z3.fpBVToFP(a, sort), z3.fpBVToFP(b, sort)
-    solver = z3.Solver()
-    solver.add(z3.Not(z3.And(less(a, b) == z3.fpLT(x, y), equal(a, b) == z3.fpEQ(x, y), is_nan(a) == z3.fpIsNaN(x))))
-    return solver.check() == z3.unsat
+    x, y = (z3.fpBVToFP(bits, {32: z3.Float32(), 64: z3.Float64()}[width]) for bits in (a, b))
+    return follows(z3.And(less(a, b) == z3.fpLT(x, y), equal(a, b) == z3.fpEQ(x, y), is_nan(a) == z3.fpIsNaN(x)))

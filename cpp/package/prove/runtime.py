@@ -3,84 +3,60 @@ is trusted, and so are the formats' digits."""
 
 import re
 
-import capstone
 import z3
 
 from .specification import FORMATS
-from .state import GENERAL, KEPT, State
+from .state import KEPT, REGISTERS, State
 
 BLOCK = 0x218  # bytes of st_parameter_dt, of which these are read:
 FLAGS, UNIT, FORMAT, FORMAT_LENGTH = 0, 4, 0x50, 0x58
 HAS_FORMAT = 0x1000
+BEGIN, INTEGER, REAL, DONE = (
+    "_gfortran_" + name for name in ("st_write", "transfer_integer_write", "transfer_real_write", "st_write_done")
+)
+END = z3.BitVecVal(-1, 32)
+CHANGED = {region for region, _, _ in REGISTERS.values()} - {*KEPT, "rsp"}
 
 
-def call(machine, s: State, ins: capstone.CsInsn, name: str) -> None:
+def call(machine, s: State, name: str) -> None:
     """The effect of a call of `name`, whose return address is on the stack."""
-    if name not in _CALLS:
-        raise machine.undecided(ins, f"{name} is called, of which nothing is known")
-    if not s.events and name != "_gfortran_st_write":
-        raise machine.undecided(ins, "a value is written before any WRITE")
-    block = machine.place(s, *_stack(machine, s, ins, s.registers["rdi"]))
-    _CALLS[name](machine, s, ins, block)
-    top = machine.place(s, *_stack(machine, s, ins, s.registers["rsp"]))
-    for region, offset in list(s.cells):  # the block, and everything below the return address, may have changed
-        if region == "STACK" and (offset < top or block <= offset < block + BLOCK):
-            del s.cells[region, offset]
-    for register in GENERAL:
-        if register not in KEPT and register != "rsp":
-            s.registers[register] = machine.fresh(64)
-    for k in range(16):
-        s.registers[f"xmm{k}"] = machine.fresh(128)
-    s.flags = {flag: lambda: machine.fresh(1) == 1 for flag in "zcsop"}
+    if name not in (BEGIN, INTEGER, REAL, DONE) or not (s.events or name == BEGIN):
+        raise machine.undecided(s, f"{name} is called, of which nothing is known here")
+    block, top = machine.stack_offset(s, "rdi"), machine.stack_offset(s, "rsp")
+    if name == BEGIN:
+        s.events.append(z3.BitVecVal(_label(machine, s, block), 32))
+    elif name == DONE:
+        s.events.append(END)
+    else:
+        s.events.append(_written(machine, s, 32 if name == INTEGER else machine.spec.width))
+    for (region, at), value in list(s.cells.items()):
+        if region == "STACK" and (at < top or block - value.size() // 8 < at < block + BLOCK):
+            del s.cells[region, at]  # the block, and everything below the return address, may have changed
+        elif region in CHANGED:
+            s.cells[region, at] = machine.fresh(value.size())
+    s.flags = dict
 
 
-def _stack(machine, s: State, ins: capstone.CsInsn, address: z3.BitVecRef) -> tuple[str, z3.BitVecRef]:
-    region, offset = machine.region(s, address)
-    if region != "STACK":
-        raise machine.undecided(ins, f"a parameter block in {region}")
-    return region, offset
-
-
-def _number(machine, s: State, ins: capstone.CsInsn, place: int, size: int) -> int:
-    value = s.cells_at("STACK", place, size)
-    if value is None or not z3.is_bv_value(value):
-        raise machine.undecided(ins, "a WRITE whose parameters are not constants")
-    return value.as_long()
-
-
-def _begin(machine, s: State, ins: capstone.CsInsn, block: int) -> None:
-    flags, unit = (_number(machine, s, ins, block + at, 4) for at in (FLAGS, UNIT))
-    if (flags, unit) != (HAS_FORMAT, 26):
-        raise machine.undecided(ins, f"a WRITE to unit {unit} with flags {flags:#x}, not WRITE(26, label)")
-    region, offset = machine.region(s, machine.load(s, machine.base["STACK"] + (block + FORMAT), 64))
-    length = _number(machine, s, ins, block + FORMAT_LENGTH, 8)
-    text, writable = machine.image.bytes_at(machine.place(s, region, offset), length)
-    if region != "IMAGE" or writable:
-        raise machine.undecided(ins, "a FORMAT that is no constant")
+def _label(machine, s: State, block: int) -> int:
+    """The label of the FORMAT of a WRITE(26, label)."""
+    numbers = [s.read("STACK", block + at, size) for at, size in ((FLAGS, 4), (UNIT, 4), (FORMAT_LENGTH, 8))]
+    if not all(n is not None and z3.is_bv_value(n) for n in numbers):
+        raise machine.undecided(s, "a WRITE whose parameters are not constants")
+    flags, unit, length = (n.as_long() for n in numbers)
+    region, offset = machine.locate(s, s.read("STACK", block + FORMAT, 8))
+    text, writable = machine.image.bytes_at(offset, length) if region == "IMAGE" else (b"", True)
+    if (flags, unit, writable) != (HAS_FORMAT, 26, False):
+        raise machine.undecided(s, f"a WRITE to unit {unit} with flags {flags:#x}, not WRITE(26, label)")
     pieces = re.split(r"('[^']*')", text.decode("latin-1"))  # blanks count in quotes only
     format_ = "".join(piece if piece.startswith("'") else piece.replace(" ", "") for piece in pieces)
-    label = next((label for label, known in FORMATS.items() if known == format_), format_)
-    s.events.append([label])
+    labels = [label for label, known in FORMATS.items() if known == format_]
+    if not labels:
+        raise machine.undecided(s, f"a FORMAT that the listing does not have: {format_}")
+    return labels[0]
 
 
-def _transfer(width: int):
-    def transfer(machine, s: State, ins: capstone.CsInsn, block: int) -> None:
-        size = z3.simplify(z3.Extract(31, 0, s.registers["rdx"]))
-        wanted = width or machine.spec.width
-        if not size.eq(z3.BitVecVal(wanted // 8, 32)):
-            raise machine.undecided(ins, f"a value of {size} bytes is written; expected {wanted // 8}")
-        s.events[-1].append(machine.load(s, s.registers["rsi"], wanted))
-
-    return transfer
-
-
-def _end(machine, s: State, ins: capstone.CsInsn, block: int) -> None:
-    s.events[-1].append("end")
-
-
-_CALLS = {
-    "_gfortran_st_write": _begin,
-    "_gfortran_transfer_integer_write": _transfer(32),
-    "_gfortran_transfer_real_write": _transfer(0),
-    "_gfortran_st_write_done": _end,
-}
+def _written(machine, s: State, width: int) -> z3.BitVecRef:
+    size = s.register("edx")
+    if not size.eq(z3.BitVecVal(width // 8, 32)):
+        raise machine.undecided(s, f"a value of {size} bytes is written; expected {width // 8}")
+    return machine.load(s, s.register("rsi"), width)

@@ -1,0 +1,46 @@
+"""preconditions.py BUILD ROOT: a kernel that computes subscripts and products in 64 bits is proved within the preconditions,
+and not when any one of them is left out."""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+build, root = Path(sys.argv[1]), Path(sys.argv[2])
+sys.path.insert(0, str(build))
+from contct_prove import Undecided
+from contct_prove.elf import Image
+from contct_prove.induction import Differs, Proof
+from contct_prove.interfaces import plugin
+from contct_prove.machine import Machine
+from contct_prove.specification import PRECONDITIONS, Specification
+
+WIDER = {
+    "const int dof = (id[i] - 1) * ndofpn": "const long dof = ((long)id[i] - 1) * ndofpn",
+    "isep * isurf / d_star": "(double)((long)isep * isurf) / d_star",
+}
+
+
+def fault_without(left_out: str) -> str:
+    """Why there is no proof without one of the preconditions; empty where there is one."""
+    machine = Machine(Image(library), Specification(64, left_out))
+    try:
+        Proof(machine, plugin(machine), machine.image.symbol("contct_kernel").address).prove()
+    except (Undecided, Differs) as why:
+        return str(why)
+    return ""
+
+
+source = (root / "reference/kernels/contct_kernel.c").read_text()
+for narrow, wide in WIDER.items():
+    assert source.count(narrow) == 1, narrow
+    source = source.replace(narrow, wide)
+with tempfile.TemporaryDirectory() as folder:
+    library = f"{folder}/wide.so"
+    Path(f"{folder}/wide.c").write_text(source)
+    command = f"cc -O2 -ffp-contract=off -shared -fPIC -I {root}/cpp {folder}/wide.c -o {library}"
+    subprocess.run(command.split(), check=True)
+    assert not fault_without("none"), fault_without("none")
+    for left_out in PRECONDITIONS:
+        assert fault_without(left_out), f"proved without {left_out}"
+print(f"{len(PRECONDITIONS)} preconditions, each needed")
