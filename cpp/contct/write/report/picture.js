@@ -57,11 +57,14 @@ function allEventWords(events, most = 8) {
 function stateWords(f) {
   const [open, closed, atFace] = ["o", "c", "f"].map((look) => f.pairs.filter((p) => p.look === look).length);
   const place = f.step === 0 ? "Before any load."
-    : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid-body motion at constant load; " : ""}load: ${minus(f.load.words)}, share ${short(f.fraction)} of the step.`;
-  const event = f.events.length > 0 ? ` Then ${allEventWords(f.events, 3)}.` : f.end && f.fraction < 1 ? " The path ends here." : f.end ? " The step's load is applied." : "";
+    : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid-body motion at constant load; " : ""}` +
+      `load: ${minus(f.load.words)}, share ${short(f.fraction)} of the step.`;
+  const end = !f.end ? "" : f.fraction < 1 ? " The path ends here." : " The step's load is applied.";
+  const event = f.events.length > 0 ? ` Then ${allEventWords(f.events, 3)}.` : end;
   const fallback = f.exact ? " This state is the end of the exact path: the path in doubles could not reach it."
     : f.from_fallback ? " This state is the reference solution: the path could not reach it." : "";
-  const pairs = f.pairs.length === 0 ? " There are no contact pairs." : ` ${counted(closed, "pair")} in contact, ${open} separated, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
+  const pairs = f.pairs.length === 0 ? " There are no contact pairs."
+    : ` ${counted(closed, "pair")} in contact, ${open} separated, ${atFace} at ${atFace === 1 ? "its face" : "their faces"}.`;
   return `${place}${event}${fallback}${pairs} Largest ${moves()} ${short(mostOf(f).value)} at ${placeOf(mostOf(f))}.`;
 }
 
@@ -90,6 +93,8 @@ function svg(name, attributes = {}, ...children) {
 
 const line = (x1, y1, x2, y2, kind) => svg("line", { x1, y1, x2, y2, class: kind });
 const label = (x, y, words, attributes = {}) => svg("text", { x, y, ...attributes }, words);
+const axisWord = (x, y, words, anchor = "middle") => label(x, y, words, { "text-anchor": anchor, class: "axis-word" });
+const panelTitle = (x, y, words) => label(x, y, words, { class: "panel-title" });
 const shape = (d, kind, more = {}) => svg("path", { d, class: kind, ...more });
 const lineTo = (points) => "M" + points.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L");
 const path = (points, kind, end = "") => shape(lineTo(points) + end, kind);
@@ -136,12 +141,14 @@ function ticks(from, to, most) {
 // Grid lines with their numbers: up the left side of what is drawn, and along its bottom.
 function scaleUp(root, values, Y, left, right, away = 16) {
   for (const v of values) {
-    root.append(line(left, Y(v), right, Y(v), v === 0 ? "zero" : "grid"), label(left - away, Y(v) + 4, rough(v), { "text-anchor": "end", class: "axis-word" }));
+    root.append(line(left, Y(v), right, Y(v), v === 0 ? "zero" : "grid"),
+      axisWord(left - away, Y(v) + 4, rough(v), "end"));
   }
 }
 function scaleAlong(root, values, X, bottom, top = bottom + 5) {
   for (const v of values) {
-    root.append(line(X(v), top, X(v), bottom, v === 0 || top > bottom ? "zero" : "grid"), label(X(v), bottom + 19, rough(v), { "text-anchor": "middle", class: "axis-word" }));
+    root.append(line(X(v), top, X(v), bottom, v === 0 || top > bottom ? "zero" : "grid"),
+      axisWord(X(v), bottom + 19, rough(v)));
   }
 }
 
@@ -255,7 +262,7 @@ function drawPoints(root, points, view) {
     const [[x, y], t] = [view.spot(p), view.along(p)];
     const words = `Load ${short(p.value)} at ${placed(p.name)}`;
     if (t === null) {
-      root.append(titled(words, shape(`M${x + 13} ${y + 7}A15 15 0 1 ${p.value > 0 ? 0 : 1} ${x + 13} ${y - 7}`, "load-line", { "stroke-width": 2 })));
+      root.append(titled(words, shape(`M${x + 13} ${y + 7}A15 15 0 1 1 ${x + 13} ${y - 7}`, "load-line", { "stroke-width": 2 })));
       view.say(x, y - 20, `${rough(p.value)} ${p.value > 0 ? "↺" : "↻"}`, "value");
       continue;
     }
@@ -337,7 +344,8 @@ function drawStrip(root, f, X, top, height, name, title) {
     const after = points.findIndex(([x]) => x > X(v.x));
     if (after > 0 && !beam.xs.includes(v.x)) points.splice(after, 0, [X(v.x), Y(v.value)]);
   }
-  root.append(path([[X(beam.from), Y(0)], ...points, [X(beam.to), Y(0)]], name + "-area", "Z"), path(points, name), label(margin.left, top + 12, title, { class: "panel-title" }));
+  root.append(path([[X(beam.from), Y(0)], ...points, [X(beam.to), Y(0)]], name + "-area", "Z"), path(points, name),
+    panelTitle(margin.left, top + 12, title));
   const told = ends.filter((v, i) => i === 0 || v.value * ends[0].value < -1e-9 * ends[0].value ** 2);
   for (const v of told) root.append(svg("circle", { cx: X(v.x), cy: Y(v.value), r: 3, class: "dot-" + name }));
   const words = told.slice(0, X(beam.to) < 600 ? 1 : 2).map((v) => `${digits(v.value, 5)} at x = ${digits(v.x, 5)}`);
@@ -358,7 +366,7 @@ function drawBeam(f, holder) {
   beamScale = { X, Y, pixels, top: 28, bottom: bottom - 8 };
   const strip = 126;
   const root = canvas(holder, width, bottom + 30 + 2 * (strip + 14), stateWords(f));
-  root.append(label(margin.left, 16, `${inUnit("Deflection", "w")}, drawn ${timesWords(factor)}`, { class: "panel-title" }));
+  root.append(panelTitle(margin.left, 16, `${inUnit("Deflection", "w")}, drawn ${timesWords(factor)}`));
   const reach = room / 2 / pixels;
   scaleUp(root, ticks(middle - reach, middle + reach, 4), Y, margin.left, X(beam.to));
   root.append(line(X(beam.from), bottom, X(beam.to), bottom, "zero"), line(X(beam.from), Y(0), X(beam.to), Y(0), "undeformed"),
@@ -400,7 +408,8 @@ function plateOf() {
 
 // With levels that are the same in all states.
 function fieldsOf() {
-  const known = { w: "deflection w", mx: "moment mx", my: "moment my", mxy: "twisting moment mxy", ...(structure.pairs.some((p) => p.bed) ? { pressure: "foundation pressure" } : {}) };
+  const known = { w: "deflection w", mx: "moment mx", my: "moment my", mxy: "twisting moment mxy" };
+  if (structure.pairs.some((p) => p.bed)) known.pressure = "foundation pressure";
   return Object.entries(known).map(([name, words]) => {
     const [low, high] = spread(frames.flatMap((f) => spread(atCrossings(f, name))));
     const step = high > low ? roundDown(((high - low) / 9) * 1.3, [1, 2, 2.5, 5]) : 1;
@@ -471,7 +480,8 @@ function drawMap(root, f, x, y, width, height) {
       const band = bandOf(columns[from]);
       let to = from + 1;
       while (to < columns.length && bandOf(columns[to]) === band) ++to;
-      bands[band].push(`M${(x + from * dx).toFixed(1)} ${(y + height - (row + 1) * dy).toFixed(1)}h${((to - from) * dx).toFixed(1)}v${dy.toFixed(1)}h${((from - to) * dx).toFixed(1)}Z`);
+      const [left, top, wide] = [x + from * dx, y + height - (row + 1) * dy, (to - from) * dx].map((v) => v.toFixed(1));
+      bands[band].push(`M${left} ${top}h${wide}v${dy.toFixed(1)}h-${wide}Z`);
       from = to;
     }
   });
@@ -489,12 +499,13 @@ function drawPlate(f, holder) {
   const X = (x) => left + (x - x0) * scale;
   const Y = (y) => room.top + (y1 - y) * scale;
   const root = canvas(holder, width, height, stateWords(f));
-  root.append(label(left, 18, sentence(field.words).slice(0, -1), { class: "panel-title" }));
+  root.append(panelTitle(left, 18, sentence(field.words).slice(0, -1)));
   drawMap(root, f, X(x0), Y(y1), X(x1) - X(x0), Y(y0) - Y(y1));
   root.append(svg("rect", { x: X(x0), y: Y(y1), width: X(x1) - X(x0), height: Y(y0) - Y(y1), class: "edge" }));
   scaleAlong(root, ticks(x0, x1, 6), X, Y(y0));
   scaleUp(root, ticks(y0, y1, 6), Y, X(x0), X(x0), 9);
-  root.append(label(X(x1) + 8, Y(y0) + 36, "x", { "text-anchor": "end", class: "axis-word" }), label(X(x0) - 9, Y(y1) - 14, "y", { "text-anchor": "end", class: "axis-word" }));
+  root.append(axisWord(X(x1) + 8, Y(y0) + 36, "x", "end"),
+    axisWord(X(x0) - 9, Y(y1) - 14, "y", "end"));
   const over = svg("g", { class: "on-map" });
   root.append(over);
   drawPlateSupports(over, f, X, Y);
@@ -545,9 +556,9 @@ function drawColours(root, x, y, width) {
   const { bands } = field;
   for (let i = 0; i < bands; ++i) root.append(svg("rect", { x: x + (width * i) / bands, y, width: width / bands + 0.5, height: 14, fill: bandColour(i) }));
   root.append(svg("rect", { x, y, width, height: 14, fill: "none", class: "zero" }),
-    label(x, y - 6, inUnit(field.name === "pressure" ? "p" : field.name, field.name), { class: "panel-title" }));
+    panelTitle(x, y - 6, inUnit(field.name === "pressure" ? "p" : field.name, field.name)));
   const every = Math.ceil((bands * 75) / width);
-  for (let i = 0; i <= bands; i += every) root.append(label(x + (width * i) / bands, y + 30, rough(field.level(i)), { "text-anchor": "middle", class: "axis-word" }));
+  for (let i = 0; i <= bands; i += every) root.append(axisWord(x + (width * i) / bands, y + 30, rough(field.level(i))));
 }
 
 // ---- a structure by its matrix, where its nodes have places ----
@@ -660,12 +671,13 @@ function drawMeshAxes(root, width, height, layout) {
   ["x", "y", "z"].forEach((name, axis) => {
     const [dx, dy] = [26 * right[axis], -26 * up[axis]];
     if (Math.hypot(dx, dy) < 3) return;
-    root.append(line(x, y, x + dx, y + dy, "thin"), label(x + dx * 1.45, y + dy * 1.45 + 4, name, { "text-anchor": "middle", class: "axis-word" }));
+    root.append(line(x, y, x + dx, y + dy, "thin"), axisWord(x + dx * 1.45, y + dy * 1.45 + 4, name));
   });
   if (!(layout.size > 0)) return;
   const length = roundUp(layout.size / 8);
   const [to, bar] = [width - 30, length * layout.scale];
-  root.append(path([[to - bar, y - 4], [to - bar, y], [to, y], [to, y - 4]], "thin"), label(to, y + 18, `length ${rough(length)}`, { "text-anchor": "end", class: "axis-word" }));
+  root.append(path([[to - bar, y - 4], [to - bar, y], [to, y], [to, y - 4]], "thin"),
+    axisWord(to, y + 18, `length ${rough(length)}`, "end"));
 }
 
 function drawMesh(f, holder) {
@@ -676,12 +688,15 @@ function drawMesh(f, holder) {
   const spots = place(projected(f, layout.factor));
   const root = canvas(holder, width, layout.height, stateWords(f));
   const times = timesWords(layout.factor);
-  root.append(label(16, 18, width < 520 ? `Displacement ${times}` : `Displacement, drawn ${times}; ${views[view].words}`, { class: "panel-title" }));
+  root.append(panelTitle(16, 18, width < 520 ? `Displacement ${times}` : `Displacement, drawn ${times}; ${views[view].words}`));
   if (mesh.edges.length > 0) root.append(edgePath(was, "mesh-was"), edgePath(spots, mesh.edges.length > 400 ? "member many" : "member"));
   else root.append(marksAt(mesh.drawn, was, "h0", "mesh-was dots"), marksAt(mesh.drawn, spots, "h0", "member dots"));
   if (mesh.still.length > 0) root.append(marksAt(mesh.still, was, "m-3 -3l6 6m-6 0l6 -6", "thin still"));
   if (mesh.drawn.length <= 200) {
-    for (const i of mesh.drawn) root.append(svg("circle", { cx: spots[2 * i], cy: spots[2 * i + 1], r: 2.2, class: "mesh-node" }, svg("title", {}, `node ${structure.nodes[i].node}`)));
+    for (const i of mesh.drawn) {
+      const at = { cx: spots[2 * i], cy: spots[2 * i + 1], r: 2.2, class: "mesh-node" };
+      root.append(svg("circle", at, svg("title", {}, `node ${structure.nodes[i].node}`)));
+    }
   }
   const { right, up } = views[view];
   const pairs = pairsOf(f).filter((p) => p.at !== null);

@@ -59,8 +59,9 @@ function drawChart(f) {
     `Load against the ${moves()} of ${placed(followed.name)}, ${frames.length} states; now load ${rough(measure(f))}, ${moves()} ${rough(followed.read(f))}`);
   scaleAlong(root, ticks(x0, x1, Math.floor(width / 95)), X, bottom, room.top);
   scaleUp(root, ticks(y0, y1, 5), Y, room.left, width - room.right, 8);
-  root.append(label(room.left, 18, byForce ? (ofMatrix ? "Sum of the loads" : inUnit("Sum of the loads, positive up", "force")) : "Steps of load applied", { class: "panel-title" }));
-  root.append(label(width - room.right, height - 12, `${ofMatrix ? moves() : inUnit("deflection w", "w")} of ${placed(followed.name)}`, { "text-anchor": "end", class: "axis-word" }));
+  const sum = ofMatrix ? "Sum of the loads" : inUnit("Sum of the loads, positive up", "force");
+  root.append(panelTitle(room.left, 18, byForce ? sum : "Steps of load applied"));
+  root.append(axisWord(width - room.right, height - 12, `${ofMatrix ? moves() : inUnit("deflection w", "w")} of ${placed(followed.name)}`, "end"));
   const [x, y] = spot(f);
   root.append(line(x, y, x, bottom, "cross"), line(room.left, y, x, y, "cross"), path(frames.map(spot), "track"));
   for (const g of frames) root.append(chartMark(g, ...spot(g)));
@@ -106,7 +107,8 @@ function showPairs(f) {
 
 function showEvents() {
   byId("events-words").textContent = increments.length === 0 ? "The path has no increment."
-    : `${counted(increments.length, "increment")}. Share is the share of the step that is applied after the increment; s is the share of the remaining load that the increment applies, which the paper calls the scale factor.`;
+    : `${counted(increments.length, "increment")}. Share is the share of the step that is applied after the increment; ` +
+      `s is the share of the remaining load that the increment applies, which the paper calls the scale factor.`;
   byId("event-table").parentElement.hidden = increments.length === 0;
   const stops = new Map(frames.map((f, i) => [where(f), i]));
   byId("event-table").replaceChildren(head(["Increment"], ["Share"], ["s"], ["Load", true], ["Events", true]),
@@ -118,8 +120,9 @@ function eventRow(i, stops) {
   const stop = stops.get(name);
   const button = element("button", { type: "button", "aria-label": `Show increment ${name}` }, name);
   button.addEventListener("click", () => { stopPlaying(); show(stop); });
-  return element("tr", { "data-increment": name }, element("th", { scope: "row" }, stop === undefined ? name : button), cell(i.fraction), i.snap ? cell("snap") : cell(i.s),
-    cell(minus(i.load.words)), cell(i.events.length > 0 ? allEventWords(i.events) : "–", { class: "words wrap" }));
+  return element("tr", { "data-increment": name }, element("th", { scope: "row" }, stop === undefined ? name : button),
+    cell(i.fraction), cell(i.snap ? "snap" : i.s), cell(minus(i.load.words)),
+    cell(i.events.length > 0 ? allEventWords(i.events) : "–", { class: "words wrap" }));
 }
 
 function markCurrentRow(f) {
@@ -144,8 +147,10 @@ function showCalls() {
   const compared = result.lockstep ? others : [];
   const names = compared.flatMap((k) => [[`ULP off in SMIN, ${k}`], ["ULP off in any s"], ["values compared"], ["different"]]);
   const of = (a) => (!a || a.failed ? ["no answer", "no answer", "–", "–"] : [a.smin_ulps, a.s_ulps, a.values, a.mismatches]);
-  byId("call-table").replaceChildren(head(["Call"], ["Increment", true], [`SMIN of ${leader}`], ...names, ...Array.from({ length: pairs }, (_, i) => [`s of pair ${i + 1}`])),
-    element("tbody", {}, ...calls.map((c, n) => row(element("th", { scope: "row" }, String(n + 1)), cell(c.step === 0 ? "settling" : `${c.step}.${c.increment}`),
+  const ofPairs = Array.from({ length: pairs }, (_, i) => [`s of pair ${i + 1}`]);
+  byId("call-table").replaceChildren(head(["Call"], ["Increment", true], [`SMIN of ${leader}`], ...names, ...ofPairs),
+    element("tbody", {}, ...calls.map((c, n) => row(element("th", { scope: "row" }, String(n + 1)),
+      cell(c.step === 0 ? "settling" : `${c.step}.${c.increment}`),
       ...[c.smin, ...compared.flatMap((_, k) => of(c.followers[k])), ...c.s].map((value) => cell(value))))));
 }
 
@@ -156,11 +161,13 @@ function showCertificate() {
   const own = steps.filter((c) => c && !c.independent).length;
   const say = (text, kind) => element("p", kind ? { class: kind } : {}, text);
   byId("certificate-words").replaceChildren(
-    say("A step is certified when the errors of all numbers of its final state are within the allowed ones: by proved bounds, or, where none can be proved, by comparison with the reference solution. That is the minimiser of the structure's energy; it uses neither the kernels nor the path."),
+    say("A step is certified when the errors of all numbers of its final state are within the allowed ones: by proved bounds, " +
+      "or, where none can be proved, by comparison with the reference solution. That is the minimiser of the structure's energy; it uses neither the kernels nor the path."),
     ...(result.words.certificate.length > 0 ? [say(sentence(result.words.certificate.join("; ")), result.certified ? "good" : "bad")] : []),
     ...result.words.complaints.map((text) => say(sentence(text))),
     ...(steps.length === 0 ? [say("No step reached its full load, so there is nothing to certify.")] : []),
-    ...(own > 0 ? [say(`${counted(own, "state")} came from the reference solution itself, so a comparison with it shows nothing: only equilibrium, penetration and tension are judged there.`)] : []));
+    ...(own > 0 ? [say(`${counted(own, "state")} came from the reference solution itself, so a comparison with it shows nothing: ` +
+      `only equilibrium, penetration and tension are judged there.`)] : []));
   byId("certificate-table").parentElement.hidden = steps.length === 0;
   const small = (x) => (x === null || x === undefined ? "–" : minus(x === 0 ? "0" : x.toExponential(1)));
   const names = ["displacement_error", "shape_error", "equilibrium", "penetration", "tension", "tolerance"];
@@ -187,7 +194,8 @@ function tableOf(title, names, rows) {
   const words = names.map((_, i) => rows.every((r) => r[i] === null || typeof r[i] === "string"));
   return element("div", { class: rows.length > 12 ? "scroll" : "scroll whole", tabindex: "0", role: "region", "aria-label": title },
     element("p", { class: "caption" }, title), element("table", { "aria-label": title }, head(...names.map((name, i) => [name, words[i]])),
-      element("tbody", {}, ...rows.map(([first, ...rest]) => row(element("th", { scope: "row", class: "words" }, first), ...rest.map((value, i) => cellOf(value, words[i + 1])))))));
+      element("tbody", {}, ...rows.map(([first, ...rest]) => row(element("th", { scope: "row", class: "words" }, first),
+        ...rest.map((value, i) => cellOf(value, words[i + 1])))))));
 }
 
 const mostTableRows = 40;
@@ -315,7 +323,8 @@ function structureTable() {
 
 const inputTables = () => [
   ...structureTable(),
-  ...cutTable("Supports: fixed, or the stiffness of a spring", [...placeHead(), "Dof", "Held"], supportRows().map((s) => [...placeCells(s), s.dof, s.spring === null ? "fixed" : short(s.spring)])),
+  ...cutTable("Supports: fixed, or the stiffness of a spring", [...placeHead(), "Dof", "Held"],
+    supportRows().map((s) => [...placeCells(s), s.dof, s.spring === null ? "fixed" : short(s.spring)])),
   ...cutTable("Candidate pairs", ["Pair", ...placeHead(), "Surface", inLength("Face"), inUnit("Stiffness", "stiffness"), "At the start"],
     places.pairs.map((p) => [String(p.pair), ...placeCells(p), p.surface, p.face, p.stiffness, p.state === "contact" ? "in contact" : "separated"])),
   ...cutTable("Loads and settlements at the ends of steps", ["Step", "What", "Where", "Value"], result.steps.flatMap((s) => loadRows(s))),
@@ -360,7 +369,8 @@ function showHead() {
   byId("title-block").replaceChildren(...block.filter(([, text]) => text).map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text))));
   const size = mesh ? [counted(structure.nodes.length, "node"), counted(structure.edges.length, "edge"), counted(structure.dofs.length, "dof")]
     : ofMatrix ? [counted(structure.dofs.length, "dof")] : [counted(structure.nodes.length, "node"), counted(frames[frames.length - 1].elements.length, "element")];
-  byId("size").textContent = [...size, counted(places.pairs.length, "pair"), counted(result.steps.length, "load step"), counted(increments.length, "increment")].join(", ");
+  byId("size").textContent = [...size, counted(places.pairs.length, "pair"), counted(result.steps.length, "load step"),
+    counted(increments.length, "increment")].join(", ");
   byId("verdict").replaceChildren(...verdicts().map(([text, kind]) => element("li", { class: kind }, text)));
   byId("mesh-words").hidden = !result.steps.some((s) => s.certificate);
 }
@@ -378,8 +388,12 @@ function showCuts() {
   if (increments.length > mostEventRows) cuts.add(`Of ${increments.length} increments the first ${mostEventRows} are listed.`);
   for (const note of structure.notes || []) cuts.add(note);
   const within = increments.length + 1 + result.steps.filter((s) => !endsAt(s, s.increments.length - 1)).length;
-  if (frames.length < within) cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the increments, evenly chosen, and the ends of steps.`);
-  if (frames.some((f) => f.load.words !== "none" && f.load.words !== "" && !f.load.uniform && !f.load.point && !f.load.settlement)) cuts.add("Loads of more than 32 parts are not drawn: their sum is told.");
+  if (frames.length < within) {
+    cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
+      "increments, evenly chosen, and the ends of steps.");
+  }
+  const isSum = ({ words, uniform, point, settlement }) => words !== "none" && words !== "" && !uniform && !point && !settlement;
+  if (frames.some((f) => isSum(f.load))) cuts.add("Loads of more than 32 parts are not drawn: their sum is told.");
   if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
   const list = cuts.size > 0 ? [...cuts] : [`Nothing: every increment, ${unitOf()}, pair and call is on this page.`];
   byId("cuts").replaceChildren(...list.map((text) => element("li", {}, text)));
@@ -389,18 +403,20 @@ const pictureWords = {
   beam: "Up is positive. Between two increments every point moves along a straight line. Numbers under supports are reactions. " +
     "Moments M = EI w\u2033 (positive where the beam sags) and shears V = dM/dx (the upward force of the part left of a cut on the part right of it) " +
     "are those of EI w\u2033\u2033 = q between the nodes too; dots are at the largest values.",
-  plate: "The colours are the same in all states: dark is low. Up is positive; moments are those of sagging, means of the elements at each node; between nodes colours are interpolated. " +
+  plate: "The colours are the same in all states: dark is low. Up is positive; moments are those of sagging, means of the elements at each " +
+    "node; between nodes colours are interpolated. " +
     "The square of a pair in contact grows with its force; a bar over a pair means that its face is above.",
   mesh: "Edges are drawn straight between their nodes. Between two increments every point moves along a straight line. " +
-    "A face is drawn beside its node, across the direction of the pair's dof, at its distance from the undeformed node, magnified as displacements are. Numbers at supports are reactions.",
+    "A face is drawn beside its node, across the direction of the pair's dof, at its distance from the undeformed node, " +
+    "magnified as displacements are. Numbers at supports are reactions.",
   none: "No coordinates of this structure are known, so it is not drawn. [matrix] takes coordinates, [calculix] the mesh in CalculiX's input.",
 };
 
 function showLegend() {
   const kind = beam ? "beam" : plate ? "plate" : mesh ? "mesh" : "none";
   const looked = new Set(frames.flatMap((f) => f.pairs.map((p) => (p.look === "f" && p.closed ? "f in contact" : p.look))));
-  const pairs = [["c", "in contact, with a force"], ["o", "separated, with a gap"], ["f", "at its face, separated"], ["f in contact", "at its face, in contact, no force"]]
-    .map(([look, words]) => [looked.has(look), words, () => pairMark(look[0], 11, 9, 5, look === "f in contact")]);
+  const pairs = [["c", "in contact, with a force"], ["o", "separated, with a gap"], ["f", "at its face, separated"],
+    ["f in contact", "at its face, in contact, no force"]].map(([look, words]) => [looked.has(look), words, () => pairMark(look[0], 11, 9, 5, look === "f in contact")]);
   const loads = frames.flatMap(pointsOf).filter((p) => p.value !== 0);
   const loaded = loads.length > 0 || frames.some((f) => (f.load.uniform || []).length > 0);
   const holds = (w) => places.supports.some((s) => s.dofs.some(([dof]) => dof === "w") === w);
@@ -415,7 +431,8 @@ function showLegend() {
       [mesh.still.length > 0, "node without a dof: it does not move", cross]],
     plate: () => [...pairs, [loads.some((p) => p.dof === "w" && p.value < 0), "load, down", () => plateLoad(11, 9, true)],
       [loads.some((p) => p.dof === "w" && p.value > 0), "load, up", () => plateLoad(11, 9, false)],
-      [holds(true), "support of w", () => shape("M11 3l6 11h-12Z", "support")], [plate.reaction > 0, "reaction up, by its area", () => svg("circle", { cx: 11, cy: 9, r: 7, class: "reaction" })],
+      [holds(true), "support of w", () => shape("M11 3l6 11h-12Z", "support")],
+      [plate.reaction > 0, "reaction up, by its area", () => svg("circle", { cx: 11, cy: 9, r: 7, class: "reaction" })],
       [holds(false), "support of a slope", cross]],
     none: () => [],
   };

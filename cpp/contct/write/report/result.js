@@ -54,7 +54,8 @@ const endsAt = ({ increments: all, fraction, ended_by }, n) => n >= 0 && n === a
 function framesOf() {
   const found = [];
   const add = (state, how) => found.push({
-    end: false, exact: false, from_fallback: false, ...how, u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
+    end: false, exact: false, from_fallback: false, ...how,
+    u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
     pairs: places.pairs.map((p, i) => {
       const [w, closed] = [state.displacement[p.u], state.pairs[i].state === "contact"];
       const look = Math.abs(p.face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // the listing's EPSGAP
