@@ -516,8 +516,6 @@ try:
         looks_differ_in_shape(problem)
         looked_at_from_all_sides(problem, view)
         stands_where_it_was(problem)
-    playing("frame", False)
-    playing("bare", True)
     opens("frame", "dof 6.y", "Rotations, 11 of 33 dofs, are not drawn")
     opens("console", "54 nodes, 111 edges, 288 dofs", "144 of 288 dofs have no known node")
     opens("bare", "No coordinates of this structure are known", "33 dofs")

@@ -16,6 +16,7 @@ sys.path.insert(0, str(root / "tests" / "browser"))
 from devtools import Browser, Checks  # noqa: E402
 
 work, program, page = sys.argv[1:]
+PB07 = "reference/problems/pb07-three-gap-supports.toml"
 KERNELS = (["fortran", "cpp"], ["fortran-r4", "cpp-r4"], ["corrected"])
 LEAST = {"runs": 160, "numbers": 350_000, "displacements": 70_000, "increments": 1_500, "events": 1_700, "pair states": 8_000,
          "messages": 70, "calls of kernels": 1_500, "lines of unit 26": 2_500, "traces": 50, "replayed calls": 750, "replayed values": 11_000}
@@ -81,23 +82,17 @@ def calls_of(trace):
 
 def run_natively(file, kernels):
     """Exit status, what is said on standard error, and by name what the program writes."""
-    names = {"result": "native.json", "log": "native.log", "trace": "native.trace"}
-    paths = {key: os.path.join(work, name) for key, name in names.items()}
+    paths = {key: pathlib.Path(work, f"native.{key}") for key in ("json", "log", "trace")}
     for path in paths.values():
-        if os.path.exists(path):
-            os.remove(path)
-    done = subprocess.run([program, "run", file, "--kernels", ",".join(kernels), "--quiet", "--json", paths["result"], "--log",
-                           paths["log"], "--trace", paths["trace"]], capture_output=True, encoding="utf-8", check=False)
-    written = {}
-    for key, path in paths.items():
-        with open(path, encoding="utf-8") as text:
-            written[key] = text.read()
-    return done.returncode, done.stderr, written
+        path.unlink(missing_ok=True)
+    done = subprocess.run([program, "run", file, "--kernels", ",".join(kernels), "--quiet", *(word for key, path in paths.items() for word in (f"--{key}", path))],
+                          capture_output=True, encoding="utf-8", check=False)
+    return done.returncode, done.stderr, {key: path.read_text(encoding="utf-8") for key, path in paths.items()}
 
 
 def lapacks_are_the_same(lapack):
     """Bits are compared: the program must have reference LAPACK of the page's version."""
-    trace = run_natively("reference/problems/pb07-three-gap-supports.toml", ["fortran"])[2]["trace"]
+    trace = run_natively(PB07, ["fortran"])[2]["trace"]
     native = re.search(r"^lapack (.*)$", trace, re.M).group(1)
     version = lapack.split(",")[0]
     check(re.fullmatch(re.escape(version) + r", liblapack\.so[.\d]*", native), f"the program's LAPACK is {native}, the page's {lapack}")
@@ -118,7 +113,7 @@ def compare_run(name, file, problem, kernels):
     check(answer["error"] is None and answer["exit"] == status, f"{name}: exit {answer['exit']} in the page, {status} in the program: {answer['error']}")
     if answer["result"] is None:
         return
-    result, expected = answer["result"], json.loads(native["result"])
+    result, expected = answer["result"], json.loads(native["json"])
     counted["runs"] += 1
     count(expected)
     found = differences(result, expected)
@@ -137,8 +132,7 @@ def compare_run(name, file, problem, kernels):
 
 def replay_golden_set():
     for file in sorted(glob.glob("reference/traces/*.trace")):
-        with open(file, encoding="utf-8") as text:
-            trace = text.read()
+        trace = pathlib.Path(file).read_text(encoding="utf-8")
         four = "\nreal 4\n" in trace
         for kernel in ("fortran-r4", "cpp-r4") if four else ("fortran", "cpp"):
             answer = answer_of("replay", trace, {"kernel": kernel, "file": file})
@@ -154,14 +148,12 @@ def replay_golden_set():
 
 
 def errors_have_their_places():
-    with open("reference/problems/pb07-three-gap-supports.toml", encoding="utf-8") as text:
-        problem = text.read()
+    problem = pathlib.Path(PB07).read_text(encoding="utf-8")
     for number, (old, new) in enumerate((("surface   = \"below\"", "surfce    = \"below\""), ("surface   = \"below\"", "surface   = \"beyond\""),
                                          ("elements = 16", "elements = = 16"), ("node      = 13", "node      = 130"))):
         wrong = problem.replace(old, new, 1)
         file = os.path.join(work, f"wrong-{number}.toml")
-        with open(file, "w", encoding="utf-8") as out:
-            out.write(wrong)
+        pathlib.Path(file).write_text(wrong, encoding="utf-8")
         done = subprocess.run([program, "run", file], capture_output=True, encoding="utf-8", check=False)
         answer = answer_of("run", wrong, {"file": file})
         error = answer["error"] or {"message": "", "line": None, "column": None}
@@ -237,7 +229,7 @@ def dragging():
     drag(handle("face of pair 2"), 0, 70)
     check(number("contact[2].face") < face, "a face that is pulled down is lower in the text")
     check(events() != before, "events come and go with it")
-    check(text().count("\n") == (root / "reference/problems/pb07-three-gap-supports.toml").read_text().count("\n"),
+    check(text().count("\n") == pathlib.Path(PB07).read_text().count("\n"),
           "nothing else of the text changes")
     check("NOT equal" not in value("document.getElementById('verdict').textContent"), "both kernels are compared while dragged")
     uniform = number("step[4].uniform")
