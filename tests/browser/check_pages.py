@@ -347,7 +347,7 @@ def picture_of_readme_is_up_to_date(name):
     open_page(name, width=1000)
     go_to(len(frames()) - 1)
     picture = browser.value("""(() => {
-      const rules = [...document.styleSheets[0].cssRules].map(r => r.cssText).filter(r => /^(:root|svg)/.test(r)).join('\\n');
+      const rules = document.querySelector('style').textContent.match(/^(:root|svg [^{]*) {[^}]*}/gm).join('\\n');
       const inside = id => [...document.querySelector(id + ' svg').children].map(e => new XMLSerializer().serializeToString(e)).join('\\n');
       const [width, beam, path] = [widthOf(byId('picture')), beamScale.bottom + 40, document.querySelector('#chart svg').viewBox.baseVal.height];
       return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${beam + path}" role="img">\\n<style>${rules}\\n` +

@@ -91,28 +91,34 @@ function cell(value, attributes = {}) {
   return element("td", { "data-value": String(value), title: String(value), ...attributes }, short(value));
 }
 
+const rowHead = (words) => element("th", { scope: "row" }, words);
+
+// A table of the page with these rows; it is hidden where there is none.
+function fill(id, names, rows) {
+  byId(id).parentElement.hidden = rows.length === 0;
+  byId(id).replaceChildren(head(...names), element("tbody", {}, ...rows));
+}
+
 const mostPairRows = 250;
 const mostEventRows = 1200;
 
 function showPairs(f) {
   const all = f.pairs.length;
-  byId("pair-table").parentElement.hidden = all === 0;
   byId("pairs-words").textContent = all === 0 ? "The problem has no contact pairs."
     : `State ${where(f)}. A gap is that of a separated pair. A contact force is positive when it pushes the structure off the face; a negative one is tension.` +
       (all > mostPairRows ? ` The first ${mostPairRows} of ${all} pairs are listed.` : "");
-  byId("pair-table").replaceChildren(head(["Pair"], ofMatrix ? ["Dof", true] : ["Node"], ["Surface", true], ["Face"], ["State", true], ["Gap"], ["Force"]),
-    element("tbody", {}, ...f.pairs.slice(0, mostPairRows).map((p) => row(element("th", { scope: "row" }, String(p.pair)), cell(p.name, { "data-value": String(p.name) }),
-      cell(p.surface), cell(p.face), cell(lookWords(p)), cell(p.gap), cell(p.force)))));
+  fill("pair-table", [["Pair"], ofMatrix ? ["Dof", true] : ["Node"], ["Surface", true], ["Face"], ["State", true], ["Gap"], ["Force"]],
+    f.pairs.slice(0, mostPairRows).map((p) => row(rowHead(String(p.pair)), cell(p.name, { "data-value": String(p.name) }),
+      cell(p.surface), cell(p.face), cell(lookWords(p)), cell(p.gap), cell(p.force))));
 }
 
 function showEvents() {
   byId("events-words").textContent = increments.length === 0 ? "The path has no increment."
     : `${counted(increments.length, "increment")}. Share is the share of the step that is applied after the increment; ` +
       `s is the share of the remaining load that the increment applies, which the paper calls the scale factor.`;
-  byId("event-table").parentElement.hidden = increments.length === 0;
   const stops = new Map(frames.map((f, i) => [where(f), i]));
-  byId("event-table").replaceChildren(head(["Increment"], ["Share"], ["s"], ["Load", true], ["Events", true]),
-    element("tbody", {}, ...increments.slice(0, mostEventRows).map((i) => eventRow(i, stops))));
+  fill("event-table", [["Increment"], ["Share"], ["s"], ["Load", true], ["Events", true]],
+    increments.slice(0, mostEventRows).map((i) => eventRow(i, stops)));
 }
 
 function eventRow(i, stops) {
@@ -120,7 +126,7 @@ function eventRow(i, stops) {
   const stop = stops.get(name);
   const button = element("button", { type: "button", "aria-label": `Show increment ${name}` }, name);
   button.addEventListener("click", () => { stopPlaying(); show(stop); });
-  return element("tr", { "data-increment": name }, element("th", { scope: "row" }, stop === undefined ? name : button),
+  return element("tr", { "data-increment": name }, rowHead(stop === undefined ? name : button),
     cell(i.fraction), cell(i.snap ? "snap" : i.s), cell(minus(i.load.words)),
     cell(i.events.length > 0 ? allEventWords(i.events) : "–", { class: "words wrap" }));
 }
@@ -143,15 +149,13 @@ function showCalls() {
   else if (places.pairs.length > pairs) words.push(`Distances are over all pairs; s is listed for the first ${pairs} of ${places.pairs.length}.`);
   if (calls.length < result.calls_made) cuts.add(`Of ${result.calls_made} calls the first ${calls.length} are listed.`);
   byId("comparison-words").textContent = words.join(" ");
-  byId("call-table").parentElement.hidden = calls.length === 0;
   const compared = result.lockstep ? others : [];
   const names = compared.flatMap((k) => [[`ULP off in SMIN, ${k}`], ["ULP off in any s"], ["values compared"], ["different"]]);
   const of = (a) => (!a || a.failed ? ["no answer", "no answer", "–", "–"] : [a.smin_ulps, a.s_ulps, a.values, a.mismatches]);
   const ofPairs = Array.from({ length: pairs }, (_, i) => [`s of pair ${i + 1}`]);
-  byId("call-table").replaceChildren(head(["Call"], ["Increment", true], [`SMIN of ${leader}`], ...names, ...ofPairs),
-    element("tbody", {}, ...calls.map((c, n) => row(element("th", { scope: "row" }, String(n + 1)),
-      cell(c.step === 0 ? "settling" : `${c.step}.${c.increment}`),
-      ...[c.smin, ...compared.flatMap((_, k) => of(c.followers[k])), ...c.s].map((value) => cell(value))))));
+  fill("call-table", [["Call"], ["Increment", true], [`SMIN of ${leader}`], ...names, ...ofPairs],
+    calls.map((c, n) => row(rowHead(String(n + 1)), cell(c.step === 0 ? "settling" : `${c.step}.${c.increment}`),
+      ...[c.smin, ...compared.flatMap((_, k) => of(c.followers[k])), ...c.s].map((value) => cell(value)))));
 }
 
 const markOf = (c) => (!c ? "no certificate" : c.exact ? "certified" : "NOT certified");
@@ -168,14 +172,13 @@ function showCertificate() {
     ...(steps.length === 0 ? [say("No step reached its full load, so there is nothing to certify.")] : []),
     ...(own > 0 ? [say(`${counted(own, "state")} came from the reference solution itself, so a comparison with it shows nothing: ` +
       `only equilibrium, penetration and tension are judged there.`)] : []));
-  byId("certificate-table").parentElement.hidden = steps.length === 0;
   const small = (x) => (x === null || x === undefined ? "–" : minus(x === 0 ? "0" : x.toExponential(1)));
   const names = ["displacement_error", "shape_error", "equilibrium", "penetration", "tension", "tolerance"];
-  byId("certificate-table").replaceChildren(
-    head(["Step"], ["Certificate", true], ["error of deflections"], ["error of shape"], ["equilibrium"], ["penetration"], ["tension"], ["allowed"], ["digits"]),
-    element("tbody", {}, ...steps.map((c, i) => row(element("th", { scope: "row" }, String(i + 1)), cell(markOf(c)),
+  fill("certificate-table", [["Step"], ["Certificate", true], ["error of deflections"], ["error of shape"], ["equilibrium"],
+    ["penetration"], ["tension"], ["allowed"], ["digits"]],
+    steps.map((c, i) => row(rowHead(String(i + 1)), cell(markOf(c)),
       ...names.map((name) => element("td", c ? { title: String(c[name]) } : {}, c ? small(c[name]) : "–")),
-      element("td", {}, c ? String(c.digits) : "–")))));
+      element("td", {}, c ? String(c.digits) : "–"))));
 }
 
 // ---- tables of the input and of the ends of steps, as the run has them ----
