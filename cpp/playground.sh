@@ -23,7 +23,7 @@ fetch_lapack() {
 }
 
 need "for the playground" emscripten cmake ninja-build f2c libf2c2-dev libboost-dev libtomlplusplus-dev \
-  nlohmann-json3-dev libfmt-dev libfast-float-dev ca-certificates || exit 77
+  nlohmann-json3-dev libfmt-dev libfast-float-dev librange-v3-dev ca-certificates || exit 77
 sources=$(pwd)/build/playground/sources
 lapack=$sources/lapack
 fetch_lapack || { echo "playground: SKIPPED: the source of LAPACK cannot be had" >&2; exit 77; }

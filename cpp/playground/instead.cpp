@@ -1,10 +1,41 @@
-// What a page has in place of other processes and of libraries that are looked for at run time.
+// What a page has in place of other processes, of libraries that are looked for at run time, and of files.
+#include <cmath>
 #include <stdexcept>
 
 #include "contct/matrix/cholesky.hpp"
 #include "contct/outside/child_process.hpp"
 
-extern "C" void ilaver_(int* major, int* minor, int* patch);
+extern "C" {
+void ilaver_(int* major, int* minor, int* patch);
+
+/// LAPACK's block size for dpbtrf, by the number of subdiagonals, as its own ilaenv has it.
+int ilaenv_(const int* /*what*/, const char* /*name*/, const char* /*options*/, const int* /*n*/,
+            const int* subdiagonals, const int* /*n3*/, const int* /*n4*/, int /*name_length*/,
+            int /*options_length*/) {
+  return *subdiagonals <= 64 ? 1 : 32;
+}
+
+int disnan_(const double* x) {
+  return std::isnan(*x) ? 1 : 0;
+}
+
+/// The nearest whole number, of f2c's library.
+int i_dnnt(const double* x) {
+  return static_cast<int>(std::lround(*x));
+}
+
+/// No routine of LAPACK is called with arguments that it refuses.
+void xerbla_(const char* /*name*/, const int* /*argument*/, int /*length*/) {
+  __builtin_trap();
+}
+
+/// Only a matrix's rigid-body motions need eigenvalues, and a problem in a page names no file of a matrix.
+void dsyev_(const char* /*jobz*/, const char* /*uplo*/, const int* /*n*/, double* /*a*/, const int* /*lda*/,
+            double* /*w*/, double* /*work*/, const int* /*lwork*/, int* /*info*/, std::size_t /*jobz_length*/,
+            std::size_t /*uplo_length*/) {
+  throw std::logic_error("dsyev: found a matrix; allowed in a page: beams and plates");
+}
+}
 
 namespace contct::matrix {
 

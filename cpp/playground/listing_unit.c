@@ -73,49 +73,30 @@ static void put_right(const char* digits, size_t width) {
     put(length > width ? '*' : i < width - length ? ' ' : digits[i - (width - length)]);
 }
 
-/* Text and blanks, up to the next descriptor of a number or the end. */
+/* Text, which f2c quotes by \002, and blanks, up to the next descriptor of a number or the end. */
 static void copy_text(void) {
   while (*now.at != 0 && *now.at != 'i' && *now.at != 'e') {
-    char* end = NULL;
-    if (*now.at == '(' || *now.at == ')' || *now.at == ',' || *now.at == ' ') {
-      ++now.at;
-    } else if (*now.at == '\002') { /* f2c quotes text by it, as often as needed */
+    if (*now.at == '\002') {
       while (*++now.at != '\002') put(*now.at);
       ++now.at;
-    } else if (*now.at == '\'' || *now.at == '"') {
-      const char quote = *now.at;
-      while (*++now.at != quote) put(*now.at);
-      ++now.at;
+    } else if (*now.at >= '0' && *now.at <= '9') {
+      char* behind = NULL;
+      for (long blanks = strtol(now.at, &behind, 10); blanks > 0; --blanks) put(' ');
+      now.at = behind + 1; /* behind x */
     } else {
-      for (long blanks = strtol(now.at, &end, 10); blanks > 0; --blanks) put(' ');
-      now.at = end + 1; /* behind x */
+      ++now.at; /* a bracket or a comma */
     }
   }
 }
 
-/* Ew.d: 0.dddE+ee, from digits that C rounds. */
+/* Ew.d of SMIN, which is positive: 0.dddE+ee, from digits that C rounds. */
 static void put_e(double x, size_t width, int digits) {
   char c[64], out[64];
-  if (x != x) {
-    put_right("NaN", width);
-  } else if (x - x != 0) {
-    put_right(x > 0 ? (width >= 8 ? "Infinity" : "Inf") : (width >= 9 ? "-Infinity" : "-Inf"), width);
-  } else {
-    snprintf(c, sizeof c, "%.*e", digits - 1, x); /* -d.ddde+ee */
-    const int negative = c[0] == '-';
-    const char* const exponent = strchr(c, 'e');
-    int e = x == 0 ? 0 : atoi(exponent + 1) + 1;
-    char mantissa[40];
-    size_t n = 0;
-    for (const char* m = c + negative; m < exponent; ++m)
-      if (*m != '.') mantissa[n++] = *m;
-    mantissa[n] = 0;
-    const char sign = e < 0 ? '-' : '+';
-    if (e < 0) e = -e;
-    snprintf(out, sizeof out, e > 99 ? "%s0.%s%c%d" : "%s0.%sE%c%02d", negative ? "-" : "", mantissa, sign,
-             e);
-    put_right(out, width);
-  }
+  snprintf(c, sizeof c, "%.*e", digits - 1, x); /* d.dde+ee */
+  const int exponent = atoi(strchr(c, 'e') + 1) + 1;
+  snprintf(out, sizeof out, abs(exponent) > 99 ? "0.%c%.*s%+d" : "0.%c%.*sE%+03d", c[0], digits - 1, c + 2,
+           exponent);
+  put_right(out, width);
 }
 
 integer s_wsfe(cilist* control) {

@@ -1,6 +1,6 @@
 // What the C++ library of Debian's Emscripten, libc++ 13, lacks of C++20, as far as the rooms use it:
-// algorithms over whole ranges with projections, and numbers read and written without a locale. Included in
-// front of every source of the playground, and of nothing else.
+// algorithms over whole ranges with projections, which range-v3 has, and numbers read and written without a
+// locale. Included in front of every source of the playground, and of nothing else.
 #pragma once
 
 #include <fast_float/fast_float.h>
@@ -14,10 +14,10 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
+#include <range/v3/algorithm.hpp>
 #include <string>
 #include <system_error>
 #include <type_traits>
-#include <utility>
 
 // NOLINTBEGIN(cert-dcl58-cpp): these names are the standard's
 namespace std {
@@ -80,119 +80,28 @@ inline to_chars_result to_chars(char* first, char* last, double value) {
 
 namespace ranges {
 
-/// Compares what a projection makes of two elements.
-template <class Compare, class Projection>
-auto projected(Compare& compare, Projection& projection) {
-  return [&](auto&& a, auto&& b) -> bool {
-    return invoke(compare, invoke(projection, std::forward<decltype(a)>(a)),
-                  invoke(projection, std::forward<decltype(b)>(b)));
-  };
-}
+using ::ranges::all_of;
+using ::ranges::any_of;
+using ::ranges::binary_search;
+using ::ranges::copy;
+using ::ranges::count;
+using ::ranges::count_if;
+using ::ranges::find;
+using ::ranges::find_if;
+using ::ranges::lower_bound;
+using ::ranges::max;
+using ::ranges::max_element;
+using ::ranges::min;
+using ::ranges::min_element;
+using ::ranges::minmax;
+using ::ranges::move;
+using ::ranges::none_of;
+using ::ranges::sort;
+using ::ranges::stable_sort;
+using ::ranges::transform;
+using ::ranges::upper_bound;
 
-template <class Predicate, class Projection>
-auto holds(Predicate& predicate, Projection& projection) {
-  return
-      [&](auto&& a) -> bool { return invoke(predicate, invoke(projection, std::forward<decltype(a)>(a))); };
-}
-
-template <class Range, class T, class Projection = identity>
-auto find(Range&& r, const T& value, Projection projection = {}) {
-  return std::find_if(std::begin(r), std::end(r),
-                      [&](auto&& a) -> bool { return invoke(projection, a) == value; });
-}
-template <class Range, class Predicate, class Projection = identity>
-auto find_if(Range&& r, Predicate predicate, Projection projection = {}) {
-  return std::find_if(std::begin(r), std::end(r), holds(predicate, projection));
-}
-template <class Range, class Predicate, class Projection = identity>
-bool all_of(Range&& r, Predicate predicate, Projection projection = {}) {
-  return std::all_of(std::begin(r), std::end(r), holds(predicate, projection));
-}
-template <class Range, class Predicate, class Projection = identity>
-bool any_of(Range&& r, Predicate predicate, Projection projection = {}) {
-  return std::any_of(std::begin(r), std::end(r), holds(predicate, projection));
-}
-template <class Range, class Predicate, class Projection = identity>
-bool none_of(Range&& r, Predicate predicate, Projection projection = {}) {
-  return std::none_of(std::begin(r), std::end(r), holds(predicate, projection));
-}
-template <class Range, class T, class Projection = identity>
-auto count(Range&& r, const T& value, Projection projection = {}) {
-  return std::count_if(std::begin(r), std::end(r),
-                       [&](auto&& a) -> bool { return invoke(projection, a) == value; });
-}
-template <class Range, class Predicate, class Projection = identity>
-auto count_if(Range&& r, Predicate predicate, Projection projection = {}) {
-  return std::count_if(std::begin(r), std::end(r), holds(predicate, projection));
-}
-template <class Range, class Compare = std::less<>, class Projection = identity>
-void sort(Range&& r, Compare compare = {}, Projection projection = {}) {
-  std::sort(std::begin(r), std::end(r), projected(compare, projection));
-}
-template <class Range, class Compare = std::less<>, class Projection = identity>
-void stable_sort(Range&& r, Compare compare = {}, Projection projection = {}) {
-  std::stable_sort(std::begin(r), std::end(r), projected(compare, projection));
-}
-template <class Range, class Compare = std::less<>, class Projection = identity>
-bool is_sorted(Range&& r, Compare compare = {}, Projection projection = {}) {
-  return std::is_sorted(std::begin(r), std::end(r), projected(compare, projection));
-}
-template <class Range, class Compare = std::less<>, class Projection = identity>
-auto max_element(Range&& r, Compare compare = {}, Projection projection = {}) {
-  return std::max_element(std::begin(r), std::end(r), projected(compare, projection));
-}
-template <class Range, class Compare = std::less<>, class Projection = identity>
-auto min_element(Range&& r, Compare compare = {}, Projection projection = {}) {
-  return std::min_element(std::begin(r), std::end(r), projected(compare, projection));
-}
-template <class Range, class Compare = std::less<>, class Projection = identity>
-auto max(Range&& r, Compare compare = {}, Projection projection = {}) {
-  return *max_element(r, compare, projection);
-}
-template <class Range, class Compare = std::less<>, class Projection = identity>
-auto min(Range&& r, Compare compare = {}, Projection projection = {}) {
-  return *min_element(r, compare, projection);
-}
-template <class T>
-struct min_max_result {
-  T min, max;
-};
-template <class Range, class Compare = std::less<>, class Projection = identity>
-auto minmax(Range&& r, Compare compare = {}, Projection projection = {}) {
-  const auto found = std::minmax_element(std::begin(r), std::end(r), projected(compare, projection));
-  return min_max_result<std::decay_t<decltype(*found.first)>>{*found.first, *found.second};
-}
-template <class Range, class T, class Compare = std::less<>, class Projection = identity>
-auto lower_bound(Range&& r, const T& value, Compare compare = {}, Projection projection = {}) {
-  return std::lower_bound(std::begin(r), std::end(r), value, [&](auto&& element, const T& sought) -> bool {
-    return invoke(compare, invoke(projection, element), sought);
-  });
-}
-template <class Range, class T, class Compare = std::less<>>
-bool binary_search(Range&& r, const T& value, Compare compare = {}) {
-  return std::binary_search(std::begin(r), std::end(r), value, compare);
-}
-template <class Range, class Out, class Operation>
-void transform(Range&& r, Out out, Operation operation) {
-  std::transform(std::begin(r), std::end(r), out,
-                 [&](auto&& a) -> decltype(auto) { return invoke(operation, std::forward<decltype(a)>(a)); });
-}
-template <class A, class B, class Out, class Operation>
-void transform(A&& a, B&& b, Out out, Operation operation) {
-  std::transform(std::begin(a), std::end(a), std::begin(b), out, operation);
-}
-template <class Range, class Predicate, class T>
-void replace_if(Range&& r, Predicate predicate, const T& value) {
-  std::replace_if(std::begin(r), std::end(r), predicate, value);
-}
-template <class Range, class Out, class Predicate>
-void copy_if(Range&& r, Out out, Predicate predicate) {
-  std::copy_if(std::begin(r), std::end(r), out, predicate);
-}
-template <class Range, class Out>
-void move(Range&& r, Out out) {
-  std::move(std::begin(r), std::end(r), out);
-}
+/// That of range-v3 wants a predicate that compares its own kinds of elements, too.
 template <class A, class B, class Predicate = std::equal_to<>>
 bool equal(A&& a, B&& b, Predicate predicate = {}) {
   return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b), predicate);

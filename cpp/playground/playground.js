@@ -1,27 +1,23 @@
-// The page: a text on the left, what the program says of it on the right. Every number that is shown comes from the
-// compiled program; this script reads no problem file and computes no contact.
+// The playground: a problem's text on the left, and the report of its run on the right, which result.js, picture.js and
+// report.js draw. Every number comes from the compiled program; this script reads no problem file and computes no contact.
 "use strict";
 
-const given = JSON.parse(document.getElementById("data").textContent);
-const byId = (id) => document.getElementById(id);
-const calm = matchMedia("(prefers-reduced-motion: reduce)");
+const given = JSON.parse(byId("given").textContent);
 const patient = 40000; // dofs times steps beyond which a run waits for the button
-const five = (x) => String(Number(x.toPrecision(5))).replace("-", "\u2212");
 const editor = byId("text");
 
 let program = null; // the compiled program
 let model = null;   // what contct_check says of the last text that it accepts
-let states = null;  // what the page draws: of contct_run's result, see statesOf
-let told = null;    // contct_explain's answer for the increment that is shown
-let shown = 0;      // state of the path
 let chosen = 0;     // pair whose story is told, from 0
-let timer = 0;      // of playing
+let dragging = null; // { to, x, y } while something is dragged
+let busy = false;   // while a result is drawn for the first time
 let later = 0;      // of what is not done in every frame
+let milliseconds = 0; // from a text to its picture
 
-// ------------------------------------------------------------------------------------------------ the program
+// ---- the program ----
 
-/** Call a function of serve.h with texts; its answer as an object. */
-function ask(name, ...texts) {
+/** The answer of a function of serve.h to texts, as text. */
+function answerOf(name, ...texts) {
   const places = texts.map((text) => {
     const room = program.lengthBytesUTF8(text) + 1;
     const place = program._malloc(room);
@@ -33,13 +29,14 @@ function ask(name, ...texts) {
   if (answer === 0) throw new Error("memory does not suffice");
   const text = program.UTF8ToString(answer);
   program._contct_free(answer);
-  return JSON.parse(text);
+  return text;
 }
 
-const askAbout = (name, options) => ask(name, editor.value, JSON.stringify({ file: "problem.toml", ...options }));
-const kernelNames = () => byId("kernels").value.split(",");
+const ask = (name, text, options) => JSON.parse(answerOf(name, text, JSON.stringify({ file: "problem.toml", ...options })));
+const kernelsAsked = () => byId("kernels").value.split(",");
+const askPath = (name, options) => ask(name, editor.value, { kernels: kernelsAsked(), ...options });
 
-// --------------------------------------------------------------------------------------- numbers of the text
+// ---- numbers of the text ----
 
 /** A number as it is written when it is dragged: 4 digits, a whole number where the key takes one. */
 function written(x, place) {
@@ -111,7 +108,7 @@ function slid(slider) {
   return middle === 0 ? at / 100 : middle * 10 ** (at / 100);
 }
 
-// ------------------------------------------------------------------------------------------------- recomputing
+// ---- recomputing ----
 
 /** Mark a number that is dragged, or what is wrong, behind the text. */
 function mark(from, to, kind) {
@@ -127,7 +124,7 @@ function follow() {
 
 /** What the program says against the text; a click goes to the place. */
 function complain(error) {
-  byId("stage").classList.add("stale");
+  byId("right").classList.add("stale");
   const button = element("button", { type: "button", class: "bad" }, error.message);
   const lines = editor.value.split("\n");
   let [from, to] = [0, 0];
@@ -145,48 +142,28 @@ function tell(messages) {
   byId("message").replaceChildren(...messages.slice(0, 6).map((words) => element("p", { class: "quiet" }, words)));
 }
 
-/** Everything from the text, but for what can wait for a pause. */
-function recompute({ asked = false } = {}) {
-  const begun = performance.now();
-  const checked = askAbout("check", { places: true });
+/** Everything from the text, but for what can wait for a pause. The path is shown at this state. */
+function recompute({ asked = false, state = current } = {}) {
+  const began = performance.now();
+  const checked = ask("check", editor.value, { places: true });
   if (checked.error) return complain(checked.error);
   model = checked.result;
   mark(0, 0, "");
   showNumbers();
   if (!asked && model.dofs * model.steps.length > patient) return waitForButton();
-  const answer = askAbout("run", { kernels: kernelNames(), states: true });
+  const answer = askPath("run", { states: true });
   if (answer.error) return complain(answer.error);
-  states = statesOf(answer.result);
   tell(answer.messages);
-  byId("stage").classList.remove("stale");
-  const last = states.frames.length - 1;
-  byId("slider").max = String(last);
-  shown = Math.min(shown, last);
-  showPairs();
-  showEvents();
-  showVerdict(answer);
-  show(shown, { explain: false });
-  byId("time").textContent = `Recomputed in ${five(performance.now() - begun)} ms.`;
-  // For whoever looks from the console, as the test does.
-  window.contct = { answer, model, states, ask, milliseconds: performance.now() - begun };
+  byId("right").classList.remove("stale");
+  stopPlaying();
+  busy = true;
+  load(answer.result, state);
+  busy = false;
+  showPairMenu();
+  milliseconds = performance.now() - began;
+  byId("time").textContent = `Recomputed in ${digits(milliseconds, 3)} ms.`;
   clearTimeout(later);
-  later = setTimeout(afterPause, Math.max(250, 8 * (performance.now() - begun)));
-}
-
-/** The path's states, of a beam with deflections at places along it: in every element where there are few. */
-function statesOf(result) {
-  const [places, { structure }] = [placesOf(result), result];
-  const made = { result, structure, ...places, frames: framesOf(result, places), x: [] };
-  if (structure.kind !== "beam") return made;
-  const xs = structure.nodes.map((n) => n.x);
-  const parts = Math.max(1, Math.min(24, Math.floor(240 / (xs.length - 1))));
-  const stride = Math.ceil(xs.length / 240);
-  for (let e = 0; e + 1 < xs.length; e += stride)
-    for (let i = 0; i < parts; ++i) made.x.push([xs[e] + ((xs[e + 1] - xs[e]) * i) / parts, e]);
-  made.x.push([xs[xs.length - 1], xs.length - 2]);
-  for (const f of made.frames) f.w = made.x.map(([x, e]) => deflectionAt(structure, f, x, e));
-  made.x = made.x.map(([x]) => x);
-  return made;
+  later = setTimeout(afterPause, Math.max(250, 8 * milliseconds));
 }
 
 function waitForButton() {
@@ -195,265 +172,144 @@ function waitForButton() {
   byId("message").replaceChildren(button);
 }
 
-/** The listing's story and the report take longer than a frame. */
+/** The listing's story, and what the page of --html has more, take longer than a frame. */
 function afterPause() {
-  if (states && !dragging) explainState(states.frames[shown]);
-  if (byId("report-details").open && model.dofs * model.steps.length <= patient) {
-    const answer = askAbout("run", { kernels: kernelNames(), page: true });
-    if (!answer.error) byId("report").srcdoc = answer.page;
-  }
+  if (dragging) return;
+  explainState(frames[current]);
+  const answer = askPath("run", { page: true });
+  if (answer.error) return;
+  result = JSON.parse(new DOMParser().parseFromString(answer.page, "text/html").getElementById("data").textContent);
+  showRest();
 }
 
-function showVerdict(answer) {
-  const equal = answer.exit !== 1;
-  const lines = [];
-  const { kernels, words, certified } = states.result;
-  if (kernels.length > 1)
-    lines.push([equal, `${kernels.join(" and ")} are ${equal ? "equal" : "NOT equal"} to the bit; ${words.comparison}`]);
-  if (words.end) lines.push([false, words.end]);
-  for (const said of words.certificate) lines.push([certified, said]);
-  byId("verdict").replaceChildren(...lines.map(([good, said]) => element("li", { class: good ? "good" : "bad" }, said)));
-}
+// ---- what can be dragged ----
 
-// ------------------------------------------------------------------------------------------------- the picture
-
-const margin = 46;
-let scale = null; // of the last picture: what drags are measured by
-
-/** The largest of what is drawn upwards and downwards, over all states, so that the picture does not jump. */
-function reachOf() {
-  let most = 0;
-  for (const f of states.frames) for (const w of f.w || []) most = Math.max(most, Math.abs(w));
-  for (const p of states.pairs) most = Math.max(most, Math.abs(p.face));
-  return most || 1;
-}
-
-function drawBeam(f) {
-  const width = Math.max(320, byId("stage").clientWidth || 600);
-  const height = Math.max(240, Math.min(340, width * 0.5));
-  const xs = states.x;
-  const [least, most] = [Math.min(...xs), Math.max(...xs)];
-  const reach = dragging ? scale.reach : reachOf() * 1.15;
-  const X = (x) => margin + ((x - least) / (most - least || 1)) * (width - 2 * margin);
-  const Y = (w) => height / 2 - (w / reach) * (height / 2 - 40);
-  scale = { reach, X, Y, least, most, width, height };
-  const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `The beam in state ${shown} of ${states.frames.length - 1}` });
-  root.append(svg("line", { x1: X(least), x2: X(most), y1: Y(0), y2: Y(0), class: "undeformed" }));
-  drawSupports(root, f);
-  drawPairs(root, f);
-  root.append(svg("path", { d: xs.map((x, i) => `${i === 0 ? "M" : "L"}${X(x).toFixed(2)} ${Y(f.w[i]).toFixed(2)}`).join(""), class: "beam" }));
-  drawLoads(root, f);
-  root.append(svg("text", { x: margin, y: height - 8, class: "quiet-text" }, `x = ${five(least)}`),
-    svg("text", { x: width - margin, y: height - 8, "text-anchor": "end", class: "quiet-text" }, `x = ${five(most)}`));
-  return root;
-}
-
-const deflection = (f, x) => deflectionAt(states.structure, f, x);
-
-function drawSupports(root, f) {
-  for (const s of states.supports) {
-    const [x, y] = [scale.X(s.x), scale.Y(deflection(f, s.x))];
-    const clamped = s.dofs.length > 1;
-    root.append(svg("path", { d: clamped ? `M${x} ${y - 14}v28` : `M${x} ${y}l-8 14h16z`, class: "support" },
-      svg("title", {}, `support at x = ${five(s.x)}: ${s.dofs.map(([dof]) => dof).join(", ")}`)));
-  }
-}
-
-/** Something that can be dragged, or moved by the arrow keys. `to` gets pixels from where the drag began. */
+/** Something that can be dragged, or moved by the arrow keys. `begin` gives what takes pixels from where the drag began. */
 function handle(attributes, words, begin) {
   const made = svg("rect", { class: "handle", tabindex: "0", role: "slider", "aria-label": words, rx: 4, ...attributes }, svg("title", {}, words));
-  made.addEventListener("pointerdown", (event) => startDrag(event, begin()));
+  made.addEventListener("pointerdown", (event) => {
+    event.preventDefault();
+    dragging = { to: begin(), x: event.clientX, y: event.clientY };
+    heldRange = [beam.low, beam.high];
+  });
   made.addEventListener("keydown", (event) => {
     const step = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
     if (!step) return;
     event.preventDefault();
     const index = [...made.ownerSVGElement.querySelectorAll(".handle")].indexOf(made);
     begin()(...step.map((s) => s * (event.shiftKey ? 20 : 4)));
-    const again = byId("stage").querySelectorAll(".handle")[index];
-    if (again) again.focus();
+    byId("picture").querySelectorAll(".handle")[index]?.focus();
   });
   return made;
 }
 
-let dragging = null; // { to, x, y } while something is dragged
-let pending = null;  // the last movement, until the next frame
-
-function startDrag(event, to) {
-  event.preventDefault();
-  const box = byId("stage").getBoundingClientRect();
-  dragging = { to, x: event.clientX, y: event.clientY, times: scale.width / box.width };
-}
+let pending = null; // the last movement, until the next frame
 addEventListener("pointermove", (event) => {
   if (!dragging) return;
   if (pending === null) requestAnimationFrame(() => {
     const [x, y] = pending;
     pending = null;
-    if (dragging) dragging.to((x - dragging.x) * dragging.times, (y - dragging.y) * dragging.times);
+    if (dragging) dragging.to(x - dragging.x, y - dragging.y);
   });
   pending = [event.clientX, event.clientY];
 });
 for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => {
   if (!dragging) return;
-  dragging = null;
-  show(shown);
+  dragging = heldRange = null;
+  load(result, current);
 });
 
-function drawPairs(root, f) {
-  const half = Math.max(7, Math.min(22, ((scale.width - 2 * margin) / (states.pairs.length + 1)) * 0.4));
-  states.pairs.forEach((p, i) => {
-    const [x, y] = [scale.X(p.x), scale.Y(p.face)];
-    const { look } = f.pairs[i];
-    const far = p.side < 0 ? scale.height - 24 : 24;
-    root.append(svg("line", { x1: x - half, x2: x + half, y1: y, y2: y, class: `face ${look}` }),
-      svg("path", { d: `M${x} ${y}L${x} ${far}M${x - 8} ${far}h16`, class: "spring" }));
-    if (i === chosen) root.append(svg("circle", { cx: x, cy: y, r: half + 5, class: "chosen" }));
-    const known = model.pair_list[p.pair - 1] || {};
-    const began = known.face;
-    const words = `face of pair ${p.pair} at ${five(p.face)}, ${{ o: "separated", c: "in contact", f: "at its face" }[look]}`;
-    const made = handle({ x: x - half - 2, y: y - 10, width: 2 * half + 4, height: 20 }, words, () => {
-      const [reach, from] = [scale, began];
-      return (dx, dy) => {
-        const moved = from - (dy / (reach.height / 2 - 40)) * reach.reach;
-        change({ [known.face_key]: p.side < 0 ? Math.min(0, moved) : Math.max(0, moved) });
-      };
-    });
-    made.addEventListener("click", () => choose(i));
-    root.append(made);
-  });
+/** Of a beam; what else there is has its sliders. */
+function addHandles(f) {
+  if (!beam) return;
+  const root = byId("picture").firstChild;
+  addUniformHandle(root, Math.max(1, f.step));
+  for (const p of pointLoadsOf(Math.max(1, f.step))) root.append(loadHandle(f, p));
+  f.pairs.forEach((p, i) => addFaceHandle(root, p, i));
 }
 
-/** Point loads of a step by the keys of their numbers: { value: key, place: key, x }. */
-function pointsOf(step) {
+function addFaceHandle(root, p, i) {
+  const { X, Y, pixels, top, bottom } = beamScale;
+  const half = Math.max(7, Math.min(22, (X(beam.to) - X(beam.from)) / (places.pairs.length + 1) * 0.4));
+  const [x, y] = [X(p.x), Math.max(top, Math.min(bottom, Y(p.face)))];
+  if (i === chosen) root.append(svg("circle", { cx: x, cy: y, r: half + 5, class: "chosen" }));
+  const known = model.pair_list[p.pair - 1];
+  const made = handle({ x: x - half - 2, y: y - 10, width: 2 * half + 4, height: 20 }, `face of pair ${p.pair} at ${rough(p.face)}, ${looks[p.look]}`, () => {
+    const from = known.face;
+    return (dx, dy) => {
+      const moved = from - dy / pixels;
+      change({ [known.face_key]: p.side < 0 ? Math.min(0, moved) : Math.max(0, moved) });
+    };
+  });
+  made.addEventListener("click", () => choose(i));
+  root.append(made);
+}
+
+/** Point loads of a step by the keys of their numbers: node or x, and w. */
+function pointLoadsOf(step) {
   const found = new Map();
   for (const n of model.numbers) {
     const parts = /^(step\[(\d+)\]\.point\[\d+\])\.(node|x|w)$/.exec(n.key);
-    if (parts && Number(parts[2]) === step) found.set(parts[1], { ...(found.get(parts[1]) || {}), [parts[3]]: n });
+    if (parts && Number(parts[2]) === step) found.set(parts[1], { ...(found.get(parts[1]) || { step }), [parts[3]]: n });
   }
   return [...found.values()].filter((p) => p.w && (p.node || p.x));
 }
 
-const nearestNode = (x) => model.node_list.reduce((best, [at], i) => (Math.abs(at - x) < Math.abs(model.node_list[best][0] - x) ? i : best), 0);
+function loadHandle(f, p) {
+  const { X, Y } = beamScale;
+  const x = p.x ? p.x.value : beam.xs[p.node.value - 1] ?? beam.from;
+  const y = Y(deflectionAt(f, x));
+  return handle({ x: X(x) - 12, y: p.w.value < 0 ? y - 60 : y + 8, width: 24, height: 52, class: "handle across" },
+    `load of step ${p.step}: ${rough(p.w.value)} at x = ${rough(x)}`, () => {
+      const [from, length] = [p.w.value, (beam.to - beam.from) / (X(beam.to) - X(beam.from))];
+      return (dx, dy) => {
+        const to = x + dx * length;
+        const node = beam.xs.reduce((best, at, i) => (Math.abs(at - to) < Math.abs(beam.xs[best] - to) ? i : best), 0);
+        change({ [p.w.key]: from - (dy / 60) * (Math.abs(from) || 1), ...(p.node ? { [p.node.key]: node + 1 } : { [p.x.key]: beam.xs[node] }) });
+      };
+    });
+}
 
-function drawLoads(root, f) {
-  const step = Math.max(1, f.step);
-  const most = Math.max(...pointsOf(step).map((p) => Math.abs(p.w.value)), 0);
-  for (const p of pointsOf(step)) {
-    const x = p.x ? p.x.value : (model.node_list[p.node.value - 1] || [0])[0];
-    const share = p.w.value / (most || 1);
-    const [px, y] = [scale.X(x), scale.Y(deflection(f, x))];
-    const tail = y + 44 * share - (share > 0 ? -14 : 14);
-    root.append(svg("path", { d: `M${px} ${tail}L${px} ${y}M${px - 5} ${y + (share > 0 ? 8 : -8)}L${px} ${y}l5 ${share > 0 ? 8 : -8}`, class: "load", fill: "none" }),
-      svg("text", { x: px + 6, y: tail + 4, class: "quiet-text" }, five(p.w.value)));
-    root.append(handle({ x: px - 12, y: Math.min(tail, y) - 8, width: 24, height: Math.abs(tail - y) + 16, class: "handle across" },
-      `load of step ${step}: ${five(p.w.value)} at x = ${five(x)}`, () => {
-        const [from, at, of] = [p.w.value, x, scale];
-        return (dx, dy) => {
-          const node = nearestNode(at + (dx / (of.width - 2 * margin)) * (of.most - of.least));
-          const value = from - (dy / 60) * (Math.abs(from) || 1);
-          change({ [p.w.key]: value, ...(p.node ? { [p.node.key]: node + 1 } : { [p.x.key]: model.node_list[node][0] }) });
-        };
-      }));
-  }
+function addUniformHandle(root, step) {
   const uniform = numberOf(`step[${step}].uniform`);
   if (!uniform) return;
-  const y = 16;
-  root.append(svg("path", { d: `M${margin} ${y}H${scale.width - margin}`, class: "load" }),
-    svg("text", { x: scale.width / 2, y: y - 4, "text-anchor": "middle" }, `uniform ${five(uniform.value)}`),
-    handle({ x: margin, y: y - 14, width: scale.width - 2 * margin, height: 24 }, `uniform load of step ${step}: ${five(uniform.value)}`, () => {
+  const right = beamScale.X(beam.to);
+  root.append(label(right - 8, 17, `uniform ${rough(uniform.value)}`, { "text-anchor": "end", class: "value" }),
+    handle({ x: right - 150, y: 2, width: 150, height: 22 }, `uniform load of step ${step}: ${rough(uniform.value)}`, () => {
       const from = uniform.value;
       return (dx, dy) => change({ [uniform.key]: from - (dy / 100) * (Math.abs(from) || 1) });
     }));
 }
 
-/** Plates and matrices are drawn in the report alone, in every state. */
-function drawOther() {
-  byId("report-details").open = true;
-  return element("figcaption", { class: "quiet" }, "The report below shows every state.");
-}
-
-function draw() {
-  const f = states.frames[shown];
-  byId("stage").replaceChildren(states.structure.kind === "beam" ? drawBeam(f) : drawOther());
-}
-
-// ---------------------------------------------------------------------------------------------- path and events
-
-function stateWords(f) {
-  if (f.step === 0) return "At the start, without load.";
-  const share = `step ${f.step}, ${five(100 * f.fraction)} % of its load: ${f.load.words}`;
-  const events = f.events.map((e) => `pair ${e.pair} ${e.change}s contact`);
-  return `State ${shown} of ${states.frames.length - 1}: ${share}. ${events.length > 0 ? events.join(", ") : f.end ? "The step ends" : "No event"}.`;
-}
-
-function show(n, { explain = true } = {}) {
-  shown = n;
-  byId("slider").value = String(n);
-  const f = states.frames[n];
-  byId("slider").setAttribute("aria-valuetext", stateWords(f));
-  byId("state").textContent = stateWords(f);
-  draw();
-  for (const row of byId("events").querySelectorAll("tr[data-frame]")) row.classList.toggle("current", Number(row.dataset.frame) === n);
-  if (explain && !dragging) explainState(f);
-}
-
-const largestIn = ({ extremes: { w } }) => (w ? (-w.min.value > w.max.value ? w.min.value : w.max.value) : 0);
-
-function showEvents() {
-  const head = element("tr", {}, ...["Increment", "Share of the step", "w max", "Events"].map((words) => element("th", { scope: "col" }, words)));
-  const rows = states.frames.slice(1, 400).map((f, i) => {
-    const events = f.events.map((e) => `pair ${e.pair} ${e.change}s`).join(", ");
-    const cells = [f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`, five(f.fraction), five(largestIn(f)), events || "\u2013"];
-    const row = element("tr", { "data-frame": String(i + 1) }, ...cells.map((words) => element("td", {}, words)));
-    row.addEventListener("click", () => show(i + 1));
-    return row;
-  });
-  byId("events").replaceChildren(head, ...rows);
-}
-
-function togglePlaying() {
-  const playing = timer !== 0;
-  clearInterval(timer);
-  timer = 0;
-  byId("play").textContent = playing ? "Play" : "Stop";
-  byId("play").setAttribute("aria-pressed", String(!playing));
-  if (playing || !states) return;
-  if (shown === states.frames.length - 1) show(0);
-  timer = setInterval(() => {
-    if (shown < states.frames.length - 1) show(shown + 1);
-    if (shown === states.frames.length - 1) togglePlaying();
-  }, calm.matches ? 1600 : 900);
-}
-
-// ------------------------------------------------------------------------------------- listing and explanation
+// ---- listing and explanation ----
 
 const listingLines = given.listing.split("\n").slice(0, -1).map((text) => element("li", {}, text));
 
-function showPairs() {
+function showPairMenu() {
   const menu = byId("pair");
-  if (menu.children.length !== states.pairs.length)
-    menu.replaceChildren(...states.pairs.map((p, i) => element("option", { value: String(i) }, `pair ${p.pair}`)));
-  chosen = Math.max(0, Math.min(chosen, states.pairs.length - 1));
+  if (menu.children.length !== places.pairs.length)
+    menu.replaceChildren(...places.pairs.map((p, i) => element("option", { value: String(i) }, `pair ${p.pair}`)));
+  chosen = Math.max(0, Math.min(chosen, places.pairs.length - 1));
   menu.value = String(chosen);
 }
 
 function choose(i) {
   chosen = i;
   byId("pair").value = String(i);
-  show(shown);
+  show(current);
 }
 
 /** What each line of the listing did with the chosen pair, and with the increment. */
 function explainState(f) {
   for (const line of listingLines) line.classList.remove("ran");
   const story = byId("story");
-  if (f.step === 0 || f.number === 0 || states.pairs.length === 0) return story.replaceChildren(element("p", { class: "quiet" }, "CONTCT is not called in this state."));
-  if (byId("kernels").value === "corrected")
-    return story.replaceChildren(element("p", { class: "quiet" }, "The corrected rule is no listing. Choose FORTRAN and C++ to see the lines that run."));
-  const answer = askAbout("explain", { kernels: kernelNames(), step: f.step, increment: f.number });
-  if (answer.error) return story.replaceChildren(element("p", { class: "bad" }, answer.error.message));
-  told = answer.result.increments[0];
-  const number = states.pairs[chosen].pair;
-  const pair = told.pairs.find((p) => p.pair === number);
+  const quietly = (words) => story.replaceChildren(element("p", { class: "quiet" }, words));
+  if (f.step === 0 || f.number === 0 || f.pairs.length === 0) return quietly("CONTCT is not called in this state.");
+  if (byId("kernels").value === "corrected") return quietly("The corrected rule is no listing. Choose FORTRAN and C++ to see the lines that run.");
+  const answer = askPath("explain", { step: f.step, increment: f.number });
+  if (answer.error) return quietly(answer.error.message);
+  const [told] = answer.result.increments;
+  const pair = told.pairs.find((p) => p.pair === f.pairs[chosen].pair);
   const lines = [...(pair ? pair.story : []), ...told.story];
   for (const { line } of lines) if (line) listingLines[line - 1].classList.add("ran");
   const first = listingLines.find((line) => line.classList.contains("ran"));
@@ -462,7 +318,7 @@ function explainState(f) {
     element("p", {}, `${line ? `Line ${line}: ` : ""}${words}${equation ? ` (eq. ${equation.replace(/[()]/g, "")})` : ""}`)));
 }
 
-// ------------------------------------------------------------------------------------------------------- links
+// ---- links ----
 
 const encoded = (text) => btoa(String.fromCharCode(...new TextEncoder().encode(text))).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
 const decoded = (text) => new TextDecoder().decode(Uint8Array.from(atob(text.replace(/-/g, "+").replace(/_/g, "/")), (c) => c.charCodeAt(0)));
@@ -492,36 +348,31 @@ async function copyLink() {
   }
 }
 
-// ------------------------------------------------------------------------------------------------------ start
+// ---- start ----
 
-function listen() {
+function listenToText() {
+  const take = (text) => { editor.value = text; recompute({ state: Infinity }); };
   editor.addEventListener("input", () => recompute());
   editor.addEventListener("scroll", follow);
-  byId("menu").addEventListener("change", () => { editor.value = given.problems[byId("menu").value]; shown = Infinity; recompute(); });
+  byId("menu").addEventListener("change", () => take(given.problems[byId("menu").value]));
   byId("kernels").addEventListener("change", () => recompute());
-  byId("slider").addEventListener("input", () => show(Number(byId("slider").value)));
-  byId("back").addEventListener("click", () => show(Math.max(0, shown - 1)));
-  byId("next").addEventListener("click", () => show(Math.min(states.frames.length - 1, shown + 1)));
-  byId("play").addEventListener("click", togglePlaying);
   byId("pair").addEventListener("change", () => choose(Number(byId("pair").value)));
   byId("link").addEventListener("click", copyLink);
-  byId("report-details").addEventListener("toggle", afterPause);
-  addEventListener("hashchange", () => { const text = problemOfLink(); if (text !== editor.value) { editor.value = text; recompute(); } });
-  addEventListener("resize", () => { if (states) draw(); });
+  addEventListener("hashchange", () => { const text = problemOfLink(); if (text !== editor.value) take(text); });
 }
 
 async function start() {
-  const names = Object.keys(given.problems);
-  byId("menu").append(...names.map((name) => element("option", { value: name }, name)));
+  byId("menu").append(...Object.keys(given.problems).map((name) => element("option", { value: name }, name)));
   byId("menu").value = "pb07-three-gap-supports";
   byId("listing").append(...listingLines);
   program = await contct_module();
-  const about = ask("about").result;
+  const about = JSON.parse(answerOf("about")).result;
   byId("about").textContent = `contct ${about.version}, ${about.lapack}, floating point ${about.floating_point}.`;
+  afterDrawing = (f) => { addHandles(f); if (!busy && !dragging) explainState(f); };
   listen();
+  listenToText();
   editor.value = problemOfLink();
-  shown = Infinity;
-  recompute();
+  recompute({ state: Infinity });
   document.body.dataset.ready = "yes";
 }
 start();

@@ -8,6 +8,19 @@ import tempfile
 import time
 
 
+class Checks:
+    """What was looked at, and how much of it was wrong."""
+
+    def __init__(self):
+        self.made, self.failed = 0, 0
+
+    def __call__(self, holds, what):
+        self.made += 1
+        if not holds:
+            self.failed += 1
+            print(f"   FAILED: {what}")
+
+
 class Browser:
     """One page at a time. Every error that the page reports is kept in `errors`, every request in `requests`."""
 

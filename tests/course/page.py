@@ -51,15 +51,15 @@ class place:
 
     def __init__(self, root, programs):
         self.folder = tempfile.TemporaryDirectory()
-        here = Path(self.folder.name)
+        self.here = Path(self.folder.name)
         for entry in Path(root).resolve().iterdir():
             if entry.name != "build" and not entry.name.startswith("."):
-                (here / entry.name).symlink_to(entry)
-        (here / "build").mkdir()
-        (here / "build/release").symlink_to(Path(programs).resolve())
+                (self.here / entry.name).symlink_to(entry)
+        (self.here / "build").mkdir()
+        (self.here / "build/release").symlink_to(Path(programs).resolve())
 
-    def run(self, command):
+    def run(self, command, **more):
         """The lines that it prints, and its exit status."""
-        finished = subprocess.run(["sh", "-eu", "-c", command], cwd=self.folder.name, stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        finished = subprocess.run(["sh", "-euc", command], cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                  **{"stdin": subprocess.DEVNULL, **more})
         return [line.rstrip() for line in finished.stdout.splitlines()], finished.returncode

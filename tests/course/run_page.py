@@ -1,13 +1,14 @@
 """run_page.py ROOT PROGRAMS PAGE LEAST MOST: runs what a page of the course shows, and compares what comes out.
+run_page.py ROOT PROGRAMS PAGE: puts what comes out into the page, for whoever changes it. Read what it wrote before you believe it.
 
 ROOT is the project, PROGRAMS its release build, PAGE is relative to ROOT. There must be LEAST commands or more, and MOST
-wildcards or fewer.
+wildcards or fewer. Text blocks that have wildcards and still fit are not written anew.
 """
 import re
 import sys
 from pathlib import Path
 
-from page import WILD, difference, place, shown, wildcards
+from page import FENCE, WILD, difference, place, shown, wildcards
 
 
 def main(root, programs, name, least, most):
@@ -34,5 +35,20 @@ def main(root, programs, name, least, most):
     return 0
 
 
+def write(root, programs, name):
+    path, here, lines = Path(root) / name, place(root, programs), None
+
+    def anew(block):
+        nonlocal lines
+        kind, body = block.groups()
+        if lines is not None and kind == "text" and difference(body.splitlines(), lines) is not None:
+            body = "\n".join(lines) + "\n"
+        lines = here.run(body)[0] if kind == "sh" else None
+        return f"```{kind}\n{body}```"
+
+    path.write_text(FENCE.sub(anew, path.read_text()))
+    return 0
+
+
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit((write if len(sys.argv) == 4 else main)(*sys.argv[1:]))

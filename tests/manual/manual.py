@@ -47,7 +47,7 @@ class key_tables:
         self.rows = {heading: found for heading, found in self.rows.items() if found}
         self.by_anchor = {anchor(heading): heading for heading in self.rows}
 
-    def keys(self, heading, structure=None, follow=True):
+    def keys(self, heading, structure=None):
         """The keys under a heading, as a set; those of one structure where it is named."""
         found = set()
         for row in self.rows[heading]:
@@ -58,7 +58,7 @@ class key_tables:
                 raise ValueError(f"{heading}: found {row['key']}, allowed: a key in backticks, or a link to a section")
             if key:
                 found.add(key.group(1))
-            elif follow:
+            else:
                 found |= self.keys(self.by_anchor[link.group(1)], structure)
         return found
 

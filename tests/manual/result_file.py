@@ -5,9 +5,11 @@ reference/result-file.md documents that schema. PLUGIN is a kernel that differs 
 - The schema and the manual have the same objects with the same keys; the manual's cells say which of them may be absent or null,
   and of which type they are.
 - The result in a page is valid too.
+- Each exit status comes with the `status` of the result that the manual says.
 - Every key of the schema is in some result, but for those in UNSEEN. The example of the manual is what the program writes.
 """
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -69,6 +71,12 @@ settlement = [ { node = 1, theta = 1.0e-3 } ]
 """
 
 
+def exit_statuses(text):
+    """(exit status, a `status` that gives it) by the manual."""
+    rows = re.findall(r'^\| `"([\w-]+)"` \| (.*) \|$', text.split("\n## Exit status")[1].split("\n## ")[0], re.M)
+    return {(int(number), status) for status, cell in rows for number in re.findall(r"\d", cell)}
+
+
 def runs(root, plugin):
     """(problem file or text, options, exit status) for each result."""
     problems = sorted(p for folder in ("problems", "structures") for p in (root / "reference" / folder).rglob("*.toml"))
@@ -85,6 +93,7 @@ def runs(root, plugin):
     yield pb07, ["--free-run", "--kernels", "corrected,fortran"], 1
     yield pb07, ["--kernels", f"fortran,plugin:{plugin}"], 1
     yield pb07, ["--max-increments", "1"], 5
+    yield root / "reference/problems/divergences/near-tie.toml", ["--strict"], 3
     yield MECHANISM, ["--envelope"], 4
     yield MECHANISM, ["--final-only"], 4
     for text in (PLATE, MANY_PARTS, SETTLED_BEAM):
@@ -114,7 +123,7 @@ def main(program, root, plugin):
     text, schema = page.read_text(), json.loads((root / "reference/result.schema.json").read_text())
     if difference := first_difference(text, schema):
         return f"result-file.md and result.schema.json: {difference}"
-    check, seen, count = validator(schema), set(), 0
+    check, seen, count, ended = validator(schema), set(), 0, set()
     with tempfile.TemporaryDirectory() as folder:
         for problem, options, status in runs(root, Path(plugin).resolve()):
             result = result_of(program, Path(folder), problem, options, status)
@@ -123,6 +132,7 @@ def main(program, root, plugin):
             if without := [step["step"] for step in result["steps"] if "displacement" not in step]:
                 return f"{problem} {options}: found steps {without} without displacement"
             count += 1
+            ended.add((status, result["status"]))
             seen_keys(schema, result, schema, seen)
         shown = blocks(text)
         example = result_of(program, Path(folder), shown[0].text, [], 0)
@@ -131,6 +141,8 @@ def main(program, root, plugin):
     keys = {(title, key) for title, of in objects(schema).items() for key in of["properties"]}
     if missing := keys - seen - UNSEEN:
         return f"no result has this key: {min(missing)}"
+    if different := ended ^ exit_statuses(text):
+        return f"result-file.md and the runs: exit status {min(different)}"
     if count < LEAST_RUNS or len(keys) < LEAST_KEYS:
         return f"found {count} results and {len(keys)} keys; allowed: {LEAST_RUNS} and {LEAST_KEYS} or more"
     print(f"{len(objects(schema))} objects, {len(keys)} keys compared; {count} results are valid and have {len(seen)} of the keys")

@@ -1,23 +1,24 @@
 """commands.py ROOT PROGRAMS NOT_RUN LEAST: runs every command that the pages outside the course show, and compares what
 comes out where a page shows that.
 
-A command stands in a block fenced as `sh` (the `text` block behind it is its output), in an indented line, or in a code span. FILE
+A command stands in a block fenced as `sh` (the `text` block behind it is its output), in a CI job fenced as `yaml`, in an indented line, or
+in a code span. One that a page has twice runs once. FILE
 and other names in capitals stand for the files in NAMES. Every command ends with 0, or is in NOT_RUN with the reason why it is not
 run, "PAGE: COMMAND -> reason", or with the exit status with which it ends instead, "PAGE: COMMAND -> exit 1: reason". A code span that only names a command, as in "see `contct run`", is none. PROGRAMS is the release
 build. There must be LEAST commands or more that ran.
 """
+import os
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "course"))
-from page import FENCE, difference  # noqa: E402
+from page import FENCE, difference, place  # noqa: E402
 
 PROGRAM = r"(?:[\w./]*/)?contct(?:[_-]\w+)?"
 BEGINS = re.compile(rf"(?:{PROGRAM}|sh|python3|cmake|cc|g\+\+|gfortran|ccx|export|mkdir|git)\s")
+INSTALLS = re.compile(r"sh contct/cpp/run\.sh|apt-get |git clone ")
 READS_A_FILE = ("run", "check", "explain", "exact", "replay")
 PB07 = "reference/problems/pb07-three-gap-supports.toml"
 NAMES = {"FILE": PB07, "F": "f.out", "K.mtx": "frame.mtx", "RESULT.json": "result.json", "COMMAND": "run", "fortran,NAME": "fortran,cpp"}
@@ -34,10 +35,20 @@ def is_mention(command):
     return of_file or not named[2].strip()
 
 
+def job_commands(text):
+    """What the CI job of a yaml block runs, once where it is a matrix; the script of a GitLab job is one command, whose lines share
+    variables. What installs and builds this project is left out."""
+    script = [line for line in re.findall(r"^    - (.*)$", text, re.M) if not INSTALLS.match(line)]
+    steps = [line.replace("${{ matrix.shard }}", "1") for line in re.findall(r"^ *- run: (.*)$", text, re.M) if not INSTALLS.match(line)]
+    return ["; ".join(script)] if "  script:\n" in text else steps
+
+
 def commands_of(text):
     """(line, command, lines shown as its output or None) in the page's order."""
     found, blocks = [], list(FENCE.finditer(text))
     for number, block in enumerate(blocks):
+        if block.group(1) == "yaml":
+            found += [(text.count("\n", 0, block.start()) + 1, command, None) for command in job_commands(block.group(2))]
         if block.group(1) != "sh":
             continue
         following = blocks[number + 1] if number + 1 < len(blocks) else None
@@ -69,27 +80,23 @@ def as_run(command):
     return " ".join(words)
 
 
-class place:
-    """A copy of what the pages' commands use, in which they may write: the project's root with the release build."""
+class work_place(place):
+    """Also a copy of what the pages' commands change, the files of structures, and what the jobs of conformance.md have."""
 
     def __init__(self, root, programs):
-        self.folder = tempfile.TemporaryDirectory()
-        here = Path(self.folder.name)
-        shutil.copytree(root / "reference", here / "reference")
-        for name in ("README.md", "cpp", "fortran", "tests"):
-            (here / name).symlink_to(root / name)
+        super().__init__(root, programs)
+        (self.here / "reference").unlink()
+        shutil.copytree(root / "reference", self.here / "reference")
         for file in (root / "reference/structures").iterdir():
             if file.is_file():
-                shutil.copy(file, here)
-        (here / "build").mkdir()
-        (here / "build/release").symlink_to(programs)
-        self.path = programs
+                shutil.copy(file, self.here)
+        (self.here / "contct").symlink_to(".")
+        shutil.copy(root / "reference/kernels/contct_kernel.c", self.here / "mine.c")
+        self.environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "CALLS": "8000", "GITHUB_STEP_SUMMARY": "step_summary"}
 
     def run(self, command):
-        with open(Path(self.folder.name) / PB07) as problem:
-            finished = subprocess.run(["sh", "-euc", f'PATH="{self.path}:$PATH"\n{command}'], cwd=self.folder.name, stdin=problem,
-                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        return [line.rstrip() for line in finished.stdout.splitlines()], finished.returncode
+        with open(self.here / PB07) as problem:
+            return super().run(command, stdin=problem, env=self.environment)
 
 
 def wrong_in(here, command, shown, allowed):
@@ -105,12 +112,13 @@ def main(root, programs, not_run, least):
     excused, used, ran = reasons(Path(not_run)), set(), 0
     pages = [root / "README.md", *sorted((root / "reference").rglob("*.md"))]
     for page in (page for page in pages if page.parent.name != "course"):
-        here, name = place(root, programs), str(page.resolve().relative_to(root))
+        here, name = work_place(root, programs), str(page.resolve().relative_to(root))
         for line, command, shown in commands_of(page.read_text()):
             reason = excused.get((name, command), "")
+            again = (name, command) in used
             used.add((name, command))
             ends = re.match(r"exit (\d): ", reason)
-            if reason and not ends:
+            if again or (reason and not ends):
                 continue
             print(f"{name}:{line}: {command}", flush=True)
             if wrong := wrong_in(here, command, shown, int(ends[1]) if ends else 0):

@@ -12,6 +12,7 @@ build=$(cd "${1:-build/release}" && pwd) || exit 1
 has_browser() { command -v chromium >/dev/null 2>&1 && command -v python3 >/dev/null 2>&1; }
 has_browser || need "to open pages" chromium python3 fonts-dejavu-core || true
 has_browser || { echo "playground: SKIPPED: chromium cannot be had"; exit 77; }
+[ "$(uname -m)" = x86_64 ] || { echo "playground: SKIPPED: the page's long double is that of x86_64"; exit 77; }
 sh cpp/playground.sh || exit $?
 
 # The page has reference LAPACK; so must the program, whatever this system's alternatives choose.
@@ -22,11 +23,8 @@ for library in lapack blas; do
 done
 export LD_LIBRARY_PATH
 
-work=$build/tests/playground
+work=$build/tests/playground_page
 rm -rf "$work"
 mkdir -p "$work"
-wrong=0
-python3 tests/playground/check_playground.py "$work" "$build/contct" build/playground || wrong=1
-python3 tests/playground/page_test.py build/playground/contct.html "$work/pictures" || wrong=1
-[ $wrong = 0 ] || { echo "playground: FAILED"; exit 1; }
+python3 tests/playground/check_playground.py "$work" "$build/contct" build/playground/contct.html || { echo "playground: FAILED"; exit 1; }
 echo "playground: passed"

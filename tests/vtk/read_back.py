@@ -90,21 +90,18 @@ def compare_structure(grid, step, where):
     same([grid.GetCellType(i) for i in range(grid.GetNumberOfCells())], [3] * count + [1] * len(pairs), where + ", types")
     same([names[grid.GetCell(count + i).GetPointId(0)] for i in range(len(pairs))],
          [p["dof"].rsplit(".", 1)[0] for p in pairs], where + ", pairs' nodes")
-    tail = slice(count, None)
-    same(array(cells, "direction", 1)[tail], [directions[p["dof"].rsplit(".", 1)[1]] + 1 for p in pairs], where + ", direction")
+    same(array(cells, "direction", 1)[count:], [directions[p["dof"].rsplit(".", 1)[1]] + 1 for p in pairs], where + ", direction")
+    compare_pairs(cells, count, pairs, [value[p["dof"]] for p in pairs], where)
+
+
+def compare_pairs(cells, count, pairs, w, where):
+    """What cells behind the first `count` say of pairs, whose dofs are at w."""
     for name in ("pair", "gap", "force"):
-        same(array(cells, name, 1)[tail], [p[name] for p in pairs], f"{where}, {name}")
-    same(array(cells, "surface", 1)[tail], [1 if p["surface"] == "above" else -1 for p in pairs], where + ", surface")
-    w = [value[p["dof"]] for p in pairs]
-    same(array(cells, "state", 1)[tail],
-         [2 if abs(c - d) < 1e-10 else 1 if p["state"] == "contact" else 0 for p, c, d in zip(pairs, array(cells, "face", 1)[tail], w)],
+        same(array(cells, name, 1)[count:], [p[name] for p in pairs], f"{where}, {name}")
+    same(array(cells, "surface", 1)[count:], [1 if p["surface"] == "above" else -1 for p in pairs], where + ", surface")
+    same(array(cells, "state", 1)[count:],
+         [2 if abs(c - d) < 1e-10 else 1 if p["state"] == "contact" else 0 for p, c, d in zip(pairs, array(cells, "face", 1)[count:], w)],
          where + ", state")
-
-
-def compare(grid, step, where):
-    if structure:
-        return compare_structure(grid, step, where)
-    return compare_own(grid, step, where)
 
 
 def compare_own(grid, step, where):
@@ -121,16 +118,7 @@ def compare_own(grid, step, where):
          [expected_type] * len(elements) + [1] * len(pairs), where + ", types")
     for i, pair in enumerate(pairs):
         same([grid.GetCell(len(elements) + i).GetPointId(0)], [pair["node"] - 1], where + ", a pair's node")
-    tail = slice(len(elements), None)
-    same(array(cells, "pair", 1)[tail], [p["pair"] for p in pairs], where + ", pair")
-    same(array(cells, "gap", 1)[tail], [p["gap"] for p in pairs], where + ", gap")
-    same(array(cells, "force", 1)[tail], [p["force"] for p in pairs], where + ", force")
-    same(array(cells, "surface", 1)[tail], [1 if p["surface"] == "above" else -1 for p in pairs], where + ", surface")
-    faces = array(cells, "face", 1)[tail]
-    w = [step["w"][p["node"] - 1] for p in pairs]
-    same(array(cells, "state", 1)[tail],
-         [2 if abs(c - d) < 1e-10 else 1 if p["state"] == "contact" else 0 for p, c, d in zip(pairs, faces, w)],
-         where + ", state")
+    compare_pairs(cells, len(elements), pairs, [step["w"][p["node"] - 1] for p in pairs], where)
     same(array(cells, "state", 1)[:len(elements)], [-1] * len(elements), where + ", state of elements")
     for name, values in elements[0].items():
         if name != "element":
@@ -143,6 +131,7 @@ def field(grid, name):
 
 
 structure = read_structure(*sys.argv[3:]) if len(sys.argv) > 3 else None
+compare = compare_structure if structure else compare_own
 compare(read(final_file), result["steps"][-1], "the final state")
 stem = os.path.splitext(final_file)[0]
 ends = 0

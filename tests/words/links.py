@@ -6,25 +6,22 @@ import re
 import sys
 
 
+FENCED = re.compile(r"^( *)(```+|~~~+).*?^ *\2[`~]*[ \t]*$", re.DOTALL | re.MULTILINE)
+
+
 def without_code(text):
     """Lines stay where they are."""
-    blank = lambda m: re.sub(r"[^\n]", " ", m[0])
-    text = re.sub(r"^( *)(```+|~~~+).*?^ *\2[`~]*[ \t]*$", blank, text, flags=re.DOTALL | re.MULTILINE)
-    return re.sub(r"(`+)(?!`)[^\n]*?(?<!`)\1(?!`)", blank, text)
+    text = FENCED.sub(lambda m: re.sub(r"[^\n]", "", m[0]), text)
+    return re.sub(r"(`+)(?!`)[^\n]*?(?<!`)\1(?!`)", "", text)
 
 
 def anchors_of(text):
     """As GitHub makes them from headings: letters, digits, _ and -, blanks as -; the second of a name has -1."""
-    fenced = re.sub(r"^( *)(```+|~~~+).*?^ *\2[`~]*[ \t]*$", "", text, flags=re.DOTALL | re.MULTILINE)
-    known = {}
-    anchors = set(re.findall(r"<\w+ (?:id|name)=\"([^\"]+)\"", fenced))
-    for heading in re.findall(r"^#{1,6} +(.*?)(?: +#+)?[ \t]*$", fenced, re.MULTILINE):
-        words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
-        name = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
-        count = known.get(name, 0)
-        known[name] = count + 1
-        anchors.add(f"{name}-{count}" if count else name)
-    return anchors
+    names = []
+    for heading in re.findall(r"^#{1,6} +(.*?)[ \t]*$", FENCED.sub("", text), re.MULTILINE):
+        words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
+        names.append(re.sub(r"[^\w\- ]", "", words).replace(" ", "-"))
+    return {f"{name}-{names[:i].count(name)}" if name in names[:i] else name for i, name in enumerate(names)}
 
 
 def read(path):

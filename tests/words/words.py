@@ -1,16 +1,41 @@
 """Fails when a sentence for users has a phrase of phrases.txt: the program's messages, help and page, README.md and reference/.
 Usage: words.py ROOT PHRASES LEAST"""
 import glob
+import json
 import os
 import re
 import sys
 
-from literals import cxx_literals, html_texts, js_literals, markdown_lines, notebook_texts, python_texts, toml_texts
-
 ROOMS = ("app", "contct/certify", "contct/compare", "contct/exact", "contct/lab", "contct/outside", "contct/path", "contct/read",
          "contct/solve", "contct/structure", "contct/text", "contct/trace", "contct/write")
-READERS = {".cpp": cxx_literals, ".hpp": cxx_literals, ".js": js_literals, ".html": html_texts, ".md": markdown_lines,
-           ".toml": toml_texts, ".py": python_texts, ".ipynb": notebook_texts}
+LITERAL = re.compile(r'"""(.*?)"""|"((?:\\.|[^"\\\n])*)"|`((?:\\.|[^`\\])*)`', re.DOTALL)
+
+
+def literals(source):
+    """The string literals of C++, JavaScript, Python or TOML that are sentences: neighbours are one, comments are left out, and so
+    are words without a blank, which are keys and values."""
+    plain = re.sub(r"^\s*#include[^\n]*|(?<!:)//[^\n]*", "", source, flags=re.MULTILINE)
+    for m in LITERAL.finditer(re.sub(r'"[ \t]*\n\s*"', "", plain)):
+        if " " in m[m.lastindex].strip():
+            yield m[m.lastindex]
+
+
+def paragraphs(source):
+    """The paragraphs and cells of Markdown, without code."""
+    plain = re.sub(r"^\s*(```+|~~~+).*?^\s*\1", "\n\n", source, flags=re.DOTALL | re.MULTILINE)
+    return re.split(r"\n\s*\n|\n(?=\s*(?:[|#>*-]|\d+\.) ?)", re.sub(r"^    .*", "", plain, flags=re.MULTILINE))
+
+
+def texts_of(name, source):
+    """What a file has for users: of HTML what stands between tags and what is read out, of a notebook its prose."""
+    if name.endswith(".md"):
+        return paragraphs(source)
+    if name.endswith(".html"):
+        shown = re.sub(r"<(style|script|svg)\b.*?</\1>", "", source, flags=re.DOTALL)
+        return [a or b for a, b in re.findall(r'(?:aria-label|title|alt)="([^"]*)"|>([^<>]+)<', shown)]
+    if name.endswith(".ipynb"):
+        return [t for c in json.loads(source)["cells"] if c["cell_type"] == "markdown" for t in paragraphs("".join(c["source"]))]
+    return literals(source)
 
 
 def files_of(root):
@@ -44,16 +69,13 @@ def main(root, phrases, least):
     list_ = phrases_in(phrases)
     for name in files_of(root):
         with open(os.path.join(root, name), encoding="utf-8") as file:
-            texts = READERS[os.path.splitext(name)[1]](file.read())
-        keys = name.endswith((".cpp", ".hpp", ".js", ".py"))
-        for line, text in texts:
-            if not re.search(r"[A-Za-z]{2}", text) or (keys and " " not in text.strip()):  # a key, a value, a file
-                continue
-            looked_at += 1
+            texts = [text for text in texts_of(name, file.read()) if re.search(r"[A-Za-z]{2}", text)]
+        looked_at += len(texts)
+        for text in texts:
             plain = re.sub(r"`[^`]*`", "`", text)  # code is not a sentence
             for phrase, pattern, instead in list_:
                 for hit in pattern.finditer(plain):
-                    found.append(f"{name}:{line}: found \"{hit[0]}\"; allowed: {instead}")
+                    found.append(f"{name}: found \"{hit[0]}\" in \"{' '.join(plain.split())[:70]}\"; allowed: {instead}")
     print("\n".join(found))
     print(f"{looked_at} texts, {len(list_)} phrases, {len(found)} of them found")
     if looked_at < int(least):

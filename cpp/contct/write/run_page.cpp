@@ -10,7 +10,8 @@
 namespace contct::write {
 
 // Files of report/ and reference/parallel-edition.html, built in: embed.cmake writes them.
-extern const std::string_view report_html, report_css, result_js, report_js, parallel_edition_html;
+extern const std::string_view report_html, report_css, result_js, picture_js, report_js,
+    parallel_edition_html;
 
 namespace {
 
@@ -38,9 +39,12 @@ std::string_view edition_section() {
 std::string run_page(const run_result& r) {
   const std::string title = markup_text(title_of(r.what, r.file));
   const std::pair<std::string_view, std::string> fillings[] = {
-      {"{{title}}", title},         {"{{style}}", std::string(report_css)},
-      {"{{heading}}", title},       {"{{edition}}", std::string(edition_section())},
-      {"{{data}}", script_text(r)}, {"{{script}}", std::string(result_js) + std::string(report_js)}};
+      {"{{title}}", title},
+      {"{{style}}", std::string(report_css)},
+      {"{{heading}}", title},
+      {"{{edition}}", std::string(edition_section())},
+      {"{{data}}", script_text(r)},
+      {"{{script}}", std::string(result_js).append(picture_js).append(report_js)}};
   std::string_view rest = report_html;
   std::string page;
   for (const auto& [place, text] : fillings) {

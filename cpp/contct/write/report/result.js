@@ -1,6 +1,8 @@
-// What a page draws of a result in the format contct-result-1 that has the structure and states. Numbers come from
-// the result; nothing is computed here but where a pair is, and which pairs are at their faces.
+// Reads a result in the format contct-result-1 that has the structure and states, for a page that draws it. Numbers come
+// from the result; nothing is computed here but where a pair is, and which pairs are at their faces.
 "use strict";
+
+const byId = (id) => document.getElementById(id);
 
 function element(name, attributes = {}, ...children) {
   const e = document.createElement(name);
@@ -9,31 +11,32 @@ function element(name, attributes = {}, ...children) {
   return e;
 }
 
-function svg(name, attributes = {}, ...children) {
-  const e = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) {
-    e.setAttribute(key, typeof value === "number" ? String(Math.round(value * 100) / 100) : value);
-  }
-  e.append(...children);
-  return e;
-}
-
-// The name of a node, or of a dof where each dof is a node of its own.
-const nameOf = (entry) => entry.node ?? entry.dof;
-const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
+// The result, and what read() makes of it: pairs and supports with their places, and all states of the path.
+let result, structure, places, frames, increments, ofMatrix;
 
 // How many of each node's dofs stand one after the other; a matrix has one dof a node.
 const dofsPerNode = { beam: 2, plate: 3, matrix: 1 };
 
+function read(given) {
+  result = given;
+  structure = result.structure;
+  ofMatrix = structure.kind === "matrix";
+  places = placesOf();
+  frames = framesOf();
+  increments = result.steps.flatMap((s) => s.increments.map((i) => ({ ...i, step: s.step, number: i.increment })));
+}
+
+// The name of a node, or of a dof where each dof is a node of its own.
+const nameOf = (entry) => entry.node ?? entry.dof;
+
 // Pairs and supports with their places; supports once a node, with the numbers of their reactions.
-function placesOf({ structure }) {
-  const stride = dofsPerNode[structure.kind];
+function placesOf() {
   const numbers = new Map((structure.dofs || structure.nodes).map((d, i) => [nameOf(d), i]));
   const placed = (entry) => {
-    const number = numbers.get(structure.kind === "matrix" ? entry.dof : entry.node);
+    const number = numbers.get(ofMatrix ? entry.dof : entry.node);
     const { x = 0, y = 0 } = structure.dofs ? {} : structure.nodes[number];
     const { at = null, direction = 0 } = structure.dofs ? structure.dofs[number] : {};
-    return { name: nameOf(entry), u: number * stride, x, y, at: at === null ? null : at - 1, direction };
+    return { name: nameOf(entry), u: number * dofsPerNode[structure.kind], x, y, at: at === null ? null : at - 1, direction };
   };
   const supports = new Map();
   structure.supports.forEach((s, i) => {
@@ -45,15 +48,15 @@ function placesOf({ structure }) {
 }
 
 // Whether a step ends where its increment number `n`, from 0, does: the state is the step's then.
-const endsAt = ({ increments, fraction, ended_by }, n) => n >= 0 && n === increments.length - 1 && increments[n].fraction === fraction && ended_by !== "oracle";
+const endsAt = ({ increments: all, fraction, ended_by }, n) => n >= 0 && n === all.length - 1 && all[n].fraction === fraction && ended_by !== "oracle";
 
 // The unloaded structure, then every state of the path that the result has.
-function framesOf(result, { pairs } = placesOf(result)) {
-  const { structure } = result;
-  const frames = [];
-  const add = (state, how) => frames.push({
-    end: false, exact: false, from_fallback: false, ...how, u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
-    pairs: pairs.map((p, i) => {
+function framesOf() {
+  const found = [];
+  const add = (state, how) => found.push({
+    end: false, exact: false, from_fallback: false, ...how,
+    u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
+    pairs: places.pairs.map((p, i) => {
       const [w, closed] = [state.displacement[p.u], state.pairs[i].state === "contact"];
       const look = Math.abs(p.face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // the listing's EPSGAP
       return { ...p, w, closed, look, gap: state.pairs[i].gap, force: state.pairs[i].force };
@@ -61,28 +64,25 @@ function framesOf(result, { pairs } = placesOf(result)) {
   });
   const begun = {
     displacement: new Array((structure.dofs || structure.nodes).length * dofsPerNode[structure.kind]).fill(0),
-    pairs: pairs.map((p) => ({ state: p.state, gap: p.state === "contact" ? 0 : p.side * p.face, force: 0 })),
+    pairs: places.pairs.map((p) => ({ state: p.state, gap: p.state === "contact" ? 0 : p.side * p.face, force: 0 })),
     reactions: structure.supports.map(() => ({ value: 0 })), extremes: {},
     elements: (structure.EI || []).map(() => ({ moment: [0, 0], shear: [0, 0] })),
   };
-  add(begun, { at: 0, step: 0, number: 0, fraction: 0, s: 0, events: [], load: { words: "none" } });
-  let at = 0;
+  add(begun, { step: 0, number: 0, fraction: 0, s: 0, events: [], load: { words: "none" } });
   for (const step of result.steps) {
     const end = { step: step.step, fraction: step.fraction, end: true, exact: step.ended_by === "exact", load: step.load };
-    const from_fallback = step.ended_by === "oracle";
     step.increments.forEach((i, n) => {
-      const how = { at: ++at, step: step.step, number: i.increment, fraction: i.fraction, s: i.s, snap: i.snap, events: i.events, load: i.load };
+      const how = { step: step.step, number: i.increment, fraction: i.fraction, s: i.s, snap: i.snap, events: i.events, load: i.load };
       if (endsAt(step, n)) add(step, { ...how, ...end });
       else if (i.displacement) add(i, how);
     });
-    if (!endsAt(step, step.increments.length - 1)) add(step, { ...end, at, number: 0, s: 0, events: [], from_fallback });
+    if (!endsAt(step, step.increments.length - 1)) add(step, { ...end, number: 0, s: 0, events: [], from_fallback: step.ended_by === "oracle" });
   }
-  return frames;
+  return found;
 }
 
-// The deflection of a beam at x. Inside an element it is the polynomial through what its ends have: deflections,
-// slopes and, with the stiffness EI, moments. It is exact where the load along the element is straight.
-function elementAt(structure, x) {
+// The number of the element that has x, from 0.
+function elementAt(x) {
   let [low, high] = [0, structure.nodes.length - 1];
   while (high - low > 1) {
     const middle = (low + high) >> 1;
@@ -91,7 +91,12 @@ function elementAt(structure, x) {
   }
   return low;
 }
-function deflectionAt(structure, f, x, e = elementAt(structure, x)) {
+
+const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
+
+// The deflection of a beam at x. Inside an element it is the polynomial through what its ends have: deflections,
+// slopes and, with the stiffness EI, moments. It is exact where the load along the element is straight.
+function deflectionAt(f, x, e = elementAt(x)) {
   const [left, right] = [structure.nodes[e].x, structure.nodes[e + 1].x];
   const [h, a] = [right - left, (x - left) / (right - left)];
   const [w0, t0, w1, t1] = f.u.slice(2 * e, 2 * e + 4);
@@ -100,3 +105,56 @@ function deflectionAt(structure, f, x, e = elementAt(structure, x)) {
   const [c0, c1] = [k0 - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h, k1 - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h];
   return hermite(h, w0, w1, t0, t1, a) + 0.5 * h * h * a * a * (1 - a) * (1 - a) * (c0 * (1 - a) + c1 * a);
 }
+
+// Moment or shear of a beam: the polynomials through what the ends of element e have. The shear is the moment's slope.
+function forceAt(f, name, [e, a]) {
+  const { moment: [m0, m1], shear: [v0, v1] } = f.elements[e];
+  const h = structure.nodes[e + 1].x - structure.nodes[e].x;
+  if (name === "moment") return hermite(h, m0, m1, v0, v1, a);
+  return a === 0 ? v0 : a === 1 ? v1 : (6 * a * (1 - a) * (m1 - m0)) / h + v0 * (1 - 4 * a + 3 * a * a) + v1 * (3 * a * a - 2 * a);
+}
+
+// The force on the structure by a support; null where it only holds a slope.
+function reactionAt(f, s) {
+  const held = s.dofs.filter(([dof]) => dof === "w" || ofMatrix);
+  return held.length === 0 ? null : held.reduce((sum, [, , i]) => sum + f.reactions[i], 0);
+}
+
+// Concentrated loads of a state: at which node or dof, in which direction, and how much.
+const pointsOf = (f) => (f.load.point || []).map((p) => {
+  const name = Object.keys(p).find((key) => key !== "node" && key !== "dof");
+  return { name: nameOf(p), dof: name, value: p[name] };
+});
+
+// "all", "2..9", or a list.
+function numbersIn(elements) {
+  if (elements === "all") return () => true;
+  if (Array.isArray(elements)) return (e) => elements.includes(e);
+  const [first, last] = elements.split("..").map(Number);
+  return (e) => e >= first && e <= last;
+}
+
+// The distributed load of a beam in element e at x: a function; null where there is none.
+function lineLoadOf(f) {
+  const parts = (f.load.uniform || []).map((part) => ({ ...part, has: numbersIn(part.elements) }));
+  if (parts.length === 0) return null;
+  return (e, x) => parts.filter((part) => part.has(e + 1))
+    .reduce((sum, { value, polynomial = [value] }) => sum + polynomial.reduceRight((y, a) => y * x + a, 0), 0);
+}
+
+// The least and the largest number of a list; [0, 0] where there is none.
+function spread(values) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const v of values) {
+    if (v === null || !isFinite(v)) continue;
+    if (v < low) low = v;
+    if (v > high) high = v;
+  }
+  return low > high ? [0, 0] : [low, high];
+}
+
+// The largest absolute value in all states of what `values` gives for each.
+const largest = (values) => frames.reduce((most, f) => values(f).reduce((m, x) => Math.max(m, Math.abs(x)), most), 0);
+
+// The least and the largest value of a quantity in all states, 0 among them.
+const rangeOf = (name) => spread([0, ...frames.flatMap((f) => (name in f.extremes ? [f.extremes[name].min.value, f.extremes[name].max.value] : []))]);
