@@ -40,9 +40,8 @@ def test_numpy_arrays_are_not_copied():
     for name, real in (("dd", True), ("id", False)):
         values = numpy.array(LAYOUT[name], dtype=numpy.float64 if real else numpy.intc)
         values.flags.writeable = False
-        pointer, owner, length = contct._argument(name, values, real)
-        assert owner is values and length == len(values)
-        assert ctypes.cast(pointer, ctypes.c_void_p).value == values.ctypes.data
+        assert contct._argument(name, values, real) is values
+        assert ctypes.cast(contct._at(values, ctypes.c_void_p), ctypes.c_void_p).value == values.ctypes.data
     strided = numpy.array([0.0, 7.0, 0.0, 7.0])[::2]
     found = contct.call("fortran", strided, numpy.array([2, 1]), [0.5, 0.75], numpy.array([1, 2], dtype="int64"), [1, 1], [1, 1])
     assert isinstance(found.ss, numpy.ndarray) and found.ss.tolist() == [0.25, 0.75] and found.isep.tolist() == [-1, 1]

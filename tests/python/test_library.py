@@ -77,7 +77,7 @@ def test_the_module_needs_the_standard_library_alone():
 LEAK = """
 import contct, json
 p = '[beam]\\nlength = 1.0\\nelements = 1000\\nEI = 1.0\\n[[support]]\\nnode = 1\\nfix = ["w", "theta"]\\n[[step]]\\nuniform = 1.0\\n'
-source = contct._source(p, ".toml", "problem", None)
+source = contct._source(p, ".toml", "problem")
 
 def places():
     return contct._ask(contct._library.contct_check, source, {"places": True})

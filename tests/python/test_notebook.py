@@ -1,7 +1,5 @@
 """The course's notebook: its cells run in order without Jupyter, and its stored outputs are what they print."""
-import copy
 import json
-import re
 
 import pytest
 from conftest import ROOT
@@ -36,15 +34,6 @@ def test_the_file_is_what_the_script_writes(again):
     assert PATH.read_text() == as_text(again)
 
 
-def test_a_changed_output_or_cell_is_noticed(notebook, again):
-    doctored = copy.deepcopy(notebook)
-    cell = next(cell for cell in doctored["cells"] if "shares" in text_of(cell["source"]))
-    cell["outputs"][0]["text"][1] = cell["outputs"][0]["text"][1].replace("1243/4800", "1243/4801")
-    assert outputs(again) != outputs(doctored)
-    for cell in doctored["cells"]:
-        cell["source"] = [line.replace("-0.00401", "-0.00402") for line in cell["source"]]
-    assert outputs(executed(doctored)) != outputs(notebook)
-
 
 def test_it_is_a_notebook_of_format_4_5(notebook):
     assert (notebook["nbformat"], notebook["nbformat_minor"]) == (4, 5)
@@ -54,10 +43,3 @@ def test_it_is_a_notebook_of_format_4_5(notebook):
         keys = {"cell_type", "id", "metadata", "source"} | ({"execution_count", "outputs"} if cell["cell_type"] == "code" else set())
         assert set(cell) == keys
     assert sum(cell["cell_type"] == "code" for cell in cells) >= 7
-
-
-def test_its_links_lead_to_files(notebook):
-    links = [link for cell in notebook["cells"] if cell["cell_type"] == "markdown"
-             for link in re.findall(r"\]\(([^)#]+)", text_of(cell["source"]))]
-    assert len(links) >= 2
-    assert [link for link in links if not (PATH.parent / link).exists()] == []
