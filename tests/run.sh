@@ -84,10 +84,8 @@ if [ "$full" = yes ]; then
   echo "== 20,000 random problems and their certificates against the exact path"
   build/release/tests/contct_referee 20000 2026
   echo "== calls of the system and allocations fail"
-  for disturbed in faults disturbed; do
-    python3 "tests/faults/$disturbed.py" build/release/contct build/release/tests/libcontct_fail.so \
-      build/release/tests/plugins/libvariant_reassociated.so --more
-  done
+  python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
+    build/release/tests/plugins/libvariant_reassociated.so --more
   echo "== mutants of both kernels"
   python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
   echo "== exact numbers of verification.toml"
