@@ -13,15 +13,8 @@ key, with shapes and units; nodes, elements, pairs and steps are numbered from 1
 `result.steps[0]` is step 1.
 
 What comes back is the program's JSON, each key an attribute and an item: `result.steps[0].w` is `result["steps"][0]["w"]`.
-Arrays of numbers are NumPy arrays where NumPy can be imported, and lists otherwise.
-
-Bad input raises `InputError`, with file, line and column. A path that ends early, or kernels that disagree, are results
-with another `exit` and `status`; `run(.., strict=True)` raises `NotSolved` for them. Functions may be called from several
-threads: the module keeps nothing from call to call. What calls the 1989 code waits for its turn, since COMMON /DOF/
-belongs to the whole process.
-
-The module needs the standard library and libcontct.so, which is looked for beside the module, under the name in
-$CONTCT_LIBRARY, and where the system looks. reference/python.md has an example of everything.
+Arrays of numbers are NumPy arrays where NumPy can be imported, and lists otherwise. Bad input raises `InputError`, with
+file, line and column. Functions may be called from several threads. reference/python.md has an example of everything.
 """
 from __future__ import annotations
 
@@ -329,20 +322,11 @@ class Inputs(NamedTuple):
 # The library
 
 
-def _names_of_the_library() -> Iterator[str]:
-    """Where it may be: beside the module, $CONTCT_LIBRARY, the system's."""
-    for name in ("libcontct.so", "libcontct.so.0"):
-        beside = Path(__file__).resolve().parent / name
-        if beside.exists():
-            yield str(beside)
-    if os.environ.get("CONTCT_LIBRARY"):
-        yield os.environ["CONTCT_LIBRARY"]
-    yield ctypes.util.find_library("contct") or "libcontct.so.0"
-
-
 def _load() -> ctypes.CDLL:
-    """The first one found. One that is found and cannot be loaded, or is another version, is an error."""
-    name = next(_names_of_the_library())
+    """The first one found beside the module, in $CONTCT_LIBRARY, by the system. One that cannot be loaded, or is another
+    version, is an error."""
+    beside = [str(file) for file in sorted(Path(__file__).resolve().parent.glob("libcontct.so*"))]
+    name = (beside + [os.environ.get("CONTCT_LIBRARY") or ctypes.util.find_library("contct") or "libcontct.so.0"])[0]
     try:
         library = ctypes.CDLL(name)
     except OSError as error:

@@ -3,6 +3,7 @@ import array
 import ctypes
 import json
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import contct
 import pytest
@@ -109,6 +110,14 @@ def test_a_kernel_with_a_fault_is_not(wrong, level):
     found = contct.judge(wrong, calls=2000, problems=5, name="wrong")
     assert not found.equal and found.exit == 1 and found.mismatches > 0 and found.level in level
     assert "wrong differs in" in found.findings[0] and "NOT equal" in repr(found)
+
+
+def test_a_judgement_and_runs_at_once(beam):
+    expected = contct.run(beam)
+    with ThreadPoolExecutor(3) as pool:
+        judged = [pool.submit(contct.judge, listing, calls=1000, problems=1) for _ in range(2)]
+        runs = [pool.submit(contct.run, beam) for _ in range(20)]
+        assert all(j.result().equal for j in judged) and all(r.result() == expected for r in runs)
 
 
 def test_an_exception_of_a_kernel_is_raised_with_its_call():
