@@ -2,7 +2,6 @@
 // open no files but their own.
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>

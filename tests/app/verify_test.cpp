@@ -1,6 +1,5 @@
 // contct verify: the numbers that the whole project stands on.
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
