@@ -24,7 +24,7 @@ done
 
 need_core
 need_program
-need "to test" catch2 pkgconf python3 groff-base
+need "to test" catch2 pkgconf python3 python3-jsonschema groff-base
 need "for quicker exact numbers" libgmp-dev || true  # without it a few tests have fewer problems
 need "to prove the kernels" python3-capstone python3-z3 || true  # those tests are skipped where they cannot be had
 need "to test contct.py" python3-pytest python3-numpy mypy || true  # those tests are skipped where they cannot be had
@@ -84,10 +84,8 @@ if [ "$full" = yes ]; then
   echo "== 20,000 random problems and their certificates against the exact path"
   build/release/tests/contct_referee 20000 2026
   echo "== calls of the system and allocations fail"
-  for disturbed in faults disturbed; do
-    python3 "tests/faults/$disturbed.py" build/release/contct build/release/tests/libcontct_fail.so \
-      build/release/tests/plugins/libvariant_reassociated.so --more
-  done
+  python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
+    build/release/tests/plugins/libvariant_reassociated.so --more
   echo "== mutants of both kernels"
   python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
   echo "== exact numbers of verification.toml"

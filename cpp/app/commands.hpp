@@ -30,8 +30,13 @@ struct picture_options {
   [[nodiscard]] bool wants_frames() const { return !html.empty() || !vtu.empty(); }
 };
 
-struct run_options {
-  std::string file;
+/// What every command with a problem has.
+struct problem_options {
+  std::string file = {};
+  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
+};
+
+struct run_options : problem_options {
   std::vector<std::string> kernels = {"fortran", "cpp"};  ///< the first leads
   std::string engine;                                     ///< empty: what suits the leader
   std::string json, log, trace, proof;
@@ -44,18 +49,14 @@ struct run_options {
   bool envelope = false;  ///< in the result
   std::string
       watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
-  int max_increments = 0;      ///< in a step; 0: the default limit
-  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
+  int max_increments = 0;  ///< in a step; 0: the default limit
 };
 
-struct check_options {
-  std::string file;
+struct check_options : problem_options {
   bool quiet = false;
-  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
-struct explain_options {
-  std::string file;
+struct explain_options : problem_options {
   std::vector<std::string> kernels = {"fortran", "cpp"};
   std::string engine = "refactor";
   std::string increment;  ///< "3", or "2.3" with its step
@@ -65,17 +66,14 @@ struct explain_options {
   bool hex = false;    ///< with the bits of s and SMIN
   std::string json;
   bool quiet = false;
-  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
-struct exact_options {
-  std::string file;
+struct exact_options : problem_options {
   std::string rule = "corrected";         ///< or "1989"
   std::vector<std::string> kernels = {};  ///< compared with it
   int digits = 20;
   std::string json;
   bool quiet = false;
-  bool allow_outside = false;  ///< the problem may name files that are not below its own folder
 };
 
 struct new_options {

@@ -102,16 +102,8 @@ std::string a_name(const std::string& file) {
   return file.empty() ? "found no name; allowed: a file" : "";
 }
 
-CLI::Option* add_file(CLI::App* command, const std::string& name, std::string& file,
-                      const std::string& text) {
-  return command->add_option(name, file, text)->check(a_name);
-}
-void add_problem_file(CLI::App* command, std::string& file) {
-  command->add_option("FILE", file, "The problem (TOML); - reads standard input")->required();
-}
-void add_allow_outside(CLI::App* command, bool& allow_outside) {
-  command->add_flag("--allow-outside", allow_outside,
-                    "The problem may name files that are not below its own folder");
+void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& text) {
+  command->add_option(name, file, text)->check(a_name);
 }
 CLI::Option* add_kernels(CLI::App* command, const std::string& name, std::vector<std::string>& kernels,
                          const std::string& text) {
@@ -119,6 +111,11 @@ CLI::Option* add_kernels(CLI::App* command, const std::string& name, std::vector
 }
 void add_quiet(CLI::App* command, bool& quiet) {
   command->add_flag("--quiet", quiet, "Print only warnings and errors");
+}
+void add_problem(CLI::App* command, problem_options& o) {
+  command->add_option("FILE", o.file, "The problem (TOML); - reads standard input")->required();
+  command->add_flag("--allow-outside", o.allow_outside,
+                    "The problem may name files that are not below its own folder");
 }
 void add_reports(CLI::App* command, report_options& o) {
   add_quiet(command, o.quiet);
@@ -142,15 +139,11 @@ class option_parser {
     command->callback([this, options] { chosen_ = *options; });
     return *options;
   }
-  template <class Options>
-  std::pair<CLI::App*, Options&> command(const std::string& name, const std::string& text) {
-    CLI::App* const made = program.add_subcommand(name, text);
-    return {made, options_for<Options>(made)};
-  }
 
   command_options parse(int argc, const char* const* argv);
 
   CLI::App program;
+  std::vector<std::string> engines = {};
 
  private:
   command_options chosen_;
@@ -194,14 +187,14 @@ void declare_pictures(CLI::App* c, picture_options& o) {
            "which lists them. A structure given by its matrix must have coordinates");
 }
 
-void declare_run(option_parser& p, const std::vector<std::string>& engines) {
-  const auto [c, o] = p.command<run_options>("run", "Follow the path of a problem, all kernels in lockstep");
-  add_problem_file(c, o.file);
+void declare_run(option_parser& p, CLI::App* c) {
+  auto& o = p.options_for<run_options>(c);
+  add_problem(c, o);
   add_kernels(c, "--kernels", o.kernels, "Kernels to run, the first one leads")->capture_default_str();
   c->add_option(
       "--engine", o.engine,
       fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto for others]",
-                  joined(engines, ", ")));
+                  joined(p.engines, ", ")));
   c->add_flag("--free-run", o.free_run,
               "Free run: each kernel follows its own path; events, shares of the step and D are compared");
   CLI::Option* const final_only = c->add_flag(
@@ -228,16 +221,14 @@ void declare_run(option_parser& p, const std::vector<std::string>& engines) {
   add_file(c, "--log", o.log, "Write the leader's unit 26 to this file");
   add_file(c, "--proof", o.proof,
            "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
-  add_allow_outside(c, o.allow_outside);
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
                                 "--html", "--csv", "--vtu", "--envelope", "--node"})
     final_only->excludes(c->get_option(of_a_path));
 }
 
-void declare_explain(option_parser& p) {
-  const auto [c, o] =
-      p.command<explain_options>("explain", "What the listing did in each increment, line by line, and why");
-  add_problem_file(c, o.file);
+void declare_explain(option_parser& p, CLI::App* c) {
+  auto& o = p.options_for<explain_options>(c);
+  add_problem(c, o);
   c->add_option("--increment", o.increment,
                 "Only this increment, from 1; STEP.INCREMENT as in 2.1 names its step too")
       ->type_name("INCREMENT");
@@ -255,21 +246,17 @@ void declare_explain(option_parser& p) {
   c->add_option("--engine", o.engine, "How the stiffness equations are solved")->capture_default_str();
   add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");
   add_quiet(c, o.quiet);
-  add_allow_outside(c, o.allow_outside);
 }
 
-void declare_check(option_parser& p) {
-  const auto [c, o] =
-      p.command<check_options>("check", "Read a problem without solving it, and print a summary");
-  add_problem_file(c, o.file);
+void declare_check(option_parser& p, CLI::App* c) {
+  auto& o = p.options_for<check_options>(c);
+  add_problem(c, o);
   add_quiet(c, o.quiet);
-  add_allow_outside(c, o.allow_outside);
 }
 
-void declare_exact(option_parser& p) {
-  const auto [c, o] = p.command<exact_options>(
-      "exact", "The path in rational arithmetic, and how many digits of each kernel are right");
-  add_problem_file(c, o.file);
+void declare_exact(option_parser& p, CLI::App* c) {
+  auto& o = p.options_for<exact_options>(c);
+  add_problem(c, o);
   const std::vector<std::string> rules = {"corrected", "1989"};
   c->add_option("--rule", o.rule,
                 "The rule: corrected gives the true path, 1989 that of the listing without rounding")
@@ -282,29 +269,25 @@ void declare_exact(option_parser& p) {
       ->capture_default_str();
   add_file(c, "--json", o.json, "Write every number as \"p/q\" to this file (- is standard output)");
   add_quiet(c, o.quiet);
-  add_allow_outside(c, o.allow_outside);
 }
 
-void declare_new(option_parser& p) {
-  const auto [c, o] = p.command<new_options>("new", "Write a commented problem file to start from");
+void declare_new(option_parser& p, CLI::App* c) {
+  auto& o = p.options_for<new_options>(c);
   c->add_option("SHAPE", o.shape, "beam or plate")->required();
   add_file(c, "FILE", o.file,
            "The file to write; by default beam.toml or plate.toml. An existing file is not overwritten. - "
            "is standard output");
 }
 
-void declare_verify(option_parser& p) {
-  const auto [c, o] = p.command<verify_options>(
-      "verify",
-      "Solve every problem in reference/ and compare it with published, closed-form and recomputed numbers");
+void declare_verify(option_parser& p, CLI::App* c) {
+  auto& o = p.options_for<verify_options>(c);
   add_file(c, "--reference", o.reference, "The folder with verification.toml and problems/");
   add_file(c, "--json", o.json, "Write all numbers to this file (- is standard output)");
   add_reports(c, o.report);
 }
 
-void declare_fuzz(option_parser& p) {
-  const auto [c, o] = p.command<fuzz_options>(
-      "fuzz", "Compare kernels to the bit on random and adversarial calls and problems");
+void declare_fuzz(option_parser& p, CLI::App* c) {
+  auto& o = p.options_for<fuzz_options>(c);
   add_kernels(c, "--kernels", o.request.kernels, "Kernels to compare, the first one leads")
       ->capture_default_str();
   c->add_option("--calls", o.request.calls, "Number of calls, in all shards together")
@@ -320,10 +303,8 @@ void declare_fuzz(option_parser& p) {
   add_reports(c, o.report);
 }
 
-void declare_prove(option_parser& p) {
-  const auto [c, o] = p.command<prove_options>(
-      "prove",
-      "Prove that the machine code of kernels is CONTCT for every input; needs Python's capstone and z3");
+void declare_prove(option_parser& p, CLI::App* c) {
+  auto& o = p.options_for<prove_options>(c);
   add_file(c, "LIBRARY", o.library, "A file with a kernel, such as mine.so; by default this program");
   c->add_option("--symbol", o.symbol, "The kernel's name, if it is not contct_kernel");
 }
@@ -344,26 +325,27 @@ void add_examples(CLI::App& program) {
   program.footer("Examples:" + first_ones + "\ncontct COMMAND --help says more of each.");
 }
 
-using declare_command = void (*)(option_parser& p, const std::vector<std::string>& engines);
+struct command {
+  const char *name, *text;
+  void (*declare)(option_parser& p, CLI::App* c);
+};
 
-constexpr std::pair<const char*, declare_command> all_commands[] = {
-    {"run", declare_run},
-    {"check", [](option_parser& p, const auto&) { declare_check(p); }},
-    {"explain", [](option_parser& p, const auto&) { declare_explain(p); }},
-    {"exact", [](option_parser& p, const auto&) { declare_exact(p); }},
-    {"new", [](option_parser& p, const auto&) { declare_new(p); }},
-    {"verify", [](option_parser& p, const auto&) { declare_verify(p); }},
-    {"fuzz", [](option_parser& p, const auto&) { declare_fuzz(p); }},
-    {"replay",
-     [](option_parser& p, const auto&) {
-       declare_replay(
-           p, p.program.add_subcommand("replay", "Repeat recorded calls with a kernel; needs no LAPACK"));
-     }},
-    {"prove", [](option_parser& p, const auto&) { declare_prove(p); }},
-    {"kernels",
-     [](option_parser& p, const auto&) {
-       p.command<kernels_options>("kernels", "What is built in, and how this machine computes");
-     }},
+constexpr command all_commands[] = {
+    {"run", "Follow the path of a problem, all kernels in lockstep", declare_run},
+    {"check", "Read a problem without solving it, and print a summary", declare_check},
+    {"explain", "What the listing did in each increment, line by line, and why", declare_explain},
+    {"exact", "The path in rational arithmetic, and how many digits of each kernel are right", declare_exact},
+    {"new", "Write a commented problem file to start from", declare_new},
+    {"verify",
+     "Solve every problem in reference/ and compare it with published, closed-form and recomputed numbers",
+     declare_verify},
+    {"fuzz", "Compare kernels to the bit on random and adversarial calls and problems", declare_fuzz},
+    {"replay", "Repeat recorded calls with a kernel; needs no LAPACK", declare_replay},
+    {"prove",
+     "Prove that the machine code of kernels is CONTCT for every input; needs Python's capstone and z3",
+     declare_prove},
+    {"kernels", "What is built in, and how this machine computes",
+     [](option_parser& p, CLI::App* c) { p.options_for<kernels_options>(c); }},
 };
 
 /// It stays where it is made: the callbacks of its commands refer to it. With `only` it has that one command:
@@ -371,23 +353,21 @@ constexpr std::pair<const char*, declare_command> all_commands[] = {
 std::unique_ptr<option_parser> contct_parser(std::vector<std::string> engines, std::string_view only = "") {
   auto made = std::make_unique<option_parser>(
       "contct", "CONTCT: the 1989 contact subroutine in FORTRAN and C++, compared bit for bit.");
-  option_parser& p = *made;
-  engines.insert(engines.begin(), "auto");
-  p.program.require_subcommand(1);
-  for (const auto& [name, declare] : all_commands)
-    if (only.empty() || only == name) declare(p, engines);
-  add_examples(p.program);
+  made->engines = std::move(engines);
+  made->program.require_subcommand(1);
+  for (const auto& [name, text, declare] : all_commands)
+    if (only.empty() || only == name) declare(*made, made->program.add_subcommand(name, text));
+  add_examples(made->program);
   return made;
-}
-
-bool is_command(std::string_view word) {
-  return std::ranges::any_of(all_commands, [&](const auto& c) { return word == c.first; });
 }
 
 }  // namespace
 
 command_options parse_contct(int argc, const char* const* argv, const std::vector<std::string>& engines) {
-  if (argc > 1 && is_command(argv[1])) {
+  const bool is_named = argc > 1 && std::ranges::any_of(all_commands, [&](const command& c) {
+                          return std::string_view(argv[1]) == c.name;
+                        });
+  if (is_named) {
     try {
       return contct_parser(engines, argv[1])->parse(argc, argv);
     } catch (const std::invalid_argument&) {  // the message may name other commands

@@ -43,13 +43,13 @@ struct increment_counter final : observer {
 
 std::vector<std::string> engine_choices() {
   std::vector<std::string> names = engine_names();
+  names.insert(names.begin(), "auto");
   if (std::ranges::find(names, "petsc") == names.end()) names.emplace_back("petsc");
   return names;
 }
 
 void refuse_engine_option(const std::string& name) {
-  std::vector<std::string> names = engine_choices();
-  names.insert(names.begin(), "auto");
+  const std::vector<std::string> names = engine_choices();
   if (std::ranges::find(names, name) != names.end()) return;
   throw std::invalid_argument(fmt::format("--engine: no engine is named \"{}\"{}; allowed: {}", name,
                                           did_you_mean(name, names), joined(names, ", ")));

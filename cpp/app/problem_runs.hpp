@@ -16,10 +16,10 @@ namespace contct::app {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-/// The names that --engine takes, besides auto: those of this process, and "petsc".
+/// The names that --engine takes: auto, those of this process, and "petsc".
 [[nodiscard]] std::vector<std::string> engine_choices();
 
-/// Throws std::invalid_argument for what --engine does not take: it takes an engine's name, or auto.
+/// Throws std::invalid_argument for what --engine does not take.
 void refuse_engine_option(const std::string& name);
 
 /// The engine that --engine names; for auto the quickest one.

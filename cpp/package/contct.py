@@ -13,15 +13,8 @@ key, with shapes and units; nodes, elements, pairs and steps are numbered from 1
 `result.steps[0]` is step 1.
 
 What comes back is the program's JSON, each key an attribute and an item: `result.steps[0].w` is `result["steps"][0]["w"]`.
-Arrays of numbers are NumPy arrays where NumPy can be imported, and lists otherwise.
-
-Bad input raises `InputError`, with file, line and column. A path that ends early, or kernels that disagree, are results
-with another `exit` and `status`; `run(.., strict=True)` raises `NotSolved` for them. Functions may be called from several
-threads: the module keeps nothing from call to call. What calls the 1989 code waits for its turn, since COMMON /DOF/
-belongs to the whole process.
-
-The module needs the standard library and libcontct.so, which is looked for beside the module, under the name in
-$CONTCT_LIBRARY, and where the system looks. reference/python.md has an example of everything.
+Arrays of numbers are NumPy arrays where NumPy can be imported, and lists otherwise. Bad input raises `InputError`, with
+file, line and column. Functions may be called from several threads. reference/python.md has an example of everything.
 """
 from __future__ import annotations
 
@@ -36,21 +29,18 @@ import operator
 import os
 import re
 import tomllib
-import typing
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
 
-__all__ = ["Answer", "Call", "Certificate", "Check", "Error", "Event", "Exact", "ExactEvent", "ExactIncrement", "ExactPair",
-           "ExactReaction", "ExactStep", "Explanation", "Increment", "InputError", "Inputs", "Judgement", "NotSolved", "Pair",
-           "Reaction", "Record", "Replay", "Result", "Step", "about", "call", "certify", "check", "exact", "explain", "judge",
-           "prove", "read", "replay", "run", "to_toml"]
+__all__ = ["Answer", "Call", "Error", "Exact", "InputError", "Inputs", "Judgement", "NotSolved", "Record", "Result", "about",
+           "call", "certify", "check", "exact", "explain", "judge", "prove", "read", "replay", "run", "to_toml"]
 
 Problem = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+Folder = Union[None, str, "os.PathLike[str]"]
 Kernels = Union[str, Iterable[str]]
 Numbers = Any  # a list, a tuple, an array.array or a NumPy array, of one dimension
-Array = Annotated[Any, "array"]  # a NumPy array of float64 where NumPy can be imported, otherwise a list of floats
 
 _INTERFACE = 1  # CONTCT_SERVE_VERSION
 _doubles = ctypes.POINTER(ctypes.c_double)
@@ -113,32 +103,8 @@ def _optional_module(name: str) -> Any:
 _numpy = _optional_module("numpy")
 
 
-def _fraction(text: str) -> Fraction:
-    """Of "p/q" or "p". Python converts texts of at most 4300 digits to int, so longer ones are taken in parts."""
-    def whole(digits: str) -> int:
-        if len(digits) <= 4000:
-            return int(digits)
-        low = len(digits) // 2
-        shift: int = 10**low
-        return whole(digits[:-low]) * shift + whole(digits[-low:])
-
-    p, _, q = text.removeprefix("-").partition("/")
-    return Fraction((-1 if text.startswith("-") else 1) * whole(p), whole(q or "1"))
-
-
-def _is_record(kind: object) -> bool:
-    return isinstance(kind, type) and typing.get_origin(kind) is None and issubclass(kind, Record)
-
-
-def _view(value: Any, kind: Any) -> Any:
-    """A value of the JSON, as a user gets it. `kind`: what it, or each of its items, is said to be."""
-    if isinstance(value, dict):
-        return kind(value) if _is_record(kind) else Record(value)
-    if isinstance(value, list):
-        if kind is Array and _numpy and all(isinstance(x, (int, float)) for x in value):
-            return _numpy.array(value, dtype=_numpy.float64)
-        return [_view(item, kind) for item in value]
-    return _fraction(value) if kind is Fraction and isinstance(value, str) else value
+_ARRAYS = {"w", "displacement", "shear", "moment", "mx", "my", "mxy"}  # keys whose lists are NumPy arrays
+_RATIONAL = {"fraction", "w", "displacement", "gap", "force", "value", "motion", "work"}  # keys of exact paths
 
 
 class Record(Mapping[str, Any]):
@@ -147,24 +113,26 @@ class Record(Mapping[str, Any]):
     A key that is no name in Python, such as "if" in an explanation, is an item only.
     """
 
-    _kinds: dict[str, Any] = {}
-
-    def __init_subclass__(cls) -> None:
-        """What a key's values are is written once, as its annotation."""
-        cls._kinds = {}
-        for name, hint in typing.get_type_hints(cls, include_extras=True).items():
-            for kind in (hint, *typing.get_args(hint)):
-                if kind is Array or kind is Fraction or _is_record(kind):
-                    cls._kinds[name] = kind
-                    break
-
-    def __init__(self, data: dict[str, Any]) -> None:
-        self._data = data
+    def __init__(self, data: dict[str, Any], rational: bool = False) -> None:
+        """`rational`: its numbers are texts as "p/q"."""
+        self._data, self._rational = data, rational
         self._views: dict[str, Any] = {}
+
+    def _view(self, key: str, value: Any) -> Any:
+        if isinstance(value, dict):
+            return Record(value, self._rational)
+        if isinstance(value, list):
+            if key in _ARRAYS and _numpy and all(isinstance(x, (int, float)) for x in value):
+                return _numpy.array(value, dtype=_numpy.float64)
+            return [self._view(key, item) for item in value]
+        if self._rational and key in _RATIONAL and isinstance(value, str):
+            p, _, q = value.partition("/")  # int takes at most 4300 digits of a text, and any number of a Decimal
+            return Fraction(int(Decimal(p)), int(Decimal(q or 1)))
+        return value
 
     def __getitem__(self, key: str) -> Any:
         if key not in self._views:
-            self._views[key] = _view(self._data[key], self._kinds.get(key))
+            self._views[key] = self._view(key, self._data[key])
         return self._views[key]
 
     def __getattr__(self, name: str) -> Any:
@@ -204,88 +172,27 @@ class Answer(Record):
     exit: int
     messages: list[str]
 
-    def __init__(self, answer: dict[str, Any]) -> None:
-        super().__init__(answer["result"])
+    def __init__(self, answer: dict[str, Any], rational: bool = False) -> None:
+        super().__init__(answer["result"], rational)
         self.exit, self.messages = answer["exit"], answer["messages"]
 
-
-class Event(Record):
-    """A pair that changed its state (listing, lines 51 to 58). `change`: "make" or "break"."""
-    pair: int
-    node: int
-    dof: str
-    surface: str
-    change: str
+    def _summary(self, verdict: str) -> str:
+        events = sum(len(i.events) for step in self.steps for i in step.get("increments", []))
+        return (f"<contct.{type(self).__name__} {self.title!r}: {verdict}; {_count(len(self.steps), 'step')}, "
+                f"{_count(events, 'event')}>")
 
 
-class Pair(Record):
-    """A contact pair. `state`: "separated" or "contact"; `gap`: n (c - w), a length (eq. 5); `force`: -n k (c - w)."""
-    pair: int
-    node: int
-    dof: str
-    surface: str
-    state: str
-    gap: float
-    force: float
+def _text_of(key: str, what: str) -> Any:
+    """A text that `Result` makes when it is first wanted."""
+    def text(self: Result) -> str:
+        if key not in self._texts:
+            if self._again is None:
+                raise InputError(f"found a result without a path; allowed: `{key}` of what contct.run follows")
+            source, options = self._again
+            self._texts[key] = str(_ask(_library.contct_run, source, {**options, key: True})[key])
+        return self._texts[key]
 
-
-class Reaction(Record):
-    """What a support does to the structure: a force or a moment, positive as its dof is."""
-    node: int
-    dof: str
-    value: float
-
-
-class Element(Record):
-    """Moments and shears: of a beam at both ends, of a plate at the corners."""
-    element: int
-    shear: Array
-    moment: Array
-    mx: Array
-    my: Array
-    mxy: Array
-
-
-class Increment(Record):
-    """One call of the kernel and what followed. `s`: SMIN, the share of the remaining load (eq. 9); `fraction`: the share
-    of the step's load that is applied now, 0 to 1. With `states` of `run` some have the state after them, as steps have."""
-    increment: int
-    s: float
-    fraction: float
-    load: Record
-    events: list[Event]
-    displacement: Array
-    pairs: list[Pair]
-    reactions: list[Reaction]
-    elements: list[Element]
-
-
-class Certificate(Record):
-    """The verdict on a state; `exact`: certified, that is, every number is proved to be within `tolerance`."""
-    exact: bool
-    tolerance: float
-    unique: bool
-    independent: bool
-    digits: int
-    problem: str
-
-
-class Step(Record):
-    """A load step and its final state. `w`: deflection of each node, a length; `displacement`: every dof; `error`: proved
-    bounds by kind (`error.w`, `error.force`, ..), each a number or None."""
-    step: int
-    name: str
-    fraction: float
-    increments: list[Increment]
-    w: Array
-    displacement: Array
-    pairs: list[Pair]
-    reactions: list[Reaction]
-    elements: list[Element]
-    extremes: Record
-    digits: int
-    error: Record
-    certificate: Optional[Certificate]
+    return property(text, doc=f"{what}. The first use runs the problem again.")
 
 
 class Result(Answer):
@@ -295,44 +202,18 @@ class Result(Answer):
     engine: str
     status: str
     certified: bool
-    steps: list[Step]
-    lockstep: Optional[Record]
-    units: Optional[Record]
-    end: Record
+    steps: list[Record]
 
     def __init__(self, answer: dict[str, Any], again: Optional[tuple[_Source, dict[str, Any]]] = None) -> None:
-        """`again`: what `run` was asked; its pages and texts are made from it when they are first wanted."""
+        """`again`: what `run` was asked; its pages and texts are made from it."""
         super().__init__(answer)
         self._again = again
-        self._texts: dict[str, str] = {key: answer[key] for key in _texts if isinstance(answer.get(key), str)}
+        self._texts: dict[str, str] = {}
 
-    def _text(self, key: str) -> str:
-        if key not in self._texts:
-            if self._again is None:
-                raise InputError(f"found a result without a path; allowed: `{key}` of what contct.run follows")
-            source, options = self._again
-            self._texts[key] = str(_ask(_library.contct_run, source, {**options, key: True})[key])
-        return self._texts[key]
-
-    @property
-    def page(self) -> str:
-        """The report as one HTML page, as `contct run --html` writes it. The first use runs the problem again."""
-        return self._text("page")
-
-    @property
-    def log(self) -> str:
-        """Unit 26 of the leading kernel (`--log`). The first use runs the problem again."""
-        return self._text("log")
-
-    @property
-    def trace(self) -> str:
-        """Every call of the leading kernel (`--trace`), for `replay`. The first use runs the problem again."""
-        return self._text("trace")
-
-    @property
-    def proof(self) -> str:
-        """The proof of the error bounds as JSON (`--proof`). The first use runs the problem again."""
-        return self._text("proof")
+    page = _text_of("page", "The report as one HTML page, as `contct run --html` writes it")
+    log = _text_of("log", "Unit 26 of the leading kernel (`--log`)")
+    trace = _text_of("trace", "Every call of the leading kernel (`--trace`), for `replay`")
+    proof = _text_of("proof", "The proof of the error bounds as JSON (`--proof`)")
 
     @property
     def _verdict(self) -> str:
@@ -341,8 +222,7 @@ class Result(Answer):
         return f"{self.status}{disagree}, {certified}"
 
     def __repr__(self) -> str:
-        events = sum(len(i.events) for step in self.steps for i in step.get("increments", []))
-        return f"<contct.Result {self.title!r}: {self._verdict}; {_count(len(self.steps), 'step')}, {_count(events, 'event')}>"
+        return self._summary(self._verdict)
 
     def _repr_html_(self) -> Optional[str]:
         """A notebook shows the page, in a frame of its own."""
@@ -354,116 +234,29 @@ class Result(Answer):
                 ' style="width: 100%; height: 45em; border: 0"></iframe>')
 
 
-_texts = ("page", "log", "trace", "proof")
-
-
 def _count(number: int, thing: str) -> str:
     return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
-class Check(Answer):
-    """What `check` finds: `title`, `kind` ("beam", "plate" or "matrix"), counts, names of the steps, `units`."""
-    title: str
-    kind: str
-    nodes: int
-    dofs: int
-    elements: int
-    pairs: int
-    steps: list[str]
-    units: Optional[Record]
-
-
-class ExactEvent(Event):
-    """An event of the exact path."""
-
-
-class ExactIncrement(Record):
-    """Events at one share of the step; the last one has none, at share 1. `fraction`: the share, rational."""
-    increment: int
-    fraction: Fraction
-    events: list[ExactEvent]
-
-
-class ExactPair(Record):
-    """A contact pair; `gap` (a length) and `force` are rational."""
-    pair: int
-    node: int
-    dof: str
-    surface: str
-    state: str
-    gap: Fraction
-    force: Fraction
-
-
-class ExactReaction(Record):
-    """A reaction; `value` is rational."""
-    node: int
-    dof: str
-    value: Fraction
-
-
-class ExactStep(Record):
-    """A step of the exact path; `fraction`, every `w` and every `displacement` are rational."""
-    step: int
-    name: str
-    fraction: Fraction
-    increments: list[ExactIncrement]
-    w: list[Fraction]
-    displacement: list[Fraction]
-    pairs: list[ExactPair]
-    reactions: list[ExactReaction]
-
-
-class _Mechanism(Record):
-    motion: list[Fraction]
-    work: Fraction
-
-
 class Exact(Answer):
-    """What `exact` finds: the path without rounding, each number a `fractions.Fraction`; reference/exact.md has every key.
-
-    `kernels`: for each one compared, `same_events`, `digits` of displacements, `event_digits`, `force_digits`.
-    """
+    """What `exact` finds: the path without rounding, each number a `fractions.Fraction`; reference/exact.md has every key."""
     title: str
     status: str
-    steps: list[ExactStep]
+    steps: list[Record]
     kernels: list[Record]
-    mechanism: _Mechanism
+
+    def __init__(self, answer: dict[str, Any]) -> None:
+        super().__init__(answer, rational=True)
 
     def __repr__(self) -> str:
-        events = sum(len(i.events) for step in self.steps for i in step.increments)
-        return f"<contct.Exact {self.title!r}: {self.status}; {_count(len(self.steps), 'step')}, {_count(events, 'event')}>"
-
-
-class Explanation(Answer):
-    """What `explain` finds: for each increment and pair the lines of the listing, and why; reference/explain-format.md."""
-    title: str
-    kernels: list[str]
-    increments: list[Record]
-    lockstep: Optional[Record]
-    status: str
-
-    def __repr__(self) -> str:
-        return f"<contct.Explanation {self.title!r}: {self.status}; {_count(len(self.increments), 'increment')}>"
-
-
-class Replay(Record):
-    """What `replay` finds: `calls`, `values_compared`, `mismatches`, and the `first` mismatch in words, or None."""
-    calls: int
-    values_compared: int
-    mismatches: int
-    first: Optional[str]
+        return self._summary(self.status)
 
 
 class Judgement(Answer):
     """What `judge` finds: reference/check-results.md has every key."""
-    kernels: list[str]
     calls: int
-    problems: int
     values_compared: int
     mismatches: int
-    seed: int
-    followers: list[Record]
 
     @property
     def equal(self) -> bool:
@@ -473,14 +266,12 @@ class Judgement(Answer):
     @property
     def level(self) -> str:
         """The closest equality that holds: "bits", "ulps", "events", "certificate" or "none"."""
-        rung: str = self.followers[0].rung
-        return rung
+        return str(self.followers[0].rung)
 
     @property
     def findings(self) -> list[str]:
         """The first mismatch, line by line; empty if there is none."""
-        lines: list[str] = self.followers[0].findings
-        return lines
+        return list(self.followers[0].findings)
 
     def __repr__(self) -> str:
         verdict = "equal to the bit" if self.equal else f"NOT equal (level \"{self.level}\")"
@@ -504,17 +295,7 @@ class Call(NamedTuple):
 
 class Inputs(NamedTuple):
     """The arguments of one call of CONTCT, for a kernel written in Python (see `judge`). Lists of Python's floats, which are
-    the listing's 8-byte REAL, and of ints; they are the kernel's own.
-
-    dd      [dofs] D, deflections so far: lengths
-    dtest   [dofs] d*, what the whole remaining load would add to them: lengths
-    cc      [pairs] c, the position of each pair's face: lengths
-    id      [pairs] each pair's node, from 1
-    isep    [pairs] +1 separated, -1 in contact
-    isurf   [pairs] the side of each pair's face: +1 above, -1 below
-    indof   INDOF, which dof of a node deflects, from 1
-    ndofpn  NDOFPN, dofs of a node
-    """
+    the listing's 8-byte REAL, and of ints; they are the kernel's own. `call` says what each is."""
     dd: list[float]
     dtest: list[float]
     cc: list[float]
@@ -541,20 +322,11 @@ class Inputs(NamedTuple):
 # The library
 
 
-def _names_of_the_library() -> Iterator[str]:
-    """Where it may be: beside the module, $CONTCT_LIBRARY, the system's."""
-    for name in ("libcontct.so", "libcontct.so.0"):
-        beside = Path(__file__).resolve().parent / name
-        if beside.exists():
-            yield str(beside)
-    if os.environ.get("CONTCT_LIBRARY"):
-        yield os.environ["CONTCT_LIBRARY"]
-    yield ctypes.util.find_library("contct") or "libcontct.so.0"
-
-
 def _load() -> ctypes.CDLL:
-    """The first one found. One that is found and cannot be loaded, or is another version, is an error."""
-    name = next(_names_of_the_library())
+    """The first one found beside the module, in $CONTCT_LIBRARY, by the system. One that cannot be loaded, or is another
+    version, is an error."""
+    beside = [str(file) for file in sorted(Path(__file__).resolve().parent.glob("libcontct.so*"))]
+    name = (beside + [os.environ.get("CONTCT_LIBRARY") or ctypes.util.find_library("contct") or "libcontct.so.0"])[0]
     try:
         library = ctypes.CDLL(name)
     except OSError as error:
@@ -623,8 +395,7 @@ def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str
     """One function of the library that takes a text and options. Options that are None are left to the library."""
     given = {key: value for key, value in options.items() if value is not None}
     given |= {"file": source.file, "folder": source.folder}
-    if source.allow_outside:
-        given["allow_outside"] = True
+    given |= {"allow_outside": True} if source.allow_outside else {}
     try:
         return _result_of(_answer_of(function, source.text, _options(given)))
     except InputError as error:
@@ -644,22 +415,21 @@ class _Source(NamedTuple):
     file: str
     folder: str
     on_disk: bool
-    allow_outside: bool = False
+    allow_outside: bool
 
     @property
     def place(self) -> str:
         return f"{self.folder}/{self.file}" if self.folder else self.file
 
 
-def _source(given: Any, ending: str, what: str, folder: Optional[Any]) -> _Source:
+def _source(given: Any, ending: str, what: str, folder: Folder = None, allow_outside: bool = False) -> _Source:
     """The text behind a path, a text or a dict. A file's folder is its own."""
     if isinstance(given, os.PathLike) or (isinstance(given, str) and "\n" not in given and given.endswith(ending)):
         beside, name = os.path.split(os.fspath(given))
-        source = _Source(Path(given).read_bytes(), name, beside, True)
-    elif isinstance(given, str) and "\n" in given:
-        source = _Source(given.encode(errors="surrogatepass"), what, os.fspath(folder or ""), False)
-    elif isinstance(given, Mapping) and what == "problem":
-        source = _Source(to_toml(given).encode(errors="surrogatepass"), what, os.fspath(folder or ""), False)
+        source = _Source(Path(given).read_bytes(), name, beside, True, allow_outside)
+    elif (isinstance(given, str) and "\n" in given) or (isinstance(given, Mapping) and what == "problem"):
+        text = given if isinstance(given, str) else to_toml(given)
+        source = _Source(text.encode(errors="surrogatepass"), what, os.fspath(folder or ""), False, allow_outside)
     else:
         shown = repr(given) if isinstance(given, str) else f"a {type(given).__name__}"
         or_dict = ", or a dict" if what == "problem" else ""
@@ -751,7 +521,7 @@ def _kernel_list(kernels: Kernels) -> list[str]:
 
 def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None, final_only: bool = False,
         envelope: bool = False, states: bool = False, max_increments: int = 0, strict: bool = False,
-        folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Result:
+        folder: Folder = None, allow_outside: bool = False) -> Result:
     """Follow the path of a problem, all kernels in lockstep: `contct run`.
 
     kernels         names, or one text with commas; the first one leads
@@ -767,7 +537,7 @@ def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Opti
 
     Raises InputError for a bad problem or a bad option, and OSError if the file cannot be read.
     """
-    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
+    source = _source(problem, ".toml", "problem", folder, allow_outside)
     options = {"kernels": None if final_only else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
                "envelope": envelope or None, "states": states or None, "max_increments": max_increments or None}
     answer = _ask(_library.contct_run, source, options)
@@ -778,38 +548,39 @@ def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Opti
     return result
 
 
-def check(problem: Problem, *, folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Check:
-    """Read a problem and solve nothing: `contct check`. Raises InputError if it is refused."""
-    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
-    return Check(_ask(_library.contct_check, source, {}))
+def check(problem: Problem, *, folder: Folder = None, allow_outside: bool = False) -> Answer:
+    """Read a problem and solve nothing: `contct check`. The answer has `title`, `kind` ("beam", "plate" or "matrix"), counts,
+    names of the steps, `units`. Raises InputError if the problem is refused."""
+    source = _source(problem, ".toml", "problem", folder, allow_outside)
+    return Answer(_ask(_library.contct_check, source, {}))
 
 
 def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
-          folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Exact:
+          folder: Folder = None, allow_outside: bool = False) -> Exact:
     """Follow the path in rational arithmetic, from the decimals that the file's numbers mean: `contct exact`.
 
     rule     "corrected", or "1989" for the 1989 rule without rounding
     kernels  are compared with it: how many of their digits are right
     """
-    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
+    source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Exact(_ask(_library.contct_exact, source, {"rule": rule, "kernels": _kernel_list(kernels) if kernels else None}))
 
 
 def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None,
             step: Optional[int] = None, increment: Optional[int] = None,
-            folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Explanation:
-    """What each line of the listing did, and why: `contct explain`.
+            folder: Folder = None, allow_outside: bool = False) -> Answer:
+    """What each line of the listing did, and why: `contct explain`; reference/explain-format.md has the keys.
 
     kernels          one or two of the 1989 rule
     step, increment  only these, from 1; None: all
     """
-    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
-    return Explanation(_ask(_library.contct_explain, source, {"kernels": _kernel_list(kernels), "engine": engine, "step": step,
-                                                              "increment": increment}))
+    source = _source(problem, ".toml", "problem", folder, allow_outside)
+    return Answer(_ask(_library.contct_explain, source, {"kernels": _kernel_list(kernels), "engine": engine, "step": step,
+                                                         "increment": increment}))
 
 
 def certify(problem: Problem, displacement: Any, *, closed: Optional[Iterable[Iterable[int]]] = None,
-            folder: Union[None, str, os.PathLike[str]] = None, allow_outside: bool = False) -> Result:
+            folder: Folder = None, allow_outside: bool = False) -> Result:
     """Bounds on the errors of states that another program, or a formula, gives.
 
     displacement  for each of the first steps the displacement of every dof, under the step's whole load: a list of states,
@@ -820,7 +591,7 @@ def certify(problem: Problem, displacement: Any, *, closed: Optional[Iterable[It
 
     The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments.
     """
-    source = _source(problem, ".toml", "problem", folder)._replace(allow_outside=allow_outside)
+    source = _source(problem, ".toml", "problem", folder, allow_outside)
     states = displacement.tolist() if hasattr(displacement, "tolist") else list(displacement)
     states = [state.tolist() if hasattr(state, "tolist") else state for state in states]
     if not any(hasattr(state, "__iter__") for state in states):
@@ -850,11 +621,10 @@ def _from_numpy(name: str, values: Any, real: bool) -> Any:
     return _numpy.ascontiguousarray(values, dtype=_numpy.float64 if real else _numpy.intc)
 
 
-def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = None) -> tuple[Any, Any, int]:
-    """An array argument: pointer, owner of its memory, length."""
+def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = None) -> Any:
+    """An array argument: an array.array or a NumPy array of the type that a kernel takes."""
     if _numpy and isinstance(values, _numpy.ndarray):
         owner = _from_numpy(name, values, real)
-        address = owner.ctypes.data
     else:
         try:
             owner = array.array("d" if real else "i", values)
@@ -863,11 +633,14 @@ def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = No
         except TypeError as error:
             allowed = f"a list or an array of {'numbers' if real else 'whole numbers'}"
             raise TypeError(f"{name}: {error}; allowed: {allowed}") from error
-        address = owner.buffer_info()[0]
     if length is not None and len(owner) != length:
         raise InputError(f"{name}: found {_count(len(owner), 'value')}; allowed: {length}")
-    kind: Any = _doubles if real else _ints
-    return ctypes.cast(address, kind), owner, len(owner)
+    return owner
+
+
+def _at(owner: Any, kind: Any) -> Any:
+    """The pointer to an argument, which must outlive it."""
+    return ctypes.cast(owner.buffer_info()[0] if isinstance(owner, array.array) else owner.ctypes.data, kind)
 
 
 def _numbers(values: Any) -> Any:
@@ -879,27 +652,24 @@ def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, ise
          ndofpn: int = 1) -> Call:
     """One call of a kernel, by its name: CALL CONTCT(DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC), line 19 of the listing.
 
-    dd, dtest  D and d*, of every dof: what deflects so far, and what the whole remaining load would add
-    cc         c, each pair's face
+    dd, dtest  D and d*, of every dof: what deflects so far, and what the whole remaining load would add; lengths
+    cc         c, the position of each pair's face: a length
     id         each pair's node, from 1; its dof is (id - 1) * ndofpn + indof, from 1
     isep       +1 separated, -1 in contact; it is not changed, the new one is in the answer
-    isurf      +1 above, -1 below
-    indof, ndofpn  the members of COMMON /DOF/
+    isurf      the side of each pair's face: +1 above, -1 below
+    indof, ndofpn  the members of COMMON /DOF/: which dof of a node deflects, from 1; dofs of a node
 
     NumPy arrays of float64 and of C's int are passed as they are, without a copy. Raises InputError if lengths differ, or
     if an id leads outside dd, or a product isep * isurf out of 32 bits.
     """
-    dd_at, dd_owner, ndof = _argument("dd", dd, True)
-    dtest_at, dtest_owner, _ = _argument("dtest", dtest, True, ndof)
-    cc_at, cc_owner, nc = _argument("cc", cc, True)
-    id_at, id_owner, _ = _argument("id", id, False, nc)
-    isep_at, isep_owner, _ = _argument("isep", isep, False, nc)
-    isurf_at, isurf_owner, _ = _argument("isurf", isurf, False, nc)
-    ss, smin, status = (ctypes.c_double * nc)(), ctypes.c_double(), (ctypes.c_int * nc)()
-    ctypes.memmove(status, isep_at, ctypes.sizeof(status))
-    answer = _result_of(_answer_of(_library.contct_call, kernel.encode(), dd_at, dtest_at, cc_at, ss, ctypes.byref(smin), id_at,
-                                   status, isurf_at, nc, indof, ndofpn, ndof))
-    del dd_owner, dtest_owner, cc_owner, id_owner, isep_owner, isurf_owner  # the pointers were good until here
+    d, cc = _argument("dd", dd, True), _argument("cc", cc, True)
+    ndof, nc = len(d), len(cc)
+    d_star, nodes = _argument("dtest", dtest, True, ndof), _argument("id", id, False, nc)
+    before, sides = _argument("isep", isep, False, nc), _argument("isurf", isurf, False, nc)
+    ss, smin, status = (ctypes.c_double * nc)(), ctypes.c_double(), (ctypes.c_int * nc).from_buffer_copy(before)
+    answer = _result_of(_answer_of(_library.contct_call, kernel.encode(), _at(d, _doubles), _at(d_star, _doubles),
+                                   _at(cc, _doubles), ss, ctypes.byref(smin), _at(nodes, _ints), status, _at(sides, _ints), nc,
+                                   indof, ndofpn, ndof))
     return Call(_numbers(ss), smin.value, _numbers(status), answer["result"]["text"])
 
 
@@ -963,14 +733,14 @@ def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 
     return Judgement(_result_of(answer))
 
 
-def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None) -> Replay:
-    """Put a recorded trace to a kernel, and compare every answer: `contct replay`.
+def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None) -> Record:
+    """Put a recorded trace to a kernel, and compare every answer: `contct replay`. The record has `calls`, `values_compared`,
+    `mismatches`, and the `first` mismatch in words, or None.
 
     trace   the name of a file (it ends in ".trace"), a path, or the text of a trace, such as `Result.trace`
     kernel  its name; None: the 1989 code in the precision of the trace
     """
-    return Replay(_ask(_library.contct_replay, _source(trace, ".trace", "trace", None),
-                       {"kernel": kernel})["result"])
+    return Record(_ask(_library.contct_replay, _source(trace, ".trace", "trace"), {"kernel": kernel})["result"])
 
 
 def prove(library: Union[str, os.PathLike[str]], symbol: str = "") -> dict[str, str]:

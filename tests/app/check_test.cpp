@@ -71,13 +71,3 @@ TEST_CASE("warnings go to standard error, and are counted") {
   CHECK(quiet.out.empty());
   CHECK(quiet.err == f.err);
 }
-
-TEST_CASE("what contct run refuses, contct check refuses") {
-  const scratch_folder dir;
-  dir.write("p.toml", with("5.0e4", "-5.0e4"));
-  const finished f = contct_program(dir.path(), {"check", "p.toml"});
-  CHECK(f.exit == 2);
-  CHECK(f.out.empty());
-  CHECK_THAT(f.err, StartsWith("contct: p.toml:11:13: contact[1].stiffness: found -50000"));
-  CHECK(dir.files() == std::vector<std::string>{"p.toml"});
-}

@@ -37,14 +37,6 @@ TEST_CASE("the tie of the three gap supports is printed as the fraction that it 
     CHECK_THAT(f.out, Contains(kernel));
 }
 
-TEST_CASE("the document is written beside the text, and alone where it takes standard output") {
-  const finished f = contct_program(root, {"exact", three_gaps, "--json", "-"});
-  CHECK(f.exit == 0);
-  const auto document = nlohmann::json::parse(f.out);
-  CHECK(document["format"] == "contct-exact-1");
-  CHECK(document["steps"][1]["increments"][0]["fraction"] == "3/38");
-}
-
 TEST_CASE("a mechanism is exit 4, with its proof") {
   const finished f = exactly(
       "[beam]\nx = [0, 1, 2]\nEI = 1\n[[step]]\npoint = [ { node = 2, w = -2 } ]\n"
@@ -81,40 +73,10 @@ TEST_CASE("exact --quiet prints nothing, and what cannot be is refused with exit
   CHECK_THAT(unknown.err, Contains("nobody"));
 }
 
-TEST_CASE("a matrix with a free motion that the load drives is a mechanism") {
-  const scratch_folder dir;
-  dir.write("k.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 4\n");
-  dir.write(
-      "p.toml",
-      "[matrix]\nstiffness = \"k.mtx\"\nfree_motions = 1\n[[contact]]\ndof = \"1\"\nsurface = \"below\"\n"
-      "face = 0\nstiffness = 1\n[[step]]\npoint = [ { dof = \"1\", value = 3 } ]\n");
-  const finished f = contct_program(dir.path(), {"exact", "p.toml"});
-  CHECK(f.exit == 4);
-  CHECK_THAT(f.out, Contains("no equilibrium"));
-}
-
-TEST_CASE("an indefinite matrix and a structure that is too large are refused") {
-  const scratch_folder dir;
-  dir.write("k.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
-  dir.write("indefinite.toml",
-            "[matrix]\nstiffness = \"k.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 3 } ]\n");
-  const finished indefinite = contct_program(dir.path(), {"exact", "indefinite.toml"});
-  CHECK(indefinite.exit == 2);
-  CHECK_THAT(indefinite.err, Contains("not positive semidefinite"));
+TEST_CASE("a structure that is too large for exact arithmetic is refused") {
   const finished large = exactly("[beam]\nlength = 1\nelements = 30000\nEI = 1\n[[step]]\nuniform = 1\n");
   CHECK(large.exit == 2);
   CHECK_THAT(large.err, Contains("found 60002 dofs; allowed: at most 50000"));
-}
-
-TEST_CASE("numbers of absurd size are solved like others") {
-  const finished f = exactly(
-      "[beam]\nx = [0, 1]\nEI = 1e-300\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = "
-      "2\n"
-      "surface = \"below\"\nface = -1e-300\nstiffness = 1e308\n[[step]]\npoint = [ { node = 2, w = -1e308 } "
-      "]\n",
-      {"--digits", "6"});
-  CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains("pair 1 (node 2, below) makes") && Contains("w -1.00000, force 1.00000e308"));
 }
 
 TEST_CASE(
@@ -268,16 +230,4 @@ TEST_CASE("kernels are measured on structures that pairs alone hold") {
   CHECK_THAT(f.out, Contains("pair 1 (node 1, below): w -13/30, force 2/3"));
   CHECK_THAT(f.out,
              Contains("\nfortran: no step's end to compare; other events: ") && Contains("\ncorrected: 1"));
-}
-
-TEST_CASE("kernels are measured on plates on beds with a corner that settles") {
-  const finished f = exactly(
-      "[plate]\nsize = [1, 1]\nelements = [2, 2]\nE = 10.92\nnu = 0.3\nthickness = 0.1\n[[bed]]\nmodulus = "
-      "50\nface = 0\n"
-      "[[support]]\nat = [0, 0]\nfix = [\"w\"]\n[[step]]\nuniform = -1\n"
-      "[[step]]\nsettlement = [ { at = [0, 0], w = -0.01 } ]\nuniform = -1\n[[step]]\nuniform = -3\n",
-      {"--kernels", "fortran,corrected", "--json", "-"});
-  CHECK(f.exit == 0);
-  const auto all = nlohmann::json::parse(f.out);
-  for (const auto& kernel : all["kernels"]) CHECK(kernel["digits"] > 12.0);
 }

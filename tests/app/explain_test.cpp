@@ -187,14 +187,6 @@ TEST_CASE("what is out of range is exit 2, says what is allowed, and writes noth
   CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // which it takes, as contct run does
 }
 
-TEST_CASE("a pair that EPSMUL takes along before it touches is said to be, and how far off it was") {
-  const finished f = explained({pb5, "--all"});
-  CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains(": too early\n"));
-  CHECK_THAT(f.out, Contains("TOO EARLY: it is put in contact before it touches") ||
-                        Contains("TOO EARLY: it is separated before it comes to its face"));
-}
-
 TEST_CASE("a pair without any event that is toggled by its mark SS = 1 is said to be") {
   const scratch_folder dir;
   dir.write("marked.toml", marked);
@@ -208,50 +200,6 @@ TEST_CASE("a pair without any event that is toggled by its mark SS = 1 is said t
   CHECK(pair["kind"] == "no response");
   CHECK(pair["before"] == "separated");
   CHECK(pair["after"] == "contact");
-}
-
-TEST_CASE("the JSON has the numbers, the branches with their margins, and both kernels' bits") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  const finished f = contct_program(dir.path(), {"explain", "pb.toml", "--json", "-"});
-  CHECK(f.exit == 0);
-  const json all = json::parse(f.out);
-  CHECK(all["format"] == "contct-explain-1");
-  CHECK(all["status"] == "solved");
-  CHECK(all["lockstep"] == json({{"calls", 2}, {"values_compared", 8}, {"mismatches", 0}}));
-  REQUIRE(all["increments"].size() == 2);
-  const json& first = all["increments"][0];
-  CHECK(first["smin"]["fortran"] == first["smin"]["cpp"]);
-  CHECK(first["smin"]["ulps"] == 0);
-  CHECK(first["winner"] == json({{"pair", 1}}));
-  const json& pair = first["pairs"][0];
-  CHECK(pair["gap"] == -0.004);
-  CHECK(pair["s"].get<double>() == Approx(0.25));
-  CHECK(pair["kind"] == "advancing");
-  CHECK(pair["bits"] == first["smin"]);
-  CHECK(pair["branches"][0]["if"] == "DTEST(NDOF).EQ.0.");
-  CHECK(pair["branches"][0]["outcome"] == false);
-  CHECK(all["increments"][1]["winner"].is_null());
-}
-
-TEST_CASE("every line in the JSON is the listing's") {
-  const scratch_folder dir;
-  const std::vector<std::string> listing = listing_lines();
-  const finished f = explained({pb7, "--json", "-"});
-  const json all = json::parse(f.out);
-  int cited = 0;
-  const auto check = [&](const json& story) {
-    for (const json& t : story) {
-      if (!t.contains("line")) continue;
-      ++cited;
-      if (listing[t["line"].get<std::size_t>() - 1] != t["statement"].get<std::string>()) FAIL(t.dump());
-    }
-  };
-  for (const json& i : all["increments"]) {
-    check(i["story"]);
-    for (const json& p : i["pairs"]) check(p["story"]);
-  }
-  CHECK(cited > 150);
 }
 
 TEST_CASE("a second kernel that rounds otherwise is told by its ULP, and is exit 1") {
@@ -271,17 +219,6 @@ TEST_CASE("a second kernel that rounds otherwise is told by its ULP, and is exit
     for (const json& p : i["pairs"]) apart += p["bits"]["ulps"] > 0 ? 1 : 0;
   }
   CHECK(apart > 0);
-}
-
-TEST_CASE("a kernel alone, and the listing as printed, are explained too") {
-  const finished alone = explained({pb7, "--kernels", "cpp"});
-  CHECK(alone.exit == 0);
-  CHECK(alone.out.find("equal") == std::string::npos);
-  const finished single = explained({pb7, "--kernels", "fortran-r4,cpp-r4", "--increment", "2.1"});
-  CHECK(single.exit == 0);
-  CHECK_THAT(single.out,
-             Contains("fortran-r4 and cpp-r4 are equal to the bit") && Contains(": same moment\n"));
-  CHECK(single.out.find("too early") == std::string::npos);
 }
 
 TEST_CASE("a path that ends in a mechanism is explained as far as it goes: exit 4") {
@@ -402,34 +339,6 @@ TEST_CASE("where the exact path has other events it is said, and its numbers end
       Contains("The exact path has other events, at share 1 of the step: none; here: pair 1 breaks.") &&
           Contains("by another branch: there the pair is receding") &&
           Contains("The exact path has had other events since 2.1"));
-}
-
-TEST_CASE("exact numbers are refused where an explanation is, and a trace is no problem") {
-  const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
-  const auto refused = [](std::vector<std::string> arguments, const char* words) {
-    arguments.insert(arguments.end(), {"--exact", "--json", "/dev/null"});
-    const finished f = explained(arguments);
-    INFO(f.err);
-    CHECK(f.exit == 2);
-    CHECK(f.out.empty());
-    CHECK_THAT(f.err, Contains(words));
-  };
-  refused({pb7, "--kernels", "fortran-r4," + plugin}, "differ in precision");
-  refused({pb7, "--kernels", plugin}, "is an external kernel and cannot lead");
-  refused({pb7, "--kernels", "corrected"}, "has another rule");
-  refused({"reference/traces/ties.trace"}, "ties.trace");
-}
-
-TEST_CASE("a second kernel that rounds otherwise has an error of its own beside the exact s") {
-  const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
-  const finished f = explained({pb7, "--exact", "--quiet", "--kernels", "fortran," + plugin, "--json", "-"});
-  CHECK(f.exit == 1);
-  const json all = json::parse(f.out);
-  int apart = 0;
-  for (const json& i : all["increments"])
-    for (const json& p : i["pairs"])
-      apart += p["exact"]["ulps_off"]["fortran"] != p["exact"]["ulps_off"][plugin] ? 1 : 0;
-  CHECK(apart > 0);
 }
 
 TEST_CASE("a structure too large for exact arithmetic keeps the exact s of its calls") {

@@ -7,8 +7,6 @@
 
 #include "app/process.hpp"
 #include "catch.hpp"
-#include "read/bad_inputs.hpp"
-#include "read/small_matrix.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -56,7 +54,6 @@ void prepare(const scratch_folder& dir, bool with_problems) {
   if (!with_problems) return;
   REQUIRE(contct_program(dir.path(), {"new", "beam", "beam.toml"}).exit == 0);
   REQUIRE(contct_program(dir.path(), {"run", "beam.toml", "--quiet", "--trace", "calls.trace"}).exit == 0);
-  dir.write("K.mtx", small_matrix);
   fs::create_symlink(CONTCT_PLUGINS "/libvariant_right.so", dir.path() / "mine.so");
 }
 
@@ -89,50 +86,6 @@ TEST_CASE("every command has help with examples, and every example runs as it st
   const finished help = contct_program(".", {"--help"});
   CHECK(help.exit == 0);
   CHECK(examples_in(help.out).size() == all.size());
-}
-
-TEST_CASE("a mistyped command or option is guessed, and far off ones are not") {
-  const scratch_folder dir;
-  dir.write("good.toml", good_problem);
-  const auto refused = [&](const words& arguments) {
-    const finished f = contct_program(dir.path(), arguments);
-    CHECK(f.exit == 2);
-    CHECK(f.out.empty());
-    return f.err;
-  };
-  CHECK_THAT(refused({"rnu", "good.toml"}),
-             Contains("\"rnu\" is no command of contct (did you mean \"run\"?)"));
-  CHECK_THAT(refused({"explian", "good.toml"}), Contains("(did you mean \"explain\"?)"));
-  CHECK_THAT(refused({"Verify"}), Contains("(did you mean \"verify\"?)"));
-  CHECK_THAT(refused({"--versoin"}), Contains("(did you mean \"--version\"?)"));
-  CHECK_THAT(refused({"run", "good.toml", "--josn", "x"}), Contains("(did you mean \"--json\"?)"));
-  CHECK_THAT(refused({"run", "good.toml", "--kernls=cpp"}), Contains("(did you mean \"--kernels\"?)"));
-  CHECK_THAT(refused({"explain", "good.toml", "--pairs", "1"}), Contains("(did you mean \"--pair\"?)"));
-  CHECK_THAT(refused({"run", "good.toml", "--kernels", "fortan"}), Contains("(did you mean \"fortran\"?)"));
-  CHECK_THAT(refused({"run", "good.toml", "--engine", "refacter"}), Contains("(did you mean \"refactor\"?)"));
-  CHECK_THAT(refused({"new", "bean"}), Contains("(did you mean \"beam\"?)"));
-  for (const words& arguments :
-       {words{"walk"}, {"run", "good.toml", "--colour"}, {"run", "good.toml", "more"}})
-    CHECK_THAT(refused(arguments), !Contains("did you mean"));
-}
-
-TEST_CASE("a mistyped key or word in a problem file is guessed, at its place") {
-  const scratch_folder dir;
-  const auto refused = [&](const std::string& piece, const std::string& mistake) {
-    dir.write("bad.toml", with(piece, mistake));
-    const finished f = contct_program(dir.path(), {"run", "bad.toml"});
-    CHECK(f.exit == 2);
-    return f.err;
-  };
-  CHECK_THAT(
-      refused("stiffness", "stifness"),
-      Contains("bad.toml:11:1: contact[1].stifness: found an unknown key (did you mean \"stiffness\"?); "
-               "allowed: "));
-  CHECK_THAT(refused("[[contact]]", "[[contacts]]"), Contains("(did you mean \"contact\"?)"));
-  CHECK_THAT(refused("EI", "ei"), Contains("(did you mean \"EI\"?)"));
-  CHECK_THAT(refused("\"below\"", "\"bellow\""),
-             Contains("found \"bellow\" (did you mean \"below\"?); allowed: "));
-  CHECK_THAT(refused("stiffness", "colour"), Contains("found an unknown key; allowed: "));
 }
 
 TEST_CASE("a new problem runs, has events, and is certified, and its comments name every table") {

@@ -74,24 +74,6 @@ TEST_CASE(
   CHECK_THAT(f.err, !Contains("--kernels corrected"));
 }
 
-TEST_CASE("a matrix that is no stiffness, is missing or too large ends in exit 2 and one line that says so") {
-  const scratch_folder here;
-  here.write("p.toml", spring_problem);
-  finished f = contct_program(here.path(), {"run", "p.toml"});
-  CHECK(f.exit == 2);
-  CHECK_THAT(f.err, Contains("K.mtx: cannot be read"));
-  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
-  f = contct_program(here.path(), {"run", "p.toml", "--json", "r.json"});
-  CHECK(f.exit == 2);
-  CHECK_THAT(f.err, Contains("K.mtx: the matrix is not positive semidefinite"));
-  CHECK(here.files() == std::vector<std::string>{"K.mtx", "p.toml"});
-  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 nan\n2 2 1\n");
-  f = contct_program(here.path(), {"run", "p.toml"});
-  CHECK(f.exit == 2);
-  CHECK_THAT(f.err, Contains("K.mtx:4: found \"nan\" for an entry"));
-  CHECK(f.out.empty());
-}
-
 TEST_CASE("what a band cannot hold is solved by its entries, and the certificate is the same") {
   const scratch_folder here;
   write_cube(here);
@@ -121,23 +103,6 @@ TEST_CASE("what a band cannot hold is solved by its entries, and the certificate
   const finished refused = contct_program(here.path(), {"run", "p.toml"}, little);
   CHECK(refused.exit == 2);
   CHECK_THAT(refused.err, Contains(" MiB in CHOLMOD's sparse factors; allowed: 1.0 MiB"));
-}
-
-TEST_CASE(
-    "two springs in a row, free at both ends, fall onto their one face: the 1989 rule cannot follow, exit "
-    "5") {
-  const scratch_folder here;
-  here.write("K.mtx", header + "2 2 3\n1 1 1\n2 1 -1\n2 2 1\n");
-  here.write("p.toml", spring_problem);
-  const finished f = contct_program(here.path(), {"run", "p.toml"});
-  INFO(f.err);
-  CHECK(f.exit == 5);
-  CHECK_THAT(f.err, Contains("There is an equilibrium") && Contains("--kernels corrected"));
-  const finished mended =
-      contct_program(here.path(), {"run", "p.toml", "--kernels", "corrected", "--strict"});
-  INFO(mended.out << mended.err);
-  CHECK(mended.exit == 0);
-  CHECK_THAT(mended.out, Contains("make 1: dof 2 below"));
 }
 
 TEST_CASE("a structure without coordinates has its page and tables, and no grid, which is said") {
@@ -185,10 +150,6 @@ TEST_CASE(
   CHECK_THAT(lost.err,
              Contains("warning: --vtu: 1 of 1 pairs has no cell: the places of their dofs are not known"));
   CHECK_THAT(dir.read("p.html"), Contains("1 of 2 dofs have no known node and direction"));
-  dir.write("K.xyz", "a 1 2 3\nb 1 2 nan\n");
-  const finished wrong = contct_program(dir.path(), {"run", "p.toml", "--vtu", "q.vtu"});
-  CHECK(wrong.exit == 2);
-  CHECK_THAT(wrong.err, Contains("K.xyz:2: found \"nan\" for z; allowed: a finite number"));
 }
 
 TEST_CASE("what is explained of a structure given by its matrix names dofs by their labels") {

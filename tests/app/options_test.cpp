@@ -95,11 +95,6 @@ TEST_CASE("numbers that are not given are told from numbers that are") {
   CHECK(parsed<fuzz_options>({"fuzz", "--problems", "0"}).problems == 0);
 }
 
-TEST_CASE("numbers outside their range are refused, with the range") {
-  CHECK_THAT(refusal({"run", "f", "--max-increments", "0"}), Contains("--max-increments"));
-  CHECK_THAT(refusal({"fuzz", "--calls", "0"}), Contains("--calls"));
-}
-
 TEST_CASE("the options --help and --version are texts, not commands") {
   const auto help = parsed<printed_text>({"--help"}).text;
   for (const char* command :

@@ -111,31 +111,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("one kernel alone: nothing is said to be compared") {
-  const auto data = written(good_problem, 0, {"--kernels", "cpp"});
-  CHECK(data["words"]["comparison"].get<std::string>().empty());
-  CHECK(data["lockstep"].is_null());
-  CHECK(data["calls"][0]["followers"].empty());
-}
-
-TEST_CASE("three kernels: each call has two distances") {
-  const auto data = written(good_problem, 0, {"--kernels", "fortran,cpp,corrected", "--free-run"});
-  CHECK(data["lockstep"].is_null());
-  CHECK(data["status"] == "solved");
-  const auto narrow = written(good_problem, 0, {"--kernels", "fortran-r4,cpp-r4"});
-  CHECK(narrow["lockstep"]["mismatches"] == 0);
-  CHECK(narrow["calls"][0]["followers"][0]["mismatches"] == 0);
-}
-
-TEST_CASE("a problem without pairs or a title has its page too") {
-  const auto data = written(no_pairs, 0);
-  CHECK(data["file"] == "pb.toml");
-  CHECK(data["structure"]["pairs"].empty());
-  CHECK(states_in(data) == 2);
-  const auto still = written(std::string(no_pairs) + "[[step]]\nuniform = -2\n[[step]]\nuniform = 0\n", 0);
-  CHECK(states_in(still) == 4);
-}
-
 TEST_CASE("a path that loses its hold has a page that says so, up to the state reached") {
   const auto loose = written(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]"), 5);
   CHECK(loose["status"] == "path-ended");
@@ -149,16 +124,6 @@ TEST_CASE("a path that loses its hold has a page that says so, up to the state r
   CHECK_THAT(freed["words"]["end"].get<std::string>(), Contains("the structure became a mechanism"));
   CHECK(freed["steps"].back()["step"] == 2);
   CHECK(freed["steps"].back()["fraction"].get<double>() < 1.0);
-}
-
-TEST_CASE(
-    "the corrected rule's free fall onto its faces has frames, and the certificate stands in the page") {
-  const auto data = written(
-      "[beam]\nlength = 2\nelements = 4\nEI = 100\n[[bed]]\nmodulus = 50\nface = -0.01\n[[step]]\nuniform = "
-      "-3\n",
-      0, {"--kernels", "corrected"});
-  CHECK(states_in(data) >= 2);
-  CHECK_THAT(data["words"]["certificate"].dump(), Contains("certified"));
 }
 
 TEST_CASE(
@@ -190,18 +155,6 @@ TEST_CASE("with - for standard output nothing else is printed") {
   const std::string csv = contct_program(dir.path(), run_of({"--csv", "-"})).out;
   CHECK(csv.rfind("step,increment,", 0) == 0);
   CHECK(dir.files() == words{"pb.toml"});  // and no table of pairs
-}
-
-TEST_CASE("a place that cannot be written is found out before anything is solved") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  for (const char* option : {"--html", "--csv", "--vtu"}) {
-    INFO(option);
-    const finished f = contct_program(dir.path(), run_of({option, "nowhere/o.vtu"}));
-    CHECK(f.exit == 2);
-    CHECK(f.out.empty());
-    CHECK_THAT(f.err, Contains("nowhere/o.vtu: cannot be written"));
-  }
 }
 
 TEST_CASE("the page has the date of the run, or the one that SOURCE_DATE_EPOCH names") {

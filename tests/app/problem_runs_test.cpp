@@ -40,10 +40,6 @@ step_state state_with(double rcond, int step) {
 
 }  // namespace
 
-TEST_CASE("a path that reached its end has nothing to say") {
-  CHECK(end_words(ten_pairs(), ended(path_status::solved)).empty());
-}
-
 TEST_CASE("every other end is told with its step, its share, and its pairs by number, node and surface") {
   const problem p = ten_pairs();
   for (const path_status status :

@@ -45,6 +45,16 @@ std::string drain(int terminal) {
 
 }  // namespace
 
+finished shell(const std::string& line) {
+  const scratch_folder streams;
+  const int status =
+      std::system(("(" + line + ") >'" + (streams.path() / "out").string() + "' 2>&1").c_str());
+  finished f;
+  f.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  f.out = streams.read("out");
+  return f;
+}
+
 finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                         const process_options& options) {
   const scratch_folder streams;

@@ -27,6 +27,9 @@ struct process_options {
 /// The project's folder.
 inline const std::filesystem::path root = CONTCT_ROOT;
 
+/// Run a line by the shell; both of its streams are `out`.
+finished shell(const std::string& line);
+
 /// Run the program with these arguments in `directory`.
 finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                         const process_options& options = {});

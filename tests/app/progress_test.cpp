@@ -104,15 +104,6 @@ TEST_CASE("what cannot say how far it has come says what it is doing") {
   }
 }
 
-TEST_CASE("what is quicker than one waits shows no progress") {
-  const plate_directory dir;
-  for (const long_work& w : long_works()) {
-    INFO(w.name);
-    CHECK(at_terminal(dir, w.arguments, "3600").err.empty());
-  }
-  CHECK(at_terminal(dir, {"kernels"}, "0").err.empty());
-}
-
 TEST_CASE("a wait that is no time is refused") {
   const plate_directory dir;
   for (const char* const wrong : {"soon", "-1", "nan", "1s", ""}) {

@@ -28,16 +28,6 @@ std::string recorded(const scratch_folder& dir, const char* problem) {
   return dir.read("t.trace");
 }
 
-std::string output_of(const std::string& command) {
-  std::FILE* const pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::string out;
-  std::array<char, 4096> block{};
-  while (const std::size_t n = std::fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
-  CHECK(pclose(pipe) == 0);
-  return out;
-}
-
 void replace_once(std::string& text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
   REQUIRE(at != std::string::npos);
@@ -126,12 +116,12 @@ TEST_CASE("contct-replay is the same code, and needs neither LAPACK nor BLAS") {
   const scratch_folder dir;
   recorded(dir, "pb07-three-gap-supports.toml");
   const std::string program = (fs::path(CONTCT_PROGRAM).parent_path() / "contct-replay").string();
-  const std::string out = output_of(program + " " + (dir.path() / "t.trace").string());
+  const std::string out = shell(program + " " + (dir.path() / "t.trace").string()).out;
   const finished f = contct_program(dir.path(), {"replay", (dir.path() / "t.trace").string()});
   CHECK(out == f.out);
-  const std::string libraries = output_of("ldd " + program);
+  const std::string libraries = shell("ldd " + program).out;
   CHECK_THAT(libraries, Contains("libc.so") && !Contains("lapack") && !Contains("blas"));
-  CHECK_THAT(output_of("ldd " + std::string(CONTCT_PROGRAM)), Contains("lapack"));  // the look would see it
+  CHECK_THAT(shell("ldd " + std::string(CONTCT_PROGRAM)).out, Contains("lapack"));  // the look would see it
 }
 
 TEST_CASE("run tells a CI system the kernels, the path and the certificate") {
@@ -142,14 +132,4 @@ TEST_CASE("run tells a CI system the kernels, the path and the certificate") {
   CHECK(f.exit == 3);
   CHECK_THAT(f.out, Contains("tests=\"3\" failures=\"1\"") && Contains("name=\"certificate\"") &&
                         Contains("NOT certified") && Contains("listing sha256"));
-}
-
-TEST_CASE("verify writes one test for each problem") {
-  const scratch_folder dir;
-  const finished f =
-      contct_program(dir.path(), {"verify", "--quiet", "--junit", "v.xml", "--markdown", "v.md"});
-  CHECK(f.exit == 0);
-  CHECK(f.out.empty());
-  CHECK_THAT(dir.read("v.xml"), Contains("failures=\"0\"") && Contains("pb07-three-gap-supports.toml"));
-  CHECK_THAT(dir.read("v.md"), Contains("## contct verify: passed"));
 }

@@ -83,32 +83,6 @@ TEST_CASE("what lets go as soon as a load begins has one row, and a row each on 
   CHECK_THAT(detailed.out, Contains("25 of 41 in contact") && Contains("      40  shear"));
 }
 
-TEST_CASE("the envelope is in the result where it was asked for, with steps and increments") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  const std::string pb7 = std::string(CONTCT_ROOT) + "/reference/problems/pb07-three-gap-supports.toml";
-  const auto result_of = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> all = {"run", pb7, "--quiet", "--json", "-"};
-    all.insert(all.end(), more.begin(), more.end());
-    return nlohmann::json::parse(contct_program(dir.path(), all).out);
-  };
-  CHECK_FALSE(result_of({}).contains("envelope"));
-  const auto r = result_of({"--envelope"});
-  const auto& e = r["envelope"];
-  CHECK(e["states"] == 8);
-  CHECK(e["moment"]["max"]["value"] > r["steps"][2]["extremes"]["moment"]["max"]["value"]);
-  CHECK(e["moment"]["max"]["value"] == Approx(168.493151).epsilon(1e-8));  // where the middle pair opens
-  CHECK(e["moment"]["max"]["x"] == 4.0);
-  CHECK(e["moment"]["max"]["step"] == 4);
-  CHECK(e["moment"]["max"]["increment"] == 1);
-  CHECK(r["steps"][2]["extremes"]["moment"]["max"]["value"] == Approx(167.984829).epsilon(1e-8));
-  CHECK(r["steps"][2]["extremes"]["moment"]["max"]["x"] == Approx(3.700389).epsilon(1e-6));
-  CHECK(e["pairs"][1]["force_max"] == r["steps"][2]["pairs"][1]["force"]);
-  CHECK(e["reactions"][0]["min"]["value"] == Approx(40.0));  // the last step's
-  CHECK(e["reactions"][0]["min"]["step"] == 4);
-  CHECK(e["reactions"][0]["max"]["value"] == r["steps"][2]["reactions"][0]["value"]);
-}
-
 TEST_CASE("a table follows the node that it was given, by number or by x, and refuses others") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
@@ -244,14 +218,6 @@ TEST_CASE("a kernel alone compares nothing, and says so") {
   CHECK(nlohmann::json::parse(dir.read("out.json"))["lockstep"].is_null());
 }
 
-TEST_CASE("single precision walks in lockstep with single precision") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran-r4,cpp-r4"});
-  CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains("fortran-r4 and cpp-r4 are equal to the bit"));
-}
-
 TEST_CASE("free run: every kernel follows its own path, r4 against r8 within a stated bound") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
@@ -265,17 +231,6 @@ TEST_CASE("free run: every kernel follows its own path, r4 against r8 within a s
   REQUIRE(result["free_run"].size() == 3);
   CHECK(result["free_run"][0]["displacement"] == 0.0);
   CHECK(result["free_run"][1]["displacement"] > 0.0);
-}
-
-TEST_CASE("free run: r4 against r8 through a step that takes all load off") {
-  const scratch_folder dir;
-  const finished f = contct_program(
-      dir.path(),
-      {"run", std::string(CONTCT_ROOT) + "/reference/problems/" + "pb06-settled-middle-support.toml",
-       "--free-run", "--kernels", "fortran,fortran-r4"});
-  INFO(f.out << f.err);
-  CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains("fortran-r4 in free run: events the same"));
 }
 
 TEST_CASE("free run: a share of the step beyond its bound is exit 1, and the message says by how much") {
@@ -308,35 +263,6 @@ TEST_CASE("contct kernels and --version name the listing's checksum and the floa
   const std::string checksum = version.out.substr(version.out.find("sha256") + 7, 64);
   CHECK(checksum.find_first_not_of("0123456789abcdef") == std::string::npos);
   CHECK_THAT(kernels.out, Contains(checksum));
-}
-
-TEST_CASE("help is on standard output and is no error") {
-  const scratch_folder dir;
-  for (const auto& arguments :
-       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"kernels", "--help"}}) {
-    const finished f = contct_program(dir.path(), arguments);
-    CHECK(f.exit == 0);
-    CHECK(f.err.empty());
-    CHECK_THAT(f.out, Contains("--help"));
-  }
-}
-
-TEST_CASE("a plate goes the same ways: lockstep, free run, table and results") {
-  const scratch_folder dir;
-  dir.write("plate.toml", good_plate);
-  const finished lockstep = contct_program(dir.path(), {"run", "plate.toml", "--json", "out.json"});
-  CHECK(lockstep.exit == 0);
-  CHECK_THAT(lockstep.out, Contains("6 nodes, 1 pair, 1 step") && Contains("make 1: node 6 below") &&
-                               Contains("1 of 1 in contact") &&
-                               Contains("w             -0.255393         node 3, (1, 0)") &&
-                               Contains("equal to the bit"));
-  const auto result = nlohmann::json::parse(dir.read("out.json"));
-  CHECK(result["steps"][0]["reactions"][5]["dof"] == "wy");
-  CHECK(result["steps"][0]["elements"][1]["mxy"].size() == 4);
-  const finished free_run =
-      contct_program(dir.path(), {"run", "plate.toml", "--free-run", "--kernels", "fortran,cpp,fortran-r4"});
-  CHECK(free_run.exit == 0);
-  CHECK_THAT(free_run.out, Contains("fortran-r4 in free run: events the same"));
 }
 
 TEST_CASE("a plate that loses its hold is a mechanism: exit 4") {
@@ -395,14 +321,6 @@ TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that wa
   CHECK(r["steps"][0]["certificate"]["exact"] == true);
   CHECK(r["steps"][3]["certificate"]["exact"] == false);
   CHECK(contct_program(dir.path(), {"run", pb5, "--strict", "--kernels", "corrected"}).exit == 0);
-}
-
-TEST_CASE("corrected in lockstep with the listing is refused: rules differ") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,corrected"});
-  CHECK(f.exit == 2);
-  CHECK_THAT(f.err, Contains("--free-run"));
 }
 
 TEST_CASE(
@@ -475,14 +393,4 @@ TEST_CASE("only the end: the path's final states without a path, certified") {
   const finished none = contct_program(dir.path(), {"run", "freed.toml", "--final-only"});
   CHECK(none.exit == 4);
   CHECK_THAT(none.err, Contains("no equilibrium"));
-  for (const std::vector<std::string>& not_with : {std::vector<std::string>{"--free-run"},
-                                                   {"--kernels", "cpp"},
-                                                   {"--engine", "refactor"},
-                                                   {"--trace", "t"}}) {
-    std::vector<std::string> all = {"run", pb5, "--final-only"};
-    all.insert(all.end(), not_with.begin(), not_with.end());
-    const finished refused = contct_program(dir.path(), all);
-    CHECK(refused.exit == 2);
-    CHECK_THAT(refused.err, Contains("excludes"));
-  }
 }

@@ -2,7 +2,6 @@
 // open no files but their own.
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -214,31 +213,6 @@ TEST_CASE("a kernel that answers with control characters is told so in character
   runs.run({"fuzz", "--calls", "3", "--problems", "0", "--kernels", "cpp,pipe:sh kernel.sh"});
   CHECK(runs.count == 4);
   CHECK(runs.escaped >= 2);
-}
-
-TEST_CASE("on a terminal in colour only the program's own colours come through") {
-  const scratch_folder dir;
-  write_matrix_problem(dir, "\x1b[1;31mred\u009b");
-  dir.write("p.toml", filled(beam_problem, R"(\u001b[1;31mred)"));
-  process_options screen;
-  screen.environment = {{"TERM", "xterm"}};
-  screen.terminal = screen.error_terminal = true;
-  int seen = 0;
-  for (const char* const file : {"p.toml", "m.toml"}) {
-    for (const words& w : {words{"run", file},
-                           {"run", file, "--detail"},
-                           {"check", file},
-                           {"explain", file},
-                           {"exact", file}}) {
-      const finished f = contct_program(dir.path(), w, screen);
-      INFO(joined(w, " ") << "\n" << terminal_text(f.out));
-      CHECK(f.out.find("\x1b[1;31mred") == std::string::npos);
-      CHECK(f.out.find("\u009b") == std::string::npos);
-      if (f.out.find("\\x1b[1;31mred") != std::string::npos) ++seen;
-    }
-    CHECK_THAT(contct_program(dir.path(), {"run", file}, screen).out, Contains("\x1b[32m"));
-  }
-  CHECK(seen >= 9);
 }
 
 TEST_CASE("a problem names files below its folder, and others under --allow-outside, in every command") {

@@ -7,11 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <exception>
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -35,7 +32,6 @@ struct options {
   int events = 0;
   int rounds = 3;
   std::string json_file;
-  bool growth = false;
   bool without_kernels = false;
 };
 
@@ -113,37 +109,6 @@ json bench_kernels(int rounds) {
                     {"lockstep_on_path_ratio", t.lockstep_on_path / alone}});
   }
   return rows;
-}
-
-struct growth_point {
-  double size, ms_per_event;
-};
-
-/// The slope of the straight line through the logarithms, by least squares: 1 is a cost proportional to the
-/// size. NaN for fewer than two sizes.
-double slope_of(const std::vector<growth_point>& points) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (const growth_point& p : points) {
-    const double lx = std::log(p.size);
-    const double ly = std::log(p.ms_per_event);
-    n += 1, x += lx, y += ly, xx += lx * lx, xy += lx * ly;
-  }
-  const double spread = n * xx - x * x;
-  return n < 2 || !(spread > 0) ? std::numeric_limits<double>::quiet_NaN() : (n * xy - x * y) / spread;
-}
-
-/// How the cost of an event grows with the factor: 1 is in proportion to its entries.
-void print_exponents(const json& rows) {
-  std::map<std::pair<std::string, std::string>, std::vector<growth_point>> lines;
-  for (const json& row : rows) {
-    if (row["events"] == 0 || row["factor_entries"].is_null()) continue;
-    const std::string problem = row["problem"];
-    const std::string family = problem.substr(0, problem.find('-'));
-    lines[{family, row["engine"]}].push_back({row["factor_entries"], row["ms_per_event"]});
-  }
-  for (const auto& [of, points] : lines)
-    fmt::print("{}, {}: an event costs entries of the factor to the power {:.2f}, from {} sizes\n", of.first,
-               of.second, slope_of(points), points.size());
 }
 
 void bench_problem(const options& o, const std::string& name, json& rows) {
@@ -240,7 +205,6 @@ void bench_peers(const options& o, const std::string& name, json& rows) {
 
 int run(options o) {
   if (o.problems.empty()) o.problems = bench::usual_problems();
-  if (o.growth) o.problems = bench::growing_problems();
   std::optional<contct::app::output_file> out;
   if (!o.json_file.empty()) out.emplace(o.json_file);
   pin();
@@ -252,11 +216,9 @@ int run(options o) {
   json peers = json::array();
   for (const std::string& name : o.problems) {
     bench_problem(o, name, rows);
-    if (o.growth) continue;
     ends.push_back(bench_final_states(name));
     bench_peers(o, name, peers);
   }
-  if (o.growth) print_exponents(rows);
   if (out) {
     const json document = {{"blas", contct::app::lapack_identity()}, {"core", core_type()},
                            {"kernels", std::move(kernels)},          {"rows", rows},
@@ -285,7 +247,6 @@ int main(int argc, char** argv) {
                   "least counts")
       ->check(CLI::Range(1, 99))
       ->capture_default_str();
-  program.add_flag("--growth", o.growth, "Run every family at sizes that grow, in place of --problem");
   program.add_flag("--without-kernels", o.without_kernels,
                    "Engines only; the kernels alone take some seconds");
   program.add_option("--json", o.json_file, "Write the rows to this file (- is standard output)");

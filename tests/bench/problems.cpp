@@ -97,9 +97,4 @@ std::vector<std::string> usual_problems() {
   return {"rail-50", "rail-500", "grid-50", "mat-50", "grid-100", "mat-100"};
 }
 
-std::vector<std::string> growing_problems() {
-  return {"rail-10", "rail-30", "rail-100", "rail-300", "grid-14", "grid-24",
-          "grid-40", "grid-64", "mat-32",   "mat-40",   "mat-50",  "mat-64"};
-}
-
 }  // namespace bench

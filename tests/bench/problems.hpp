@@ -14,7 +14,4 @@ namespace bench {
 /// The problems of the benchmark, smallest first.
 [[nodiscard]] std::vector<std::string> usual_problems();
 
-/// Every family at sizes that grow, for the growth of the cost.
-[[nodiscard]] std::vector<std::string> growing_problems();
-
 }  // namespace bench

@@ -1,14 +1,13 @@
 /* A library to preload: it makes one call of the program fail, for tests.
  *
- * - FAULT_CALL: "memory": malloc, calloc, realloc and their kin; "new": of these what operator new and GMP
- *   ask for; "malloc": the others; or the name of a system call: "write", "openat", ..
+ * - FAULT_CALL: "new", which is operator new; or the name of a system call: "write", "openat", ..
  * - FAULT_AT: the number of the call that fails, from 1 at the beginning of main; 0: none
  * - FAULT_ERRNO: what the system call fails with: 28 (ENOSPC) where nothing is said
  * - FAULT_MORE: "1": all calls behind it fail too
  * - FAULT_SIGNAL: a signal that the process gets at that call, which does not fail then
  * - FAULT_NO_LINK: "1": no file can be linked to a name, as on some file systems: files are copied
- * - FAULT_EVERY: K: every K-th allocation of "new" fails, each in a process of its own that is forked there
- * and must end with exit status 2: any other ends the test with status 98
+ * - FAULT_EVERY: K: every K-th allocation fails, each in a process of its own that is forked there and must
+ * end with exit status 2: any other ends the test with status 98
  * - FAULT_COUNT: a file to which the number of calls is written at the end
  *
  * A system call is caught in the kernel (seccomp) and made again, or not, by the handler of SIGSYS: so calls
@@ -17,7 +16,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <link.h>
+#include <limits.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -55,80 +54,10 @@ static int must_fail(void) {
   return 0;
 }
 
-/* Memory. dlsym allocates before the real functions are known: from this block, which is never freed. */
+/* Memory. */
 
-static char early[1 << 16];
-static size_t early_used = 0;
-
-static void* (*real_malloc)(size_t);
-static void* (*real_calloc)(size_t, size_t);
-static void* (*real_realloc)(void*, size_t);
-static void (*real_free)(void*);
-static void* (*real_aligned_alloc)(size_t, size_t);
-static int (*real_posix_memalign)(void**, size_t, size_t);
-
-static int is_early(const void* block) {
-  return (const char*)block >= early && (const char*)block < early + sizeof early;
-}
-
-static void find_memory(void) {
-  static int looking = 0;
-  if (looking) return;
-  looking = 1;
-  real_calloc = (void* (*)(size_t, size_t))dlsym(RTLD_NEXT, "calloc");
-  real_realloc = (void* (*)(void*, size_t))dlsym(RTLD_NEXT, "realloc");
-  real_free = (void (*)(void*))dlsym(RTLD_NEXT, "free");
-  real_aligned_alloc = (void* (*)(size_t, size_t))dlsym(RTLD_NEXT, "aligned_alloc");
-  real_posix_memalign = (int (*)(void**, size_t, size_t))dlsym(RTLD_NEXT, "posix_memalign");
-  real_malloc = (void* (*)(size_t))dlsym(RTLD_NEXT, "malloc");
-}
-
-static void* from_early(size_t bytes) {
-  const size_t begin = (early_used + 15) & ~(size_t)15;
-  if (begin + bytes > sizeof early) return NULL;
-  early_used = begin + bytes;
-  return early + begin;
-}
-
-enum { of_none, of_all, of_new, of_others };
-static int memory_fails = of_none;
+static int memory_fails = 0;
 static long every = 0;
-
-/* Where code is that calls the new handler: libstdc++, with operator new in it, and the program, which
- * allocates for GMP. */
-static char* begins[2];
-static char* ends[2];
-
-/* gfortran's runtime, which crashes without memory: its own allocations never fail here. */
-static char* runtime_begin = NULL;
-static char* runtime_end = NULL;
-
-static int find_code(struct dl_phdr_info* info, size_t size, void* at_new) {
-  static int is_program = 1; /* which comes first */
-  (void)size;
-  for (int i = 0; i < info->dlpi_phnum; ++i) {
-    const ElfW(Phdr)* const part = &info->dlpi_phdr[i];
-    char* const begin = (char*)info->dlpi_addr + part->p_vaddr;
-    char* const end = begin + part->p_memsz;
-    if (part->p_type != PT_LOAD || (part->p_flags & PF_X) == 0) continue;
-    if (strstr(info->dlpi_name, "libgfortran") != NULL) {
-      runtime_begin = begin;
-      runtime_end = end;
-    }
-    const int is_new = (char*)at_new >= begin && (char*)at_new < end;
-    if (!is_program && !is_new) continue;
-    begins[is_program] = begin;
-    ends[is_program] = end;
-  }
-  is_program = 0;
-  return 0;
-}
-
-static int calls_handler(const void* caller) {
-  for (int i = 0; i < 2; ++i)
-    if ((const char*)caller >= begins[i] && (const char*)caller < ends[i]) return 1;
-  return 0;
-}
 
 /* In a child of its own the allocation fails. */
 static int fails_in_child(void) {
@@ -136,7 +65,7 @@ static int fails_in_child(void) {
   const pid_t child = fork();
   if (child < 0) _exit(97);
   if (child == 0) {
-    memory_fails = of_none;
+    memory_fails = 0;
     return 1;
   }
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
@@ -144,70 +73,17 @@ static int fails_in_child(void) {
   return 0;
 }
 
-static int no_memory(const void* caller) {
-  if (!armed || memory_fails == of_none) return 0;
-  if ((const char*)caller >= runtime_begin && (const char*)caller < runtime_end) return 0;
-  const int by_new = calls_handler(caller);
-  if (memory_fails != of_all && (memory_fails == of_new) != by_new) return 0;
-  if (every > 0) {
-    if (++calls % every != 0 || !fails_in_child()) return 0;
-  } else if (!must_fail()) {
-    return 0;
+/* operator new(std::size_t): without memory it calls the new handler, as the library's own does. */
+void* _Znwm(size_t bytes) {
+  if (armed && memory_fails && ++calls % every == 0 && fails_in_child()) {
+    void (*(*const handler)(void))(void) =
+        (void (*(*)(void))(void))dlsym(RTLD_DEFAULT, "_ZSt15get_new_handlerv");
+    handler()();
+    abort();
   }
-  errno = ENOMEM;
-  return 1;
-}
-
-void* malloc(size_t bytes) {
-  if (real_malloc == NULL) find_memory();
-  if (real_malloc == NULL) return from_early(bytes);
-  return no_memory(__builtin_return_address(0)) ? NULL : real_malloc(bytes);
-}
-
-void* calloc(size_t count, size_t bytes) {
-  if (real_malloc == NULL) find_memory();
-  if (real_malloc == NULL) return from_early(count * bytes); /* zero from the beginning */
-  return no_memory(__builtin_return_address(0)) ? NULL : real_calloc(count, bytes);
-}
-
-void* realloc(void* block, size_t bytes) {
-  if (real_malloc == NULL) find_memory();
-  if (is_early(block)) {
-    const size_t left = sizeof early - (size_t)((char*)block - early);
-    void* const moved = malloc(bytes);
-    if (moved != NULL) memcpy(moved, block, bytes < left ? bytes : left);
-    return moved;
-  }
-  return no_memory(__builtin_return_address(0)) ? NULL : real_realloc(block, bytes);
-}
-
-void free(void* block) {
-  if (is_early(block)) return;
-  if (real_malloc == NULL) find_memory();
-  if (real_free != NULL) real_free(block);
-}
-
-void* aligned_alloc(size_t alignment, size_t bytes) {
-  if (real_malloc == NULL) find_memory();
-  return no_memory(__builtin_return_address(0)) ? NULL : real_aligned_alloc(alignment, bytes);
-}
-
-/* Copies that gfortran's runtime makes are its own; else they would count as the C library's. */
-char* strndup(const char* text, size_t most) {
-  const size_t length = strnlen(text, most);
-  const char* const caller = __builtin_return_address(0);
-  if (real_malloc == NULL) find_memory();
-  if (no_memory(caller)) return NULL;
-  char* const copy = real_malloc == NULL ? from_early(length + 1) : real_malloc(length + 1);
-  if (copy == NULL) return NULL;
-  memcpy(copy, text, length);
-  copy[length] = '\0';
-  return copy;
-}
-
-int posix_memalign(void** block, size_t alignment, size_t bytes) {
-  if (real_malloc == NULL) find_memory();
-  return no_memory(__builtin_return_address(0)) ? ENOMEM : real_posix_memalign(block, alignment, bytes);
+  void* const block = malloc(bytes > 0 ? bytes : 1);
+  if (block == NULL) abort();
+  return block;
 }
 
 /* System calls. */
@@ -350,18 +226,13 @@ static int counted_main(int argc, char** argv, char** environment) {
   more = getenv("FAULT_MORE") != NULL;
   count_file = getenv("FAULT_COUNT");
   if (call == NULL) return real_main(argc, argv, environment);
-  memory_fails = strcmp(call, "memory") == 0   ? of_all
-                 : strcmp(call, "new") == 0    ? of_new
-                 : strcmp(call, "malloc") == 0 ? of_others
-                                               : of_none;
+  memory_fails = strcmp(call, "new") == 0;
   text = getenv("FAULT_EVERY");
-  if (text != NULL) every = atol(text);
-  void* const at_new = dlsym(RTLD_DEFAULT, "_Znwm");
-  if (at_new != NULL) (void)dl_iterate_phdr(find_code, at_new);
+  every = text != NULL ? atol(text) : LONG_MAX;
   int number = -1;
   for (size_t i = 0; i < sizeof known_calls / sizeof known_calls[0]; ++i)
     if (strcmp(call, known_calls[i].name) == 0) number = known_calls[i].number;
-  if (memory_fails == of_none && (number < 0 || catch_calls(number) != 0)) {
+  if (!memory_fails && (number < 0 || catch_calls(number) != 0)) {
     fprintf(stderr, "fail.c: %s cannot be caught here\n", call);
     return 99;
   }

@@ -1,77 +1,240 @@
-"""python3 tests/faults/faults.py CONTCT LIBRARY PLUGIN [--more]: one call of the program fails, one after another.
+"""python3 tests/faults/faults.py CONTCT LIBRARY PLUGIN [--more]: whatever fails or comes at whatever moment, the program ends
+by itself or by the signal; a file is whole, or what it was before; nothing else is left behind.
 
-LIBRARY is tests/faults/fail.c, preloaded; PLUGIN is a kernel that differs from CONTCT, for `fuzz --out` to find. Of every
-kind of call a sample fails; --more: six times as many. Whatever fails, the program ends by itself: as without the fault, with all its
-files; or with exit status 2 and one message. A file is whole, or what it was before. Nothing else is left behind."""
-import os
+LIBRARY is tests/faults/fail.c, preloaded; PLUGIN is a kernel that differs from CONTCT, for `fuzz --out` to find. Allocations and
+calls of the system fail, signals come, memory is limited, files change while they are read. Of every kind of call a sample is
+taken; --more: six times as many."""
+import random
+import re
+import resource
+import signal
 import subprocess
 import sys
+import tempfile
+import threading
+from os import truncate, urandom
+from pathlib import Path
 
-sys.dont_write_bytecode = True
-from commands import TIMES, commands
-
-KINDS = {"malloc": 0, "memory": 0, "write": 28, "read": 5, "openat": 13, "close": 5, "linkat": 1, "rename": 28, "fsync": 5, "pread": 5,
-         "fcntl": 9, "lseek": 29, "fchmod": 1, "mkdir": 13, "unlink": 13}
-SAMPLE = {"malloc": 24, "memory": 6, "write": 24, "openat": 16}
-LEAST_RUNS, LEAST_FAILED, LEAST_CHILDREN = 300, 100, 1000
+PROGRAM, LIBRARY, PLUGIN = (Path(a).resolve() for a in sys.argv[1:4])
+TIMES = 6 if "--more" in sys.argv[4:] else 1  # how often a sample is taken
+PROBLEM = """title = "Faults"
+[beam]
+x = [0.0, 1.0, 2.0]
+EI = 1.0e4
+[[support]]
+node = 1
+fix = ["w", "theta"]
+[[contact]]
+node = 3
+surface = "below"
+face = -0.004
+stiffness = 5.0e4
+[[step]]
+point = [ { node = 3, w = -60.0 } ]
+"""
+MATRIX = """[matrix]
+stiffness = "K.mtx"
+storage = "STORAGE"
+[[contact]]
+dof = "3"
+surface = "above"
+face = 0.5
+stiffness = 10.0
+[[step]]
+point = [ { dof = "2", value = 2.0 } ]
+"""
+STIFFNESS = "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n"
+OUTPUTS = ["--json", "o.json", "--html", "o.html", "--csv", "o.csv", "--vtu", "o.vtu", "--log", "o.log",
+           "--trace", "o.trace", "--proof", "o.proof", "--junit", "o.xml", "--markdown", "o.md"]
+# What each call of the system fails with, and how many calls fail where not eight.
+ERRORS = {"write": 28, "read": 5, "openat": 13, "close": 5, "linkat": 1, "rename": 28, "fsync": 5, "pread": 5, "fcntl": 9,
+          "lseek": 29, "fchmod": 1, "mkdir": 13, "unlink": 13}
+SAMPLE = {"write": 24, "openat": 16}
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGUSR1, signal.SIGALRM]
 NO_MEMORY = "contct: memory does not suffice; the command is stopped\n"
+LEAST = {"runs": 300, "ended with exit status 2": 100, "allocations": 1000, "died by a signal": 40, "solved in little memory": 2,
+         "ended for memory": 2, "read while it changed": 30}
+counts = dict.fromkeys(LEAST, 0)
+complaints: list[str] = []
 
 
-def chosen(count: int, kind: str) -> list[int]:
-    most = TIMES * SAMPLE.get(kind, 8)
-    if count <= most:
-        return list(range(1, count + 1))
-    return sorted({1 + i * (count - 1) // (most - 1) for i in range(most)})
+def check(good: bool, what: str) -> None:
+    if not good:
+        complaints.append(what)
+        print(what, flush=True)
 
 
-def children(command) -> tuple[int, str]:
-    """Every allocation by operator new and by GMP, or a sample, fails in a process of its own: how many, and what is wrong."""
+class Command:
+    """A command line, with what stands in its folder before, and what it makes."""
+
+    def __init__(self, name: str, arguments: list[str], prepared: dict[str, bytes], before: bool) -> None:
+        self.name, self.arguments, self.prepared = name, arguments, dict(prepared)
+        self.status, self.made, self.said = self.run({})
+        new = self.made.keys() - prepared.keys()
+        if self.status not in (0, 1) or not new:
+            raise SystemExit(f"faults: {name}: exit {self.status}, files {sorted(self.made)}: {self.said}")
+        self.replaced = len(new) if before else 0
+        if before:
+            self.prepared |= dict.fromkeys(new, b"before\n")
+
+    def run(self, fault: dict[str, str], limited=None) -> tuple[int, dict[str, bytes], str]:
+        """Exit status (negative: a signal), all files behind it, and standard error."""
+        with tempfile.TemporaryDirectory(prefix="contct-faults-") as scratch:
+            folder = Path(scratch)
+            for file, content in self.prepared.items():
+                (folder / file).parent.mkdir(parents=True, exist_ok=True)
+                (folder / file).write_bytes(content)
+            environment = {"PATH": "/usr/bin:/bin", "SOURCE_DATE_EPOCH": "0", "OPENBLAS_NUM_THREADS": "1"}
+            if fault:
+                environment |= {"LD_PRELOAD": str(LIBRARY)} | fault
+            done = subprocess.run([PROGRAM, *self.arguments], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                                  capture_output=True, timeout=600, preexec_fn=limited)
+            files = {str(f.relative_to(folder)): self.timeless(f) for f in sorted(folder.rglob("*")) if f.is_file()}
+        return done.returncode, files, done.stderr.decode(errors="replace")
+
+    @staticmethod
+    def timeless(file: Path) -> bytes:
+        content = re.sub(rb'(time=|"seconds": )"?[0-9.e-]+"?', b"", file.read_bytes())
+        return re.sub(rb"after [0-9.]+ s", b"", content)
+
+    def calls(self, kind: str) -> int:
+        with tempfile.NamedTemporaryFile() as counted:
+            status, _, said = self.run({"FAULT_CALL": kind, "FAULT_COUNT": counted.name})
+            if status != self.status:
+                raise SystemExit(f"faults.py: {self.name}: {kind}: exit {status} where nothing fails: {said}")
+            return int(Path(counted.name).read_text())
+
+    def check_files(self, what: str, files: dict[str, bytes]) -> None:
+        for file, content in files.items():
+            check(content in (self.made.get(file), self.prepared.get(file)), f"{what}: {file} is neither whole nor as it was")
+        check(self.prepared.keys() <= files.keys(), f"{what}: a file is lost")
+
+
+def allocations_fail(command: Command) -> None:
+    """Every allocation by operator new, or a sample, fails in a process of its own."""
     count = command.calls("new")
     every = count // (400 * TIMES) + 1
     status, files, said = command.run({"FAULT_CALL": "new", "FAULT_EVERY": str(every)})
     ended = said.count(NO_MEMORY)
-    if status != command.status or files != command.made:
-        return ended, f"exit {status} behind {ended} processes: {said.replace(NO_MEMORY, '')}"
-    if said.replace(NO_MEMORY, "") != command.said or ended < count // every // 2:  # how many there are may change a little
-        return ended, f"of {count}, every {every}th fails: {ended} processes: {said.replace(NO_MEMORY, '')}"
-    return ended, ""
+    counts["allocations"] += ended
+    check(status == command.status and files == command.made and said.replace(NO_MEMORY, "") == command.said
+          and ended >= count // every // 2,  # how many there are may change a little
+          f"{command.name}: of {count} allocations every {every}th fails: exit {status} behind {ended} processes: "
+          f"{said.replace(NO_MEMORY, '')}")
 
 
-def main() -> None:
-    runs = failed = forked = 0
-    complaints = []
-    if "openblas" in subprocess.run(["ldd", sys.argv[1]], capture_output=True, text=True, check=True).stdout:
-        del KINDS["malloc"]  # where one of its own fails OpenBLAS crashes
-        print("SKIPPED: malloc of libraries; this LAPACK is OpenBLAS", flush=True)
-    for command in commands():
-        ended, wrong = children(command)
-        forked += ended
-        if wrong:
-            complaints.append(f"{command.name}: operator new: {wrong}")
-            print(complaints[-1], flush=True)
-        for kind, error in KINDS.items():
-            count = command.calls(kind)
-            if kind == "fsync" and count < command.replaced:
-                complaints.append(f"{command.name}: {count} calls of fsync; allowed: one for each of {command.replaced} files that are replaced")
-                print(complaints[-1], flush=True)
-            here = 0
-            for number in chosen(count, kind):
-                for more in ((), ("FAULT_MORE",)):
-                    if kind == "memory" and not more or kind == "malloc" and more or more and number % 3 != 0 and kind not in ("write", "memory"):
-                        continue
-                    fault = {"FAULT_CALL": kind, "FAULT_AT": str(number), "FAULT_ERRNO": str(error)} | dict.fromkeys(more, "1")
-                    wrong, ended = command.wrong(fault)
-                    runs, failed, here = runs + 1, failed + ended, here + 1
-                    # All later writes fail too: then nobody can be told.
-                    if wrong and not (more and kind == "write" and wrong.startswith("0 messages")):
-                        complaints.append(f"{command.name}: {kind} {number} of {count}{' and all behind it' if more else ''}: {wrong}")
-                        print(complaints[-1], flush=True)
-            if os.environ.get("FAULTS_VERBOSE"):
-                print(f"{command.name}: {kind}: {count} calls, {here} runs", flush=True)
-    print(f"{runs} runs, {failed} with exit status 2; {forked} allocations failed in processes of their own; {len(complaints)} wrong")
-    if complaints or runs < LEAST_RUNS or failed < LEAST_FAILED or forked < LEAST_CHILDREN:
-        raise SystemExit(f"faults.py: allowed: none wrong, at least {LEAST_RUNS} runs, {LEAST_FAILED} with exit status 2, "
-                         f"{LEAST_CHILDREN} allocations")
+def call_fails(command: Command, kind: str, number: int, more: bool) -> None:
+    fault = {"FAULT_CALL": kind, "FAULT_AT": str(number), "FAULT_ERRNO": str(ERRORS[kind])} | ({"FAULT_MORE": "1"} if more else {})
+    what = f"{command.name}: {kind} {number}{' and all behind it' if more else ''}"
+    status, files, said = command.run(fault)
+    new = [line for line in said.splitlines() if line not in command.said.splitlines()]
+    check(status in (command.status, 2), f"{what}: exit {status}: {said}")
+    # All later writes fail too: then nobody can be told.
+    check(status != 2 or (len(new) == 1 and new[0].startswith("contct: ")) or (more and kind == "write" and not new),
+          f"{what}: {len(new)} messages for exit 2: {said}")
+    check(status == 2 or files == command.made, f"{what}: exit {status}, but other files: {said}")
+    command.check_files(what, files)
+    counts["runs"] += 1
+    counts["ended with exit status 2"] += status == 2
 
 
-main()
+def calls_fail(command: Command) -> None:
+    for kind in ERRORS:
+        count = command.calls(kind)
+        if kind == "fsync":
+            check(count >= command.replaced, f"{command.name}: {count} calls of fsync; allowed: one for each of {command.replaced} "
+                  "files that are replaced")
+        most = TIMES * SAMPLE.get(kind, 8)
+        for number in sorted({1 + i * (count - 1) // (most - 1) for i in range(most)}) if count else []:
+            call_fails(command, kind, number, False)
+            if kind == "write" or number % 3 == 0:
+                call_fails(command, kind, number, True)
+
+
+def signals_come(command: Command) -> None:
+    """Each signal at some calls of each kind, with files that get their names by a link, and by a copy."""
+    for kind in ("write", "openat", "rename", "close", "pread"):
+        count = command.calls(kind)
+        for number in sorted(random.sample(range(1, count + 1), min(count, 6 * TIMES))):
+            for no_link in ({}, {"FAULT_NO_LINK": "1"}):
+                which = SIGNALS[(number + len(no_link)) % len(SIGNALS)]
+                status, files, said = command.run({"FAULT_CALL": kind, "FAULT_AT": str(number), "FAULT_SIGNAL": str(int(which))} |
+                                                  no_link)
+                what = f"{command.name}: {which.name} at {kind} {number} of {count} {no_link}"
+                check(status in (command.status, -which), f"{what}: exit {status}: {said}")
+                command.check_files(what, files)
+                counts["died by a signal"] += status == -which
+
+
+def memory_is_limited(command: Command) -> None:
+    """ulimit -v from 20 MB up: the loader's message, or the program's, or a whole result."""
+    for mib in range(16, 120, 2 if TIMES > 1 else 4):
+        def limited(bytes_allowed=mib << 20):
+            resource.setrlimit(resource.RLIMIT_AS, (bytes_allowed, bytes_allowed))
+        status, files, said = command.run({}, limited)
+        what = f"{command.name}: {mib} MiB: exit {status}"
+        check(status in (0, 2, 127), f"{what}: {said}")  # 127: the loader's own
+        check(said.count("\n") == (status != 0), f"{what}: {said}")
+        command.check_files(what, files)
+        counts["solved in little memory" if status == 0 else "ended for memory"] += 1
+
+
+def file_changes() -> None:
+    """A problem that is cut, emptied, overwritten or restored while it is read."""
+    data = "[beam]\nlength = 10.0\nelements = 100\nEI = 1.0e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+    data = (data + "".join(f"[[step]]\npoint = [ {{ node = 50, w = {-step}.0 }} ]\n" for step in range(2000))).encode()
+    with tempfile.TemporaryDirectory() as scratch:
+        file, over = Path(scratch) / "p.toml", threading.Event()
+        file.write_bytes(data)
+
+        def disturb():
+            chance = random.Random(21)
+            ways = [lambda: truncate(file, chance.randrange(len(data))), lambda: file.write_bytes(data[chance.randrange(len(data)):]),
+                    lambda: file.write_bytes(urandom(1000)), lambda: file.write_bytes(data)]
+            while not over.is_set():
+                chance.choice(ways)()
+
+        disturber = threading.Thread(target=disturb)
+        disturber.start()
+        try:
+            for _ in range(30 * TIMES):
+                done = subprocess.run([PROGRAM, "check", file, "--quiet"], capture_output=True, timeout=600)
+                check(done.returncode in (0, 2) and done.stderr.count(b"\n") == (done.returncode == 2),
+                      f"a file that changes: exit {done.returncode}: {done.stderr!r}")
+                counts["read while it changed"] += 1
+        finally:
+            over.set()
+            disturber.join()
+
+
+def commands() -> list[Command]:
+    beam, matrix = {"p.toml": PROBLEM.encode()}, {"K.mtx": STIFFNESS.encode()}
+    calls = Command("trace", ["run", "p.toml", "--quiet", "--trace", "calls.trace"], beam, False).made["calls.trace"]
+    for storage in ("band", "sparse"):
+        matrix[f"m{storage}.toml"] = MATRIX.replace("STORAGE", storage).encode()
+    found = [Command("run", ["run", "p.toml", *OUTPUTS], beam, False),
+             Command("run over files", ["run", "p.toml", "--quiet", *OUTPUTS], beam, True),
+             Command("replay", ["replay", "calls.trace", "--kernel", "cpp,fortran", "--junit", "r.xml", "--markdown", "r.md"],
+                     {"calls.trace": calls}, True),
+             Command("fuzz", ["fuzz", "--calls", "30", "--problems", "1", "--seed", "7", "--kernels", f"cpp,plugin:{PLUGIN}",
+                              "--out", "found", "--json", "f.json", "--junit", "f.xml"], {"found/mine": b"mine"}, False),
+             Command("exact", ["exact", "p.toml", "--kernels", "fortran", "--json", "x.json"], beam, True),
+             Command("band", ["run", "mband.toml", "--quiet", "--json", "o.json"], matrix, True)]
+    try:
+        found.append(Command("sparse", ["run", "msparse.toml", "--quiet", "--json", "o.json"], matrix, True))
+    except SystemExit:
+        print("without CHOLMOD")
+    return found
+
+
+random.seed(21)
+for command in commands():
+    allocations_fail(command)
+    calls_fail(command)
+    signals_come(command)
+    if command.name in ("run", "exact"):
+        memory_is_limited(command)
+file_changes()
+print(", ".join(f"{name}: {count}" for name, count in counts.items()) + f"; {len(complaints)} wrong")
+if complaints or any(counts[name] < least for name, least in LEAST.items()):
+    raise SystemExit(f"faults.py: allowed: none wrong, at least {LEAST}")

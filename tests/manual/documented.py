@@ -7,7 +7,6 @@ import math
 import re
 
 from manual import anchor, key_tables
-from schema import listed
 
 WORDS = {"object": "object", "array": "list", "string": "text", "boolean": "boolean", "number": "number",
          "integer": "whole number"}
@@ -31,7 +30,7 @@ def types(schema, wanted):
         return {"object"}
     if "anyOf" in wanted:
         return set().union(*(types(schema, choice) for choice in wanted["anyOf"]))
-    return set(listed(wanted["type"]))
+    return {wanted["type"]} if isinstance(wanted["type"], str) else set(wanted["type"])
 
 
 def cell_fault(schema, of, row):

@@ -3,6 +3,7 @@ import array
 import ctypes
 import json
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import contct
 import pytest
@@ -40,9 +41,8 @@ def test_numpy_arrays_are_not_copied():
     for name, real in (("dd", True), ("id", False)):
         values = numpy.array(LAYOUT[name], dtype=numpy.float64 if real else numpy.intc)
         values.flags.writeable = False
-        pointer, owner, length = contct._argument(name, values, real)
-        assert owner is values and length == len(values)
-        assert ctypes.cast(pointer, ctypes.c_void_p).value == values.ctypes.data
+        assert contct._argument(name, values, real) is values
+        assert ctypes.cast(contct._at(values, ctypes.c_void_p), ctypes.c_void_p).value == values.ctypes.data
     strided = numpy.array([0.0, 7.0, 0.0, 7.0])[::2]
     found = contct.call("fortran", strided, numpy.array([2, 1]), [0.5, 0.75], numpy.array([1, 2], dtype="int64"), [1, 1], [1, 1])
     assert isinstance(found.ss, numpy.ndarray) and found.ss.tolist() == [0.25, 0.75] and found.isep.tolist() == [-1, 1]
@@ -110,6 +110,14 @@ def test_a_kernel_with_a_fault_is_not(wrong, level):
     found = contct.judge(wrong, calls=2000, problems=5, name="wrong")
     assert not found.equal and found.exit == 1 and found.mismatches > 0 and found.level in level
     assert "wrong differs in" in found.findings[0] and "NOT equal" in repr(found)
+
+
+def test_a_judgement_and_runs_at_once(beam):
+    expected = contct.run(beam)
+    with ThreadPoolExecutor(3) as pool:
+        judged = [pool.submit(contct.judge, listing, calls=1000, problems=1) for _ in range(2)]
+        runs = [pool.submit(contct.run, beam) for _ in range(20)]
+        assert all(j.result().equal for j in judged) and all(r.result() == expected for r in runs)
 
 
 def test_an_exception_of_a_kernel_is_raised_with_its_call():

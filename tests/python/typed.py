@@ -10,9 +10,8 @@ result: contct.Result = contct.run(problem, kernels="corrected", strict=True)
 again: contct.Result = contct.run(Path("beam.toml"), kernels=("fortran", "cpp"), engine=None, envelope=True, max_increments=9)
 forces: list[float] = [pair.force for pair in result.steps[-1].pairs]
 events: list[tuple[float, str]] = [(i.fraction, event.change) for i in result.steps[0].increments for event in i.events]
-certificate: Optional[contct.Certificate] = result.steps[0].certificate
+proved: bool = result.certified
 texts: list[str] = [result.page, result.log, result.trace, result.proof, contct.to_toml(problem), *result.messages]
-smallest: float = min(result.steps[0].w)
 
 exact: contct.Exact = contct.exact("beam.toml", rule="1989", kernels=["fortran"])
 shares: list[Fraction] = [i.fraction for step in exact.steps for i in step.increments]

@@ -31,21 +31,12 @@ void contct_kernel(const double dd[], const double dtest[], const double cc[], d
   static int calls = 0;
   if (++calls == CRASHES_AT) abort();
 #endif
-#ifdef REMEMBERS
-  static double before = 1.; /* SMIN of the call before */
-  const double start = before < 1E-3 ? .5 : 1.;
-#else
-  const double start = 1.;
-#endif
-  *smin = start;
+  *smin = 1.;
   for (int i = 0; i < nc; ++i) {
     const int dof = (id[i] - 1) * ndofpn + indof - 1;
     ss[i] = scale_factor(cc[i] - dd[dof], dtest[dof], isep[i], isurf[i]);
     if (ss[i] > 0. && ss[i] < *smin) *smin = ss[i];
   }
-#ifdef REMEMBERS
-  before = *smin;
-#endif
   if (*smin == 1.) return;
   for (int i = 0; i < nc; ++i) {
     if (WITHIN(fabs(ss[i] - *smin) / *smin)) isep[i] = isep[i] == 1 ? -1 : 1;
