@@ -16,11 +16,6 @@ using contct::numeric::double_double;
 
 namespace {
 
-double_double rounded_to_32_digits(const exact::rational& x) {
-  const double high = exact::rounded(x);
-  return {high, exact::rounded(exact::rational(x - exact::binary_value(high)))};
-}
-
 struct kept_path final : observer {
   void step_ended(const step_state& s) override {
     exactly.push_back(s.from_exact_path ? 1 : 0);
@@ -69,7 +64,7 @@ TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact
   CHECK(r.path.exactly.front() == 1);
   CHECK(r.judged.all_certified());
 
-  const exact::exact_path path = follow_true_path(exact::exact_problem_of(r.what));
+  const exact::exact_path path = follow_corrected_path(exact::exact_problem_of(r.what));
   const found_end end = exact::exact_means_of(r.what).path(2);
   REQUIRE(end.state);
   CHECK(end.exists == true);
@@ -106,13 +101,13 @@ TEST_CASE("no step behind the end of an exact path is known, nor any of a proble
 TEST_CASE(
     "at the exact end of a step nothing is left but the rounding of u, and at a fixed dof the reaction") {
   const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
-  const exact::exact_path path = exact::follow_true_path(exact::exact_problem_of(p));
+  const exact::exact_path path = exact::follow_corrected_path(exact::exact_problem_of(p));
   const auto residual = exact::exact_means_of(p).residual;
   int checked = 0;
   for (int step = 1; step <= 2; ++step) {
     std::vector<double_double> u;
     for (const exact::rational& x : path.steps[static_cast<std::size_t>(step) - 1].displacement)
-      u.push_back(rounded_to_32_digits(x));
+      u.push_back(contct::numeric::long_rounded(x));
     const auto needed = residual(step, u);
     REQUIRE(needed);
     REQUIRE(needed->size() == u.size());
@@ -130,7 +125,7 @@ TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a fac
   const exact::rational face = exact::decimal_of(-7.6e-12);
   const exact::rational h = exact::decimal_of(8e-11);
   const exact::rational bends = 12 * exact::decimal_of(7e-4) / (h * h * h);
-  const double_double near = rounded_to_32_digits(face);
+  const double_double near = contct::numeric::long_rounded(face);
   for (const double off : {-0x1p-138, 0x1p-138}) {  // some tenths of its last digit
     std::vector<double_double> u(6, 0.0);
     u[4] = {near.hi, near.lo + off};

@@ -1,6 +1,4 @@
 // Proved bounds on extremes inside elements, against lines in rational numbers.
-#include "contct/certify/extreme_bounds.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -92,8 +90,8 @@ struct end_keeper final : observer {
   explicit end_keeper(const problem& p) : what(p) {}
   void step_ended(const step_state& s) override {
     const handed_out h = handed_out_at(what, s);
-    printed =
-        contct::structure::ranges_of(what.geometry, what.steps[0], s.displacement, {}, h.element_values);
+    printed = contct::structure::ranges_of(what.geometry, what.steps[0], s.displacement, {},
+                                           h.numbers.element_values);
   }
   const problem& what;
   std::vector<contct::structure::value_range> printed;
@@ -111,7 +109,7 @@ outcome outcome_of(const problem& p) {
   end_keeper keeps(p);
   (void)follow(p, s, "refactor", *make_kernel("corrected"), {&proves, &keeps}, {0, proves.ends()});
   outcome o{proves.steps().at(0).value(), keeps.printed, {}};
-  const exact::vector u = exact::follow_true_path(exact::exact_problem_of(p)).steps.back().displacement;
+  const exact::vector u = exact::follow_corrected_path(exact::exact_problem_of(p)).steps.back().displacement;
   const beam& b = std::get<beam>(p.geometry.kind);
   for (int e = 0; e < b.elements(); ++e) {
     const auto line = exact_line(b, p.steps[0], e, u);

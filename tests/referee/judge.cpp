@@ -30,7 +30,7 @@ struct kept_state {
   int step;
   std::vector<double> displacement;
   std::vector<int> isep;
-  handed_out numbers;  ///< forces and reactions
+  end_numbers numbers;
 };
 
 struct state_keeper final : observer {
@@ -42,8 +42,7 @@ struct state_keeper final : observer {
     states.push_back({s.step,
                       {s.displacement.begin(), s.displacement.end()},
                       {s.isep.begin(), s.isep.end()},
-                      handed_out_at(what, s)});
-    states.back().numbers.displacement = {};
+                      handed_out_at(what, s).numbers});
   }
 
   const problem& what;
@@ -55,13 +54,6 @@ double size_of(const rational& x) {
   return rounded(rational(abs(x)));
 }
 
-/// The longest side; 1 for a matrix.
-double span_of(const structure::model& m) {
-  if (const auto* b = std::get_if<beam>(&m.kind)) return b->x.back() - b->x.front();
-  const auto* p = std::get_if<plate>(&m.kind);
-  return p == nullptr ? 1.0 : std::max(p->x.back() - p->x.front(), p->y.back() - p->y.front());
-}
-
 /// The largest of each kind in an exact state. What is 0 by symmetry has no size of its own: slopes are
 /// measured at least by the largest deflection over the span, moments at least by the largest force times it,
 /// and deflections and forces that are all 0 by the largest slope times it and the largest moment over it.
@@ -71,7 +63,8 @@ struct sizes {
   sizes() = default;
   sizes(const problem& p, const exact_problem& e, const exact_step& acting, const exact_step_end& state) {
     const std::size_t stride = dofs_per_node(p.geometry);
-    const double span = span_of(p.geometry);
+    const double side = span_of(p.geometry);
+    const double span = side > 0.0 ? side : 1.0;  // of a matrix
     for (std::size_t dof = 0; dof < e.dofs(); ++dof) {
       take(dof % stride == 0 ? deflection : slope, state.displacement[dof]);
       take(dof % stride == 0 ? force : moment, acting.load[dof]);
@@ -256,7 +249,7 @@ std::string_view name_of(fault f) {
 }
 
 exact_answer::exact_answer(const structure::problem& p)
-    : problem(exact_problem_of(p)), path(follow_true_path(problem)) {
+    : problem(exact_problem_of(p)), path(follow_corrected_path(problem)) {
   lifted_solver holds(problem.stiffness, problem.fixed, problem.place);
   for (const exact_step_end& s : path.steps) {
     std::vector<added_spring> springs;

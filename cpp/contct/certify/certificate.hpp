@@ -46,7 +46,8 @@ struct certificate {
   by_quantity error;            ///< on the errors of all numbers of a kind, absolute
   by_quantity allowed;          ///< what these may reach
   double worst_share = 0.0;     ///< the worst of them, as a share of the size of its kind
-  std::string problem;          ///< what is wrong, in words; empty when certified
+  std::shared_ptr<const step_proof> proof;  ///< what proves the bounds, if that is kept
+  std::string problem;                      ///< what is wrong, in words; empty when certified
   int pulling = -1;   ///< of a state that is not certified: the pair in contact that pulls most, from 0
   double pull = 0.0;  ///< what it pulls with
 };
@@ -83,8 +84,6 @@ class certifier final : public observer {
 
   /// Keep what proves the bounds of each step that follows.
   void keep_proofs();
-  /// In the order of steps(); none where nothing is proved, or none are kept.
-  [[nodiscard]] const std::vector<std::optional<step_proof>>& proofs() const { return proofs_; }
 
   /// One for each step ended so far; none for a step that did not reach its load.
   [[nodiscard]] const std::vector<std::optional<certificate>>& steps() const { return steps_; }
@@ -113,7 +112,6 @@ class certifier final : public observer {
     std::vector<double> displacement;
     certificate what;
     allowed_errors allowed;
-    std::optional<step_proof> proof;
   };
 
   const problem& problem_;
@@ -124,13 +122,11 @@ class certifier final : public observer {
   std::unique_ptr<error_prover> prover_;       // null where a proof takes too much memory
   allowed_errors allowed_;
   std::optional<proved_state> last_;
-  std::optional<step_proof> proof_;    // of the state judged last
   std::vector<double> scale_;          // roots of the stiffness at each dof [dofs]
   double largest_scale_ = 0.0;         // of a deflection that is not fixed
   double largest_deflection_ = 0.0;    // of path and reference solution, so far
   double largest_displacement_ = 0.0;  // scaled, any dof
   std::vector<std::optional<certificate>> steps_;
-  std::vector<std::optional<step_proof>> proofs_;
 };
 
 }  // namespace contct::certify

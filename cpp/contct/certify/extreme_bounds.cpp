@@ -1,10 +1,10 @@
-#include "contct/certify/extreme_bounds.hpp"
-
+// What inside a beam's elements can be further off than at their ends.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "contct/certify/error_bounds.hpp"
 #include "contct/structure/extremes.hpp"
 
 namespace contct::certify {
@@ -58,8 +58,8 @@ double off_extremes(const std::vector<double>& p, const structure::value_range& 
 void widen(const structure::beam& b, const handed_out& state, const structure::load& l,
            error_bounds& bounds) {
   const std::vector<structure::value_range> printed =
-      structure::ranges_of({b}, l, state.displacement, {}, state.element_values);
-  const structure::beam_lines lines(b, l, state.displacement, state.element_values);
+      structure::ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
+  const structure::beam_lines lines(b, l, state.displacement, state.numbers.element_values);
   by_quantity& error = bounds.error;
   by_quantity inside;
   for (int e = 0; e < b.elements(); ++e) {

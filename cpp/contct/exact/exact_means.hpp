@@ -15,9 +15,6 @@ inline constexpr int most_dofs_beside_doubles = 1000;
 inline constexpr int most_subdiagonals_beside_doubles = 64;
 inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
 
-/// Of its band.
-[[nodiscard]] int subdiagonals(const exact_problem& p);
-
 /// The problem in rational numbers, where it is as small as that.
 [[nodiscard]] std::optional<exact_problem> small_exact_problem_of(const problem& p);
 

@@ -1,5 +1,7 @@
 #include "contct/exact/exact_problem.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -44,6 +46,14 @@ exact_problem exact_problem_of(const problem& p) {
     e.steps.push_back({std::move(acting.force), std::move(acting.settlement)});
   }
   return e;
+}
+
+int subdiagonals(const exact_problem& p) {
+  int most = 0;
+  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
+    for (const auto& [column, k] : p.stiffness[dof])
+      most = std::max(most, std::abs(p.place[dof] - p.place[column]));
+  return most;
 }
 
 }  // namespace contct::exact

@@ -37,4 +37,7 @@ struct exact_problem : structure::equations<rational> {
 /// its face that of the exact polynomial, and a plate's D comes from E, nu and thickness exactly.
 [[nodiscard]] exact_problem exact_problem_of(const problem& p);
 
+/// Of its band.
+[[nodiscard]] int subdiagonals(const exact_problem& p);
+
 }  // namespace contct::exact

@@ -77,15 +77,8 @@ std::vector<int> inverse_of(std::span<const int> places) {
 
 }  // namespace
 
-lifted_solver::field::field(std::uint64_t prime) : p_(prime) {
-  std::uint64_t inverse = p_;  // of p modulo 2^3, then 2^6, ..
-  for (int bits = 3; bits < 64; bits *= 2) inverse *= 2 - p_ * inverse;
-  negative_inverse_ = 0 - inverse;
-  for (int doubled = 0; doubled < 128; ++doubled) square_ = square_ * 2 % p_;
-}
-
 std::uint64_t lifted_solver::field::inverse(std::uint64_t a) const {
-  std::uint64_t power = in(1);  // a^(p - 2), by Fermat
+  std::uint64_t power = 1;  // a^(p - 2), by Fermat
   for (std::uint64_t e = p_ - 2; e != 0; e >>= 1U) {
     if ((e & 1U) != 0) power = times(power, a);
     a = times(a, a);
@@ -96,8 +89,8 @@ std::uint64_t lifted_solver::field::inverse(std::uint64_t a) const {
 bool lifted_solver::field::take(const rational& x, std::uint64_t& residue) const {
   const std::uint64_t bottom = residue_of(denominator(x), p_);
   if (bottom == 0) return false;
-  residue = in(residue_of(numerator(x), p_));
-  if (bottom != 1) residue = times(residue, inverse(in(bottom)));
+  residue = residue_of(numerator(x), p_);
+  if (bottom != 1) residue = times(residue, inverse(bottom));
   return true;
 }
 
@@ -119,7 +112,7 @@ class lifted_solver::lifting {
     for (std::size_t i = 0; i < b.size(); ++i) {
       const std::uint64_t scale = of_.is_unknown(i) ? residue_of(rows_[i].scale, f.prime()) : 1;
       if (scale == 0) throw std::runtime_error("a denominator is a multiple of 2^61 - 1 or its like");
-      unscale_.push_back(scale == 1 ? f.in(1) : f.inverse(f.in(scale)));
+      unscale_.push_back(scale == 1 ? 1 : f.inverse(scale));
     }
     sum_.resize(b.size());
   }
@@ -141,9 +134,8 @@ class lifted_solver::lifting {
     const field& f = of_.field_;
     std::vector<std::uint64_t> x(rest_.size(), 0);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (of_.is_unknown(i)) x[i] = f.times(f.in(residue_of(rest_[i], f.prime())), unscale_[i]);
+      if (of_.is_unknown(i)) x[i] = f.times(residue_of(rest_[i], f.prime()), unscale_[i]);
     of_.solve_modulo(x);
-    for (std::uint64_t& digit : x) digit = f.out(digit);
     for (std::size_t i = 0; i < x.size(); ++i) {
       for (const auto& [column, entry] : rows_[i].entries) subtract_product(rest_[i], entry, x[column]);
       if (rest_[i] != 0) divide_exactly(rest_[i], f.prime());

@@ -48,20 +48,16 @@ class lifted_solver {
   [[nodiscard]] vector solve(const vector& b) const;
 
  private:
-  /// Arithmetic modulo a prime below 2^61, on numbers times 2^64 (Montgomery 1985).
+  /// Arithmetic modulo 2^61 - c, a prime with a small c: 2^61 is c there.
   class field {
    public:
-    explicit field(std::uint64_t prime);
+    explicit field(std::uint64_t prime) : p_(prime), c_((std::uint64_t{1} << 61U) - prime) {}
     [[nodiscard]] std::uint64_t prime() const { return p_; }
-    [[nodiscard]] std::uint64_t in(std::uint64_t x) const { return times(x, square_); }
-    [[nodiscard]] std::uint64_t out(std::uint64_t x) const { return times(x, 1); }
     [[nodiscard]] std::uint64_t minus(std::uint64_t a, std::uint64_t b) const {
       return a >= b ? a - b : a + p_ - b;
     }
     [[nodiscard]] std::uint64_t times(std::uint64_t a, std::uint64_t b) const {
-      const wide t = static_cast<wide>(a) * b;
-      const std::uint64_t m = static_cast<std::uint64_t>(t) * negative_inverse_;
-      const auto r = static_cast<std::uint64_t>((t + static_cast<wide>(m) * p_) >> 64U);
+      const auto r = static_cast<std::uint64_t>(folded(folded(static_cast<wide>(a) * b)));
       return r >= p_ ? r - p_ : r;
     }
     [[nodiscard]] std::uint64_t inverse(std::uint64_t a) const;
@@ -70,7 +66,11 @@ class lifted_solver {
 
    private:
     __extension__ using wide = unsigned __int128;
-    std::uint64_t p_, negative_inverse_ = 1, square_ = 1;
+    [[nodiscard]] wide folded(wide x) const {
+      constexpr std::uint64_t low = (std::uint64_t{1} << 61U) - 1;
+      return (x & low) + (x >> 61U) * c_;
+    }
+    std::uint64_t p_, c_;
   };
 
   /// A row of the equations, times the least number that makes it whole.

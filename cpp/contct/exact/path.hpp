@@ -48,7 +48,7 @@ using exact_progress = std::function<void(int step, int increment, const rationa
 /// The curve of equilibria u(t) under the loads, event by event (reference/corrected-rule.md). Events exactly
 /// at the full load of a step are left to the next one. Where equilibria are not unique, the path is the
 /// limit of those on a ground that gets ever softer. Throws too_long.
-[[nodiscard]] exact_path follow_true_path(const exact_problem& p, const exact_progress& tell = {});
+[[nodiscard]] exact_path follow_corrected_path(const exact_problem& p, const exact_progress& tell = {});
 
 /// What the listing's statements decide, with its constants as the decimals that are printed, in the 1989
 /// driver: springs gather their forces increment by increment. Throws too_long.

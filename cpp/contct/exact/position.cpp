@@ -32,8 +32,7 @@ vector position::less_settled(vector b, const vector& settled) const {
     if (problem.fixed[dof] != 0) b[dof] = 0;
     if (settled[dof] == 0) continue;
     for (const auto& [row, k] : problem.stiffness[dof])
-      if (problem.fixed[static_cast<std::size_t>(row)] == 0)
-        b[static_cast<std::size_t>(row)] -= k * settled[dof];
+      if (problem.fixed[row] == 0) b[row] -= k * settled[dof];
   }
   return b;
 }
@@ -56,7 +55,7 @@ vector position::at_start_of_step() const {
   vector b = before_.load;
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
-    if (closed[i] != 0) b[static_cast<std::size_t>(c.dof)] += c.stiffness * c.face;
+    if (closed[i] != 0) b[c.dof] += c.stiffness * c.face;
   }
   return moved(less_settled(std::move(b), before_.settlement), before_.settlement);
 }
@@ -75,11 +74,10 @@ vector position::reactions(const vector& forces) const {
   std::set<int> reacted;
   vector values;
   for (const auto& s : problem.supports) {
-    const auto dof = static_cast<std::size_t>(s.dof);
-    rational value = -s.spring * u[dof];
+    rational value = -s.spring * u[s.dof];
     if (s.fixed && reacted.insert(s.dof).second) {
-      for (const auto& [column, k] : problem.stiffness[dof]) value += k * u[static_cast<std::size_t>(column)];
-      value -= before_.load[dof] + fraction * (after.load[dof] - before_.load[dof]) + forces[dof];
+      for (const auto& [column, k] : problem.stiffness[s.dof]) value += k * u[column];
+      value -= before_.load[s.dof] + fraction * (after.load[s.dof] - before_.load[s.dof]) + forces[s.dof];
     }
     values.push_back(std::move(value));
   }
@@ -93,7 +91,7 @@ exact_step_end position::end(std::vector<exact_increment> increments, bool pairs
     const exact_pair& c = problem.pairs[i];
     e.gap.push_back(closed[i] != 0 ? rational(0) : gap(i));
     e.force.push_back(closed[i] != 0 ? rational(-c.stiffness * gap(i)) : rational(0));
-    if (pairs_react) at_dofs[static_cast<std::size_t>(c.dof)] -= c.surface * e.force.back();
+    if (pairs_react) at_dofs[c.dof] -= c.surface * e.force.back();
   }
   e.reactions = reactions(at_dofs);
   return e;

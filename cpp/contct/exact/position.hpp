@@ -32,12 +32,12 @@ class position {
 
   [[nodiscard]] rational gap(std::size_t pair) const {
     const exact_pair& c = problem.pairs[pair];
-    return c.surface * (c.face - u[static_cast<std::size_t>(c.dof)]);
+    return c.surface * (c.face - u[c.dof]);
   }
   /// n times what `v` does at a pair: positive towards its face.
   [[nodiscard]] rational approach(std::size_t pair, const vector& v) const {
     const exact_pair& c = problem.pairs[pair];
-    return c.surface * v[static_cast<std::size_t>(c.dof)];
+    return c.surface * v[c.dof];
   }
 
   /// The events that lead from `before` to the statuses now, in order of pairs.

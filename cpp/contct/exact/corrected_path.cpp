@@ -80,10 +80,7 @@ class soft_ground {
   /// M v.
   [[nodiscard]] vector weighed(const vector& v) const {
     vector mv(v.size());
-    for (const added_spring& g : at_.problem.ground) {
-      const auto dof = static_cast<std::size_t>(g.dof);
-      mv[dof] += g.stiffness * v[dof];
-    }
+    for (const added_spring& g : at_.problem.ground) mv[g.dof] += g.stiffness * v[g.dof];
     return mv;
   }
 
@@ -106,9 +103,9 @@ class soft_ground {
   std::vector<vector> mz_, zmz_;
 };
 
-class true_path {
+class corrected_path {
  public:
-  true_path(const exact_problem& p, const exact_progress& tell) : at_(p), tell_(tell) {}
+  corrected_path(const exact_problem& p, const exact_progress& tell) : at_(p), tell_(tell) {}
 
   exact_path follow() {
     for (std::size_t step = 0; step < at_.problem.steps.size() && path_.status == path_status::solved;
@@ -144,8 +141,7 @@ class true_path {
 
   void keep_increment(std::vector<event> events, bool snaps) {
     exact_increment i{at_.fraction, std::move(events), snaps};
-    for (const exact_pair& c : at_.problem.pairs)
-      i.at.push_back(numeric::rounded(at_.u[static_cast<std::size_t>(c.dof)]));
+    for (const exact_pair& c : at_.problem.pairs) i.at.push_back(numeric::rounded(at_.u[c.dof]));
     increments_.push_back(std::move(i));
   }
 
@@ -251,7 +247,7 @@ class true_path {
     }
     line_start_ = at_.at_start_of_step();
     line_rate_ = std::move(response_[1]);
-    for (const exact_pair& c : at_.problem.pairs) put_on_line(static_cast<std::size_t>(c.dof));
+    for (const exact_pair& c : at_.problem.pairs) put_on_line(c.dof);
   }
 
   void put_on_line(std::size_t dof) { at_.u[dof] = line_start_[dof] + at_.fraction * line_rate_[dof]; }
@@ -273,8 +269,8 @@ class true_path {
 
 }  // namespace
 
-exact_path follow_true_path(const exact_problem& p, const exact_progress& tell) {
-  return true_path(p, tell).follow();
+exact_path follow_corrected_path(const exact_problem& p, const exact_progress& tell) {
+  return corrected_path(p, tell).follow();
 }
 
 }  // namespace contct::exact
