@@ -332,18 +332,6 @@ TEST_CASE("what is not a number is not right, wherever it stands") {
   }
 }
 
-TEST_CASE("PB1 is exact under every kernel in double precision, and nobody toggled early") {
-  for (const char* kernel : {"fortran", "cpp", "corrected"}) {
-    const beam_problem p = cantilever_over_a_stop();
-    judge j(p);
-    early_toggles early;
-    CHECK(p.run(kernel, {&j.c, &early}).status == path_status::solved);
-    CHECK(j.c.steps().size() == 4);
-    CHECK(j.c.all_certified());
-    CHECK(early.all().empty());
-  }
-}
-
 namespace {
 
 /// Two stops alike under a symmetric load, the second 0.3 % farther away: within EPSMUL of the first.

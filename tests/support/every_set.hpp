@@ -85,18 +85,6 @@ inline void solve_dense(long_numbers& a, long_numbers& b) {
   return set;
 }
 
-/// Do the supports, or pairs of `set` at two different nodes, hold the beam?
-[[nodiscard]] inline bool holds(const linear_structure& s, pair_bits set, bool held_by_supports) {
-  if (held_by_supports) return true;
-  int first = -1;
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
-    if (!is_in(set, i)) continue;
-    if (first >= 0 && s.pairs[i].node != first) return true;
-    first = s.pairs[i].node;
-  }
-  return false;
-}
-
 [[nodiscard]] inline long double largest_deflection(const linear_structure& s, const long_numbers& u) {
   const auto stride = static_cast<std::size_t>(s.dofs_per_node);
   long double largest = 0.0L;
@@ -119,13 +107,11 @@ struct equilibrium {
   long double wrong = std::numeric_limits<long double>::infinity();
 };
 
-/// Of all sets that hold the structure the one least wrong: the energy is convex, so a set that is
+/// Of all sets the one least wrong, where supports hold the structure: the energy is convex, so a set that is
 /// not wrong at all has the equilibrium.
-[[nodiscard]] inline equilibrium least_wrong(const linear_structure& s, std::span<const double> load,
-                                             bool held_by_supports) {
+[[nodiscard]] inline equilibrium least_wrong(const linear_structure& s, std::span<const double> load) {
   equilibrium best;
   for (pair_bits set = 0; set < 1U << s.pairs.size(); ++set) {
-    if (!holds(s, set, held_by_supports)) continue;
     const long_numbers u = stands_with(s, load, set);
     const long double wrong = wrong_with(s, u, set);
     if (wrong < best.wrong) best = {u, set, wrong};
