@@ -26,7 +26,7 @@ exact_path reference(const std::string& name) {
 /// exactly; empty where the state is an equilibrium under the full load.
 std::string wrong_with(const exact_problem& p, const exact_step& acting, const exact_step_end& e) {
   if (e.fraction != 1) return "the load is not reached";
-  vector rest = acting.load;
+  vector rest = acting.force;
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)
     for (const auto& [column, k] : p.stiffness[dof]) rest[dof] -= k * e.displacement[column];
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {

@@ -41,7 +41,7 @@ int compare(const problem& p) {
   for (std::size_t step = 0; step < e.steps.size(); ++step) {
     const long_loads l = t.loads(static_cast<int>(step) + 1);
     for (std::size_t dof = 0; dof < t.dofs(); ++dof, compared += 2) {
-      CHECK(off(l.force[dof], e.steps[step].load[dof]) <= long_rounding * l.size[dof]);
+      CHECK(off(l.force[dof], e.steps[step].force[dof]) <= long_rounding * l.size[dof]);
       CHECK(off(l.settlement[dof], e.steps[step].settlement[dof]) <=
             long_rounding * std::abs(l.settlement[dof].hi));
     }

@@ -16,7 +16,7 @@ from result_file import MECHANISM
 LEAST_OPTIONS, LEAST_SHOWN = 70, 105
 # Options of other programs that pages show: cmake, pkg-config, tests/run.sh and programs of the tests.
 FOREIGN = {"--preset", "--build", "--target", "--install", "--prefix", "--cflags", "--libs", "--full", "--check", "--write", "--only",
-           "--file", "--exact-every", "--workflow", "--oversubscribe"}
+           "--file", "--workflow", "--oversubscribe"}
 PB07, NEAR_TIE = "problems/pb07-three-gap-supports", "problems/divergences/near-tie"
 RUNS = [(0, "solved", [PB07]), (1, "kernels-disagree", [PB07, "--free-run", "--kernels", "corrected,fortran"]),
         (2, None, ["problems/no-such-problem"]), (3, "solved", [NEAR_TIE, "--strict"]),

@@ -75,16 +75,14 @@ int digits_of(const certificate& c) {
   return c.worst_share > 0.0 ? std::min(most, static_cast<int>(-std::log10(c.worst_share))) : most;
 }
 
-certifier::certifier(const problem& p, const linear_structure& s, exact_means exactly)
-    : problem_(p), structure_(s), total_load_(loads_of(p, s)), exact_path_(std::move(exactly.path)) {
+certifier::certifier(const problem& p, const linear_structure& s, std::unique_ptr<exact_means> exactly)
+    : problem_(p), structure_(s), total_load_(loads_of(p, s)), exactly_(std::move(exactly)) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
     scale_.push_back(std::sqrt(s.stiffness.diagonal(s.row_of(dof))));
     const std::size_t at = dof;
     if (deflects(at) && s.fixed[at] == 0) largest_scale_ = std::max(largest_scale_, scale_[at]);
   }
-  if (can_be_proved(s))
-    prover_ =
-        std::make_unique<error_prover>(p, s, std::move(exactly.residual), std::move(exactly.semidefinite));
+  if (can_be_proved(s)) prover_ = std::make_unique<error_prover>(p, s, exactly_.get());
 }
 
 void certifier::step_ended(const step_state& s) {
@@ -337,7 +335,7 @@ found_end certifier::end_of(int step, const full_load_state* reached) {
     (void)is_certified(step, *refined);  // the digits that doubles leave over are its own again
     return found_end{std::move(refined), true};
   };
-  if (found_end exactly = exact_path_ ? exact_path_(step) : found_end(); exactly.exists) {
+  if (found_end exactly = exactly_ ? exactly_->end_of(step) : found_end(); exactly.exists) {
     const bool is_better = !exactly.state || is_certified(step, *exactly.state) || !refined;
     return is_better ? std::move(exactly) : kept();
   }

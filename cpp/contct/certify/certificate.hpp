@@ -8,7 +8,6 @@
 // (structure/rigid_modes) with them.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,19 +54,11 @@ struct certificate {
 /// Whole decimal digits that every number of a state has, as proved: 0 where nothing is. At most 15.
 [[nodiscard]] int digits_of(const certificate& c);
 
-/// What rational numbers decide where doubles are too short; each may be null, or know nothing of a problem
-/// that is too large.
-struct exact_means {
-  std::function<found_end(int step)> path;  ///< the end of a step, from 1, of the exact path
-  exact_residual residual;
-  semidefinite_test semidefinite;
-};
-
 /// Observes a path and certifies the end of every step that was solved.
 class certifier final : public observer {
  public:
   /// `p` and `s`, its structure, must outlive this object.
-  certifier(const problem& p, const linear_structure& s, exact_means exactly = {});
+  certifier(const problem& p, const linear_structure& s, std::unique_ptr<exact_means> exactly = nullptr);
 
   void step_ended(const step_state& s) override;
 
@@ -117,7 +108,7 @@ class certifier final : public observer {
   const problem& problem_;
   const linear_structure& structure_;
   load_history total_load_;
-  std::function<found_end(int step)> exact_path_;
+  std::unique_ptr<exact_means> exactly_;       // may be null
   std::optional<reference_solver> reference_;  // made when it is first asked
   std::unique_ptr<error_prover> prover_;       // null where a proof takes too much memory
   allowed_errors allowed_;

@@ -57,13 +57,8 @@ handed_out handed_out_at(const problem& p, const step_state& s) {
   return h;
 }
 
-error_prover::error_prover(const problem& p, const linear_structure& s, exact_residual exactly,
-                           semidefinite_test exactly_semidefinite)
-    : problem_(p),
-      system_(long_system_of(p)),
-      contacts_(p, s, system_),
-      exactly_(std::move(exactly)),
-      exactly_semidefinite_(std::move(exactly_semidefinite)) {}
+error_prover::error_prover(const problem& p, const linear_structure& s, exact_means* exactly)
+    : problem_(p), system_(long_system_of(p)), contacts_(p, s, system_), exactly_(exactly) {}
 
 void error_prover::keep_proof() {
   keeps_proof_ = true;
@@ -76,12 +71,12 @@ const long_loads& error_prover::loads_of(int step) {
 }
 
 bool error_prover::has_exact_residual(const long_loads& l) {
-  return exactly_ && l.step > 0 && (closely_ || contacts_.stiffness().has_32_digits());
+  return exactly_ != nullptr && l.step > 0 && (closely_ || contacts_.stiffness().has_32_digits());
 }
 
 long_residual error_prover::residual_of(std::span<const double_double> u, const long_loads& l) {
   if (has_exact_residual(l))
-    if (std::optional<long_vector> exactly = exactly_(l.step, u))
+    if (std::optional<long_vector> exactly = exactly_->residual_of(l.step, u))
       return system_.residual_of_rounded(std::move(*exactly));
   return system_.residual(u, l);
 }
@@ -233,7 +228,7 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
 bool error_prover::is_semidefinite() {
   if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // by its elements' formulas
   if (!semidefinite_)
-    semidefinite_ = contacts_.proves({}) || (exactly_semidefinite_ && exactly_semidefinite_() == true);
+    semidefinite_ = contacts_.proves({}) || (exactly_ != nullptr && exactly_->is_semidefinite());
   return *semidefinite_;
 }
 
@@ -415,7 +410,7 @@ error_bounds error_prover::bound(const handed_out& told) {
 }
 
 std::optional<error_bounds> error_prover::bound_closely(const handed_out& told) {
-  if (!exactly_) return std::nullopt;
+  if (exactly_ == nullptr) return std::nullopt;
   closely_ = true;
   const error_bounds b = bound(told);
   closely_ = false;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contct/certify/certain_contacts.hpp"
-#include "contct/path/observer.hpp"
+#include "contct/path/path.hpp"
 
 namespace contct::certify {
 
@@ -64,13 +64,26 @@ struct error_bounds : contact_set {
   std::optional<std::size_t> wrong_status;
   std::shared_ptr<const step_proof> proof;  ///< if it is kept
 };
+/// What rational numbers decide where doubles are too short; nothing of a problem that is too large.
+class exact_means {
+ public:
+  virtual ~exact_means() = default;
+  /// Of the exact path; steps are counted from 1.
+  [[nodiscard]] virtual found_end end_of(int step) = 0;
+  /// K u less the loads at the end of a step and what pairs beyond their faces press with, at every dof, each
+  /// number rounded once. At fixed dofs u is the prescribed displacement.
+  [[nodiscard]] virtual std::optional<long_vector> residual_of(int step,
+                                                               std::span<const double_double> u) = 0;
+  /// Is K certainly positive semidefinite on the dofs that are not fixed?
+  [[nodiscard]] virtual bool is_semidefinite() = 0;
+};
+
 /// Bounds errors of states of a problem.
 class error_prover {
  public:
-  /// Both must outlive this object. `exactly` gives residuals where only 32 digits factor K_A: those in 32
-  /// digits would be too coarse there. `exactly_semidefinite` decides about a matrix that only pairs hold.
-  error_prover(const problem& p, const linear_structure& s, exact_residual exactly = nullptr,
-               semidefinite_test exactly_semidefinite = nullptr);
+  /// All must outlive this object. `exactly`, which may be null, gives residuals where only 32 digits factor
+  /// K_A: those in 32 digits would be too coarse there. It decides about a matrix that only pairs hold, too.
+  error_prover(const problem& p, const linear_structure& s, exact_means* exactly = nullptr);
 
   [[nodiscard]] error_bounds bound(const handed_out& told);
   /// The same with exact residuals where there are any, which takes longer; otherwise nothing.
@@ -132,8 +145,7 @@ class error_prover {
   const problem& problem_;
   const long_system system_;
   certain_contacts contacts_;
-  exact_residual exactly_;
-  semidefinite_test exactly_semidefinite_;
+  exact_means* exactly_;
   std::optional<bool> semidefinite_;
   bool closely_ = false;  // residuals are exact though doubles factor K_A
   long_loads loads_;

@@ -48,15 +48,6 @@ struct element_value {
   [[nodiscard]] double noise() const { return 4 * long_rounding * size; }
 };
 
-/// K u less the loads and what pairs beyond their faces press with, at every dof, each number rounded once:
-/// of double_doubles u [dofs] at the end of a step, from 1. At fixed dofs u is the prescribed displacement.
-/// Nothing where that would take too long.
-using exact_residual = std::function<std::optional<long_vector>(int step, std::span<const double_double> u)>;
-
-/// Is a matrix positive semidefinite on the dofs that are not fixed? Nothing where deciding it would take too
-/// long.
-using semidefinite_test = std::function<std::optional<bool>()>;
-
 struct long_system : structure::equations<double_double> {
   long_system() = default;
   explicit long_system(structure::equations<double_double> e) : equations(std::move(e)) {}

@@ -215,7 +215,7 @@ class corrected_path {
     for (const rational& x : motion) largest = std::max(largest, rational(abs(x)));
     mechanism_proof proof{vector(motion.size()), 0};
     add(proof.motion, motion, 1 / largest);
-    proof.work = dot(proof.motion, at_.problem.steps[at_.step].load);
+    proof.work = dot(proof.motion, at_.problem.steps[at_.step].force);
     path_.mechanism = std::move(proof);
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "contct/exact/definite.hpp"
@@ -25,7 +24,7 @@ vector exactly(const exact_problem& p, const exact_step& s, std::span<const doub
 vector residual(const exact_problem& p, const exact_step& s, const vector& u) {
   vector needed(p.dofs());
   for (std::size_t dof = 0; dof < p.dofs(); ++dof) {
-    needed[dof] = -s.load[dof];
+    needed[dof] = -s.force[dof];
     for (const auto& [column, k] : p.stiffness[dof]) needed[dof] += k * u[column];
   }
   for (const exact_pair& c : p.pairs) {
@@ -43,13 +42,12 @@ path::full_load_state state_of(const exact_step_end& end) {
   return s;
 }
 
-/// A problem beside its path in doubles. It is converted, and its exact path followed, when that is first
-/// asked for.
-class problem_beside {
+/// The problem is converted, and its exact path followed, when that is first asked for.
+class problem_beside final : public certify::exact_means {
  public:
   explicit problem_beside(const problem& p) : what_(p) {}
 
-  [[nodiscard]] path::found_end end_of(int step) {
+  [[nodiscard]] path::found_end end_of(int step) override {
     if (!path_) path_ = followed();
     const int followed_steps = static_cast<int>(path_->steps.size());
     if (step > followed_steps) return {};
@@ -59,23 +57,22 @@ class problem_beside {
     return {};
   }
 
-  [[nodiscard]] std::optional<std::vector<double_double>> residual_of(int step,
-                                                                      std::span<const double_double> u) {
+  [[nodiscard]] std::optional<certify::long_vector> residual_of(int step,
+                                                                std::span<const double_double> u) override {
     if (!converted() || !std::ranges::all_of(u, [](const double_double& x) { return std::isfinite(x.hi); }))
       return std::nullopt;
     const exact_step& s = converted()->steps[step - 1];
-    std::vector<double_double> all;
+    certify::long_vector all;
     for (const rational& x : residual(*converted(), s, exactly(*converted(), s, u)))
       all.push_back(numeric::long_rounded(x));  // infinite beyond doubles: no bound is proved by that
     return all;
   }
 
-  [[nodiscard]] std::optional<bool> is_semidefinite() {
-    if (!converted()) return std::nullopt;
+  [[nodiscard]] bool is_semidefinite() override {
     try {
-      return definiteness_of(what_, *converted()).semidefinite;
+      return converted() && definiteness_of(what_, *converted()).semidefinite;
     } catch (const std::runtime_error&) {  // K is indefinite modulo a prime, or numbers are too long
-      return std::nullopt;
+      return false;
     }
   }
 
@@ -112,11 +109,8 @@ std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   }
 }
 
-certify::exact_means exact_means_of(const problem& p) {
-  const auto beside = std::make_shared<problem_beside>(p);
-  return {[beside](int step) { return beside->end_of(step); },
-          [beside](int step, std::span<const double_double> u) { return beside->residual_of(step, u); },
-          [beside] { return beside->is_semidefinite(); }};
+std::unique_ptr<certify::exact_means> exact_means_of(const problem& p) {
+  return std::make_unique<problem_beside>(p);
 }
 
 }  // namespace contct::exact

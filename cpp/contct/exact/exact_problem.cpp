@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
-#include <utility>
 
 #include "contct/structure/exact_numbers.hpp"
 
@@ -41,10 +40,7 @@ exact_problem exact_problem_of(const problem& p) {
   }
   e.ground = std::visit([](const auto& kind) { return ground_of(kind); }, p.geometry.kind);
   std::erase_if(e.ground, [&e](const added_spring& g) { return e.fixed[g.dof] != 0; });
-  for (const load& l : p.steps) {
-    auto acting = e.loads_of(l);
-    e.steps.push_back({std::move(acting.force), std::move(acting.settlement)});
-  }
+  for (const load& l : p.steps) e.steps.push_back(e.loads_of(l));
   return e;
 }
 

@@ -14,11 +14,7 @@ inline constexpr int most_exact_dofs = 50'000;
 
 using exact_pair = structure::pair_in<rational>;
 
-/// What acts at the end of a step.
-struct exact_step {
-  vector load;        ///< total [dofs]
-  vector settlement;  ///< where fixed dofs are moved to; 0 at all others [dofs]
-};
+using exact_step = structure::loads_in<rational>;
 
 struct exact_problem : structure::equations<rational> {
   std::vector<int> place;  ///< of each dof in a narrow band

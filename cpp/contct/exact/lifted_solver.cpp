@@ -15,12 +15,8 @@ constexpr std::array<std::uint64_t, 6> primes = {two_to_61 - 1,   two_to_61 - 31
 // What the innermost loops do, by GMP's functions for single words where there are such.
 
 std::uint64_t residue_of(const integer& x, std::uint64_t p) {
-#ifdef CONTCT_HAS_GMP
-  if constexpr (sizeof(unsigned long) == sizeof p) return mpz_fdiv_ui(x.backend().data(), p);
-#endif
-  integer r = x % p;
-  if (r < 0) r += p;
-  return r.convert_to<std::uint64_t>();
+  const std::uint64_t r = boost::multiprecision::integer_modulus(x, p);  // of |x|
+  return x < 0 && r != 0 ? p - r : r;
 }
 
 /// r -= a x.

@@ -9,7 +9,7 @@ position::position(const exact_problem& p)
     : problem(p),
       u(p.dofs()),
       solver_(p.stiffness, p.fixed, p.place, p.longest),
-      before_{vector(p.dofs()), vector(p.dofs())} {
+      before_{vector(p.dofs()), {}, vector(p.dofs())} {
   for (const exact_pair& c : p.pairs) closed.push_back(c.closed ? 1 : 0);
 }
 
@@ -18,10 +18,10 @@ void position::begin_step(std::size_t number) {
   step = number;
   fraction = 0;
   const exact_step& after = problem.steps[number];
-  increment_ = after.load;
+  increment_ = after.force;
   settlement_ = after.settlement;
   for (std::size_t dof = 0; dof < u.size(); ++dof) {
-    increment_[dof] -= before_.load[dof];
+    increment_[dof] -= before_.force[dof];
     settlement_[dof] -= before_.settlement[dof];
   }
   increment_ = less_settled(std::move(increment_), settlement_);
@@ -52,7 +52,7 @@ vector position::moved(const vector& b, const vector& settled) const {
 }
 
 vector position::at_start_of_step() const {
-  vector b = before_.load;
+  vector b = before_.force;
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
     if (closed[i] != 0) b[c.dof] += c.stiffness * c.face;
@@ -77,7 +77,7 @@ vector position::reactions(const vector& forces) const {
     rational value = -s.spring * u[s.dof];
     if (s.fixed && reacted.insert(s.dof).second) {
       for (const auto& [column, k] : problem.stiffness[s.dof]) value += k * u[column];
-      value -= before_.load[s.dof] + fraction * (after.load[s.dof] - before_.load[s.dof]) + forces[s.dof];
+      value -= before_.force[s.dof] + fraction * (after.force[s.dof] - before_.force[s.dof]) + forces[s.dof];
     }
     values.push_back(std::move(value));
   }

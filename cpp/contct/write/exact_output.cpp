@@ -58,8 +58,8 @@ class exact_printer {
     const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
     rational sum;
     for (std::size_t dof = 0; dof < r_.exactly.dofs(); dof += per_node) {
-      const rational before = step == 0 ? rational(0) : r_.exactly.steps[step - 1].load[dof];
-      sum += before + fraction * (r_.exactly.steps[step].load[dof] - before);
+      const rational before = step == 0 ? rational(0) : r_.exactly.steps[step - 1].force[dof];
+      sum += before + fraction * (r_.exactly.steps[step].force[dof] - before);
     }
     return sum;
   }
