@@ -31,7 +31,7 @@ struct judged_run final : observer {
       : judged_run(parse_problem(text, "p.toml"), kernel) {}
 
   void step_ended(const step_state& s) override {
-    numbers.push_back(handed_out_at(what, s).numbers);
+    numbers.push_back(reported_state_at(what, s).numbers);
     displacements.emplace_back(s.displacement.begin(), s.displacement.end());
     statuses.emplace_back(s.isep.begin(), s.isep.end());
   }
@@ -57,7 +57,7 @@ double error_of(double told, const exact::rational& truly) {
 double largest_force(const exact::exact_path& truly, std::size_t step) {
   double largest = 0.0;
   for (; step > 0 && largest == 0.0; --step)
-    for (const exact::vector* all : {&truly.steps[step - 1].force, &truly.steps[step - 1].reactions})
+    for (const exact::rational_vector* all : {&truly.steps[step - 1].force, &truly.steps[step - 1].reactions})
       for (const exact::rational& f : *all) largest = std::max(largest, std::abs(exact::rounded(f)));
   return largest;
 }

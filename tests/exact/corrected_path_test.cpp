@@ -26,7 +26,7 @@ exact_path reference(const std::string& name) {
 /// exactly; empty where the state is an equilibrium under the full load.
 std::string wrong_with(const exact_problem& p, const exact_step& acting, const exact_step_end& e) {
   if (e.fraction != 1) return "the load is not reached";
-  vector rest = acting.force;
+  rational_vector rest = acting.force;
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)
     for (const auto& [column, k] : p.stiffness[dof]) rest[dof] -= k * e.displacement[column];
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
@@ -153,7 +153,7 @@ TEST_CASE("a mechanism is proved by a free motion on which the load does work") 
   REQUIRE(path.mechanism);
   CHECK(path.steps[0].fraction == 0);
   // It turns about the pair at the middle.
-  CHECK(path.mechanism->motion == vector{1, -1, 0, -1, -1, -1});
+  CHECK(path.mechanism->motion == rational_vector{1, -1, 0, -1, -1, -1});
   CHECK(path.mechanism->work == rational(4, 10000000000000));
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("a step that takes away the last contact ends in a mechanism at that s
                "[[step]]\npoint = [ { node = 2, w = -2 } ]\n[[step]]\npoint = [ { node = 2, w = 3 } ]\n");
   REQUIRE(path.status == contct::path::path_status::mechanism);
   CHECK(path.steps[1].fraction == rational(2, 5));
-  CHECK(path.mechanism->motion == vector{1, 0, 1, 0, 1, 0});
+  CHECK(path.mechanism->motion == rational_vector{1, 0, 1, 0, 1, 0});
   CHECK(path.mechanism->work == 3);
 }
 

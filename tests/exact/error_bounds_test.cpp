@@ -22,7 +22,7 @@ namespace {
 
 /// The end of a step, as it was told and as it is.
 struct told_end {
-  [[nodiscard]] handed_out handed() const { return {step, displacement, isep, numbers}; }
+  [[nodiscard]] reported_state handed() const { return {step, displacement, isep, numbers}; }
 
   int step;
   std::vector<double> displacement;
@@ -37,7 +37,7 @@ struct prover_of_path final : observer {
 
   void step_ended(const step_state& s) override {
     if (s.fraction != 1.0) return;
-    const handed_out told = handed_out_at(what, s);
+    const reported_state told = reported_state_at(what, s);
     ends.push_back({s.step,
                     {s.displacement.begin(), s.displacement.end()},
                     {s.isep.begin(), s.isep.end()},
@@ -55,18 +55,19 @@ double off(double told, const exact::rational& true_value) {
 }
 
 /// Moments of a plate under u in 32 digits.
-exact::vector plate_values(const problem& p, int step, const exact::vector& u) {
+exact::rational_vector plate_values(const problem& p, int step, const exact::rational_vector& u) {
   long_vector rounded;
   for (const exact::rational& x : u) rounded.push_back(contct::numeric::long_rounded(x));
-  exact::vector all;
+  exact::rational_vector all;
   for (const element_value& v : long_system_of(p).element_values(step, rounded))
     all.push_back(exact::binary_value(v.value.hi) + exact::binary_value(v.value.lo));
   return all;
 }
 
 /// Shear at both ends and moment at both ends of each element of a beam.
-exact::vector beam_values(const problem& p, const beam& b, int step, const exact::vector& u) {
-  exact::vector all;
+exact::rational_vector beam_values(const problem& p, const beam& b, int step,
+                                   const exact::rational_vector& u) {
+  exact::rational_vector all;
   for (int e = 0; e < b.elements(); ++e) {
     const auto at = static_cast<std::size_t>(e);
     const exact::rational left = exact::decimal_of(b.x[at]);
@@ -77,7 +78,7 @@ exact::vector beam_values(const problem& p, const beam& b, int step, const exact
       for (std::size_t j = 0; j < 4; ++j) f[i] += k[i][j] * u[2 * at + j];
     for (const distributed_load& d : p.steps[static_cast<std::size_t>(step) - 1].distributed) {
       if (!d.elements.empty() && std::ranges::find(d.elements, e) == d.elements.end()) continue;
-      exact::vector q;
+      exact::rational_vector q;
       for (const double a : d.polynomial) q.push_back(exact::decimal_of(a));
       const auto work =
           formulas::beam_load<exact::rational>(formulas::in_element<exact::rational>(q, left, h), h);
@@ -101,8 +102,8 @@ by_quantity errors_of(const problem& p, const exact::exact_step_end& truly, cons
     worst.take(p.supports[i].dof == 0 ? quantity::reaction : quantity::moment,
                off(told.numbers.reactions[i], truly.reactions[i]));
   const beam* const b = std::get_if<beam>(&p.geometry.kind);
-  const exact::vector values = b != nullptr ? beam_values(p, *b, told.step, truly.displacement)
-                                            : plate_values(p, told.step, truly.displacement);
+  const exact::rational_vector values = b != nullptr ? beam_values(p, *b, told.step, truly.displacement)
+                                                     : plate_values(p, told.step, truly.displacement);
   for (std::size_t i = 0; i < values.size(); ++i)
     worst.take(b != nullptr && i % 4 < 2 ? quantity::shear : quantity::moment,
                off(told.numbers.element_values[i], values[i]));

@@ -111,7 +111,7 @@ TEST_CASE(
     const auto needed = exactly->residual_of(step, u);
     REQUIRE(needed);
     REQUIRE(needed->size() == u.size());
-    const exact::vector& reactions = path.steps[static_cast<std::size_t>(step) - 1].reactions;
+    const exact::rational_vector& reactions = path.steps[static_cast<std::size_t>(step) - 1].reactions;
     CHECK((*needed)[0].hi == Approx(exact::rounded(reactions[0])).epsilon(1e-12));
     for (std::size_t dof = 2; dof < u.size(); ++dof, ++checked)
       CHECK(std::abs((*needed)[dof].hi) < 1e-12);  // 12 EI / h^3 is 1e17 here, times 2^-106

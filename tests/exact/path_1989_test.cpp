@@ -83,7 +83,7 @@ TEST_CASE("each way to an s gives the exact one") {
       {0, 0, d_star, true, face_below},   // at its face, kept there
   };
   const listing_answer a = answer_exactly(pairs);
-  CHECK(a.s == vector{1, rational(1, 7), 3 * ten_to_minus(20), 1});
+  CHECK(a.s == rational_vector{1, rational(1, 7), 3 * ten_to_minus(20), 1});
   CHECK(a.way == std::vector{way_to_s::no_response, way_to_s::moving, way_to_s::stationary_event,
                              way_to_s::stationary});
   CHECK(a.s_min == 3 * ten_to_minus(20));

@@ -42,7 +42,7 @@ struct state_keeper final : observer {
     states.push_back({s.step,
                       {s.displacement.begin(), s.displacement.end()},
                       {s.isep.begin(), s.isep.end()},
-                      handed_out_at(what, s).numbers});
+                      reported_state_at(what, s).numbers});
   }
 
   const problem& what;
@@ -63,7 +63,7 @@ struct sizes {
   sizes() = default;
   sizes(const problem& p, const exact_problem& e, const exact_step& acting, const exact_step_end& state) {
     const std::size_t stride = dofs_per_node(p.geometry);
-    const double side = span_of(p.geometry);
+    const double side = extent_of(p.geometry);
     const double span = side > 0.0 ? side : 1.0;  // of a matrix
     for (std::size_t dof = 0; dof < e.dofs(); ++dof) {
       take(dof % stride == 0 ? deflection : slope, state.displacement[dof]);

@@ -133,7 +133,7 @@ certificate certifier::proof_of(const step_state& s) {
         "no error bound is proved: its factors take too much memory or time, or CHOLMOD is not built in";
     return c;
   }
-  const handed_out handed = handed_out_at(problem_, s);
+  const reported_state handed = reported_state_at(problem_, s);
   take(prover_->bound(handed), s, c);
   if (c.proved && !c.certified)
     if (const std::optional<error_bounds> closer = prover_->bound_closely(handed)) take(*closer, s, c);
@@ -174,7 +174,7 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
   c.proved = true;
   c.proof = b.proof;
   c.error = b.error;
-  c.allowed = allowed_.of(b, prover_->span());
+  c.allowed = allowed_.of(b, prover_->extent());
   c.worst_share = worst_share(c.error, c.allowed);
   c.problem = worst_bound(c.error, c.allowed);
   if (c.problem.empty() && b.wrong_status) c.problem = status_words(*b.wrong_status, s);

@@ -41,15 +41,15 @@ void by_quantity::take(quantity q, double value) {
       std::max(largest.value_or(0.0), std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
 }
 
-handed_out handed_out_at(const problem& p, const step_state& s) {
+reported_state reported_state_at(const problem& p, const step_state& s) {
   if (s.numbers != nullptr) return {s.step, s.displacement, s.isep, *s.numbers};
   const load& now = p.steps[s.step - 1];
-  handed_out h{s.step,
-               s.displacement,
-               s.isep,
-               {{},
-                reactions(p, now, s.displacement, s.isep),
-                results_in_elements(p.geometry, now, s.displacement).values}};
+  reported_state h{s.step,
+                   s.displacement,
+                   s.isep,
+                   {{},
+                    reactions(p, now, s.displacement, s.isep),
+                    results_in_elements(p.geometry, now, s.displacement).values}};
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const double w = s.displacement[std::size_t{1} * p.pairs[i].node * dofs_per_node(p.geometry)];
     h.numbers.pair_forces.push_back(force_of(p.pairs[i], w, s.isep[i] == in_contact));
@@ -244,7 +244,7 @@ void error_prover::measure(const long_loads& l, error_bounds& b) const {
   }
 }
 
-void error_prover::bound_displacements(const handed_out& told, error_bounds& b) const {
+void error_prover::bound_displacements(const reported_state& told, error_bounds& b) const {
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
     const double_double& u = state_.u[dof];
     const double moved =
@@ -254,7 +254,7 @@ void error_prover::bound_displacements(const handed_out& told, error_bounds& b) 
   }
 }
 
-void error_prover::bound_forces(const handed_out& told, error_bounds& b) const {
+void error_prover::bound_forces(const reported_state& told, error_bounds& b) const {
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     const long_pair& p = system_.pairs[i];
     const double_double deep = system_.depth(i, state_.u);
@@ -270,7 +270,7 @@ void error_prover::bound_forces(const handed_out& told, error_bounds& b) const {
 
 /// Each pair's status, and its gap, which is 0 for a pair in contact; the bounds on gaps only where
 /// displacements have bounds.
-void error_prover::bound_pairs(const handed_out& told, std::span<const double_double> u,
+void error_prover::bound_pairs(const reported_state& told, std::span<const double_double> u,
                                error_bounds& b) const {
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     const bool is_closed = told.isep[i] == in_contact;
@@ -313,7 +313,7 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
 
 /// All forces are 0 then, and where the supports hold the structure all displacements. Where they do not, it
 /// may stand, unbent, wherever no pair is beyond its face.
-error_bounds error_prover::bound_unloaded(const handed_out& told) {
+error_bounds error_prover::bound_unloaded(const reported_state& told) {
   error_bounds b;
   b.unloaded = true;
   b.unique = contacts_.proves({});
@@ -342,7 +342,7 @@ error_bounds error_prover::bound_unloaded(const handed_out& told) {
   return b;
 }
 
-void error_prover::keep(const handed_out& told, const long_vector& u, const long_vector& z,
+void error_prover::keep(const reported_state& told, const long_vector& u, const long_vector& z,
                         error_bounds& b) const {
   const std::optional<stiffness_proof>& of_stiffness = contacts_.stiffness().proof();
   if (!keeps_proof_ || (b.unique && !of_stiffness)) return;  // a sparse factor is not kept
@@ -376,7 +376,7 @@ bool error_prover::find_contacts(const long_loads& l, contact_set& b) {
   return true;
 }
 
-error_bounds error_prover::bound(const handed_out& told) {
+error_bounds error_prover::bound(const reported_state& told) {
   error_bounds b;
   const long_loads& l = loads_of(told.step);
   if (system_.is_below_range(l)) {
@@ -409,7 +409,7 @@ error_bounds error_prover::bound(const handed_out& told) {
   return b;
 }
 
-std::optional<error_bounds> error_prover::bound_closely(const handed_out& told) {
+std::optional<error_bounds> error_prover::bound_closely(const reported_state& told) {
   if (exactly_ == nullptr) return std::nullopt;
   closely_ = true;
   const error_bounds b = bound(told);

@@ -29,7 +29,7 @@ struct by_quantity {
 };
 
 /// What was handed out for a state.
-struct handed_out {
+struct reported_state {
   int step;                              ///< from 1
   std::span<const double> displacement;  ///< [dofs]
   std::span<const int> isep;             ///< [pairs] in_contact or separated
@@ -37,7 +37,7 @@ struct handed_out {
 };
 
 /// The numbers that a run gives for the end of a step.
-[[nodiscard]] handed_out handed_out_at(const problem& p, const step_state& s);
+[[nodiscard]] reported_state reported_state_at(const problem& p, const step_state& s);
 
 /// What a check of a step's bounds needs beside the problem file (reference/certificate.md, "Checked by
 /// others").
@@ -85,15 +85,15 @@ class error_prover {
   /// K_A: those in 32 digits would be too coarse there. It decides about a matrix that only pairs hold, too.
   error_prover(const problem& p, const linear_structure& s, exact_means* exactly = nullptr);
 
-  [[nodiscard]] error_bounds bound(const handed_out& told);
+  [[nodiscard]] error_bounds bound(const reported_state& told);
   /// The same with exact residuals where there are any, which takes longer; otherwise nothing.
-  [[nodiscard]] std::optional<error_bounds> bound_closely(const handed_out& told);
+  [[nodiscard]] std::optional<error_bounds> bound_closely(const reported_state& told);
 
   /// Corrections with this residual, as long as each makes it smaller. Nothing where nothing
   /// certain holds the structure. What is left over from doubles is kept for `bound`.
   [[nodiscard]] std::optional<end_numbers> refine(int step, std::span<double> displacement,
                                                   std::span<int> isep);
-  [[nodiscard]] double span() const { return system_.span; }
+  [[nodiscard]] double extent() const { return system_.extent; }
 
   /// Keep what proves the bounds.
   void keep_proof();
@@ -134,13 +134,13 @@ class error_prover {
 
   [[nodiscard]] bool is_semidefinite();
   void measure(const long_loads& l, error_bounds& b) const;
-  [[nodiscard]] error_bounds bound_unloaded(const handed_out& told);
+  [[nodiscard]] error_bounds bound_unloaded(const reported_state& told);
   [[nodiscard]] bool find_contacts(const long_loads& l, contact_set& b);
-  void bound_displacements(const handed_out& told, error_bounds& b) const;
-  void bound_pairs(const handed_out& told, std::span<const double_double> u, error_bounds& b) const;
-  void bound_forces(const handed_out& told, error_bounds& b) const;
+  void bound_displacements(const reported_state& told, error_bounds& b) const;
+  void bound_pairs(const reported_state& told, std::span<const double_double> u, error_bounds& b) const;
+  void bound_forces(const reported_state& told, error_bounds& b) const;
   [[nodiscard]] std::vector<support_force> support_forces() const;
-  void keep(const handed_out& told, const long_vector& u, const long_vector& z, error_bounds& b) const;
+  void keep(const reported_state& told, const long_vector& u, const long_vector& z, error_bounds& b) const;
 
   const problem& problem_;
   const long_system system_;
@@ -156,6 +156,6 @@ class error_prover {
 /// Widen the errors, which bound the numbers at nodes and ends of elements, until they bound the extremes of
 /// w, moment and shear too that ranges_of finds along a beam, where w in the middle of elements has a size
 /// too. Those of plates and matrices are at nodes and corners: nothing changes.
-void widen_by_extremes(const problem& p, const handed_out& state, error_bounds& b);
+void widen_by_extremes(const problem& p, const reported_state& state, error_bounds& b);
 
 }  // namespace contct::certify

@@ -55,7 +55,7 @@ double off_extremes(const std::vector<double>& p, const structure::value_range& 
 
 /// The error of M is linear in t, but for rounding, and that of V constant: nowhere larger than at the ends.
 /// That of w is a cubic; of Hermite's functions those of w add up to 1 and those of slopes to at most h / 4.
-void widen(const structure::beam& b, const handed_out& state, const structure::load& l,
+void widen(const structure::beam& b, const reported_state& state, const structure::load& l,
            error_bounds& bounds) {
   const std::vector<structure::value_range> printed =
       structure::ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
@@ -84,7 +84,7 @@ void widen(const structure::beam& b, const handed_out& state, const structure::l
 
 }  // namespace
 
-void widen_by_extremes(const problem& p, const handed_out& state, error_bounds& b) {
+void widen_by_extremes(const problem& p, const reported_state& state, error_bounds& b) {
   if (const auto* const of_beam = std::get_if<structure::beam>(&p.geometry.kind))
     widen(*of_beam, state, b.unloaded ? structure::load{} : p.steps[state.step - 1], b);
 }

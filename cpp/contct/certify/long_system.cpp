@@ -201,7 +201,7 @@ bool long_system::is_unloaded(const long_loads& l) const {
          std::ranges::all_of(pairs, [](const long_pair& p) { return p.face.hi * p.surface >= 0.0; });
 }
 
-double span_of(const model& m) {
+double extent_of(const model& m) {
   if (const auto* const b = std::get_if<beam>(&m.kind)) return b->x.back() - b->x.front();
   const auto* const p = std::get_if<plate>(&m.kind);
   return p == nullptr ? 0.0 : std::max(p->x.back() - p->x.front(), p->y.back() - p->y.front());
@@ -209,7 +209,7 @@ double span_of(const model& m) {
 
 long_system long_system_of(const problem& p) {
   long_system t(structure::equations_of<double_double>(p));
-  t.span = span_of(p.geometry);
+  t.extent = extent_of(p.geometry);
   for (int dof = 0; dof < static_cast<int>(t.dofs()); ++dof) {
     t.root.push_back(std::sqrt(t.stiffness[dof].at(dof).hi) * (1 + 0x1p-50));
     t.deflects.push_back(dof % dofs_per_node(p.geometry) == 0 ? 1 : 0);

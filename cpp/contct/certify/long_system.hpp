@@ -54,7 +54,7 @@ struct long_system : structure::equations<double_double> {
 
   std::vector<double> root;    ///< [dofs] sqrt(K_ii), rounded up
   std::vector<char> deflects;  ///< [dofs] 1: a deflection, 0: a slope
-  double span = 0.0;           ///< see span_of
+  double extent = 0.0;         ///< see extent_of
   /// The least that the formulas of its elements multiply: a cube of a length, a stiffness.
   double least_product = 1.0;
   /// Loads at the end of a step, from 1.
@@ -89,7 +89,7 @@ struct long_system : structure::equations<double_double> {
 };
 
 /// The largest side of a structure; 0 where it has none.
-[[nodiscard]] double span_of(const model& m);
+[[nodiscard]] double extent_of(const model& m);
 
 /// `p` must outlive it.
 [[nodiscard]] long_system long_system_of(const problem& p);

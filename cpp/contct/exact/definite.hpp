@@ -9,8 +9,8 @@ namespace contct::exact {
 
 /// A displacement on which the matrix does negative work: no structure has such a matrix.
 struct negative_work {
-  vector motion;  ///< [dofs], 0 at fixed ones
-  rational work;  ///< motion' K motion
+  rational_vector motion;  ///< [dofs], 0 at fixed ones
+  rational work;           ///< motion' K motion
 };
 
 /// At most one of the two; neither where 32 digits do not decide it.

@@ -12,8 +12,8 @@ namespace {
 
 using numeric::double_double;
 
-vector exactly(const exact_problem& p, const exact_step& s, std::span<const double_double> u) {
-  vector all;
+rational_vector exactly(const exact_problem& p, const exact_step& s, std::span<const double_double> u) {
+  rational_vector all;
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)
     all.push_back(p.fixed[dof] != 0
                       ? s.settlement[dof]
@@ -21,8 +21,8 @@ vector exactly(const exact_problem& p, const exact_step& s, std::span<const doub
   return all;
 }
 
-vector residual(const exact_problem& p, const exact_step& s, const vector& u) {
-  vector needed(p.dofs());
+rational_vector residual(const exact_problem& p, const exact_step& s, const rational_vector& u) {
+  rational_vector needed(p.dofs());
   for (std::size_t dof = 0; dof < p.dofs(); ++dof) {
     needed[dof] = -s.force[dof];
     for (const auto& [column, k] : p.stiffness[dof]) needed[dof] += k * u[column];

@@ -25,7 +25,7 @@ double digits_of(const rational& error, const rational& largest) {
 
 /// The structure's longest side; 1 for a matrix, which has one kind of dof.
 rational length_of(const structure::model& m) {
-  const double span = certify::span_of(m);
+  const double span = certify::extent_of(m);
   return span > 0.0 ? binary_value(span) : rational(1);
 }
 

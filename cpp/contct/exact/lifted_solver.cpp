@@ -30,17 +30,6 @@ void subtract_product(integer& r, const integer& a, std::uint64_t x) {
   r -= a * x;
 }
 
-/// x /= p, a multiple of it.
-void divide_exactly(integer& x, std::uint64_t p) {
-#ifdef CONTCT_HAS_GMP
-  if constexpr (sizeof(unsigned long) == sizeof p) {
-    mpz_divexact_ui(x.backend().data(), x.backend().data(), p);
-    return;
-  }
-#endif
-  x /= p;
-}
-
 integer least_multiple(const integer& a, const integer& b) {
   return boost::multiprecision::lcm(a, b);
 }
@@ -90,31 +79,20 @@ bool lifted_solver::field::take(const rational& x, std::uint64_t& residue) const
   return true;
 }
 
-/// The digits of one solution, in the prime.
+/// The digits of one solution, times a whole number, in the prime.
 class lifted_solver::lifting {
  public:
-  lifting(const lifted_solver& of, const vector& b) : of_(of), rows_(b.size()), rest_(b.size()) {
-    const field& f = of_.field_;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      if (!of_.is_unknown(i)) continue;
-      rows_[i] = of_.whole_[i];
-      const integer more = denominator(b[i] * rational(rows_[i].scale));
-      rows_[i].scale *= more;
-      if (more != 1)
-        for (auto& [column, entry] : rows_[i].entries) entry *= more;
-      rest_[i] = numerator(b[i] * rational(rows_[i].scale));
-    }
+  lifting(const lifted_solver& of, const rational_vector& b) : of_(of), rest_(b.size()), sum_(b.size()) {
+    for (std::size_t i = 0; i < b.size(); ++i)
+      if (of_.is_unknown(i))
+        common_ = least_multiple(common_, denominator(rational(b[i] * rational(of_.whole_[i].scale))));
+    for (std::size_t i = 0; i < b.size(); ++i)
+      if (of_.is_unknown(i)) rest_[i] = numerator(rational(b[i] * rational(of_.whole_[i].scale * common_)));
     right_ = rest_;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      const std::uint64_t scale = of_.is_unknown(i) ? residue_of(rows_[i].scale, f.prime()) : 1;
-      if (scale == 0) throw std::runtime_error("a denominator is a multiple of 2^61 - 1 or its like");
-      unscale_.push_back(scale == 1 ? 1 : f.inverse(scale));
-    }
-    sum_.resize(b.size());
   }
 
-  vector solution() {
-    vector x;
+  rational_vector solution() {
+    rational_vector x;
     for (std::size_t wanted = 4;; wanted += wanted / 2) {
       while (gathered_ + digits_.size() < wanted) next_digits();
       gather();
@@ -130,11 +108,11 @@ class lifted_solver::lifting {
     const field& f = of_.field_;
     std::vector<std::uint64_t> x(rest_.size(), 0);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (of_.is_unknown(i)) x[i] = f.times(residue_of(rest_[i], f.prime()), unscale_[i]);
+      if (of_.is_unknown(i)) x[i] = f.times(residue_of(rest_[i], f.prime()), of_.unscale_[i]);
     of_.solve_modulo(x);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      for (const auto& [column, entry] : rows_[i].entries) subtract_product(rest_[i], entry, x[column]);
-      if (rest_[i] != 0) divide_exactly(rest_[i], f.prime());
+      for (const auto& [column, entry] : of_.whole_[i].entries) subtract_product(rest_[i], entry, x[column]);
+      rest_[i] /= f.prime();  // a multiple of it
     }
     digits_.push_back(std::move(x));
   }
@@ -177,7 +155,7 @@ class lifted_solver::lifting {
 
   /// The x = n / d of which these are the digits, with one denominator for all; false where there is none
   /// yet.
-  bool reconstruct(vector& x) const {
+  bool reconstruct(rational_vector& x) const {
     const integer bound = integer(1) << static_cast<unsigned>(msb(modulus_) / 2 - 1);
     integer denominator = 1;
     for (const integer& digits : sum_) {
@@ -192,23 +170,22 @@ class lifted_solver::lifting {
     for (const integer& digits : sum_) numerators.push_back(nearest(digits * denominator));
     if (!solves(numerators, denominator)) return false;
     x.clear();
-    for (const integer& n : numerators) x.emplace_back(n, denominator);
+    for (const integer& n : numerators) x.emplace_back(n, integer(denominator * common_));
     return true;
   }
 
   [[nodiscard]] bool solves(const std::vector<integer>& numerators, const integer& denominator) const {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (std::size_t i = 0; i < right_.size(); ++i) {
       integer sum = right_[i] * denominator;
-      for (const auto& [column, entry] : rows_[i].entries) sum -= entry * numerators[column];
+      for (const auto& [column, entry] : of_.whole_[i].entries) sum -= entry * numerators[column];
       if (sum != 0) return false;
     }
     return true;
   }
 
   const lifted_solver& of_;
-  std::vector<whole_row> rows_;                     // with b whole too
-  std::vector<integer> rest_, right_;               // of b; b
-  std::vector<std::uint64_t> unscale_;              // 1 / scale
+  integer common_ = 1;                              // a multiple of all denominators of b
+  std::vector<integer> rest_, right_;               // of common_ b; that itself
   std::vector<std::vector<std::uint64_t>> digits_;  // since the last gathering
   std::vector<integer> sum_;                        // of the digits gathered
   std::map<std::size_t, integer> powers_;           // of the prime
@@ -279,8 +256,14 @@ bool lifted_solver::factor_modulo(std::uint64_t prime) {
     for (std::size_t a = 1; a < width; ++a) column[a] = field_.times(column[a], inverse_[j]);
   }
   whole_.assign(n, {});
-  for (std::size_t i = 0; i < n; ++i)
-    if (is_unknown(i)) whole_[i] = whole(i);
+  unscale_.assign(n, 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!is_unknown(i)) continue;
+    whole_[i] = whole(i);
+    const std::uint64_t scale = residue_of(whole_[i].scale, prime);
+    if (scale == 0) return false;
+    unscale_[i] = field_.inverse(scale);
+  }
   return true;
 }
 
@@ -315,9 +298,9 @@ bool lifted_solver::find_free_motions() {
   free_motions_.clear();
   for (std::size_t j = 0; j < free_.size(); ++j) {
     if (free_[j] == 0) continue;
-    vector b(free_.size());
+    rational_vector b(free_.size());
     for (const auto& [row, k] : k_[j]) b[row] = -entry(j, row, k);
-    vector motion = lifting(*this, b).solution();
+    rational_vector motion = lifting(*this, b).solution();
     motion[j] = 1;
     for (std::size_t row = 0; row < free_.size(); ++row) {
       if (free_[row] == 0) continue;
@@ -330,7 +313,7 @@ bool lifted_solver::find_free_motions() {
   return true;
 }
 
-vector lifted_solver::solve(const vector& b) const {
+rational_vector lifted_solver::solve(const rational_vector& b) const {
   return lifting(*this, b).solution();
 }
 

@@ -12,7 +12,7 @@
 
 namespace contct::exact {
 
-using vector = std::vector<rational>;
+using rational_vector = std::vector<rational>;
 
 /// All entries of a symmetric matrix, row by row.
 using sparse_rows = structure::sparse_rows<rational>;
@@ -37,7 +37,7 @@ class lifted_solver {
   void factor(const std::vector<added_spring>& springs);
 
   /// A basis of the motions that K + springs leaves free [motions][dofs]: exact, so their number is.
-  [[nodiscard]] const std::vector<vector>& free_motions() const { return free_motions_; }
+  [[nodiscard]] const std::vector<rational_vector>& free_motions() const { return free_motions_; }
 
   /// Is a dof neither fixed nor, by its missing pivot, the amount of a free motion? K + springs is
   /// semidefinite where it is positive definite on these.
@@ -45,7 +45,7 @@ class lifted_solver {
 
   /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With free
   /// motions b must do no work on them, and one of the solutions is given. Throws too_long.
-  [[nodiscard]] vector solve(const vector& b) const;
+  [[nodiscard]] rational_vector solve(const rational_vector& b) const;
 
  private:
   /// Arithmetic modulo 2^61 - c, a prime with a small c: 2^61 is c there.
@@ -93,13 +93,14 @@ class lifted_solver {
   std::size_t longest_;
   std::vector<int> dof_at_;             // the inverse of place_
   std::size_t band_ = 0;                // subdiagonals
-  vector spring_;                       // on the diagonal [dofs]
+  rational_vector spring_;              // on the diagonal [dofs]
   field field_;                         // of the last factorisation
   std::vector<std::uint64_t> factor_;   // L and D of L D L' modulo the prime, as a band
   std::vector<std::uint64_t> inverse_;  // of D; 0 where the pivot is none
   std::vector<char> free_;              // dofs without a pivot
   std::vector<whole_row> whole_;        // [dofs]; empty where not unknown
-  std::vector<vector> free_motions_;
+  std::vector<std::uint64_t> unscale_;  // 1 / scale of each
+  std::vector<rational_vector> free_motions_;
 };
 
 }  // namespace contct::exact

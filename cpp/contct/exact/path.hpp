@@ -22,18 +22,18 @@ struct exact_increment {
 /// Where a step ended, or where the path stopped.
 struct exact_step_end {
   std::vector<exact_increment> increments;
-  rational fraction;         ///< of the step's load
-  vector displacement;       ///< [dofs]
-  std::vector<char> closed;  ///< [pairs]
-  vector gap, force;         ///< as gap_of and force_of say [pairs]
-  vector reactions;          ///< forces on the structure by the supports, in their order
+  rational fraction;             ///< of the step's load
+  rational_vector displacement;  ///< [dofs]
+  std::vector<char> closed;      ///< [pairs]
+  rational_vector gap, force;    ///< as gap_of and force_of say [pairs]
+  rational_vector reactions;     ///< forces on the structure by the supports, in their order
 };
 
 /// Why there is no equilibrium under the full load of a step: K and the pairs in contact leave this motion
 /// free, no other pair stands in its way, and the load does work on it.
 struct mechanism_proof {
-  vector motion;  ///< its largest number 1 or -1 [dofs]
-  rational work;  ///< of the step's full load, positive
+  rational_vector motion;  ///< its largest number 1 or -1 [dofs]
+  rational work;           ///< of the step's full load, positive
 };
 
 struct exact_path {

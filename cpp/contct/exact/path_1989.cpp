@@ -73,7 +73,7 @@ bool path_1989::begin_increment() {
 }
 
 /// One call of CONTCT: toggles statuses.
-void path_1989::ask(const vector& d_star) {
+void path_1989::ask(const rational_vector& d_star) {
   std::vector<listing_pair> pairs;
   for (std::size_t i = 0; i < at_.closed.size(); ++i) {
     const exact_pair& c = at_.problem.pairs[i];
@@ -94,7 +94,7 @@ bool path_1989::next(const exact_progress& tell) {
     status_ = path_status::mechanism;
     return false;
   }
-  vector d_star = at_.response();
+  rational_vector d_star = at_.response();
   for (rational& d : d_star) d *= 1 - at_.fraction;  // under the residual load
   const std::vector<char> before = at_.closed;
   ask(d_star);

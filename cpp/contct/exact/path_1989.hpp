@@ -24,7 +24,7 @@ struct listing_pair {
 
 /// What CONTCT answers.
 struct listing_answer {
-  vector s;                   ///< SS [pairs]
+  rational_vector s;          ///< SS [pairs]
   std::vector<way_to_s> way;  ///< how each pair came to its s [pairs]
   rational s_min = 1;         ///< SMIN
   std::vector<int> toggled;   ///< pairs from 0, in their order
@@ -65,7 +65,7 @@ class path_1989 {
 
  private:
   bool begin_increment();
-  void ask(const vector& d_star);
+  void ask(const rational_vector& d_star);
 
   position at_;
   exact_call call_;
