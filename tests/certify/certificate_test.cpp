@@ -8,8 +8,9 @@
 
 #include "catch.hpp"
 #include "contct/compare/lockstep.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
-#include "support/followed.hpp"
 
 using namespace contct::app;
 
@@ -362,37 +363,6 @@ TEST_CASE("the corrected rule has no early toggle there, and the right state") {
   CHECK(early.all().empty());
   CHECK(j.c.all_certified());
   CHECK(r.events() == std::vector<event>{{0, change::make}, {1, change::make}});
-}
-
-TEST_CASE("the final states without the path are those of the path, and certified") {
-  random_problem_kind kind;
-  kind.free_share = 0.2;
-  int compared = 0;
-  int without_equilibrium = 0;
-  for (std::uint64_t number = 1; number <= 120; ++number) {
-    const random_problem p = make_random_problem(5, number, kind);
-    const linear_structure s = build(p.geometry, p.supports, p.pairs);
-    const followed path = follow(p);
-    recorder only_the_end;
-    certifier judged(p, s);
-    const std::vector<observer*> watching = {&judged, &only_the_end};
-    const path_end found = judged.find_final_states(watching);
-    INFO("problem " << number);
-    CHECK(found.status == path.end.status);
-    CHECK(found.work.factors >= (found.status == path_status::mechanism ? 0 : 1));
-    without_equilibrium += found.status == path_status::mechanism ? 1 : 0;
-    CHECK(judged.all_certified());
-    for (std::size_t step = 0; step < only_the_end.steps.size(); ++step) {
-      if (!judged.steps()[step]->unique) continue;
-      double off = 0.0;
-      for (std::size_t dof = 0; dof < only_the_end.steps[step].u.size(); dof += path.stride)
-        off = std::max(off, std::abs(path.seen.steps[step].u[dof] - only_the_end.steps[step].u[dof]));
-      CHECK(off <= 2 * certified_share * path.largest());
-      ++compared;
-    }
-  }
-  CHECK(compared >= 100);
-  CHECK(without_equilibrium >= 1);
 }
 
 TEST_CASE("a load that nothing carries has no final state, and the step is not told") {

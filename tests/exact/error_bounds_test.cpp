@@ -122,16 +122,9 @@ int check_bounds(const by_quantity& errors, const by_quantity& bounds) {
   return compared;
 }
 
-/// Is every bound at most so large, relative to its kind?
+/// Of a beam of length 2.
 bool certified(const error_bounds& b) {
-  if (!b.not_proved.empty()) return false;
-  double force = 0.0;
-  for (const quantity q : {quantity::force, quantity::reaction, quantity::shear})
-    force = std::max(force, b.size[q].value_or(0.0));
-  for (const quantity q : {quantity::force, quantity::reaction, quantity::shear})
-    if (b.error[q].value_or(0.0) > certified_share * force) return false;
-  if (b.error[quantity::moment].value_or(0.0) > certified_share * 2 * force) return false;  // a span of 2
-  return b.error[quantity::w].value_or(0.0) <= certified_share * b.size[quantity::w].value_or(0.0);
+  return b.not_proved.empty() && worst_bound(b.error, allowed_errors().of(b, 2.0)).empty();
 }
 
 const std::string beam_over_stop =
@@ -151,10 +144,9 @@ path_limits refined_by(error_prover& prover) {
 
 /// The one step of a problem, told by a refined path.
 struct one_end {
-  explicit one_end(const std::string& text, bool refined = true)
+  explicit one_end(const std::string& text)
       : what(parse_problem(text, "b.toml")), structure(structure_of(what)), watch(what, structure) {
-    const path_limits limits = refined ? refined_by(watch.prover) : path_limits();
-    (void)follow(what, structure, "refactor", *make_kernel("corrected"), {&watch}, limits);
+    (void)follow(what, structure, "refactor", *make_kernel("corrected"), {&watch}, refined_by(watch.prover));
     truly = exact::follow_corrected_path(exact::exact_problem_of(what)).steps.back();
     end = watch.ends.back();  // NOLINT(cppcoreguidelines-prefer-member-initializer): the path comes first
   }

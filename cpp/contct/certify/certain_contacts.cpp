@@ -46,8 +46,10 @@ std::optional<double> certain_contacts::norm_of(const long_residual& r) {
   double_double work;
   double slack = 0.0;
   double rest = 0.0;
+  bool any = false;  // residual, or one that underflows
   for (std::size_t dof = 0; dof < n; ++dof) {
     if (system_.fixed[dof] != 0) continue;
+    any = any || r.force[dof].hi != 0.0 || r.slack[dof] > 0.0;
     work += z[dof] * (r.force[dof] + left[dof]);
     double size = sizes[dof];
     const double root = 1.0 / stiffness_.scale(dof);
@@ -57,9 +59,6 @@ std::optional<double> certain_contacts::norm_of(const long_residual& r) {
     const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
     rest += scaled * scaled;
   }
-  bool any = false;  // residual, or one that underflows
-  for (std::size_t dof = 0; dof < n; ++dof)
-    any = any || (system_.fixed[dof] == 0 && (r.force[dof].hi != 0.0 || r.slack[dof] > 0.0));
   const double square =
       (std::max(work.hi, 0.0) + slack + rest / mu_ + (any ? underflow : 0.0)) * (1 + summation_slack);
   z_ = std::move(z);

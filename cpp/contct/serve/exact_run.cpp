@@ -13,7 +13,6 @@
 #include "contct/exact/exact_means.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/text/memory.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::serve {
@@ -25,32 +24,6 @@ void refuse_too_many_dofs(const problem& p, const std::string& file) {
         fmt::format("{}: found {} dofs; allowed: at most {} in exact arithmetic, whose numbers grow with "
                     "them. Use fewer elements",
                     file, dofs(p.geometry), most_exact_dofs));
-}
-
-/// What numbers may grow to, in bits, in the memory that K, its factor modulo a prime and the vectors of a
-/// path leave.
-std::size_t longest_numbers(const exact_problem& p, const std::string& file) {
-  // A rational is two numbers of 16 bytes and their bits; a node of a map has 40 more and its place.
-  constexpr std::int64_t bytes_of_rational = 32;
-  constexpr std::int64_t bytes_of_entry = 48 + bytes_of_rational + 32;
-  constexpr std::int64_t bits_of_double = 68;  // its shortest decimal has 17 digits at most
-  std::int64_t entries = 0;
-  for (const auto& row : p.stiffness) entries += std::ssize(row);
-  const std::int64_t n = std::ssize(p.fixed);
-  const std::int64_t band = subdiagonals(p);
-  const std::int64_t vectors =
-      12 + 3 * std::ssize(p.steps);  // displacements, loads, responses and their digits
-  const std::int64_t bytes = entries * bytes_of_entry + n * (band + 1) * 8;
-  const std::int64_t bits = 4 * ((memory_limit() - bytes) / (vectors * n) - bytes_of_rational);
-  if (bits < bits_of_double)
-    throw std::invalid_argument(fmt::format(
-        "{}: exact arithmetic: found {} dofs by a half bandwidth of {}, {} entries and {} vectors, which "
-        "take {}; allowed: {} (CONTCT_MEMORY_MIB in the environment sets another limit). Use fewer "
-        "elements",
-        file, n, band, entries, vectors,
-        bytes_words(bytes + vectors * n * (bytes_of_rational + bits_of_double / 4)),
-        bytes_words(memory_limit())));
-  return std::min(static_cast<std::size_t>(bits), lifted_solver::most_bits);
 }
 
 /// A matrix from elsewhere may be none of a structure, which the path's equations do not show. Those of beams
@@ -102,7 +75,6 @@ exact_problem exactly_read(const problem& p, const std::string& file) {
       throw std::invalid_argument(fmt::format("{}: {}", file, wrong.what()));
     }
   }();
-  e.longest = longest_numbers(e, file);
   if (const auto* const a = std::get_if<assembled>(&p.geometry.kind)) refuse_indefinite(*a, p, e);
   return e;
 }
