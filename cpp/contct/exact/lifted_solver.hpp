@@ -57,7 +57,9 @@ class lifted_solver {
       return a >= b ? a - b : a + p_ - b;
     }
     [[nodiscard]] std::uint64_t times(std::uint64_t a, std::uint64_t b) const {
-      const auto r = static_cast<std::uint64_t>(folded(folded(static_cast<wide>(a) * b)));
+      const wide product = static_cast<wide>(a) * b;  // below 2^122
+      const wide rest = (product & low) + static_cast<wide>(high(product)) * c_;
+      const std::uint64_t r = (static_cast<std::uint64_t>(rest) & low) + high(rest) * c_;
       return r >= p_ ? r - p_ : r;
     }
     [[nodiscard]] std::uint64_t inverse(std::uint64_t a) const;
@@ -66,10 +68,8 @@ class lifted_solver {
 
    private:
     __extension__ using wide = unsigned __int128;
-    [[nodiscard]] wide folded(wide x) const {
-      constexpr std::uint64_t low = (std::uint64_t{1} << 61U) - 1;
-      return (x & low) + (x >> 61U) * c_;
-    }
+    static constexpr std::uint64_t low = (std::uint64_t{1} << 61U) - 1;
+    [[nodiscard]] static std::uint64_t high(wide x) { return static_cast<std::uint64_t>(x >> 61U); }
     std::uint64_t p_, c_;
   };
 
