@@ -17,8 +17,8 @@ namespace {
 
 /// A chain of n springs of stiffness 1, held at both ends, with `more` at each node: eigenvalues
 /// more + 4 sin^2(j pi / 2 (n + 1)).
-true_system chain(int n, double more = 0.0) {
-  true_system t;
+long_system chain(int n, double more = 0.0) {
+  long_system t;
   t.stiffness.resize(n);
   for (int i = 0; i < n; ++i) {
     for (const int j : {i - 1, i, i + 1}) {
@@ -33,7 +33,7 @@ true_system chain(int n, double more = 0.0) {
 }
 
 /// The largest sum of magnitudes in a row of S A S - shift I - L L', for a chain A.
-rational error_of(const true_system& a, const stiffness_proof& p) {
+rational error_of(const long_system& a, const stiffness_proof& p) {
   using contct::numeric::binary_value;
   const int n = p.factor.order();
   rational most = 0;
@@ -63,7 +63,7 @@ std::vector<int> in_order(int n) {
 
 TEST_CASE("the least eigenvalue of a chain is bounded from below, and by no less than a hundredth of it") {
   for (const int n : {1, 2, 10, 1000, 30000}) {
-    const true_system t = chain(n);
+    const long_system t = chain(n);
     scaled_stiffness k(t, in_order(n), 1);
     REQUIRE(k.factor({}));
     const double scaled = k.scale(0) * k.scale(0);
@@ -76,7 +76,7 @@ TEST_CASE("the least eigenvalue of a chain is bounded from below, and by no less
 }
 
 TEST_CASE("what doubles cannot factor is proved in 32 digits, with L as a sum of two") {
-  true_system t = chain(20);
+  long_system t = chain(20);
   t.stiffness[0][0] = double_double(1.0) + 0x1p-60;  // free at both ends but for a soft spring
   t.stiffness[19][19] = 1.0;
   t.root.front() = t.root.back() = 1 + 1e-15;
@@ -88,7 +88,7 @@ TEST_CASE("what doubles cannot factor is proved in 32 digits, with L as a sum of
   CHECK(mu > 0x1p-60 / 20 / 8 / 100);
   CHECK(mu < 0x1p-60 / 20);
   REQUIRE(k.proof());
-  CHECK(k.proof()->factor_low);
+  CHECK(k.proof()->long_factor);
 
   t.stiffness[0][0] = double_double(1.0) - 0x1p-60;
   CHECK((!k.factor({}) || k.least_eigenvalue() == 0.0));
@@ -98,7 +98,7 @@ TEST_CASE("what is not definite has no bound, however little it is short of it")
   for (const double less : {-1e-3, -1e-9, -1e-14}) {
     const int n = 20;
     const double least = 4 * std::pow(std::sin(std::acos(-1.0) / 2 / (n + 1)), 2);
-    const true_system t = chain(n, -least + less);
+    const long_system t = chain(n, -least + less);
     scaled_stiffness k(t, in_order(n), 1);
     CAPTURE(less);
     CHECK((!k.factor({}) || k.least_eigenvalue() == 0.0));
@@ -110,12 +110,12 @@ TEST_CASE("a bound is no more than the shift less the error of the factor, in ra
   for (int i = 0; i < 400; ++i) {
     const int n = 2 + i % 5;
     const double least = 4 * std::pow(std::sin(std::acos(-1.0) / 2 / (n + 1)), 2);
-    const true_system t = chain(n, -least + std::ldexp(1.0 + i / 400.0, -48 + i % 4));  // nearly singular
+    const long_system t = chain(n, -least + std::ldexp(1.0 + i / 400.0, -48 + i % 4));  // nearly singular
     scaled_stiffness k(t, in_order(n), 1);
     k.keep_proof();
     if (!k.factor({})) continue;
     const double mu = k.least_eigenvalue();
-    if (mu == 0.0 || !k.proof() || k.proof()->factor_low) continue;
+    if (mu == 0.0 || !k.proof() || k.proof()->long_factor) continue;
     CAPTURE(n, i, mu);
     CHECK(contct::numeric::binary_value(mu) <=
           contct::numeric::binary_value(k.proof()->shift) - error_of(t, *k.proof()));
@@ -127,7 +127,7 @@ TEST_CASE("a bound is no more than the shift less the error of the factor, in ra
 TEST_CASE("by sparse columns the same is proved, and nothing of what is not definite") {
   if (!sparse_factor::available()) return;
   for (const int n : {1, 2, 10, 1000}) {
-    const true_system t = chain(n);
+    const long_system t = chain(n);
     scaled_stiffness band(t, in_order(n), 1);
     scaled_stiffness columns(t, in_order(n), std::nullopt);
     REQUIRE(band.factor({}));
@@ -142,7 +142,7 @@ TEST_CASE("by sparse columns the same is proved, and nothing of what is not defi
   }
   const double least = 4 * std::pow(std::sin(std::acos(-1.0) / 42), 2);
   for (const double less : {-1e-3, -1e-9, -1e-14}) {
-    const true_system t = chain(20, -least + less);
+    const long_system t = chain(20, -least + less);
     scaled_stiffness columns(t, in_order(20), std::nullopt);
     CHECK((!columns.factor({}) || columns.least_eigenvalue() == 0.0));
   }
@@ -157,7 +157,7 @@ TEST_CASE("springs of pairs hold what supports do not, and a wide band is bounde
     p.pairs.push_back({node, face_below, 0.0, 0.03, false});
   p.steps = {{}};
   const linear_structure s = structure_of(p);
-  const true_system t = true_system_of(p);
+  const long_system t = long_system_of(p);
   std::vector<int> rows;
   for (int dof = 0; dof < s.dofs(); ++dof) rows.push_back(s.row_of(dof));
   scaled_stiffness k(t, rows, s.stiffness.band().subdiagonals());
@@ -176,7 +176,7 @@ TEST_CASE("springs of pairs hold what supports do not, and a wide band is bounde
 
 TEST_CASE("a chain that is fixed at some nodes is proved in doubles, as one that is not") {
   for (const int fixed : {0, 3, 9}) {
-    true_system t = chain(10);
+    long_system t = chain(10);
     t.fixed[fixed] = 1;
     scaled_stiffness k(t, in_order(10), 1);
     REQUIRE(k.factor({}));

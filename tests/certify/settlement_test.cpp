@@ -5,9 +5,7 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
-#include "contct/lab/random_problem.hpp"
 #include "contct/matrix/sparse_factor.hpp"
-#include "contct/numeric/random.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
@@ -204,46 +202,4 @@ TEST_CASE("A settlement of a dof that no support was built to settle is refused"
   const linear_structure rigid = build(p.geometry, p.supports, p.pairs);
   std::vector<double> f(rigid.dofs());
   CHECK_THROWS_AS(add_settlements(rigid, p.steps[0], f), std::logic_error);
-}
-
-TEST_CASE(
-    "Of 400 random structures whose supports settle, all are certified at every step, on the quickest engine "
-    "too") {
-  random_problem_kind kind;
-  kind.free_share = 0.0;
-  random_numbers random(15);
-  int settled = 0;
-  int steps = 0;
-  int events = 0;
-  for (std::uint64_t number = 0; number < 400; ++number) {
-    const random_problem drawn = make_random_problem(15, number, kind);
-    problem p;
-    p.geometry = drawn.geometry;
-    p.supports = drawn.supports;
-    p.pairs = drawn.pairs;
-    p.steps = drawn.steps;
-    const linear_structure still = structure_of(p);
-    std::vector<double> f(still.dofs());
-    loads_of(p, still)(1, f);
-    double largest = 0.0;
-    const reference_answer answer = reference_solver(still).solve(f);
-    for (int dof = 0; dof < still.dofs(); dof += still.dofs_per_node)
-      largest = std::max(largest, std::abs(answer.displacement[dof]));
-    for (load& l : p.steps)
-      for (const support& s : p.supports)
-        if (s.fixed && s.dof == 0 && random.chance(1.0 / 3)) {
-          l.settlements.push_back({s.node, 0, (4 * random.unit() - 2) * largest});
-          ++settled;
-        }
-    INFO("problem " << number);
-    const linear_structure s = structure_of(p);
-    const solved_path path =
-        follow_certified(p, number % 2 == 0 ? "refactor" : std::string(quickest_engine(s)), "corrected");
-    CHECK(path.end.status == path_status::solved);
-    steps += static_cast<int>(path.seen.steps.size());
-    for (const auto& i : path.seen.increments) events += static_cast<int>(i.events.size());
-  }
-  CHECK(settled > 800);
-  CHECK(steps > 800);
-  CHECK(events > 2000);
 }

@@ -31,7 +31,7 @@ struct judged_run final : observer {
       : judged_run(parse_problem(text, "p.toml"), kernel) {}
 
   void step_ended(const step_state& s) override {
-    told.push_back(handed_out_at(what, s));
+    numbers.push_back(reported_state_at(what, s).numbers);
     displacements.emplace_back(s.displacement.begin(), s.displacement.end());
     statuses.emplace_back(s.isep.begin(), s.isep.end());
   }
@@ -44,7 +44,7 @@ struct judged_run final : observer {
   linear_structure structure;
   certifier judged;
   path_end end;
-  std::vector<handed_out> told;  // displacements and statuses of these are gone: see below
+  std::vector<end_numbers> numbers;
   std::vector<std::vector<double>> displacements;
   std::vector<std::vector<int>> statuses;
 };
@@ -57,7 +57,7 @@ double error_of(double told, const exact::rational& truly) {
 double largest_force(const exact::exact_path& truly, std::size_t step) {
   double largest = 0.0;
   for (; step > 0 && largest == 0.0; --step)
-    for (const exact::vector* all : {&truly.steps[step - 1].force, &truly.steps[step - 1].reactions})
+    for (const exact::rational_vector* all : {&truly.steps[step - 1].force, &truly.steps[step - 1].reactions})
       for (const exact::rational& f : *all) largest = std::max(largest, std::abs(exact::rounded(f)));
   return largest;
 }
@@ -66,7 +66,7 @@ double largest_force(const exact::exact_path& truly, std::size_t step) {
 std::string false_claim(const judged_run& r, const exact::exact_path& truly, std::size_t step) {
   const certificate& c = r.of_step(step);
   const exact::exact_step_end& right = truly.steps.at(step - 1);
-  const handed_out& told = r.told.at(step - 1);
+  const end_numbers& told = r.numbers.at(step - 1);
   const double largest = largest_force(truly, step);
   for (std::size_t i = 0; i < told.reactions.size(); ++i) {
     const double error = error_of(told.reactions[i], right.reactions[i]);
@@ -133,7 +133,7 @@ TEST_CASE(
     int certified = 0;
     for (std::uint64_t number = 0; number < 500; ++number) {
       const judged_run r(settling_beam(number), kernel);
-      const exact::exact_path truly = exact::follow_true_path(exact::exact_problem_of(r.what));
+      const exact::exact_path truly = exact::follow_corrected_path(exact::exact_problem_of(r.what));
       for (std::size_t step = 1; step <= r.judged.steps().size(); ++step) {
         const std::optional<certificate>& c = r.judged.steps()[step - 1];
         if (!c || !c->certified) continue;
@@ -155,11 +155,11 @@ TEST_CASE(
       "[[contact]]\nx = 0.001\nsurface = \"below\"\nface = -0.1\nstiffness = 1.0e6\n"
       "[[step]]\nuniform = -100.0\nsettlement = [ { x = 0.0, w = -0.02 } ]\n";
   const judged_run faithful(text, "fortran");
-  CHECK(std::abs(faithful.told.at(0).reactions[0] - 200.0) > 1e-3);
+  CHECK(std::abs(faithful.numbers.at(0).reactions[0] - 200.0) > 1e-3);
   CHECK_FALSE(faithful.of_step(1).certified);
   CHECK(digits_of(faithful.of_step(1)) < 6);
   const judged_run corrected(text, "corrected");
-  CHECK(corrected.told.at(0).reactions[0] == Approx(200.0).epsilon(1e-15));
+  CHECK(corrected.numbers.at(0).reactions[0] == Approx(200.0).epsilon(1e-15));
   CHECK(corrected.of_step(1).certified);
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("A singular matrix that is semidefinite without rounding is certified 
   problem p = two_dofs(-1.0, 1e3, -5.0);
   std::get<assembled>(p.geometry.kind).free_motions = 1;
   const judged_run r(p, "corrected");
-  CHECK(r.told.at(0).pair_forces[0] == Approx(5.0).epsilon(1e-15));
+  CHECK(r.numbers.at(0).pair_forces[0] == Approx(5.0).epsilon(1e-15));
   CHECK(r.of_step(1).certified);
 }
 

@@ -16,11 +16,6 @@ using contct::numeric::double_double;
 
 namespace {
 
-double_double rounded_to_32_digits(const exact::rational& x) {
-  const double high = exact::rounded(x);
-  return {high, exact::rounded(exact::rational(x - exact::binary_value(high)))};
-}
-
 struct kept_path final : observer {
   void step_ended(const step_state& s) override {
     exactly.push_back(s.from_exact_path ? 1 : 0);
@@ -36,7 +31,7 @@ struct run {
   explicit run(const std::string& name, bool with_exact_path = true)
       : what(contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/" + name + ".toml")),
         structure(structure_of(what)),
-        judged(what, structure, with_exact_path ? exact::exact_means_of(what) : exact_means()) {
+        judged(what, structure, with_exact_path ? exact::exact_means_of(what) : nullptr) {
     const auto leader = contct::outside::make_kernel("corrected");
     end = follow(what, structure, "refactor", *leader, {&path, &judged}, {0, judged.ends()});
   }
@@ -69,8 +64,8 @@ TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact
   CHECK(r.path.exactly.front() == 1);
   CHECK(r.judged.all_certified());
 
-  const exact::exact_path path = follow_true_path(exact::exact_problem_of(r.what));
-  const found_end end = exact::exact_means_of(r.what).path(2);
+  const exact::exact_path path = follow_corrected_path(exact::exact_problem_of(r.what));
+  const found_end end = exact::exact_means_of(r.what)->end_of(2);
   REQUIRE(end.state);
   CHECK(end.exists == true);
   CHECK(end.state->from_exact_path);
@@ -85,38 +80,38 @@ TEST_CASE("what only rounding could tell from a mechanism is followed to its end
   problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/held-by-a-hair.toml");
   p.steps[0].points[1].value = -4e-17;  // it tips the other way
   p.steps[0].points[0].value = 0.032;
-  const found_end end = exact::exact_means_of(p).path(1);
+  const found_end end = exact::exact_means_of(p)->end_of(1);
   CHECK_FALSE(end.state);
   CHECK(end.exists == false);
 }
 
 TEST_CASE("no step behind the end of an exact path is known, nor any of a problem that is too large") {
   const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
-  CHECK_FALSE(exact::exact_means_of(p).path(3).exists);
+  CHECK_FALSE(exact::exact_means_of(p)->end_of(3).exists);
 
   problem large = p;
   beam long_beam;
   for (int i = 0; i <= exact::most_dofs_beside_doubles / 2; ++i) long_beam.x.push_back(i);
   long_beam.EI.assign(long_beam.x.size() - 1, 1.0);
   large.geometry.kind = long_beam;
-  CHECK_FALSE(exact::exact_means_of(large).path(1).exists);
+  CHECK_FALSE(exact::exact_means_of(large)->end_of(1).exists);
   CHECK_FALSE(exact::small_exact_problem_of(large));
 }
 
 TEST_CASE(
     "at the exact end of a step nothing is left but the rounding of u, and at a fixed dof the reaction") {
   const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
-  const exact::exact_path path = exact::follow_true_path(exact::exact_problem_of(p));
-  const auto residual = exact::exact_means_of(p).residual;
+  const exact::exact_path path = exact::follow_corrected_path(exact::exact_problem_of(p));
+  const auto exactly = exact::exact_means_of(p);
   int checked = 0;
   for (int step = 1; step <= 2; ++step) {
     std::vector<double_double> u;
     for (const exact::rational& x : path.steps[static_cast<std::size_t>(step) - 1].displacement)
-      u.push_back(rounded_to_32_digits(x));
-    const auto needed = residual(step, u);
+      u.push_back(contct::numeric::long_rounded(x));
+    const auto needed = exactly->residual_of(step, u);
     REQUIRE(needed);
     REQUIRE(needed->size() == u.size());
-    const exact::vector& reactions = path.steps[static_cast<std::size_t>(step) - 1].reactions;
+    const exact::rational_vector& reactions = path.steps[static_cast<std::size_t>(step) - 1].reactions;
     CHECK((*needed)[0].hi == Approx(exact::rounded(reactions[0])).epsilon(1e-12));
     for (std::size_t dof = 2; dof < u.size(); ++dof, ++checked)
       CHECK(std::abs((*needed)[dof].hi) < 1e-12);  // 12 EI / h^3 is 1e17 here, times 2^-106
@@ -126,11 +121,11 @@ TEST_CASE(
 
 TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a face that it is on") {
   const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
-  const auto residual = exact::exact_means_of(p).residual;
+  const auto exactly = exact::exact_means_of(p);
   const exact::rational face = exact::decimal_of(-7.6e-12);
   const exact::rational h = exact::decimal_of(8e-11);
   const exact::rational bends = 12 * exact::decimal_of(7e-4) / (h * h * h);
-  const double_double near = rounded_to_32_digits(face);
+  const double_double near = contct::numeric::long_rounded(face);
   for (const double off : {-0x1p-138, 0x1p-138}) {  // some tenths of its last digit
     std::vector<double_double> u(6, 0.0);
     u[4] = {near.hi, near.lo + off};
@@ -138,22 +133,22 @@ TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a fac
     const exact::rational pressed =
         at < face ? exact::rational(exact::decimal_of(7.8e44) * (at - face)) : exact::rational(0);
     const double expected = exact::rounded(exact::rational(bends * at + pressed));
-    CHECK((*residual(1, u))[4].hi == expected);
+    CHECK((*exactly->residual_of(1, u))[4].hi == expected);
     CHECK((at < face) == (off < 0));
   }
 }
 
 TEST_CASE("a residual beyond doubles is infinite, and there is none of displacements that are no numbers") {
   const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
-  const auto residual = exact::exact_means_of(p).residual;
+  const auto exactly = exact::exact_means_of(p);
   std::vector<double_double> u(6, 0.0);
   u[4] = 1e300;
-  const auto needed = residual(1, u);
+  const auto needed = exactly->residual_of(1, u);
   REQUIRE(needed);
   CHECK(std::isinf((*needed)[4].hi));
   CHECK((*needed)[4].lo == 0.0);
   for (const double odd : {HUGE_VAL, std::nan("")}) {
     u[4] = odd;
-    CHECK_FALSE(residual(1, u));
+    CHECK_FALSE(exactly->residual_of(1, u));
   }
 }

@@ -1,6 +1,4 @@
 // Proved bounds on extremes inside elements, against lines in rational numbers.
-#include "contct/certify/extreme_bounds.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -23,37 +21,38 @@ using exact::rational;
 
 namespace {
 
-rational value_at(const exact::vector& p, const rational& t) {
+rational value_at(const exact::rational_vector& p, const rational& t) {
   rational sum;
   for (std::size_t i = p.size(); i-- > 0;) sum = sum * t + p[i];
   return sum;
 }
 
-exact::vector derivative_of(const exact::vector& p) {
-  exact::vector d;
+exact::rational_vector derivative_of(const exact::rational_vector& p) {
+  exact::rational_vector d;
   for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<int>(i));
   return d;
 }
 
 /// w, moment and shear of an element in t, from 0 to 1.
-std::array<exact::vector, 3> exact_line(const beam& b, const load& l, int e, const exact::vector& u) {
+std::array<exact::rational_vector, 3> exact_line(const beam& b, const load& l, int e,
+                                                 const exact::rational_vector& u) {
   const auto at = static_cast<std::size_t>(e);
   const rational left = exact::decimal_of(b.x[at]);
   const rational h = exact::decimal_of(b.x[at + 1]) - left;
   const rational EI = exact::decimal_of(b.EI[at]);
-  exact::vector coefficients;
+  exact::rational_vector coefficients;
   for (const double a : l.distributed.front().polynomial) coefficients.push_back(exact::decimal_of(a));
-  const exact::vector q = formulas::in_element<rational>(coefficients, left, h);
+  const exact::rational_vector q = formulas::in_element<rational>(coefficients, left, h);
   const auto k = formulas::beam_stiffness(EI, h);
   const auto work = formulas::beam_load<rational>(q, h);
   rational force[2] = {-work[0], -work[1]};
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 4; ++j) force[i] += k[i][j] * u[2 * at + j];
-  exact::vector shear = {force[0]};
+  exact::rational_vector shear = {force[0]};
   for (std::size_t j = 0; j < q.size(); ++j) shear.emplace_back(q[j] * h / static_cast<int>(j + 1));
-  exact::vector moment = {-force[1]};
+  exact::rational_vector moment = {-force[1]};
   for (std::size_t j = 0; j < shear.size(); ++j) moment.emplace_back(shear[j] * h / static_cast<int>(j + 1));
-  exact::vector w = {u[2 * at], u[2 * at + 1] * h};
+  exact::rational_vector w = {u[2 * at], u[2 * at + 1] * h};
   for (std::size_t j = 0; j < moment.size(); ++j)
     w.emplace_back(moment[j] * h * h / EI / static_cast<int>((j + 1) * (j + 2)));
   return {w, moment, shear};
@@ -65,8 +64,8 @@ struct range {
 
 /// At both ends, and where the derivative changes its sign between neighbours of 33 places, each bisected
 /// until what is left changes the value by 1e-20 of itself.
-void take_extremes(const exact::vector& p, range& known) {
-  const exact::vector slope = derivative_of(p);
+void take_extremes(const exact::rational_vector& p, range& known) {
+  const exact::rational_vector slope = derivative_of(p);
   const auto take = [&](const rational& t) {
     const rational value = value_at(p, t);
     known.least = std::min(known.least, value);
@@ -91,9 +90,9 @@ void take_extremes(const exact::vector& p, range& known) {
 struct end_keeper final : observer {
   explicit end_keeper(const problem& p) : what(p) {}
   void step_ended(const step_state& s) override {
-    const handed_out h = handed_out_at(what, s);
-    printed =
-        contct::structure::ranges_of(what.geometry, what.steps[0], s.displacement, {}, h.element_values);
+    const reported_state h = reported_state_at(what, s);
+    printed = contct::structure::ranges_of(what.geometry, what.steps[0], s.displacement, {},
+                                           h.numbers.element_values);
   }
   const problem& what;
   std::vector<contct::structure::value_range> printed;
@@ -111,7 +110,8 @@ outcome outcome_of(const problem& p) {
   end_keeper keeps(p);
   (void)follow(p, s, "refactor", *make_kernel("corrected"), {&proves, &keeps}, {0, proves.ends()});
   outcome o{proves.steps().at(0).value(), keeps.printed, {}};
-  const exact::vector u = exact::follow_true_path(exact::exact_problem_of(p)).steps.back().displacement;
+  const exact::rational_vector u =
+      exact::follow_corrected_path(exact::exact_problem_of(p)).steps.back().displacement;
   const beam& b = std::get<beam>(p.geometry.kind);
   for (int e = 0; e < b.elements(); ++e) {
     const auto line = exact_line(b, p.steps[0], e, u);

@@ -21,7 +21,7 @@ struct stop_run {
       "surface = \"below\"\nface = -1\nstiffness = 3\n[[step]]\npoint = [ { node = 2, w = -9 } ]\n"
       "[[step]]\npoint = [ { node = 2, w = 0 } ]\n",
       "problem.toml");
-  exact_path exactly = follow_true_path(exact_problem_of(what));
+  exact_path exactly = follow_corrected_path(exact_problem_of(what));
 
   /// A path with this error in its first event's share and in the first step's deflection.
   [[nodiscard]] kernel_digits with(double share_error, double w_error, change first = change::make,
@@ -103,7 +103,7 @@ TEST_CASE(
   contct::structure::problem touches = run.what;
   touches.steps.resize(1);
   touches.steps[0].points[0].value = -3;
-  const exact_path exactly = follow_true_path(exact_problem_of(touches));
+  const exact_path exactly = follow_corrected_path(exact_problem_of(touches));
   digit_counter early(touches, exactly);
   early.incremented({1, 1, 0.0, 1.0 - 1e-15, makes});
   CHECK(early.result("k", path_status::solved, 1e-9).same_events);

@@ -17,9 +17,9 @@ std::vector<int> in_order(std::size_t n) {
 }
 
 /// (K + springs) x.
-vector product(const contct::exact::sparse_rows& k, const std::vector<added_spring>& springs,
-               const vector& x) {
-  vector y(x.size());
+rational_vector product(const contct::exact::sparse_rows& k, const std::vector<added_spring>& springs,
+                        const rational_vector& x) {
+  rational_vector y(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
     for (const auto& [j, entry] : k[i]) y[i] += entry * x[static_cast<std::size_t>(j)];
   for (const added_spring& s : springs)
@@ -47,7 +47,7 @@ TEST_CASE("a held chain is solved exactly, in any order of its places") {
   const contct::exact::sparse_rows k = chain(7);
   const std::vector<char> fixed(7, 0);
   const std::vector<added_spring> springs = {{0, rational(1, 7)}, {4, rational(22, 7)}};
-  vector b(7);
+  rational_vector b(7);
   b[2] = rational(5, 11);
   b[6] = -3;
   for (const std::vector<int>& places : {in_order(7), std::vector<int>{6, 5, 4, 3, 2, 1, 0}}) {
@@ -64,7 +64,7 @@ TEST_CASE("dofs that are fixed stay where they are") {
   const std::vector<int> places = in_order(3);
   lifted_solver solver(k, fixed, places);
   solver.factor({});
-  CHECK(solver.solve({0, 0, 1}) == vector{0, 3, rational(3) + rational(3, 4)});
+  CHECK(solver.solve({0, 0, 1}) == rational_vector{0, 3, rational(3) + rational(3, 4)});
 }
 
 TEST_CASE("the free motion of a chain that nothing holds is found, and loads without work on it are solved") {
@@ -74,8 +74,8 @@ TEST_CASE("the free motion of a chain that nothing holds is found, and loads wit
   lifted_solver solver(k, fixed, places);
   solver.factor({});
   REQUIRE(solver.free_motions().size() == 1);
-  CHECK(solver.free_motions()[0] == vector{1, 1, 1, 1, 1});
-  const vector b = {1, 0, rational(-1, 2), 0, rational(-1, 2)};
+  CHECK(solver.free_motions()[0] == rational_vector{1, 1, 1, 1, 1});
+  const rational_vector b = {1, 0, rational(-1, 2), 0, rational(-1, 2)};
   CHECK(product(k, {}, solver.solve(b)) == b);
 }
 
@@ -88,7 +88,8 @@ TEST_CASE("a stiffness that is 0 modulo the first prime is solved with another")
   lifted_solver solver(k, fixed, places);
   solver.factor({});
   CHECK(solver.free_motions().empty());
-  CHECK(solver.solve({1, 1}) == vector{rational(integer(1), integer("2305843009213693951")), rational(1, 2)});
+  CHECK(solver.solve({1, 1}) ==
+        rational_vector{rational(integer(1), integer("2305843009213693951")), rational(1, 2)});
 }
 
 TEST_CASE("an indefinite matrix with a zero on its diagonal is refused") {
@@ -107,7 +108,7 @@ TEST_CASE("numbers that become too long are refused with the figure") {
     k[i][static_cast<int>(i)] += rational(1, 1000003 + 2 * static_cast<int>(i));
   const std::vector<char> fixed(30, 0);
   const std::vector<int> places = in_order(30);
-  vector b(30);
+  rational_vector b(30);
   b[0] = 1;
   lifted_solver solver(k, fixed, places);
   solver.factor({});

@@ -1,14 +1,30 @@
-// The listing's decisions where arithmetic is exact.
+// The listing's decisions where arithmetic is exact: one call, a path, and that path beside a kernel's.
+#include "contct/exact/path_1989.hpp"
+
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "catch.hpp"
-#include "contct/exact/path.hpp"
+#include "contct/outside/registry.hpp"
+#include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 
 using namespace contct::exact;
+using contct::outside::make_kernel;
+using contct::path::observer;
 using contct::read::parse_problem;
+using contct::read::read_problem;
 
 namespace {
+
+listing_pair open_pair(const rational& c, const rational& d, const rational& d_star) {
+  return {c, d, d_star, false, face_below};
+}
+
+rational ten_to_minus(unsigned n) {
+  return {integer(1), boost::multiprecision::pow(integer(10), n)};
+}
 
 exact_path listed(const std::string& text) {
   return follow_1989_path(exact_problem_of(parse_problem(text, "problem.toml")));
@@ -21,7 +37,79 @@ std::string stop(int node, const std::string& face, const std::string& k) {
          "\nstiffness = " + k + "\n";
 }
 
+/// What was beside each increment.
+struct beside_log final : observer {
+  explicit beside_log(const exact_companion& b) : beside(b) {}
+  void incremented(const contct::path::increment& i) override {
+    const exact_call* const c = beside.call();
+    calls.push_back(c == nullptr ? "-" : std::to_string(c->step) + "." + std::to_string(c->increment));
+    if (c != nullptr && beside.parted() == std::nullopt) {
+      CHECK(c->step == i.step);
+      CHECK(c->increment == i.number);
+      CHECK(rounded(c->led_to.fraction) == Approx(i.fraction));
+      ++compared;
+    }
+  }
+  const exact_companion& beside;
+  std::vector<std::string> calls;
+  int compared = 0;
+};
+
+struct path_beside {
+  std::vector<std::string> calls;
+  int compared;
+  std::optional<path_place> parted;
+  std::string stopped;
+};
+
+path_beside follow_beside(const std::string& file, const char* kernel, std::optional<path_place> last = {}) {
+  const auto p = read_problem(std::string(CONTCT_REFERENCE "/problems/") + file);
+  const exact_problem exactly = exact_problem_of(p);
+  exact_companion beside(exactly, last);
+  beside_log log(beside);
+  const auto leader = make_kernel(kernel);
+  (void)contct::path::follow(p, contct::path::structure_of(p), "refactor", *leader, {&beside, &log});
+  return {log.calls, log.compared, beside.parted(), beside.stopped()};
+}
+
 }  // namespace
+
+TEST_CASE("each way to an s gives the exact one") {
+  const rational d_star(-1, 3);
+  const std::vector<listing_pair> pairs = {
+      open_pair(-1, 0, 0),                // no response
+      open_pair(rational(-1, 7), 0, -1),  // advancing
+      open_pair(0, 0, d_star),            // at its face, pushed against it
+      {0, 0, d_star, true, face_below},   // at its face, kept there
+  };
+  const listing_answer a = answer_exactly(pairs);
+  CHECK(a.s == rational_vector{1, rational(1, 7), 3 * ten_to_minus(20), 1});
+  CHECK(a.way == std::vector{way_to_s::no_response, way_to_s::moving, way_to_s::stationary_event,
+                             way_to_s::stationary});
+  CHECK(a.s_min == 3 * ten_to_minus(20));
+  CHECK(a.toggled == std::vector<int>{2});
+  CHECK(a.winners() == std::vector<int>{2});
+}
+
+TEST_CASE("a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is no event") {
+  const std::vector<listing_pair> pairs = {open_pair(-ten_to_minus(10), 0, -ten_to_minus(10))};
+  const listing_answer a = answer_exactly(pairs);
+  CHECK(a.way[0] == way_to_s::moving);
+  CHECK(a.s_min == 1);
+  CHECK(a.toggled.empty());
+  CHECK(a.winners().empty());
+}
+
+TEST_CASE("whatever is within EPSMUL is toggled, but only a tie wins together") {
+  const std::vector<listing_pair> pairs = {
+      open_pair(rational(-1, 2), 0, -1), open_pair(-2, -1, -2),
+      open_pair(rational(-1, 2) - rational(1, 1024), 0, -1),  // 1/512 later: within 1/256
+      open_pair(rational(-1, 2) - rational(1, 512), 0, -1),   // exactly 1/256 later
+  };
+  const listing_answer a = answer_exactly(pairs);
+  CHECK(a.winners() == std::vector<int>{0, 1});
+  CHECK(a.toggled == std::vector<int>{0, 1, 2});
+}
 
 TEST_CASE("a single stop is made exactly at its face by the 1989 rule too") {
   const exact_path path =
@@ -40,8 +128,7 @@ TEST_CASE("a pair within EPSMUL of the first is made before it touches, and its 
   CHECK(path.steps[0].increments[0].events.size() == 2);
   // -9 = 3 w + 3 (w + 1) + 6 (w + 1): the second spring acts from -1 on, not from -1.001, and keeps that
   // force.
-  const rational delta(integer(1), boost::multiprecision::pow(integer(10), 19U));
-  CHECK(abs(path.steps[0].displacement[2] + rational(3, 2)) < delta);
+  CHECK(abs(path.steps[0].displacement[2] + rational(3, 2)) < ten_to_minus(19));
 }
 
 TEST_CASE("a pair 1/256 behind the first is not made with it") {
@@ -55,11 +142,8 @@ TEST_CASE("a stationary pair takes DELTA of the residual load with it") {
       listed(one_span + stop(2, "0", "3") + "[[step]]\npoint = [ { node = 2, w = 6 } ]\n");
   REQUIRE(path.steps[0].increments.size() == 2);
   // d* = 6 / (3 + 3) = 1, so s = 1E-20.
-  CHECK(path.steps[0].increments[0].fraction ==
-        rational(integer(1), boost::multiprecision::pow(integer(10), 20U)));
-  CHECK(path.steps[0].displacement[2] < 2);
-  CHECK(2 - path.steps[0].displacement[2] ==
-        rational(integer(1), boost::multiprecision::pow(integer(10), 20U)));
+  CHECK(path.steps[0].increments[0].fraction == ten_to_minus(20));
+  CHECK(path.steps[0].displacement[2] == 2 - ten_to_minus(20));
 }
 
 TEST_CASE("a gap below EPSGAP is stationary, whatever the unit of length") {
@@ -83,8 +167,8 @@ TEST_CASE("where the 1989 code goes wrong, its rule does, as reference/DIVERGENC
         divergence{"locked-in-forces", 0.00247, true}, divergence{"standstill", 0.0, true}}) {
     INFO(name);
     const std::string file = CONTCT_REFERENCE "/problems/divergences/" + std::string(name) + ".toml";
-    const exact_problem e = exact_problem_of(contct::read::read_problem(file));
-    const exact_path truly = follow_true_path(e);
+    const exact_problem e = exact_problem_of(read_problem(file));
+    const exact_path truly = follow_corrected_path(e);
     const exact_path listed_path = follow_1989_path(e);
     CHECK(truly.status == contct::path::path_status::solved);
     CHECK((listed_path.status == contct::path::path_status::mechanism) == ends_early);
@@ -107,4 +191,51 @@ TEST_CASE("a structure that no closed pair holds is a mechanism for the 1989 dri
                                  "[[step]]\nuniform = -1\n");
   CHECK(path.status == contct::path::path_status::mechanism);
   CHECK(path.steps[0].fraction == 0);
+}
+
+TEST_CASE("an exact call stands beside each call of PB7, in both precisions") {
+  for (const char* kernel : {"fortran", "fortran-r4"}) {
+    const path_beside f = follow_beside("pb07-three-gap-supports.toml", kernel);
+    CHECK(f.calls == std::vector<std::string>{"1.1", "2.1", "2.2", "3.1", "3.2", "4.1", "4.2", "4.3"});
+    CHECK(f.compared == 8);
+    CHECK_FALSE(f.parted.has_value());
+    CHECK(f.stopped.empty());
+  }
+}
+
+TEST_CASE("the paths part where single precision decides otherwise, and no call is compared behind") {
+  const path_beside f = follow_beside("divergences/single-precision.toml", "fortran-r4");
+  REQUIRE(f.parted.has_value());
+  CHECK(f.parted->step == 2);
+  CHECK(f.parted->increment == 1);
+  CHECK(f.calls == std::vector<std::string>{"1.1", "1.2", "2.1", "-"});
+  CHECK(f.stopped.empty());
+}
+
+TEST_CASE("nothing is computed behind the last place wanted") {
+  const auto calls = [](path_place last) {
+    return follow_beside("pb07-three-gap-supports.toml", "cpp", last).calls;
+  };
+  CHECK(calls({2, 1}) == std::vector<std::string>{"1.1", "2.1", "-", "-", "-", "-", "-", "-"});
+  CHECK(calls({2, 0}) == std::vector<std::string>{"1.1", "2.1", "2.2", "-", "-", "-", "-", "-"});
+}
+
+TEST_CASE("an exact path that ends before the kernel's says why") {
+  // A kernel that answers "no event" goes on where the exact path has become a mechanism.
+  const auto p = read_problem(CONTCT_REFERENCE "/problems/divergences/standstill.toml");
+  const exact_problem exactly = exact_problem_of(p);
+  exact_companion beside(exactly);
+  const contct::kernels::event first[] = {{0, contct::kernels::change::make}};
+  path_1989 walk(exactly);
+  int number = 0;
+  while (walk.next()) {
+    beside.incremented({1, ++number, 0.5, 0.5, walk.call().led_to.events});
+    CHECK_FALSE(beside.parted().has_value());
+  }
+  REQUIRE(walk.status() == contct::path::path_status::mechanism);
+  beside.incremented({1, number + 1, 0.5, 0.5, first});
+  CHECK(beside.call() == nullptr);
+  CHECK(beside.stopped() == "it ends before: the structure has become a mechanism");
+  REQUIRE(beside.parted().has_value());
+  CHECK(beside.parted()->increment == number + 1);
 }

@@ -11,7 +11,7 @@ from pathlib import Path
 LEAST_OPTIONS, LEAST_SHOWN = 70, 105
 # Options of other programs that pages show: cmake, pkg-config, tests/run.sh and programs of the tests.
 FOREIGN = {"--preset", "--build", "--target", "--install", "--prefix", "--cflags", "--libs", "--full", "--check", "--write", "--only",
-           "--file", "--exact-every", "--workflow", "--oversubscribe"}
+           "--file", "--workflow", "--oversubscribe"}
 
 
 def output(*line):

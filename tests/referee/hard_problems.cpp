@@ -29,35 +29,11 @@ class hard_drawing {
   problem draw(hard_kind kind) {
     u_ = random_.chance(0.5) ? 0 : random_.whole(-12, 12);
     e_ = random_.whole(-6, 6);
-    switch (kind) {
-      case hard_kind::stiff_pairs:
-        stiff_pairs();
-        break;
-      case hard_kind::drops:
-        drop();
-        break;
-      case hard_kind::small_after_large:
-        small_after_large();
-        break;
-      case hard_kind::cancelling_loads:
-        cancelling_loads();
-        break;
-      case hard_kind::graded_meshes:
-        graded_mesh();
-        break;
-      case hard_kind::pairs_alone:
-        pairs_alone();
-        break;
-      case hard_kind::near_tipping:
-        near_tipping();
-        break;
-      case hard_kind::soft_matrices:
-        soft_matrix();
-        break;
-      case hard_kind::spring_decades:
-        spring_decades();
-        break;
-    }
+    constexpr void (hard_drawing::*draws[])() = {
+        &hard_drawing::stiff_pairs,      &hard_drawing::drop,        &hard_drawing::small_after_large,
+        &hard_drawing::cancelling_loads, &hard_drawing::graded_mesh, &hard_drawing::pairs_alone,
+        &hard_drawing::near_tipping,     &hard_drawing::soft_matrix, &hard_drawing::spring_decades};
+    (this->*draws[static_cast<int>(kind)])();
     return std::move(p_);
   }
 

@@ -30,7 +30,7 @@ struct kept_state {
   int step;
   std::vector<double> displacement;
   std::vector<int> isep;
-  handed_out numbers;  ///< forces and reactions
+  end_numbers numbers;
 };
 
 struct state_keeper final : observer {
@@ -42,8 +42,7 @@ struct state_keeper final : observer {
     states.push_back({s.step,
                       {s.displacement.begin(), s.displacement.end()},
                       {s.isep.begin(), s.isep.end()},
-                      handed_out_at(what, s)});
-    states.back().numbers.displacement = {};
+                      reported_state_at(what, s).numbers});
   }
 
   const problem& what;
@@ -55,13 +54,6 @@ double size_of(const rational& x) {
   return rounded(rational(abs(x)));
 }
 
-/// The longest side; 1 for a matrix.
-double span_of(const structure::model& m) {
-  if (const auto* b = std::get_if<beam>(&m.kind)) return b->x.back() - b->x.front();
-  const auto* p = std::get_if<plate>(&m.kind);
-  return p == nullptr ? 1.0 : std::max(p->x.back() - p->x.front(), p->y.back() - p->y.front());
-}
-
 /// The largest of each kind in an exact state. What is 0 by symmetry has no size of its own: slopes are
 /// measured at least by the largest deflection over the span, moments at least by the largest force times it,
 /// and deflections and forces that are all 0 by the largest slope times it and the largest moment over it.
@@ -71,10 +63,11 @@ struct sizes {
   sizes() = default;
   sizes(const problem& p, const exact_problem& e, const exact_step& acting, const exact_step_end& state) {
     const std::size_t stride = dofs_per_node(p.geometry);
-    const double span = span_of(p.geometry);
+    const double side = extent_of(p.geometry);
+    const double span = side > 0.0 ? side : 1.0;  // of a matrix
     for (std::size_t dof = 0; dof < e.dofs(); ++dof) {
       take(dof % stride == 0 ? deflection : slope, state.displacement[dof]);
-      take(dof % stride == 0 ? force : moment, acting.load[dof]);
+      take(dof % stride == 0 ? force : moment, acting.force[dof]);
     }
     for (const rational& f : state.force) take(force, f);
     for (std::size_t i = 0; i < e.supports.size(); ++i)
@@ -220,17 +213,12 @@ path_end solve(const problem& p, const linear_structure& s, way how, const std::
   return path::follow(p, s, engine, *leader, observers, {0, judged.ends()});
 }
 
-struct true_end {
-  path_status status;
-  int step;
-};
-
 /// What is wrong with how it ended; nothing where that is right.
-std::optional<finding> compare_ends(const path_end& end, const true_end& exactly) {
+std::optional<finding> compare_ends(const path_end& end, const exact_path& exactly) {
   const auto found = [&](fault what, std::string_view words) {
     return finding{what, 1.0, fmt::format("step {}: {}", end.step, words)};
   };
-  const bool same_step = end.step == exactly.step;
+  const bool same_step = end.step == static_cast<int>(exactly.steps.size());
   if (end.status == exactly.status && (end.status == path_status::solved || same_step)) return std::nullopt;
   if (end.status == path_status::not_factored) return found(fault::refused, "held but too ill-conditioned");
   if (end.status == path_status::solved)
@@ -256,7 +244,7 @@ std::string_view name_of(fault f) {
 }
 
 exact_answer::exact_answer(const structure::problem& p)
-    : problem(exact_problem_of(p)), path(follow_true_path(problem)) {
+    : problem(exact_problem_of(p)), path(follow_corrected_path(problem)) {
   lifted_solver holds(problem.stiffness, problem.fixed, problem.place);
   for (const exact_step_end& s : path.steps) {
     std::vector<added_spring> springs;
@@ -269,89 +257,42 @@ exact_answer::exact_answer(const structure::problem& p)
 
 namespace {
 
-/// One run, and what becomes of it before anything is compared.
-struct judged_run {
-  judged_run(const structure::problem& p, way how, const std::vector<observer*>& watching,
-             const linear_structure& s, judgement& j)
-      : kept(p), judged(p, s, exact_means_of(p)) {
-    std::vector<observer*> observers = {&kept, &judged};
-    observers.insert(observers.end(), watching.begin(), watching.end());
-    try {
-      end = solve(p, s, how, observers, judged);
-    } catch (const no_factor& e) {
-      j.findings.push_back({fault::refused, 1.0, e.what()});
-      refused = true;
-    }
+void judge_run(const problem& p, const exact_answer& exactly, way how, judgement& j) {
+  const linear_structure s = structure_of(p);
+  state_keeper kept(p);
+  digit_counter counter(p, exactly.path);
+  certifier judged(p, s, exact_means_of(p));
+  const path_end end = solve(p, s, how, {&kept, &judged, &counter}, judged);
+  comparing compared(p, exactly, how, j);
+  for (std::size_t i = 0; i < kept.states.size(); ++i)
+    if (judged.steps()[i]) compared.compare(kept.states[i], *judged.steps()[i]);
+  if (how == way::listing) return;
+  if (kept.exact) j.findings.push_back({fault::exactly, 1.0, "ended by the exact path"});
+  if (kept.lost) j.findings.push_back({fault::fallback, 1.0, "the path was lost"});
+  if (auto wrong = compare_ends(end, exactly.path)) {
+    j.findings.push_back(*wrong);
+    return;
   }
-
-  void note_lost_path(judgement& j) const {
-    if (kept.exact) j.findings.push_back({fault::exactly, 1.0, "ended by the exact path"});
-    if (kept.lost) j.findings.push_back({fault::fallback, 1.0, "the path was lost"});
-  }
-
-  state_keeper kept;
-  certifier judged;
-  path_end end;
-  bool refused = false;
-};
-
-std::optional<linear_structure> built(const structure::problem& p, judgement& j) {
-  try {
-    return structure_of(p);
-  } catch (const std::invalid_argument& e) {
-    j.findings.push_back({fault::refused, 1.0, e.what()});
-    return std::nullopt;
-  }
+  if (how == way::final_only || kept.exact || kept.lost) return;  // the events of a lost path end early
+  constexpr double tie = 1e-9;
+  const kernel_digits r = counter.result("corrected", end.status, tie);
+  if (!r.same_events) j.findings.push_back({fault::other_events, 1.0, r.first_difference});
 }
 
 }  // namespace
 
 judgement judge(const structure::problem& p, const exact_answer& exactly, way how) {
   judgement j;
-  const std::optional<linear_structure> s = built(p, j);
-  if (!s) return j;
-  digit_counter counter(p, exactly.path);
-  const judged_run run(p, how, {&counter}, *s, j);
-  if (run.refused) return j;
-  comparing compared(p, exactly, how, j);
-  for (std::size_t i = 0; i < run.kept.states.size(); ++i)
-    if (run.judged.steps()[i]) compared.compare(run.kept.states[i], *run.judged.steps()[i]);
-  if (how == way::listing) return j;
-  run.note_lost_path(j);
-  if (auto wrong =
-          compare_ends(run.end, {exactly.path.status, static_cast<int>(exactly.path.steps.size())})) {
-    j.findings.push_back(*wrong);
-    return j;
+  const auto refused = [&j](const std::exception& e) {
+    j.findings.push_back({fault::refused, 1.0, e.what()});
+  };
+  try {
+    judge_run(p, exactly, how, j);
+  } catch (const no_factor& e) {
+    refused(e);
+  } catch (const std::invalid_argument& e) {
+    refused(e);
   }
-  if (how == way::final_only || run.kept.exact || run.kept.lost)
-    return j;  // the events of a lost path end early
-  constexpr double tie = 1e-9;
-  const kernel_digits r = counter.result("corrected", run.end.status, tie);
-  if (!r.same_events) j.findings.push_back({fault::other_events, 1.0, r.first_difference});
-  return j;
-}
-
-judgement judge_end(const structure::problem& p, way how) {
-  judgement j;
-  const std::optional<linear_structure> s = built(p, j);
-  if (!s) return j;
-  const judged_run run(p, how, {}, *s, j);
-  if (run.refused) return j;
-  for (const auto& c : run.judged.steps()) {
-    j.steps += c ? 1 : 0;
-    j.certified += c && c->certified ? 1 : 0;
-  }
-  run.note_lost_path(j);
-  const load_history loads = loads_of(p, *s);
-  true_end expected{path_status::solved, static_cast<int>(p.steps.size())};
-  for (int step = 1; step <= static_cast<int>(p.steps.size()); ++step) {
-    const std::optional<bool> exists = s->has_equilibrium(loads.work(step));
-    if (!exists) return j;  // of a matrix that is not known here
-    if (*exists) continue;
-    expected = {path_status::mechanism, step};
-    break;
-  }
-  if (const auto wrong = compare_ends(run.end, expected)) j.findings.push_back(*wrong);
   return j;
 }
 

@@ -76,8 +76,4 @@ struct judgement {
 /// are compared.
 [[nodiscard]] judgement judge(const structure::problem& p, const exact_answer& exactly, way how);
 
-/// The same without an exact path, which takes most of the time: of the end alone, by whether rational forces
-/// of supports and pairs balance the loads. Of a matrix not even that.
-[[nodiscard]] judgement judge_end(const structure::problem& p, way how);
-
 }  // namespace contct::referee

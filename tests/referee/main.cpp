@@ -1,11 +1,10 @@
 // The exact path as referee of the corrected rule and its certificate:
-//     contct_referee COUNT SEED [--jobs N] [--exact-every N]
+//     contct_referee COUNT SEED [--jobs N]
 //     contct_referee --only NUMBER SEED
 //     contct_referee --file PROBLEM.toml
 // Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails where
 // something is wrong that must not be, more than is known, or too little was compared. --only prints one
-// problem as a file and all that is wrong with it, --file does the latter for a problem file. With
-// --exact-every N only so many are judged by their exact paths, the others by their ends.
+// problem as a file and all that is wrong with it, --file does the latter for a problem file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,17 +31,17 @@ using namespace contct::referee;
 namespace {
 
 struct options {
-  std::uint64_t count = 0, seed = 0, exact_every = 1;
+  std::uint64_t count = 0, seed = 0;
   std::optional<std::uint64_t> only = {};
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string problem_file = {};
 };
 
 [[noreturn]] void refuse(std::string_view found) {
-  fmt::print(stderr,
-             "contct_referee: found {}; allowed: COUNT SEED [--jobs N] [--exact-every N], or --only NUMBER "
-             "SEED, or --file PROBLEM\n",
-             found);
+  fmt::print(
+      stderr,
+      "contct_referee: found {}; allowed: COUNT SEED [--jobs N], or --only NUMBER SEED, or --file PROBLEM\n",
+      found);
   std::exit(2);
 }
 
@@ -63,8 +62,6 @@ options options_of(int argc, char** argv) {
       o.problem_file = value();
     } else if (a == "--jobs") {
       o.jobs = std::max(1, static_cast<int>(number_in(value())));
-    } else if (a == "--exact-every") {
-      o.exact_every = std::max<std::uint64_t>(1, number_in(value()));
     } else if (a == "--only") {
       o.only = number_in(value());
     } else {
@@ -115,16 +112,10 @@ struct judged_problem {
   std::array<judgement, ways> judgements;
 };
 
-judged_problem judge_by_exact_path(const drawn_problem& p) {
+judged_problem judge_all_ways(const drawn_problem& p) {
   const exact_answer exactly(p.problem);
   judged_problem j{p.kind, {}};
   for (int w = 0; w < ways; ++w) j.judgements[w] = judge(p.problem, exactly, static_cast<way>(w));
-  return j;
-}
-
-judged_problem judge_by_end(const drawn_problem& p) {
-  judged_problem j{p.kind, {}};
-  for (int w = 0; w < ways; ++w) j.judgements[w] = judge_end(p.problem, static_cast<way>(w));
   return j;
 }
 
@@ -175,8 +166,7 @@ struct all_counts {
   }
 };
 
-/// Judge a stretch of problems on several threads; what comes of it does not depend on how many. Of each
-/// 2 `exact_every` problems two are judged by their exact paths.
+/// Judge a stretch of problems on several threads; what comes of it does not depend on how many.
 std::vector<judged_problem> judge_stretch(const options& o, std::uint64_t first, std::uint64_t count) {
   std::vector<judged_problem> judged(count);
   std::atomic<std::size_t> next = 0;
@@ -184,10 +174,8 @@ std::vector<judged_problem> judge_stretch(const options& o, std::uint64_t first,
   std::exception_ptr failure;
   const auto work = [&] {
     try {
-      for (std::size_t i = next++; i < judged.size(); i = next++) {
-        const drawn_problem d = draw(o.seed, first + i);
-        judged[i] = (first + i) / 2 % o.exact_every == 0 ? judge_by_exact_path(d) : judge_by_end(d);
-      }
+      for (std::size_t i = next++; i < judged.size(); i = next++)
+        judged[i] = judge_all_ways(draw(o.seed, first + i));
     } catch (...) {
       const std::lock_guard lock(failing);
       failure = std::current_exception();
@@ -279,7 +267,7 @@ int judge_all(const options& o) {
 }
 
 int judge_one(const drawn_problem& p) {
-  const judged_problem j = judge_by_exact_path(p);
+  const judged_problem j = judge_all_ways(p);
   for (std::size_t w = 0; w < ways; ++w) {
     const judgement& one = j.judgements[w];
     fmt::print("\n{}: {} steps, {} certified, {} values compared\n", name_of(static_cast<way>(w)), one.steps,

@@ -18,7 +18,7 @@ using exact_json = nlohmann::ordered_json;
 
 struct followed_exactly {
   explicit followed_exactly(const problem& p)
-      : what(p), exactly(exact_problem_of(p)), path(follow_true_path(exactly)) {}
+      : what(p), exactly(exact_problem_of(p)), path(follow_corrected_path(exactly)) {}
 
   [[nodiscard]] exact_result result() const { return {what, exactly, path, kernels}; }
   [[nodiscard]] exact_json document() const {

@@ -19,45 +19,45 @@ constexpr quantity force_kinds[] = {quantity::force, quantity::reaction, quantit
 
 /// The size of each kind of number in a state: forces, reactions and shears are of one kind, moments are
 /// measured by them too, and gaps by deflections.
-by_quantity sizes_of(const error_bounds& b, double span) {
+by_quantity sizes_of(const error_bounds& b, double extent) {
   by_quantity sizes = b.size;
   double force = 0.0;
   for (const quantity q : force_kinds) force = std::max(force, b.size[q].value_or(0.0));
   for (const quantity q : force_kinds) sizes[q] = force;
-  sizes[quantity::moment] = std::max(b.size[quantity::moment].value_or(0.0), force * span);
+  sizes[quantity::moment] = std::max(b.size[quantity::moment].value_or(0.0), force * extent);
   sizes[quantity::gap] = std::max(b.size[quantity::gap].value_or(0.0), b.size[quantity::w].value_or(0.0));
   return sizes;
 }
 
 /// As far as they are proved: what is not certified may be told larger than it is, and an unloaded state's
 /// own numbers are nothing but errors.
-by_quantity proved_sizes_of(error_bounds b, double span) {
+by_quantity proved_sizes_of(error_bounds b, double extent) {
   for (std::size_t q = 0; q < b.size.all.size(); ++q)
     if (b.size.all[q]) b.size.all[q] = std::max(0.0, *b.size.all[q] - b.error.all[q].value_or(0.0));
-  return sizes_of(b, span);
+  return sizes_of(b, extent);
 }
 
 /// What counts as no error at all, whatever the size of the kind: all numbers of it may be 0. None of this
 /// depends on a bound.
-by_quantity floors_of(const error_bounds& b, const by_quantity& sizes, double span) {
+by_quantity floors_of(const error_bounds& b, const by_quantity& sizes, double extent) {
   by_quantity floors;
   const double force = of_settling * b.settling[quantity::force].value_or(0.0);
-  const double moment = std::max(of_settling * b.settling[quantity::moment].value_or(0.0), force * span);
-  floors[quantity::w] = floors[quantity::gap] = of_related * sizes[quantity::slope].value_or(0.0) * span;
-  if (span > 0.0) floors[quantity::slope] = of_related * sizes[quantity::w].value_or(0.0) / span;
+  const double moment = std::max(of_settling * b.settling[quantity::moment].value_or(0.0), force * extent);
+  floors[quantity::w] = floors[quantity::gap] = of_related * sizes[quantity::slope].value_or(0.0) * extent;
+  if (extent > 0.0) floors[quantity::slope] = of_related * sizes[quantity::w].value_or(0.0) / extent;
   for (const quantity q : force_kinds)
     floors[q] =
-        span > 0.0 ? std::max(of_related * sizes[quantity::moment].value_or(0.0), moment) / span : force;
+        extent > 0.0 ? std::max(of_related * sizes[quantity::moment].value_or(0.0), moment) / extent : force;
   floors[quantity::moment] = moment;
   return floors;
 }
 
 }  // namespace
 
-by_quantity allowed_errors::of(const error_bounds& b, double span) {
-  const by_quantity sizes = sizes_of(b, span);
-  const by_quantity floors = floors_of(b, sizes, span);
-  const by_quantity proved = proved_sizes_of(b, span);
+by_quantity allowed_errors::of(const error_bounds& b, double extent) {
+  const by_quantity sizes = sizes_of(b, extent);
+  const by_quantity floors = floors_of(b, sizes, extent);
+  const by_quantity proved = proved_sizes_of(b, extent);
   by_quantity allowed;
   for (std::size_t q = 0; q < sizes.all.size(); ++q) {
     if (proved.all[q]) largest_.take(static_cast<quantity>(q), *proved.all[q]);

@@ -16,8 +16,8 @@ inline constexpr double certified_share = 1e-6;
 class allowed_errors {
  public:
   /// What each kind of number of the state that `b` is about may be off by; none for kinds without a bound.
-  /// `span`: the largest side of the structure. The steps of a path come in their order.
-  [[nodiscard]] by_quantity of(const error_bounds& b, double span);
+  /// `extent`: the largest side of the structure. The steps of a path come in their order.
+  [[nodiscard]] by_quantity of(const error_bounds& b, double extent);
 
  private:
   by_quantity largest_;  // so far

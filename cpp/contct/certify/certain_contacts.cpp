@@ -1,10 +1,8 @@
-// Which pairs are certainly in contact, and how far a state can be from the equilibrium in the norm of their
-// stiffness (reference/certificate.md).
+#include "contct/certify/certain_contacts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "contct/certify/error_bounds.hpp"
 
 namespace contct::certify {
 namespace {
@@ -12,12 +10,25 @@ namespace {
 /// What products of numbers that are all but 0 may lose.
 constexpr double underflow = 1e-300;
 
+std::vector<int> rows_of(const linear_structure& s) {
+  std::vector<int> rows(s.dofs());
+  for (std::size_t dof = 0; dof < rows.size(); ++dof) rows[dof] = s.row_of(dof);
+  return rows;
+}
+
 }  // namespace
+
+certain_contacts::certain_contacts(const problem& p, const linear_structure& s, const long_system& system)
+    : problem_(p),
+      structure_(s),
+      system_(system),
+      stiffness_(system, rows_of(s),
+                 s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt) {}
 
 /// rho: the norm of the residual in K_A^-1, from above. z is about K_A^-1 r, e = r - K_A z, and
 /// rho^2 = r'z + z'e + e' K_A^-1 e.
-std::optional<double> error_prover::norm_of(const residual& r, double mu) {
-  const std::size_t n = true_.dofs();
+std::optional<double> certain_contacts::norm_of(const long_residual& r) {
+  const std::size_t n = system_.dofs();
   long_vector z(n);
   std::vector<double> e(n);
   long_vector left = r.force;
@@ -30,52 +41,52 @@ std::optional<double> error_prover::norm_of(const residual& r, double mu) {
     if (pass == 1) sizes.assign(n, 0.0);
     product = stiffness_.times(z, sizes);
     for (std::size_t dof = 0; dof < n; ++dof)
-      left[dof] = true_.fixed[dof] != 0 ? double_double(0.0) : r.force[dof] - product[dof];
+      left[dof] = system_.fixed[dof] != 0 ? double_double(0.0) : r.force[dof] - product[dof];
   }
   double_double work;
   double slack = 0.0;
   double rest = 0.0;
+  bool any = false;  // residual, or one that underflows
   for (std::size_t dof = 0; dof < n; ++dof) {
-    if (true_.fixed[dof] != 0) continue;
+    if (system_.fixed[dof] != 0) continue;
+    any = any || r.force[dof].hi != 0.0 || r.slack[dof] > 0.0;
     work += z[dof] * (r.force[dof] + left[dof]);
     double size = sizes[dof];
     const double root = 1.0 / stiffness_.scale(dof);
     size += root * root * std::abs(z[dof].hi) * 2;  // the springs of A
-    const double off = r.slack[dof] + 2 * true_rounding * size;
+    const double off = r.slack[dof] + 2 * long_rounding * size;
     slack += 2 * std::abs(z[dof].hi) * off;
     const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
     rest += scaled * scaled;
   }
-  bool any = false;  // residual, or one that underflows
-  for (std::size_t dof = 0; dof < n; ++dof)
-    any = any || (true_.fixed[dof] == 0 && (r.force[dof].hi != 0.0 || r.slack[dof] > 0.0));
   const double square =
-      (std::max(work.hi, 0.0) + slack + rest / mu + (any ? underflow : 0.0)) * (1 + summation_slack);
+      (std::max(work.hi, 0.0) + slack + rest / mu_ + (any ? underflow : 0.0)) * (1 + summation_slack);
   z_ = std::move(z);
   if (!std::isfinite(square)) return std::nullopt;
   return std::sqrt(square) * (1 + summation_slack);
 }
 
-std::vector<int> error_prover::pressed(std::span<const double_double> u) const {
+std::vector<int> certain_contacts::pressed(std::span<const double_double> u) const {
   std::vector<int> pairs;
-  for (std::size_t i = 0; i < true_.pairs.size(); ++i)
-    if (true_.fixed[true_.pairs[i].dof] == 0 && depth(i, u).hi > 0.0) pairs.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < system_.pairs.size(); ++i)
+    if (system_.fixed[system_.pairs[i].dof] == 0 && system_.depth(i, u).hi > 0.0)
+      pairs.push_back(static_cast<int>(i));
   return pairs;
 }
 
-rigid_rank error_prover::held_by(const std::vector<int>& closed) const {
+rigid_rank certain_contacts::held_by(const std::vector<int>& closed) const {
   return structure_.held_by(
       [&](std::size_t i) { return std::ranges::binary_search(closed, static_cast<int>(i)); });
 }
 
-/// `closed`, and where these do not hold the structure, those nearest to their faces that do.
-std::vector<int> error_prover::holding(std::span<const double_double> u, std::vector<int> closed) const {
+std::vector<int> certain_contacts::holding(std::span<const double_double> u, std::vector<int> closed) const {
   rigid_rank rank = held_by(closed);
   if (structure_.is_held(rank)) return closed;
   std::vector<int> nearest;
-  for (int i = 0; i < static_cast<int>(true_.pairs.size()); ++i)
-    if (true_.fixed[true_.pairs[i].dof] == 0 && !std::ranges::binary_search(closed, i)) nearest.push_back(i);
-  std::ranges::stable_sort(nearest, {}, [&](int i) { return -depth(i, u).hi; });
+  for (int i = 0; i < static_cast<int>(system_.pairs.size()); ++i)
+    if (system_.fixed[system_.pairs[i].dof] == 0 && !std::ranges::binary_search(closed, i))
+      nearest.push_back(i);
+  std::ranges::stable_sort(nearest, {}, [&](int i) { return -system_.depth(i, u).hi; });
   for (const int i : nearest) {
     const int before = rank.rank();
     rank.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
@@ -85,8 +96,7 @@ std::vector<int> error_prover::holding(std::span<const double_double> u, std::ve
   return closed;
 }
 
-/// Factor K_A; is it definite for certain?
-bool error_prover::proves(const std::vector<int>& closed) {
+bool certain_contacts::proves(const std::vector<int>& closed) {
   if (factored_ != closed) {
     factored_ = closed;
     mu_ = stiffness_.factor(closed) ? stiffness_.least_eigenvalue() : 0.0;
@@ -95,21 +105,14 @@ bool error_prover::proves(const std::vector<int>& closed) {
   return mu_ > 0.0;
 }
 
-bool error_prover::is_semidefinite() {
-  if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // by its elements' formulas
-  if (!semidefinite_)
-    semidefinite_ = proves({}) || (exactly_semidefinite_ && exactly_semidefinite_() == true);
-  return *semidefinite_;
-}
-
-bool error_prover::last_digits_decide() const {
+bool certain_contacts::last_digits_decide() const {
   const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
   if (a == nullptr || a->free_motions) return false;
   if (a->stiffness.last_digits.empty()) return false;
-  std::vector<double> rows(true_.dofs());  // of S H S, where H has the half units
+  std::vector<double> rows(system_.dofs());  // of S H S, where H has the half units
   for (std::size_t i = 0; i < a->stiffness.entries.size(); ++i) {
     const matrix_entry& e = a->stiffness.entries[i];
-    if (true_.fixed[e.row] != 0 || true_.fixed[e.column] != 0) continue;
+    if (system_.fixed[e.row] != 0 || system_.fixed[e.column] != 0) continue;
     const double scaled = a->stiffness.half_unit(i) * stiffness_.scale(e.row) * stiffness_.scale(e.column);
     rows[e.row] += scaled;
     if (e.row != e.column) rows[e.column] += scaled;
@@ -117,8 +120,7 @@ bool error_prover::last_digits_decide() const {
   return !(std::ranges::max(rows) * (1 + summation_slack) < mu_);
 }
 
-/// A: at first all pairs beyond their faces; those that are not so for certain leave it again.
-bool error_prover::find_closed(std::span<const double_double> u, const residual& r, error_bounds& b) {
+bool certain_contacts::find(std::span<const double_double> u, const long_residual& r, contact_set& b) {
   b.closed = pressed(u);
   for (int tries = 0; tries < 3; ++tries) {
     if (!proves(b.closed)) {
@@ -131,7 +133,7 @@ bool error_prover::find_closed(std::span<const double_double> u, const residual&
           "`free_motions` says how many motions it leaves free";
       return false;
     }
-    const std::optional<double> rho = norm_of(r, mu_);
+    const std::optional<double> rho = norm_of(r);
     if (!rho) {
       b.not_proved = "the numbers are too large or too small";
       return false;
@@ -145,25 +147,34 @@ bool error_prover::find_closed(std::span<const double_double> u, const residual&
   return false;
 }
 
-bool error_prover::erase_doubtful(std::span<const double_double> u, double rho,
-                                  std::vector<int>& closed) const {
+double certain_contacts::reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const {
+  const int dof = system_.pairs[pair].dof;
+  const double moved = system_.fixed[dof] != 0 || rho == 0.0 ? 0.0 : reach(dof) * rho * (1 + summation_slack);
+  return moved + system_.doubt(pair, u);
+}
+
+bool certain_contacts::is_certainly_open(std::size_t pair, std::span<const double_double> u,
+                                         double rho) const {
+  return system_.depth(pair, u).hi < -reach_of_pair(pair, u, rho);
+}
+
+bool certain_contacts::erase_doubtful(std::span<const double_double> u, double rho,
+                                      std::vector<int>& closed) const {
   return std::erase_if(closed, [&](int i) {
-           const true_pair& p = true_.pairs[i];
+           const long_pair& p = system_.pairs[i];
            const double moved =
                std::min(reach(p.dof), (1 + summation_slack) / std::sqrt(p.stiffness.hi)) * rho;
-           return !(depth(i, u).hi * (1 - summation_slack) - doubt(i, u) > moved);
+           return !(system_.depth(i, u).hi * (1 - summation_slack) - system_.doubt(i, u) > moved);
          }) > 0;
 }
 
-/// Where the pairs of A leave rigid motions free on which the load does no work at all: springs without force
-/// hold the structure where it is, and change nothing else.
-bool error_prover::find_balanced(int step, std::span<const double_double> u, const residual& r,
-                                 error_bounds& b) {
+bool certain_contacts::find_balanced(int step, std::span<const double_double> u, const long_residual& r,
+                                     contact_set& b) {
   if (!structure_.truth) return false;
   b.closed = pressed(u);
   for (int tries = 0; tries < 3; ++tries) {
     if (!proves(holding(u, b.closed))) return false;
-    const std::optional<double> rho = norm_of(r, mu_);
+    const std::optional<double> rho = norm_of(r);
     if (!rho) return false;
     if (erase_doubtful(u, *rho, b.closed)) continue;
     b.rho = *rho;
@@ -178,11 +189,11 @@ bool error_prover::find_balanced(int step, std::span<const double_double> u, con
 }
 
 /// No work on what A leaves free, and no pair that this moves can be in contact.
-bool error_prover::stands_free(int step, std::span<const double_double> u, const error_bounds& b) const {
+bool certain_contacts::stands_free(int step, std::span<const double_double> u, const contact_set& b) const {
   const rigid_rank held = held_by(b.closed);
   const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);
   if (structure_.is_held(held) || structure_.truth->driven_by(work, held.dofs())) return false;
-  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
+  for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     rigid_rank with_it = held;
     with_it.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
     if (with_it.rank() > held.rank() && !is_certainly_open(i, u, b.rho)) return false;

@@ -75,22 +75,18 @@ int digits_of(const certificate& c) {
   return c.worst_share > 0.0 ? std::min(most, static_cast<int>(-std::log10(c.worst_share))) : most;
 }
 
-certifier::certifier(const problem& p, const linear_structure& s, exact_means exactly)
-    : problem_(p), structure_(s), total_load_(loads_of(p, s)), exact_path_(std::move(exactly.path)) {
+certifier::certifier(const problem& p, const linear_structure& s, std::unique_ptr<exact_means> exactly)
+    : problem_(p), structure_(s), total_load_(loads_of(p, s)), exactly_(std::move(exactly)) {
   for (int dof = 0; dof < s.dofs(); ++dof) {
     scale_.push_back(std::sqrt(s.stiffness.diagonal(s.row_of(dof))));
     const std::size_t at = dof;
     if (deflects(at) && s.fixed[at] == 0) largest_scale_ = std::max(largest_scale_, scale_[at]);
   }
-  if (can_be_proved(s))
-    prover_ =
-        std::make_unique<error_prover>(p, s, std::move(exactly.residual), std::move(exactly.semidefinite));
+  if (can_be_proved(s)) prover_ = std::make_unique<error_prover>(p, s, exactly_.get());
 }
 
 void certifier::step_ended(const step_state& s) {
   steps_.push_back(s.fraction == 1.0 ? std::optional(judge(s)) : std::nullopt);
-  proofs_.push_back(s.fraction == 1.0 ? std::exchange(proof_, std::nullopt) : std::nullopt);
-  if (proofs_.back()) proofs_.back()->statuses.assign(s.isep.begin(), s.isep.end());
 }
 
 void certifier::keep_proofs() {
@@ -129,10 +125,7 @@ std::vector<double> certifier::load_at(int step) const {
 certificate certifier::proof_of(const step_state& s) {
   if (last_ && last_->step == s.step && std::ranges::equal(last_->displacement, s.displacement)) {
     allowed_ = last_->allowed;
-    proof_ = std::move(last_->proof);
-    certificate known = last_->what;
-    last_.reset();
-    return known;
+    return std::exchange(last_, std::nullopt)->what;
   }
   certificate c;
   if (!prover_) {
@@ -140,11 +133,10 @@ certificate certifier::proof_of(const step_state& s) {
         "no error bound is proved: its factors take too much memory or time, or CHOLMOD is not built in";
     return c;
   }
-  const handed_out handed = handed_out_at(problem_, s);
+  const reported_state handed = reported_state_at(problem_, s);
   take(prover_->bound(handed), s, c);
   if (c.proved && !c.certified)
     if (const std::optional<error_bounds> closer = prover_->bound_closely(handed)) take(*closer, s, c);
-  proof_ = prover_->take_proof();
   return c;
 }
 
@@ -180,8 +172,9 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
     return;
   }
   c.proved = true;
+  c.proof = b.proof;
   c.error = b.error;
-  c.allowed = allowed_.of(b, prover_->span());
+  c.allowed = allowed_.of(b, prover_->extent());
   c.worst_share = worst_share(c.error, c.allowed);
   c.problem = worst_bound(c.error, c.allowed);
   if (c.problem.empty() && b.wrong_status) c.problem = status_words(*b.wrong_status, s);
@@ -294,6 +287,18 @@ reference_answer certifier::reference_at(int step) {
 
 namespace {
 
+/// As it is told to observers.
+step_state told(const full_load_state& s, int step, double rcond) {
+  return {.step = step,
+          .fraction = 1.0,
+          .displacement = s.displacement,
+          .isep = s.isep,
+          .rcond = rcond,
+          .from_reference = s.from_reference,
+          .from_exact_path = s.from_exact_path,
+          .numbers = s.numbers ? &*s.numbers : nullptr};
+}
+
 full_load_state state_of(const reference_answer& a) {
   full_load_state s{.displacement = a.displacement, .isep = {}, .numbers = {}, .from_reference = true};
   for (const char pressed : a.pressed) s.isep.push_back(pressed != 0 ? in_contact : separated);
@@ -313,13 +318,8 @@ bool certifier::is_certified(int step, full_load_state& s) {
   if (!prover_ || !is_finite(s.displacement)) return false;
   s.numbers = prover_->refine(step, s.displacement, s.isep);
   const allowed_errors before = allowed_;
-  const certificate c = proof_of({.step = step,
-                                  .fraction = 1.0,
-                                  .displacement = s.displacement,
-                                  .isep = s.isep,
-                                  .rcond = 0.0,
-                                  .numbers = s.numbers ? &*s.numbers : nullptr});
-  last_ = {step, s.displacement, c, std::exchange(allowed_, before), std::exchange(proof_, std::nullopt)};
+  const certificate c = proof_of(told(s, step, 0.0));
+  last_ = {step, s.displacement, c, std::exchange(allowed_, before)};
   return c.certified;
 }
 
@@ -335,7 +335,7 @@ found_end certifier::end_of(int step, const full_load_state* reached) {
     (void)is_certified(step, *refined);  // the digits that doubles leave over are its own again
     return found_end{std::move(refined), true};
   };
-  if (found_end exactly = exact_path_ ? exact_path_(step) : found_end(); exactly.exists) {
+  if (found_end exactly = exactly_ ? exactly_->end_of(step) : found_end(); exactly.exists) {
     const bool is_better = !exactly.state || is_certified(step, *exactly.state) || !refined;
     return is_better ? std::move(exactly) : kept();
   }
@@ -365,15 +365,7 @@ path_end certifier::find_final_states(std::span<observer* const> observers) {
     const full_load_state& s = *found.state;
     const double rcond = reference_->reciprocal_condition(holding(structure_, s.isep));
     end.work.factors = reference_->factorisations();
-    for (observer* o : observers)
-      o->step_ended({.step = step,
-                     .fraction = 1.0,
-                     .displacement = s.displacement,
-                     .isep = s.isep,
-                     .rcond = rcond,
-                     .from_reference = s.from_reference,
-                     .from_exact_path = s.from_exact_path,
-                     .numbers = s.numbers ? &*s.numbers : nullptr});
+    for (observer* o : observers) o->step_ended(told(s, step, rcond));
   }
   return end;
 }

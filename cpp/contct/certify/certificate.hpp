@@ -8,7 +8,6 @@
 // (structure/rigid_modes) with them.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -46,7 +45,8 @@ struct certificate {
   by_quantity error;            ///< on the errors of all numbers of a kind, absolute
   by_quantity allowed;          ///< what these may reach
   double worst_share = 0.0;     ///< the worst of them, as a share of the size of its kind
-  std::string problem;          ///< what is wrong, in words; empty when certified
+  std::shared_ptr<const step_proof> proof;  ///< what proves the bounds, if that is kept
+  std::string problem;                      ///< what is wrong, in words; empty when certified
   int pulling = -1;   ///< of a state that is not certified: the pair in contact that pulls most, from 0
   double pull = 0.0;  ///< what it pulls with
 };
@@ -54,19 +54,11 @@ struct certificate {
 /// Whole decimal digits that every number of a state has, as proved: 0 where nothing is. At most 15.
 [[nodiscard]] int digits_of(const certificate& c);
 
-/// What rational numbers decide where doubles are too short; each may be null, or know nothing of a problem
-/// that is too large.
-struct exact_means {
-  std::function<found_end(int step)> path;  ///< the end of a step, from 1, of the exact path
-  exact_residual residual;
-  semidefinite_test semidefinite;
-};
-
 /// Observes a path and certifies the end of every step that was solved.
 class certifier final : public observer {
  public:
   /// `p` and `s`, its structure, must outlive this object.
-  certifier(const problem& p, const linear_structure& s, exact_means exactly = {});
+  certifier(const problem& p, const linear_structure& s, std::unique_ptr<exact_means> exactly = nullptr);
 
   void step_ended(const step_state& s) override;
 
@@ -83,8 +75,6 @@ class certifier final : public observer {
 
   /// Keep what proves the bounds of each step that follows.
   void keep_proofs();
-  /// In the order of steps(); none where nothing is proved, or none are kept.
-  [[nodiscard]] const std::vector<std::optional<step_proof>>& proofs() const { return proofs_; }
 
   /// One for each step ended so far; none for a step that did not reach its load.
   [[nodiscard]] const std::vector<std::optional<certificate>>& steps() const { return steps_; }
@@ -113,24 +103,21 @@ class certifier final : public observer {
     std::vector<double> displacement;
     certificate what;
     allowed_errors allowed;
-    std::optional<step_proof> proof;
   };
 
   const problem& problem_;
   const linear_structure& structure_;
   load_history total_load_;
-  std::function<found_end(int step)> exact_path_;
+  std::unique_ptr<exact_means> exactly_;       // may be null
   std::optional<reference_solver> reference_;  // made when it is first asked
   std::unique_ptr<error_prover> prover_;       // null where a proof takes too much memory
   allowed_errors allowed_;
   std::optional<proved_state> last_;
-  std::optional<step_proof> proof_;    // of the state judged last
   std::vector<double> scale_;          // roots of the stiffness at each dof [dofs]
   double largest_scale_ = 0.0;         // of a deflection that is not fixed
   double largest_deflection_ = 0.0;    // of path and reference solution, so far
   double largest_displacement_ = 0.0;  // scaled, any dof
   std::vector<std::optional<certificate>> steps_;
-  std::vector<std::optional<step_proof>> proofs_;
 };
 
 }  // namespace contct::certify

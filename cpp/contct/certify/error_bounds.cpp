@@ -3,17 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "contct/certify/extreme_bounds.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct::certify {
 namespace {
 
-std::vector<int> rows_of(const linear_structure& s) {
-  std::vector<int> rows(s.dofs());
-  for (std::size_t dof = 0; dof < rows.size(); ++dof) rows[dof] = s.row_of(dof);
-  return rows;
+/// Displacements so small that products of them underflow become 0.
+void flush_tiny(long_vector& u) {
+  constexpr double none = 1e-140;
+  for (double_double& x : u)
+    if (std::abs(x.hi) < none) x = 0.0;
+}
+
+quantity kind_of(const element_value& v) {
+  return v.moment ? quantity::moment : quantity::shear;
+}
+
+quantity kind_of(const support& s) {
+  return s.dof == 0 ? quantity::reaction : quantity::moment;
+}
+
+/// A number that was handed out, beside the one of the state, which may be off by `slack` and, in the
+/// equilibrium, by `moved`.
+void take(error_bounds& b, quantity q, double told, const double_double& x, double slack, double moved) {
+  const double off = std::abs((double_double(told) - x).hi);
+  b.error.take(q, (off + slack + moved) * (1 + summation_slack));
+  b.size.take(q, std::abs(told));
 }
 
 }  // namespace
@@ -24,334 +41,379 @@ void by_quantity::take(quantity q, double value) {
       std::max(largest.value_or(0.0), std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
 }
 
-handed_out handed_out_at(const problem& p, const step_state& s) {
-  if (s.numbers != nullptr)
-    return {s.step,
-            s.displacement,
-            s.isep,
-            s.numbers->pair_forces,
-            s.numbers->reactions,
-            s.numbers->element_values};
+reported_state reported_state_at(const problem& p, const step_state& s) {
+  if (s.numbers != nullptr) return {s.step, s.displacement, s.isep, *s.numbers};
   const load& now = p.steps[s.step - 1];
-  handed_out h{s.step,
-               s.displacement,
-               s.isep,
-               {},
-               reactions(p, now, s.displacement, s.isep),
-               results_in_elements(p.geometry, now, s.displacement).values};
+  reported_state h{s.step,
+                   s.displacement,
+                   s.isep,
+                   {{},
+                    reactions(p, now, s.displacement, s.isep),
+                    results_in_elements(p.geometry, now, s.displacement).values}};
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const double w = s.displacement[std::size_t{1} * p.pairs[i].node * dofs_per_node(p.geometry)];
-    h.pair_forces.push_back(force_of(p.pairs[i], w, s.isep[i] == in_contact));
+    h.numbers.pair_forces.push_back(force_of(p.pairs[i], w, s.isep[i] == in_contact));
   }
   return h;
 }
 
-error_prover::error_prover(const problem& p, const linear_structure& s, exact_residual exactly,
-                           semidefinite_test exactly_semidefinite)
-    : problem_(p),
-      structure_(s),
-      true_(true_system_of(p)),
-      stiffness_(true_, rows_of(s),
-                 s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt),
-      exactly_(std::move(exactly)),
-      exactly_semidefinite_(std::move(exactly_semidefinite)) {}
+error_prover::error_prover(const problem& p, const linear_structure& s, exact_means* exactly)
+    : problem_(p), system_(long_system_of(p)), contacts_(p, s, system_), exactly_(exactly) {}
 
-double_double error_prover::depth(std::size_t pair, std::span<const double_double> u) const {
-  const true_pair& p = true_.pairs[pair];
-  return (u[p.dof] - p.face) * p.surface;
+void error_prover::keep_proof() {
+  keeps_proof_ = true;
+  contacts_.stiffness().keep_proof();
 }
 
-double error_prover::doubt(std::size_t pair, std::span<const double_double> u) const {
-  const true_pair& p = true_.pairs[pair];
-  const double size = std::abs(u[p.dof].hi) + std::abs(p.face.hi);
-  return size == 0.0 ? 0.0 : 2 * true_rounding * size + 0x1p-1000;  // of underflow
+const long_loads& error_prover::loads_of(int step) {
+  if (loads_.step != step) loads_ = system_.loads(step);
+  return loads_;
 }
 
-bool error_prover::is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const {
-  return depth(pair, u).hi < -reach_of_pair(pair, u, rho);
+bool error_prover::has_exact_residual(const long_loads& l) {
+  return exactly_ != nullptr && l.step > 0 && (closely_ || contacts_.stiffness().has_32_digits());
 }
 
-bool error_prover::has_exact_residual(const true_loads& l) const {
-  return exactly_ && l.step > 0 && (closely_ || stiffness_.has_32_digits());
+long_residual error_prover::residual_of(std::span<const double_double> u, const long_loads& l) {
+  if (has_exact_residual(l))
+    if (std::optional<long_vector> exactly = exactly_->residual_of(l.step, u))
+      return system_.residual_of_rounded(std::move(*exactly));
+  return system_.residual(u, l);
 }
 
-/// Are there numbers, or products that the element formulas make of them, for which doubles are too coarse
-/// near 0?
-bool error_prover::is_below_range(const true_loads& l) const {
-  constexpr double least = 1e-280;  // the low halves of 32 digits are numbers too, down to 1e-308
-  const auto too_small = [](const double_double& x) { return x.hi != 0.0 && std::abs(x.hi) < least; };
-  const auto has_small_pair = [&](const true_pair& p) { return too_small(p.face) || too_small(p.stiffness); };
-  const auto has_small_entry = [&](const auto& row) {
-    return std::ranges::any_of(row, [&](const auto& entry) { return too_small(entry.second); });
-  };
-  return true_.least_product < least || std::ranges::any_of(true_.stiffness, has_small_entry) ||
-         std::ranges::any_of(true_.pairs, has_small_pair) || std::ranges::any_of(l.force, too_small) ||
-         std::ranges::any_of(l.settlement, too_small);
+bool error_prover::is_refined(int step, std::span<const double> displacement) const {
+  const auto same = [](const double_double& a, double b) { return a.hi == b; };
+  return state_.refined && step == state_.step && std::ranges::equal(state_.u, displacement, same);
 }
 
-void error_prover::put_forces(residual& r) const {
-  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
-    if (r.slack[dof] > 0.0) r.slack[dof] = 2 * true_rounding * r.slack[dof] + 0x1p-1000;  // of underflow
-    if (true_.fixed[dof] == 0) r.force[dof] = -r.needed[dof];
+long_vector error_prover::long_displacement(int step, std::span<const double> displacement,
+                                            const long_loads& l) const {
+  if (is_refined(step, displacement)) return state_.u;
+  long_vector u(displacement.begin(), displacement.end());
+  for (std::size_t dof = 0; dof < u.size(); ++dof)
+    if (system_.fixed[dof] != 0) u[dof] = l.settlement[dof];
+  return u;
+}
+
+/// The residual if the pairs of `closed` pressed or pulled by their springs, and no others: that is linear in
+/// u.
+long_vector error_prover::residual_of_set(const long_residual& r, std::span<const double_double> u,
+                                          const std::vector<int>& closed) const {
+  long_vector force = r.force;
+  for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
+    const long_pair& p = system_.pairs[i];
+    const double_double deep = system_.depth(i, u);
+    const bool is_closed = std::ranges::binary_search(closed, static_cast<int>(i));
+    if (system_.fixed[p.dof] != 0 || is_closed == (deep.hi > 0.0)) continue;
+    const double_double spring = p.stiffness * deep * p.surface;
+    force[p.dof] += is_closed ? -spring : spring;
   }
+  return force;
 }
 
-/// The load less K u and what pairs beyond their faces press with, whatever their statuses.
-error_prover::residual error_prover::residual_of(std::span<const double_double> u,
-                                                 const true_loads& l) const {
-  const std::size_t n = true_.dofs();
-  residual r{long_vector(n), std::vector<double>(n), long_vector(n)};
-  if (has_exact_residual(l)) {
-    if (std::optional<long_vector> exactly = exactly_(l.step, u)) {
-      r.needed = std::move(*exactly);
-      for (std::size_t dof = 0; dof < n; ++dof)  // one that underflows is not none
-        r.slack[dof] = std::max(std::abs(r.needed[dof].hi), std::numeric_limits<double>::min());
-      put_forces(r);
-      return r;
+/// K_A^-1 r, and the square of r's norm.
+double error_prover::correction_for(const long_vector& force, std::vector<double>& correction) {
+  double square = 0.0;
+  for (std::size_t dof = 0; dof < force.size(); ++dof) correction[dof] = force[dof].hi;
+  contacts_.stiffness().solve(correction);
+  for (std::size_t dof = 0; dof < force.size(); ++dof) square += force[dof].hi * correction[dof];
+  return square;
+}
+
+/// u += K_A^-1 r until r is nothing beside the loads, or that no longer makes it smaller; then the pairs that
+/// are beyond their faces become A, as long as these are others. A stiff pair may be so less deep than a
+/// correction is rounded, so A is kept until its own equations are solved. False where K_A is not definite
+/// for certain. Keeps the residual.
+bool error_prover::correct(const long_loads& l) {
+  constexpr int most = 40;
+  constexpr double none = 0x1p-150;  // of the loads' work: displacements are right to 2^-75
+  long_vector u = std::move(state_.u);
+  flush_tiny(u);
+  std::vector<int> closed = contacts_.pressed(u);
+  long_vector best;
+  double least = std::numeric_limits<double>::infinity();
+  double before = least;  // with the same A
+  std::vector<double> correction(u.size());
+  for (int i = 0; i < most && contacts_.proves(contacts_.holding(u, closed)); ++i) {
+    const long_residual r = residual_of(u, l);
+    const std::vector<int> now = contacts_.pressed(u);
+    double square = correction_for(r.force, correction);
+    double work = 0.0;
+    for (std::size_t dof = 0; dof < u.size(); ++dof) work += l.force[dof].hi * u[dof].hi;
+    // Another A measures by another norm.
+    if (best.empty() || (now == closed && (square < least || square == 0.0))) {
+      best = u;
+      state_.left = r;
+      if (now == closed) least = square;
     }
+    if (now != closed) square = correction_for(residual_of_set(r, u, closed), correction);
+    const bool nothing = (square >= 0.0 && square <= none * work) ||
+                         std::ranges::all_of(correction, [](double x) { return x == 0.0; });
+    if (nothing || !(square < before)) {
+      if (now == closed) break;
+      closed = now;
+      before = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    before = square;
+    for (std::size_t dof = 0; dof < u.size(); ++dof)
+      if (system_.fixed[dof] == 0) u[dof] += correction[dof];
+    flush_tiny(u);
   }
-  for (std::size_t dof = 0; dof < n; ++dof) r.needed[dof] = -l.force[dof];
-  r.slack = l.size;
-  true_.add_product(u, r.needed, r.slack);
-  if (std::ranges::any_of(u, [](const double_double& x) { return x.hi != 0.0; }))
-    for (double& size : r.slack)
-      size = std::max(size, std::numeric_limits<double>::min());  // it may underflow
-  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
-    const true_pair& p = true_.pairs[i];
-    const double_double deep = depth(i, u);
-    const double size = p.stiffness.hi * (std::abs(u[p.dof].hi) + std::abs(p.face.hi));
-    if (deep.hi > -true_rounding * (std::abs(u[p.dof].hi) + std::abs(p.face.hi))) r.slack[p.dof] += size;
-    if (!(deep.hi <= 0.0)) r.needed[p.dof] += p.stiffness * deep * p.surface;  // what is no number is told
-  }
-  put_forces(r);
-  return r;
+  state_.u = std::move(best);
+  return !state_.u.empty();
 }
 
-void error_prover::bound_displacements(const handed_out& state, std::span<const double_double> u,
-                                       error_bounds& b) const {
-  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
-    const quantity q = true_.deflects[dof] != 0 ? quantity::w : quantity::slope;
-    const double told = std::abs((double_double(state.displacement[dof]) - u[dof]).hi);
-    const double moved = true_.fixed[dof] != 0 ? true_rounding * std::abs(u[dof].hi) : reach(dof) * b.rho;
-    b.error.take(q, (told + moved) * (1 + summation_slack));
-    b.size.take(q, std::abs(state.displacement[dof]));
+/// A pair whose force, or lack of it, cannot be rounding has the status that goes with it.
+void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) const {
+  const auto force_at = [&](std::size_t i) {
+    return system_.pairs[i].stiffness.hi * system_.depth(i, state_.u).hi;
+  };
+  double largest = 0.0;
+  for (const double_double& f : l.force) largest = std::max(largest, std::abs(f.hi));
+  for (std::size_t i = 0; i < isep.size(); ++i) largest = std::max(largest, force_at(i));
+  for (std::size_t i = 0; i < isep.size(); ++i)
+    if (std::abs(force_at(i)) > 1e-12 * largest) isep[i] = force_at(i) > 0.0 ? in_contact : separated;
+}
+
+/// A pair that is certainly beyond its face, or off it, in all states within rho of u has the status that
+/// goes with it.
+void error_prover::settle_certain_statuses(double rho, std::span<int> isep) const {
+  for (std::size_t i = 0; i < isep.size(); ++i) {
+    const double deep = system_.depth(i, state_.u).hi;
+    if (std::abs(deep) > contacts_.reach_of_pair(i, state_.u, rho))
+      isep[i] = deep > 0.0 ? in_contact : separated;
   }
 }
 
-void error_prover::bound_forces(const handed_out& state, std::span<const double_double> u,
-                                error_bounds& b) const {
-  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
-    const true_pair& p = true_.pairs[i];
-    const double_double deep = depth(i, u);
+/// Reactions and element forces that are no more than the rounding of 32 digits are 0.
+end_numbers error_prover::numbers_of(std::span<const int> isep) const {
+  const auto told = [](const double_double& x, double noise) { return std::abs(x.hi) > noise ? x.hi : 0.0; };
+  end_numbers n;
+  for (std::size_t i = 0; i < isep.size(); ++i) {
+    const double_double deep = system_.depth(i, state_.u);
+    const bool presses = isep[i] == in_contact && deep.hi > 0.0;
+    n.pair_forces.push_back(presses ? (system_.pairs[i].stiffness * deep).hi : 0.0);
+  }
+  for (const support_force& f : support_forces()) n.reactions.push_back(told(f.force, f.slack));
+  for (const element_value& v : state_.values) n.element_values.push_back(told(v.value, v.noise()));
+  return n;
+}
+
+std::optional<end_numbers> error_prover::refine(int step, std::span<double> displacement,
+                                                std::span<int> isep) {
+  const long_loads& l = loads_of(step);
+  state_ = {step, false, long_displacement(step, displacement, l), {}, {}, {}};
+  if (system_.is_unloaded(l) && contacts_.proves({})) {
+    std::fill(state_.u.begin(), state_.u.end(), 0.0);
+    state_.left = residual_of(state_.u, l);
+  } else if (!correct(l)) {
+    return std::nullopt;
+  }
+  state_.refined = true;
+  state_.values = system_.element_values(step, state_.u);
+  for (std::size_t dof = 0; dof < displacement.size(); ++dof) displacement[dof] = state_.u[dof].hi;
+  contact_set found;
+  if (contacts_.find(state_.u, state_.left, found)) {
+    settle_certain_statuses(found.rho, isep);
+    state_.contacts = std::move(found);
+  } else {
+    settle_statuses(l, isep);
+  }
+  return numbers_of(isep);
+}
+
+/// Is K, without any pair, proved to be positive semidefinite? Only then E is convex. May leave another
+/// factor.
+bool error_prover::is_semidefinite() {
+  if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // by its elements' formulas
+  if (!semidefinite_)
+    semidefinite_ = contacts_.proves({}) || (exactly_ != nullptr && exactly_->is_semidefinite());
+  return *semidefinite_;
+}
+
+/// Nodal loads are sizes. Where there are none, what it takes to move one settling dof alone tells how large
+/// the rounding of forces is that are none.
+void error_prover::measure(const long_loads& l, error_bounds& b) const {
+  const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
+  for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
+    const quantity q = system_.deflects[dof] != 0 ? quantity::force : quantity::moment;
+    b.size.take(q, std::abs(l.force[dof].hi));
+    if (!is_loaded)
+      b.settling.take(q, system_.root[dof] * system_.root[dof] * std::abs(l.settlement[dof].hi));
+  }
+}
+
+void error_prover::bound_displacements(const reported_state& told, error_bounds& b) const {
+  for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
+    const double_double& u = state_.u[dof];
+    const double moved =
+        system_.fixed[dof] != 0 ? long_rounding * std::abs(u.hi) : contacts_.reach(dof) * b.rho;
+    take(b, system_.deflects[dof] != 0 ? quantity::w : quantity::slope, told.displacement[dof], u, 0.0,
+         moved);
+  }
+}
+
+void error_prover::bound_forces(const reported_state& told, error_bounds& b) const {
+  for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
+    const long_pair& p = system_.pairs[i];
+    const double_double deep = system_.depth(i, state_.u);
     const double_double force = deep.hi <= 0.0 ? double_double(0.0) : p.stiffness * deep;
-    const double told = std::abs((double_double(state.pair_forces[i]) - force).hi);
     const double root = std::sqrt(p.stiffness.hi) * (1 + summation_slack);
-    const bool held = true_.fixed[p.dof] != 0;
-    const bool open = is_certainly_open(i, u, b.rho);
-    const double moved = held || open ? 0.0 : std::min(root, p.stiffness.hi * reach(p.dof)) * b.rho;
-    const double noise = open ? 0.0 : p.stiffness.hi * doubt(i, u);
-    b.error.take(quantity::force, (told + noise + moved) * (1 + summation_slack));
-    b.size.take(quantity::force, std::abs(state.pair_forces[i]));
+    const bool held = system_.fixed[p.dof] != 0;
+    const bool open = contacts_.is_certainly_open(i, state_.u, b.rho);
+    const double moved = held || open ? 0.0 : std::min(root, p.stiffness.hi * contacts_.reach(p.dof)) * b.rho;
+    const double noise = open ? 0.0 : p.stiffness.hi * system_.doubt(i, state_.u);
+    take(b, quantity::force, told.numbers.pair_forces[i], force, noise, moved);
   }
-}
-
-/// How far the depth of a pair in any state within rho of u can be from that under u.
-double error_prover::reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const {
-  const int dof = true_.pairs[pair].dof;
-  const double moved = true_.fixed[dof] != 0 || rho == 0.0 ? 0.0 : reach(dof) * rho * (1 + summation_slack);
-  return moved + doubt(pair, u);
 }
 
 /// Each pair's status, and its gap, which is 0 for a pair in contact; the bounds on gaps only where
 /// displacements have bounds.
-void error_prover::bound_pairs(const handed_out& state, std::span<const double_double> u,
+void error_prover::bound_pairs(const reported_state& told, std::span<const double_double> u,
                                error_bounds& b) const {
-  for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
-    const contact_pair& p = problem_.pairs[i];
-    const bool is_closed = state.isep[i] == in_contact;
-    const double told = gap_of(p, state.displacement[true_.pairs[i].dof], is_closed);
-    const double_double gap = -depth(i, u);
-    const double reach = reach_of_pair(i, u, b.rho);
+  for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
+    const bool is_closed = told.isep[i] == in_contact;
+    const double told_gap = gap_of(problem_.pairs[i], told.displacement[system_.pairs[i].dof], is_closed);
+    const double_double gap = -system_.depth(i, u);
+    const double reach = contacts_.reach_of_pair(i, u, b.rho);
     const bool is_wrong =
         is_closed ? gap.hi * (1 - summation_slack) > reach : -gap.hi * (1 - summation_slack) > reach;
     if (is_wrong && !b.wrong_status) b.wrong_status = i;
     if (!b.unique) continue;
     // A pair that presses has no gap, whatever its depth.
-    const double least = std::abs((double_double(told) - std::max(gap.hi - reach, 0.0)).hi);
-    const double most = std::abs((double_double(told) - std::max(gap.hi + reach, 0.0)).hi);
-    b.error.take(quantity::gap, gap.hi > reach
-                                    ? std::abs((double_double(told) - gap).hi) * (1 + summation_slack) + reach
-                                    : std::max(least, most) * (1 + summation_slack));
-    b.size.take(quantity::gap, std::abs(told));
+    const auto off = [&](const double_double& x) {
+      return std::abs((double_double(told_gap) - x).hi) * (1 + summation_slack);
+    };
+    b.error.take(quantity::gap, gap.hi > reach ? off(gap) + reach
+                                               : std::max(off(std::max(gap.hi - reach, 0.0)),
+                                                          off(std::max(gap.hi + reach, 0.0))));
+    b.size.take(quantity::gap, std::abs(told_gap));
   }
 }
 
 /// A dof that is fixed twice gives its reaction to the first support.
-std::vector<error_prover::true_reaction> error_prover::reactions_at(std::span<const double_double> u,
-                                                                    const residual& r) const {
-  const int per_node = dofs_per_node(problem_.geometry);
-  std::vector<char> taken(true_.dofs(), 0);
-  std::vector<true_reaction> all;
-  for (const support& s : problem_.supports) {
-    const std::size_t dof = s.node * per_node + s.dof;
-    true_reaction& force = all.emplace_back();
+std::vector<error_prover::support_force> error_prover::support_forces() const {
+  std::vector<char> taken(system_.dofs(), 0);
+  std::vector<support_force> all;
+  for (const auto& s : system_.supports) {
+    support_force& force = all.emplace_back();
     if (!s.fixed) {
-      force.force = -(long_decimal(s.spring) * u[dof]);
-      force.slack = true_rounding * std::abs(force.force.hi);
-      if (true_.fixed[dof] == 0)
-        force.per_rho = std::min(std::sqrt(s.spring) * (1 + summation_slack), s.spring * reach(dof));
-    } else if (s.fixed && taken[dof] == 0) {
-      taken[dof] = 1;
-      force = {r.needed[dof], r.slack[dof], true_.root[dof]};
+      force.force = -(s.spring * state_.u[s.dof]);
+      force.slack = long_rounding * std::abs(force.force.hi);
+      if (system_.fixed[s.dof] == 0)
+        force.per_rho =
+            std::min(std::sqrt(s.spring.hi) * (1 + summation_slack), s.spring.hi * contacts_.reach(s.dof));
+    } else if (std::exchange(taken[s.dof], 1) == 0) {
+      force = {state_.left.needed[s.dof], state_.left.slack[s.dof], system_.root[s.dof]};
     }
   }
   return all;
 }
 
-void error_prover::bound_reactions(const handed_out& state, const residual& r,
-                                   std::span<const double_double> u, error_bounds& b) const {
-  const std::vector<true_reaction> all = reactions_at(u, r);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const quantity q = problem_.supports[i].dof == 0 ? quantity::reaction : quantity::moment;
-    const double told = std::abs((double_double(state.reactions[i]) - all[i].force).hi);
-    b.error.take(q, (told + all[i].slack + all[i].per_rho * b.rho) * (1 + summation_slack));
-    b.size.take(q, std::abs(state.reactions[i]));
-  }
-}
-
-void error_prover::bound_element_values(const handed_out& state, error_bounds& b) const {
-  if (state.element_values.empty()) return;
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const quantity q = values_[i].moment ? quantity::moment : quantity::shear;
-    const double told = std::abs((double_double(state.element_values[i]) - values_[i].value).hi);
-    b.error.take(q, (told + noise_of(values_[i]) + values_[i].energy * b.rho) * (1 + summation_slack));
-    b.size.take(q, std::abs(state.element_values[i]));
-  }
-}
-
-bool error_prover::is_unloaded(const true_loads& l) const {
-  const auto none = [](const double_double& x) { return x == 0.0; };
-  return std::ranges::all_of(l.size, [](double x) { return x == 0.0; }) &&
-         std::ranges::all_of(l.settlement, none) &&
-         std::ranges::all_of(true_.pairs, [](const true_pair& p) { return p.face.hi * p.surface >= 0.0; });
-}
-
 /// All forces are 0 then, and where the supports hold the structure all displacements. Where they do not, it
 /// may stand, unbent, wherever no pair is beyond its face.
-void error_prover::bound_unloaded(const handed_out& state, error_bounds& b) {
+error_bounds error_prover::bound_unloaded(const reported_state& told) {
+  error_bounds b;
   b.unloaded = true;
-  b.unique = proves({});
+  b.unique = contacts_.proves({});
   b.rho = 0.0;
+  const long_vector at_rest(system_.dofs());
   const auto take = [&b](quantity q, double value) { b.error.take(q, std::abs(value)); };
-  for (std::size_t dof = 0; dof < true_.dofs() && b.unique; ++dof)
-    take(true_.deflects[dof] != 0 ? quantity::w : quantity::slope, state.displacement[dof]);
-  if (b.unique) bound_pairs(state, long_vector(true_.dofs()), b);
-  if (!b.unique && state.element_values.empty()) {
+  for (std::size_t dof = 0; dof < system_.dofs() && b.unique; ++dof)
+    take(system_.deflects[dof] != 0 ? quantity::w : quantity::slope, told.displacement[dof]);
+  if (b.unique) bound_pairs(told, at_rest, b);
+  const end_numbers& n = told.numbers;
+  if (!b.unique && n.element_values.empty()) {
     b.not_proved =
         "only contact holds the structure, and a structure given by its matrix has no moments to prove that "
         "it is not bent";
-    return;
+  } else {
+    for (const double force : n.pair_forces) take(quantity::force, force);
+    for (std::size_t i = 0; i < n.reactions.size(); ++i) take(kind_of(problem_.supports[i]), n.reactions[i]);
+    const std::vector<element_value> kinds = system_.element_values(told.step, at_rest);
+    for (std::size_t i = 0; i < n.element_values.size(); ++i) take(kind_of(kinds[i]), n.element_values[i]);
   }
-  for (const double force : state.pair_forces) take(quantity::force, force);
-  for (std::size_t i = 0; i < problem_.supports.size(); ++i)
-    take(problem_.supports[i].dof == 0 ? quantity::reaction : quantity::moment, state.reactions[i]);
-  if (state.element_values.empty()) return;
-  const std::vector<element_value> kinds = true_.element_values(state.step, long_vector(true_.dofs()));
-  for (std::size_t i = 0; i < kinds.size(); ++i)
-    take(kinds[i].moment ? quantity::moment : quantity::shear, state.element_values[i]);
-}
-
-bool error_prover::is_refined(int step, std::span<const double> displacement) const {
-  const auto same = [](const double_double& a, double b) { return a.hi == b; };
-  return step == refined_step_ && std::ranges::equal(refined_, displacement, same);
-}
-
-long_vector error_prover::long_displacement(int step, std::span<const double> displacement,
-                                            const true_loads& l) const {
-  if (is_refined(step, displacement)) return refined_;
-  long_vector u(true_.dofs());
-  for (std::size_t dof = 0; dof < u.size(); ++dof)
-    u[dof] = true_.fixed[dof] != 0 ? l.settlement[dof] : double_double(displacement[dof]);
-  return u;
-}
-
-/// Nodal loads are sizes. Where there are none, what it takes to move one settling dof alone tells how large
-/// the rounding of forces is that are none.
-void error_prover::measure(const true_loads& l, error_bounds& b) const {
-  const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
-  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
-    const quantity q = true_.deflects[dof] != 0 ? quantity::force : quantity::moment;
-    b.size.take(q, std::abs(l.force[dof].hi));
-    if (!is_loaded) b.settling.take(q, true_.root[dof] * true_.root[dof] * std::abs(l.settlement[dof].hi));
-  }
-}
-
-void error_prover::keep(const handed_out& state, const long_vector& u, const error_bounds& b) {
-  if (!keeps_proof_ || (b.unique && !stiffness_.proof())) return;  // a sparse factor is not kept
-  const std::vector<double> displacement(state.displacement.begin(), state.displacement.end());
-  proof_ = step_proof{displacement, state.pair_forces, state.reactions, state.element_values, u, b.closed,
-                      z_,           stiffness_.proof()};
-}
-
-std::optional<error_bounds> error_prover::bound_closely(const handed_out& state) {
-  if (!exactly_) return std::nullopt;
-  closely_ = true;
-  const error_bounds b = bound(state);
-  closely_ = false;
+  widen_by_extremes(problem_, told, b);
+  const std::optional<double> largest_gap = b.size[quantity::gap];
+  b.size = b.error;
+  b.size[quantity::gap] = largest_gap;
+  if (b.not_proved.empty()) keep(told, at_rest, {}, b);
   return b;
 }
 
-error_bounds error_prover::bound(const handed_out& state) {
+void error_prover::keep(const reported_state& told, const long_vector& u, const long_vector& z,
+                        error_bounds& b) const {
+  const std::optional<stiffness_proof>& of_stiffness = contacts_.stiffness().proof();
+  if (!keeps_proof_ || (b.unique && !of_stiffness)) return;  // a sparse factor is not kept
+  b.proof = std::make_shared<step_proof>(step_proof{{told.displacement.begin(), told.displacement.end()},
+                                                    {told.isep.begin(), told.isep.end()},
+                                                    told.numbers,
+                                                    u,
+                                                    b.closed,
+                                                    z,
+                                                    of_stiffness});
+}
+
+/// A and rho of the state, or the reason why there are none.
+bool error_prover::find_contacts(const long_loads& l, contact_set& b) {
+  bool found = true;
+  if (state_.contacts && !closely_) {
+    b = *state_.contacts;
+  } else {
+    found = contacts_.find(state_.u, state_.left, b);
+  }
+  if (!state_.refined && has_exact_residual(l)) {  // that doubles do not factor K_A is known only now
+    state_.left = residual_of(state_.u, l);
+    found = contacts_.find(state_.u, state_.left, b);
+  }
+  if (!found) return contacts_.find_balanced(l.step, state_.u, state_.left, b);
+  if (!is_semidefinite()) {
+    b.not_proved = "it is not certain that the matrix is positive semidefinite";
+    return false;
+  }
+  (void)contacts_.proves(b.closed);  // that of K alone may have replaced its factor and its proof
+  return true;
+}
+
+error_bounds error_prover::bound(const reported_state& told) {
   error_bounds b;
-  const true_loads& l = loads_of(state.step);
-  if (is_below_range(l)) {
+  const long_loads& l = loads_of(told.step);
+  if (system_.is_below_range(l)) {
     b.not_proved =
         "the problem has numbers, or cubes of lengths, below 1e-280: too near the smallest normal double, "
         "2e-308";
     return b;
   }
-  if (is_unloaded(l)) {
-    bound_unloaded(state, b);
-    widen_by_extremes(problem_, state, b);
-    const std::optional<double> largest_gap = b.size[quantity::gap];
-    b.size = b.error;
-    b.size[quantity::gap] = largest_gap;
-    z_.clear();
-    if (b.not_proved.empty()) keep(state, long_vector(true_.dofs()), b);
-    return b;
+  if (system_.is_unloaded(l)) return bound_unloaded(told);
+  if (!is_refined(told.step, told.displacement)) {
+    state_ = {told.step, false, long_displacement(told.step, told.displacement, l), {}, {}, {}};
+    state_.values = system_.element_values(told.step, state_.u);
   }
-  const long_vector u = long_displacement(state.step, state.displacement, l);
-  if (!is_refined(state.step, state.displacement)) {
-    refined_step_ = 0;  // what was kept is of another state
-    residual_ = residual_of(u, l);
-    values_ = true_.element_values(state.step, u);
-  }
-  if (closely_) residual_ = residual_of(u, l);
-  const residual& r = residual_;
-  bool found = true;
-  if (refined_bounds_ && refined_step_ != 0 && !closely_) {
-    b = *refined_bounds_;
-  } else {
-    found = find_closed(u, r, b);
-  }
-  if (refined_step_ == 0 && has_exact_residual(l)) {  // that doubles do not factor K_A is known only now
-    residual_ = residual_of(u, l);
-    found = find_closed(u, r, b);
-  }
-  if (!found && !find_balanced(state.step, u, r, b)) return b;
-  if (found && !is_semidefinite()) {
-    b.not_proved = "it is not certain that the matrix is positive semidefinite";
-    return b;
-  }
-  if (found) (void)proves(b.closed);  // that of K alone may have replaced its factor and its proof
+  if (!state_.refined || closely_) state_.left = residual_of(state_.u, l);
+  if (!find_contacts(l, b)) return b;
   measure(l, b);
-  if (b.unique) bound_displacements(state, u, b);
-  bound_pairs(state, u, b);
-  bound_forces(state, u, b);
-  bound_reactions(state, r, u, b);
-  bound_element_values(state, b);
-  widen_by_extremes(problem_, state, b);
-  if (b.unique) keep(state, u, b);  // of a balanced one the checker knows nothing
+  if (b.unique) bound_displacements(told, b);
+  bound_pairs(told, state_.u, b);
+  bound_forces(told, b);
+  const std::vector<support_force> forces = support_forces();
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    take(b, kind_of(problem_.supports[i]), told.numbers.reactions[i], forces[i].force, forces[i].slack,
+         forces[i].per_rho * b.rho);
+  for (std::size_t i = 0; i < told.numbers.element_values.size(); ++i) {
+    const element_value& v = state_.values[i];
+    take(b, kind_of(v), told.numbers.element_values[i], v.value, v.noise(), v.energy * b.rho);
+  }
+  widen_by_extremes(problem_, told, b);
+  if (b.unique) keep(told, state_.u, contacts_.z(), b);  // of a balanced one the checker knows nothing
+  return b;
+}
+
+std::optional<error_bounds> error_prover::bound_closely(const reported_state& told) {
+  if (exactly_ == nullptr) return std::nullopt;
+  closely_ = true;
+  const error_bounds b = bound(told);
+  closely_ = false;
   return b;
 }
 

@@ -1,10 +1,10 @@
-#include "contct/certify/extreme_bounds.hpp"
-
+// What inside a beam's elements can be further off than at their ends.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "contct/certify/error_bounds.hpp"
 #include "contct/structure/extremes.hpp"
 
 namespace contct::certify {
@@ -55,11 +55,11 @@ double off_extremes(const std::vector<double>& p, const structure::value_range& 
 
 /// The error of M is linear in t, but for rounding, and that of V constant: nowhere larger than at the ends.
 /// That of w is a cubic; of Hermite's functions those of w add up to 1 and those of slopes to at most h / 4.
-void widen(const structure::beam& b, const handed_out& state, const structure::load& l,
+void widen(const structure::beam& b, const reported_state& state, const structure::load& l,
            error_bounds& bounds) {
   const std::vector<structure::value_range> printed =
-      structure::ranges_of({b}, l, state.displacement, {}, state.element_values);
-  const structure::beam_lines lines(b, l, state.displacement, state.element_values);
+      structure::ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
+  const structure::beam_lines lines(b, l, state.displacement, state.numbers.element_values);
   by_quantity& error = bounds.error;
   by_quantity inside;
   for (int e = 0; e < b.elements(); ++e) {
@@ -84,7 +84,7 @@ void widen(const structure::beam& b, const handed_out& state, const structure::l
 
 }  // namespace
 
-void widen_by_extremes(const problem& p, const handed_out& state, error_bounds& b) {
+void widen_by_extremes(const problem& p, const reported_state& state, error_bounds& b) {
   if (const auto* const of_beam = std::get_if<structure::beam>(&p.geometry.kind))
     widen(*of_beam, state, b.unloaded ? structure::load{} : p.steps[state.step - 1], b);
 }

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
-#include "contct/certify/sparse_product.hpp"
 #include "contct/matrix/cholesky.hpp"
 
 namespace contct::certify {
@@ -16,6 +15,7 @@ using matrix::band_matrix;
 
 /// The power of two whose square brings a positive `x` between 1/8 and 1.
 double root_scale(double x) {
+  if (!(x > 0.0)) return 1.0;
   int exponent = 0;
   (void)std::frexp(x, &exponent);
   return std::ldexp(1.0, -((exponent + (exponent > 0 ? 1 : 0)) / 2));
@@ -70,9 +70,9 @@ std::vector<double> diagonal_of(const matrix::sparse_columns& a) {
 
 }  // namespace
 
-scaled_stiffness::scaled_stiffness(const true_system& t, std::vector<int> row_of,
+scaled_stiffness::scaled_stiffness(const long_system& t, std::vector<int> row_of,
                                    std::optional<int> subdiagonals)
-    : true_(t), row_of_(std::move(row_of)), dof_at_(row_of_.size()), subdiagonals_(subdiagonals) {
+    : system_(t), row_of_(std::move(row_of)), dof_at_(row_of_.size()), subdiagonals_(subdiagonals) {
   for (std::size_t dof = 0; dof < row_of_.size(); ++dof) dof_at_[row_of_[dof]] = static_cast<int>(dof);
 }
 
@@ -80,9 +80,9 @@ scaled_stiffness::scaled_stiffness(const true_system& t, std::vector<int> row_of
 template <class Put>
 void scaled_stiffness::each_in_row(int dof, double shift, const Put& put) const {
   const int row = row_of_[dof];
-  if (true_.fixed[dof] != 0) return put(row, double_double(1.0) - shift);
-  for (const auto& [column, of_true] : true_.stiffness[dof]) {
-    if (true_.fixed[column] != 0 || row_of_[column] > row) continue;
+  if (system_.fixed[dof] != 0) return put(row, double_double(1.0) - shift);
+  for (const auto& [column, of_true] : system_.stiffness[dof]) {
+    if (system_.fixed[column] != 0 || row_of_[column] > row) continue;
     double_double entry = column == dof ? of_true + springs_[dof] : of_true;
     entry = entry * (scale_[dof] * scale_[column]);
     put(row_of_[column], column == dof ? entry - shift : entry);
@@ -92,24 +92,24 @@ void scaled_stiffness::each_in_row(int dof, double shift, const Put& put) const 
 /// Calls put(row, column, value) for every such entry.
 template <class Put>
 void scaled_stiffness::each_entry(double shift, const Put& put) const {
-  for (int dof = 0; dof < static_cast<int>(true_.dofs()); ++dof)
+  for (int dof = 0; dof < static_cast<int>(system_.dofs()); ++dof)
     each_in_row(dof, shift, [&](int column, const double_double& x) { put(row_of_[dof], column, x); });
 }
 
-band_matrix scaled_stiffness::band(double shift) const {
-  band_matrix all(static_cast<int>(true_.dofs()), *subdiagonals_);
-  each_entry(shift, [&all](int row, int column, const double_double& x) { all.at(row, column) = x.hi; });
-  return all;
-}
-
-long_band scaled_stiffness::band_of_32_digits(double shift) const {
-  long_band all(static_cast<int>(true_.dofs()), *subdiagonals_);
-  each_entry(shift, [&all](int row, int column, const double_double& x) { all.at(row, column) = x; });
+template <class Number>
+matrix::band_of_numbers<Number> scaled_stiffness::band(double shift) const {
+  matrix::band_of_numbers<Number> all(static_cast<int>(system_.dofs()), *subdiagonals_);
+  each_entry(shift, [&all](int row, int column, const double_double& x) {
+    if constexpr (std::is_same_v<Number, double>)
+      all.at(row, column) = x.hi;
+    else
+      all.at(row, column) = x;
+  });
   return all;
 }
 
 matrix::sparse_columns scaled_stiffness::columns(double shift) const {
-  matrix::sparse_matrix all{static_cast<int>(true_.dofs()), {}};
+  matrix::sparse_matrix all{static_cast<int>(system_.dofs()), {}};
   each_entry(shift, [&all](int row, int column, const double_double& x) {
     all.entries.push_back({row, column, x.hi});
   });
@@ -118,12 +118,12 @@ matrix::sparse_columns scaled_stiffness::columns(double shift) const {
 
 bool scaled_stiffness::factor(std::span<const int> pairs) {
   proof_.reset();
-  springs_.assign(true_.dofs(), 0.0);
-  for (const int i : pairs) springs_[true_.pairs[i].dof] += true_.pairs[i].stiffness;
-  scale_.assign(true_.dofs(), 1.0);
-  for (std::size_t dof = 0; dof < true_.dofs(); ++dof) {
-    if (true_.fixed[dof] != 0) continue;
-    const double diagonal = true_.root[dof] * true_.root[dof] + springs_[dof].hi;
+  springs_.assign(system_.dofs(), 0.0);
+  for (const int i : pairs) springs_[system_.pairs[i].dof] += system_.pairs[i].stiffness;
+  scale_.assign(system_.dofs(), 1.0);
+  for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
+    if (system_.fixed[dof] != 0) continue;
+    const double diagonal = system_.root[dof] * system_.root[dof] + springs_[dof].hi;
     scale_[dof] = root_scale(diagonal);
   }
   return factor_in_doubles() || factor_in_32_digits();
@@ -137,14 +137,25 @@ bool scaled_stiffness::factor_in_doubles() {
     sparse_ = matrix::sparse_factor::make(std::move(all));
     return sparse_->factor(diagonal);
   }
-  factor_ = band(0.0);
+  factor_ = band<double>(0.0);
   return matrix::factor(factor_);
 }
 
 bool scaled_stiffness::factor_in_32_digits() {
-  if (!subdiagonals_ || !can_be_factored_long(static_cast<int>(true_.dofs()), *subdiagonals_)) return false;
-  long_ = band_of_32_digits(0.0);
+  if (!subdiagonals_ || !can_be_factored_long(static_cast<int>(system_.dofs()), *subdiagonals_)) return false;
+  long_ = band<double_double>(0.0);
   return certify::factor(*long_);
+}
+
+std::vector<double> scaled_stiffness::suspect() const {
+  std::vector<double> motion(system_.dofs());
+  if (!long_) return motion;
+  const long_vector x = suspect_in(*long_);
+  for (std::size_t dof = 0; dof < motion.size(); ++dof) {
+    const double moved = x[row_of_[dof]].hi * scale_[dof];
+    if (system_.fixed[dof] == 0 && std::isfinite(moved)) motion[dof] = moved;
+  }
+  return motion;
 }
 
 void scaled_stiffness::solve_rows(std::span<double> x) const {
@@ -161,7 +172,7 @@ void scaled_stiffness::solve_rows(std::span<double> x) const {
 void scaled_stiffness::solve(std::span<double> b) const {
   std::vector<double> x(b.size());
   for (std::size_t dof = 0; dof < b.size(); ++dof)
-    x[row_of_[dof]] = true_.fixed[dof] != 0 ? 0.0 : b[dof] * scale_[dof];
+    x[row_of_[dof]] = system_.fixed[dof] != 0 ? 0.0 : b[dof] * scale_[dof];
   solve_rows(x);
   for (std::size_t dof = 0; dof < b.size(); ++dof) b[dof] = x[row_of_[dof]] * scale_[dof];
 }
@@ -169,18 +180,18 @@ void scaled_stiffness::solve(std::span<double> b) const {
 long_vector scaled_stiffness::times(std::span<const double_double> x, std::span<double> sizes) const {
   long_vector y(x.size());
   for (std::size_t dof = 0; dof < x.size(); ++dof) y[dof] = springs_[dof] * x[dof];
-  true_.add_product(x, y, sizes);
+  system_.add_product(x, y, sizes);
   return y;
 }
 
 /// By inverse iteration: never too small, and near enough after a few.
 double scaled_stiffness::least_estimate() const {
-  const std::size_t n = true_.dofs();
+  const std::size_t n = system_.dofs();
   std::vector<double> x(n);
   for (std::size_t row = 0; row < n; ++row) {
     // In 4 bytes: libraries' sines differ in the last bit of 8.
     const auto sine = static_cast<float>(std::sin(2.3 * static_cast<double>(row)));
-    x[row] = true_.fixed[dof_at_[row]] != 0 ? 0.0 : 1.0 + 0.5 * sine;
+    x[row] = system_.fixed[dof_at_[row]] != 0 ? 0.0 : 1.0 + 0.5 * sine;
   }
   double estimate = 1.0;
   for (int i = 0; i < 4; ++i) {
@@ -202,8 +213,8 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
   const bool narrow = b <= 16;
   // Of a product of two rows, whose magnitudes add up to at most 1.1 (their squares are the diagonal's), and
   // of an entry of K_A.
-  const double rounding = 2.0 * (narrow ? (b + 4) * 0x1p-98 : (b + 4) * 0x1p-52) + true_rounding;
-  std::vector<double> sums(n, (2 * b + 1) * rounding);
+  const double rounding = 2.0 * (narrow ? (b + 4) * 0x1p-98 : (b + 4) * 0x1p-52) + long_rounding;
+  row_sums sums(n, (2 * b + 1) * rounding);
   std::vector<double_double> row(b + 1);
   for (int i = 0; i < n; ++i) {
     l.read(i);
@@ -216,19 +227,14 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
       const double* const of_j = l.at(j, first);
       const double_double product =
           narrow ? long_product(of_i, of_j, count) : quick_product(of_i, of_j, count);
-      const double error = std::abs((row[j - i + b] - product).hi);
-      sums[i] += error;
-      if (j != i) sums[j] += error;
+      sums.add(i, j, (row[j - i + b] - product).hi);
     }
   }
-  const auto finite = [](double sum) { return std::isfinite(sum); };
-  if (!std::ranges::all_of(sums, finite))
-    return std::numeric_limits<double>::infinity();  // NaN has no largest
-  return *std::max_element(sums.begin(), sums.end()) * (1 + 0x1p-30);
+  return sums.largest();
 }
 
 std::optional<double> scaled_stiffness::error_of_band(double shift) {
-  band_matrix l = band(shift);
+  band_matrix l = band<double>(shift);
   if (!matrix::factor(l)) return std::nullopt;
   const double error = largest_row_of_error(l, shift);
   if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l), {}};
@@ -236,24 +242,12 @@ std::optional<double> scaled_stiffness::error_of_band(double shift) {
 }
 
 std::optional<double> scaled_stiffness::error_of_long_band(double shift) {
-  const long_band a = band_of_32_digits(shift);
+  const long_band a = band<double_double>(shift);
   long_band l = a;
   if (!certify::factor(l)) return std::nullopt;
-  if (keeps_proof_) proof_ = proof_of(l, shift);
-  return certify::largest_row_of_error(a, l, true_rounding);
-}
-
-/// L as a sum of two.
-stiffness_proof scaled_stiffness::proof_of(const long_band& l, double shift) const {
-  stiffness_proof p{scale_, row_of_, shift, band_matrix(l.order(), l.subdiagonals()),
-                    band_matrix(l.order(), l.subdiagonals())};
-  for (int i = 0; i < l.order(); ++i) {
-    for (int j = l.first(i); j <= i; ++j) {
-      p.factor.at(i, j) = l.at(i, j).hi;
-      p.factor_low->at(i, j) = l.at(i, j).lo;
-    }
-  }
-  return p;
+  const double error = certify::largest_row_of_error(a, l, long_rounding);
+  if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, {}, std::move(l)};
+  return error;
 }
 
 std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
@@ -261,9 +255,9 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   const auto l = matrix::sparse_factor::make(a);
   if (!l->factor(diagonal_of(a))) return std::nullopt;
   std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double
-  for (const auto& row : true_.stiffness) most = std::max(most, row.size());
-  const double rounding = static_cast<double>(most) * (0x1p-53 + true_rounding);
-  return largest_row_of_error_in(reordered(a, l->places()), l->lower()) + rounding;
+  for (const auto& row : system_.stiffness) most = std::max(most, row.size());
+  const double rounding = static_cast<double>(most) * (0x1p-53 + long_rounding);
+  return certify::largest_row_of_error(reordered(a, l->places()), l->lower()) + rounding;
 }
 
 double scaled_stiffness::least_eigenvalue() {

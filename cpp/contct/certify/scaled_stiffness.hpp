@@ -8,13 +8,21 @@
 #include <span>
 #include <vector>
 
-#include "contct/certify/long_factor.hpp"
-#include "contct/certify/step_proof.hpp"
-#include "contct/certify/true_system.hpp"
+#include "contct/certify/factors.hpp"
+#include "contct/certify/long_system.hpp"
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
 namespace contct::certify {
+
+/// S K_A S - shift I is all but L L': what proves that S K_A S >= mu I.
+struct stiffness_proof {
+  std::vector<double> scale;  ///< S [dofs], powers of two
+  std::vector<int> row_of;    ///< the row of each dof in L [dofs], from 0
+  double shift = 0.0;
+  matrix::band_matrix factor;            ///< L
+  std::optional<long_band> long_factor;  ///< in place of it, where doubles are too short for L
+};
 
 /// S K_A S, with powers of two in S such that the diagonal is between 1/8 and 1. Rows
 /// of fixed dofs are those of the unit matrix.
@@ -22,7 +30,7 @@ class scaled_stiffness {
  public:
   /// `row_of`: the row of each dof in a band of `subdiagonals`; without these, by sparse columns, which takes
   /// CHOLMOD. `t` must outlive this object.
-  scaled_stiffness(const true_system& t, std::vector<int> row_of, std::optional<int> subdiagonals);
+  scaled_stiffness(const long_system& t, std::vector<int> row_of, std::optional<int> subdiagonals);
 
   /// Take the springs of these pairs, from 0, into K_A, and factor it. False where a pivot is not positive.
   [[nodiscard]] bool factor(std::span<const int> pairs);
@@ -30,13 +38,16 @@ class scaled_stiffness {
   /// mu with S K_A S >= mu I; 0 where none can be proved. Takes a factorisation or more, and four solves.
   [[nodiscard]] double least_eigenvalue();
 
+  /// Where 32 digits gave no factor either: displacements on which K_A may do negative work. Otherwise 0.
+  [[nodiscard]] std::vector<double> suspect() const;
+
   /// Did the last factor take 32 digits?
   [[nodiscard]] bool has_32_digits() const { return long_.has_value(); }
 
   /// K_A^-1 b, rounded to doubles, for b [dofs] that is 0 at fixed ones.
   void solve(std::span<double> b) const;
 
-  /// K_A x; `sizes` as true_system::add_product has them.
+  /// K_A x; `sizes` as long_system::add_product has them.
   [[nodiscard]] long_vector times(std::span<const double_double> x, std::span<double> sizes = {}) const;
 
   /// What least_eigenvalue finds has its proof kept, which takes one more band. Of sparse columns none is.
@@ -48,8 +59,8 @@ class scaled_stiffness {
 
  private:
   /// S K_A S - shift I, in rows of the band, or by columns.
-  [[nodiscard]] matrix::band_matrix band(double shift) const;
-  [[nodiscard]] long_band band_of_32_digits(double shift) const;
+  template <class Number>
+  [[nodiscard]] matrix::band_of_numbers<Number> band(double shift) const;
   [[nodiscard]] matrix::sparse_columns columns(double shift) const;
   template <class Put>
   void each_in_row(int dof, double shift, const Put& put) const;
@@ -63,11 +74,10 @@ class scaled_stiffness {
   /// How far L L' is from S K_A S - shift I, in norm; nothing where there is no factor.
   [[nodiscard]] std::optional<double> error_of_band(double shift);
   [[nodiscard]] std::optional<double> error_of_long_band(double shift);
-  [[nodiscard]] stiffness_proof proof_of(const long_band& l, double shift) const;
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
   [[nodiscard]] double largest_row_of_error(const matrix::band_matrix& factor, double shift) const;
 
-  const true_system& true_;
+  const long_system& system_;
   std::vector<int> row_of_, dof_at_;
   std::optional<int> subdiagonals_;
   long_vector springs_;        // [dofs] of the pairs taken in

@@ -1,34 +1,28 @@
-// Is a stiffness matrix positive semidefinite? Decided without rounding.
+// Is the stiffness matrix of somebody else positive semidefinite? Proved, or shown not to be.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
 
-#include "contct/exact/lifted_solver.hpp"
+#include "contct/exact/exact_problem.hpp"
 
 namespace contct::exact {
 
 /// A displacement on which the matrix does negative work: no structure has such a matrix.
 struct negative_work {
-  vector motion;  ///< [dofs], 0 at fixed ones
-  rational work;  ///< motion' K motion
+  rational_vector motion;  ///< [dofs], 0 at fixed ones
+  rational work;           ///< motion' K motion
 };
 
-/// Nothing where K is positive semidefinite on the dofs that are not fixed, with a proof; otherwise a
-/// displacement that shows that it is not. `place` as lifted_solver has it.
-///
-/// Both are proved by exact sums, whatever the numbers in between were rounded to. With K scaled to ones on
-/// its diagonal, up to a factor of 8, and any lower triangle L that has L L' near K - c, K is definite if the
-/// rows of K - c - L L' add up to less than c. L comes from Cholesky's method with so many bits behind the
-/// point; where that fails, it shows where negative work may be found. If it is not there, the bits are
-/// doubled: K is regular on the dofs with pivots, so they suffice some time.
-///
-/// Throws std::runtime_error as lifted_solver::factor does, where more than 16,384 bits would be needed, and
-/// where L would take more than `most_bytes`.
-[[nodiscard]] std::optional<negative_work> find_negative_work(const sparse_rows& k,
-                                                              std::span<const char> fixed,
-                                                              std::span<const int> place,
-                                                              std::int64_t most_bytes);
+/// At most one of the two; neither where 32 digits do not decide it.
+struct definiteness {
+  bool semidefinite = false;  ///< on the dofs that are not fixed, for certain
+  std::optional<negative_work> shown = {};
+};
+
+/// The dofs that free motions of K move are found modulo a prime, and the motions confirmed exactly. K is
+/// semidefinite where it is definite on the others, which the bound on its least eigenvalue proves. Where its
+/// factor fails, that shows a displacement, of which an exact sum decides. Throws std::runtime_error as
+/// lifted_solver::factor does.
+[[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
 }  // namespace contct::exact

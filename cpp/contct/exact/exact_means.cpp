@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 #include <stdexcept>
 
 #include "contct/exact/definite.hpp"
 #include "contct/exact/path.hpp"
-#include "contct/text/memory.hpp"
 
 namespace contct::exact {
 namespace {
 
 using numeric::double_double;
 
-vector exactly(const exact_problem& p, const exact_step& s, std::span<const double_double> u) {
-  vector all;
+rational_vector exactly(const exact_problem& p, const exact_step& s, std::span<const double_double> u) {
+  rational_vector all;
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)
     all.push_back(p.fixed[dof] != 0
                       ? s.settlement[dof]
@@ -24,24 +21,17 @@ vector exactly(const exact_problem& p, const exact_step& s, std::span<const doub
   return all;
 }
 
-vector residual(const exact_problem& p, const exact_step& s, const vector& u) {
-  vector needed(p.dofs());
+rational_vector residual(const exact_problem& p, const exact_step& s, const rational_vector& u) {
+  rational_vector needed(p.dofs());
   for (std::size_t dof = 0; dof < p.dofs(); ++dof) {
-    needed[dof] = -s.load[dof];
-    for (const auto& [column, k] : p.stiffness[dof]) needed[dof] += k * u[static_cast<std::size_t>(column)];
+    needed[dof] = -s.force[dof];
+    for (const auto& [column, k] : p.stiffness[dof]) needed[dof] += k * u[column];
   }
   for (const exact_pair& c : p.pairs) {
-    const auto dof = static_cast<std::size_t>(c.dof);
-    const rational off = u[dof] - c.face;
-    if (c.surface * off > 0) needed[dof] += c.stiffness * off;
+    const rational off = u[c.dof] - c.face;
+    if (c.surface * off > 0) needed[c.dof] += c.stiffness * off;
   }
   return needed;
-}
-
-double_double rounded_twice(const rational& x) {
-  const double high = numeric::rounded(x);
-  if (!std::isfinite(high)) return high;  // no bound is proved by it
-  return {high, numeric::rounded(rational(x - numeric::binary_value(high)))};
 }
 
 path::full_load_state state_of(const exact_step_end& end) {
@@ -52,41 +42,37 @@ path::full_load_state state_of(const exact_step_end& end) {
   return s;
 }
 
-/// A problem beside its path in doubles. It is converted, and its exact path followed, when that is first
-/// asked for.
-class problem_beside {
+/// The problem is converted, and its exact path followed, when that is first asked for.
+class problem_beside final : public certify::exact_means {
  public:
   explicit problem_beside(const problem& p) : what_(p) {}
 
-  [[nodiscard]] path::found_end end_of(int step) {
+  [[nodiscard]] path::found_end end_of(int step) override {
     if (!path_) path_ = followed();
-    const auto number = static_cast<std::size_t>(step) - 1;
-    if (number >= path_->steps.size()) return {};
-    const bool is_last = number + 1 == path_->steps.size();
-    if (!is_last || path_->status == path_status::solved) return {state_of(path_->steps[number]), true};
+    const int followed_steps = static_cast<int>(path_->steps.size());
+    if (step > followed_steps) return {};
+    if (step < followed_steps || path_->status == path_status::solved)
+      return {state_of(path_->steps[step - 1]), true};
     if (path_->status == path_status::mechanism) return {std::nullopt, false};
     return {};
   }
 
-  [[nodiscard]] std::optional<std::vector<double_double>> residual_of(int step,
-                                                                      std::span<const double_double> u) {
-    std::optional<std::vector<double_double>> all;
+  [[nodiscard]] std::optional<certify::long_vector> residual_of(int step,
+                                                                std::span<const double_double> u) override {
     if (!converted() || !std::ranges::all_of(u, [](const double_double& x) { return std::isfinite(x.hi); }))
-      return all;
-    const exact_step& s = converted()->steps[static_cast<std::size_t>(step) - 1];
-    all.emplace();
+      return std::nullopt;
+    const exact_step& s = converted()->steps[step - 1];
+    certify::long_vector all;
     for (const rational& x : residual(*converted(), s, exactly(*converted(), s, u)))
-      all->push_back(rounded_twice(x));
+      all.push_back(numeric::long_rounded(x));  // infinite beyond doubles: no bound is proved by that
     return all;
   }
 
-  [[nodiscard]] std::optional<bool> is_semidefinite() {
-    if (!converted()) return std::nullopt;
+  [[nodiscard]] bool is_semidefinite() override {
     try {
-      const exact_problem& p = *converted();
-      return !find_negative_work(p.stiffness, p.fixed, p.place, text::memory_limit());
-    } catch (const std::runtime_error&) {  // it would take too many bits
-      return std::nullopt;
+      return converted() && definiteness_of(what_, *converted()).semidefinite;
+    } catch (const std::runtime_error&) {  // K is indefinite modulo a prime, or numbers are too long
+      return false;
     }
   }
 
@@ -98,7 +84,7 @@ class problem_beside {
 
   exact_path followed() {
     try {
-      return converted() ? follow_true_path(*converted()) : exact_path();
+      return converted() ? follow_corrected_path(*converted()) : exact_path();
     } catch (const std::runtime_error&) {  // numbers are too long, or statuses cannot be decided
       return {};
     }
@@ -110,14 +96,6 @@ class problem_beside {
 };
 
 }  // namespace
-
-int subdiagonals(const exact_problem& p) {
-  int most = 0;
-  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
-    for (const auto& [column, k] : p.stiffness[dof])
-      most = std::max(most, std::abs(p.place[dof] - p.place[static_cast<std::size_t>(column)]));
-  return most;
-}
 
 std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
@@ -131,11 +109,8 @@ std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   }
 }
 
-certify::exact_means exact_means_of(const problem& p) {
-  const auto beside = std::make_shared<problem_beside>(p);
-  return {[beside](int step) { return beside->end_of(step); },
-          [beside](int step, std::span<const double_double> u) { return beside->residual_of(step, u); },
-          [beside] { return beside->is_semidefinite(); }};
+std::unique_ptr<certify::exact_means> exact_means_of(const problem& p) {
+  return std::make_unique<problem_beside>(p);
 }
 
 }  // namespace contct::exact

@@ -1,6 +1,7 @@
 // What rational numbers decide beside a path in doubles.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "contct/certify/certificate.hpp"
@@ -15,14 +16,10 @@ inline constexpr int most_dofs_beside_doubles = 1000;
 inline constexpr int most_subdiagonals_beside_doubles = 64;
 inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
 
-/// Of its band.
-[[nodiscard]] int subdiagonals(const exact_problem& p);
-
 /// The problem in rational numbers, where it is as small as that.
 [[nodiscard]] std::optional<exact_problem> small_exact_problem_of(const problem& p);
 
-/// The ends of its exact path, residuals, and whether its stiffness is positive semidefinite without pairs:
-/// nothing of a larger problem. `p` must outlive what is returned.
-[[nodiscard]] certify::exact_means exact_means_of(const problem& p);
+/// Beside a path in doubles: nothing of a larger problem. `p` must outlive what is returned.
+[[nodiscard]] std::unique_ptr<certify::exact_means> exact_means_of(const problem& p);
 
 }  // namespace contct::exact

@@ -1,7 +1,8 @@
 #include "contct/exact/exact_problem.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <numeric>
-#include <utility>
 
 #include "contct/structure/exact_numbers.hpp"
 
@@ -39,11 +40,16 @@ exact_problem exact_problem_of(const problem& p) {
   }
   e.ground = std::visit([](const auto& kind) { return ground_of(kind); }, p.geometry.kind);
   std::erase_if(e.ground, [&e](const added_spring& g) { return e.fixed[g.dof] != 0; });
-  for (const load& l : p.steps) {
-    auto acting = e.loads_of(l);
-    e.steps.push_back({std::move(acting.force), std::move(acting.settlement)});
-  }
+  for (const load& l : p.steps) e.steps.push_back(e.loads_of(l));
   return e;
+}
+
+int subdiagonals(const exact_problem& p) {
+  int most = 0;
+  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
+    for (const auto& [column, k] : p.stiffness[dof])
+      most = std::max(most, std::abs(p.place[dof] - p.place[column]));
+  return most;
 }
 
 }  // namespace contct::exact

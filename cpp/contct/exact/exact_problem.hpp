@@ -14,11 +14,7 @@ inline constexpr int most_exact_dofs = 50'000;
 
 using exact_pair = structure::pair_in<rational>;
 
-/// What acts at the end of a step.
-struct exact_step {
-  vector load;        ///< total [dofs]
-  vector settlement;  ///< where fixed dofs are moved to; 0 at all others [dofs]
-};
+using exact_step = structure::loads_in<rational>;
 
 struct exact_problem : structure::equations<rational> {
   std::vector<int> place;  ///< of each dof in a narrow band
@@ -36,5 +32,8 @@ struct exact_problem : structure::equations<rational> {
 /// parts are exact parts. The stiffness of a bed's pair is its modulus times an exact share of the structure,
 /// its face that of the exact polynomial, and a plate's D comes from E, nu and thickness exactly.
 [[nodiscard]] exact_problem exact_problem_of(const problem& p);
+
+/// Of its band.
+[[nodiscard]] int subdiagonals(const exact_problem& p);
 
 }  // namespace contct::exact

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <span>
 #include <utility>
+
+#include "contct/certify/long_system.hpp"
 
 namespace contct::exact {
 namespace {
@@ -22,24 +23,15 @@ double digits_of(const rational& error, const rational& largest) {
   return largest == 0 ? 0.0 : digits_of(rounded(error / largest));
 }
 
-rational extent_of(std::span<const double> x) {
-  return binary_value(x.back()) - binary_value(x.front());
-}
-
 /// The structure's longest side; 1 for a matrix, which has one kind of dof.
 rational length_of(const structure::model& m) {
-  if (const auto* b = std::get_if<structure::beam>(&m.kind)) return extent_of(b->x);
-  const auto* p = std::get_if<structure::plate>(&m.kind);
-  return p == nullptr ? rational(1) : std::max(extent_of(p->x), extent_of(p->y));
+  const double span = certify::extent_of(m);
+  return span > 0.0 ? binary_value(span) : rational(1);
 }
 
 /// |x - exactly|; where x has overflowed, more than `largest`: no digit is right.
 rational error_of(double x, const rational& exactly, const rational& largest) {
   return std::isfinite(x) ? rational(abs(binary_value(x) - exactly)) : rational(largest + 1);
-}
-
-bool same_event(const event& a, const event& b) {
-  return a.pair == b.pair && a.what == b.what;
 }
 
 }  // namespace
@@ -80,7 +72,7 @@ void digit_counter::step_ended(const path::step_state& s) {
   }
   for (std::size_t i = 0; i < problem_.pairs.size(); ++i) {
     const structure::contact_pair& c = problem_.pairs[i];
-    const double w = s.displacement[static_cast<std::size_t>(c.node) * error_.size()];
+    const double w = s.displacement[c.node * error_.size()];
     const double force =
         s.numbers != nullptr ? s.numbers->pair_forces[i] : force_of(c, w, s.isep[i] == in_contact);
     force_error_ = std::max(force_error_, error_of(force, exactly.force[i], largest_force_));
@@ -116,8 +108,7 @@ bool digit_counter::is_ambiguous_event(const placed_event& e, double tie) const 
   if (std::abs(e.place - end) > tie || end < 1.0 || end > static_cast<double>(exactly_.steps.size()))
     return false;
   const exact_step_end& s = exactly_.steps[static_cast<std::size_t>(end) - 1];
-  const auto pair = static_cast<std::size_t>(e.what.pair);
-  return s.fraction == 1 && s.gap[pair] == 0 && s.force[pair] == 0;
+  return s.fraction == 1 && s.gap[e.what.pair] == 0 && s.force[e.what.pair] == 0;
 }
 
 digit_counter::event_list digit_counter::exact_events() const {
@@ -136,33 +127,29 @@ std::string digit_counter::words(const placed_event& e) {
          " in step " + std::to_string(static_cast<int>(step) + 1) + " at share " + share;
 }
 
-/// Events in their order; those of a tie in any order.
+/// Events in their order; those of a tie, which may come in any order, by their pairs.
 void digit_counter::compare_events(kernel_digits& r, double tie) const {
-  const event_list exactly = decided(exact_events(), tie);
-  const event_list seen = decided(events_, tie);
-  double error = 0.0;
-  for (std::size_t first = 0; first < std::max(exactly.size(), seen.size());) {
-    std::size_t end = first + 1;
+  event_list exactly = decided(exact_events(), tie);
+  event_list seen = decided(events_, tie);
+  for (std::size_t first = 0, end = 0; first < exactly.size(); first = end) {
     while (end < exactly.size() && exactly[end].place - exactly[first].place < tie) ++end;
-    for (std::size_t i = first; i < end; ++i) {
-      if (i >= exactly.size()) {
-        r.first_difference = words(seen[i]) + ", which no exact event does";
-      } else if (const auto same =
-                     std::find_if(seen.begin() + static_cast<std::ptrdiff_t>(std::min(first, seen.size())),
-                                  seen.begin() + static_cast<std::ptrdiff_t>(std::min(end, seen.size())),
-                                  [&](const placed_event& e) { return same_event(e.what, exactly[i].what); });
-                 same != seen.begin() + static_cast<std::ptrdiff_t>(std::min(end, seen.size()))) {
-        error = std::max(error, std::abs(same->place - exactly[i].place));
-        continue;
-      } else {
-        r.first_difference = "exactly, " + words(exactly[i]) + "; here " +
-                             (first < seen.size() ? words(seen[first]) : "nothing more happens");
-      }
-      r.same_events = false;
-      r.event_digits = digits_of(error);
-      return;
+    for (event_list* const all : {&exactly, &seen}) {
+      const std::span<placed_event> of_tie(*all);
+      const std::size_t most = all->size();
+      std::ranges::sort(of_tie.subspan(std::min(first, most), std::min(end, most) - std::min(first, most)),
+                        {}, [](const placed_event& e) { return std::pair(e.what.pair, e.what.what); });
     }
-    first = end;
+  }
+  double error = 0.0;
+  for (std::size_t i = 0; i < std::max(exactly.size(), seen.size()) && r.same_events; ++i) {
+    r.same_events = i < exactly.size() && i < seen.size() && exactly[i].what == seen[i].what;
+    if (r.same_events)
+      error = std::max(error, std::abs(seen[i].place - exactly[i].place));
+    else if (i >= exactly.size())
+      r.first_difference = words(seen[i]) + ", which no exact event does";
+    else
+      r.first_difference = "exactly, " + words(exactly[i]) + "; here " +
+                           (i < seen.size() ? words(seen[i]) : "nothing more happens");
   }
   r.event_digits = digits_of(error);
 }

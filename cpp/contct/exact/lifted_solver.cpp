@@ -15,12 +15,8 @@ constexpr std::array<std::uint64_t, 6> primes = {two_to_61 - 1,   two_to_61 - 31
 // What the innermost loops do, by GMP's functions for single words where there are such.
 
 std::uint64_t residue_of(const integer& x, std::uint64_t p) {
-#ifdef CONTCT_HAS_GMP
-  if constexpr (sizeof(unsigned long) == sizeof p) return mpz_fdiv_ui(x.backend().data(), p);
-#endif
-  integer r = x % p;
-  if (r < 0) r += p;
-  return r.convert_to<std::uint64_t>();
+  const std::uint64_t r = boost::multiprecision::integer_modulus(x, p);  // of |x|
+  return x < 0 && r != 0 ? p - r : r;
 }
 
 /// r -= a x.
@@ -32,17 +28,6 @@ void subtract_product(integer& r, const integer& a, std::uint64_t x) {
   }
 #endif
   r -= a * x;
-}
-
-/// x /= p, a multiple of it.
-void divide_exactly(integer& x, std::uint64_t p) {
-#ifdef CONTCT_HAS_GMP
-  if constexpr (sizeof(unsigned long) == sizeof p) {
-    mpz_divexact_ui(x.backend().data(), x.backend().data(), p);
-    return;
-  }
-#endif
-  x /= p;
 }
 
 integer least_multiple(const integer& a, const integer& b) {
@@ -77,15 +62,8 @@ std::vector<int> inverse_of(std::span<const int> places) {
 
 }  // namespace
 
-lifted_solver::field::field(std::uint64_t prime) : p_(prime) {
-  std::uint64_t inverse = p_;  // of p modulo 2^3, then 2^6, ..
-  for (int bits = 3; bits < 64; bits *= 2) inverse *= 2 - p_ * inverse;
-  negative_inverse_ = 0 - inverse;
-  for (int doubled = 0; doubled < 128; ++doubled) square_ = square_ * 2 % p_;
-}
-
 std::uint64_t lifted_solver::field::inverse(std::uint64_t a) const {
-  std::uint64_t power = in(1);  // a^(p - 2), by Fermat
+  std::uint64_t power = 1;  // a^(p - 2), by Fermat
   for (std::uint64_t e = p_ - 2; e != 0; e >>= 1U) {
     if ((e & 1U) != 0) power = times(power, a);
     a = times(a, a);
@@ -96,36 +74,25 @@ std::uint64_t lifted_solver::field::inverse(std::uint64_t a) const {
 bool lifted_solver::field::take(const rational& x, std::uint64_t& residue) const {
   const std::uint64_t bottom = residue_of(denominator(x), p_);
   if (bottom == 0) return false;
-  residue = in(residue_of(numerator(x), p_));
-  if (bottom != 1) residue = times(residue, inverse(in(bottom)));
+  residue = residue_of(numerator(x), p_);
+  if (bottom != 1) residue = times(residue, inverse(bottom));
   return true;
 }
 
-/// The digits of one solution, in the prime.
+/// The digits of one solution, times a whole number, in the prime.
 class lifted_solver::lifting {
  public:
-  lifting(const lifted_solver& of, const vector& b) : of_(of), rows_(b.size()), rest_(b.size()) {
-    const field& f = of_.field_;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      if (!of_.is_unknown(i)) continue;
-      rows_[i] = of_.whole_[i];
-      const integer more = denominator(b[i] * rational(rows_[i].scale));
-      rows_[i].scale *= more;
-      if (more != 1)
-        for (auto& [column, entry] : rows_[i].entries) entry *= more;
-      rest_[i] = numerator(b[i] * rational(rows_[i].scale));
-    }
+  lifting(const lifted_solver& of, const rational_vector& b) : of_(of), rest_(b.size()), sum_(b.size()) {
+    for (std::size_t i = 0; i < b.size(); ++i)
+      if (of_.is_unknown(i))
+        common_ = least_multiple(common_, denominator(rational(b[i] * rational(of_.whole_[i].scale))));
+    for (std::size_t i = 0; i < b.size(); ++i)
+      if (of_.is_unknown(i)) rest_[i] = numerator(rational(b[i] * rational(of_.whole_[i].scale * common_)));
     right_ = rest_;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      const std::uint64_t scale = of_.is_unknown(i) ? residue_of(rows_[i].scale, f.prime()) : 1;
-      if (scale == 0) throw std::runtime_error("a denominator is a multiple of 2^61 - 1 or its like");
-      unscale_.push_back(scale == 1 ? f.in(1) : f.inverse(f.in(scale)));
-    }
-    sum_.resize(b.size());
   }
 
-  vector solution() {
-    vector x;
+  rational_vector solution() {
+    rational_vector x;
     for (std::size_t wanted = 4;; wanted += wanted / 2) {
       while (gathered_ + digits_.size() < wanted) next_digits();
       gather();
@@ -141,12 +108,11 @@ class lifted_solver::lifting {
     const field& f = of_.field_;
     std::vector<std::uint64_t> x(rest_.size(), 0);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (of_.is_unknown(i)) x[i] = f.times(f.in(residue_of(rest_[i], f.prime())), unscale_[i]);
+      if (of_.is_unknown(i)) x[i] = f.times(residue_of(rest_[i], f.prime()), of_.unscale_[i]);
     of_.solve_modulo(x);
-    for (std::uint64_t& digit : x) digit = f.out(digit);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      for (const auto& [column, entry] : rows_[i].entries) subtract_product(rest_[i], entry, x[column]);
-      if (rest_[i] != 0) divide_exactly(rest_[i], f.prime());
+      for (const auto& [column, entry] : of_.whole_[i].entries) subtract_product(rest_[i], entry, x[column]);
+      rest_[i] /= f.prime();  // a multiple of it
     }
     digits_.push_back(std::move(x));
   }
@@ -189,7 +155,7 @@ class lifted_solver::lifting {
 
   /// The x = n / d of which these are the digits, with one denominator for all; false where there is none
   /// yet.
-  bool reconstruct(vector& x) const {
+  bool reconstruct(rational_vector& x) const {
     const integer bound = integer(1) << static_cast<unsigned>(msb(modulus_) / 2 - 1);
     integer denominator = 1;
     for (const integer& digits : sum_) {
@@ -204,23 +170,22 @@ class lifted_solver::lifting {
     for (const integer& digits : sum_) numerators.push_back(nearest(digits * denominator));
     if (!solves(numerators, denominator)) return false;
     x.clear();
-    for (const integer& n : numerators) x.emplace_back(n, denominator);
+    for (const integer& n : numerators) x.emplace_back(n, integer(denominator * common_));
     return true;
   }
 
   [[nodiscard]] bool solves(const std::vector<integer>& numerators, const integer& denominator) const {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (std::size_t i = 0; i < right_.size(); ++i) {
       integer sum = right_[i] * denominator;
-      for (const auto& [column, entry] : rows_[i].entries) sum -= entry * numerators[column];
+      for (const auto& [column, entry] : of_.whole_[i].entries) sum -= entry * numerators[column];
       if (sum != 0) return false;
     }
     return true;
   }
 
   const lifted_solver& of_;
-  std::vector<whole_row> rows_;                     // with b whole too
-  std::vector<integer> rest_, right_;               // of b; b
-  std::vector<std::uint64_t> unscale_;              // 1 / scale
+  integer common_ = 1;                              // a multiple of all denominators of b
+  std::vector<integer> rest_, right_;               // of common_ b; that itself
   std::vector<std::vector<std::uint64_t>> digits_;  // since the last gathering
   std::vector<integer> sum_;                        // of the digits gathered
   std::map<std::size_t, integer> powers_;           // of the prime
@@ -291,8 +256,14 @@ bool lifted_solver::factor_modulo(std::uint64_t prime) {
     for (std::size_t a = 1; a < width; ++a) column[a] = field_.times(column[a], inverse_[j]);
   }
   whole_.assign(n, {});
-  for (std::size_t i = 0; i < n; ++i)
-    if (is_unknown(i)) whole_[i] = whole(i);
+  unscale_.assign(n, 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!is_unknown(i)) continue;
+    whole_[i] = whole(i);
+    const std::uint64_t scale = residue_of(whole_[i].scale, prime);
+    if (scale == 0) return false;
+    unscale_[i] = field_.inverse(scale);
+  }
   return true;
 }
 
@@ -327,9 +298,9 @@ bool lifted_solver::find_free_motions() {
   free_motions_.clear();
   for (std::size_t j = 0; j < free_.size(); ++j) {
     if (free_[j] == 0) continue;
-    vector b(free_.size());
+    rational_vector b(free_.size());
     for (const auto& [row, k] : k_[j]) b[row] = -entry(j, row, k);
-    vector motion = lifting(*this, b).solution();
+    rational_vector motion = lifting(*this, b).solution();
     motion[j] = 1;
     for (std::size_t row = 0; row < free_.size(); ++row) {
       if (free_[row] == 0) continue;
@@ -342,7 +313,7 @@ bool lifted_solver::find_free_motions() {
   return true;
 }
 
-vector lifted_solver::solve(const vector& b) const {
+rational_vector lifted_solver::solve(const rational_vector& b) const {
   return lifting(*this, b).solution();
 }
 

@@ -12,7 +12,7 @@
 
 namespace contct::exact {
 
-using vector = std::vector<rational>;
+using rational_vector = std::vector<rational>;
 
 /// All entries of a symmetric matrix, row by row.
 using sparse_rows = structure::sparse_rows<rational>;
@@ -37,7 +37,7 @@ class lifted_solver {
   void factor(const std::vector<added_spring>& springs);
 
   /// A basis of the motions that K + springs leaves free [motions][dofs]: exact, so their number is.
-  [[nodiscard]] const std::vector<vector>& free_motions() const { return free_motions_; }
+  [[nodiscard]] const std::vector<rational_vector>& free_motions() const { return free_motions_; }
 
   /// Is a dof neither fixed nor, by its missing pivot, the amount of a free motion? K + springs is
   /// semidefinite where it is positive definite on these.
@@ -45,23 +45,21 @@ class lifted_solver {
 
   /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With free
   /// motions b must do no work on them, and one of the solutions is given. Throws too_long.
-  [[nodiscard]] vector solve(const vector& b) const;
+  [[nodiscard]] rational_vector solve(const rational_vector& b) const;
 
  private:
-  /// Arithmetic modulo a prime below 2^61, on numbers times 2^64 (Montgomery 1985).
+  /// Arithmetic modulo 2^61 - c, a prime with a small c: 2^61 is c there.
   class field {
    public:
-    explicit field(std::uint64_t prime);
+    explicit field(std::uint64_t prime) : p_(prime), c_((std::uint64_t{1} << 61U) - prime) {}
     [[nodiscard]] std::uint64_t prime() const { return p_; }
-    [[nodiscard]] std::uint64_t in(std::uint64_t x) const { return times(x, square_); }
-    [[nodiscard]] std::uint64_t out(std::uint64_t x) const { return times(x, 1); }
     [[nodiscard]] std::uint64_t minus(std::uint64_t a, std::uint64_t b) const {
       return a >= b ? a - b : a + p_ - b;
     }
     [[nodiscard]] std::uint64_t times(std::uint64_t a, std::uint64_t b) const {
-      const wide t = static_cast<wide>(a) * b;
-      const std::uint64_t m = static_cast<std::uint64_t>(t) * negative_inverse_;
-      const auto r = static_cast<std::uint64_t>((t + static_cast<wide>(m) * p_) >> 64U);
+      const wide product = static_cast<wide>(a) * b;  // below 2^122
+      const wide rest = (product & low) + static_cast<wide>(high(product)) * c_;
+      const std::uint64_t r = (static_cast<std::uint64_t>(rest) & low) + high(rest) * c_;
       return r >= p_ ? r - p_ : r;
     }
     [[nodiscard]] std::uint64_t inverse(std::uint64_t a) const;
@@ -70,7 +68,9 @@ class lifted_solver {
 
    private:
     __extension__ using wide = unsigned __int128;
-    std::uint64_t p_, negative_inverse_ = 1, square_ = 1;
+    static constexpr std::uint64_t low = (std::uint64_t{1} << 61U) - 1;
+    [[nodiscard]] static std::uint64_t high(wide x) { return static_cast<std::uint64_t>(x >> 61U); }
+    std::uint64_t p_, c_;
   };
 
   /// A row of the equations, times the least number that makes it whole.
@@ -93,13 +93,14 @@ class lifted_solver {
   std::size_t longest_;
   std::vector<int> dof_at_;             // the inverse of place_
   std::size_t band_ = 0;                // subdiagonals
-  vector spring_;                       // on the diagonal [dofs]
+  rational_vector spring_;              // on the diagonal [dofs]
   field field_;                         // of the last factorisation
   std::vector<std::uint64_t> factor_;   // L and D of L D L' modulo the prime, as a band
   std::vector<std::uint64_t> inverse_;  // of D; 0 where the pivot is none
   std::vector<char> free_;              // dofs without a pivot
   std::vector<whole_row> whole_;        // [dofs]; empty where not unknown
-  std::vector<vector> free_motions_;
+  std::vector<std::uint64_t> unscale_;  // 1 / scale of each
+  std::vector<rational_vector> free_motions_;
 };
 
 }  // namespace contct::exact

@@ -22,18 +22,18 @@ struct exact_increment {
 /// Where a step ended, or where the path stopped.
 struct exact_step_end {
   std::vector<exact_increment> increments;
-  rational fraction;         ///< of the step's load
-  vector displacement;       ///< [dofs]
-  std::vector<char> closed;  ///< [pairs]
-  vector gap, force;         ///< as gap_of and force_of say [pairs]
-  vector reactions;          ///< forces on the structure by the supports, in their order
+  rational fraction;             ///< of the step's load
+  rational_vector displacement;  ///< [dofs]
+  std::vector<char> closed;      ///< [pairs]
+  rational_vector gap, force;    ///< as gap_of and force_of say [pairs]
+  rational_vector reactions;     ///< forces on the structure by the supports, in their order
 };
 
 /// Why there is no equilibrium under the full load of a step: K and the pairs in contact leave this motion
 /// free, no other pair stands in its way, and the load does work on it.
 struct mechanism_proof {
-  vector motion;  ///< its largest number 1 or -1 [dofs]
-  rational work;  ///< of the step's full load, positive
+  rational_vector motion;  ///< its largest number 1 or -1 [dofs]
+  rational work;           ///< of the step's full load, positive
 };
 
 struct exact_path {
@@ -48,7 +48,7 @@ using exact_progress = std::function<void(int step, int increment, const rationa
 /// The curve of equilibria u(t) under the loads, event by event (reference/corrected-rule.md). Events exactly
 /// at the full load of a step are left to the next one. Where equilibria are not unique, the path is the
 /// limit of those on a ground that gets ever softer. Throws too_long.
-[[nodiscard]] exact_path follow_true_path(const exact_problem& p, const exact_progress& tell = {});
+[[nodiscard]] exact_path follow_corrected_path(const exact_problem& p, const exact_progress& tell = {});
 
 /// What the listing's statements decide, with its constants as the decimals that are printed, in the 1989
 /// driver: springs gather their forces increment by increment. Throws too_long.

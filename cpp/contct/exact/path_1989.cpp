@@ -1,19 +1,70 @@
 #include "contct/exact/path_1989.hpp"
 
-#include <utility>
+#include <algorithm>
+#include <stdexcept>
 
 namespace contct::exact {
+namespace {
+
+// The constants as they are printed: 1.E-20, 1.E-10 and .390625E-02.
+const rational& delta() {
+  static const rational value(integer(1), boost::multiprecision::pow(integer(10), 20U));
+  return value;
+}
+const rational& epsgap() {
+  static const rational value(integer(1), boost::multiprecision::pow(integer(10), 10U));
+  return value;
+}
+const rational& epsmul() {
+  static const rational value(1, 256);
+  return value;
+}
+
+/// DO 10: s of one pair, and the branch that gave it.
+std::pair<rational, way_to_s> scale_factor(const listing_pair& p) {
+  const rational gap = p.c - p.d;
+  if (p.d_star == 0) return {1, way_to_s::no_response};
+  if (abs(gap) < epsgap()) {
+    const rational s_chk = (p.closed ? -p.surface : p.surface) / p.d_star;
+    if (s_chk > 0) return {s_chk * delta(), way_to_s::stationary_event};
+    return {1, way_to_s::stationary};
+  }
+  return {gap / p.d_star, way_to_s::moving};
+}
+
+}  // namespace
+
+std::vector<int> listing_answer::winners() const {
+  std::vector<int> all;
+  for (std::size_t i = 0; i < s.size(); ++i)
+    if (s_min != 1 && s[i] == s_min) all.push_back(static_cast<int>(i));
+  return all;
+}
+
+listing_answer answer_exactly(std::span<const listing_pair> pairs) {
+  listing_answer a;
+  for (const listing_pair& p : pairs) {
+    auto [s, way] = scale_factor(p);
+    if (s > 0 && s < a.s_min) a.s_min = s;
+    a.s.push_back(std::move(s));
+    a.way.push_back(way);
+  }
+  if (a.s_min == 1) return a;
+  for (std::size_t i = 0; i < a.s.size(); ++i)  // DO 30
+    if (abs(a.s[i] - a.s_min) / a.s_min < epsmul()) a.toggled.push_back(static_cast<int>(i));
+  return a;
+}
 
 /// False where there is no further one.
 bool path_1989::begin_increment() {
   if (status_ != path_status::solved) return false;
-  const auto begun = static_cast<std::size_t>(call_.step);
+  const std::size_t begun = call_.step;
   if (begun == 0 || ended_step()) {
     if (begun == at_.problem.steps.size()) return false;
     at_.begin_step(begun);
     call_.step += 1;
     call_.increment = 0;
-  } else if (static_cast<std::size_t>(call_.increment) == most_exact_increments(at_.problem)) {
+  } else if (std::size_t{1} * call_.increment == most_exact_increments(at_.problem)) {
     status_ = path_status::iteration_limit;
     return false;
   }
@@ -22,16 +73,15 @@ bool path_1989::begin_increment() {
 }
 
 /// One call of CONTCT: toggles statuses.
-void path_1989::ask(const vector& d_star) {
+void path_1989::ask(const rational_vector& d_star) {
   std::vector<listing_pair> pairs;
   for (std::size_t i = 0; i < at_.closed.size(); ++i) {
     const exact_pair& c = at_.problem.pairs[i];
-    const auto dof = static_cast<std::size_t>(c.dof);
-    pairs.push_back({c.face, at_.u[dof], d_star[dof], at_.closed[i] != 0, c.surface});
+    pairs.push_back({c.face, at_.u[c.dof], d_star[c.dof], at_.closed[i] != 0, c.surface});
   }
   call_.answer = answer_exactly(pairs);
   for (const int pair : call_.answer.toggled) {
-    char& closed = at_.closed[static_cast<std::size_t>(pair)];
+    char& closed = at_.closed[pair];
     closed = closed != 0 ? 0 : 1;
   }
 }
@@ -44,7 +94,7 @@ bool path_1989::next(const exact_progress& tell) {
     status_ = path_status::mechanism;
     return false;
   }
-  vector d_star = at_.response();
+  rational_vector d_star = at_.response();
   for (rational& d : d_star) d *= 1 - at_.fraction;  // under the residual load
   const std::vector<char> before = at_.closed;
   ask(d_star);
@@ -69,6 +119,28 @@ exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell) 
   path.status = walk.status();
   if (path.status != path_status::solved) path.steps.push_back(walk.state(std::move(increments)));
   return path;
+}
+
+void exact_companion::incremented(const path::increment& i) {
+  has_call_ = false;
+  const bool is_behind_last =
+      last_ && (i.step > last_->step ||
+                (i.step == last_->step && last_->increment > 0 && i.number > last_->increment));
+  if (parted_ || !stopped_.empty() || is_behind_last) return;
+  try {
+    has_call_ = path_.next();
+  } catch (const std::runtime_error& e) {  // too_long is one
+    stopped_ = e.what();
+    return;
+  }
+  if (!has_call_) {
+    stopped_ = path_.status() == path_status::mechanism
+                   ? "it ends before: the structure has become a mechanism"
+                   : "it ends before, at the limit of increments";
+    parted_ = {i.step, i.number};
+    return;
+  }
+  if (!std::ranges::equal(path_.call().led_to.events, i.events)) parted_ = {i.step, i.number};
 }
 
 }  // namespace contct::exact

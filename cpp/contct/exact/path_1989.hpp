@@ -1,14 +1,40 @@
-// The path that the 1989 rule takes in exact arithmetic, call by call.
+// The 1989 rule in exact arithmetic: one call of CONTCT, the path call by call, and that path beside a
+// kernel's own.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "contct/exact/listing.hpp"
 #include "contct/exact/position.hpp"
+#include "contct/path/observer.hpp"
 
 namespace contct::exact {
+
+/// What CONTCT is told of a pair.
+struct listing_pair {
+  rational c;       ///< position of its face
+  rational d;       ///< D there
+  rational d_star;  ///< d* there
+  bool closed;      ///< in contact
+  int surface;      ///< face_above or face_below
+};
+
+/// What CONTCT answers.
+struct listing_answer {
+  rational_vector s;          ///< SS [pairs]
+  std::vector<way_to_s> way;  ///< how each pair came to its s [pairs]
+  rational s_min = 1;         ///< SMIN
+  std::vector<int> toggled;   ///< pairs from 0, in their order
+
+  /// Pairs, from 0, that have their event exactly at SMIN.
+  [[nodiscard]] std::vector<int> winners() const;
+};
+
+/// One call of CONTCT without rounding. EPSGAP, DELTA and EPSMUL are the decimals that are printed.
+[[nodiscard]] listing_answer answer_exactly(std::span<const listing_pair> pairs);
 
 /// One call of CONTCT on the exact path, and the increment that it led to.
 struct exact_call {
@@ -39,11 +65,43 @@ class path_1989 {
 
  private:
   bool begin_increment();
-  void ask(const vector& d_star);
+  void ask(const rational_vector& d_star);
 
   position at_;
   exact_call call_;
   path_status status_ = path_status::solved;
+};
+
+/// A place on a path: a step and an increment in it, from 1.
+struct path_place {
+  int step, increment;
+};
+
+/// Observes the path of a kernel with the listing's rule and asks the exact path one call for each of its
+/// calls. Both are comparable as long as they had the same events: then the call of the same number is the
+/// same one but for rounding.
+class exact_companion final : public path::observer {
+ public:
+  /// `p` must outlive this object. Nothing is computed behind `last`, where that is given; an increment 0 in
+  /// it means all of the step.
+  explicit exact_companion(const exact_problem& p, std::optional<path_place> last = {})
+      : path_(p), last_(last) {}
+
+  void incremented(const path::increment& i) override;
+
+  /// The exact call with the number of the kernel's last one. Null after the paths have parted, and where
+  /// the exact one cannot be followed.
+  [[nodiscard]] const exact_call* call() const { return has_call_ ? &path_.call() : nullptr; }
+  /// The first increment of which the events differ.
+  [[nodiscard]] const std::optional<path_place>& parted() const { return parted_; }
+  /// Why the exact path was not followed up to here, or ended before; empty where neither is so.
+  [[nodiscard]] const std::string& stopped() const { return stopped_; }
+
+ private:
+  path_1989 path_;
+  std::optional<path_place> last_, parted_;
+  std::string stopped_;
+  bool has_call_ = false;
 };
 
 }  // namespace contct::exact

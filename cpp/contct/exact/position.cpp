@@ -9,7 +9,7 @@ position::position(const exact_problem& p)
     : problem(p),
       u(p.dofs()),
       solver_(p.stiffness, p.fixed, p.place, p.longest),
-      before_{vector(p.dofs()), vector(p.dofs())} {
+      before_{rational_vector(p.dofs()), {}, rational_vector(p.dofs())} {
   for (const exact_pair& c : p.pairs) closed.push_back(c.closed ? 1 : 0);
 }
 
@@ -18,22 +18,21 @@ void position::begin_step(std::size_t number) {
   step = number;
   fraction = 0;
   const exact_step& after = problem.steps[number];
-  increment_ = after.load;
+  increment_ = after.force;
   settlement_ = after.settlement;
   for (std::size_t dof = 0; dof < u.size(); ++dof) {
-    increment_[dof] -= before_.load[dof];
+    increment_[dof] -= before_.force[dof];
     settlement_[dof] -= before_.settlement[dof];
   }
   increment_ = less_settled(std::move(increment_), settlement_);
 }
 
-vector position::less_settled(vector b, const vector& settled) const {
+rational_vector position::less_settled(rational_vector b, const rational_vector& settled) const {
   for (std::size_t dof = 0; dof < b.size(); ++dof) {
     if (problem.fixed[dof] != 0) b[dof] = 0;
     if (settled[dof] == 0) continue;
     for (const auto& [row, k] : problem.stiffness[dof])
-      if (problem.fixed[static_cast<std::size_t>(row)] == 0)
-        b[static_cast<std::size_t>(row)] -= k * settled[dof];
+      if (problem.fixed[row] == 0) b[row] -= k * settled[dof];
   }
   return b;
 }
@@ -45,18 +44,18 @@ void position::factor() {
   solver_.factor(springs);
 }
 
-vector position::moved(const vector& b, const vector& settled) const {
-  vector moves = solver_.solve(b);
+rational_vector position::moved(const rational_vector& b, const rational_vector& settled) const {
+  rational_vector moves = solver_.solve(b);
   for (std::size_t dof = 0; dof < moves.size(); ++dof)
     if (settled[dof] != 0) moves[dof] = settled[dof];
   return moves;
 }
 
-vector position::at_start_of_step() const {
-  vector b = before_.load;
+rational_vector position::at_start_of_step() const {
+  rational_vector b = before_.force;
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
-    if (closed[i] != 0) b[static_cast<std::size_t>(c.dof)] += c.stiffness * c.face;
+    if (closed[i] != 0) b[c.dof] += c.stiffness * c.face;
   }
   return moved(less_settled(std::move(b), before_.settlement), before_.settlement);
 }
@@ -70,16 +69,15 @@ std::vector<event> position::events_since(const std::vector<char>& before) const
 }
 
 /// Of a fixed dof: K u less the load and the forces of pairs there. A dof fixed twice gives it to the first.
-vector position::reactions(const vector& forces) const {
+rational_vector position::reactions(const rational_vector& forces) const {
   const exact_step& after = problem.steps[step];
   std::set<int> reacted;
-  vector values;
+  rational_vector values;
   for (const auto& s : problem.supports) {
-    const auto dof = static_cast<std::size_t>(s.dof);
-    rational value = -s.spring * u[dof];
+    rational value = -s.spring * u[s.dof];
     if (s.fixed && reacted.insert(s.dof).second) {
-      for (const auto& [column, k] : problem.stiffness[dof]) value += k * u[static_cast<std::size_t>(column)];
-      value -= before_.load[dof] + fraction * (after.load[dof] - before_.load[dof]) + forces[dof];
+      for (const auto& [column, k] : problem.stiffness[s.dof]) value += k * u[column];
+      value -= before_.force[s.dof] + fraction * (after.force[s.dof] - before_.force[s.dof]) + forces[s.dof];
     }
     values.push_back(std::move(value));
   }
@@ -88,12 +86,12 @@ vector position::reactions(const vector& forces) const {
 
 exact_step_end position::end(std::vector<exact_increment> increments, bool pairs_react) const {
   exact_step_end e{std::move(increments), fraction, u, closed, {}, {}, {}};
-  vector at_dofs(u.size());
+  rational_vector at_dofs(u.size());
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
     e.gap.push_back(closed[i] != 0 ? rational(0) : gap(i));
     e.force.push_back(closed[i] != 0 ? rational(-c.stiffness * gap(i)) : rational(0));
-    if (pairs_react) at_dofs[static_cast<std::size_t>(c.dof)] -= c.surface * e.force.back();
+    if (pairs_react) at_dofs[c.dof] -= c.surface * e.force.back();
   }
   e.reactions = reactions(at_dofs);
   return e;

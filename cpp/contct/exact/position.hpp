@@ -20,24 +20,24 @@ class position {
   [[nodiscard]] const lifted_solver& solver() const { return solver_; }
 
   /// R of the step at the dofs that are not fixed: the load's increment, and what settlements add to it.
-  [[nodiscard]] const vector& increment() const { return increment_; }
+  [[nodiscard]] const rational_vector& increment() const { return increment_; }
   /// u with (K + springs) u = b, for a `b` at the dofs that are not fixed, and the others moved to `settled`.
-  [[nodiscard]] vector moved(const vector& b, const vector& settled) const;
+  [[nodiscard]] rational_vector moved(const rational_vector& b, const rational_vector& settled) const;
   /// The response to the step's whole load.
-  [[nodiscard]] vector response() const { return moved(increment_, settlement_); }
+  [[nodiscard]] rational_vector response() const { return moved(increment_, settlement_); }
   /// How fixed dofs move in the step.
-  [[nodiscard]] const vector& settlement() const { return settlement_; }
+  [[nodiscard]] const rational_vector& settlement() const { return settlement_; }
   /// Where the springs of the pairs in contact hold the structure under the load at the start of the step.
-  [[nodiscard]] vector at_start_of_step() const;
+  [[nodiscard]] rational_vector at_start_of_step() const;
 
   [[nodiscard]] rational gap(std::size_t pair) const {
     const exact_pair& c = problem.pairs[pair];
-    return c.surface * (c.face - u[static_cast<std::size_t>(c.dof)]);
+    return c.surface * (c.face - u[c.dof]);
   }
   /// n times what `v` does at a pair: positive towards its face.
-  [[nodiscard]] rational approach(std::size_t pair, const vector& v) const {
+  [[nodiscard]] rational approach(std::size_t pair, const rational_vector& v) const {
     const exact_pair& c = problem.pairs[pair];
-    return c.surface * v[static_cast<std::size_t>(c.dof)];
+    return c.surface * v[c.dof];
   }
 
   /// The events that lead from `before` to the statuses now, in order of pairs.
@@ -49,16 +49,16 @@ class position {
   const exact_problem& problem;
   std::size_t step = 0;      ///< from 0
   rational fraction;         ///< of its load
-  vector u;                  ///< displacements [dofs]
+  rational_vector u;         ///< displacements [dofs]
   std::vector<char> closed;  ///< [pairs]
 
  private:
-  [[nodiscard]] vector reactions(const vector& forces) const;
+  [[nodiscard]] rational_vector reactions(const rational_vector& forces) const;
   /// b less what K makes of fixed dofs that are moved to `settled`.
-  [[nodiscard]] vector less_settled(vector b, const vector& settled) const;
+  [[nodiscard]] rational_vector less_settled(rational_vector b, const rational_vector& settled) const;
 
   lifted_solver solver_;
-  vector increment_, settlement_;
+  rational_vector increment_, settlement_;
   exact_step before_;  // what acted at the end of the step before
 };
 

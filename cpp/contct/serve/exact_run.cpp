@@ -13,7 +13,6 @@
 #include "contct/exact/exact_means.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/text/memory.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::serve {
@@ -27,63 +26,41 @@ void refuse_too_many_dofs(const problem& p, const std::string& file) {
                     file, dofs(p.geometry), most_exact_dofs));
 }
 
-/// What numbers may grow to, in bits, in the memory that K, its factor modulo a prime and the vectors of a
-/// path leave.
-std::size_t longest_numbers(const exact_problem& p, const std::string& file) {
-  // A rational is two numbers of 16 bytes and their bits; a node of a map has 40 more and its place.
-  constexpr std::int64_t bytes_of_rational = 32;
-  constexpr std::int64_t bytes_of_entry = 48 + bytes_of_rational + 32;
-  constexpr std::int64_t bits_of_double = 68;  // its shortest decimal has 17 digits at most
-  std::int64_t entries = 0;
-  for (const auto& row : p.stiffness) entries += std::ssize(row);
-  const std::int64_t n = std::ssize(p.fixed);
-  const std::int64_t band = subdiagonals(p);
-  const std::int64_t vectors =
-      12 + 3 * std::ssize(p.steps);  // displacements, loads, responses and their digits
-  const std::int64_t bytes = entries * bytes_of_entry + n * (band + 1) * 8;
-  const std::int64_t bits = 4 * ((memory_limit() - bytes) / (vectors * n) - bytes_of_rational);
-  if (bits < bits_of_double)
-    throw std::invalid_argument(fmt::format(
-        "{}: exact arithmetic: found {} dofs by a half bandwidth of {}, {} entries and {} vectors, which "
-        "take {}; allowed: {} (CONTCT_MEMORY_MIB in the environment sets another limit). Use fewer "
-        "elements",
-        file, n, band, entries, vectors,
-        bytes_words(bytes + vectors * n * (bytes_of_rational + bits_of_double / 4)),
-        bytes_words(memory_limit())));
-  return std::min(static_cast<std::size_t>(bits), lifted_solver::most_bits);
-}
-
 /// A matrix from elsewhere may be none of a structure, which the path's equations do not show. Those of beams
 /// and plates are sums of elements, each of which is semidefinite.
-void refuse_indefinite(const assembled& a, const exact_problem& p) {
+void refuse_indefinite(const assembled& a, const problem& of, const exact_problem& p) {
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)
     if (p.fixed[dof] == 0 && p.stiffness[dof].at(static_cast<int>(dof)) == 0)
       throw std::invalid_argument(
           fmt::format("{}: dof {}: found no stiffness and no support; allowed: a positive entry on the "
                       "diagonal, or a support",
                       a.name, a.label_of(static_cast<int>(dof))));
-  const std::optional<negative_work> shown = [&] {
+  const definiteness found = [&] {
     try {
-      return find_negative_work(p.stiffness, p.fixed, p.place, memory_limit());
+      return definiteness_of(of, p);
     } catch (const std::runtime_error& e) {
       throw std::invalid_argument(fmt::format("{}: {}", a.name, e.what()));
     }
   }();
-  if (!shown) return;
-  const auto largest = std::ranges::max_element(
-      shown->motion, [](const rational& x, const rational& y) { return abs(x) < abs(y); });
+  if (found.semidefinite) return;
+  if (!found.shown)
+    throw std::invalid_argument(
+        fmt::format("{}: whether it is positive semidefinite is not decided with 32 digits", a.name));
+  const rational_vector& motion = found.shown->motion;
+  const auto largest =
+      std::ranges::max_element(motion, [](const rational& x, const rational& y) { return abs(x) < abs(y); });
   const rational size = abs(*largest);
   throw std::invalid_argument(fmt::format(
       "{}: not positive semidefinite: found work {}, in exact arithmetic, on a displacement whose largest "
       "component, 1, is at dof {}; allowed: 0 or more on every displacement that the supports allow. Rounded "
       "entries can cause this, as in the matrix of a body without supports",
-      a.name, short_words(shown->work / (size * size), 6),
-      a.label_of(static_cast<int>(largest - shown->motion.begin()))));
+      a.name, short_words(found.shown->work / (size * size), 6),
+      a.label_of(static_cast<int>(largest - motion.begin()))));
 }
 
 /// Has the load of this step, or of one before it, no equilibrium?
-bool true_path_ends_by(std::size_t step, const exact_problem& p) {
-  const exact_path path = follow_true_path(p);
+bool corrected_path_ends_by(std::size_t step, const exact_problem& p) {
+  const exact_path path = follow_corrected_path(p);
   return path.status == path_status::mechanism && path.steps.size() <= step;
 }
 
@@ -98,17 +75,16 @@ exact_problem exactly_read(const problem& p, const std::string& file) {
       throw std::invalid_argument(fmt::format("{}: {}", file, wrong.what()));
     }
   }();
-  e.longest = longest_numbers(e, file);
-  if (const auto* const a = std::get_if<assembled>(&p.geometry.kind)) refuse_indefinite(*a, e);
+  if (const auto* const a = std::get_if<assembled>(&p.geometry.kind)) refuse_indefinite(*a, p, e);
   return e;
 }
 
 exact_path follow_exactly(const exact_problem& p, const std::string& rule, const std::string& file,
                           const exact_progress& tell) {
   try {
-    if (rule != "1989") return follow_true_path(p, tell);
+    if (rule != "1989") return follow_corrected_path(p, tell);
     exact_path path = follow_1989_path(p, tell);
-    if (path.status == path_status::mechanism && !true_path_ends_by(path.steps.size(), p))
+    if (path.status == path_status::mechanism && !corrected_path_ends_by(path.steps.size(), p))
       path.status = path_status::path_ended;
     return path;
   } catch (const too_long& e) {

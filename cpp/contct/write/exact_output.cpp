@@ -14,7 +14,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json fractions(const vector& numbers) {
+json fractions(const rational_vector& numbers) {
   return list_of(numbers, [](const rational& x) { return fraction_words(x); });
 }
 
@@ -58,8 +58,8 @@ class exact_printer {
     const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
     rational sum;
     for (std::size_t dof = 0; dof < r_.exactly.dofs(); dof += per_node) {
-      const rational before = step == 0 ? rational(0) : r_.exactly.steps[step - 1].load[dof];
-      sum += before + fraction * (r_.exactly.steps[step].load[dof] - before);
+      const rational before = step == 0 ? rational(0) : r_.exactly.steps[step - 1].force[dof];
+      sum += before + fraction * (r_.exactly.steps[step].force[dof] - before);
     }
     return sum;
   }
@@ -148,7 +148,7 @@ void write_exact_json(const exact_result& r, output_file& out) {
       "steps");
   for (std::size_t step = 0; step < r.path.steps.size(); ++step) {
     const exact_step_end& s = r.path.steps[step];
-    vector w;
+    rational_vector w;
     const auto per_node = static_cast<std::size_t>(dofs_per_node(r.what.geometry));
     for (std::size_t dof = 0; dof < s.displacement.size(); dof += per_node) w.push_back(s.displacement[dof]);
     const json members = {{"step", step + 1},

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/exact/exact_companion.hpp"
+#include "contct/exact/path_1989.hpp"
 #include "contct/write/explain.hpp"
 
 namespace contct::write {

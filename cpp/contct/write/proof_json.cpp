@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -18,11 +17,12 @@ json sums(const std::vector<numeric::double_double>& all) {
 }
 
 /// Rows of L, each from its first entry in the band to its diagonal.
-json rows_of(const matrix::band_matrix& l) {
+template <class Band, class Number>
+json rows_of(const Band& l, const Number& number) {
   json rows = json::array();
   for (int i = 0; i < l.order(); ++i) {
     json row = json::array();
-    for (int j = std::max(0, i - l.subdiagonals()); j <= i; ++j) row.push_back(l.at(i, j));
+    for (int j = l.first(i); j <= i; ++j) row.push_back(number(l.at(i, j)));
     rows.push_back(std::move(row));
   }
   return rows;
@@ -34,8 +34,12 @@ void put_stiffness(json& step, const certify::stiffness_proof& s) {
   step["scale"] = std::move(scale);
   step["row_of"] = s.row_of;
   step["shift"] = s.shift;
-  step["L"] = rows_of(s.factor);
-  if (s.factor_low) step["L_low"] = rows_of(*s.factor_low);
+  if (!s.long_factor) {
+    step["L"] = rows_of(s.factor, [](double x) { return x; });
+  } else {
+    step["L"] = rows_of(*s.long_factor, [](const numeric::double_double& x) { return x.hi; });
+    step["L_low"] = rows_of(*s.long_factor, [](const numeric::double_double& x) { return x.lo; });
+  }
 }
 
 /// From 1.
@@ -46,11 +50,13 @@ json numbers_of(const std::vector<int>& pairs) {
 }
 
 json step_json(const certify::step_proof& s) {
-  json step = {{"force", s.pair_forces}, {"reactions", s.reactions}, {"elements", s.element_values}};
+  json step = {{"force", s.numbers.pair_forces},
+               {"reactions", s.numbers.reactions},
+               {"elements", s.numbers.element_values}};
   if (!s.of_stiffness) return step;  // it may stand anywhere: its displacements and statuses are not claimed
   step["displacement"] = s.displacement;
   step["state"] = json::array();
-  for (const int isep : s.statuses) step["state"].push_back(state_name(isep));
+  for (const int isep : s.isep) step["state"].push_back(state_name(isep));
   step["u"] = sums(s.state);
   step["closed"] = numbers_of(s.closed);
   step["z"] = sums(s.z);
@@ -71,11 +77,10 @@ std::string proof_json(const problem& p, const certify::certifier& judged) {
   json steps = json::array();
   for (std::size_t i = 0; i < judged.steps().size(); ++i) {
     const auto& c = judged.steps()[i];
-    const auto& proof = judged.proofs()[i];
     json step = {{"step", i + 1}, {"certified", c && c->certified}, {"error", nullptr}};
-    if (proof) {
+    if (c && c->proof) {
       step["error"] = error_json(p, c);
-      step.update(step_json(*proof));
+      step.update(step_json(*c->proof));
     } else {
       step["because"] = reason_without_proof(c);
     }

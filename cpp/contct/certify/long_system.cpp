@@ -1,4 +1,4 @@
-#include "contct/certify/true_system.hpp"
+#include "contct/certify/long_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -117,24 +117,20 @@ double least_cube(std::span<const double> x) {
   return least;
 }
 
-/// See true_system.
-struct extent {
-  double span = 0.0, least_product = 1.0;
-};
-extent extent_of(const beam& b) {
-  return {b.x.back() - b.x.front(), std::min(least_cube(b.x), std::ranges::min(b.EI))};
+/// The least that the formulas of its elements multiply.
+double least_product_of(const beam& b) {
+  return std::min(least_cube(b.x), std::ranges::min(b.EI));
 }
-extent extent_of(const plate& p) {
-  return {std::max(p.x.back() - p.x.front(), p.y.back() - p.y.front()),
-          std::min({least_cube(p.x), least_cube(p.y), p.D})};
+double least_product_of(const plate& p) {
+  return std::min({least_cube(p.x), least_cube(p.y), p.D});
 }
-extent extent_of(const assembled& /*a*/) {
-  return {};
+double least_product_of(const assembled& /*a*/) {
+  return 1.0;
 }
 
 }  // namespace
 
-void true_system::add_product(std::span<const double_double> u, std::span<double_double> sum,
+void long_system::add_product(std::span<const double_double> u, std::span<double_double> sum,
                               std::span<double> sizes) const {
   for (std::size_t dof = 0; dof < dofs(); ++dof) {
     double_double of_row = sum[dof];
@@ -148,19 +144,81 @@ void true_system::add_product(std::span<const double_double> u, std::span<double
   }
 }
 
-true_system true_system_of(const problem& p) {
-  true_system t(structure::equations_of<double_double>(p));
+double long_system::doubt(std::size_t pair, std::span<const double_double> u) const {
+  const double size = std::abs(u[pairs[pair].dof].hi) + std::abs(pairs[pair].face.hi);
+  return size == 0.0 ? 0.0 : 2 * long_rounding * size + 0x1p-1000;  // of underflow
+}
+
+bool long_system::is_below_range(const long_loads& l) const {
+  constexpr double least = 1e-280;  // the low halves of 32 digits are numbers too, down to 1e-308
+  const auto too_small = [](const double_double& x) { return x.hi != 0.0 && std::abs(x.hi) < least; };
+  const auto has_small_pair = [&](const long_pair& p) { return too_small(p.face) || too_small(p.stiffness); };
+  const auto has_small_entry = [&](const auto& row) {
+    return std::ranges::any_of(row, [&](const auto& entry) { return too_small(entry.second); });
+  };
+  return least_product < least || std::ranges::any_of(stiffness, has_small_entry) ||
+         std::ranges::any_of(pairs, has_small_pair) || std::ranges::any_of(l.force, too_small) ||
+         std::ranges::any_of(l.settlement, too_small);
+}
+
+void long_system::put_forces(long_residual& r) const {
+  for (std::size_t dof = 0; dof < dofs(); ++dof) {
+    if (r.slack[dof] > 0.0) r.slack[dof] = 2 * long_rounding * r.slack[dof] + 0x1p-1000;  // of underflow
+    if (fixed[dof] == 0) r.force[dof] = -r.needed[dof];
+  }
+}
+
+long_residual long_system::residual_of_rounded(long_vector needed) const {
+  long_residual r{long_vector(dofs()), std::vector<double>(dofs()), std::move(needed)};
+  for (std::size_t dof = 0; dof < dofs(); ++dof)  // one that underflows is not none
+    r.slack[dof] = std::max(std::abs(r.needed[dof].hi), std::numeric_limits<double>::min());
+  put_forces(r);
+  return r;
+}
+
+long_residual long_system::residual(std::span<const double_double> u, const long_loads& l) const {
+  long_residual r{long_vector(dofs()), l.size, long_vector(dofs())};
+  for (std::size_t dof = 0; dof < dofs(); ++dof) r.needed[dof] = -l.force[dof];
+  add_product(u, r.needed, r.slack);
+  if (std::ranges::any_of(u, [](const double_double& x) { return x.hi != 0.0; }))
+    for (double& size : r.slack)
+      size = std::max(size, std::numeric_limits<double>::min());  // it may underflow
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const long_pair& p = pairs[i];
+    const double_double deep = depth(i, u);
+    const double size = std::abs(u[p.dof].hi) + std::abs(p.face.hi);
+    if (deep.hi > -long_rounding * size) r.slack[p.dof] += p.stiffness.hi * size;
+    if (!(deep.hi <= 0.0)) r.needed[p.dof] += p.stiffness * deep * p.surface;  // what is no number is told
+  }
+  put_forces(r);
+  return r;
+}
+
+bool long_system::is_unloaded(const long_loads& l) const {
+  const auto none = [](const double_double& x) { return x == 0.0; };
+  return std::ranges::all_of(l.size, [](double x) { return x == 0.0; }) &&
+         std::ranges::all_of(l.settlement, none) &&
+         std::ranges::all_of(pairs, [](const long_pair& p) { return p.face.hi * p.surface >= 0.0; });
+}
+
+double extent_of(const model& m) {
+  if (const auto* const b = std::get_if<beam>(&m.kind)) return b->x.back() - b->x.front();
+  const auto* const p = std::get_if<plate>(&m.kind);
+  return p == nullptr ? 0.0 : std::max(p->x.back() - p->x.front(), p->y.back() - p->y.front());
+}
+
+long_system long_system_of(const problem& p) {
+  long_system t(structure::equations_of<double_double>(p));
+  t.extent = extent_of(p.geometry);
   for (int dof = 0; dof < static_cast<int>(t.dofs()); ++dof) {
     t.root.push_back(std::sqrt(t.stiffness[dof].at(dof).hi) * (1 + 0x1p-50));
     t.deflects.push_back(dof % dofs_per_node(p.geometry) == 0 ? 1 : 0);
   }
   const auto acting = [&p](int step) { return merged(p.steps[step - 1], elements(p.geometry)); };
-  t.loads = [acting, loads_of = t.loads_of](int step) { return true_loads{loads_of(acting(step)), step}; };
+  t.loads = [acting, loads_of = t.loads_of](int step) { return long_loads{loads_of(acting(step)), step}; };
   std::visit(
       [&](const auto& kind) {
-        const extent of_kind = extent_of(kind);
-        t.span = of_kind.span;
-        t.least_product = of_kind.least_product;
+        t.least_product = least_product_of(kind);
         t.element_values = [acting, elements = structure::elements_of<double_double>(kind)](
                                int step, std::span<const double_double> u) {
           return values_of(elements, acting(step), u);

@@ -9,7 +9,7 @@
 namespace contct::exact {
 namespace {
 
-rational dot(const vector& a, const vector& b) {
+rational dot(const rational_vector& a, const rational_vector& b) {
   rational sum;
   for (std::size_t i = 0; i < a.size(); ++i)
     if (a[i] != 0 && b[i] != 0) sum += a[i] * b[i];
@@ -17,56 +17,36 @@ rational dot(const vector& a, const vector& b) {
 }
 
 /// sum += share * part.
-void add(vector& sum, const vector& part, const rational& share) {
+void add(rational_vector& sum, const rational_vector& part, const rational& share) {
   if (share == 0) return;
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (part[i] != 0) sum[i] += share * part[i];
 }
 
-bool is_zero(const vector& v) {
+bool is_zero(const rational_vector& v) {
   return std::all_of(v.begin(), v.end(), [](const rational& x) { return x == 0; });
-}
-
-/// x with A x = b, for the few equations of the free motions; A is positive definite.
-vector solve_small(std::vector<vector> a, vector b) {
-  const std::size_t n = b.size();
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t i = j + 1; i < n; ++i) {
-      const rational l = a[i][j] / a[j][j];
-      for (std::size_t k = j; k < n; ++k) a[i][k] -= l * a[j][k];
-      b[i] -= l * b[j];
-    }
-  }
-  for (std::size_t j = n; j-- > 0;) {
-    for (std::size_t k = j + 1; k < n; ++k) b[j] -= a[j][k] * b[k];
-    b[j] /= a[j][j];
-  }
-  return b;
 }
 
 /// The response of the structure to the step's load on a ground of stiffness epsilon M, for epsilon to 0:
 ///     terms[0] / epsilon + terms[1] + epsilon terms[2] + ..
-/// With the free motions Z of K, terms[0] = Z (Z'MZ)^-1 Z'R, and each later one has K y = what is left of the
-/// order before, and Z'M y = 0.
+/// With free motions z of K for which z_i'M z_j = 0, terms[0] = sum of z z'R / z'Mz, and each later one has
+/// K y = what is left of the order before, and z'M y = 0.
 class soft_ground {
  public:
-  explicit soft_ground(const position& at) : at_(at), z_(at.solver().free_motions()) {
-    for (const vector& motion : z_) {
-      mz_.push_back(weighed(motion));
-      zmz_.emplace_back();
-      for (const vector& other : z_) zmz_.back().push_back(dot(mz_.back(), other));
+  explicit soft_ground(const position& at) : at_(at) {
+    for (const rational_vector& motion : at.solver().free_motions()) {
+      rational_vector z = without_free_part(motion);
+      rational_vector mz = weighed(z);
+      const rational size = dot(z, mz);
+      motions_.push_back({std::move(z), std::move(mz), size});
     }
   }
 
-  [[nodiscard]] std::vector<vector> response(std::size_t terms) const {
-    std::vector<vector> y = {vector(at_.u.size())};
-    if (!z_.empty()) {
-      vector work;
-      for (const vector& motion : z_) work.push_back(dot(motion, at_.increment()));
-      y[0] = combined(solve_small(zmz_, work));
-    }
-    vector rest = at_.increment();
-    vector settled = at_.settlement();
+  [[nodiscard]] std::vector<rational_vector> response(std::size_t terms) const {
+    std::vector<rational_vector> y = {rational_vector(at_.u.size())};
+    for (const free_motion& m : motions_) add(y[0], m.z, dot(m.z, at_.increment()) / m.size);
+    rational_vector rest = at_.increment();
+    rational_vector settled = at_.settlement();
     while (y.size() < terms) {
       add(rest, weighed(y.back()), -1);
       y.push_back(without_free_part(at_.moved(rest, settled)));
@@ -77,38 +57,30 @@ class soft_ground {
   }
 
  private:
+  struct free_motion {
+    rational_vector z, mz;
+    rational size;  // z'Mz
+  };
+
   /// M v.
-  [[nodiscard]] vector weighed(const vector& v) const {
-    vector mv(v.size());
-    for (const added_spring& g : at_.problem.ground) {
-      const auto dof = static_cast<std::size_t>(g.dof);
-      mv[dof] += g.stiffness * v[dof];
-    }
+  [[nodiscard]] rational_vector weighed(const rational_vector& v) const {
+    rational_vector mv(v.size());
+    for (const added_spring& g : at_.problem.ground) mv[g.dof] += g.stiffness * v[g.dof];
     return mv;
   }
 
-  [[nodiscard]] vector combined(const vector& amounts) const {
-    vector sum(at_.u.size());
-    for (std::size_t m = 0; m < z_.size(); ++m) add(sum, z_[m], amounts[m]);
-    return sum;
-  }
-
-  [[nodiscard]] vector without_free_part(vector v) const {
-    if (z_.empty()) return v;
-    vector parts;
-    for (const vector& motion : mz_) parts.push_back(dot(motion, v));
-    add(v, combined(solve_small(zmz_, parts)), -1);
+  [[nodiscard]] rational_vector without_free_part(rational_vector v) const {
+    for (const free_motion& m : motions_) add(v, m.z, -dot(m.mz, v) / m.size);
     return v;
   }
 
   const position& at_;
-  const std::vector<vector>& z_;
-  std::vector<vector> mz_, zmz_;
+  std::vector<free_motion> motions_;
 };
 
-class true_path {
+class corrected_path {
  public:
-  true_path(const exact_problem& p, const exact_progress& tell) : at_(p), tell_(tell) {}
+  corrected_path(const exact_problem& p, const exact_progress& tell) : at_(p), tell_(tell) {}
 
   exact_path follow() {
     for (std::size_t step = 0; step < at_.problem.steps.size() && path_.status == path_status::solved;
@@ -144,8 +116,7 @@ class true_path {
 
   void keep_increment(std::vector<event> events, bool snaps) {
     exact_increment i{at_.fraction, std::move(events), snaps};
-    for (const exact_pair& c : at_.problem.pairs)
-      i.at.push_back(numeric::rounded(at_.u[static_cast<std::size_t>(c.dof)]));
+    for (const exact_pair& c : at_.problem.pairs) i.at.push_back(numeric::rounded(at_.u[c.dof]));
     increments_.push_back(std::move(i));
   }
 
@@ -190,50 +161,49 @@ class true_path {
 
   /// 1: towards its face; -1: away from it; 0: it rests. The first term that moves the pair counts.
   [[nodiscard]] int moves(std::size_t pair) const {
-    for (const vector& term : response_)
+    for (const rational_vector& term : response_)
       if (const rational towards = at_.approach(pair, term); towards != 0) return towards > 0 ? 1 : -1;
     return 0;
+  }
+
+  /// How far along `v` the first separated pair is at its face, or the first one in contact, which no free
+  /// motion moves. Nothing where none ever is.
+  [[nodiscard]] std::optional<rational> first_event_along(const rational_vector& v) const {
+    std::optional<rational> way;
+    for (std::size_t i = 0; i < at_.closed.size(); ++i) {
+      const rational towards = at_.closed[i] != 0 ? rational(-at_.approach(i, v)) : at_.approach(i, v);
+      if (towards <= 0) continue;
+      const rational reach = abs(at_.gap(i)) / towards;
+      if (!way || reach < *way) way = reach;
+    }
+    return way;
   }
 
   /// Along the free motion that the load drives, to the first face. False where none stands in its way.
   bool snap() {
     fill_in();
-    const vector& motion = response_[0];
-    std::optional<rational> way;
-    for (std::size_t i = 0; i < at_.closed.size(); ++i) {
-      const rational towards = at_.approach(i, motion);
-      if (at_.closed[i] != 0 || towards <= 0) continue;
-      const rational reach = at_.gap(i) / towards;
-      if (!way || reach < *way) way = reach;
-    }
-    if (!way) {
+    const rational_vector& motion = response_[0];
+    const std::optional<rational> way = first_event_along(motion);
+    if (way)
+      add(at_.u, motion, *way);
+    else
       prove(motion);
-      return false;
-    }
-    add(at_.u, motion, *way);
-    return true;
+    return way.has_value();
   }
 
-  void prove(const vector& motion) {
+  void prove(const rational_vector& motion) {
     rational largest;
     for (const rational& x : motion) largest = std::max(largest, rational(abs(x)));
-    mechanism_proof proof{vector(motion.size()), 0};
+    mechanism_proof proof{rational_vector(motion.size()), 0};
     add(proof.motion, motion, 1 / largest);
-    proof.work = dot(proof.motion, at_.problem.steps[at_.step].load);
+    proof.work = dot(proof.motion, at_.problem.steps[at_.step].force);
     path_.mechanism = std::move(proof);
   }
 
   /// The load grows to the first event, or to the end of the step: then false.
   bool advance() {
     if (!at_.solver().free_motions().empty()) fill_in();
-    const vector& rate = response_[1];
-    std::optional<rational> way;
-    for (std::size_t i = 0; i < at_.closed.size(); ++i) {
-      const rational towards = at_.closed[i] != 0 ? rational(-at_.approach(i, rate)) : at_.approach(i, rate);
-      if (towards <= 0) continue;
-      const rational reach = abs(at_.gap(i)) / towards;
-      if (!way || reach < *way) way = reach;
-    }
+    const std::optional<rational> way = first_event_along(response_[1]);
     const rational left = 1 - at_.fraction;
     const bool goes_on = way && *way < left;
     move_on(goes_on ? *way : left);
@@ -251,7 +221,7 @@ class true_path {
     }
     line_start_ = at_.at_start_of_step();
     line_rate_ = std::move(response_[1]);
-    for (const exact_pair& c : at_.problem.pairs) put_on_line(static_cast<std::size_t>(c.dof));
+    for (const exact_pair& c : at_.problem.pairs) put_on_line(c.dof);
   }
 
   void put_on_line(std::size_t dof) { at_.u[dof] = line_start_[dof] + at_.fraction * line_rate_[dof]; }
@@ -267,14 +237,14 @@ class true_path {
   const exact_progress& tell_;
   exact_path path_;
   std::vector<exact_increment> increments_;
-  std::vector<vector> response_;
-  vector line_start_, line_rate_;  // u at the start of the step on this piece, and how it grows with the load
+  std::vector<rational_vector> response_;
+  rational_vector line_start_, line_rate_;  // u at the start of the step and its rate, on this piece
 };
 
 }  // namespace
 
-exact_path follow_true_path(const exact_problem& p, const exact_progress& tell) {
-  return true_path(p, tell).follow();
+exact_path follow_corrected_path(const exact_problem& p, const exact_progress& tell) {
+  return corrected_path(p, tell).follow();
 }
 
 }  // namespace contct::exact

@@ -1,0 +1,74 @@
+// Which pairs are certainly in contact, and how far a state can be from the equilibrium in the norm of their
+// stiffness (reference/certificate.md).
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contct/certify/scaled_stiffness.hpp"
+#include "contct/structure/structure.hpp"
+
+namespace contct::certify {
+
+/// What is certain about a state's contacts.
+struct contact_set {
+  bool unique = true;      ///< false: the structure may stand elsewhere as well, under the same forces
+  std::string not_proved;  ///< why nothing is, in words; empty where something is
+  double rho = std::numeric_limits<double>::infinity();  ///< how far the state is, in the norm of K_A
+  std::vector<int> closed;  ///< A: the pairs that are certainly in contact, from 0
+};
+
+/// A, the pairs that are certainly in contact, with K_A, its factor, and the proof that it is definite.
+class certain_contacts {
+ public:
+  /// All must outlive this object.
+  certain_contacts(const problem& p, const linear_structure& s, const long_system& system);
+
+  /// A and rho of `b`, for a state with a residual: A has at first all pairs beyond their faces; those that
+  /// are not so for certain leave it again. False, with the reason, where nothing is proved.
+  bool find(std::span<const double_double> u, const long_residual& r, contact_set& b);
+  /// Where the pairs of A leave rigid motions free on which the load does no work at all: springs without
+  /// force hold the structure where it is, and change nothing else.
+  bool find_balanced(int step, std::span<const double_double> u, const long_residual& r, contact_set& b);
+
+  /// Factor K_A; is it definite for certain?
+  [[nodiscard]] bool proves(const std::vector<int>& closed);
+  /// Pairs beyond their faces.
+  [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
+  /// `closed`, and where these do not hold the structure, those nearest to their faces that do.
+  [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;
+
+  /// How far a dof can be moved in a state at a distance of 1.
+  [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
+  /// How far the depth of a pair in any state within rho of u can be from that under u.
+  [[nodiscard]] double reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const;
+  /// Not in contact, in any state within rho of u.
+  [[nodiscard]] bool is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const;
+
+  [[nodiscard]] scaled_stiffness& stiffness() { return stiffness_; }
+  [[nodiscard]] const scaled_stiffness& stiffness() const { return stiffness_; }
+  [[nodiscard]] const long_vector& z() const { return z_; }
+
+ private:
+  [[nodiscard]] rigid_rank held_by(const std::vector<int>& closed) const;
+  /// Can half a unit in the last digits of a matrix, that does not say how many motions it leaves free, make
+  /// K_A indefinite?
+  [[nodiscard]] bool last_digits_decide() const;
+  [[nodiscard]] std::optional<double> norm_of(const long_residual& r);
+  [[nodiscard]] bool stands_free(int step, std::span<const double_double> u, const contact_set& b) const;
+  /// The pairs that may not be in contact leave `closed`; false where there are none.
+  bool erase_doubtful(std::span<const double_double> u, double rho, std::vector<int>& closed) const;
+
+  const problem& problem_;
+  const linear_structure& structure_;
+  const long_system& system_;
+  scaled_stiffness stiffness_;
+  std::optional<std::vector<int>> factored_;  // the pairs in the last factor
+  double mu_ = 0.0, inverse_root_mu_ = 0.0;
+  long_vector z_;  // about K_A^-1 r
+};
+
+}  // namespace contct::certify

@@ -1,0 +1,193 @@
+#include "contct/certify/factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace contct::certify {
+namespace {
+
+using matrix::sparse_columns;
+
+constexpr double half_ulp = 0x1p-53;
+
+double_double root_of(const double_double& x) {
+  const double near = std::sqrt(x.hi);
+  const double_double left = x - numeric::exact_product(near, near);
+  return numeric::renormalized(near, left.hi / (2 * near));
+}
+
+/// The sum of l_ik l_jk over the columns k < `end` that both rows have.
+double_double product(const long_band& l, int i, int j, int end) {
+  double_double sum;
+  for (int k = std::max(l.first(i), l.first(j)); k < end; ++k) sum += l.at(i, k) * l.at(j, k);
+  return sum;
+}
+
+/// The first `rows` of x become those of L'^-1 x.
+void solve_upper(const long_band& l, std::span<double_double> x, int rows) {
+  for (int i = rows; i-- > 0;) {
+    x[i] = x[i] / l.at(i, i);
+    for (int k = l.first(i); k < i; ++k) x[k] -= l.at(i, k) * x[i];
+  }
+}
+
+/// One column of A - L L' after the other, from the first; each in an array of all rows.
+class column_differences {
+ public:
+  column_differences(const sparse_columns& a, const sparse_columns& l)
+      : a_(a),
+        l_(l),
+        next_(l.starts.begin(), l.starts.end() - 1),
+        first_with_(l.order(), none),
+        after_(l.order(), none),
+        difference_(l.order(), 0.0),
+        is_listed_(l.order(), 0) {}
+
+  /// The rows of column i that are not 0; columns come in their order.
+  const std::vector<int>& take(int i) {
+    listed_.clear();
+    for (int at = a_.starts[i]; at < a_.starts[i + 1]; ++at) add(a_.rows[at], a_.values[at]);
+    int with_i = std::exchange(first_with_[i], none);
+    subtract_column(i, i);
+    while (with_i != none) {
+      const int column = with_i;
+      with_i = after_[column];
+      subtract_column(column, i);
+    }
+    return listed_;
+  }
+  /// Of the column taken last; it is 0 from then on.
+  [[nodiscard]] double difference(int row) {
+    is_listed_[row] = 0;
+    return std::exchange(difference_[row], 0.0);
+  }
+  /// The most products that any difference is made of, so far.
+  [[nodiscard]] int most_terms() const { return most_terms_; }
+
+ private:
+  static constexpr int none = -1;
+
+  void add(int row, double value) {
+    if (is_listed_[row] == 0) listed_.push_back(row);
+    is_listed_[row] = 1;
+    difference_[row] += value;
+  }
+
+  /// L_ik times column k, from row i on. The column is met again at its next row.
+  void subtract_column(int k, int i) {
+    const int at = next_[k];
+    for (int below = at; below < l_.starts[k + 1]; ++below)
+      add(l_.rows[below], -l_.values[at] * l_.values[below]);
+    if (at + 1 < l_.starts[k + 1]) {
+      next_[k] = at + 1;
+      after_[k] = std::exchange(first_with_[l_.rows[at + 1]], k);
+    }
+    terms_ = k == i ? 1 : terms_ + 1;
+    most_terms_ = std::max(most_terms_, terms_);
+  }
+
+  const sparse_columns& a_;
+  const sparse_columns& l_;
+  std::vector<int> next_;                // the entry of each column of L that is next
+  std::vector<int> first_with_, after_;  // lists of columns by the row of that entry
+  std::vector<double> difference_;       // [rows]
+  std::vector<char> is_listed_;
+  std::vector<int> listed_;
+  int terms_ = 0, most_terms_ = 0;
+};
+
+/// Row sums of |A| + |L| |L'|.
+row_sums magnitudes(const sparse_columns& a, const sparse_columns& l) {
+  row_sums sums(l.order(), 0.0);
+  for (int column = 0; column < l.order(); ++column) {
+    double of_column = 0.0;
+    for (int at = l.starts[column]; at < l.starts[column + 1]; ++at) of_column += std::abs(l.values[at]);
+    for (int at = l.starts[column]; at < l.starts[column + 1]; ++at)
+      sums.add(l.rows[at], l.rows[at], l.values[at] * of_column);
+    for (int at = a.starts[column]; at < a.starts[column + 1]; ++at)
+      sums.add(a.rows[at], column, a.values[at]);
+  }
+  return sums;
+}
+
+}  // namespace
+
+bool can_be_factored_long(int order, int subdiagonals) {
+  constexpr double most_products = 1e7;
+  return static_cast<double>(order) * (subdiagonals + 1) * (subdiagonals + 1) <= most_products;
+}
+
+bool factor(long_band& a) {
+  for (int i = 0; i < a.order(); ++i) {
+    for (int j = a.first(i); j < i; ++j) a.at(i, j) = (a.at(i, j) - product(a, i, j, j)) / a.at(j, j);
+    const double_double pivot = a.at(i, i) - product(a, i, i, i);
+    const bool is_positive = pivot.hi > 0.0 && std::isfinite(pivot.hi);
+    a.at(i, i) = is_positive ? root_of(pivot) : pivot;
+    if (!is_positive) return false;
+  }
+  return true;
+}
+
+void solve_with(const long_band& l, std::span<double_double> x) {
+  for (int i = 0; i < l.order(); ++i) {
+    for (int k = l.first(i); k < i; ++k) x[i] -= l.at(i, k) * x[k];
+    x[i] = x[i] / l.at(i, i);
+  }
+  solve_upper(l, x, l.order());
+}
+
+/// With the row l of L that failed, and those above it: -L'^-1 l, and 1.
+std::vector<double_double> suspect_in(const long_band& failed) {
+  std::vector<double_double> x(failed.order());
+  int row = 0;
+  while (row < failed.order() && failed.at(row, row).hi > 0.0) ++row;
+  if (row == failed.order()) return x;
+  for (int k = failed.first(row); k < row; ++k) x[k] = -failed.at(row, k);
+  solve_upper(failed, x, row);
+  x[row] = 1.0;
+  return x;
+}
+
+double row_sums::largest() const {
+  double most = 0.0;
+  for (const double sum : sums_) {
+    if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();  // NaN has no largest
+    most = std::max(most, sum);
+  }
+  return most * (1 + 0x1p-30);
+}
+
+/// The magnitudes of a product of two rows add up to at most 1.1: their squares are the diagonal's.
+double largest_row_of_error(const long_band& a, const long_band& l, double rounding) {
+  const int b = a.subdiagonals();
+  const double of_entry = 2.0 * (b + 4) * 0x1p-98 + rounding;
+  row_sums sums(a.order(), (2 * b + 1) * of_entry);
+  for (int i = 0; i < a.order(); ++i)
+    for (int j = a.first(i); j <= i; ++j) sums.add(i, j, (a.at(i, j) - product(l, i, j, j + 1)).hi);
+  return sums.largest();
+}
+
+double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
+  column_differences product(a, l);
+  row_sums sums(l.order(), 0.0);
+  for (int column = 0; column < l.order(); ++column)
+    for (const int row : product.take(column)) sums.add(row, column, product.difference(row));
+  const row_sums sizes = magnitudes(a, l);
+  for (int row = 0; row < l.order(); ++row)
+    sums.add(row, row, (product.most_terms() + 3) * half_ulp * sizes.of(row));
+  return sums.largest() + 0x1p-900;  // of underflow
+}
+
+sparse_columns reordered(const sparse_columns& a, std::span<const int> places) {
+  matrix::sparse_matrix moved{a.order(), {}};
+  for (int column = 0; column < a.order(); ++column)
+    for (int at = a.starts[column]; at < a.starts[column + 1]; ++at) {
+      const auto [right, below] = std::minmax(places[a.rows[at]], places[column]);
+      moved.entries.push_back({below, right, a.values[at]});
+    }
+  return matrix::columns_of(moved);
+}
+
+}  // namespace contct::certify
