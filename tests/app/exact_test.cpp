@@ -201,18 +201,6 @@ TEST_CASE("a dof of a matrix without stiffness or support is refused") {
   CHECK_THAT(f.err, Contains("k.mtx: dof 2: found no stiffness and no support"));
 }
 
-TEST_CASE("what takes more memory than there may be is refused with the figure before it is taken") {
-  const scratch_folder dir;
-  dir.write("p.toml",
-            "[plate]\nsize = [1, 1]\nelements = [12, 12]\nD = 1\nnu = 0.3\n[[bed]]\nmodulus = 1\nface = 0\n"
-            "[[step]]\nuniform = -1\n");
-  process_options little;
-  little.environment = {{"CONTCT_MEMORY_MIB", "1"}};
-  const finished f = contct_program(dir.path(), {"exact", "p.toml"}, little);
-  CHECK(f.exit == 2);
-  CHECK_THAT(f.err, Contains("found 507 dofs by a half bandwidth of 44") && Contains("allowed: 1.0 MiB"));
-}
-
 TEST_CASE("numbers of absurd size are refused or solved") {
   std::size_t refused = 0;
   std::size_t solved = 0;

@@ -40,24 +40,23 @@ def contct(folder, *arguments, environment=None, before=None, **more):
 
 
 def signals_at_calls(all_commands) -> None:
-    """Each signal at some calls of each kind, with files that get their names by a link, and by a copy."""
+    """Each signal at some calls of each kind."""
     died = 0
     for command in all_commands:
         for kind in ("write", "openat", "rename", "close", "pread"):
             count = command.calls(kind)
             picked = sorted(random.sample(range(1, count + 1), min(count, 6 * TIMES)))
             for number in picked:
-                for no_link in ({}, {"FAULT_NO_LINK": "1"}):
-                    which = SIGNALS[(number + len(no_link)) % len(SIGNALS)]
-                    status, files, said = command.run({"FAULT_CALL": kind, "FAULT_AT": str(number),
-                                                       "FAULT_SIGNAL": str(int(which))} | no_link)
-                    what = f"{command.name}: {which.name} at {kind} {number} of {count} {no_link}"
-                    check(status in (command.status, -which), f"{what}: exit {status}: {said}")
-                    died += status == -which
-                    for file, content in files.items():
-                        check(content in (command.made.get(file), command.prepared.get(file)),
-                              f"{what}: {file} is neither whole nor as it was")
-                    check(command.prepared.keys() <= files.keys(), f"{what}: a file is lost")
+                which = SIGNALS[number % len(SIGNALS)]
+                status, files, said = command.run({"FAULT_CALL": kind, "FAULT_AT": str(number),
+                                                   "FAULT_SIGNAL": str(int(which))})
+                what = f"{command.name}: {which.name} at {kind} {number} of {count}"
+                check(status in (command.status, -which), f"{what}: exit {status}: {said}")
+                died += status == -which
+                for file, content in files.items():
+                    check(content in (command.made.get(file), command.prepared.get(file)),
+                          f"{what}: {file} is neither whole nor as it was")
+                check(command.prepared.keys() <= files.keys(), f"{what}: a file is lost")
     check(died >= 40, f"only {died} runs ended by their signal")
 
 

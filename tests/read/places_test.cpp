@@ -21,7 +21,7 @@ model a_matrix() {
 
 std::vector<int> nodes_in(const model& m, const std::string& text) {
   const toml::table document = parse_toml(text, "f.toml");
-  return node_places(m).read(table_reader(document, "", "f.toml"));
+  return node_places(m).read(toml_value(document, "f.toml"));
 }
 
 std::string refusal(const model& m, const std::string& text) {

@@ -35,49 +35,41 @@ std::string contents(const fs::path& p) {
 
 }  // namespace
 
-constexpr naming both_ways[] = {naming::link_or_copy, naming::copy};
-
 TEST_CASE("a file appears when it is finished, and not before, not even under another name") {
-  for (const naming how : both_ways) {
-    const scratch dir;
-    const fs::path f = dir.path / "out.json";
-    output_file out(f.string(), how);
-    out.write("half");
-    CHECK(dir.files() == 0);
-    out.write(" and half" + std::string(200000, '.'));
-    out.finish();
-    CHECK(contents(f) == "half and half" + std::string(200000, '.'));
-    CHECK(dir.files() == 1);
-  }
+  const scratch dir;
+  const fs::path f = dir.path / "out.json";
+  output_file out(f.string());
+  out.write("half");
+  CHECK(dir.files() == 0);
+  out.write(" and half" + std::string(200000, '.'));
+  out.finish();
+  CHECK(contents(f) == "half and half" + std::string(200000, '.'));
+  CHECK(dir.files() == 1);
 }
 
 TEST_CASE("a new file has the rights that the umask leaves") {
-  for (const naming how : both_ways) {
-    const scratch dir;
-    const mode_t before = umask(0027);
-    for (int time = 0; time < 2; ++time) {  // made, then replaced
-      output_file out((dir.path / "out.json").string(), how);
-      out.finish();
-      struct stat s {};
-      REQUIRE(stat((dir.path / "out.json").c_str(), &s) == 0);
-      CHECK((s.st_mode & 0777U) == 0640U);
-    }
-    umask(before);
+  const scratch dir;
+  const mode_t before = umask(0027);
+  for (int time = 0; time < 2; ++time) {  // made, then replaced
+    output_file out((dir.path / "out.json").string());
+    out.finish();
+    struct stat s {};
+    REQUIRE(stat((dir.path / "out.json").c_str(), &s) == 0);
+    CHECK((s.st_mode & 0777U) == 0640U);
   }
+  umask(before);
 }
 
 TEST_CASE("an older file is replaced, and its name is never without a whole file") {
-  for (const naming how : both_ways) {
-    const scratch dir;
-    const fs::path f = dir.path / "out.json";
-    std::ofstream(f) << "old";
-    output_file out(f.string(), how);
-    out.write("new");
-    CHECK(contents(f) == "old");
-    out.finish();
-    CHECK(contents(f) == "new");
-    CHECK(dir.files() == 1);
-  }
+  const scratch dir;
+  const fs::path f = dir.path / "out.json";
+  std::ofstream(f) << "old";
+  output_file out(f.string());
+  out.write("new");
+  CHECK(contents(f) == "old");
+  out.finish();
+  CHECK(contents(f) == "new");
+  CHECK(dir.files() == 1);
 }
 
 TEST_CASE("what is not finished leaves nothing, and an older file stays as it was") {
@@ -93,37 +85,33 @@ TEST_CASE("what is not finished leaves nothing, and an older file stays as it wa
 }
 
 TEST_CASE("whatever signal ends the process, no unfinished file remains") {
-  for (const naming how : both_ways) {
-    for (const int sign : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGKILL}) {
-      const scratch dir;
-      const pid_t child = fork();
-      if (child == 0) {
-        (void)std::signal(sign, SIG_DFL);
-        output_file out((dir.path / "out.json").string(), how);
-        out.write(std::string(100000, 'x'));
-        (void)raise(sign);
-        _exit(1);
-      }
-      int status = 0;
-      waitpid(child, &status, 0);
-      CHECK(WIFSIGNALED(status));
-      CHECK(dir.files() == 0);
+  for (const int sign : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGKILL}) {
+    const scratch dir;
+    const pid_t child = fork();
+    if (child == 0) {
+      (void)std::signal(sign, SIG_DFL);
+      output_file out((dir.path / "out.json").string());
+      out.write(std::string(100000, 'x'));
+      (void)raise(sign);
+      _exit(1);
     }
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WIFSIGNALED(status));
+    CHECK(dir.files() == 0);
   }
 }
 
 TEST_CASE("a symbolic link is written through, whether its target is there or not") {
-  for (const naming how : both_ways) {
-    const scratch dir;
-    fs::create_directory(dir.path / "there");
-    fs::create_symlink("there/out.json", dir.path / "link");  // relative to the link, not to us
-    for (const char* text : {"first", "second"}) {
-      output_file out((dir.path / "link").string(), how);
-      out.write(text);
-      out.finish();
-      CHECK(fs::is_symlink(dir.path / "link"));
-      CHECK(contents(dir.path / "there/out.json") == text);
-    }
+  const scratch dir;
+  fs::create_directory(dir.path / "there");
+  fs::create_symlink("there/out.json", dir.path / "link");  // relative to the link, not to us
+  for (const char* text : {"first", "second"}) {
+    output_file out((dir.path / "link").string());
+    out.write(text);
+    out.finish();
+    CHECK(fs::is_symlink(dir.path / "link"));
+    CHECK(contents(dir.path / "there/out.json") == text);
   }
 }
 
@@ -165,19 +153,6 @@ TEST_CASE("a device is written directly") {
   out.write("gone");
   CHECK_NOTHROW(out.finish());
   CHECK(fs::is_character_file("/dev/null"));
-}
-
-TEST_CASE("what is flushed is with the system, and has no name before it is finished") {
-  const scratch dir;
-  output_file out((dir.path / "x").string());
-  out.write("all of it");
-  out.flush();
-  CHECK(dir.files() == 0);
-  out.finish();
-  CHECK(contents(dir.path / "x") == "all of it");
-  output_file full("/dev/full");
-  full.write("little");
-  CHECK_THROWS_AS(full.flush(), output_error);
 }
 
 TEST_CASE("a full device is an error, not a short file") {

@@ -39,39 +39,38 @@ std::optional<double> nearest_to(std::string_view words) {
   return (sign == 1 ? -1.0 : 1.0) * exact::rounded(rational(integer(top), integer(bottom)));
 }
 
-expected_number read_check(const table_reader& t) {
+expected_number read_check(const toml_value& t) {
   t.allow_only({"step",   "quantity", "node",    "pair",      "element",  "end",   "corner",   "dof",
                 "change", "from",     "along",   "value",     "kind",     "exact", "relation", "printed",
                 "cut",    "source",   "because", "tolerance", "faithful", "reason"});
   expected_number e;
-  e.step = t.integer("step", 1, any_number);
-  e.quantity = t.text("quantity");
-  if (t.has("node")) e.node = t.integer("node", 1, any_number);
-  if (t.has("pair")) e.pair = t.integer("pair", 1, any_number);
-  if (t.has("element")) e.element = t.integer("element", 1, any_number);
-  if (t.has("end")) e.place = static_cast<int>(t.choice("end", {"left", "right"})) + 1;
-  if (t.has("corner")) e.place = t.integer("corner", 1, 4);
-  if (t.has("dof")) e.dof = t.text("dof");
-  if (t.has("change")) e.change = t.choice("change", {"make", "break"}) == 0 ? "make" : "break";
-  if (t.has("from")) e.from = t.real("from", any_real);
-  if (t.has("along")) e.along = t.choice("along", {"edge", "diagonal"}) == 0 ? "edge" : "diagonal";
+  e.step = t["step"].integer(1, any_number);
+  e.quantity = t["quantity"].text();
+  if (t.has("node")) e.node = t["node"].integer(1, any_number);
+  if (t.has("pair")) e.pair = t["pair"].integer(1, any_number);
+  if (t.has("element")) e.element = t["element"].integer(1, any_number);
+  if (t.has("end")) e.place = static_cast<int>(t["end"].choice({"left", "right"})) + 1;
+  if (t.has("corner")) e.place = t["corner"].integer(1, 4);
+  if (t.has("dof")) e.dof = t["dof"].text();
+  if (t.has("change")) e.change = t["change"].choice({"make", "break"}) == 0 ? "make" : "break";
+  if (t.has("from")) e.from = t["from"].real(any_real);
+  if (t.has("along")) e.along = t["along"].choice({"edge", "diagonal"}) == 0 ? "edge" : "diagonal";
   if (e.quantity == "state") {
-    e.value = t.choice("value", {"contact", "separated"}) == 0 ? in_contact : separated;
+    e.value = t["value"].choice({"contact", "separated"}) == 0 ? in_contact : separated;
   } else {
-    e.value = t.real("value", any_real);
-    e.tolerance = t.real("tolerance", not_negative);
-    e.because = t.text("because");
+    e.value = t["value"].real(any_real);
+    e.tolerance = t["tolerance"].real(not_negative);
+    e.because = t["because"].text();
   }
-  (void)t.choice("kind", {"published", "closed form", "recomputed"});
-  e.kind = t.text("kind");
-  e.source = t.text("source");
+  (void)t["kind"].choice({"published", "closed form", "recomputed"});
+  e.kind = t["kind"].text();
+  e.source = t["source"].text();
   if (t.has("faithful")) {
-    e.faithful = t.real("faithful", any_real);
-    e.reason = t.text("reason");
+    e.faithful = t["faithful"].real(any_real);
+    e.reason = t["reason"].text();
   }
-  e.exact = t.text("exact");
-  if (e.quantity != "state" && !nearest_to(e.exact))
-    t.refuse_key("exact", "a decimal, or a fraction \"p/q\"");
+  e.exact = t["exact"].text();
+  if (e.quantity != "state" && !nearest_to(e.exact)) t["exact"].refuse("a decimal, or a fraction \"p/q\"");
   return e;
 }
 
@@ -190,13 +189,13 @@ std::optional<std::size_t> place_in(const Names& names, const std::string& name)
 std::vector<verification_case> read_verification(const std::string& path) {
   const std::string text = read_input(path);
   const toml::table document = parse_toml(text, path);
-  const table_reader top(document, "", path);
+  const toml_value top(document, path);
   top.allow_only({"case"});
   std::vector<verification_case> cases;
-  for (const table_reader& t : top.tables("case")) {
+  for (const toml_value& t : top["case"].tables()) {
     t.allow_only({"file", "check"});
-    verification_case c{t.text("file"), {}};
-    for (const table_reader& check : t.tables("check")) c.checks.push_back(read_check(check));
+    verification_case c{t["file"].text(), {}};
+    for (const toml_value& check : t["check"].tables()) c.checks.push_back(read_check(check));
     cases.push_back(std::move(c));
   }
   return cases;

@@ -19,14 +19,11 @@ std::string_view list_words(std::string_view key) {
 }
 
 /// The grid point [x, y] of a plate.
-int grid_point(const plate& p, const table_reader& t, const toml::node& entry, std::string_view name) {
-  const toml::array* const point = entry.as_array();
-  if (point == nullptr || point->size() != 2) t.refuse(entry, name, found_words(entry), point_words);
+int grid_point(const plate& p, const toml_value& named) {
+  const std::vector<toml_value> point = named.entries(point_words, 2, 2);
   constexpr std::string_view remedy = "grid lines are set by x and y, or elements, in [plate]";
-  const int i =
-      coordinate_row{p.x, "grid line along x", remedy}.index_of(t, *point->get(0), indexed(name, 0));
-  const int j =
-      coordinate_row{p.y, "grid line along y", remedy}.index_of(t, *point->get(1), indexed(name, 1));
+  const int i = coordinate_row{p.x, "grid line along x", remedy}.index_of(point[0]);
+  const int j = coordinate_row{p.y, "grid line along y", remedy}.index_of(point[1]);
   return p.node_at(i, j);
 }
 
@@ -45,49 +42,48 @@ std::vector<std::string_view> node_places::keys_with(std::vector<std::string_vie
   return others;
 }
 
-std::string_view node_places::key_in(const table_reader& t) const {
+std::string_view node_places::key_in(const toml_value& t) const {
   std::string_view found;
   for (const std::string_view key : keys_) {
     if (!t.has(key)) continue;
-    if (!found.empty())
-      t.refuse_key(found, fmt::format("this beside {}", key), fmt::format("either {} or {}", found, key));
+    if (!found.empty()) t.refuse_beside({found}, key, fmt::format("either {} or {}", found, key));
     found = key;
   }
   return found.empty() ? keys_.front() : found;
 }
 
-int node_places::node_at(const table_reader& t, const toml::node& entry, std::string_view name) const {
-  if (const auto* b = std::get_if<beam>(&structure_.kind)) return nodes_along(b->x).index_of(t, entry, name);
-  if (const auto* p = std::get_if<plate>(&structure_.kind)) return grid_point(*p, t, entry, name);
-  const std::optional<int> dof = index_->find(t.text_of(entry, name, index_->allowed()));
-  if (!dof) t.refuse(entry, name, found_words(entry), index_->allowed());
+int node_places::node_at(const toml_value& named) const {
+  if (const auto* b = std::get_if<beam>(&structure_.kind)) return nodes_along(b->x).index_of(named);
+  if (const auto* p = std::get_if<plate>(&structure_.kind)) return grid_point(*p, named);
+  const std::optional<int> dof = index_->find(named.text(index_->allowed()));
+  if (!dof) named.refuse(index_->allowed());
   return *dof;
 }
 
-std::vector<int> node_places::read(const table_reader& t) const {
+std::vector<int> node_places::read(const toml_value& t) const {
   const std::string_view key = key_in(t);
+  const toml_value named = t[key];
   const int count = nodes(structure_);
-  if (key == "nodes") return t.numbers(key, count);
+  if (key == "nodes") return named.numbers(count);
   const std::string allowed =
       on_matrix()
           ? index_->allowed()
           : fmt::format("a whole number from 1 to {}, or {} or {} in its place", count, keys_[1], keys_[2]);
-  const toml::node& value = t.required(key, allowed);
-  if (key == "node") return {t.integer(key, 1, count) - 1};
-  const toml::array* const point = key == "at" ? value.as_array() : nullptr;
-  if (point != nullptr && !point->empty() && point->front().is_number()) return {node_at(t, value, key)};
+  const toml::array* const point = named.required(allowed).as_array();
+  if (key == "node") return {named.integer(1, count) - 1};
+  if (key == "at" && point != nullptr && !point->empty() && point->front().is_number())
+    return {node_at(named)};
   std::vector<int> list;
   std::unordered_set<int> seen;
-  for (const toml::node* entry : t.each_of(key, list_words(key))) {
-    const std::string name = t.name_of(key, list.size());
-    list.push_back(node_at(t, *entry, name));
+  for (const toml_value& entry : named.each(list_words(key))) {
+    list.push_back(node_at(entry));
     if (!seen.insert(list.back()).second)
-      t.refuse(*entry, name, place_words(structure_, list.back()) + ", a second time", "each of them once");
+      entry.refuse(place_words(structure_, list.back()) + ", a second time", "each of them once");
   }
   return list;
 }
 
-std::vector<int> node_places::dofs_in(const table_reader& t, std::string_view found) const {
+std::vector<int> node_places::dofs_in(const toml_value& t, std::string_view found) const {
   std::vector<int> there;
   for (std::size_t dof = 0; dof < dof_names_.size(); ++dof)
     if (t.has(dof_names_[dof])) there.push_back(static_cast<int>(dof));

@@ -45,8 +45,7 @@ std::size_t longest_numbers(const exact_problem& p, const std::string& file) {
   if (bits < bits_of_double)
     throw std::invalid_argument(fmt::format(
         "{}: exact arithmetic: found {} dofs by a half bandwidth of {}, {} entries and {} vectors, which "
-        "take {}; allowed: {} (CONTCT_MEMORY_MIB in the environment sets another limit). Use fewer "
-        "elements",
+        "take {}; allowed: {}, three quarters of this machine's memory. Use fewer elements",
         file, n, band, entries, vectors,
         bytes_words(bytes + vectors * n * (bytes_of_rational + bits_of_double / 4)),
         bytes_words(memory_limit())));
