@@ -13,74 +13,54 @@
 namespace contct::read {
 namespace {
 
-/// The text of a file by line and column as toml++ counts them: from 1, columns in code points.
-class document_text {
+/// Goes forward through a text by lines and columns as toml++ counts them: from 1, columns in code points.
+class text_walk {
  public:
-  explicit document_text(std::string_view text) : text_(text) {
+  explicit text_walk(std::string_view text) : rest_(text) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
-    starts_.push_back(0);
-    for (std::size_t at = text_.find('\n'); at != std::string_view::npos; at = text_.find('\n', at + 1))
-      starts_.push_back(at + 1);
+    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
   }
 
-  /// The literal that begins there. Linear in the distance from the one before, if that is in the same line:
-  /// a line may hold a hundred thousand numbers.
-  [[nodiscard]] std::string_view number_at(const toml::source_position& p) {
+  /// The literal that begins there.
+  [[nodiscard]] std::string_view number_at(int line, int column) {
     constexpr std::string_view of_numbers = "0123456789+-._eExXoObBabcdfABCDF";
-    if (p.line == 0 || p.line > starts_.size()) return {};
-    if (p.line != here_.line) {
-      here_ = {p.line, 1};
-      at_ = starts_[p.line - 1];
+    for (; line_ < line; ++line_, column_ = 1) rest_.remove_prefix(rest_.find('\n') + 1);
+    for (; column_ < column && !rest_.empty(); ++column_) {
+      rest_.remove_prefix(1);
+      while (!rest_.empty() && (static_cast<unsigned char>(rest_.front()) & 0xC0U) == 0x80U)
+        rest_.remove_prefix(1);
     }
-    for (; here_.column < p.column && at_ < text_.size(); ++here_.column) {
-      ++at_;
-      while (at_ < text_.size() && is_inside_code_point(at_)) ++at_;
-    }
-    for (; here_.column > p.column; --here_.column) {
-      --at_;
-      while (is_inside_code_point(at_)) --at_;
-    }
-    const std::string_view rest = text_.substr(at_);
-    return rest.substr(0, rest.find_first_not_of(of_numbers));
+    return rest_.substr(0, rest_.find_first_not_of(of_numbers));
   }
 
  private:
-  [[nodiscard]] bool is_inside_code_point(std::size_t at) const {
-    return (static_cast<unsigned char>(text_[at]) & 0xC0U) == 0x80U;
-  }
-
-  std::string_view text_;
-  std::vector<std::size_t> starts_;  // of lines
-  toml::source_position here_{};
-  std::size_t at_ = 0;  // of `here_`
+  std::string_view rest_;
+  int line_ = 1, column_ = 1;
 };
 
-/// The key of a number, put together only where it is asked for.
-struct key_chain {
-  const key_chain* above;
-  std::string_view name;  ///< empty: an entry of an array
-  std::size_t index;      ///< of that entry, from 0
-
-  [[nodiscard]] std::string words() const {
-    if (above == nullptr) return "";
-    const std::string before = above->words();
-    if (name.empty()) return indexed(before, index);
-    return before.empty() ? std::string(name) : fmt::format("{}.{}", before, name);
-  }
+/// A finite number of a document and its node.
+struct found_number {
+  const toml::node* node;
+  placed_number number;
 };
 
-/// Call visit(node, value, key) for every finite number in the document.
-template <class Visit>
-void for_each_number(const toml::node& node, const key_chain& key, const Visit& visit) {
+/// Append every finite number under `node`, which has this key.
+void append_numbers(const toml::node& node, const std::string& key, std::vector<found_number>& numbers) {
+  const auto append = [&](double value) {
+    const toml::source_position& at = node.source().begin;
+    numbers.push_back(
+        {&node, {key, value, node.is_integer(), static_cast<int>(at.line), static_cast<int>(at.column)}});
+  };
   if (const toml::table* const table = node.as_table()) {
-    for (const auto& entry : *table) for_each_number(entry.second, {&key, entry.first.str(), 0}, visit);
+    for (const auto& [name, entry] : *table)
+      append_numbers(entry, key.empty() ? std::string(name.str()) : fmt::format("{}.{}", key, name.str()),
+                     numbers);
   } else if (const toml::array* const array = node.as_array()) {
-    for (std::size_t i = 0; i < array->size(); ++i) for_each_number((*array)[i], {&key, "", i}, visit);
+    for (std::size_t i = 0; i < array->size(); ++i) append_numbers(*array->get(i), indexed(key, i), numbers);
   } else if (const auto* const whole = node.as_integer()) {
-    visit(node, static_cast<double>(whole->get()), key);
+    append(static_cast<double>(whole->get()));
   } else if (const auto* const real = node.as_floating_point()) {
-    if (std::isfinite(real->get())) visit(node, real->get(), key);
+    if (std::isfinite(real->get())) append(real->get());
   }
 }
 
@@ -93,17 +73,19 @@ bool is_meant(const toml::node& node, std::string_view literal, double value) {
 }  // namespace
 
 std::vector<placed_number> placed_numbers(const toml::table& document, std::string_view text) {
-  document_text in(text);
+  std::vector<found_number> found;
+  append_numbers(document, "", found);
+  std::ranges::sort(found, {},
+                    [](const found_number& f) { return std::pair(f.number.line, f.number.column); });
+  text_walk walk(text);
   std::vector<placed_number> numbers;
-  for_each_number(document, {}, [&](const toml::node& node, double value, const key_chain& key) {
-    const toml::source_position& at = node.source().begin;
-    const std::string_view literal = in.number_at(at);
-    if (!literal.empty())
-      numbers.push_back({key.words(), value, node.is_integer(), static_cast<int>(at.line),
-                         static_cast<int>(at.column), static_cast<int>(literal.size()), literal,
-                         is_meant(node, literal, value)});
-  });
-  std::ranges::sort(numbers, {}, [](const placed_number& n) { return std::pair(n.line, n.column); });
+  for (found_number& f : found) {
+    placed_number& n = f.number;
+    n.literal = walk.number_at(n.line, n.column);
+    n.length = static_cast<int>(n.literal.size());
+    n.is_shortest = is_meant(*f.node, n.literal, n.value);
+    numbers.push_back(std::move(n));
+  }
   return numbers;
 }
 
