@@ -11,7 +11,7 @@ sys.dont_write_bytecode = True
 from commands import TIMES, commands
 
 KINDS = {"malloc": 0, "memory": 0, "write": 28, "read": 5, "openat": 13, "close": 5, "rename": 28, "fsync": 5, "pread": 5,
-         "fcntl": 9, "lseek": 29, "fchmod": 1, "mkdir": 13, "unlink": 13}
+         "fcntl": 9, "lseek": 29, "fchmod": 1, "mkdir": 13}
 SAMPLE = {"malloc": 24, "memory": 6, "write": 24, "openat": 16}
 LEAST_RUNS, LEAST_FAILED, LEAST_CHILDREN = 300, 100, 1000
 NO_MEMORY = "contct: memory does not suffice; the command is stopped\n"

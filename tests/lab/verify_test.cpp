@@ -3,13 +3,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "catch.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/session/run.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -56,18 +56,17 @@ expected_number third() {
 
 /// What read_verification says of a table of one check with these lines; nothing where it is read.
 std::string refusal_of(const std::string& lines) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "contct_verify_test.toml";
-  std::ofstream(file) << "[[case]]\nfile = \"f\"\n[[case.check]]\nstep = 1\nquantity = \"w\"\nnode = 1\n" +
-                             lines +
-                             "kind = \"recomputed\"\ntolerance = 1e-3\nbecause = \"b\"\nsource = \"s\"\n";
+  const scratch_folder here;
+  const std::string file = here.write(
+      "table.toml", "[[case]]\nfile = \"f\"\n[[case.check]]\nstep = 1\nquantity = \"w\"\nnode = 1\n" + lines +
+                        "kind = \"recomputed\"\ntolerance = 1e-3\nbecause = \"b\"\nsource = \"s\"\n");
   std::string said;
   double value = 0.5;
   try {
-    value = read_verification(file.string()).at(0).checks.at(0).value;
+    value = read_verification(file).at(0).checks.at(0).value;
   } catch (const input_error& e) {
     said = e.what();
   }
-  std::filesystem::remove(file);
   CHECK(value == 0.5);
   return said;
 }

@@ -214,7 +214,8 @@ TEST_CASE("each type of solid has its edges, through the nodes at their middles"
   }
 }
 
-TEST_CASE("an edge that elements share is there once, with how many have it; nodes follow on other lines") {
+TEST_CASE(
+    "an edge that elements share is there once, with how many have it, and nodes may follow on other lines") {
   const placed_nodes m = by_mesh(nodes_text(6) +
                                  "*ELEMENT,ELSET=A,TYPE=C3D4\n1,1,2,3,4\n2,2,3,4,\n** a comment\n5\n"
                                  "*ELEMENT,TYPE=C3D4,ELSET=B\n3,3,2,4,6\n");

@@ -47,13 +47,6 @@ TEST_CASE("a plate's D is E t^3 / 12 (1 - nu^2), or what is written") {
   CHECK(std::get<plate>(model_in(grid + "D = 3\n").kind).D == 3.0);
 }
 
-TEST_CASE("a document has exactly one structure") {
-  CHECK_THAT(refusal("title = \"x\"\n"),
-             Contains("the file: found neither beam nor plate, matrix or calculix"));
-  CHECK_THAT(refusal("[beam]\n[plate]\n"), Contains("m.toml:2:1: plate: found this beside beam"));
-  CHECK_THAT(refusal("[calculix]\n[beam]\n"), Contains("m.toml:1:1: calculix: found this beside beam"));
-}
-
 TEST_CASE("the largest plate that is allowed takes 4 GB") {
   const auto square = [](int n) {
     const std::string text = std::to_string(n);

@@ -91,7 +91,7 @@ TEST_CASE("tables know their names: a table in an array in a table") {
     return readers.size();
   };
   CHECK_THAT(refusal(text, inner), Contains("f.toml:3:27: a[2].b[2].d: found an unknown key; allowed: c"));
-  CHECK(value("[[a]]\n[[a]]\n", [](const toml_value& t) { return t["a"].tables()[1].place(); }) ==
+  CHECK(value("[[a]]\n[[a]]\n", [](const toml_value& t) { return t["a"].tables()[1].where(); }) ==
         "f.toml:2: a[2]");
   CHECK(value("", [](const toml_value& t) { return t["a"].optional_tables().size(); }) == 0);
   CHECK_THAT(refusal("", [](const toml_value& t) { return t["a"].tables().size(); }),

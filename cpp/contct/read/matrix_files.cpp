@@ -227,8 +227,7 @@ void refuse_again(const field_lines& lines, std::string_view what, std::string_v
 /// How many fields stand before a comment.
 std::size_t fields_before_comment(const field_lines& lines) {
   std::size_t count = 0;
-  while (count < lines.fields() && count < field_lines::most_fields && lines.field(count).front() != '#')
-    ++count;
+  while (count < lines.fields() && lines.field(count).front() != '#') ++count;
   return count;
 }
 

@@ -186,16 +186,6 @@ plate read_plate(const toml_value& t) {
   return p;
 }
 
-/// What a run takes beyond what there may be, and what to do about it.
-[[noreturn]] void refuse_too_large(const toml_value& t, const assembled& a, const std::string& takes,
-                                   const std::string& remedy) {
-  t.refuse(
-      fmt::format("{} dofs with {}", a.dofs(), takes),
-      fmt::format("{}, three quarters of this machine's memory; {}condense the matrix onto the dofs that "
-                  "have pairs and loads, or use a coarser model",
-                  bytes_words(memory_limit()), remedy));
-}
-
 /// Bytes that a run holds at its largest, K as it is stored: the structure's, an engine's and the reference
 /// solution's. Where K is sparse, CHOLMOD finds an ordering for it.
 std::int64_t bytes_of_run(const assembled& a) {
@@ -225,19 +215,25 @@ void choose_storage(const toml_value& t, assembled& a) {
   const std::string said = read_storage(t);
   const std::int64_t limit = memory_limit();
   const std::int64_t band = bytes_of_run(a);
-  const bool may_be_sparse = said != "band" && sparse_factor::available();
-  if (said != "sparse" && band <= limit && (!may_be_sparse || band <= small_band)) return;
-  const std::string band_takes = fmt::format("a half bandwidth of {}, which take {}",
-                                             subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
-  if (!may_be_sparse && band > limit)
-    refuse_too_large(t, a, band_takes,
-                     sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ");
-  a.as_band = false;
-  const std::int64_t sparse = bytes_of_run(a);
-  if (said != "sparse" && band <= limit) a.as_band = band <= far_less * sparse;
-  if (!a.as_band && sparse > limit)
-    refuse_too_large(
-        t, a, fmt::format("{}, or {} in CHOLMOD's sparse factors", band_takes, bytes_words(sparse)), "");
+  std::string takes = fmt::format("a half bandwidth of {}, which take {}",
+                                  subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
+  std::string remedy;
+  std::int64_t needed = band;
+  if (said == "sparse" ||
+      (said.empty() && sparse_factor::available() && band > std::min(small_band, limit))) {
+    a.as_band = false;
+    needed = bytes_of_run(a);
+    a.as_band = said.empty() && band <= limit && band <= far_less * needed;
+    if (a.as_band) return;
+    takes += fmt::format(", or {} in CHOLMOD's sparse factors", bytes_words(needed));
+  } else {
+    remedy = sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ";
+  }
+  if (needed > limit)
+    t.refuse(fmt::format("{} dofs with {}", a.dofs(), takes),
+             fmt::format("{}, three quarters of this machine's memory; {}condense the matrix onto the dofs "
+                         "that have pairs and loads, or use a coarser model",
+                         bytes_words(limit), remedy));
 }
 
 /// A path for messages and pages: on one line, whatever it is.
@@ -245,8 +241,9 @@ std::string shown_name(const std::string& path) {
   return printable(path, std::string::npos);
 }
 
-std::vector<std::string> read_labels(const std::string& path) {
-  return parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
+void read_labels(const std::string& path, assembled& a) {
+  a.labels_from = shown_name(path);
+  a.labels = parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
 }
 
 /// The keys that both tables have, and the ordering.
@@ -278,9 +275,7 @@ assembled read_matrix(const toml_value& t, const named_files& files, std::vector
   a.name = shown_name(path);
   a.stiffness = parse_symmetric(read_input(path, "stiffness matrix", largest_matrix_file), a.name, &warnings);
   if (t.has("dofs")) {
-    const std::string of_labels = files.path_of(t["dofs"]);
-    a.labels_from = shown_name(of_labels);
-    a.labels = read_labels(of_labels);
+    read_labels(files.path_of(t["dofs"]), a);
     if (a.labels.size() != static_cast<std::size_t>(a.dofs()))
       t["dofs"].refuse(fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
                        fmt::format("{}, one for each row of {}", a.dofs(), a.name));
@@ -299,10 +294,8 @@ assembled read_calculix(const toml_value& t, const named_files& files, std::vect
   t.allow_only({"job", "mesh", "free_motions", "storage"});
   assembled a;
   const std::string path = files.path_of(t["job"], ".sti");
-  const std::string of_labels = files.path_of(t["job"], ".dof");
   a.name = shown_name(path);
-  a.labels_from = shown_name(of_labels);
-  a.labels = read_labels(of_labels);
+  read_labels(files.path_of(t["job"], ".dof"), a);
   const auto rows = static_cast<int>(a.labels.size());
   a.stiffness = parse_calculix_stiffness(
       read_input(path, "stiffness matrix of CalculiX", largest_matrix_file), a.name, rows, &warnings);

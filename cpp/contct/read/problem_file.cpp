@@ -10,9 +10,9 @@
 
 #include "contct/kernel/call.hpp"
 #include "contct/read/model_tables.hpp"
-#include "contct/read/placed_numbers.hpp"
-#include "contct/read/places.hpp"
+#include "contct/read/node_reader.hpp"
 #include "contct/read/step_tables.hpp"
+#include "contct/read/written_numbers.hpp"
 #include "contct/structure/polynomials.hpp"
 
 namespace contct::read {
@@ -51,15 +51,15 @@ class problem_reader {
     if (top_.has("title")) problem_.title = top_["title"].text();
     if (top_.has("units")) read_units(top_["units"].table());
     problem_.geometry = read_model(top_, files_, problem_.warnings);
-    places_.emplace(problem_.geometry);
+    nodes_.emplace(problem_.geometry);
     fixed_.assign(dofs(problem_.geometry), 0);
-    if (places_->on_matrix() && top_.has("bed"))
+    if (nodes_->on_matrix() && top_.has("bed"))
       top_["bed"].refuse("this with a matrix",
                          "a [[contact]] at each dof: a matrix knows no lengths or areas");
     for (const toml_value& t : top_["support"].optional_tables()) read_support(t);
     for (const toml_value& t : top_["contact"].optional_tables()) read_contact(t);
     for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
-    const step_reader steps(*places_, problem_.supports, files_, problem_.warnings);
+    const step_reader steps(*nodes_, problem_.supports, files_, problem_.warnings);
     for (const toml_value& t : top_["step"].tables()) problem_.steps.push_back(steps.read(t));
     problem_.files = files_.all();
     return std::move(problem_);
@@ -69,7 +69,7 @@ class problem_reader {
   [[nodiscard]] int nodes() const { return contct::structure::nodes(problem_.geometry); }
 
   [[nodiscard]] std::size_t dof_of(int node, int dof) const {
-    return node * places_->dof_names().size() + dof;
+    return node * nodes_->dof_names().size() + dof;
   }
 
   /// Does a support fix the node's deflection?
@@ -91,9 +91,9 @@ class problem_reader {
   }
 
   void read_support(const toml_value& t) {
-    if (places_->on_matrix()) return read_support_on_matrix(t);
-    t.allow_only(places_->keys_with({"fix", "spring"}));
-    const std::vector<int> at = places_->read(t);
+    if (nodes_->on_matrix()) return read_support_on_matrix(t);
+    t.allow_only(nodes_->keys_with({"fix", "spring"}));
+    const std::vector<int> at = nodes_->read(t);
     if (!t.has("fix") && !t.has("spring")) t.refuse("neither fix nor spring", "at least one of them");
     if (t.has("fix"))
       for (const int dof : read_fix(t))
@@ -102,17 +102,17 @@ class problem_reader {
   }
 
   void read_support_on_matrix(const toml_value& t) {
-    t.allow_only(places_->keys_with({"fix", "spring"}));
+    t.allow_only(nodes_->keys_with({"fix", "spring"}));
     const bool fixed = t.has("fix");
     if (fixed == t.has("spring"))
       t.refuse(fixed ? "both fix and spring" : "neither fix nor spring", "one of them");
     if (fixed && t["fix"].required("true").value_exact<bool>() != true) t["fix"].refuse("true");
     const double spring = fixed ? 0.0 : t["spring"].real(positive_real);
-    for (const int dof : places_->read(t)) add_support({dof, 0, fixed, spring});
+    for (const int dof : nodes_->read(t)) add_support({dof, 0, fixed, spring});
   }
 
   [[nodiscard]] std::vector<int> read_fix(const toml_value& t) const {
-    const auto& names = places_->dof_names();
+    const auto& names = nodes_->dof_names();
     const std::string allowed =
         fmt::format(R"(one of "{0}", or an array of "{0}", each at most once)", fmt::join(names, "\", \""));
     std::vector<int> fixed;
@@ -126,9 +126,9 @@ class problem_reader {
   }
 
   void read_springs(const toml_value& t, const std::vector<int>& at) {
-    t.allow_only(places_->dof_names());
-    for (const int dof : places_->dofs_in(t, "an empty table")) {
-      const double stiffness = t[places_->dof_names()[dof]].real(positive_real);
+    t.allow_only(nodes_->dof_names());
+    for (const int dof : nodes_->dofs_in(t, "an empty table")) {
+      const double stiffness = t[nodes_->dof_names()[dof]].real(positive_real);
       for (const int node : at) add_support({node, dof, false, stiffness});
     }
   }
@@ -152,8 +152,8 @@ class problem_reader {
   }
 
   void read_contact(const toml_value& t) {
-    t.allow_only(places_->keys_with({"surface", "face", "stiffness", "state"}));
-    const std::vector<int> at = places_->read(t);
+    t.allow_only(nodes_->keys_with({"surface", "face", "stiffness", "state"}));
+    const std::vector<int> at = nodes_->read(t);
     const facing common = read_facing(t, 0);
     const toml_value face = t["face"];
     const toml_value stiffness = t["stiffness"];
@@ -167,7 +167,7 @@ class problem_reader {
         problem_.warnings.push_back(fmt::format(
             "{}: {} is fixed{}; the pair cannot change the deflections, and its support takes its force, but "
             "the listing may toggle it",
-            t.place(), place_words(problem_.geometry, at[i]), places_->on_matrix() ? "" : " in w"));
+            t.where(), place_words(problem_.geometry, at[i]), nodes_->on_matrix() ? "" : " in w"));
     }
   }
 
@@ -188,10 +188,10 @@ class problem_reader {
 
   /// A pair at every node that is free to deflect, each with its tributary length or area.
   void read_bed(const toml_value& t) {
-    t.allow_only(places_->keys_with({"modulus", "surface", "face", "state"}));
+    t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
     const double modulus = t["modulus"].real(positive_real);
     const facing common = read_facing(t, face_below);
-    const std::vector<int> at = places_->named_in(t) ? places_->read(t) : all_nodes();
+    const std::vector<int> at = nodes_->named_in(t) ? nodes_->read(t) : all_nodes();
     bed made{modulus, {}, problem_.pairs.size()};
     made.closed = common.closed;
     const std::vector<double> faces = read_faces(t, at, made.face);
@@ -228,7 +228,7 @@ class problem_reader {
           "{0}: the mesh is coarse for this bed: nodes {1} and {2} are {3:.6g} apart; allowed: at most half "
           "of "
           "(4 EI / modulus)^(1/4), {4:.3g}. element_size = {4:.3g} in [beam] makes such a mesh",
-          t.place(), e + 1, e + 2, b.length_of(e), rounded_down(most));
+          t.where(), e + 1, e + 2, b.length_of(e), rounded_down(most));
     }
     if (!warning.empty()) problem_.warnings.push_back(warning);
   }
@@ -242,9 +242,9 @@ class problem_reader {
   named_files files_;
   toml_value top_;
   problem problem_;
-  std::optional<node_places> places_;  // of `problem_`, once its structure is known
-  std::vector<char> fixed_;            // [dofs]
-  std::vector<double> shares_;         // tributary shares [nodes], once a bed has asked for them
+  std::optional<node_reader> nodes_;  // of `problem_`, once its structure is known
+  std::vector<char> fixed_;           // [dofs]
+  std::vector<double> shares_;        // tributary shares [nodes], once a bed has asked for them
 };
 
 }  // namespace

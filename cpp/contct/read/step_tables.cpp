@@ -34,20 +34,20 @@ std::vector<double> read_polynomial(const toml_value& t, const model& m, std::st
   return coefficients;
 }
 
-step_reader::step_reader(const node_places& places, const std::vector<support>& supports, named_files files,
+step_reader::step_reader(const node_reader& nodes, const std::vector<support>& supports, named_files files,
                          std::vector<std::string>& warnings)
-    : places_(places),
+    : nodes_(nodes),
       files_(std::move(files)),
       warnings_(warnings),
-      held_(dofs(places.structure()), hold::none) {
+      held_(dofs(nodes.structure()), hold::none) {
   for (const support& s : supports) {
-    hold& here = held_[s.node * places_.dof_names().size() + s.dof];
+    hold& here = held_[s.node * nodes_.dof_names().size() + s.dof];
     here = std::max(here, s.fixed ? hold::fixed : hold::spring);
   }
 }
 
 load step_reader::read(const toml_value& t) const {
-  const bool on_matrix = places_.on_matrix();
+  const bool on_matrix = nodes_.on_matrix();
   const char* const whole = on_matrix ? "load" : "uniform";  // what acts on all of the structure
   t.allow_only({"name", whole, "point", "settlement"});
   if (!t.has(whole) && !t.has("point") && !t.has("settlement"))
@@ -60,7 +60,7 @@ load step_reader::read(const toml_value& t) const {
   if (t.has("uniform")) read_uniform(t, l);
   if (t.has("point")) read_points(t, l);
   if (t.has("settlement")) read_settlements(t, l);
-  refuse_endless_sums(t, places_.structure(), l);
+  refuse_endless_sums(t, nodes_.structure(), l);
   return l;
 }
 
@@ -68,7 +68,7 @@ void step_reader::read_vector(const toml_value& t, load& l) const {
   const std::string path = files_.path_of(t["load"]);
   std::vector<std::string> rounded;
   const std::vector<double> values = parse_vector(read_input(path, "Matrix Market file", largest_matrix_file),
-                                                  path, nodes(places_.structure()), &rounded);
+                                                  path, nodes(nodes_.structure()), &rounded);
   for (std::size_t dof = 0; dof < values.size(); ++dof) {
     if (values[dof] != 0.0) l.points.push_back({static_cast<int>(dof), 0, values[dof]});
   }
@@ -105,21 +105,21 @@ distributed_load step_reader::read_distributed(const toml_value& t) const {
     t.refuse("both or neither of value and polynomial", "one of them");
   distributed_load d;
   d.polynomial = t.has("value") ? std::vector<double>{t["value"].real(any_real)}
-                                : read_polynomial(t, places_.structure(),
+                                : read_polynomial(t, nodes_.structure(),
                                                   "value: only a beam's load may be a polynomial");
-  const int all = elements(places_.structure());
+  const int all = elements(nodes_.structure());
   if (t.has("elements")) d.elements = t["elements"].numbers(all);
   if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // each once: all of them
   return d;
 }
 
 void step_reader::read_points(const toml_value& t, load& l) const {
-  const auto& names = places_.dof_names();
+  const auto& names = nodes_.dof_names();
   for (const toml_value& p : t["point"].tables()) {
-    p.allow_only(places_.keys_with(names));
-    const std::vector<int> at = places_.read(p);
+    p.allow_only(nodes_.keys_with(names));
+    const std::vector<int> at = nodes_.read(p);
     for (const int dof :
-         places_.dofs_in(p, fmt::format("a point load without {}", fmt::join(names, " or ")))) {
+         nodes_.dofs_in(p, fmt::format("a point load without {}", fmt::join(names, " or ")))) {
       const double value = p[names[dof]].real(any_real);
       for (const int node : at) l.points.push_back({node, dof, value});
     }
@@ -128,30 +128,30 @@ void step_reader::read_points(const toml_value& t, load& l) const {
 
 /// A spring's foot does not move: what its support would do is not a displacement of the structure.
 void step_reader::refuse_unfixed(const toml_value& t, int node, int dof) const {
-  const std::string_view name = places_.dof_names()[dof];
-  const hold here = held_[node * places_.dof_names().size() + dof];
+  const std::string_view name = nodes_.dof_names()[dof];
+  const hold here = held_[node * nodes_.dof_names().size() + dof];
   if (here == hold::fixed) return;
-  const std::string what = places_.on_matrix() ? "which" : fmt::format("whose {}", name);
+  const std::string what = nodes_.on_matrix() ? "which" : fmt::format("whose {}", name);
   t[name].refuse(
-      fmt::format("a settlement of {}, {} {}", place_words(places_.structure(), node), what,
+      fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
                   here == hold::spring ? "is on a spring, so that its displacement is part of the answer"
                                        : "no support holds, so that loads decide where it goes"),
       "a dof that a [[support]] fixes, by fix");
 }
 
 void step_reader::read_settlements(const toml_value& t, load& l) const {
-  const auto& names = places_.dof_names();
+  const auto& names = nodes_.dof_names();
   std::set<std::pair<int, int>> moved;
   for (const toml_value& s : t["settlement"].tables()) {
-    s.allow_only(places_.keys_with(names));
-    const std::vector<int> at = places_.read(s);
+    s.allow_only(nodes_.keys_with(names));
+    const std::vector<int> at = nodes_.read(s);
     for (const int dof :
-         places_.dofs_in(s, fmt::format("a settlement without {}", fmt::join(names, " or ")))) {
+         nodes_.dofs_in(s, fmt::format("a settlement without {}", fmt::join(names, " or ")))) {
       const double value = s[names[dof]].real(any_real);
       for (const int node : at) {
         refuse_unfixed(s, node, dof);
         if (!moved.insert({node, dof}).second)
-          s[names[dof]].refuse(place_words(places_.structure(), node) + ", a second time in this step",
+          s[names[dof]].refuse(place_words(nodes_.structure(), node) + ", a second time in this step",
                                "each dof once: a settlement is its whole displacement");
         l.settlements.push_back({node, dof, value});
       }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contct/read/named_files.hpp"
-#include "contct/read/places.hpp"
+#include "contct/read/node_reader.hpp"
 
 namespace contct::read {
 
@@ -19,9 +19,9 @@ inline constexpr std::size_t most_coefficients = 21;
 /// Reads one step after the other.
 class step_reader {
  public:
-  /// `files` finds those that a step names; `warnings` gets those about their numbers. `places` and it must
+  /// `files` finds those that a step names; `warnings` gets those about their numbers. `nodes` and it must
   /// outlive this object.
-  step_reader(const node_places& places, const std::vector<support>& supports, named_files files,
+  step_reader(const node_reader& nodes, const std::vector<support>& supports, named_files files,
               std::vector<std::string>& warnings);
 
   [[nodiscard]] load read(const toml_value& t) const;
@@ -36,7 +36,7 @@ class step_reader {
   void read_settlements(const toml_value& t, load& l) const;
   void refuse_unfixed(const toml_value& t, int node, int dof) const;
 
-  const node_places& places_;
+  const node_reader& nodes_;
   named_files files_;
   std::vector<std::string>& warnings_;
   std::vector<hold> held_;  // [dofs] by supports

@@ -109,7 +109,7 @@ std::string toml_value::found() const {
   return node_->is_table() ? "a table" : "a date or time";
 }
 
-std::string toml_value::place() const {
+std::string toml_value::where() const {
   return fmt::format("{}:{}: {}", file_, at_.line, name_);
 }
 

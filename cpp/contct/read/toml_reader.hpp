@@ -79,11 +79,10 @@ class toml_value {
   [[nodiscard]] bool is_table() const { return node_ != nullptr && node_->is_table(); }
   [[nodiscard]] bool is_array() const { return node_ != nullptr && node_->is_array(); }
 
-  /// The name, and that of the i-th entry, from 0; or the name where the value stands for all entries.
-  [[nodiscard]] const std::string& name() const { return name_; }
+  /// The name of the i-th entry, from 0; or the value's own where it stands for all entries.
   [[nodiscard]] std::string name_of(std::size_t i) const { return is_array() ? indexed(name_, i) : name_; }
   /// Where this is, for messages: "pb.toml:12: contact[2]".
-  [[nodiscard]] std::string place() const;
+  [[nodiscard]] std::string where() const;
 
   /// The value in words: "-5", "\"abc\"", "a table", "an array of 3".
   [[nodiscard]] std::string found() const;

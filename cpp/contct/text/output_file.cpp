@@ -122,11 +122,12 @@ void output_file::finish() {
 void output_file::give_name() const {
   const signals_wait until_named;
   std::error_code ignored;
+  const bool replaces = fs::exists(target_, ignored);  // before the copy: without memory it would stay
   std::string name;
   const int copy = open_beside(target_, name);
   if (copy < 0) fail(errno);
   int error = copy_all(fileno(file_), copy);
-  if (error == 0 && fs::exists(target_, ignored)) error = sync_to_disk(copy);
+  if (error == 0 && replaces) error = sync_to_disk(copy);
   if (close(copy) != 0 && error == 0) error = errno;
   if (error == 0 && std::rename(name.c_str(), target_.c_str()) != 0) error = errno;
   if (error == 0) return;

@@ -1,4 +1,4 @@
-#include "contct/read/placed_numbers.hpp"
+#include "contct/read/written_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -38,18 +38,12 @@ class text_walk {
   int line_ = 1, column_ = 1;
 };
 
-/// A finite number of a document and its node.
-struct found_number {
-  const toml::node* node;
-  placed_number number;
-};
-
-/// Append every finite number under `node`, which has this key.
-void append_numbers(const toml::node& node, const std::string& key, std::vector<found_number>& numbers) {
-  const auto append = [&](double value) {
+/// Append every finite number under `node`, which has this key. Whole numbers may be hexadecimal.
+void append_numbers(const toml::node& node, const std::string& key, std::vector<written_number>& numbers) {
+  const auto append = [&](double value, bool is_meant) {
     const toml::source_position& at = node.source().begin;
-    numbers.push_back(
-        {&node, {key, value, node.is_integer(), static_cast<int>(at.line), static_cast<int>(at.column)}});
+    numbers.push_back({key, value, node.is_integer(), static_cast<int>(at.line), static_cast<int>(at.column),
+                       0, "", is_meant});
   };
   if (const toml::table* const table = node.as_table()) {
     for (const auto& [name, entry] : *table)
@@ -58,33 +52,24 @@ void append_numbers(const toml::node& node, const std::string& key, std::vector<
   } else if (const toml::array* const array = node.as_array()) {
     for (std::size_t i = 0; i < array->size(); ++i) append_numbers(*array->get(i), indexed(key, i), numbers);
   } else if (const auto* const whole = node.as_integer()) {
-    append(static_cast<double>(whole->get()));
+    const auto value = static_cast<double>(whole->get());
+    append(value, is_shortest(std::to_string(whole->get()), value));
   } else if (const auto* const real = node.as_floating_point()) {
-    if (std::isfinite(real->get())) append(real->get());
+    if (std::isfinite(real->get())) append(real->get(), true);
   }
-}
-
-/// Is the number, which is written so, the shortest decimal of its double? Whole numbers may be hexadecimal.
-bool is_meant(const toml::node& node, std::string_view literal, double value) {
-  const auto* const whole = node.as_integer();
-  return is_shortest(whole != nullptr ? std::to_string(whole->get()) : literal, value);
 }
 
 }  // namespace
 
-std::vector<placed_number> placed_numbers(const toml::table& document, std::string_view text) {
-  std::vector<found_number> found;
-  append_numbers(document, "", found);
-  std::ranges::sort(found, {},
-                    [](const found_number& f) { return std::pair(f.number.line, f.number.column); });
+std::vector<written_number> numbers_in(const toml::table& document, std::string_view text) {
+  std::vector<written_number> numbers;
+  append_numbers(document, "", numbers);
+  std::ranges::sort(numbers, {}, [](const written_number& n) { return std::pair(n.line, n.column); });
   text_walk walk(text);
-  std::vector<placed_number> numbers;
-  for (found_number& f : found) {
-    placed_number& n = f.number;
+  for (written_number& n : numbers) {
     n.literal = walk.number_at(n.line, n.column);
     n.length = static_cast<int>(n.literal.size());
-    n.is_shortest = is_meant(*f.node, n.literal, n.value);
-    numbers.push_back(std::move(n));
+    if (!n.is_whole) n.is_shortest = is_shortest(n.literal, n.value);
   }
   return numbers;
 }
@@ -94,7 +79,7 @@ std::vector<std::string> rounding_warnings(const toml::table& document, std::str
   constexpr std::size_t most = 10;
   std::vector<std::string> warnings;
   std::size_t count = 0;
-  for (const placed_number& n : placed_numbers(document, text))
+  for (const written_number& n : numbers_in(document, text))
     if (!n.is_shortest && count++ < most)
       warnings.push_back(
           fmt::format("{}:{}:{}: {}: {}", file, n.line, n.column, n.key, rounding_words(n.literal, n.value)));

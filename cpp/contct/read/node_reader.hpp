@@ -13,10 +13,10 @@
 namespace contct::read {
 
 /// Reads the keys that name nodes: node, nodes, and x (beams) or at (plates); dof and dofs on a matrix.
-class node_places {
+class node_reader {
  public:
   /// `m` must outlive this object.
-  explicit node_places(const model& m);
+  explicit node_reader(const model& m);
 
   /// These keys and `others`, for toml_value::allow_only.
   [[nodiscard]] std::vector<std::string_view> keys_with(std::vector<std::string_view> others) const;

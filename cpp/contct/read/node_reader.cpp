@@ -1,4 +1,4 @@
-#include "contct/read/places.hpp"
+#include "contct/read/node_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ int grid_point(const plate& p, const toml_value& named) {
 
 }  // namespace
 
-node_places::node_places(const model& m) : structure_(m) {
+node_reader::node_reader(const model& m) : structure_(m) {
   if (const auto* a = std::get_if<assembled>(&m.kind)) index_.emplace(*a);
   if (index_) keys_ = {"dof", "dofs"};
   if (std::holds_alternative<beam>(m.kind)) keys_ = {"node", "nodes", "x"};
@@ -37,12 +37,12 @@ node_places::node_places(const model& m) : structure_(m) {
   for (const char* name : contct::structure::dof_names(m)) dof_names_.emplace_back(name);
 }
 
-std::vector<std::string_view> node_places::keys_with(std::vector<std::string_view> others) const {
+std::vector<std::string_view> node_reader::keys_with(std::vector<std::string_view> others) const {
   others.insert(others.begin(), keys_.begin(), keys_.end());
   return others;
 }
 
-std::string_view node_places::key_in(const toml_value& t) const {
+std::string_view node_reader::key_in(const toml_value& t) const {
   std::string_view found;
   for (const std::string_view key : keys_) {
     if (!t.has(key)) continue;
@@ -52,7 +52,7 @@ std::string_view node_places::key_in(const toml_value& t) const {
   return found.empty() ? keys_.front() : found;
 }
 
-int node_places::node_at(const toml_value& named) const {
+int node_reader::node_at(const toml_value& named) const {
   if (const auto* b = std::get_if<beam>(&structure_.kind)) return nodes_along(b->x).index_of(named);
   if (const auto* p = std::get_if<plate>(&structure_.kind)) return grid_point(*p, named);
   const std::optional<int> dof = index_->find(named.text(index_->allowed()));
@@ -60,7 +60,7 @@ int node_places::node_at(const toml_value& named) const {
   return *dof;
 }
 
-std::vector<int> node_places::read(const toml_value& t) const {
+std::vector<int> node_reader::read(const toml_value& t) const {
   const std::string_view key = key_in(t);
   const toml_value named = t[key];
   const int count = nodes(structure_);
@@ -83,7 +83,7 @@ std::vector<int> node_places::read(const toml_value& t) const {
   return list;
 }
 
-std::vector<int> node_places::dofs_in(const toml_value& t, std::string_view found) const {
+std::vector<int> node_reader::dofs_in(const toml_value& t, std::string_view found) const {
   std::vector<int> there;
   for (std::size_t dof = 0; dof < dof_names_.size(); ++dof)
     if (t.has(dof_names_[dof])) there.push_back(static_cast<int>(dof));
