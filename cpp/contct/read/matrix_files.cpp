@@ -101,17 +101,14 @@ read_entry entry_in(number_lines& lines, int rows, int columns, std::string_view
 
 /// The same of a stiffness: in its triangle, and turned into the lower one.
 read_entry parse_entry(number_lines& lines, int rows, entry_format format) {
-  read_entry e = entry_in(lines, rows, rows, "an entry", format == entry_format::calculix);
-  if (format == entry_format::matrix_market) {
-    if (e.row < e.column)
-      lines.refuse(fmt::format("row {} and column {}, above the diagonal", e.row + 1, e.column + 1),
-                   "the lower triangle, row >= column: what symmetric means in this format");
-    return e;
-  }
-  if (e.row > e.column)
-    lines.refuse(fmt::format("row {} and column {}, below the diagonal", e.row + 1, e.column + 1),
-                 "the upper triangle, row <= column, as CalculiX writes it");
-  std::swap(e.row, e.column);
+  const bool is_upper = format == entry_format::calculix;
+  read_entry e = entry_in(lines, rows, rows, "an entry", is_upper);
+  if (is_upper ? e.row > e.column : e.row < e.column)
+    lines.refuse(fmt::format("row {} and column {}, {} the diagonal", e.row + 1, e.column + 1,
+                             is_upper ? "below" : "above"),
+                 is_upper ? "the upper triangle, row <= column, as CalculiX writes it"
+                          : "the lower triangle, row >= column: what symmetric means in this format");
+  if (is_upper) std::swap(e.row, e.column);
   return e;
 }
 
