@@ -97,8 +97,8 @@ std::string file_name_of(const std::string& kernel) {
   return name.substr(0, longest);
 }
 
-/// Write each case to `folder`, which is made where it is missing: a trace and a FORTRAN main program.
-/// Returns the names of the files.
+/// Write each case to `folder`, which is made where it is missing, as a trace. Returns the names of the
+/// files.
 std::vector<std::string> write_cases(const std::vector<found_case>& cases, const std::string& folder,
                                      std::uint64_t seed) {
   std::filesystem::create_directories(folder);
@@ -109,11 +109,7 @@ std::vector<std::string> write_cases(const std::vector<found_case>& cases, const
             .string();
     trace_header header = header_for(facts_of_kernel(c.what.leader), CONTCT_LISTING_SHA256);
     header.about = {"found by contct fuzz, and shrunk"};
-    const std::pair<const char*, std::string> files[] = {{".trace", trace_of(c, header)},
-                                                         {".f", fortran_main_of(c)}};
-    for (const auto& [end, text] : files) {
-      write_file(names.emplace_back(stem + end), text);
-    }
+    write_file(names.emplace_back(stem + ".trace"), trace_of(c, header));
   }
   return names;
 }

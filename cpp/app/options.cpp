@@ -298,8 +298,7 @@ void declare_fuzz(option_parser& p, CLI::App* c) {
   c->add_option("--seed", o.request.seed, "Seed of the random numbers")->capture_default_str();
   c->add_option("--shard", o.shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
   add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
-  add_file(c, "--out", o.out,
-           "Write each mismatch to this folder, reduced: a trace and a FORTRAN main program");
+  add_file(c, "--out", o.out, "Write each mismatch to this folder, reduced, as a trace");
   add_reports(c, o.report);
 }
 

@@ -5,7 +5,6 @@
  * - FAULT_ERRNO: what the system call fails with: 28 (ENOSPC) where nothing is said
  * - FAULT_MORE: "1": all calls behind it fail too
  * - FAULT_SIGNAL: a signal that the process gets at that call, which does not fail then
- * - FAULT_NO_LINK: "1": no file can be linked to a name, as on some file systems: files are copied
  * - FAULT_EVERY: K: every K-th allocation fails, each in a process of its own that is forked there and must
  * end with exit status 2: any other ends the test with status 98
  * - FAULT_COUNT: a file to which the number of calls is written at the end
@@ -191,14 +190,6 @@ void (*signal(int number, void (*handler)(int)))(int) {
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
   return sigaction(number, &action, &before) == 0 ? before.sa_handler : SIG_ERR;
-}
-
-int linkat(int from, const char* old_name, int to, const char* new_name, int flags) {
-  if (getenv("FAULT_NO_LINK") != NULL) {
-    errno = EPERM;
-    return -1;
-  }
-  return (int)syscall(SYS_linkat, from, old_name, to, new_name, flags);
 }
 
 /* The beginning and the end of main. */

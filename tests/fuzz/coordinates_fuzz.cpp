@@ -28,20 +28,18 @@ assembled chain_of(std::vector<std::string> labels) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto parts = parts_of(text_of(data, size), 2);
-  placed_nodes places;
-  if (!is_read([&] { places.nodes = parse_coordinates(parts[0], "k.xyz"); })) return 0;
   std::set<std::string> names;
-  for (const placed_node& n : places.nodes) {
-    require(names.insert(n.name).second, "a node is there once", n.name);
-    for (const double x : n.at) require(std::isfinite(x), "a coordinate is a number", n.name);
-  }
+  if (!is_read([&] {
+        for (const placed_node& n : parse_coordinates(parts[0], "k.xyz")) {
+          require(names.insert(n.name).second, "a node is there once", n.name);
+          for (const double x : n.at) require(std::isfinite(x), "a coordinate is a number", n.name);
+        }
+      }))
+    return 0;
   std::vector<std::string> labels;
   if (parts.size() < 2 || !is_read([&] { labels = parse_labels(parts[1], "k.dof"); })) return 0;
-  const assembled a = chain_of(labels);
-  if (!place_dofs(a, places)) return 0;
-  require(places.dofs.size() == labels.size(), "a place for each dof");
-  add_coupling_edges(a, places);
-  drop_idle_nodes(places);
+  const placed_nodes places = places_by_coordinates(parts[0], "k.xyz", chain_of(labels));
+  require(!places.known() || places.dofs.size() == labels.size(), "a place for each dof");
   for (const placed_dof& d : places.dofs)
     require(d.node >= -1 && d.node < std::ssize(places.nodes) && d.direction >= 0 && d.direction <= 6,
             "a dof's place");

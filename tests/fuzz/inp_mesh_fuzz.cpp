@@ -8,8 +8,11 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contct::fuzz;
   using namespace contct::read;
+  assembled a;
+  a.labels = {"1.x", "2.x", "12.3"};
+  a.stiffness.order = 3;
   placed_nodes mesh;
-  if (!is_read([&] { mesh = parse_inp_mesh(text_of(data, size), "job.inp"); })) return 0;
+  if (!is_read([&] { mesh = places_by_mesh(text_of(data, size), "job.inp", a); })) return 0;
   std::set<std::string> names;
   for (const placed_node& n : mesh.nodes) {
     require(names.insert(n.name).second, "a node is there once", n.name);

@@ -1,13 +1,30 @@
-// The reader of stiffness matrices in Matrix Market files: what it reads, written again, is the same matrix.
+// The readers of Matrix Market files, stiffness matrices and load vectors: a matrix that is read and written
+// again is the same.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "contct/read/matrix_files.hpp"
-#include "fuzz/sound_matrix.hpp"
+#include "fuzz/fuzz.hpp"
 
 namespace {
 
 using namespace contct::fuzz;
 using namespace contct::read;
+
+void require_sound(const sparse_matrix& m) {
+  const matrix_entry* before = nullptr;
+  for (const matrix_entry& e : m.entries) {
+    require(e.column >= 0 && e.column <= e.row && e.row < m.order, "an entry is in the lower triangle");
+    require(std::isfinite(e.value) && e.value != 0.0, "an entry is a number other than 0");
+    require(e.row != e.column || e.value > 0.0, "the diagonal is positive");
+    require(before == nullptr || std::pair(before->column, before->row) < std::pair(e.column, e.row),
+            "entries are in the order of columns and rows");
+    before = &e;
+  }
+}
 
 /// Every row has its diagonal in such a file, 0 or not.
 std::string written(const sparse_matrix& m) {
@@ -27,10 +44,20 @@ std::string written(const sparse_matrix& m) {
                      lines);
 }
 
+void check_vector(std::string_view text, int rows) {
+  std::vector<double> values;
+  std::vector<std::string> warnings;
+  if (!is_read([&] { values = parse_vector(text, "f.mtx", rows, &warnings); })) return;
+  require(std::ssize(values) == rows, "a vector has a number for each row");
+  require(std::ranges::all_of(values, [](double x) { return std::isfinite(x); }), "a load is a number");
+  require(warnings.size() <= 1, "one warning for a file");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = text_of(data, size);
+  for (const int rows : {1, 3, 33}) check_vector(text, rows);
   sparse_matrix read;
   std::vector<std::string> warnings;
   if (!is_read([&] { read = parse_symmetric(text, "k.mtx", &warnings); })) return 0;

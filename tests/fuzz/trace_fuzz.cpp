@@ -1,7 +1,4 @@
-// The reader of traces: what it reads and what is written of that are the same. Its calls as what `contct
-// fuzz` writes of calls that it found.
-#include "contct/lab/fuzz.hpp"
-#include "contct/text/input_text.hpp"
+// The reader of traces: what it reads and what is written of that are the same.
 #include "contct/trace/trace.hpp"
 #include "fuzz/fuzz.hpp"
 
@@ -43,34 +40,12 @@ void check(const read_trace& t) {
   }
 }
 
-/// The program that shows these calls: FORTRAN of fixed form.
-void check_program(const read_trace& t) {
-  contct::lab::found_case found;
-  found.real_bytes = t.header.real_bytes;
-  found.what.leader = t.header.kernel;
-  found.what.follower = t.header.compiler;
-  for (const recorded_call& c : t.calls) {
-    found.calls.push_back(c.in);
-    found.leader.push_back(c.out);
-  }
-  const std::string fortran = contct::lab::fortran_main_of(found);
-  constexpr std::size_t last_column = 72;
-  for (contct::text::text_lines lines(fortran, "main"); lines.next();)
-    require(lines.here().size() <= last_column || lines.here().starts_with("C"), "a line of fixed form",
-            lines.here());
-  const std::string text = contct::lab::trace_of(found, t.header);
-  trace_reader again(text, "again");
-  require(is_read([&again] { (void)again.read_header(); }), "the trace of a case is read");
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   read_trace first;
   if (!is_read([&] { first = read_whole(text_of(data, size)); })) return 0;
   check(first);
-  constexpr std::size_t most_calls = 20;
-  if (first.calls.size() <= most_calls) check_program(first);
   const std::string text = written(first);
   require(is_read([&] { require(written(read_whole(text)) == text, "a trace is written as it was read"); }),
           "a trace that was written is read", text);

@@ -1,6 +1,4 @@
-// The result of a fuzz run as JSON, and a found case as files.
-#include <cmath>
-#include <limits>
+// The result of a fuzz run as JSON, and a found case as a trace.
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
@@ -61,30 +59,6 @@ TEST_CASE("the JSON of a run has its counts, its request and each follower's lev
   CHECK(j["followers"][0]["rung"] == "events");
   CHECK(j["followers"][0]["most_ulps"] == 10);
   CHECK(j["followers"][0]["findings"] == std::vector<std::string>{"call 3: cpp differs"});
-}
-
-TEST_CASE("a case as a FORTRAN main program fits its columns, and its literals are read back exactly") {
-  const std::string main = fortran_main_of(a_case());
-  std::size_t from = 0;
-  int lines = 0;
-  for (std::size_t to = 0; (to = main.find('\n', from)) != std::string::npos; from = to + 1, ++lines) {
-    INFO(main.substr(from, to - from));
-    CHECK(to - from <= 72);
-  }
-  CHECK(lines > 10);
-  CHECK_THAT(main, Contains("CALL CONTCT (DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, "));
-}
-
-TEST_CASE("what no FORTRAN literal can say is computed from zero") {
-  found_case c = a_case();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  c.calls[0].cc = {0.0, -0.0, std::nan("")};
-  c.calls[0].dd[c.calls[0].dof_of_pair(0)] = -infinity;
-  for (auto* list : {&c.calls[0].id, &c.calls[0].isep, &c.calls[0].isurf}) list->resize(3);
-  const std::string main = fortran_main_of(c);
-  CHECK_THAT(main, Contains("      CC(1) = 0.\n") && Contains("      CC(2) = -Z\n") &&
-                       Contains("      CC(3) = Z / Z\n"));
-  CHECK_THAT(main, Contains(" = -1. / Z\n"));
 }
 
 TEST_CASE("a case as a trace is read back, and says what differed") {

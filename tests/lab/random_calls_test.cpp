@@ -88,26 +88,3 @@ TEST_CASE("dofs that no pair addresses are NaN, so that a kernel which reads the
     CHECK(wrong == 0);
   }
 }
-
-TEMPLATE_TEST_CASE(
-    "a random call has 1 to 64 pairs in every dof layout, some at their faces and beyond node 999", "", float,
-    double) {
-  random_calls<TestType> source(3);
-  std::map<std::pair<int, int>, int> layouts;
-  int closed = 0, beyond = 0;
-  for (std::uint64_t n = 1; n <= 2000; ++n) {
-    const call_inputs<TestType>& in = source.random(n);
-    REQUIRE(in.pairs() >= 1);
-    REQUIRE(in.pairs() <= 64);
-    ++layouts[{in.dof.indof, in.dof.ndofpn}];
-    for (std::size_t i = 0; i < in.pairs(); ++i) {
-      closed += in.cc[i] == in.dd[in.dof_of_pair(i)] ? 1 : 0;
-      beyond += in.id[i] > 999 ? 1 : 0;
-      REQUIRE(std::abs(in.isep[i]) == 1);
-      REQUIRE(std::abs(in.isurf[i]) == 1);
-    }
-  }
-  CHECK(layouts.size() == 9);
-  CHECK(closed > 2000);
-  CHECK(beyond > 500);
-}

@@ -22,9 +22,6 @@ constexpr std::uint64_t problems = 4000;
 const beam* beam_of(const random_problem& p) {
   return std::get_if<beam>(&p.geometry.kind);
 }
-const plate* plate_of(const random_problem& p) {
-  return std::get_if<plate>(&p.geometry.kind);
-}
 
 /// Most of a problem's numbers, in a row.
 std::vector<double> numbers_of(const random_problem& p) {
@@ -170,89 +167,6 @@ TEST_CASE("random problems are well formed") {
       CHECK(std::is_sorted(b->x.begin(), b->x.end(), std::less_equal<>()));
       CHECK(b->x.back() == Approx(p.unit).epsilon(1e-12));
     }
-  }
-}
-
-TEST_CASE("a layout is what it says") {
-  std::map<face_layout, int> looked_at;
-  for (std::uint64_t number = 0; number < problems; ++number) {
-    const random_problem p = make_random_problem(25, number);
-    if (!p.held) continue;  // these lie on most of their faces
-    INFO(number << " " << name_of(p.layout));
-    ++looked_at[p.layout];
-    std::map<int, int> pairs_at;
-    double nearest = 1e300;
-    double farthest = 0.0;
-    int zero = 0;
-    for (const contact_pair& c : p.pairs) {
-      ++pairs_at[c.node];
-      nearest = std::min(nearest, std::abs(c.face));
-      farthest = std::max(farthest, std::abs(c.face));
-      zero += c.closed ? 1 : 0;
-    }
-    const int all = static_cast<int>(p.pairs.size());
-    if (p.layout == face_layout::zero) CHECK(zero == all);
-    if (p.layout == face_layout::gaps) CHECK(zero == 0);
-    if (p.layout == face_layout::equal_gaps) CHECK(nearest == farthest);
-    if (p.layout == face_layout::near_ties) CHECK(farthest <= nearest * 1.003);
-    if (p.layout == face_layout::near_ties) CHECK(nearest > 0.0);
-    for (const auto& [node, count] : pairs_at) CHECK(count == (p.layout == face_layout::two_sided ? 2 : 1));
-  }
-  CHECK(looked_at.size() == face_layouts);
-}
-
-TEST_CASE("symmetric problems are symmetric, and antisymmetric ones antisymmetric, in faces and loads") {
-  int looked_at = 0;
-  for (std::uint64_t number = 0; number < problems; ++number) {
-    const random_problem p = make_random_problem(26, number);
-    const beam* b = beam_of(p);
-    if (b == nullptr || (p.layout != face_layout::symmetric && p.layout != face_layout::antisymmetric))
-      continue;
-    ++looked_at;
-    INFO(number << " " << name_of(p.layout));
-    const int last = b->nodes() - 1;
-    const int sign = p.layout == face_layout::symmetric ? 1 : -1;
-    CHECK(b->elements() % 2 == 0);
-    for (const contact_pair& c : p.pairs) {
-      if (2 * c.node == last || (c.node == 0 && p.supports.size() == 2 && p.supports[1].node == 0)) continue;
-      const bool mirrored = std::any_of(p.pairs.begin(), p.pairs.end(), [&](const contact_pair& other) {
-        return other.node == last - c.node && other.surface == sign * c.surface &&
-               other.face == sign * c.face && other.stiffness == c.stiffness;
-      });
-      CHECK(mirrored);
-    }
-    for (const load& l : p.steps) {
-      CHECK(l.points.size() % 2 == 0);
-      for (std::size_t i = 0; i + 1 < l.points.size(); i += 2) {
-        CHECK(l.points[i + 1].node == last - l.points[i].node);
-        CHECK(l.points[i + 1].value == sign * l.points[i].value);
-      }
-      if (sign < 0) CHECK(l.distributed.empty());
-    }
-  }
-  CHECK(looked_at > 500);
-}
-
-TEST_CASE("what to draw from can be said: units, shares and sizes") {
-  random_problem_kind kind;
-  kind.least_unit = kind.most_unit = 1.0;
-  kind.free_share = 0.0;
-  kind.plate_share = 0.0;
-  kind.most_elements = 4;
-  random_problem_kind other = kind;
-  other.free_share = 1.0;
-  other.plate_share = 1.0;
-  other.most_lines = 2;
-  for (std::uint64_t number = 0; number < 500; ++number) {
-    const random_problem p = make_random_problem(27, number, kind);
-    CHECK(p.unit == 1.0);
-    CHECK(p.held);
-    REQUIRE(beam_of(p) != nullptr);
-    CHECK(beam_of(p)->elements() <= 4);
-    const random_problem q = make_random_problem(27, number, other);
-    CHECK_FALSE(q.held);
-    REQUIRE(plate_of(q) != nullptr);
-    CHECK(nodes(q.geometry) <= 9);
   }
 }
 

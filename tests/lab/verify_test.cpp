@@ -3,13 +3,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/session/run.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -18,10 +18,16 @@ namespace {
 
 const std::filesystem::path reference = CONTCT_REFERENCE;
 
-/// Follow a problem with FORTRAN.
-path_end run(const problem& p, measurement& m) {
-  return follow(p, structure_of(p), "refactor", *make_kernel("fortran"), {&m});
-}
+/// A problem of the reference, and FORTRAN's path through it.
+struct followed {
+  explicit followed(const char* name) : p(read_problem((reference / "problems" / name).string())) {
+    path.go({});
+  }
+
+  problem p;
+  linear_structure s = structure_of(p);
+  contct::session::run path{p, s, {.kernels = {"fortran"}, .engine = "refactor"}};
+};
 
 }  // namespace
 
@@ -50,18 +56,17 @@ expected_number third() {
 
 /// What read_verification says of a table of one check with these lines; nothing where it is read.
 std::string refusal_of(const std::string& lines) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "contct_verify_test.toml";
-  std::ofstream(file) << "[[case]]\nfile = \"f\"\n[[case.check]]\nstep = 1\nquantity = \"w\"\nnode = 1\n" +
-                             lines +
-                             "kind = \"recomputed\"\ntolerance = 1e-3\nbecause = \"b\"\nsource = \"s\"\n";
+  const scratch_folder here;
+  const std::string file = here.write(
+      "table.toml", "[[case]]\nfile = \"f\"\n[[case.check]]\nstep = 1\nquantity = \"w\"\nnode = 1\n" + lines +
+                        "kind = \"recomputed\"\ntolerance = 1e-3\nbecause = \"b\"\nsource = \"s\"\n");
   std::string said;
   double value = 0.5;
   try {
-    value = read_verification(file.string()).at(0).checks.at(0).value;
+    value = read_verification(file).at(0).checks.at(0).value;
   } catch (const input_error& e) {
     said = e.what();
   }
-  std::filesystem::remove(file);
   CHECK(value == 0.5);
   return said;
 }
@@ -110,9 +115,8 @@ TEST_CASE("exact states are compared by name, and a number without an exact one 
 }
 
 TEST_CASE("errors are measured by the largest number of their kind on the path") {
-  const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
-  measurement m(p);
-  run(p, m);
+  const followed f("pb01-cantilever-tip-stop.toml");
+  const measurement m(f.p, f.path.result().record);
   const auto size = [&](const char* quantity, const char* dof = "") {
     expected_number e;
     e.quantity = quantity;
@@ -132,9 +136,8 @@ TEST_CASE("errors are measured by the largest number of their kind on the path")
 
 TEST_CASE(
     "what a plate does not have measures as nothing: a fifth corner, an element too many, a beam's moment") {
-  const problem p = read_problem((reference / "problems" / "pp01a-simply-supported-plate-n4.toml").string());
-  measurement m(p);
-  run(p, m);
+  const followed f("pp01a-simply-supported-plate-n4.toml");
+  const measurement m(f.p, f.path.result().record);
   expected_number e;
   e.step = 1;
   e.quantity = "mx";
@@ -211,9 +214,8 @@ TEST_CASE("verifying a problem compares both paths with the exact number, as clo
 }
 
 TEST_CASE("extremes are named by bound and quantity, and one that the structure does not have is not there") {
-  const problem p = read_problem((reference / "problems" / "pb07-three-gap-supports.toml").string());
-  measurement m(p);
-  CHECK(run(p, m).status == path_status::solved);
+  const followed f("pb07-three-gap-supports.toml");
+  const measurement m(f.p, f.path.result().record);
   expected_number e;
   e.step = 3;
   const auto of = [&](const char* quantity) {

@@ -210,24 +210,6 @@ TEST_CASE("a million entries are read and ordered, and the band is as narrow as 
   CHECK(subdiagonals_of(a, rows) <= 600);
 }
 
-TEST_CASE("a matrix in a bad order gets a narrow band again, and one in a good order keeps it") {
-  sparse_matrix a = parse_symmetric(grid_text(20), "K.mtx");
-  CHECK(subdiagonals_of(a, rows_for_small_band(a)) <= 20);
-  for (matrix_entry& e : a.entries) {
-    const int row = e.row * 173 % 400;
-    const int column = e.column * 173 % 400;
-    e.row = std::max(row, column);
-    e.column = std::min(row, column);
-  }
-  CHECK(subdiagonals_of(a, {}) > 200);
-  CHECK(subdiagonals_of(a, rows_for_small_band(a)) <= 21);
-  const sparse_matrix chain{3, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {2, 1, 1}, {2, 2, 1}}};
-  CHECK(rows_for_small_band(chain).empty());
-  sparse_matrix many{200000, {}};  // nothing hangs together
-  for (int i = 0; i < many.order; ++i) many.entries.push_back({i, i, 1.0});
-  CHECK(rows_for_small_band(many).empty());
-}
-
 namespace {
 
 std::string of_labels(const std::string& text) {

@@ -3,12 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "catch.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "read/refusals.hpp"
-#include "support/scratch_folder.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;
@@ -16,16 +13,18 @@ using Catch::Matchers::Contains;
 namespace {
 
 using place = std::array<double, 3>;
-using edge = std::array<int, 3>;  ///< from, to, and how many elements have it
 
 std::string of_coordinates(const std::string& text) {
   return verdict([&] { (void)parse_coordinates(text, "K.xyz"); });
 }
 
-std::vector<edge> edges_of(const placed_nodes& m) {
-  std::vector<edge> list;
-  for (const mesh_edge& e : m.edges) list.push_back({e.from, e.to, e.elements});
-  return list;
+/// The edges by the names of their nodes, each with how many elements have it, where these are several.
+std::string edges_of(const placed_nodes& m) {
+  std::string text;
+  for (const mesh_edge& e : m.edges)
+    text += fmt::format("{}{}-{}{}", text.empty() ? "" : " ", m.nodes[e.from].name, m.nodes[e.to].name,
+                        e.elements == 1 ? "" : fmt::format("*{}", e.elements));
+  return text;
 }
 
 /// A structure with these labels and nothing else to it but what couples.
@@ -34,6 +33,10 @@ assembled with_labels(std::vector<std::string> labels, std::vector<matrix_entry>
   a.stiffness = {static_cast<int>(labels.size()), std::move(entries)};
   a.labels = std::move(labels);
   return a;
+}
+
+placed_nodes by_mesh(const std::string& text, std::vector<std::string> labels = {"1.x"}) {
+  return places_by_mesh(text, "job.inp", with_labels(std::move(labels)));
 }
 
 const std::string good_places = "# the frame\n\na 0 0 # foot\nb\t1.5 -2e-3\n";
@@ -81,77 +84,44 @@ TEST_CASE(
   CHECK(of_coordinates(good_places) == "accepted");
 }
 
-TEST_CASE("a mesh or coordinates that are too large are refused before they are parsed, as are folders") {
-  const scratch_folder folder;
-  const std::string path = folder.write("large-mesh", "");
-  std::filesystem::resize_file(path, 256 << 20);
-  const assembled a = with_labels({"a.x"});
-  CHECK_THAT(verdict([&] { (void)places_from_coordinates(path, a); }), Contains("found 256 MiB or more"));
-  CHECK_THAT(verdict([&] { (void)places_from_inp(path, a); }), Contains("found 256 MiB or more"));
-  CHECK_THAT(verdict([&] { (void)places_from_inp("/", a); }), Contains("found a directory"));
-  CHECK_THAT(verdict([&] { (void)places_from_coordinates("none.xyz", a); }),
-             Contains("none.xyz: cannot be read"));
-}
-
-TEST_CASE("a label's last part says its direction") {
-  for (const auto& [name, direction] : std::vector<std::pair<std::string, int>>{{"x", 1},
-                                                                                {"y", 2},
-                                                                                {"z", 3},
-                                                                                {"1", 1},
-                                                                                {"3", 3},
-                                                                                {"r", 6},
-                                                                                {"rx", 4},
-                                                                                {"ry", 5},
-                                                                                {"rz", 6},
-                                                                                {"4", 4},
-                                                                                {"6", 6},
-                                                                                {"7", 0},
-                                                                                {"", 0},
-                                                                                {"X", 0},
-                                                                                {"xy", 0},
-                                                                                {"01", 0}}) {
+TEST_CASE("a label's last part, behind its last dot, says its direction, and what precedes it its node") {
+  const std::vector<std::pair<std::string, int>> directions = {
+      {"x", 1},  {"y", 2}, {"z", 3}, {"1", 1}, {"3", 3}, {"r", 6}, {"rx", 4}, {"ry", 5},
+      {"rz", 6}, {"4", 4}, {"6", 6}, {"7", 0}, {"", 0},  {"X", 0}, {"xy", 0}, {"01", 0}};
+  for (const auto& [name, direction] : directions) {
     INFO(name);
-    CHECK(direction_of(name) == direction);
+    const placed_nodes places =
+        places_by_coordinates("b.c 1 0\na 0 0\n", "K.xyz", with_labels({"a.x", "b.c." + name}));
+    CHECK(places.dofs.at(1).direction == direction);
+    CHECK(places.dofs[1].node == (direction == 0 ? -1 : 0));
   }
 }
 
-TEST_CASE("labels find their nodes by what stands before the last dot, and those that do not are counted") {
-  placed_nodes places;
-  places.nodes = parse_coordinates("a 0 0\nb.c 1 0\n", "K.xyz");
-  const assembled a = with_labels({"a.x", "b.c.y", "b.c.rz", "d.x", "a", "a.w", "a.1", "b.x"});
-  REQUIRE(place_dofs(a, places));
-  const auto at = [&](std::size_t dof) {
-    return std::pair(places.dofs[dof].node, places.dofs[dof].direction);
-  };
-  CHECK(at(0) == std::pair(0, 1));
-  CHECK(at(1) == std::pair(1, 2));
-  CHECK(at(2) == std::pair(1, 6));
-  for (std::size_t dof = 3; dof < 8; ++dof) CHECK(at(dof).first == -1);  // a.1 is where a.x is
+TEST_CASE("dofs whose labels have no node, and rotations, are counted as not drawn") {
+  const placed_nodes places = places_by_coordinates(
+      "a 0 0\nb.c 1 0\n", "K.xyz", with_labels({"a.x", "b.c.y", "b.c.rz", "d.x", "a", "a.w", "a.1", "b.x"}));
+  CHECK(places.dofs[1].node == 1);
+  for (std::size_t dof = 3; dof < 8; ++dof) CHECK(places.dofs[dof].node == -1);  // a.1 is where a.x is
   REQUIRE(places.said.size() == 2);
   CHECK_THAT(places.said[0], Contains("5 of 8 dofs") && Contains("as \"d.x\""));
   CHECK_THAT(places.said[1], Contains("Rotations, 1 of 8 dofs"));
 }
 
 TEST_CASE("where no label has its node nothing is known") {
-  placed_nodes places;
-  places.nodes = parse_coordinates("a 0 0\n", "K.xyz");
-  CHECK_FALSE(place_dofs(with_labels({"1", "2", "a.q", ".x"}), places));
+  const placed_nodes places = places_by_coordinates("a 0 0\n", "K.xyz", with_labels({"1", "2", "a.q", ".x"}));
   CHECK_FALSE(places.known());
   CHECK(places.dofs.empty());
 }
 
 TEST_CASE(
-    "nodes that the matrix couples have an edge, as long as these are few, and an entry of 0 couples "
-    "nothing") {
-  placed_nodes places;
-  places.nodes = parse_coordinates("a 0 0\nb 1 0\nc 2 0\n", "K.xyz");
+    "nodes that the matrix couples have one edge, in whatever order, and an entry of 0 couples nothing") {
   const assembled chain =
       with_labels({"a.x", "a.y", "b.x", "b.r", "c.x", "odd"},
-                  {{0, 0, 1}, {1, 0, 1}, {2, 0, 1}, {2, 1, 1}, {4, 0, 0.0}, {4, 3, -2}, {5, 0, 1}});
-  REQUIRE(place_dofs(chain, places));
-  add_coupling_edges(chain, places);
-  CHECK(edges_of(places) == std::vector<edge>{{0, 1, 1}, {1, 2, 1}});
+                  {{0, 0, 1}, {1, 0, 1}, {2, 0, 1}, {4, 3, -2}, {2, 1, 1}, {4, 0, 0.0}, {5, 0, 1}});
+  CHECK(edges_of(places_by_coordinates("a 0 0\nb 1 0\nc 2 0\n", "K.xyz", chain)) == "a-b b-c");
+}
 
+TEST_CASE("nodes of which more than three times as many are coupled have no edges") {
   // Everything with everything: 8 nodes have 28 couplings, more than 24; 7 have 21.
   for (const int n : {7, 8}) {
     std::string text;
@@ -162,35 +132,17 @@ TEST_CASE(
       labels.push_back(fmt::format("{}.x", i));
       for (int j = 0; j <= i; ++j) full.push_back({i, j, 1.0});
     }
-    placed_nodes solid;
-    solid.nodes = parse_coordinates(text, "K.xyz");
-    const assembled a = with_labels(labels, full);
-    REQUIRE(place_dofs(a, solid));
-    add_coupling_edges(a, solid);
+    const placed_nodes solid = places_by_coordinates(text, "K.xyz", with_labels(labels, full));
     CHECK(solid.edges.size() == (n == 7 ? 21U : 0U));
     REQUIRE(solid.said.size() == (n == 7 ? 0U : 1U));
     if (n == 8) CHECK_THAT(solid.said[0], Contains("28 pairs of its 8 nodes"));
   }
 }
 
-TEST_CASE("nodes without dof and edge are left out, and what names nodes by numbers follows") {
-  placed_nodes places;
-  places.nodes = parse_coordinates("1 0 0\n2 0 0\n3 7 0\n4 0 0\n5 9 0\n", "K.xyz");
-  const assembled a = with_labels({"5.1", "x"});
-  REQUIRE(place_dofs(a, places));
-  places.edges = {{2, 4, 1}};
-  drop_idle_nodes(places);
-  REQUIRE(places.nodes.size() == 2);
-  CHECK(places.nodes[0].name == "3");
-  CHECK(places.dofs[0].node == 1);
-  CHECK(places.dofs[1].node == -1);
-  CHECK(edges_of(places) == std::vector<edge>{{0, 1, 1}});
-}
-
 namespace {
 
 std::string of_mesh(const std::string& text) {
-  return verdict([&] { (void)parse_inp_mesh(text, "job.inp"); });
+  return verdict([&] { (void)by_mesh(text); });
 }
 
 /// So many nodes, one behind the other.
@@ -211,11 +163,11 @@ std::string element_text(const std::string& type, int nodes) {
 
 TEST_CASE(
     "CalculiX's nodes are read: any case, blanks, comments, FORTRAN's numbers, what is not there is 0") {
-  const placed_nodes m = parse_inp_mesh(
+  const placed_nodes m = by_mesh(
       "** a comment\n*HEADING\n1, 2, three\n * node , NSET = all\r\n1, 1.5 , "
       "-2.E-3,+.5\n\n2,1D1,,2d-1\n3\t,4\n"
       "*NODE FILE\nU\n*Node\n3,4.,0,0,\n*STEP\n5,5,5\n*END STEP",
-      "job.inp");
+      {"1.1", "2.1", "3.1"});
   REQUIRE(m.nodes.size() == 3);
   CHECK(m.nodes[0].name == "1");
   CHECK(m.nodes[0].at == place{1.5, -2e-3, 0.5});
@@ -225,112 +177,55 @@ TEST_CASE(
   CHECK(m.said.empty());
 }
 
+TEST_CASE("nodes without dof and edge are left out, and what names nodes by numbers follows") {
+  const placed_nodes m =
+      by_mesh(nodes_text(7) + "*ELEMENT,TYPE=C3D4\n1,3,4,5,7\n", {"7.1", "x", "6.2", "7.2"});
+  REQUIRE(m.nodes.size() == 5);
+  CHECK(edges_of(m) == "3-4 3-5 3-7 4-5 4-7 5-7");
+  CHECK(m.dofs[0].node == 4);
+  CHECK(m.dofs[1].node == -1);
+  CHECK(m.nodes[m.dofs[2].node].name == "6");
+}
+
 TEST_CASE("each type of solid has its edges, through the nodes at their middles") {
   struct shape {
     const char* type;
     int nodes;
-    std::vector<edge> edges;
+    const char* edges;
   };
-  const std::vector<shape> shapes = {
-      {"C3D4", 4, {{0, 1, 1}, {0, 2, 1}, {0, 3, 1}, {1, 2, 1}, {1, 3, 1}, {2, 3, 1}}},
-      {"c3d6",
-       6,
-       {{0, 1, 1}, {0, 2, 1}, {0, 3, 1}, {1, 2, 1}, {1, 4, 1}, {2, 5, 1}, {3, 4, 1}, {3, 5, 1}, {4, 5, 1}}},
-      {"C3D8I",
-       8,
-       {{0, 1, 1},
-        {0, 3, 1},
-        {0, 4, 1},
-        {1, 2, 1},
-        {1, 5, 1},
-        {2, 3, 1},
-        {2, 6, 1},
-        {3, 7, 1},
-        {4, 5, 1},
-        {4, 7, 1},
-        {5, 6, 1},
-        {6, 7, 1}}},
-      // Corner to middle and middle to corner, by CalculiX's manual: 5 lies between 1 and 2, 6 between 2 and
-      // 3, ..
-      {"C3D10T",
-       10,
-       {{0, 4, 1},
-        {0, 6, 1},
-        {0, 7, 1},
-        {1, 4, 1},
-        {1, 5, 1},
-        {1, 8, 1},
-        {2, 5, 1},
-        {2, 6, 1},
-        {2, 9, 1},
-        {3, 7, 1},
-        {3, 8, 1},
-        {3, 9, 1}}},
-      {"C3D15",
-       15,
-       {{0, 6, 1},
-        {0, 8, 1},
-        {0, 12, 1},
-        {1, 6, 1},
-        {1, 7, 1},
-        {1, 13, 1},
-        {2, 7, 1},
-        {2, 8, 1},
-        {2, 14, 1},
-        {3, 9, 1},
-        {3, 11, 1},
-        {3, 12, 1},
-        {4, 9, 1},
-        {4, 10, 1},
-        {4, 13, 1},
-        {5, 10, 1},
-        {5, 11, 1},
-        {5, 14, 1}}},
-      {"C3D20R", 20, {{0, 8, 1},  {0, 11, 1}, {0, 16, 1}, {1, 8, 1},  {1, 9, 1},  {1, 17, 1},
-                      {2, 9, 1},  {2, 10, 1}, {2, 18, 1}, {3, 10, 1}, {3, 11, 1}, {3, 19, 1},
-                      {4, 12, 1}, {4, 15, 1}, {4, 16, 1}, {5, 12, 1}, {5, 13, 1}, {5, 17, 1},
-                      {6, 13, 1}, {6, 14, 1}, {6, 18, 1}, {7, 14, 1}, {7, 15, 1}, {7, 19, 1}}},
+  // Corner to middle and middle to corner, by CalculiX's manual: of C3D10 5 lies between 1 and 2, 6 between 2
+  // and 3, ..
+  const shape shapes[] = {
+      {"C3D4", 4, "1-2 1-3 1-4 2-3 2-4 3-4"},
+      {"c3d6", 6, "1-2 1-3 1-4 2-3 2-5 3-6 4-5 4-6 5-6"},
+      {"C3D8I", 8, "1-2 1-4 1-5 2-3 2-6 3-4 3-7 4-8 5-6 5-8 6-7 7-8"},
+      {"C3D10T", 10, "1-5 1-7 1-8 2-5 2-6 2-9 3-6 3-7 3-10 4-8 4-9 4-10"},
+      {"C3D15", 15, "1-7 1-9 1-13 2-7 2-8 2-14 3-8 3-9 3-15 4-10 4-12 4-13 5-10 5-11 5-14 6-11 6-12 6-15"},
+      {"C3D20R", 20,
+       "1-9 1-12 1-17 2-9 2-10 2-18 3-10 3-11 3-19 4-11 4-12 4-20 "
+       "5-13 5-16 5-17 6-13 6-14 6-18 7-14 7-15 7-19 8-15 8-16 8-20"},
   };
   for (const shape& s : shapes) {
     INFO(s.type);
     // Nodes behind the elements: CalculiX reads a deck twice.
-    const placed_nodes m = parse_inp_mesh(element_text(s.type, s.nodes) + nodes_text(s.nodes), "job.inp");
+    const placed_nodes m = by_mesh(element_text(s.type, s.nodes) + nodes_text(s.nodes));
     CHECK(edges_of(m) == s.edges);
     CHECK(m.said.empty());
   }
 }
 
-TEST_CASE("an edge that elements share is there once, with how many have it") {
-  const placed_nodes m = parse_inp_mesh(
-      nodes_text(6) +
-          "*ELEMENT,ELSET=A,TYPE=C3D4\n1,1,2,3,4\n2,2,3,4,\n5\n*ELEMENT,TYPE=C3D4,ELSET=B\n3,3,2,4,6\n",
-      "job.inp");
-  CHECK(edges_of(m) == std::vector<edge>{{0, 1, 1},
-                                         {0, 2, 1},
-                                         {0, 3, 1},
-                                         {1, 2, 3},
-                                         {1, 3, 3},
-                                         {1, 4, 1},
-                                         {1, 5, 1},
-                                         {2, 3, 3},
-                                         {2, 4, 1},
-                                         {2, 5, 1},
-                                         {3, 4, 1},
-                                         {3, 5, 1}});
-}
-
-TEST_CASE("an element's nodes may follow on other lines, and a comment between them is ignored") {
-  const placed_nodes m =
-      parse_inp_mesh(nodes_text(4) + "*ELEMENT,TYPE=C3D4\n1,1,2,\n** a comment\n3,\n4\n", "job.inp");
-  CHECK(m.edges.size() == 6);
+TEST_CASE(
+    "an edge that elements share is there once, with how many have it, and nodes may follow on other lines") {
+  const placed_nodes m = by_mesh(nodes_text(6) +
+                                 "*ELEMENT,ELSET=A,TYPE=C3D4\n1,1,2,3,4\n2,2,3,4,\n** a comment\n5\n"
+                                 "*ELEMENT,TYPE=C3D4,ELSET=B\n3,3,2,4,6\n");
+  CHECK(edges_of(m) == "1-2 1-3 1-4 2-3*3 2-4*3 2-5 2-6 3-4*3 3-5 3-6 4-5 4-6");
 }
 
 TEST_CASE("what of an input file is not drawn is counted in words") {
-  const placed_nodes m =
-      parse_inp_mesh(nodes_text(3) +
-                         "*INCLUDE, INPUT=more.inp\n*ELEMENT, "
-                         "TYPE=B31\n1,1,2\n2,2,3\n*element,type=s8r\n3,1,2,3,1,2,\n3,1,2\n",
-                     "job.inp");
+  const placed_nodes m = by_mesh(nodes_text(3) +
+                                 "*INCLUDE, INPUT=more.inp\n*ELEMENT, TYPE=B31\n1,1,2\n2,2,3\n"
+                                 "*element,type=s8r\n3,1,2,3,1,2,\n3,1,2\n");
   CHECK(m.edges.empty());
   REQUIRE(m.said.size() == 2);
   CHECK_THAT(m.said[0], Contains("*INCLUDE in job.inp is not followed"));
@@ -390,18 +285,7 @@ TEST_CASE("a mesh of 60,000 bricks is read whole: its edges are those of the gri
       }
     }
   }
-  const placed_nodes m = parse_inp_mesh(text, "job.inp");  // quadratic work would exceed the time limit
+  const placed_nodes m = by_mesh(text);  // quadratic work would exceed the time limit
   CHECK(bricks == 59200);
   CHECK(m.edges.size() == std::size_t{40} * 41 * 38 * 2 + std::size_t{41} * 41 * 37);
-}
-
-TEST_CASE("two nodes that several dofs couple have one edge, in whatever order the entries come") {
-  const assembled a =
-      with_labels({"a.x", "b.x", "c.x", "a.y", "b.y", "c.y"},
-                  {{1, 0, -1.0}, {2, 0, -1.0}, {4, 3, -1.0}, {5, 3, -1.0}, {4, 0, -1.0}, {5, 0, -1.0}});
-  placed_nodes places;
-  places.nodes.resize(3);
-  places.dofs = {{0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}};
-  add_coupling_edges(a, places);
-  CHECK(edges_of(places) == std::vector<edge>{{0, 1, 1}, {0, 2, 1}});
 }

@@ -102,21 +102,3 @@ TEST_CASE("as many elements as are allowed are made, and one more is refused") {
   CHECK(sized("1") == "accepted");
   CHECK_THAT(sized("0.9999999"), Catch::Matchers::Contains("which makes 2000001 elements"));
 }
-
-TEST_CASE("a bed's spring that is no number is told with its node, counted from 1") {
-  CHECK_THROWS_WITH(
-      parse_problem(
-          "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
-          "[[bed]]\nmodulus = 1e-320\nface = 0\n[[step]]\nuniform = 0\n",
-          "b.toml"),
-      Catch::Matchers::Contains("at node 2"));
-}
-
-TEST_CASE("a plate's size of one number is refused as too few, and told how many there must be") {
-  CHECK_THROWS_WITH(
-      parse_problem(
-          "[plate]\nsize = [2.0]\nelements = [2, 1]\nD = 1\nnu = 0.3\n[[support]]\nnodes = \"all\"\n"
-          "fix = \"w\"\n[[step]]\nuniform = 0\n",
-          "p.toml"),
-      Catch::Matchers::Contains("at least 2 numbers"));
-}

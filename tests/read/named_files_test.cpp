@@ -17,7 +17,7 @@ namespace {
 /// The path of what `stiffness` names in the problem file at `file`.
 std::string path_of(const std::string& file, const std::string& name, reach allowed, char quote = '\'') {
   const toml::table document = parse_toml("stiffness = " + (quote + name) + quote + "\n", file);
-  return named_files(file, allowed).path_of(table_reader(document, "", file), "stiffness");
+  return named_files(file, allowed).path_of(toml_value(document, file)["stiffness"]);
 }
 
 }  // namespace

@@ -18,15 +18,6 @@ const beam& beam_of(const problem& p) {
   return std::get<beam>(p.geometry.kind);
 }
 
-/// The first pair of a table [[bed]], or of [[contact]], where the surface must be named.
-contact_pair face_in(const std::string& keys, const std::string& table) {
-  const std::string other = table == "bed" ? "modulus = 1\n" : "node = 1\nstiffness = 1\n";
-  return parse_problem("[beam]\nlength = 1\nelements = 1\nEI = 1\n[[" + table + "]]\n" + other + keys +
-                           "[[step]]\nuniform = 1\n",
-                       "pb.toml")
-      .pairs.at(0);
-}
-
 }  // namespace
 
 TEST_CASE("the good problem is accepted") {
@@ -62,19 +53,6 @@ TEST_CASE("every kind of bad input is refused with its place, the key, what was 
     CHECK_THAT(message, Catch::Matchers::Contains(kind.allowed));
     CHECK(message.find('\n') == std::string::npos);
   }
-}
-
-TEST_CASE("even beams, lists of nodes, and integers taken for reals") {
-  const problem p = parse_problem(
-      "[beam]\nlength = 3\nelements = 3\nEI = [1, 2, 3]\n"
-      "[[support]]\nnodes = \"2..3\"\nfix = [\"w\"]\n[[support]]\nnodes = \"all\"\nspring = { theta = 2 }\n"
-      "[[step]]\nuniform = -1\n",
-      "pb.toml");
-  CHECK(beam_of(p).x == std::vector<double>{0, 1, 2, 3});
-  CHECK(beam_of(p).EI == std::vector<double>{1, 2, 3});
-  REQUIRE(p.supports.size() == 6);
-  CHECK(p.supports[1].node == 2);
-  CHECK(p.supports[5].spring == 2.0);
 }
 
 TEST_CASE("a pair touches from the start where its face is at 0, unless told otherwise") {
@@ -157,13 +135,6 @@ TEST_CASE("text from a file cannot break the message: control characters are wri
   CHECK(message.find('\033') == std::string::npos);
 }
 
-TEST_CASE("long text is cut between characters, not inside one") {
-  std::string wide = "a";
-  for (int i = 0; i < 30; ++i) wide += "\u4e2d";  // three bytes each: 60 is inside the twentieth
-  const std::string message = message_of_text(with("\"below\"", "\"" + wide + "\""));
-  CHECK_THAT(message, Catch::Matchers::Contains("\u4e2d...\"; allowed"));
-}
-
 TEST_CASE("hostile files end in a message: binary, deep nesting, nothing at all") {
   for (const std::string& text : {std::string("\x7f"
                                               "ELF\x02\x01\x01\x00\x00\x00\x00",
@@ -241,19 +212,6 @@ TEST_CASE(
       parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\nnodes = [6]\n" + tail, "pb.toml");
   REQUIRE(part.pairs.size() == 1);
   CHECK(part.pairs[0].stiffness == 4.0);
-}
-
-TEST_CASE("a face below is in contact at 0, open beneath, and inside the structure above") {
-  CHECK(face_in("face = 0.0\n", "bed").closed);
-  CHECK_FALSE(face_in("face = 0\nstate = \"separated\"\n", "bed").closed);
-  const contact_pair open = face_in("surface = \"above\"\nface = 0.5\n", "bed");
-  CHECK(open.surface == face_above);
-  CHECK(open.face == 0.5);
-  CHECK_FALSE(open.closed);
-  CHECK_THAT(verdict([] { (void)face_in("face = 0.5\n", "bed"); }),
-             Catch::Matchers::Contains("inside the undeformed"));
-  CHECK_THAT(verdict([] { (void)face_in("face = 0\n", "contact"); }),
-             Catch::Matchers::Contains("contact[1].surface: found nothing"));
 }
 
 TEST_CASE("a polynomial face below is accepted though its terms cancel in doubles to a value above 0") {

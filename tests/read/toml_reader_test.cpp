@@ -14,18 +14,18 @@ template <class Use>
 std::string refusal(const std::string& text, const Use& use) {
   return verdict([&] {
     const toml::table document = parse_toml(text, "f.toml");
-    (void)use(table_reader(document, "", "f.toml"));
+    (void)use(toml_value(document, "f.toml"));
   });
 }
 
 template <class Use>
 auto value(const std::string& text, const Use& use) {
   const toml::table document = parse_toml(text, "f.toml");
-  return use(table_reader(document, "", "f.toml"));
+  return use(toml_value(document, "f.toml"));
 }
 
-const auto numbers_to_5 = [](const table_reader& t) { return t.numbers("n", 5); };
-const auto reals = [](const table_reader& t) { return t.reals("n", positive_real, 2); };
+const auto numbers_to_5 = [](const toml_value& t) { return t["n"].numbers(5); };
+const auto reals = [](const toml_value& t) { return t["n"].reals(positive_real, 2); };
 
 }  // namespace
 
@@ -40,10 +40,10 @@ TEST_CASE("a range of reals includes its bounds as it says") {
 }
 
 TEST_CASE("integers are taken for reals, and reals are not taken for integers") {
-  CHECK(value("n = 3", [](const table_reader& t) { return t.real("n", any_real); }) == 3.0);
+  CHECK(value("n = 3", [](const toml_value& t) { return t["n"].real(any_real); }) == 3.0);
   CHECK(value("n = [1, 2.5]", reals) == std::vector<double>{1.0, 2.5});
-  CHECK(value("n = 3", [](const table_reader& t) { return t.integer("n", 3, 3); }) == 3);
-  CHECK(refusal("\n n = 3.0", [](const table_reader& t) { return t.integer("n", 1, 5); }) ==
+  CHECK(value("n = 3", [](const toml_value& t) { return t["n"].integer(3, 3); }) == 3);
+  CHECK(refusal("\n n = 3.0", [](const toml_value& t) { return t["n"].integer(1, 5); }) ==
         "f.toml:2:6: n: found 3; allowed: a whole number from 1 to 5");
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("lists of numbers that are refused, and where") {
 }
 
 TEST_CASE("a choice gives its index, and a mistyped one is answered with the nearest") {
-  const auto surface = [](const table_reader& t) { return t.choice("n", {"below", "above"}); };
+  const auto surface = [](const toml_value& t) { return t["n"].choice({"below", "above"}); };
   CHECK(value("n = \"above\"", surface) == 1);
   CHECK_THAT(refusal("n = \"abvoe\"", surface),
              Contains("found \"abvoe\" (did you mean \"above\"?); allowed: \"below\" or \"above\""));
@@ -85,23 +85,23 @@ TEST_CASE("a choice gives its index, and a mistyped one is answered with the nea
 
 TEST_CASE("tables know their names: a table in an array in a table") {
   const std::string text = "[[a]]\n[[a]]\nb = [ { c = 1 }, { c = 2, d = 3 } ]\n";
-  const auto inner = [](const table_reader& t) {
-    const std::vector<table_reader> readers = t.tables("a")[1].tables("b");
+  const auto inner = [](const toml_value& t) {
+    const std::vector<toml_value> readers = t["a"].tables()[1]["b"].tables();
     readers[1].allow_only({"c"});
     return readers.size();
   };
   CHECK_THAT(refusal(text, inner), Contains("f.toml:3:27: a[2].b[2].d: found an unknown key; allowed: c"));
-  CHECK(value("[[a]]\n[[a]]\n", [](const table_reader& t) { return t.tables("a")[1].place(); }) ==
+  CHECK(value("[[a]]\n[[a]]\n", [](const toml_value& t) { return t["a"].tables()[1].where(); }) ==
         "f.toml:2: a[2]");
-  CHECK(value("", [](const table_reader& t) { return t.optional_tables("a").size(); }) == 0);
-  CHECK_THAT(refusal("", [](const table_reader& t) { return t.tables("a").size(); }),
+  CHECK(value("", [](const toml_value& t) { return t["a"].optional_tables().size(); }) == 0);
+  CHECK_THAT(refusal("", [](const toml_value& t) { return t["a"].tables().size(); }),
              Contains("a: found nothing: this key is missing; allowed: at least one table"));
-  CHECK_THAT(refusal("a = [1]", [](const table_reader& t) { return t.tables("a").size(); }),
+  CHECK_THAT(refusal("a = [1]", [](const toml_value& t) { return t["a"].tables().size(); }),
              Contains("f.toml:1:6: a[1]: found 1; allowed: a table"));
 }
 
 TEST_CASE("a key that must not stand beside another is refused at its place") {
-  const auto either = [](const table_reader& t) {
+  const auto either = [](const toml_value& t) {
     t.refuse_beside({"b", "c"}, "a", "either a, or b and c");
     return 0;
   };
@@ -111,7 +111,7 @@ TEST_CASE("a key that must not stand beside another is refused at its place") {
 }
 
 TEST_CASE("each kind of value has its words") {
-  const auto words = [](const table_reader& t) { return found_words(t.required("n", "")); };
+  const auto words = [](const toml_value& t) { return t["n"].found(); };
   CHECK(value("n = -5", words) == "-5");
   CHECK(value("n = 0.5", words) == "0.5");
   CHECK(value("n = true", words) == "true");
@@ -139,7 +139,7 @@ TEST_CASE("what is quoted of a file that is no TOML stays on the message's line"
 }
 
 TEST_CASE("one number stands for all things, and an array has one for each") {
-  const auto three = [](const table_reader& t) { return t.reals_for("n", any_real, 3, "thing"); };
+  const auto three = [](const toml_value& t) { return t["n"].reals_for(any_real, 3, "thing"); };
   CHECK(value("n = 4", three) == std::vector<double>{4});
   CHECK(value("n = [1, 2.5, 3]", three) == std::vector<double>{1, 2.5, 3});
   CHECK(refusal("n = [1, 2.5]", three) ==
@@ -151,7 +151,7 @@ TEST_CASE("one number stands for all things, and an array has one for each") {
 }
 
 TEST_CASE("a decimal comma is recognised in a line that is no TOML, and not where there is none") {
-  const auto nothing = [](const table_reader&) { return 0; };
+  const auto nothing = [](const toml_value&) { return 0; };
   const std::string hint = "(a number takes a decimal point, 4.0 for 4,0)";
   for (const char* line :
        {"n = 4,0", "n = -0,004", "n=+12,5 # comment", "n = [ 0,04, 1 ]", "n = { a = 1, w = -60,5 }"}) {
@@ -163,6 +163,5 @@ TEST_CASE("a decimal comma is recognised in a line that is no TOML, and not wher
     INFO(line);
     CHECK_THAT(refusal("a = 1\n" + std::string(line), nothing), Contains("f.toml:2:") && !Contains(hint));
   }
-  CHECK_THAT(refusal("n = [4,0]", [](const table_reader& t) { return t.real("n", any_real); }),
-             Contains(hint));
+  CHECK_THAT(refusal("n = [4,0]", [](const toml_value& t) { return t["n"].real(any_real); }), Contains(hint));
 }

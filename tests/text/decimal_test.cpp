@@ -6,17 +6,20 @@
 using namespace contct::text;
 
 TEST_CASE("literals of one number are equal however they are written") {
-  const decimal quarter{false, "25", -2};
-  for (const char* same : {"0.25", ".25", "25e-2", "+0.2500", "2_5E-0_2", "2.5d-1", "0.025D+01", "00.25"})
-    CHECK(decimal_in(same) == quarter);
-  CHECK(decimal_in("-1_000.") == decimal{true, "1", 3});
-  for (const char* zero : {"0", "-0.0", "0e999999999999999999", ".0"})
-    CHECK(decimal_in(zero) == decimal{false, "0", 0});
+  for (const char* same : {"0.25", ".25", "25e-2", "+0.2500", "2_5E-0_2", "2.5d-1", "0.025D+01", "00.25",
+                           "0.2500000000000000000000", "000000000000000000000.25"}) {
+    INFO(same);
+    CHECK(is_shortest(same, 0.25));
+    CHECK(is_shortest(same, 0x1p-1074) == false);
+  }
+  for (const char* zero : {"0", "-0.0", "0e999999999999999999", ".0"}) CHECK(is_shortest(zero, 0.0));
+  CHECK(shortest_decimal(0.25) == decimal{false, "25", -2});
+  CHECK(shortest_decimal(-1000.0) == decimal{true, "1", 3});
 }
 
-TEST_CASE("what is no decimal is none") {
+TEST_CASE("text that is no decimal is not compared") {
   for (const char* none : {"", "-", ".", "inf", "0x10", "1e", "1e+", "1 ", "1.2.3", "e5"})
-    CHECK_FALSE(decimal_in(none).has_value());
+    CHECK(is_shortest(none, 0x1p-1074));
 }
 
 TEST_CASE("the last digit that is written is where a number was rounded, but for whole numbers") {

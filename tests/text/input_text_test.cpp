@@ -84,7 +84,7 @@ TEST_CASE("fields are separated by any blanks, blank lines are skipped, and line
   CHECK_THROWS_WITH(lines.expect(2, "two"), Contains("f:2: found a line of 9 bytes; allowed: two"));
   REQUIRE(lines.next());
   CHECK(lines.line() == 4);
-  CHECK(lines.fields() == field_lines::most_fields + 1);
+  CHECK(lines.fields() == 10);
   CHECK_FALSE(lines.next());
   CHECK(lines.fields() == 0);
 }

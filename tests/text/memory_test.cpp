@@ -1,4 +1,4 @@
-// Amounts of memory in words. The limit is tested with the structures that it refuses: model_tables_test.cpp.
+// Amounts of memory in words.
 #include "contct/text/memory.hpp"
 
 #include "catch.hpp"

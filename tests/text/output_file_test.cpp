@@ -1,143 +1,107 @@
+// Output files appear whole or not at all, whatever ends the process.
 #include "contct/text/output_file.hpp"
 
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "catch.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct::app;
 namespace fs = std::filesystem;
 
-namespace {
-
-/// A directory of the test's own, gone afterwards.
-struct scratch {
-  fs::path path = fs::temp_directory_path() / ("contct-output-test-" + std::to_string(::getpid()));
-  scratch() { fs::create_directories(path); }
-  ~scratch() { fs::remove_all(path); }
-  [[nodiscard]] std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-  }
-};
-
-std::string contents(const fs::path& p) {
-  std::ostringstream text;
-  text << std::ifstream(p).rdbuf();
-  return text.str();
-}
-
-}  // namespace
-
-constexpr naming both_ways[] = {naming::link_or_copy, naming::copy};
-
 TEST_CASE("a file appears when it is finished, and not before, not even under another name") {
-  for (const naming how : both_ways) {
-    const scratch dir;
-    const fs::path f = dir.path / "out.json";
-    output_file out(f.string(), how);
-    out.write("half");
-    CHECK(dir.files() == 0);
-    out.write(" and half" + std::string(200000, '.'));
-    out.finish();
-    CHECK(contents(f) == "half and half" + std::string(200000, '.'));
-    CHECK(dir.files() == 1);
-  }
+  const scratch_folder dir;
+  output_file out(dir.at("out.json"));
+  out.write("half");
+  CHECK(dir.files().empty());
+  out.write(" and half" + std::string(200000, '.'));
+  out.finish();
+  CHECK(dir.read("out.json") == "half and half" + std::string(200000, '.'));
+  CHECK(dir.files().size() == 1);
 }
 
 TEST_CASE("a new file has the rights that the umask leaves") {
-  for (const naming how : both_ways) {
-    const scratch dir;
-    const mode_t before = umask(0027);
-    for (int time = 0; time < 2; ++time) {  // made, then replaced
-      output_file out((dir.path / "out.json").string(), how);
-      out.finish();
-      struct stat s {};
-      REQUIRE(stat((dir.path / "out.json").c_str(), &s) == 0);
-      CHECK((s.st_mode & 0777U) == 0640U);
-    }
-    umask(before);
+  const scratch_folder dir;
+  const mode_t before = umask(0027);
+  for (int time = 0; time < 2; ++time) {  // made, then replaced
+    output_file out(dir.at("out.json"));
+    out.finish();
+    struct stat s {};
+    REQUIRE(stat(dir.at("out.json").c_str(), &s) == 0);
+    CHECK((s.st_mode & 0777U) == 0640U);
   }
+  umask(before);
 }
 
 TEST_CASE("an older file is replaced, and its name is never without a whole file") {
-  for (const naming how : both_ways) {
-    const scratch dir;
-    const fs::path f = dir.path / "out.json";
-    std::ofstream(f) << "old";
-    output_file out(f.string(), how);
-    out.write("new");
-    CHECK(contents(f) == "old");
-    out.finish();
-    CHECK(contents(f) == "new");
-    CHECK(dir.files() == 1);
-  }
+  const scratch_folder dir;
+  dir.write("out.json", "old");
+  output_file out(dir.at("out.json"));
+  out.write("new");
+  CHECK(dir.read("out.json") == "old");
+  out.finish();
+  CHECK(dir.read("out.json") == "new");
+  CHECK(dir.files().size() == 1);
 }
 
 TEST_CASE("what is not finished leaves nothing, and an older file stays as it was") {
-  const scratch dir;
-  const fs::path f = dir.path / "out.json";
-  std::ofstream(f) << "old";
+  const scratch_folder dir;
+  dir.write("out.json", "old");
   {
-    output_file out(f.string());
+    output_file out(dir.at("out.json"));
     out.write("new");
   }
-  CHECK(contents(f) == "old");
-  CHECK(dir.files() == 1);
+  CHECK(dir.read("out.json") == "old");
+  CHECK(dir.files().size() == 1);
 }
 
 TEST_CASE("whatever signal ends the process, no unfinished file remains") {
-  for (const naming how : both_ways) {
-    for (const int sign : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGKILL}) {
-      const scratch dir;
-      const pid_t child = fork();
-      if (child == 0) {
-        (void)std::signal(sign, SIG_DFL);
-        output_file out((dir.path / "out.json").string(), how);
-        out.write(std::string(100000, 'x'));
-        (void)raise(sign);
-        _exit(1);
-      }
-      int status = 0;
-      waitpid(child, &status, 0);
-      CHECK(WIFSIGNALED(status));
-      CHECK(dir.files() == 0);
+  for (const int sign : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGKILL}) {
+    const scratch_folder dir;
+    const pid_t child = fork();
+    if (child == 0) {
+      (void)std::signal(sign, SIG_DFL);
+      output_file out(dir.at("out.json"));
+      out.write(std::string(100000, 'x'));
+      (void)raise(sign);
+      _exit(1);
     }
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WIFSIGNALED(status));
+    CHECK(dir.files().empty());
   }
 }
 
 TEST_CASE("a symbolic link is written through, whether its target is there or not") {
-  for (const naming how : both_ways) {
-    const scratch dir;
-    fs::create_directory(dir.path / "there");
-    fs::create_symlink("there/out.json", dir.path / "link");  // relative to the link, not to us
-    for (const char* text : {"first", "second"}) {
-      output_file out((dir.path / "link").string(), how);
-      out.write(text);
-      out.finish();
-      CHECK(fs::is_symlink(dir.path / "link"));
-      CHECK(contents(dir.path / "there/out.json") == text);
-    }
+  const scratch_folder dir;
+  fs::create_directory(dir.path() / "there");
+  fs::create_symlink("there/out.json", dir.path() / "link");  // relative to the link, not to us
+  for (const char* text : {"first", "second"}) {
+    output_file out(dir.at("link"));
+    out.write(text);
+    out.finish();
+    CHECK(fs::is_symlink(dir.path() / "link"));
+    CHECK(dir.read("there/out.json") == text);
   }
 }
 
 TEST_CASE("a circle of links is refused, not followed for ever") {
-  const scratch dir;
-  fs::create_symlink("b", dir.path / "a");
-  fs::create_symlink("a", dir.path / "b");
-  CHECK_THROWS_WITH(output_file((dir.path / "a").string()), Catch::Matchers::Contains("cannot be written"));
+  const scratch_folder dir;
+  fs::create_symlink("b", dir.path() / "a");
+  fs::create_symlink("a", dir.path() / "b");
+  CHECK_THROWS_WITH(output_file(dir.at("a")), Catch::Matchers::Contains("cannot be written"));
 }
 
 TEST_CASE("one file under two names is told apart from two files") {
-  const scratch dir;
-  const auto at = [&](const char* name) { return (dir.path / name).string(); };
-  std::ofstream(at("old")) << "old";
+  const scratch_folder dir;
+  const auto at = [&](const char* name) { return dir.at(name); };
+  dir.write("old", "old");
   fs::create_directory(at("folder"));
   fs::create_symlink("old", at("to-old"));
   fs::create_symlink("new", at("to-new"));
@@ -156,8 +120,8 @@ TEST_CASE("one file under two names is told apart from two files") {
 TEST_CASE("a place that cannot be written is refused at once, by name") {
   CHECK_THROWS_WITH(output_file("/no/such/place/out.json"),
                     Catch::Matchers::Contains("/no/such/place/out.json"));
-  const scratch dir;
-  CHECK_THROWS_AS(output_file(dir.path.string()), output_error);
+  const scratch_folder dir;
+  CHECK_THROWS_AS(output_file(dir.path().string()), output_error);
 }
 
 TEST_CASE("a device is written directly") {
@@ -165,19 +129,6 @@ TEST_CASE("a device is written directly") {
   out.write("gone");
   CHECK_NOTHROW(out.finish());
   CHECK(fs::is_character_file("/dev/null"));
-}
-
-TEST_CASE("what is flushed is with the system, and has no name before it is finished") {
-  const scratch dir;
-  output_file out((dir.path / "x").string());
-  out.write("all of it");
-  out.flush();
-  CHECK(dir.files() == 0);
-  out.finish();
-  CHECK(contents(dir.path / "x") == "all of it");
-  output_file full("/dev/full");
-  full.write("little");
-  CHECK_THROWS_AS(full.flush(), output_error);
 }
 
 TEST_CASE("a full device is an error, not a short file") {

@@ -7,34 +7,13 @@
 
 using namespace contct::app;
 
-TEST_CASE("edits are counted: put in, left out, replaced, swapped") {
-  CHECK(edits_between("stiffness", "stiffness") == 0);
-  CHECK(edits_between("stifness", "stiffness") == 1);
-  CHECK(edits_between("stiffnesss", "stiffness") == 1);
-  CHECK(edits_between("stiffmess", "stiffness") == 1);
-  CHECK(edits_between("stfifness", "stiffness") == 1);  // two neighbours swapped
-  CHECK(edits_between("", "face") == 4);
-  CHECK(edits_between("face", "") == 4);
-  CHECK(edits_between("kitten", "sitting") == 3);
-  CHECK(edits_between("FACE", "face") == 0);
-}
-
-TEST_CASE("edits are the same both ways, and never more than the longer word has letters") {
-  const std::vector<std::string> words = {"run", "rnu", "verify", "explain", "", "face", "stiffness"};
-  for (const std::string& a : words) {
-    for (const std::string& b : words) {
-      CHECK(edits_between(a, b) == edits_between(b, a));
-      CHECK(edits_between(a, b) <= static_cast<int>(std::max(a.size(), b.size())));
-    }
-  }
-}
-
 TEST_CASE("the nearest word is meant, and none where too much is wrong") {
   const std::vector<std::string> keys = {"node", "nodes", "surface", "face", "stiffness"};
   CHECK(did_you_mean("stifness", keys) == " (did you mean \"stiffness\"?)");
   CHECK(did_you_mean("Stiffness", keys) == " (did you mean \"stiffness\"?)");
   CHECK(did_you_mean("fase", keys) == " (did you mean \"face\"?)");
   CHECK(did_you_mean("nod", keys) == " (did you mean \"node\"?)");
+  CHECK(did_you_mean("stfifness", keys) == " (did you mean \"stiffness\"?)");  // two neighbours swapped
   CHECK(did_you_mean("colour", keys).empty());
   CHECK(did_you_mean("", keys).empty());
   CHECK(did_you_mean(std::string(100'000, 's'), keys).empty());

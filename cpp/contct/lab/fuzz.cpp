@@ -13,7 +13,7 @@
 namespace contct::lab {
 namespace {
 
-constexpr std::int64_t calls_in_a_block = 2048;
+constexpr std::int64_t calls_between_progress = 2048;
 constexpr std::int64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
 constexpr std::int64_t problems_certified = 20;
 constexpr std::uint64_t few_ulps = 64;
@@ -73,23 +73,27 @@ class fuzzing final : public observer {
 
   void called(const answered_call& c) override {
     path_.push_back(inputs_of(c));
-    const bool has_text = leader_->facts().has_text;
-    compare(std::ssize(path_), c.c, c.isep_before, has_text ? std::optional(c.text) : std::nullopt);
+    compare(std::ssize(path_), c.c, c.isep_before, c.text);
   }
 
  private:
   void put_calls() {
     call_outputs outputs;
-    std::vector<std::int64_t> block;  // numbers of the calls whose text is not yet compared
     for (std::int64_t number = request_.shard; number <= request_.calls; number += request_.shards) {
       const call_inputs<double>& in = source_.at(number);
       call<double> answered = outputs.prepare(in);
       leader_->answer(answered);
-      compare(number, answered, in.isep, std::nullopt);
-      block.push_back(number);
-      if (std::ssize(block) == calls_in_a_block) end_block(block);
+      const std::string text = leader_->take_text();
+      compare(number, answered, in.isep, text);
+      keep_firsts([this](std::int64_t last) {
+        call_sequence calls;
+        for (std::int64_t k = std::min(most_calls_before, (last - 1) / request_.shards); k >= 0; --k)
+          calls.push_back(source_.at(last - k * request_.shards));
+        return calls;
+      });
+      if (progress_ && run_.result.calls % calls_between_progress == 0)
+        progress_(run_.result.calls, request_.calls / request_.shards, "calls");
     }
-    end_block(block);
   }
 
   void follow_problem(std::int64_t number) {
@@ -100,58 +104,18 @@ class fuzzing final : public observer {
     if (compared_->compared().mismatches > before && std::ssize(differing_problems_) < problems_certified)
       differing_problems_.push_back(number);
     keep_firsts([this](std::int64_t last) { return call_sequence(path_.begin(), path_.begin() + last); });
-    for (const follower& f : followers()) (void)f.asked().take_text();  // compared above, or not at all
     ++run_.result.problems;
     if (progress_) progress_(run_.result.problems, request_.problems / request_.shards, "problems");
   }
 
   void compare(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
-               std::optional<std::string_view> text) {
+               std::string_view text) {
     run_.result.count(answered, isep_before);
-    compared_->put(number, answered, isep_before, text);
-    for (std::size_t f = 0; f < firsts_.size(); ++f)
+    const bool has_text = leader_->facts().has_text;
+    compared_->put(number, answered, isep_before, has_text ? std::optional(text) : std::nullopt);
+    for (std::size_t f = 0; f < firsts_.size(); ++f) {
       run_.result.followers[f].note(compared_->last_answers()[f]);
-  }
-
-  /// Compare unit 26 of the calls of `block`, which were put since the last time, and empty it.
-  void end_block(std::vector<std::int64_t>& block) {
-    const std::string text = leader_->take_text();
-    for (follower& f : followers()) {
-      const std::string its_text = f.asked().take_text();
-      if (block.empty() || !leader_->facts().has_text || !f.asked().facts().has_text) continue;
-      tally whole;
-      if (compare_text(text, its_text, whole, f.equality()))
-        find_text_difference(f, block);
-      else
-        f.compared.values += std::ssize(block);
-    }
-    keep_firsts([this](std::int64_t last) {
-      call_sequence calls;
-      for (std::int64_t k = std::min(most_calls_before, (last - 1) / request_.shards); k >= 0; --k)
-        calls.push_back(source_.at(last - k * request_.shards));
-      return calls;
-    });
-    block.clear();
-    if (progress_) progress_(run_.result.calls, request_.calls / request_.shards, "calls");
-  }
-
-  /// Put a block of calls once more, and compare the text call by call.
-  void find_text_difference(follower& f, std::span<const std::int64_t> block) {
-    call_outputs outputs;
-    call_outputs its_outputs;
-    for (const std::int64_t number : block) {
-      const call_inputs<double>& in = source_.at(number);
-      call<double> answered = outputs.prepare(in);
-      leader_->answer(answered);
-      const std::string text = leader_->take_text();
-      call<double> asked = its_outputs.prepare(in);
-      try {
-        f.asked().answer(asked);
-      } catch (const kernel_failure&) {
-        continue;  // counted already
-      }
-      if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
-        f.note(number, *found, answered, in.isep);
+      (void)followers()[f].asked().take_text();  // where it was not compared
     }
   }
 

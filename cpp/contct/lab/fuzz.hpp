@@ -30,7 +30,6 @@ using still_differs = std::function<bool(const call_sequence&)>;
 /// A mismatch with the calls that show it.
 struct found_case {
   mismatch_report what;  ///< of the last call
-  int real_bytes = 8;
   call_sequence calls;
   std::vector<call_outputs> leader;  ///< the leader's answers [calls]
 };
@@ -114,10 +113,8 @@ struct fuzz_run {
 /// Progress: work done out of all, in calls or problems.
 using fuzz_progress = std::function<void(std::int64_t done, std::int64_t all, const char* what)>;
 
-/// Put the calls and problems of `r` to its kernels. SMIN, SS and ISEP are compared at once, the unit-26 text
-/// of single calls in blocks: reading it back after every call would cost several times the call. Throws
-/// std::invalid_argument for kernels that are unknown, or of another precision or rule. `make` knows them by
-/// their names.
+/// Put the calls and problems of `r` to its kernels. Throws std::invalid_argument for kernels that are
+/// unknown, or of another precision or rule. `make` knows them by their names.
 [[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr,
                                 const kernel_maker& make = make_kernel);
 
@@ -126,9 +123,5 @@ using fuzz_progress = std::function<void(std::int64_t done, std::int64_t all, co
 
 /// The calls of a case with the leader's answers, as a trace. `h` says whose they are.
 [[nodiscard]] std::string trace_of(const found_case& c, trace_header h);
-
-/// A main program in fixed-form FORTRAN 77 that calls CONTCT and prints what it gives; the expected
-/// values stand in its comments. Whoever has a FORTRAN compiler can run it.
-[[nodiscard]] std::string fortran_main_of(const found_case& c);
 
 }  // namespace contct::lab

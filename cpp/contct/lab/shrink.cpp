@@ -176,7 +176,6 @@ std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make, co
   const std::unique_ptr<kernel> fresh = make();
   follower asked(leader.facts(), *fresh);
   found_case c;
-  c.real_bytes = leader.facts().real_bytes;
   c.calls = calls;
   (void)leader.take_text();
   for (const call_inputs<double>& in : calls) {
@@ -187,7 +186,7 @@ std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make, co
     out.text = leader.take_text();
     const auto text = leader.facts().has_text ? std::optional<std::string_view>(out.text) : std::nullopt;
     asked.ask(std::ssize(c.leader), answered, in.isep, text);
-    c.what.decisions = decisions_of(answered, in.isep, c.real_bytes);
+    c.what.decisions = decisions_of(answered, in.isep, leader.facts().real_bytes);
   }
   const std::optional<mismatch>& last = asked.difference();
   if (!last || (!field.empty() && last->field != field)) return {};

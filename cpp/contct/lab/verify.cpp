@@ -6,14 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "contct/compare/lockstep.hpp"
-#include "contct/exact/exact_means.hpp"
-#include "contct/lab/random_problem.hpp"
 #include "contct/numeric/rational.hpp"
-#include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/read/toml_reader.hpp"
+#include "contct/session/run.hpp"
 
 namespace contct::lab {
 namespace {
@@ -39,39 +36,38 @@ std::optional<double> nearest_to(std::string_view words) {
   return (sign == 1 ? -1.0 : 1.0) * exact::rounded(rational(integer(top), integer(bottom)));
 }
 
-expected_number read_check(const table_reader& t) {
+expected_number read_check(const toml_value& t) {
   t.allow_only({"step",   "quantity", "node",    "pair",      "element",  "end",   "corner",   "dof",
                 "change", "from",     "along",   "value",     "kind",     "exact", "relation", "printed",
                 "cut",    "source",   "because", "tolerance", "faithful", "reason"});
   expected_number e;
-  e.step = t.integer("step", 1, any_number);
-  e.quantity = t.text("quantity");
-  if (t.has("node")) e.node = t.integer("node", 1, any_number);
-  if (t.has("pair")) e.pair = t.integer("pair", 1, any_number);
-  if (t.has("element")) e.element = t.integer("element", 1, any_number);
-  if (t.has("end")) e.place = static_cast<int>(t.choice("end", {"left", "right"})) + 1;
-  if (t.has("corner")) e.place = t.integer("corner", 1, 4);
-  if (t.has("dof")) e.dof = t.text("dof");
-  if (t.has("change")) e.change = t.choice("change", {"make", "break"}) == 0 ? "make" : "break";
-  if (t.has("from")) e.from = t.real("from", any_real);
-  if (t.has("along")) e.along = t.choice("along", {"edge", "diagonal"}) == 0 ? "edge" : "diagonal";
+  e.step = t["step"].integer(1, any_number);
+  e.quantity = t["quantity"].text();
+  if (t.has("node")) e.node = t["node"].integer(1, any_number);
+  if (t.has("pair")) e.pair = t["pair"].integer(1, any_number);
+  if (t.has("element")) e.element = t["element"].integer(1, any_number);
+  if (t.has("end")) e.place = static_cast<int>(t["end"].choice({"left", "right"})) + 1;
+  if (t.has("corner")) e.place = t["corner"].integer(1, 4);
+  if (t.has("dof")) e.dof = t["dof"].text();
+  if (t.has("change")) e.change = t["change"].choice({"make", "break"}) == 0 ? "make" : "break";
+  if (t.has("from")) e.from = t["from"].real(any_real);
+  if (t.has("along")) e.along = t["along"].choice({"edge", "diagonal"}) == 0 ? "edge" : "diagonal";
   if (e.quantity == "state") {
-    e.value = t.choice("value", {"contact", "separated"}) == 0 ? in_contact : separated;
+    e.value = t["value"].choice({"contact", "separated"}) == 0 ? in_contact : separated;
   } else {
-    e.value = t.real("value", any_real);
-    e.tolerance = t.real("tolerance", not_negative);
-    e.because = t.text("because");
+    e.value = t["value"].real(any_real);
+    e.tolerance = t["tolerance"].real(not_negative);
+    e.because = t["because"].text();
   }
-  (void)t.choice("kind", {"published", "closed form", "recomputed"});
-  e.kind = t.text("kind");
-  e.source = t.text("source");
+  (void)t["kind"].choice({"published", "closed form", "recomputed"});
+  e.kind = t["kind"].text();
+  e.source = t["source"].text();
   if (t.has("faithful")) {
-    e.faithful = t.real("faithful", any_real);
-    e.reason = t.text("reason");
+    e.faithful = t["faithful"].real(any_real);
+    e.reason = t["reason"].text();
   }
-  e.exact = t.text("exact");
-  if (e.quantity != "state" && !nearest_to(e.exact))
-    t.refuse_key("exact", "a decimal, or a fraction \"p/q\"");
+  e.exact = t["exact"].text();
+  if (e.quantity != "state" && !nearest_to(e.exact)) t["exact"].refuse("a decimal, or a fraction \"p/q\"");
   return e;
 }
 
@@ -100,57 +96,53 @@ std::vector<way_point> way_through(const model& m, const std::string& along) {
   return way;
 }
 
-double of_element(const measurement::step_record& s, const expected_number& e, std::size_t quantity) {
-  const element_results& elements = s.read.elements;
+double of_element(const element_results& elements, const expected_number& e, std::size_t quantity) {
   const bool there = e.element >= 1 && e.element <= static_cast<int>(elements.elements()) && e.place >= 1 &&
                      e.place <= elements.places;
   return there ? elements.at(e.element - 1, quantity)[e.place - 1] : not_there;
 }
 
-double of_support(const problem& p, const measurement::step_record& s, const expected_number& e) {
+double of_support(const problem& p, const step_results& s, const expected_number& e) {
   const auto names = dof_names(p.geometry);
   for (std::size_t i = 0; i < p.supports.size(); ++i) {
     const support& at = p.supports[i];
-    if (at.node + 1 == e.node && names[at.dof] == e.dof) return s.read.reactions[i];
+    if (at.node + 1 == e.node && names[at.dof] == e.dof) return s.reactions[i];
   }
   return not_there;
 }
 
-double of_pair(const problem& problem, const measurement::step_record& s, const expected_number& e) {
-  if (e.pair < 1 || e.pair > static_cast<int>(problem.pairs.size())) return not_there;
-  const contact_pair& p = problem.pairs[e.pair - 1];
-  const int dof = p.node * dofs_per_node(problem.geometry);
-  const double w = s.u[dof];
-  const int isep = s.isep[e.pair - 1];
-  if (e.quantity == "state") return isep;
-  if (e.quantity == "force") return s.read.pairs[e.pair - 1].force;
-  if (e.quantity == "gap") return gap_of(p, w, isep == in_contact);
-  return not_there;
+double of_pair(const problem& p, const frame& end, const step_results& s, const expected_number& e) {
+  const std::size_t pair = e.pair - std::size_t{1};
+  if (pair >= s.pairs.size()) return not_there;
+  if (e.quantity == "state") return end.isep[pair];
+  if (e.quantity == "force") return s.pairs[pair].force;
+  if (e.quantity != "gap") return not_there;
+  return gap_of(p.pairs[pair], deflection_of(p, end, p.pairs[pair].node), end.closed(pair));
 }
 
 /// "max moment", "min w", or where that is: "x of max moment".
-double of_extreme(const measurement::step_record& s, std::string_view quantity) {
+double of_extreme(const step_results& s, std::string_view quantity) {
   constexpr std::string_view place = "x of ";
   const bool asks_place = quantity.starts_with(place);
   if (asks_place) quantity.remove_prefix(place.size());
   const bool most = quantity.starts_with("max ");
   if (!most && !quantity.starts_with("min ")) return not_there;
-  const auto r = std::ranges::find(s.read.ranges, quantity.substr(4), &value_range::name);
-  if (r == s.read.ranges.end()) return not_there;
+  const auto r = std::ranges::find(s.ranges, quantity.substr(4), &value_range::name);
+  if (r == s.ranges.end()) return not_there;
   const placed_value& at = most ? r->most : r->least;
   return asks_place ? at.x : at.value;
 }
 
-double of_events(const std::vector<timed_event>& events, const expected_number& e) {
-  int count = 0;
-  for (const timed_event& r : events) {
-    if (r.step != e.step) continue;
-    ++count;
-    const bool makes = r.what.what == change::make;
-    if (e.quantity == "event" && r.what.pair + 1 == e.pair && makes == (e.change == "make"))
-      return r.fraction;
+/// How many events a step has, or the share of its load at which a pair's comes.
+double of_events(const step_record& s, const expected_number& e) {
+  std::size_t count = 0;
+  for (const increment_record& i : s.increments) {
+    count += i.events.size();
+    for (const event& at : i.events)
+      if (e.quantity == "event" && at.pair + 1 == e.pair && (at.what == change::make) == (e.change == "make"))
+        return i.fraction;
   }
-  return e.quantity == "events" ? count : not_there;
+  return e.quantity == "events" ? static_cast<double>(count) : not_there;
 }
 
 double zero_right_of(const model& m, const std::vector<double>& u, const expected_number& e) {
@@ -190,13 +182,13 @@ std::optional<std::size_t> place_in(const Names& names, const std::string& name)
 std::vector<verification_case> read_verification(const std::string& path) {
   const std::string text = read_input(path);
   const toml::table document = parse_toml(text, path);
-  const table_reader top(document, "", path);
+  const toml_value top(document, path);
   top.allow_only({"case"});
   std::vector<verification_case> cases;
-  for (const table_reader& t : top.tables("case")) {
+  for (const toml_value& t : top["case"].tables()) {
     t.allow_only({"file", "check"});
-    verification_case c{t.text("file"), {}};
-    for (const table_reader& check : t.tables("check")) c.checks.push_back(read_check(check));
+    verification_case c{t["file"].text(), {}};
+    for (const toml_value& check : t["check"].tables()) c.checks.push_back(read_check(check));
     cases.push_back(std::move(c));
   }
   return cases;
@@ -214,27 +206,29 @@ std::string quantity_words(const expected_number& e) {
   return fmt::format("{}, node {}", e.quantity, e.node);
 }
 
-void measurement::step_ended(const step_state& s) {
-  const load total = load_path(problem_).at(s.step, s.fraction);
-  steps_.push_back({{s.displacement.begin(), s.displacement.end()},
-                    {s.isep.begin(), s.isep.end()},
-                    results_of(problem_, total, s, deflecting_)});
+measurement::measurement(const problem& p, const run_recorder& path) : problem_(p), path_(path) {
+  const load_path loads(p);
+  const std::vector<int> deflecting = deflecting_nodes(p);
+  for (const step_record& s : path.steps)
+    read_.push_back(results_of(p, loads.at(s.end.step, s.end.fraction), s.end, deflecting));
 }
 
 double measurement::of(const expected_number& e) const {
-  if (e.quantity == "event" || e.quantity == "events") return of_events(path_.events, e);
-  if (e.step > static_cast<int>(steps_.size())) return not_there;
-  const step_record& s = steps_[e.step - 1];
+  if (e.step > static_cast<int>(read_.size())) return not_there;
+  const step_record& step = path_.steps[e.step - 1];
+  const step_results& read = read_[e.step - 1];
+  const std::vector<double>& u = step.end.displacement;
   const auto names = dof_names(problem_.geometry);
+  if (e.quantity == "event" || e.quantity == "events") return of_events(step, e);
   if (const auto dof = place_in(names, e.quantity))
-    return s.u.at((std::max(e.node, 1) - 1) * names.size() + *dof);
-  if (e.quantity == "contacts")
-    return static_cast<double>(std::count(s.isep.begin(), s.isep.end(), in_contact));
-  if (e.quantity == "zero") return zero_right_of(problem_.geometry, s.u, e);
-  if (e.quantity == "reaction") return of_support(problem_, s, e);
-  if (e.quantity.find(' ') != std::string::npos) return of_extreme(s, e.quantity);
-  if (const auto quantity = place_in(s.read.elements.names, e.quantity)) return of_element(s, e, *quantity);
-  return of_pair(problem_, s, e);
+    return u.at((std::max(e.node, 1) - 1) * names.size() + *dof);
+  if (e.quantity == "contacts") return static_cast<double>(std::ranges::count(step.end.isep, in_contact));
+  if (e.quantity == "zero") return zero_right_of(problem_.geometry, u, e);
+  if (e.quantity == "reaction") return of_support(problem_, read, e);
+  if (e.quantity.find(' ') != std::string::npos) return of_extreme(read, e.quantity);
+  if (const auto quantity = place_in(read.elements.names, e.quantity))
+    return of_element(read.elements, e, *quantity);
+  return of_pair(problem_, step.end, read, e);
 }
 
 double measurement::size_of(const expected_number& e) const {
@@ -243,16 +237,18 @@ double measurement::size_of(const expected_number& e) const {
   double size = 0.0;
   const auto take = [&](double x) { size = std::max(size, std::abs(x)); };
   const std::size_t stride = dof_names(problem_.geometry).size();
-  for (const step_record& s : steps_) {
-    for (std::size_t dof = 0; dof < s.u.size(); ++dof)
-      if (kind == (dof % stride == 0 ? kind_of_number::deflection : kind_of_number::slope)) take(s.u[dof]);
-    for (const value_range& r : s.read.ranges)
+  for (const step_record& s : path_.steps)
+    for (std::size_t dof = 0; dof < s.end.displacement.size(); ++dof)
+      if (kind == (dof % stride == 0 ? kind_of_number::deflection : kind_of_number::slope))
+        take(s.end.displacement[dof]);
+  for (const step_results& s : read_) {
+    for (const value_range& r : s.ranges)
       if (r.name != "w" && kind == (r.name == "shear" ? kind_of_number::force : kind_of_number::moment))
         take(r.largest().value);
     if (kind != kind_of_number::force) continue;
-    for (const pair_reading& p : s.read.pairs) take(p.force);
-    for (std::size_t i = 0; i < s.read.reactions.size(); ++i)
-      if (problem_.supports[i].dof == 0) take(s.read.reactions[i]);
+    for (const pair_reading& p : s.pairs) take(p.force);
+    for (std::size_t i = 0; i < s.reactions.size(); ++i)
+      if (problem_.supports[i].dof == 0) take(s.reactions[i]);
   }
   return size;
 }
@@ -277,19 +273,32 @@ bool agrees(double measured, double value, double tolerance) {
 
 namespace {
 
-/// A path's numbers, and the certificate of the step that is asked about; null where there is none.
-struct followed_path {
-  const measurement& measured;
-  const certificate* certified;
+/// A run of the kernels by the paper's engine, and its numbers.
+struct verified_run {
+  verified_run(const problem& p, const linear_structure& s, std::vector<std::string> kernels)
+      : path(p, s, {.kernels = std::move(kernels), .engine = "refactor"}) {
+    path.go({});
+    measured.emplace(p, path.result().record);
+  }
+
+  /// The certificate of the step that is asked about; null where there is none.
+  [[nodiscard]] const certificate* certified(const expected_number& e) const {
+    const auto& steps = path.judged.steps();
+    const std::size_t at = e.step - 1;
+    return at < steps.size() && steps[at] ? &*steps[at] : nullptr;
+  }
+
+  session::run path;
+  std::optional<measurement> measured;
 };
 
-verified_number judged_number(const expected_number& e, const followed_path& listing,
-                              const followed_path& corrected) {
-  verified_number n{e, listing.measured.of(e), corrected.measured.of(e), false, false, "", 0};
-  n.certified = listing.certified != nullptr && listing.certified->certified;
-  const auto compare = [&](double found, const followed_path& path) {
-    if (e.exact.empty() || path.certified == nullptr || !n.apart.empty()) return;
-    n.apart = exact_disagreement(e, found, certified_share * path.measured.size_of(e));
+verified_number judged_number(const expected_number& e, const verified_run& listing,
+                              const verified_run& corrected) {
+  verified_number n{e, listing.measured->of(e), corrected.measured->of(e), false, false, "", 0};
+  n.certified = listing.certified(e) != nullptr && listing.certified(e)->certified;
+  const auto compare = [&](double found, const verified_run& by) {
+    if (e.exact.empty() || by.certified(e) == nullptr || !n.apart.empty()) return;
+    n.apart = exact_disagreement(e, found, certified_share * by.measured->size_of(e));
     ++n.exact_comparisons;
   };
   compare(n.corrected, corrected);
@@ -302,36 +311,20 @@ verified_number judged_number(const expected_number& e, const followed_path& lis
 }  // namespace
 
 verified_case verify_case(const verification_case& c, const problem& p) {
-  verified_case out;
-  out.file = c.file;
-  out.title = p.title;
   const linear_structure s = structure_of(p);
-  measurement listing(p);
-  certifier judged(p, s, exact::exact_means_of(p));
-  const auto fortran = make_kernel("fortran");
-  const std::string followers[] = {"cpp"};
-  lockstep compared = make_lockstep(fortran->facts(), followers);
-  const path_end end = follow(p, s, "refactor", *fortran, {&compared, &judged, &listing});
-  measurement corrected(p);
-  const problem_result right = try_structure(p, s, *make_kernel("corrected"), "refactor", {&corrected});
-
-  out.calls = compared.calls();
-  out.mismatches = compared.compared().mismatches;
-  out.certificates = judged.steps();
+  const verified_run listing(p, s, {"fortran", "cpp"});
+  const verified_run corrected(p, s, {"corrected"});
+  const lockstep& compared = *listing.path.compared();
+  verified_case out{
+      c.file, p.title, {}, listing.path.judged.steps(), compared.calls(), compared.compared().mismatches, ""};
   if (out.calls == 0) out.failure = "the kernels were never called";
   if (out.mismatches > 0) out.failure = "FORTRAN and C++ differ";
-  if (end.status != path_status::solved) out.failure = "FORTRAN's path does not reach its end";
-  if (right.came_to == verdict::wrong)
-    out.failure = "the corrected kernel is not certified";
-  else if (right.came_to != verdict::certified)
+  if (listing.path.end.status != path_status::solved) out.failure = "FORTRAN's path does not reach its end";
+  if (corrected.path.end.status != path_status::solved)
     out.failure = "the corrected path does not reach its end";
-  for (const expected_number& e : c.checks) {
-    const std::size_t at = e.step - 1;
-    const bool reached = at < out.certificates.size() && out.certificates[at];
-    out.numbers.push_back(
-        judged_number(e, {listing, reached ? &*out.certificates[at] : nullptr},
-                      {corrected, at < right.certificates.size() ? &right.certificates[at] : nullptr}));
-  }
+  else if (!corrected.path.judged.all_certified())
+    out.failure = "the corrected kernel is not certified";
+  for (const expected_number& e : c.checks) out.numbers.push_back(judged_number(e, listing, corrected));
   return out;
 }
 

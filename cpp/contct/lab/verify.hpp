@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/free_run.hpp"
-#include "contct/path/observer.hpp"
 #include "contct/structure/problem.hpp"
+#include "contct/write/run_result.hpp"
 #include "contct/write/step_results.hpp"
 
 namespace contct::lab {
@@ -45,16 +44,13 @@ struct verification_case {
 /// does), "moment, element 4.1" (at its first end or corner).
 [[nodiscard]] std::string quantity_words(const expected_number& e);
 
-/// Observes a run and measures, afterwards, what the table asks for.
-class measurement final : public observer {
+/// What the table asks for, measured on a path that is over.
+class measurement {
  public:
-  /// `p` must outlive this object.
-  explicit measurement(const problem& p) : problem_(p) {}
+  /// `p` and `path` must outlive this object.
+  measurement(const problem& p, const run_recorder& path);
 
-  void incremented(const increment& i) override { path_.incremented(i); }
-  void step_ended(const step_state& s) override;
-
-  /// The quantity as this run has it; NaN when the run did not get there.
+  /// The quantity as this path has it; NaN where it did not get there.
   [[nodiscard]] double of(const expected_number& e) const;
 
   /// The largest of its kind on the path, which errors are relative to: of deflections and gaps, slopes,
@@ -62,18 +58,10 @@ class measurement final : public observer {
   /// is about, 0.
   [[nodiscard]] double size_of(const expected_number& e) const;
 
-  /// What is measured of a step, at its end.
-  struct step_record {
-    std::vector<double> u;  ///< D [dofs]
-    std::vector<int> isep;
-    step_results read;
-  };
-
  private:
   const problem& problem_;
-  std::vector<int> deflecting_ = deflecting_nodes(problem_);
-  path_record path_;
-  std::vector<step_record> steps_;
+  const run_recorder& path_;
+  std::vector<step_results> read_;  // off the ends of steps
 };
 
 /// Is `measured` within the tolerance of `value`?

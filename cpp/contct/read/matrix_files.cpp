@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "contct/text/decimal.hpp"
@@ -39,26 +40,29 @@ bool same_word(std::string_view a, std::string_view lower) {
 
 constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and its line's end
 
-/// Numbers of one file that are not the shortest decimals of their doubles: how many, and the first.
-class rounded_numbers {
+/// Lines of a file with numbers. One warning tells how many of these are not the shortest decimals of their
+/// doubles, and the first.
+class number_lines : public field_lines {
  public:
-  /// Field `i` of the line, which reads as `value`.
-  void count(const field_lines& lines, std::size_t i, double value) {
-    if (is_shortest(lines.field(i), value)) return;
-    if (count_++ > 0) return;
-    first_ = fmt::format("{}:{}: {}", printable(lines.file(), std::string::npos), lines.line(),
-                         rounding_words(lines.field(i), value));
+  using field_lines::field_lines;
+
+  /// Field `i`.
+  double number(std::size_t i, std::string_view what, bool fortran = false) {
+    const double value = real(i, what, fortran);
+    if (!is_shortest(field(i), value) && rounded_++ == 0)
+      first_ = fmt::format("{}:{}: {}", printable(file(), std::string::npos), line(),
+                           rounding_words(field(i), value));
+    return value;
   }
 
-  /// One warning for the file, if there are any.
   void warn(std::vector<std::string>* warnings) const {
-    if (count_ == 0 || warnings == nullptr) return;
-    warnings->push_back(count_ == 1 ? first_
-                                    : fmt::format("{} (the first of {} such numbers)", first_, count_));
+    if (rounded_ == 0 || warnings == nullptr) return;
+    warnings->push_back(rounded_ == 1 ? first_
+                                      : fmt::format("{} (the first of {} such numbers)", first_, rounded_));
   }
 
  private:
-  std::int64_t count_ = 0;
+  std::int64_t rounded_ = 0;
   std::string first_;
 };
 
@@ -88,45 +92,24 @@ void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed
 }
 
 /// The line "row column value", from 1 in the file and from 0 in the answer; `what` the value is.
-read_entry entry_in(const field_lines& lines, int rows, int columns, std::string_view what,
-                    bool fortran = false) {
+read_entry entry_in(number_lines& lines, int rows, int columns, std::string_view what, bool fortran = false) {
   lines.expect(3, "row, column and value");
   return {lines.whole(0, 1, rows, "the row") - 1, lines.whole(1, 1, columns, "the column") - 1,
-          lines.real(2, what, fortran), lines.line(),
+          lines.number(2, what, fortran), lines.line(),
           last_written_digit(lines.field(2)).value_or(sparse_matrix::exact_entry)};
 }
 
 /// The same of a stiffness: in its triangle, and turned into the lower one.
-read_entry parse_entry(const field_lines& lines, int rows, entry_format format) {
-  read_entry e = entry_in(lines, rows, rows, "an entry", format == entry_format::calculix);
-  if (format == entry_format::matrix_market) {
-    if (e.row < e.column)
-      lines.refuse(fmt::format("row {} and column {}, above the diagonal", e.row + 1, e.column + 1),
-                   "the lower triangle, row >= column: what symmetric means in this format");
-    return e;
-  }
-  if (e.row > e.column)
-    lines.refuse(fmt::format("row {} and column {}, below the diagonal", e.row + 1, e.column + 1),
-                 "the upper triangle, row <= column, as CalculiX writes it");
-  std::swap(e.row, e.column);
+read_entry parse_entry(number_lines& lines, int rows, entry_format format) {
+  const bool is_upper = format == entry_format::calculix;
+  read_entry e = entry_in(lines, rows, rows, "an entry", is_upper);
+  if (is_upper ? e.row > e.column : e.row < e.column)
+    lines.refuse(fmt::format("row {} and column {}, {} the diagonal", e.row + 1, e.column + 1,
+                             is_upper ? "below" : "above"),
+                 is_upper ? "the upper triangle, row <= column, as CalculiX writes it"
+                          : "the lower triangle, row >= column: what symmetric means in this format");
+  if (is_upper) std::swap(e.row, e.column);
   return e;
-}
-
-/// By columns, and by rows in each; linear.
-void sort_entries(std::vector<read_entry>& entries, int columns) {
-  std::vector<std::size_t> starts(columns + std::size_t{1}, 0);
-  for (const read_entry& e : entries) ++starts[e.column + 1];
-  for (std::size_t column = 1; column < starts.size(); ++column) starts[column] += starts[column - 1];
-  std::vector<std::size_t> next = starts;
-  std::vector<read_entry> sorted(entries.size());
-  for (const read_entry& e : entries) sorted[next[e.column]++] = e;
-  for (std::size_t column = 0; column + 1 < starts.size(); ++column) {
-    std::sort(sorted.data() + starts[column], sorted.data() + starts[column + 1],
-              [](const read_entry& a, const read_entry& b) {
-                return a.row != b.row ? a.row < b.row : a.line < b.line;
-              });
-  }
-  entries = std::move(sorted);
 }
 
 void refuse_repeated(std::span<const read_entry> entries, std::string_view file) {
@@ -194,13 +177,13 @@ std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries)
   return digits;
 }
 
-/// The matrix, without entries that are 0. Linear in the entries.
+/// The matrix, without entries that are 0. Linear in the entries, but for sorting them.
 sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file) {
   // Before anything of the order's size is allocated: it is only what a line declares.
   if (order > static_cast<std::int64_t>(entries.size()))
     refuse_line(file, 0, fmt::format("{} rows and {} entries", order, entries.size()),
                 "an entry on the diagonal of every row");
-  sort_entries(entries, order);
+  std::ranges::sort(entries, {}, [](const read_entry& e) { return std::tuple(e.column, e.row, e.line); });
   refuse_repeated(entries, file);
   refuse_negative(entries, file);
   refuse_bare(entries, order, file);
@@ -210,15 +193,16 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   return matrix;
 }
 
-/// Call `read` at each line behind the line of the size, which says how many there are.
+/// Call `read`, with the number of the line from 0, at each line behind that of the size, which says how many
+/// there are.
 template <class Read>
 void read_lines(field_lines& lines, int said, std::string_view kind, const Read& read) {
   const std::int64_t size_line = lines.line();
   int count = 0;
-  while (lines.next()) {
-    if (count++ == said)
+  for (; lines.next(); ++count) {
+    if (count == said)
       lines.refuse(fmt::format("more {}", kind), fmt::format("{}, as line {} says", said, size_line));
-    read();
+    read(count);
   }
   if (count < said)
     lines.refuse(fmt::format("the end of the file after {} of {}", count, said),
@@ -240,8 +224,7 @@ void refuse_again(const field_lines& lines, std::string_view what, std::string_v
 /// How many fields stand before a comment.
 std::size_t fields_before_comment(const field_lines& lines) {
   std::size_t count = 0;
-  while (count < lines.fields() && count < field_lines::most_fields && lines.field(count).front() != '#')
-    ++count;
+  while (count < lines.fields() && lines.field(count).front() != '#') ++count;
   return count;
 }
 
@@ -249,7 +232,7 @@ std::size_t fields_before_comment(const field_lines& lines) {
 
 sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
                               std::vector<std::string>* warnings) {
-  field_lines lines(text, file);
+  number_lines lines(text, file);
   (void)read_header(lines, "symmetric", false);
   go_to_size(lines, 3, "rows, columns and the number of entries");
   const int rows = lines.whole(0, 1, most_rows, "the rows");
@@ -257,61 +240,48 @@ sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
   if (rows != columns) lines.refuse(fmt::format("{} rows and {} columns", rows, columns), "a square matrix");
   const int count = lines.whole(2, 1, most_entries, "the number of entries");
   std::vector<read_entry> entries;
-  rounded_numbers rounded;
   // The declared entry count alone is not used to allocate memory.
   entries.reserve(std::min<std::size_t>(count, lines.rest().size() / least_bytes_of_entry + 1));
-  read_lines(lines, count, "entries than that", [&] {
-    entries.push_back(parse_entry(lines, rows, entry_format::matrix_market));
-    rounded.count(lines, 2, entries.back().value);
-  });
-  rounded.warn(warnings);
+  read_lines(lines, count, "entries than that",
+             [&](int) { entries.push_back(parse_entry(lines, rows, entry_format::matrix_market)); });
+  lines.warn(warnings);
   return matrix_of(std::move(entries), rows, file);
 }
 
 sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view file, int rows,
                                        std::vector<std::string>* warnings) {
-  field_lines lines(text, file);
+  number_lines lines(text, file);
   std::vector<read_entry> entries;
-  rounded_numbers rounded;
-  while (lines.next()) {
-    entries.push_back(parse_entry(lines, rows, entry_format::calculix));
-    rounded.count(lines, 2, entries.back().value);
-  }
-  rounded.warn(warnings);
+  while (lines.next()) entries.push_back(parse_entry(lines, rows, entry_format::calculix));
+  lines.warn(warnings);
   return matrix_of(std::move(entries), rows, file);
 }
 
 std::vector<double> parse_vector(std::string_view text, std::string_view file, int rows,
                                  std::vector<std::string>* warnings) {
-  field_lines lines(text, file);
+  number_lines lines(text, file);
   const bool array = read_header(lines, "general", true);
   go_to_size(lines, array ? 2 : 3, array ? "rows and columns" : "rows, columns and the number of entries");
   if (lines.whole(0, 1, most_rows, "the rows") != rows)
     lines.refuse(fmt::format("{} rows", lines.field(0)), fmt::format("{}, as the matrix has", rows));
   (void)lines.whole(1, 1, 1, "the columns");
-  std::vector<double> values;
-  rounded_numbers rounded;
-  if (array) {
-    read_lines(lines, rows, "numbers than rows", [&] {
-      lines.expect(1, "one number a line");
-      values.push_back(lines.real(0, "a load"));
-      rounded.count(lines, 0, values.back());
-    });
-    rounded.warn(warnings);
-    return values;
-  }
-  values.assign(rows, 0.0);
+  const int count = array ? rows : lines.whole(2, 0, rows, "the number of entries");
+  std::vector<double> values(rows, 0.0);
   std::vector<std::int64_t> line_of(rows, 0);
-  read_lines(lines, lines.whole(2, 0, rows, "the number of entries"), "entries than that", [&] {
+  read_lines(lines, count, array ? "numbers than rows" : "entries than that", [&](int row) {
+    if (array) {
+      lines.expect(1, "one number a line");
+      values[row] = lines.number(0, "a load");
+      return;
+    }
     const read_entry e = entry_in(lines, rows, 1, "a load");
     if (line_of[e.row] != 0)
       lines.refuse(fmt::format("row {} again, which line {} has", e.row + 1, line_of[e.row]),
                    "each row once");
     line_of[e.row] = e.line;
     values[e.row] = e.value;
-    rounded.count(lines, 2, e.value);
   });
-  rounded.warn(warnings);
+  lines.warn(warnings);
   return values;
 }
 

@@ -17,9 +17,9 @@ namespace contct::read {
 inline constexpr std::size_t largest_matrix_file = 16384;
 
 /// "%%MatrixMarket matrix coordinate real symmetric": the lower triangle, from 1, each place once. The words
-/// of the header in any case; comments behind it, and blank lines. Linear in the text; the declared entry
-/// count is not used to allocate memory. The matrix has no entries that are 0. Throws input_error for
-/// anything else, a negative diagonal, and a row that has entries but no diagonal.
+/// of the header in any case; comments behind it, and blank lines. Linear in the text, but for sorting; the
+/// declared entry count is not used to allocate memory. The matrix has no entries that are 0. Throws
+/// input_error for anything else, a negative diagonal, and a row that has entries but no diagonal.
 /// `warnings`: one is appended where numbers are not the shortest decimals of their doubles.
 [[nodiscard]] sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
                                             std::vector<std::string>* warnings = nullptr);

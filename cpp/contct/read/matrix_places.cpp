@@ -17,8 +17,16 @@
 namespace contct::read {
 namespace {
 
-/// No file of coordinates or of a mesh may be larger, in MiB: a million nodes take some 50.
-constexpr std::size_t largest_mesh_file = 256;
+constexpr int any_number = std::numeric_limits<int>::max();
+
+/// The direction of a label's last part: x, y, z or 1, 2, 3 are 1 to 3, rx, ry, rz or 4, 5, 6 are 4 to 6, and
+/// r, the turn of a plane structure, is 6; 0 for anything else.
+int direction_of(std::string_view name) {
+  constexpr std::string_view names[] = {"x", "y", "z", "rx", "ry", "rz"};
+  for (int i = 0; i < 6; ++i)
+    if (name == names[i] || name == std::to_string(i + 1)) return i + 1;
+  return name == "r" ? 6 : 0;
+}
 
 /// "185" and 3 of "185.3".
 placed_dof place_of_label(std::string_view label, const std::unordered_map<std::string_view, int>& nodes) {
@@ -30,28 +38,104 @@ placed_dof place_of_label(std::string_view label, const std::unordered_map<std::
 }
 
 void say_what_is_not_drawn(const assembled& a, placed_nodes& places) {
-  std::size_t lost = 0;
-  std::size_t turns = 0;
-  std::string example;
-  for (int dof = 0; dof < a.dofs(); ++dof) {
-    const placed_dof& at = places.dofs[dof];
-    if (at.node >= 0 && !at.is_length()) ++turns;
-    if (at.node < 0 && lost++ == 0) example = a.label_of(dof);
-  }
-  if (lost > 0)
+  const auto lost = std::ranges::count(places.dofs, -1, &placed_dof::node);
+  const auto turns = std::ranges::count_if(
+      places.dofs, [](const placed_dof& at) { return at.node >= 0 && !at.is_length(); });
+  if (lost > 0) {
+    const auto first = std::ranges::find(places.dofs, -1, &placed_dof::node) - places.dofs.begin();
     places.said.push_back(fmt::format(
         "{} of {} dofs have no known node and direction by their labels, as {}, and are not drawn.", lost,
-        a.dofs(), in_quotes(example)));
+        a.dofs(), in_quotes(a.label_of(static_cast<int>(first)))));
+  }
   if (turns > 0)
     places.said.push_back(fmt::format("Rotations, {} of {} dofs, are not drawn.", turns, a.dofs()));
 }
 
-constexpr int any_number = std::numeric_limits<int>::max();
+/// Find each dof's node by its label; of two labels for one place the second has none. False where no label
+/// has a node: nothing is known then.
+bool place_dofs(const assembled& a, placed_nodes& places) {
+  std::unordered_map<std::string_view, int> nodes;
+  for (const placed_node& n : places.nodes) nodes.emplace(n.name, static_cast<int>(nodes.size()));
+  std::vector<std::array<char, 7>> taken(places.nodes.size());
+  for (int dof = 0; dof < a.dofs(); ++dof) {
+    placed_dof at = place_of_label(a.label_of(dof), nodes);
+    if (at.node >= 0 && std::exchange(taken[at.node].at(at.direction), 1) != 0) at = {};
+    places.dofs.push_back(at);
+  }
+  const bool any = std::ranges::any_of(places.dofs, [](const placed_dof& at) { return at.node >= 0; });
+  if (any)
+    say_what_is_not_drawn(a, places);
+  else
+    places = {{}, {}, {}, std::move(places.said)};
+  return any;
+}
+
+/// `pairs` of nodes as edges, each once and with how many there are. Linear but for a sort.
+std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<mesh_edge> edges;
+  for (const auto& [from, to] : pairs) {
+    if (edges.empty() || edges.back().from != from || edges.back().to != to) edges.push_back({from, to, 0});
+    ++edges.back().elements;
+  }
+  return edges;
+}
+
+/// Edges for a structure of which only the matrix is known: between nodes that it couples. None where there
+/// are more than this many for each node, as in a solid or a plate, whose couplings are no members. A space
+/// frame has 3 at most, a plane one 2.
+void add_coupling_edges(const assembled& a, placed_nodes& places) {
+  constexpr std::size_t most_couplings_of_a_node = 3;
+  std::vector<std::pair<int, int>> couples;
+  for (const matrix_entry& e : a.stiffness.entries) {
+    const auto [from, to] = std::minmax({places.dofs[e.row].node, places.dofs[e.column].node});
+    if (e.value != 0.0 && from >= 0 && from != to) couples.emplace_back(from, to);
+  }
+  places.edges = edges_of(std::move(couples));
+  for (mesh_edge& e : places.edges) e.elements = 1;
+  if (places.edges.size() <= most_couplings_of_a_node * places.nodes.size()) return;
+  places.said.push_back(fmt::format(
+      "No edges are drawn, only nodes: the matrix couples {} pairs of its {} nodes, and such couplings are "
+      "drawn where there are at most {} for each node, as in frames.",
+      places.edges.size(), places.nodes.size(), most_couplings_of_a_node));
+  places.edges.clear();
+}
+
+/// Without the nodes that have neither a dof nor an edge.
+void drop_idle_nodes(placed_nodes& places) {
+  std::vector<int> now(places.nodes.size(), -1);
+  for (const placed_dof& d : places.dofs)
+    if (d.node >= 0) now[d.node] = 0;
+  for (const mesh_edge& e : places.edges) now[e.from] = now[e.to] = 0;
+  std::vector<placed_node> kept;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i] < 0) continue;
+    now[i] = static_cast<int>(kept.size());
+    kept.push_back(std::move(places.nodes[i]));
+  }
+  places.nodes = std::move(kept);
+  for (placed_dof& d : places.dofs)
+    if (d.node >= 0) d.node = now[d.node];
+  for (mesh_edge& e : places.edges) e = {now[e.from], now[e.to], e.elements};
+}
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t from = text.find_first_not_of(blanks);
   if (from == std::string_view::npos) return {};
   return text.substr(from, text.find_last_not_of(blanks) - from + 1);
+}
+
+/// The fields between a line's commas; one that is empty at the end does not count.
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) break;
+    line.remove_prefix(comma + 1);
+  }
+  if (fields.size() > 1 && fields.back().empty()) fields.pop_back();
+  return fields;
 }
 
 /// CalculiX ignores case and blanks in a keyword's line.
@@ -63,60 +147,6 @@ std::string without_case_and_blanks(std::string_view text) {
   }
   return plain;
 }
-
-/// The lines of an input file without blank lines and comments: keywords, and the lines of data behind each.
-class inp_lines : public text_lines {
- public:
-  using text_lines::text_lines;
-
-  /// Go to the next keyword, past any data; false where there is none.
-  bool next_keyword() {
-    while (!std::exchange(at_new_keyword_, false)) {
-      if (!next()) return false;
-      at_new_keyword_ = data_.front() == '*';
-    }
-    return true;
-  }
-
-  /// Go to the next line of data of this keyword; false where there is none.
-  bool next_data() {
-    if (at_new_keyword_ || !next()) return false;
-    at_new_keyword_ = data_.front() == '*';
-    return !at_new_keyword_;
-  }
-
-  /// The line without the blanks around it.
-  [[nodiscard]] std::string_view data() const { return data_; }
-
-  /// The fields between the line's commas; one that is empty at the end does not count.
-  [[nodiscard]] const std::vector<std::string_view>& fields() {
-    fields_.clear();
-    std::string_view left = data_;
-    for (;;) {
-      const std::size_t comma = left.find(',');
-      fields_.push_back(trimmed(left.substr(0, comma)));
-      if (comma == std::string_view::npos) break;
-      left.remove_prefix(comma + 1);
-    }
-    if (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
-    return fields_;
-  }
-
- private:
-  bool next() {
-    do {
-      if (!text_lines::next()) return false;
-      data_ = trimmed(here());
-      if (data_.find('\0') != std::string_view::npos) refuse("a byte of 0", "text: is it a binary file?");
-    } while (data_.empty() || data_.starts_with("**"));
-    if (data_.front() != '*') refuse_unended();
-    return true;
-  }
-
-  std::string_view data_;
-  bool at_new_keyword_ = false;
-  std::vector<std::string_view> fields_;
-};
 
 /// The edges of a solid between its corners, from 0. Midside nodes, if any, follow the corners in the order
 /// of the edges.
@@ -153,258 +183,178 @@ struct solid_block {
   const solid* type;
   std::vector<int> nodes;           // the numbers, of one element after the other
   std::vector<std::int64_t> lines;  // where each element begins
+
+  [[nodiscard]] bool has_whole_elements() const { return nodes.size() % type->nodes() == 0; }
 };
 
-/// Nodes in the order of the file, and their indices by number.
-struct node_list {
-  std::vector<placed_node> nodes;
-  std::unordered_map<int, int> index;
-};
+/// Reads an input file line by line. Nodes may stand behind the elements that name them.
+class inp_reader {
+ public:
+  inp_reader(std::string_view text, std::string_view file) : lines_(text, file) {}
 
-void read_nodes(inp_lines& lines, node_list& list) {
-  while (lines.next_data()) {
-    const std::vector<std::string_view>& fields = lines.fields();
-    const int number = lines.whole(fields[0], 1, any_number, "the node's number");
-    if (fields.size() < 2) lines.refuse(field_words(lines.data(), "a line"), "number, x, y, z");
+  /// The nodes and edges, and what is left out.
+  placed_nodes read() {
+    while (next_line()) {
+      if (line_.front() == '*') {
+        end_block();
+        begin_block();
+      } else if (holds_ == data::nodes) {
+        read_node();
+      } else if (holds_ == data::solids) {
+        read_solid(solids_.back());
+      } else if (holds_ == data::others) {
+        if (!std::exchange(continues_, line_.back() == ',')) ++others_[type_];
+      }
+    }
+    end_block();
+    return {std::move(nodes_), edges_of(sides_of_all()), {}, left_out()};
+  }
+
+ private:
+  enum class data { ignored, nodes, solids, others };
+
+  /// To the next line that is neither blank nor a comment.
+  bool next_line() {
+    do {
+      if (!lines_.next()) return false;
+      line_ = trimmed(lines_.here());
+      if (line_.find('\0') != std::string_view::npos)
+        lines_.refuse("a byte of 0", "text: is it a binary file?");
+    } while (line_.empty() || line_.starts_with("**"));
+    if (line_.front() != '*') lines_.refuse_unended();
+    return true;
+  }
+
+  void begin_block() {
+    const std::string line = without_case_and_blanks(line_);
+    const std::string keyword = line.substr(0, line.find(','));
+    includes_ = includes_ || keyword == "*INCLUDE";
+    holds_ = keyword == "*NODE" ? data::nodes : data::ignored;
+    if (keyword != "*ELEMENT") return;
+    const std::string parameter = ",TYPE=";
+    const std::size_t at = line.find(parameter);
+    const std::size_t from = at + parameter.size();
+    type_ = at == std::string::npos ? "" : line.substr(from, line.find(',', from) - from);
+    if (type_.empty()) lines_.refuse("*ELEMENT without TYPE", "*ELEMENT, TYPE=..., as C3D8");
+    const solid* const known = solid_of(type_);
+    holds_ = known != nullptr ? data::solids : data::others;
+    if (known != nullptr) solids_.push_back({known, {}, {}});
+    continues_ = false;
+  }
+
+  void read_node() {
+    const std::vector<std::string_view> fields = fields_of(line_);
+    const int number = lines_.whole(fields[0], 1, any_number, "the node's number");
+    if (fields.size() < 2) lines_.refuse(field_words(line_, "a line"), "number, x, y, z");
     placed_node node{std::to_string(number), {}};
     // As CalculiX has it: a coordinate that is left out is 0.
     for (std::size_t i = 0; i < 3 && i + 1 < fields.size(); ++i)
-      node.at[i] = fields[i + 1].empty() ? 0.0 : lines.real(fields[i + 1], "a coordinate", true);
-    const auto [before, is_new] = list.index.try_emplace(number, static_cast<int>(list.nodes.size()));
-    if (is_new) {
-      list.nodes.push_back(std::move(node));
-    } else if (list.nodes[before->second].at != node.at) {
-      lines.refuse(fmt::format("node {} again, at another place", number), "each node at one place");
-    }
+      node.at[i] = fields[i + 1].empty() ? 0.0 : lines_.real(fields[i + 1], "a coordinate", true);
+    const auto [before, is_new] = index_.try_emplace(number, static_cast<int>(nodes_.size()));
+    if (is_new)
+      nodes_.push_back(std::move(node));
+    else if (nodes_[before->second].at != node.at)
+      lines_.refuse(fmt::format("node {} again, at another place", number), "each node at one place");
   }
-}
 
-/// An element's nodes may stand on several lines; its type says how many there are.
-solid_block read_solids(inp_lines& lines, const solid& type) {
-  solid_block block{&type, {}, {}};
-  const auto whole_elements = [&] { return block.nodes.size() % type.nodes() == 0; };
-  while (lines.next_data()) {
-    const std::vector<std::string_view>& fields = lines.fields();
-    const std::size_t first = whole_elements() ? 1 : 0;
+  /// An element's nodes may stand on several lines; its type says how many there are.
+  void read_solid(solid_block& block) {
+    const std::vector<std::string_view> fields = fields_of(line_);
+    const std::size_t first = block.has_whole_elements() ? 1 : 0;
     if (first == 1) {
-      (void)lines.whole(fields[0], 1, any_number, "the element's number");
-      block.lines.resize(block.nodes.size() / type.nodes());
-      block.lines.push_back(lines.line());
+      (void)lines_.whole(fields[0], 1, any_number, "the element's number");
+      block.lines.resize(block.nodes.size() / block.type->nodes());
+      block.lines.push_back(lines_.line());
     }
     for (std::size_t i = first; i < fields.size(); ++i) {
-      if (i > first && whole_elements())
-        lines.refuse(field_words(lines.data(), "a line"),
-                     fmt::format("{} nodes for an element of type {}", type.nodes(), type.type));
-      block.nodes.push_back(lines.whole(fields[i], 1, any_number, "a node's number"));
+      if (i > first && block.has_whole_elements())
+        lines_.refuse(field_words(line_, "a line"), fmt::format("{} nodes for an element of type {}",
+                                                                block.type->nodes(), block.type->type));
+      block.nodes.push_back(lines_.whole(fields[i], 1, any_number, "a node's number"));
     }
   }
-  if (!whole_elements())
-    refuse_line(lines.file(), block.lines.back(),
-                fmt::format("an element with {} nodes", block.nodes.size() % type.nodes()),
+
+  void end_block() const {
+    if (holds_ != data::solids || solids_.back().has_whole_elements()) return;
+    const solid& type = *solids_.back().type;
+    refuse_line(lines_.file(), solids_.back().lines.back(),
+                fmt::format("an element with {} nodes", solids_.back().nodes.size() % type.nodes()),
                 fmt::format("{} nodes for type {}", type.nodes(), type.type));
-  return block;
-}
-
-/// Of other types only this is known: a comma at a line's end continues it.
-int count_elements(inp_lines& lines) {
-  int count = 0;
-  bool continues = false;
-  while (lines.next_data()) {
-    if (!continues) ++count;
-    continues = lines.data().back() == ',';
   }
-  return count;
-}
 
-/// The TYPE of an *ELEMENT line without case and blanks.
-std::string type_in(const inp_lines& lines, const std::string& keyword_line) {
-  const std::string parameter = ",TYPE=";
-  const std::size_t at = keyword_line.find(parameter);
-  const std::size_t from = at + parameter.size();
-  std::string type =
-      at == std::string::npos ? "" : keyword_line.substr(from, keyword_line.find(',', from) - from);
-  if (type.empty()) lines.refuse("*ELEMENT without TYPE", "*ELEMENT, TYPE=..., as C3D8");
-  return type;
-}
-
-/// What an input file holds. Nodes may stand behind the elements that name them.
-struct inp_contents {
-  node_list nodes;
-  std::vector<solid_block> solids;
-  std::map<std::string, int> other_elements;  // how many of each type whose edges are not known
-  bool includes = false;
-};
-
-inp_contents read_contents(inp_lines& lines) {
-  inp_contents all;
-  while (lines.next_keyword()) {
-    const std::string line = without_case_and_blanks(lines.data());
-    const std::string keyword = line.substr(0, line.find(','));
-    if (keyword == "*INCLUDE") all.includes = true;
-    if (keyword == "*NODE") read_nodes(lines, all.nodes);
-    if (keyword != "*ELEMENT") continue;
-    const std::string type = type_in(lines, line);
-    if (const solid* const known = solid_of(type)) {
-      all.solids.push_back(read_solids(lines, *known));
-    } else if (const int count = count_elements(lines); count > 0) {
-      all.other_elements[type] += count;
-    }
+  /// The index of the i-th node of element `e` of the block.
+  [[nodiscard]] int index_in(const solid_block& block, std::size_t e, std::size_t i) const {
+    const int number = block.nodes[e * block.type->nodes() + i];
+    const auto at = index_.find(number);
+    if (at == index_.end())
+      refuse_line(
+          lines_.file(), block.lines[e], fmt::format("node {} in an element", number),
+          includes_ ? "nodes that *NODE has in this file: *INCLUDE is not followed" : "nodes that *NODE has");
+    return at->second;
   }
-  return all;
-}
 
-/// Each edge once, with the number of elements that have it. Linear but for a sort.
-std::vector<mesh_edge> edges_of(const inp_contents& all, const std::string& file) {
-  std::vector<std::pair<int, int>> pairs;
-  const auto append = [&pairs](int from, int to) {
-    if (from != to) pairs.emplace_back(std::min(from, to), std::max(from, to));
-  };
-  for (const solid_block& block : all.solids) {
-    const solid& type = *block.type;
-    for (std::size_t e = 0; e * type.nodes() < block.nodes.size(); ++e) {
-      const auto index = [&](std::size_t i) {
-        const int number = block.nodes[e * type.nodes() + i];
-        const auto at = all.nodes.index.find(number);
-        if (at == all.nodes.index.end())
-          refuse_line(file, block.lines[e], fmt::format("node {} in an element", number),
-                      all.includes ? "nodes that *NODE has in this file: *INCLUDE is not followed"
-                                   : "nodes that *NODE has");
-        return at->second;
-      };
-      for (std::size_t k = 0; k < type.edges.size(); ++k) {
-        const int from = index(type.edges[k].first);
-        const int to = index(type.edges[k].second);
-        const int middle = type.midside_nodes ? index(type.corners + k) : to;
-        append(from, middle);
-        append(middle, to);
+  /// From node to node along the edges of all solids.
+  [[nodiscard]] std::vector<std::pair<int, int>> sides_of_all() const {
+    std::vector<std::pair<int, int>> sides;
+    const auto append = [&sides](int from, int to) {
+      if (from != to) sides.emplace_back(std::min(from, to), std::max(from, to));
+    };
+    for (const solid_block& block : solids_) {
+      const solid& type = *block.type;
+      for (std::size_t e = 0; e * type.nodes() < block.nodes.size(); ++e) {
+        for (std::size_t k = 0; k < type.edges.size(); ++k) {
+          const int from = index_in(block, e, type.edges[k].first);
+          const int to = index_in(block, e, type.edges[k].second);
+          const int middle = type.midside_nodes ? index_in(block, e, type.corners + k) : to;
+          append(from, middle);
+          append(middle, to);
+        }
       }
     }
+    return sides;
   }
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<mesh_edge> edges;
-  for (const auto& [from, to] : pairs) {
-    if (edges.empty() || edges.back().from != from || edges.back().to != to) edges.push_back({from, to, 0});
-    ++edges.back().elements;
-  }
-  return edges;
-}
 
-std::vector<std::string> what_is_left_out(const inp_contents& all, const std::string& file) {
-  std::vector<std::string> said;
-  if (all.includes)
-    said.push_back(fmt::format("*INCLUDE in {} is not followed: what such files hold is not drawn.", file));
-  std::string types;
-  for (const auto& [type, number] : all.other_elements)
-    types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", number, in_quotes(type));
-  if (!types.empty())
-    said.push_back(fmt::format("Of {}, elements whose edges are not known are not drawn: {}.", file, types));
-  return said;
-}
+  [[nodiscard]] std::vector<std::string> left_out() const {
+    std::vector<std::string> said;
+    if (includes_)
+      said.push_back(
+          fmt::format("*INCLUDE in {} is not followed: what such files hold is not drawn.", lines_.file()));
+    std::string types;
+    for (const auto& [type, count] : others_)
+      types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", count, in_quotes(type));
+    if (!types.empty())
+      said.push_back(
+          fmt::format("Of {}, elements whose edges are not known are not drawn: {}.", lines_.file(), types));
+    return said;
+  }
+
+  text_lines lines_;
+  std::string_view line_;  // without the blanks around it
+  data holds_ = data::ignored;
+  std::string type_;        // of the elements
+  bool continues_ = false;  // the line before, of an element of another type: it ends with a comma
+  std::vector<placed_node> nodes_;
+  std::unordered_map<int, int> index_;  // of nodes, by number
+  std::vector<solid_block> solids_;
+  std::map<std::string, int> others_;  // how many of each type whose edges are not known
+  bool includes_ = false;
+};
 
 }  // namespace
 
-int direction_of(std::string_view name) {
-  constexpr std::string_view names[] = {"x", "y", "z", "rx", "ry", "rz"};
-  constexpr std::string_view numbers[] = {"1", "2", "3", "4", "5", "6"};
-  for (int i = 0; i < 6; ++i)
-    if (name == names[i] || name == numbers[i]) return i + 1;
-  return name == "r" ? 6 : 0;
-}
-
-bool place_dofs(const assembled& a, placed_nodes& places) {
-  std::unordered_map<std::string_view, int> nodes;
-  for (const placed_node& n : places.nodes) nodes.emplace(n.name, static_cast<int>(nodes.size()));
-  std::vector<std::array<char, 7>> taken(places.nodes.size());
-  bool any = false;
-  places.dofs.clear();
-  for (int dof = 0; dof < a.dofs(); ++dof) {
-    placed_dof at = place_of_label(a.label_of(dof), nodes);
-    if (at.node >= 0) {
-      char& mark = taken[at.node].at(at.direction);
-      if (std::exchange(mark, 1) != 0) at = {};
-    }
-    any = any || at.node >= 0;
-    places.dofs.push_back(at);
-  }
-  if (any) {
-    say_what_is_not_drawn(a, places);
-  } else {
-    places = {{}, {}, {}, std::move(places.said)};
-  }
-  return any;
-}
-
-/// The pairs of nodes that entries couple, each once, ascending.
-std::vector<std::pair<int, int>> couples_of(const std::vector<matrix_entry>& entries,
-                                            const placed_nodes& places) {
-  std::vector<std::pair<int, int>> couples;
-  for (const matrix_entry& e : entries) {
-    const int one = places.dofs[e.row].node;
-    const int other = places.dofs[e.column].node;
-    if (e.value == 0.0 || one < 0 || other < 0 || one == other) continue;
-    couples.emplace_back(std::min(one, other), std::max(one, other));
-  }
-  std::sort(couples.begin(), couples.end());
-  couples.erase(std::unique(couples.begin(), couples.end()), couples.end());
-  return couples;
-}
-
-void add_coupling_edges(const assembled& a, placed_nodes& places) {
-  const std::vector<std::pair<int, int>> couples = couples_of(a.stiffness.entries, places);
-  if (couples.size() > most_couplings_of_a_node * places.nodes.size()) {
-    places.said.push_back(fmt::format(
-        "No edges are drawn, only nodes: the matrix couples {} pairs of its {} nodes, and such couplings are "
-        "drawn where there are at most {} for each node, as in frames.",
-        couples.size(), places.nodes.size(), most_couplings_of_a_node));
-    return;
-  }
-  for (const auto& [from, to] : couples) places.edges.push_back({from, to, 1});
-}
-
-void drop_idle_nodes(placed_nodes& places) {
-  std::vector<int> now(places.nodes.size(), -1);
-  for (const placed_dof& d : places.dofs)
-    if (d.node >= 0) now[d.node] = 0;
-  for (const mesh_edge& e : places.edges) now[e.from] = now[e.to] = 0;
-  std::vector<placed_node> kept;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i] < 0) continue;
-    now[i] = static_cast<int>(kept.size());
-    kept.push_back(std::move(places.nodes[i]));
-  }
-  places.nodes = std::move(kept);
-  for (placed_dof& d : places.dofs)
-    if (d.node >= 0) d.node = now[d.node];
-  for (mesh_edge& e : places.edges) {
-    e.from = now[e.from];
-    e.to = now[e.to];
-  }
-}
-
-placed_nodes parse_inp_mesh(std::string_view text, std::string_view file) {
-  inp_lines lines(text, file);
-  inp_contents all = read_contents(lines);
-  placed_nodes mesh;
-  mesh.edges = edges_of(all, lines.file());
-  mesh.said = what_is_left_out(all, lines.file());
-  mesh.nodes = std::move(all.nodes.nodes);
-  return mesh;
-}
-
-placed_nodes places_from_coordinates(const std::string& path, const assembled& a) {
+placed_nodes places_by_coordinates(std::string_view text, std::string_view file, const assembled& a) {
   placed_nodes places;
-  places.nodes = parse_coordinates(read_input(path, "file of coordinates", largest_mesh_file), path);
+  places.nodes = parse_coordinates(text, file);
   if (place_dofs(a, places)) add_coupling_edges(a, places);
   return places;
 }
 
-placed_nodes places_from_inp(const std::string& path, const assembled& a) {
-  placed_nodes places = parse_inp_mesh(read_input(path, "input file of CalculiX", largest_mesh_file), path);
-  if (place_dofs(a, places)) {
+placed_nodes places_by_mesh(std::string_view text, std::string_view file, const assembled& a) {
+  placed_nodes places = inp_reader(text, file).read();
+  if (place_dofs(a, places))
     drop_idle_nodes(places);
-  } else {
-    places.said.push_back(fmt::format("{} has no node of any label, as {}.", path, in_quotes(a.label_of(0))));
-  }
+  else
+    places.said.push_back(fmt::format("{} has no node of any label, as {}.", file, in_quotes(a.label_of(0))));
   return places;
 }
 

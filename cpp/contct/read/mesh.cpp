@@ -16,21 +16,19 @@ double rounding_of(std::span<const double> among) {
 }
 
 /// Every x that the document names outside the beam's own x.
-std::vector<double> named_coordinates(const table_reader& beam, const table_reader& top) {
+std::vector<double> named_coordinates(const toml_value& beam, const toml_value& top) {
   std::vector<double> named;
-  const auto take = [&named](const table_reader& t, const char* key) {
+  const auto take = [&named](const toml_value& t, const char* key) {
     if (!t.has(key)) return;
-    const auto entries = t.each_of(key, any_real.words);
-    for (std::size_t i = 0; i < entries.size(); ++i)
-      named.push_back(t.real_of(*entries[i], t.name_of(key, i), any_real));
+    for (const toml_value& x : t[key].each(any_real.words)) named.push_back(x.real(any_real));
   };
   for (const char* key : {"support", "contact", "bed"})
-    for (const table_reader& t : top.optional_tables(key)) take(t, "x");
-  for (const table_reader& step : top.optional_tables("step"))
+    for (const toml_value& t : top[key].optional_tables()) take(t, "x");
+  for (const toml_value& step : top["step"].optional_tables())
     for (const char* key : {"point", "settlement"})
-      for (const table_reader& t : step.optional_tables(key)) take(t, "x");
+      for (const toml_value& t : step[key].optional_tables()) take(t, "x");
   if (has_pieces(beam))
-    for (const table_reader& piece : beam.tables("EI")) take(piece, "to");
+    for (const toml_value& piece : beam["EI"].tables()) take(piece, "to");
   return named;
 }
 
@@ -57,9 +55,11 @@ double as_written(double x, double same) {
 
 }  // namespace
 
-bool has_pieces(const table_reader& beam) {
-  const toml::array* const EI = beam.has("EI") ? beam.required("EI", "").as_array() : nullptr;
-  return EI != nullptr && !EI->empty() && EI->front().is_table();
+bool has_pieces(const toml_value& beam) {
+  const toml_value EI = beam["EI"];
+  if (!EI.is_array()) return false;
+  const toml::array& pieces = *EI.required("").as_array();
+  return !pieces.empty() && pieces.front().is_table();
 }
 
 std::optional<int> find_coordinate(std::span<const double> among, double x) {
@@ -70,19 +70,19 @@ std::optional<int> find_coordinate(std::span<const double> among, double x) {
   return static_cast<int>(nearest);
 }
 
-int coordinate_row::index_of(const table_reader& t, const toml::node& entry, std::string_view name) const {
-  const double x = t.real_of(entry, name, any_real);
+int coordinate_row::index_of(const toml_value& named) const {
+  const double x = named.real(any_real);
   if (const auto found = find_coordinate(values, x)) return *found;
   if (x < values.front() || x > values.back())
-    t.refuse(entry, name, fmt::format("{}, which is outside the structure", x),
-             fmt::format("a number from {} to {}", values.front(), values.back()));
+    named.refuse(fmt::format("{}, which is outside the structure", x),
+                 fmt::format("a number from {} to {}", values.front(), values.back()));
   const std::ptrdiff_t right = std::ranges::lower_bound(values, x) - values.begin();
-  const auto named = [this](std::ptrdiff_t i) {
+  const auto words = [this](std::ptrdiff_t i) {
     return fmt::format("{:.12g}", values[i]) + (what == "node" ? fmt::format(" (node {})", i + 1) : "");
   };
-  t.refuse(entry, name, fmt::format("{}, where there is no {}", x, what),
-           fmt::format("the coordinate of a {}; the nearest are {} and {}; {}", what, named(right - 1),
-                       named(right), remedy));
+  named.refuse(fmt::format("{}, where there is no {}", x, what),
+               fmt::format("the coordinate of a {}; the nearest are {} and {}; {}", what, words(right - 1),
+                           words(right), remedy));
 }
 
 mesh_line even_line(double length, int elements) {
@@ -92,9 +92,10 @@ mesh_line even_line(double length, int elements) {
   return line;
 }
 
-mesh_line sized_mesh(const table_reader& t, const table_reader& top, const std::vector<double>& ends) {
-  const double size = t.real("element_size", positive_real);
-  const std::vector<double> corners = corners_of_mesh(ends, named_coordinates(t, top));
+mesh_line sized_mesh(const toml_value& beam, const toml_value& top, const std::vector<double>& ends) {
+  const toml_value element_size = beam["element_size"];
+  const double size = element_size.real(positive_real);
+  const std::vector<double> corners = corners_of_mesh(ends, named_coordinates(beam, top));
   // The quotient of a length of 0.9 and a size of 0.3 is rounded to more than 3.
   const auto elements_between = [&](std::size_t i) {
     return std::max(1.0, std::ceil((corners[i] - corners[i - 1]) / size - 1e-9));
@@ -102,8 +103,8 @@ mesh_line sized_mesh(const table_reader& t, const table_reader& top, const std::
   double elements = 0.0;
   for (std::size_t i = 1; i < corners.size(); ++i) elements += elements_between(i);
   if (elements > most_elements)
-    t.refuse_key("element_size", fmt::format("{:g}, which makes {:.10g} elements", size, elements),
-                 fmt::format("a length that makes at most {} elements", most_elements));
+    element_size.refuse(fmt::format("{:g}, which makes {:.10g} elements", size, elements),
+                        fmt::format("a length that makes at most {} elements", most_elements));
   const double same = rounding_of(ends);
   mesh_line line{{corners.front()}, {}};
   for (std::size_t i = 1; i < corners.size(); ++i) {

@@ -26,8 +26,8 @@ struct coordinate_row {
   std::string_view what;           ///< "node" or "grid line"
   std::string_view remedy;         ///< what makes another coordinate one of these
 
-  /// The number, from 0, of the coordinate that `entry` names. Refuses any other number with the two nearest.
-  [[nodiscard]] int index_of(const table_reader& t, const toml::node& entry, std::string_view name) const;
+  /// The number, from 0, of the coordinate that `named` is. Refuses any other number with the two nearest.
+  [[nodiscard]] int index_of(const toml_value& named) const;
 };
 
 /// The nodes of a beam.
@@ -36,7 +36,7 @@ struct coordinate_row {
 }
 
 /// Is EI in the beam's table a list of pieces, each up to the x that it names?
-[[nodiscard]] bool has_pieces(const table_reader& beam);
+[[nodiscard]] bool has_pieces(const toml_value& beam);
 
 /// Coordinates, and what they are made of.
 struct mesh_line {
@@ -47,10 +47,10 @@ struct mesh_line {
 /// A line from 0 to `length`, in so many equal parts.
 [[nodiscard]] mesh_line even_line(double length, int elements);
 
-/// The nodes of a beam with `element_size` in its table `t`: at the coordinates `ends`, which rise, and at
+/// The nodes of a beam with `element_size` in its table: at the coordinates `ends`, which rise, and at
 /// every x that a table of the document `top` names between them, and elements of equal length between each
 /// two of these, none longer than that.
-[[nodiscard]] mesh_line sized_mesh(const table_reader& t, const table_reader& top,
+[[nodiscard]] mesh_line sized_mesh(const toml_value& beam, const toml_value& top,
                                    const std::vector<double>& ends);
 
 }  // namespace contct::read

@@ -20,47 +20,48 @@ namespace {
 
 // Two bands of this size are held: 8 GB together.
 constexpr std::int64_t most_band_entries = 500'000'000;
+/// No file of coordinates or of a mesh may be larger, in MiB: a million nodes take some 50.
+constexpr std::size_t largest_mesh_file = 256;
 constexpr real_range poisson{-1.0, false, "a number greater than -1 and at most 0.5", 0.5};
 
 /// The increasing coordinates of `what`.
-std::vector<double> read_coordinates(const table_reader& t, const char* key, const char* what) {
-  std::vector<double> x = t.reals(key, any_real, 2);
+std::vector<double> read_coordinates(const toml_value& t, const char* key, const char* what) {
+  std::vector<double> x = t[key].reals(any_real, 2);
   for (std::size_t i = 1; i < x.size(); ++i) {
     if (x[i] > x[i - 1]) continue;
-    const toml::node& entry = *t.array(key, "", 2).get(i);
-    t.refuse(entry, indexed(key, i), found_words(entry),
-             fmt::format("more than the {} before it, {}", what, x[i - 1]));
+    t[key].entries("", 2)[i].refuse(fmt::format("more than the {} before it, {}", what, x[i - 1]));
   }
   return x;
 }
 
 /// EI piece by piece, each from the end of the one before it to the node at its own.
-void read_pieces(const table_reader& t, beam& b) {
+void read_pieces(const toml_value& t, beam& b) {
   int end = 0;
-  for (const table_reader& piece : t.tables("EI")) {
+  for (const toml_value& piece : t["EI"].tables()) {
     piece.allow_only({"to", "value"});
-    const toml::node& to = piece.required("to", "the coordinate at which this piece ends");
-    const int next = nodes_along(b.x).index_of(piece, to, "to");
-    if (next <= end) piece.refuse_key("to", fmt::format("more than {}, where this piece begins", b.x[end]));
-    b.EI.insert(b.EI.end(), next - end, piece.real("value", positive_real));
+    const toml_value to = piece["to"];
+    (void)to.required("the coordinate at which this piece ends");
+    const int next = nodes_along(b.x).index_of(to);
+    if (next <= end) to.refuse(fmt::format("more than {}, where this piece begins", b.x[end]));
+    b.EI.insert(b.EI.end(), next - end, piece["value"].real(positive_real));
     end = next;
   }
   if (end < b.elements())
-    t.refuse_key("EI", fmt::format("pieces that end at {}", b.x[end]),
-                 fmt::format("a last piece to {}, where the beam ends", b.x.back()));
+    t["EI"].refuse(fmt::format("pieces that end at {}", b.x[end]),
+                   fmt::format("a last piece to {}, where the beam ends", b.x.back()));
 }
 
-void read_stiffness(const table_reader& t, beam& b) {
+void read_stiffness(const toml_value& t, beam& b) {
   if (has_pieces(t)) return read_pieces(t, b);
   const std::size_t elements = b.elements();
-  if (t.has("element_size") && t.has("EI") && t.required("EI", "").is_array())
-    t.refuse_key("EI", "one number, or pieces { to = .., value = .. }: element_size sets the elements");
-  b.EI = t.reals_for("EI", positive_real, elements, "element");
+  if (t.has("element_size") && t["EI"].is_array())
+    t["EI"].refuse("one number, or pieces { to = .., value = .. }: element_size sets the elements");
+  b.EI = t["EI"].reals_for(positive_real, elements, "element");
   b.EI.resize(elements, b.EI.front());
 }
 
 /// Finite numbers can still make a stiffness that is not.
-void check_elements(const table_reader& t, const beam& b) {
+void check_elements(const toml_value& t, const beam& b) {
   for (int e = 0; e < b.elements(); ++e) {
     const double h = b.length_of(e);
     const double EI = b.EI[e];
@@ -75,21 +76,21 @@ void check_elements(const table_reader& t, const beam& b) {
 }
 
 /// With element_size, the coordinates that the table gives are some of the nodes'.
-mesh_line read_nodes(const table_reader& t, const table_reader& top) {
+mesh_line read_nodes(const toml_value& t, const toml_value& top) {
   if (t.has("x")) t.refuse_beside({"length", "elements"}, "x", "either x, or length and elements");
   if (t.has("element_size")) t.refuse_beside({"elements"}, "element_size", "either elements or element_size");
   if (!t.has("x") && !t.has("element_size")) {
-    const double length = t.real("length", positive_real);
-    (void)t.required("elements", fmt::format("a whole number from 1 to {}, or element_size", most_elements));
-    return even_line(length, t.integer("elements", 1, most_elements));
+    const double length = t["length"].real(positive_real);
+    (void)t["elements"].required(fmt::format("a whole number from 1 to {}, or element_size", most_elements));
+    return even_line(length, t["elements"].integer(1, most_elements));
   }
   std::vector<double> given = t.has("x") ? read_coordinates(t, "x", "node")
-                                         : std::vector<double>{0.0, t.real("length", positive_real)};
+                                         : std::vector<double>{0.0, t["length"].real(positive_real)};
   if (t.has("element_size")) return sized_mesh(t, top, given);
   return {std::move(given), {}};
 }
 
-beam read_beam(const table_reader& t, const table_reader& top) {
+beam read_beam(const toml_value& t, const toml_value& top) {
   t.allow_only({"x", "length", "elements", "element_size", "EI"});
   beam b;
   mesh_line line = read_nodes(t, top);
@@ -101,7 +102,7 @@ beam read_beam(const table_reader& t, const table_reader& top) {
 }
 
 /// Refuse a grid that no machine could solve, before anything of its size is allocated.
-void check_size(const table_reader& t, std::int64_t along_x, std::int64_t along_y) {
+void check_size(const toml_value& t, std::int64_t along_x, std::int64_t along_y) {
   constexpr double gigabyte = 1e9 / sizeof(double);
   const std::int64_t shorter = std::min(along_x, along_y);
   const std::int64_t longer = std::max(along_x, along_y);
@@ -116,15 +117,15 @@ void check_size(const table_reader& t, std::int64_t along_x, std::int64_t along_
                          static_cast<double>(most_band_entries) / gigabyte));
 }
 
-std::vector<int> read_counts(const table_reader& t) {
+std::vector<int> read_counts(const toml_value& t) {
   const char* const allowed = "two whole numbers: elements along x, along y";
   std::vector<int> counts;
-  for (const toml::node& count : t.array("elements", allowed, 2, 2))
-    counts.push_back(t.integer_of(count, indexed("elements", counts.size()), 1, most_elements));
+  for (const toml_value& count : t["elements"].entries(allowed, 2, 2))
+    counts.push_back(count.integer(1, most_elements));
   return counts;
 }
 
-void read_grid(const table_reader& t, plate& p) {
+void read_grid(const toml_value& t, plate& p) {
   if (t.has("x") || t.has("y")) {
     t.refuse_beside({"size", "elements"}, "x or y", "either x and y, or size and elements");
     p.x = read_coordinates(t, "x", "line");
@@ -132,8 +133,8 @@ void read_grid(const table_reader& t, plate& p) {
     check_size(t, p.x.size() - 1, p.y.size() - 1);
     return;
   }
-  const std::vector<double> size = t.reals("size", positive_real, 2);
-  if (size.size() != 2) t.refuse_key("size", "two numbers: along x, along y");
+  const std::vector<double> size = t["size"].reals(positive_real, 2);
+  if (size.size() != 2) t["size"].refuse("two numbers: along x, along y");
   const std::vector<int> counts = read_counts(t);
   check_size(t, counts[0], counts[1]);
   mesh_line along_x = even_line(size[0], counts[0]);
@@ -144,15 +145,15 @@ void read_grid(const table_reader& t, plate& p) {
   p.y_runs = std::move(along_y.runs);
 }
 
-void read_material(const table_reader& t, plate& p) {
-  p.nu = t.real("nu", poisson);
+void read_material(const toml_value& t, plate& p) {
+  p.nu = t["nu"].real(poisson);
   if (t.has("D")) {
     t.refuse_beside({"E", "thickness"}, "D", "either D, or E and thickness");
-    p.D = t.real("D", positive_real);
+    p.D = t["D"].real(positive_real);
     return;
   }
-  p.E = t.real("E", positive_real);
-  p.thickness = t.real("thickness", positive_real);
+  p.E = t["E"].real(positive_real);
+  p.thickness = t["thickness"].real(positive_real);
   p.D = bending_stiffness(p.E, p.nu, p.thickness);
   if (!std::isnormal(p.D))
     t.refuse(fmt::format("E, nu and thickness that make D = {:g}", p.D),
@@ -160,7 +161,7 @@ void read_material(const table_reader& t, plate& p) {
 }
 
 /// The same for plates: D b / a^3 along x and y, with the moments and twists that go with it.
-void check_elements(const table_reader& t, const plate& p) {
+void check_elements(const toml_value& t, const plate& p) {
   const auto sound = [&](double a, double b) {
     const double along = p.D * b / a / a / a;
     return std::isnormal(a) && std::isnormal(along) && std::isfinite(1000 * along) &&
@@ -176,22 +177,13 @@ void check_elements(const table_reader& t, const plate& p) {
   }
 }
 
-plate read_plate(const table_reader& t) {
+plate read_plate(const toml_value& t) {
   t.allow_only({"x", "y", "size", "elements", "E", "nu", "thickness", "D"});
   plate p;
   read_grid(t, p);
   read_material(t, p);
   check_elements(t, p);
   return p;
-}
-
-/// What a run takes beyond what there may be, and what to do about it.
-[[noreturn]] void refuse_too_large(const table_reader& t, const assembled& a, const std::string& takes,
-                                   const std::string& remedy) {
-  t.refuse(fmt::format("{} dofs with {}", a.dofs(), takes),
-           fmt::format("{} (CONTCT_MEMORY_MIB in the environment sets another limit); {}condense the matrix "
-                       "onto the dofs that have pairs and loads, or use a coarser model",
-                       bytes_words(memory_limit()), remedy));
 }
 
 /// Bytes that a run holds at its largest, K as it is stored: the structure's, an engine's and the reference
@@ -206,36 +198,42 @@ std::int64_t bytes_of_run(const assembled& a) {
 }
 
 /// "band", "sparse", or nothing where the table does not say.
-std::string read_storage(const table_reader& t) {
+std::string read_storage(const toml_value& t) {
   if (!t.has("storage")) return "";
   constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
-  std::string said(t.text_of(t.required("storage", allowed), "storage", allowed));
+  std::string said = t["storage"].text(allowed);
   if (said != "band" && (said != "sparse" || !sparse_factor::available()))
-    t.refuse_key("storage", in_quotes(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
+    t["storage"].refuse(in_quotes(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
   return said;
 }
 
 /// A band, unless CHOLMOD is built in and the band is too large, or so wide that sparse factors take far
 /// less. Decided before any of it is allocated.
-void choose_storage(const table_reader& t, assembled& a) {
+void choose_storage(const toml_value& t, assembled& a) {
   constexpr std::int64_t small_band = std::int64_t{256} << 20;
   constexpr std::int64_t far_less = 4;
   const std::string said = read_storage(t);
   const std::int64_t limit = memory_limit();
   const std::int64_t band = bytes_of_run(a);
-  const bool may_be_sparse = said != "band" && sparse_factor::available();
-  if (said != "sparse" && band <= limit && (!may_be_sparse || band <= small_band)) return;
-  const std::string band_takes = fmt::format("a half bandwidth of {}, which take {}",
-                                             subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
-  if (!may_be_sparse && band > limit)
-    refuse_too_large(t, a, band_takes,
-                     sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ");
-  a.as_band = false;
-  const std::int64_t sparse = bytes_of_run(a);
-  if (said != "sparse" && band <= limit) a.as_band = band <= far_less * sparse;
-  if (!a.as_band && sparse > limit)
-    refuse_too_large(
-        t, a, fmt::format("{}, or {} in CHOLMOD's sparse factors", band_takes, bytes_words(sparse)), "");
+  std::string takes = fmt::format("a half bandwidth of {}, which take {}",
+                                  subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
+  std::string remedy;
+  std::int64_t needed = band;
+  if (said == "sparse" ||
+      (said.empty() && sparse_factor::available() && band > std::min(small_band, limit))) {
+    a.as_band = false;
+    needed = bytes_of_run(a);
+    a.as_band = said.empty() && band <= limit && band <= far_less * needed;
+    if (a.as_band) return;
+    takes += fmt::format(", or {} in CHOLMOD's sparse factors", bytes_words(needed));
+  } else {
+    remedy = sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ";
+  }
+  if (needed > limit)
+    t.refuse(fmt::format("{} dofs with {}", a.dofs(), takes),
+             fmt::format("{}, three quarters of this machine's memory; {}condense the matrix onto the dofs "
+                         "that have pairs and loads, or use a coarser model",
+                         bytes_words(limit), remedy));
 }
 
 /// A path for messages and pages: on one line, whatever it is.
@@ -243,65 +241,61 @@ std::string shown_name(const std::string& path) {
   return printable(path, std::string::npos);
 }
 
-std::vector<std::string> read_labels(const std::string& path) {
-  return parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
+void read_labels(const std::string& path, assembled& a) {
+  a.labels_from = shown_name(path);
+  a.labels = parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
 }
 
 /// The keys that both tables have, and the ordering.
-void finish(const table_reader& t, assembled& a) {
-  if (t.has("free_motions")) a.free_motions = t.integer("free_motions", 0, most_rigid_motions);
+void finish(const toml_value& t, assembled& a) {
+  if (t.has("free_motions")) a.free_motions = t["free_motions"].integer(0, most_rigid_motions);
   a.rows = rows_for_small_band(a.stiffness);
   choose_storage(t, a);
 }
 
 /// Refuse a file that has none of the nodes: it belongs to another structure.
-void refuse_unknown_nodes(const table_reader& t, std::string_view key, const std::string& path,
-                          const assembled& a) {
+void refuse_unknown_nodes(const toml_value& named, const std::string& path, const assembled& a) {
   if (a.places.known()) return;
-  t.refuse_key(key,
-               fmt::format("no node in {} of any label, as {}", shown_name(path), in_quotes(a.label_of(0))),
+  named.refuse(fmt::format("no node in {} of any label, as {}", shown_name(path), in_quotes(a.label_of(0))),
                "labels NODE.DIRECTION: the name of a node, a dot, and x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
 /// The mesh that the table names, or else the one beside the job's matrix, where there is one.
-void find_mesh(const table_reader& t, const named_files& files, assembled& a) {
-  const std::string path = t.has("mesh") ? files.path_of(t, "mesh") : files.path_of(t, "job", ".inp");
+void find_mesh(const toml_value& t, const named_files& files, assembled& a) {
+  const std::string path = t.has("mesh") ? files.path_of(t["mesh"]) : files.path_of(t["job"], ".inp");
   if (!t.has("mesh") && !std::filesystem::exists(path)) return;
-  a.places = places_from_inp(path, a);
-  if (t.has("mesh")) refuse_unknown_nodes(t, "mesh", path, a);
+  a.places = places_by_mesh(read_input(path, "input file of CalculiX", largest_mesh_file), path, a);
+  if (t.has("mesh")) refuse_unknown_nodes(t["mesh"], path, a);
 }
 
-assembled read_matrix(const table_reader& t, const named_files& files, std::vector<std::string>& warnings) {
+assembled read_matrix(const toml_value& t, const named_files& files, std::vector<std::string>& warnings) {
   t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
   assembled a;
-  const std::string path = files.path_of(t, "stiffness");
+  const std::string path = files.path_of(t["stiffness"]);
   a.name = shown_name(path);
   a.stiffness = parse_symmetric(read_input(path, "stiffness matrix", largest_matrix_file), a.name, &warnings);
   if (t.has("dofs")) {
-    const std::string of_labels = files.path_of(t, "dofs");
-    a.labels_from = shown_name(of_labels);
-    a.labels = read_labels(of_labels);
+    read_labels(files.path_of(t["dofs"]), a);
     if (a.labels.size() != static_cast<std::size_t>(a.dofs()))
-      t.refuse_key("dofs", fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
-                   fmt::format("{}, one for each row of {}", a.dofs(), a.name));
+      t["dofs"].refuse(fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
+                       fmt::format("{}, one for each row of {}", a.dofs(), a.name));
   }
   finish(t, a);
   if (t.has("coordinates")) {
-    const std::string of_places = files.path_of(t, "coordinates");
-    a.places = places_from_coordinates(of_places, a);
-    refuse_unknown_nodes(t, "coordinates", of_places, a);
+    const std::string of_places = files.path_of(t["coordinates"]);
+    a.places =
+        places_by_coordinates(read_input(of_places, "file of coordinates", largest_mesh_file), of_places, a);
+    refuse_unknown_nodes(t["coordinates"], of_places, a);
   }
   return a;
 }
 
-assembled read_calculix(const table_reader& t, const named_files& files, std::vector<std::string>& warnings) {
+assembled read_calculix(const toml_value& t, const named_files& files, std::vector<std::string>& warnings) {
   t.allow_only({"job", "mesh", "free_motions", "storage"});
   assembled a;
-  const std::string path = files.path_of(t, "job", ".sti");
-  const std::string of_labels = files.path_of(t, "job", ".dof");
+  const std::string path = files.path_of(t["job"], ".sti");
   a.name = shown_name(path);
-  a.labels_from = shown_name(of_labels);
-  a.labels = read_labels(of_labels);
+  read_labels(files.path_of(t["job"], ".dof"), a);
   const auto rows = static_cast<int>(a.labels.size());
   a.stiffness = parse_calculix_stiffness(
       read_input(path, "stiffness matrix of CalculiX", largest_matrix_file), a.name, rows, &warnings);
@@ -312,18 +306,18 @@ assembled read_calculix(const table_reader& t, const named_files& files, std::ve
 
 }  // namespace
 
-model read_model(const table_reader& top, const named_files& files, std::vector<std::string>& warnings) {
+model read_model(const toml_value& top, const named_files& files, std::vector<std::string>& warnings) {
   const char* const allowed = "exactly one of [beam], [plate], [matrix] and [calculix]";
   const char* kind = nullptr;
   for (const char* other : {"beam", "plate", "matrix", "calculix"}) {
     if (!top.has(other)) continue;
-    if (kind != nullptr) top.refuse_key(other, fmt::format("this beside {}", kind), allowed);
+    if (kind != nullptr) top.refuse_beside({other}, kind, allowed);
     kind = other;
   }
-  if (top.has("beam")) return {read_beam(top.table("beam"), top)};
-  if (top.has("plate")) return {read_plate(top.table("plate"))};
-  if (top.has("matrix")) return {read_matrix(top.table("matrix"), files, warnings)};
-  if (top.has("calculix")) return {read_calculix(top.table("calculix"), files, warnings)};
+  if (top.has("beam")) return {read_beam(top["beam"].table(), top)};
+  if (top.has("plate")) return {read_plate(top["plate"].table())};
+  if (top.has("matrix")) return {read_matrix(top["matrix"].table(), files, warnings)};
+  if (top.has("calculix")) return {read_calculix(top["calculix"].table(), files, warnings)};
   top.refuse("neither beam nor plate, matrix or calculix", allowed);
 }
 

@@ -9,7 +9,7 @@ namespace contct::read {
 
 /// Read the one table of the document `top` that describes a structure; refuses a document with none
 /// of them, or with several. `files` finds others that it names; `warnings` gets those about their numbers.
-[[nodiscard]] model read_model(const table_reader& top, const named_files& files,
+[[nodiscard]] model read_model(const toml_value& top, const named_files& files,
                                std::vector<std::string>& warnings);
 
 }  // namespace contct::read

@@ -10,13 +10,13 @@ namespace fs = std::filesystem;
 named_files::named_files(std::string_view problem_file, reach allowed)
     : folder_(fs::path(problem_file).parent_path().string()), allowed_(allowed) {}
 
-std::string named_files::path_of(const table_reader& t, std::string_view key, std::string_view ending) const {
-  const std::string name = std::string(t.text(key)).append(ending);
+std::string named_files::path_of(const toml_value& named, std::string_view ending) const {
+  const std::string name = named.text().append(ending);
   if (name.find('\0') != std::string::npos)  // where the system's functions end a name
-    t.refuse_key(key, in_quotes(name), "the name of a file, which has no character \\u0000");
+    named.refuse(in_quotes(name), "the name of a file, which has no character \\u0000");
   const std::string path = (fs::path(folder_) / name).string();
   if (allowed_ == reach::own_folder && !is_below(path))
-    t.refuse_key(key, in_quotes(name) + ", which is not below the folder of the problem file",
+    named.refuse(in_quotes(name) + ", which is not below the folder of the problem file",
                  "a file below it, or any with --allow-outside (\"allow_outside\" in the library)");
   // A file named "-" is one: standard input holds the problem, if anything.
   return all_->emplace_back(path == "-" ? "./-" : path);

@@ -19,10 +19,9 @@ class named_files {
   /// `problem_file`: its path; without a folder in it, that is where the process runs.
   named_files(std::string_view problem_file, reach allowed);
 
-  /// The path of the file that the key of `t` names, with `ending` behind it. Refuses one that is not below
-  /// the folder, symbolic links followed, unless all are allowed.
-  [[nodiscard]] std::string path_of(const table_reader& t, std::string_view key,
-                                    std::string_view ending = "") const;
+  /// The path of the file that is named, with `ending` behind it. Refuses one that is not below the folder,
+  /// symbolic links followed, unless all are allowed.
+  [[nodiscard]] std::string path_of(const toml_value& named, std::string_view ending = "") const;
 
   /// All that path_of has returned, to this object and its copies.
   [[nodiscard]] const std::vector<std::string>& all() const { return *all_; }

@@ -10,9 +10,9 @@
 
 #include "contct/kernel/call.hpp"
 #include "contct/read/model_tables.hpp"
-#include "contct/read/placed_numbers.hpp"
-#include "contct/read/places.hpp"
+#include "contct/read/node_reader.hpp"
 #include "contct/read/step_tables.hpp"
+#include "contct/read/written_numbers.hpp"
 #include "contct/structure/polynomials.hpp"
 
 namespace contct::read {
@@ -25,11 +25,11 @@ struct facing {
 };
 
 /// surface and state of a pair or a bed. `default_surface` is 0 where the surface must be named.
-facing read_facing(const table_reader& t, int default_surface) {
+facing read_facing(const toml_value& t, int default_surface) {
   facing f{default_surface, std::nullopt};
   if (default_surface == 0 || t.has("surface"))
-    f.surface = t.choice("surface", {"below", "above"}) == 0 ? face_below : face_above;
-  if (t.has("state")) f.closed = t.choice("state", {"separated", "contact"}) == 1;
+    f.surface = t["surface"].choice({"below", "above"}) == 0 ? face_below : face_above;
+  if (t.has("state")) f.closed = t["state"].choice({"separated", "contact"}) == 1;
   return f;
 }
 
@@ -43,24 +43,24 @@ double rounded_down(double x) {
 class problem_reader {
  public:
   problem_reader(const toml::table& document, std::string_view file, reach allowed)
-      : files_(file, allowed), top_(document, "", file) {}
+      : files_(file, allowed), top_(document, file) {}
 
   problem read() {
     top_.allow_only(
         {"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
-    if (top_.has("title")) problem_.title = top_.text("title");
-    if (top_.has("units")) read_units(top_.table("units"));
+    if (top_.has("title")) problem_.title = top_["title"].text();
+    if (top_.has("units")) read_units(top_["units"].table());
     problem_.geometry = read_model(top_, files_, problem_.warnings);
-    places_.emplace(problem_.geometry);
+    nodes_.emplace(problem_.geometry);
     fixed_.assign(dofs(problem_.geometry), 0);
-    if (places_->on_matrix() && top_.has("bed"))
-      top_.refuse_key("bed", "this with a matrix",
-                      "a [[contact]] at each dof: a matrix knows no lengths or areas");
-    for (const table_reader& t : top_.optional_tables("support")) read_support(t);
-    for (const table_reader& t : top_.optional_tables("contact")) read_contact(t);
-    for (const table_reader& t : top_.optional_tables("bed")) read_bed(t);
-    const step_reader steps(*places_, problem_.supports, files_, problem_.warnings);
-    for (const table_reader& t : top_.tables("step")) problem_.steps.push_back(steps.read(t));
+    if (nodes_->on_matrix() && top_.has("bed"))
+      top_["bed"].refuse("this with a matrix",
+                         "a [[contact]] at each dof: a matrix knows no lengths or areas");
+    for (const toml_value& t : top_["support"].optional_tables()) read_support(t);
+    for (const toml_value& t : top_["contact"].optional_tables()) read_contact(t);
+    for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
+    const step_reader steps(*nodes_, problem_.supports, files_, problem_.warnings);
+    for (const toml_value& t : top_["step"].tables()) problem_.steps.push_back(steps.read(t));
     problem_.files = files_.all();
     return std::move(problem_);
   }
@@ -69,17 +69,17 @@ class problem_reader {
   [[nodiscard]] int nodes() const { return contct::structure::nodes(problem_.geometry); }
 
   [[nodiscard]] std::size_t dof_of(int node, int dof) const {
-    return node * places_->dof_names().size() + dof;
+    return node * nodes_->dof_names().size() + dof;
   }
 
   /// Does a support fix the node's deflection?
   [[nodiscard]] bool fixed_in_w(int node) const { return fixed_[dof_of(node, 0)] != 0; }
 
-  void read_units(const table_reader& t) {
+  void read_units(const toml_value& t) {
     t.allow_only({"length", "force"});
     const auto label = [&t](const char* key) {
-      std::string text = t.text(key);
-      if (text.find_first_not_of(blanks) == std::string::npos) t.refuse_key(key, "the name of a unit");
+      std::string text = t[key].text();
+      if (text.find_first_not_of(blanks) == std::string::npos) t[key].refuse("the name of a unit");
       return text;
     };
     problem_.units = {label("length"), label("force")};
@@ -90,108 +90,108 @@ class problem_reader {
     if (s.fixed) fixed_[dof_of(s.node, s.dof)] = 1;
   }
 
-  void read_support(const table_reader& t) {
-    if (places_->on_matrix()) return read_support_on_matrix(t);
-    t.allow_only(places_->keys_with({"fix", "spring"}));
-    const std::vector<int> at = places_->read(t);
+  void read_support(const toml_value& t) {
+    if (nodes_->on_matrix()) return read_support_on_matrix(t);
+    t.allow_only(nodes_->keys_with({"fix", "spring"}));
+    const std::vector<int> at = nodes_->read(t);
     if (!t.has("fix") && !t.has("spring")) t.refuse("neither fix nor spring", "at least one of them");
     if (t.has("fix"))
       for (const int dof : read_fix(t))
         for (const int node : at) add_support({node, dof, true});
-    if (t.has("spring")) read_springs(t.table("spring"), at);
+    if (t.has("spring")) read_springs(t["spring"].table(), at);
   }
 
-  void read_support_on_matrix(const table_reader& t) {
-    t.allow_only(places_->keys_with({"fix", "spring"}));
+  void read_support_on_matrix(const toml_value& t) {
+    t.allow_only(nodes_->keys_with({"fix", "spring"}));
     const bool fixed = t.has("fix");
     if (fixed == t.has("spring"))
       t.refuse(fixed ? "both fix and spring" : "neither fix nor spring", "one of them");
-    if (fixed && t.required("fix", "true").value_exact<bool>() != true) t.refuse_key("fix", "true");
-    const double spring = fixed ? 0.0 : t.real("spring", positive_real);
-    for (const int dof : places_->read(t)) add_support({dof, 0, fixed, spring});
+    if (fixed && t["fix"].required("true").value_exact<bool>() != true) t["fix"].refuse("true");
+    const double spring = fixed ? 0.0 : t["spring"].real(positive_real);
+    for (const int dof : nodes_->read(t)) add_support({dof, 0, fixed, spring});
   }
 
-  [[nodiscard]] std::vector<int> read_fix(const table_reader& t) const {
-    const auto& names = places_->dof_names();
+  [[nodiscard]] std::vector<int> read_fix(const toml_value& t) const {
+    const auto& names = nodes_->dof_names();
     const std::string allowed =
         fmt::format(R"(one of "{0}", or an array of "{0}", each at most once)", fmt::join(names, "\", \""));
     std::vector<int> fixed;
-    for (const toml::node* entry : t.each_of("fix", allowed)) {
-      const std::string key = t.name_of("fix", fixed.size());
-      const auto name = std::ranges::find(names, t.text_of(*entry, key, allowed));
+    for (const toml_value& entry : t["fix"].each(allowed)) {
+      const auto name = std::ranges::find(names, entry.text(allowed));
       const auto dof = static_cast<int>(name - names.begin());
-      if (name == names.end() || std::ranges::count(fixed, dof) != 0)
-        t.refuse(*entry, key, found_words(*entry), allowed);
+      if (name == names.end() || std::ranges::count(fixed, dof) != 0) entry.refuse(allowed);
       fixed.push_back(dof);
     }
     return fixed;
   }
 
-  void read_springs(const table_reader& t, const std::vector<int>& at) {
-    t.allow_only(places_->dof_names());
-    for (const int dof : places_->dofs_in(t, "an empty table")) {
-      const double stiffness = t.real(places_->dof_names()[dof], positive_real);
+  void read_springs(const toml_value& t, const std::vector<int>& at) {
+    t.allow_only(nodes_->dof_names());
+    for (const int dof : nodes_->dofs_in(t, "an empty table")) {
+      const double stiffness = t[nodes_->dof_names()[dof]].real(positive_real);
       for (const int node : at) add_support({node, dof, false, stiffness});
     }
   }
 
   /// A pair of the table `t` at `node`, whose face is the i-th that the table has.
-  [[nodiscard]] contact_pair pair_at(const table_reader& t, const facing& f, int node, double face,
+  [[nodiscard]] contact_pair pair_at(const toml_value& t, const facing& f, int node, double face,
                                      std::size_t i) const {
     const std::string found = fmt::format("{:g} at {}", face, place_words(problem_.geometry, node));
     if (f.surface * face < 0) {
-      const auto faces = t.each_of("face", "");
-      t.refuse(*faces[std::min(i, faces.size() - 1)], t.name_of("face", i),
-               found + ": the face is inside the undeformed structure",
-               f.surface < 0 ? "at most 0 for a face below" : "at least 0 for a face above");
+      const auto faces = t["face"].each("");
+      faces[std::min(i, faces.size() - 1)].refuse(
+          found + ": the face is inside the undeformed structure",
+          f.surface < 0 ? "at most 0 for a face below" : "at least 0 for a face above");
     }
     if (f.closed == true && face != 0)
-      t.refuse_key("state", fmt::format("\"contact\" with face {}", found),
-                   "\"contact\" only where face = 0: nothing touches a face elsewhere before the structure "
-                   "deflects");
+      t["state"].refuse(
+          fmt::format("\"contact\" with face {}", found),
+          "\"contact\" only where face = 0: nothing touches a face elsewhere before the structure "
+          "deflects");
     return {node, f.surface, face, 0.0, f.closed.value_or(face == 0)};
   }
 
-  void read_contact(const table_reader& t) {
-    t.allow_only(places_->keys_with({"surface", "face", "stiffness", "state"}));
-    const std::vector<int> at = places_->read(t);
+  void read_contact(const toml_value& t) {
+    t.allow_only(nodes_->keys_with({"surface", "face", "stiffness", "state"}));
+    const std::vector<int> at = nodes_->read(t);
     const facing common = read_facing(t, 0);
-    const std::vector<double> faces = t.reals_for("face", any_real, at.size(), "pair");
-    const std::vector<double> stiffness = t.reals_for("stiffness", positive_real, at.size(), "pair");
+    const toml_value face = t["face"];
+    const toml_value stiffness = t["stiffness"];
+    const std::vector<double> faces = face.reals_for(any_real, at.size(), "pair");
+    const std::vector<double> springs = stiffness.reals_for(positive_real, at.size(), "pair");
     for (std::size_t i = 0; i < at.size(); ++i) {
       problem_.pairs.push_back(pair_at(t, common, at[i], faces[faces.size() == 1 ? 0 : i], i));
-      problem_.pairs.back().stiffness = stiffness[stiffness.size() == 1 ? 0 : i];
-      problem_.keys.push_back({t.full_name(t.name_of("face", i)), t.full_name(t.name_of("stiffness", i))});
+      problem_.pairs.back().stiffness = springs[springs.size() == 1 ? 0 : i];
+      problem_.keys.push_back({face.name_of(i), stiffness.name_of(i)});
       if (fixed_in_w(at[i]))
         problem_.warnings.push_back(fmt::format(
             "{}: {} is fixed{}; the pair cannot change the deflections, and its support takes its force, but "
             "the listing may toggle it",
-            t.place(), place_words(problem_.geometry, at[i]), places_->on_matrix() ? "" : " in w"));
+            t.where(), place_words(problem_.geometry, at[i]), nodes_->on_matrix() ? "" : " in w"));
     }
   }
 
   /// The faces of a bed: one for all of its nodes, or one for each, those included that are fixed in w. Where
   /// they are a polynomial, its coefficients too.
-  [[nodiscard]] std::vector<double> read_faces(const table_reader& t, const std::vector<int>& at,
+  [[nodiscard]] std::vector<double> read_faces(const toml_value& t, const std::vector<int>& at,
                                                std::vector<double>& coefficients) const {
-    if (!t.has("face") || !t.required("face", "").is_table())
-      return t.reals_for("face", any_real, at.size(), "node of the bed, fixed or not");
-    const table_reader face = t.table("face");
+    const toml_value face = t["face"];
+    if (!face.is_table()) return face.reals_for(any_real, at.size(), "node of the bed, fixed or not");
     face.allow_only({"polynomial"});
     coefficients = read_polynomial(face, problem_.geometry,
                                    "numbers for face: only along a beam it may be a polynomial");
     std::vector<double> values = values_at<double>(std::get<beam>(problem_.geometry.kind), coefficients, at);
     if (!std::ranges::all_of(values, [](double c) { return std::isfinite(c); }))
-      face.refuse_key("polynomial", "coefficients whose value is finite at every node");
+      face["polynomial"].refuse("coefficients whose value is finite at every node");
     return values;
   }
 
   /// A pair at every node that is free to deflect, each with its tributary length or area.
-  void read_bed(const table_reader& t) {
-    t.allow_only(places_->keys_with({"modulus", "surface", "face", "state"}));
-    const double modulus = t.real("modulus", positive_real);
+  void read_bed(const toml_value& t) {
+    t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
+    const double modulus = t["modulus"].real(positive_real);
     const facing common = read_facing(t, face_below);
-    const std::vector<int> at = places_->named_in(t) ? places_->read(t) : all_nodes();
+    const std::vector<int> at = nodes_->named_in(t) ? nodes_->read(t) : all_nodes();
     bed made{modulus, {}, problem_.pairs.size()};
     made.closed = common.closed;
     const std::vector<double> faces = read_faces(t, at, made.face);
@@ -214,7 +214,7 @@ class problem_reader {
 
   /// Ground of this modulus bends a beam in waves of (4 EI / modulus)^(1/4): warn where neighbouring nodes of
   /// the bed are further apart than half of that, of the worst place only.
-  void warn_of_spacing(const table_reader& t, const beam& b, double modulus, const std::vector<int>& at) {
+  void warn_of_spacing(const toml_value& t, const beam& b, double modulus, const std::vector<int>& at) {
     std::vector<char> is_on_bed(nodes(), 0);
     for (const int node : at) is_on_bed[node] = 1;
     double worst = 1.0 + 1e-9;
@@ -228,7 +228,7 @@ class problem_reader {
           "{0}: the mesh is coarse for this bed: nodes {1} and {2} are {3:.6g} apart; allowed: at most half "
           "of "
           "(4 EI / modulus)^(1/4), {4:.3g}. element_size = {4:.3g} in [beam] makes such a mesh",
-          t.place(), e + 1, e + 2, b.length_of(e), rounded_down(most));
+          t.where(), e + 1, e + 2, b.length_of(e), rounded_down(most));
     }
     if (!warning.empty()) problem_.warnings.push_back(warning);
   }
@@ -240,11 +240,11 @@ class problem_reader {
   }
 
   named_files files_;
-  table_reader top_;
+  toml_value top_;
   problem problem_;
-  std::optional<node_places> places_;  // of `problem_`, once its structure is known
-  std::vector<char> fixed_;            // [dofs]
-  std::vector<double> shares_;         // tributary shares [nodes], once a bed has asked for them
+  std::optional<node_reader> nodes_;  // of `problem_`, once its structure is known
+  std::vector<char> fixed_;           // [dofs]
+  std::vector<double> shares_;        // tributary shares [nodes], once a bed has asked for them
 };
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace contct::read {
 namespace {
 
-void refuse_endless_sums(const table_reader& t, const model& m, const load& l) {
+void refuse_endless_sums(const toml_value& t, const model& m, const load& l) {
   std::vector<double> sums(dofs(m), 0.0);  // in doubles, as the path adds them up
   add_consistent_loads(m, l, sums);
   const resultant r = resultant_of(m, l);
@@ -25,28 +25,29 @@ void refuse_endless_sums(const table_reader& t, const model& m, const load& l) {
 
 }  // namespace
 
-std::vector<double> read_polynomial(const table_reader& t, const model& m, std::string_view elsewhere) {
-  if (!std::holds_alternative<beam>(m.kind)) t.refuse_key("polynomial", elsewhere);
-  std::vector<double> coefficients = t.reals("polynomial", any_real, 1);
+std::vector<double> read_polynomial(const toml_value& t, const model& m, std::string_view elsewhere) {
+  const toml_value polynomial = t["polynomial"];
+  if (!std::holds_alternative<beam>(m.kind)) polynomial.refuse(elsewhere);
+  std::vector<double> coefficients = polynomial.reals(any_real, 1);
   if (coefficients.size() > most_coefficients)
-    t.refuse_key("polynomial", fmt::format("at most {} coefficients", most_coefficients));
+    polynomial.refuse(fmt::format("at most {} coefficients", most_coefficients));
   return coefficients;
 }
 
-step_reader::step_reader(const node_places& places, const std::vector<support>& supports, named_files files,
+step_reader::step_reader(const node_reader& nodes, const std::vector<support>& supports, named_files files,
                          std::vector<std::string>& warnings)
-    : places_(places),
+    : nodes_(nodes),
       files_(std::move(files)),
       warnings_(warnings),
-      held_(dofs(places.structure()), hold::none) {
+      held_(dofs(nodes.structure()), hold::none) {
   for (const support& s : supports) {
-    hold& here = held_[s.node * places_.dof_names().size() + s.dof];
+    hold& here = held_[s.node * nodes_.dof_names().size() + s.dof];
     here = std::max(here, s.fixed ? hold::fixed : hold::spring);
   }
 }
 
-load step_reader::read(const table_reader& t) const {
-  const bool on_matrix = places_.on_matrix();
+load step_reader::read(const toml_value& t) const {
+  const bool on_matrix = nodes_.on_matrix();
   const char* const whole = on_matrix ? "load" : "uniform";  // what acts on all of the structure
   t.allow_only({"name", whole, "point", "settlement"});
   if (!t.has(whole) && !t.has("point") && !t.has("settlement"))
@@ -54,20 +55,20 @@ load step_reader::read(const table_reader& t) const {
              fmt::format("at least one of {}, point and settlement; {} takes all load off", whole,
                          on_matrix ? "a load of 0 at any dof" : "uniform = 0"));
   load l;
-  if (t.has("name")) l.name = t.text("name");
+  if (t.has("name")) l.name = t["name"].text();
   if (t.has("load")) read_vector(t, l);
   if (t.has("uniform")) read_uniform(t, l);
   if (t.has("point")) read_points(t, l);
   if (t.has("settlement")) read_settlements(t, l);
-  refuse_endless_sums(t, places_.structure(), l);
+  refuse_endless_sums(t, nodes_.structure(), l);
   return l;
 }
 
-void step_reader::read_vector(const table_reader& t, load& l) const {
-  const std::string path = files_.path_of(t, "load");
+void step_reader::read_vector(const toml_value& t, load& l) const {
+  const std::string path = files_.path_of(t["load"]);
   std::vector<std::string> rounded;
   const std::vector<double> values = parse_vector(read_input(path, "Matrix Market file", largest_matrix_file),
-                                                  path, nodes(places_.structure()), &rounded);
+                                                  path, nodes(nodes_.structure()), &rounded);
   for (std::size_t dof = 0; dof < values.size(); ++dof) {
     if (values[dof] != 0.0) l.points.push_back({static_cast<int>(dof), 0, values[dof]});
   }
@@ -75,16 +76,16 @@ void step_reader::read_vector(const table_reader& t, load& l) const {
     if (std::ranges::find(warnings_, w) == warnings_.end()) warnings_.push_back(std::move(w));
 }
 
-void step_reader::read_uniform(const table_reader& t, load& l) const {
-  const toml::node& node = t.required("uniform", "");
-  if (node.is_number()) {
-    l.distributed.push_back({{t.real("uniform", any_real)}, {}});
+void step_reader::read_uniform(const toml_value& t, load& l) const {
+  const toml_value uniform = t["uniform"];
+  if (uniform.required("").is_number()) {
+    l.distributed.push_back({{uniform.real(any_real)}, {}});
     return;
   }
-  if (!node.is_array()) t.refuse_key("uniform", "a number, or an array of tables");
+  if (!uniform.is_array()) uniform.refuse("a number, or an array of tables");
   // Parts on the same elements become one: thousands on "all" would each be a pass over the beam.
   std::map<std::vector<int>, std::size_t> place;
-  for (const table_reader& table : t.tables("uniform")) {
+  for (const toml_value& table : uniform.tables()) {
     distributed_load part = read_distributed(table);
     const auto [at, is_new] = place.try_emplace(part.elements, l.distributed.size());
     if (is_new) {
@@ -98,61 +99,60 @@ void step_reader::read_uniform(const table_reader& t, load& l) const {
   }
 }
 
-distributed_load step_reader::read_distributed(const table_reader& t) const {
+distributed_load step_reader::read_distributed(const toml_value& t) const {
   t.allow_only({"value", "polynomial", "elements"});
   if (t.has("value") == t.has("polynomial"))
     t.refuse("both or neither of value and polynomial", "one of them");
   distributed_load d;
-  d.polynomial = t.has("value") ? std::vector<double>{t.real("value", any_real)}
-                                : read_polynomial(t, places_.structure(),
+  d.polynomial = t.has("value") ? std::vector<double>{t["value"].real(any_real)}
+                                : read_polynomial(t, nodes_.structure(),
                                                   "value: only a beam's load may be a polynomial");
-  const int all = elements(places_.structure());
-  if (t.has("elements")) d.elements = t.numbers("elements", all);
+  const int all = elements(nodes_.structure());
+  if (t.has("elements")) d.elements = t["elements"].numbers(all);
   if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // each once: all of them
   return d;
 }
 
-void step_reader::read_points(const table_reader& t, load& l) const {
-  const auto& names = places_.dof_names();
-  for (const table_reader& p : t.tables("point")) {
-    p.allow_only(places_.keys_with(names));
-    const std::vector<int> at = places_.read(p);
+void step_reader::read_points(const toml_value& t, load& l) const {
+  const auto& names = nodes_.dof_names();
+  for (const toml_value& p : t["point"].tables()) {
+    p.allow_only(nodes_.keys_with(names));
+    const std::vector<int> at = nodes_.read(p);
     for (const int dof :
-         places_.dofs_in(p, fmt::format("a point load without {}", fmt::join(names, " or ")))) {
-      const double value = p.real(names[dof], any_real);
+         nodes_.dofs_in(p, fmt::format("a point load without {}", fmt::join(names, " or ")))) {
+      const double value = p[names[dof]].real(any_real);
       for (const int node : at) l.points.push_back({node, dof, value});
     }
   }
 }
 
 /// A spring's foot does not move: what its support would do is not a displacement of the structure.
-void step_reader::refuse_unfixed(const table_reader& t, int node, int dof) const {
-  const std::string_view name = places_.dof_names()[dof];
-  const hold here = held_[node * places_.dof_names().size() + dof];
+void step_reader::refuse_unfixed(const toml_value& t, int node, int dof) const {
+  const std::string_view name = nodes_.dof_names()[dof];
+  const hold here = held_[node * nodes_.dof_names().size() + dof];
   if (here == hold::fixed) return;
-  const std::string what = places_.on_matrix() ? "which" : fmt::format("whose {}", name);
-  t.refuse_key(
-      name,
-      fmt::format("a settlement of {}, {} {}", place_words(places_.structure(), node), what,
+  const std::string what = nodes_.on_matrix() ? "which" : fmt::format("whose {}", name);
+  t[name].refuse(
+      fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
                   here == hold::spring ? "is on a spring, so that its displacement is part of the answer"
                                        : "no support holds, so that loads decide where it goes"),
       "a dof that a [[support]] fixes, by fix");
 }
 
-void step_reader::read_settlements(const table_reader& t, load& l) const {
-  const auto& names = places_.dof_names();
+void step_reader::read_settlements(const toml_value& t, load& l) const {
+  const auto& names = nodes_.dof_names();
   std::set<std::pair<int, int>> moved;
-  for (const table_reader& s : t.tables("settlement")) {
-    s.allow_only(places_.keys_with(names));
-    const std::vector<int> at = places_.read(s);
+  for (const toml_value& s : t["settlement"].tables()) {
+    s.allow_only(nodes_.keys_with(names));
+    const std::vector<int> at = nodes_.read(s);
     for (const int dof :
-         places_.dofs_in(s, fmt::format("a settlement without {}", fmt::join(names, " or ")))) {
-      const double value = s.real(names[dof], any_real);
+         nodes_.dofs_in(s, fmt::format("a settlement without {}", fmt::join(names, " or ")))) {
+      const double value = s[names[dof]].real(any_real);
       for (const int node : at) {
         refuse_unfixed(s, node, dof);
         if (!moved.insert({node, dof}).second)
-          s.refuse_key(names[dof], place_words(places_.structure(), node) + ", a second time in this step",
-                       "each dof once: a settlement is its whole displacement");
+          s[names[dof]].refuse(place_words(nodes_.structure(), node) + ", a second time in this step",
+                               "each dof once: a settlement is its whole displacement");
         l.settlements.push_back({node, dof, value});
       }
     }

@@ -23,10 +23,6 @@ std::string position(std::string_view file, const toml::source_position& at) {
   throw input_error(fmt::format("{}: {}: found {}; allowed: {}", position(file, at), name, found, allowed));
 }
 
-std::string whole_words(int least, int most) {
-  return fmt::format("a whole number from {} to {}", least, most);
-}
-
 /// toml++ follows a dotted key by recursion, which thousands of parts would overflow. Refuse a run of more
 /// than a thousand dots without a separator; no number or name of ours has one.
 void refuse_endless_keys(std::string_view text, std::string_view file) {
@@ -85,17 +81,6 @@ std::pair<int, int> range_in(std::string_view text, int count) {
 
 }  // namespace
 
-std::string found_words(const toml::node& node) {
-  if (const auto* v = node.as_integer()) return fmt::format("{}", v->get());
-  if (const auto* v = node.as_floating_point()) return fmt::format("{}", v->get());
-  if (const auto* v = node.as_boolean()) return v->get() ? "true" : "false";
-  if (const auto* v = node.as_string()) return in_quotes(v->get());
-  if (const auto* v = node.as_array())
-    return v->empty() ? "an empty array" : fmt::format("an array of {}", v->size());
-  if (node.is_table()) return "a table";
-  return "a date or time";
-}
-
 std::string indexed(std::string_view key, std::size_t from_zero) {
   return fmt::format("{}[{}]", key, from_zero + 1);
 }
@@ -113,170 +98,152 @@ toml::table parse_toml(std::string_view text, std::string_view file) {
   }
 }
 
-std::string table_reader::full_name(std::string_view name) const {
-  if (where_.empty()) return std::string(name);
-  return name.empty() ? where_ : fmt::format("{}.{}", where_, name);
+std::string toml_value::found() const {
+  if (node_ == nullptr) return "nothing: this key is missing";
+  if (const auto* v = node_->as_integer()) return fmt::format("{}", v->get());
+  if (const auto* v = node_->as_floating_point()) return fmt::format("{}", v->get());
+  if (const auto* v = node_->as_boolean()) return v->get() ? "true" : "false";
+  if (const auto* v = node_->as_string()) return in_quotes(v->get());
+  if (const auto* v = node_->as_array())
+    return v->empty() ? "an empty array" : fmt::format("an array of {}", v->size());
+  return node_->is_table() ? "a table" : "a date or time";
 }
 
-std::string table_reader::place() const {
-  return fmt::format("{}:{}: {}", file_, table_->source().begin.line, where_);
+std::string toml_value::where() const {
+  return fmt::format("{}:{}: {}", file_, at_.line, name_);
 }
 
-void table_reader::refuse(const toml::node& node, std::string_view name, std::string_view found,
-                          std::string_view allowed) const {
-  refuse_at(file_, node.source().begin, full_name(name), found, allowed);
+void toml_value::refuse(std::string_view found, std::string_view allowed) const {
+  refuse_at(file_, at_, name_.empty() ? "the file" : name_, found, allowed);
 }
 
-void table_reader::refuse(std::string_view found, std::string_view allowed) const {
-  refuse_at(file_, table_->source().begin, where_.empty() ? "the file" : where_, found, allowed);
+const toml::node& toml_value::required(std::string_view allowed) const {
+  if (node_ == nullptr) refuse(allowed);
+  return *node_;
 }
 
-const toml::node& table_reader::required(std::string_view key, std::string_view allowed) const {
-  const toml::node* node = table_->get(key);
-  if (node == nullptr)
-    refuse_at(file_, table_->source().begin, full_name(key), "nothing: this key is missing", allowed);
-  return *node;
-}
-
-void table_reader::refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
-                                 std::string_view allowed) const {
-  for (const std::string_view other : others)
-    if (has(other)) refuse_key(other, fmt::format("this beside {}", beside), allowed);
-}
-
-double table_reader::real_of(const toml::node& node, std::string_view name, const real_range& range) const {
+double toml_value::real(const real_range& range) const {
+  const toml::node& node = required(range.words);
   const auto* const whole = node.as_integer();
   const auto* const real = node.as_floating_point();
-  if (whole == nullptr && real == nullptr)
-    refuse(node, name, fmt::format("{}{}", found_words(node), comma_hint(node, 1)), range.words);
+  if (whole == nullptr && real == nullptr) refuse(found().append(comma_hint(node, 1)), range.words);
   const double value = whole != nullptr ? static_cast<double>(whole->get()) : real->get();
-  if (!std::isfinite(value) || !range.holds(value)) refuse(node, name, found_words(node), range.words);
+  if (!std::isfinite(value) || !range.holds(value)) refuse(range.words);
   return value;
 }
 
-int table_reader::integer_of(const toml::node& node, std::string_view name, int least, int most) const {
-  const auto* value = node.as_integer();
-  if (value == nullptr || value->get() < least || value->get() > most)
-    refuse(node, name, found_words(node), whole_words(least, most));
+int toml_value::integer(int least, int most) const {
+  const std::string allowed = fmt::format("a whole number from {} to {}", least, most);
+  const auto* value = required(allowed).as_integer();
+  if (value == nullptr || value->get() < least || value->get() > most) refuse(allowed);
   return static_cast<int>(value->get());
 }
 
-std::string_view table_reader::text_of(const toml::node& node, std::string_view name,
-                                       std::string_view allowed) const {
-  const auto* value = node.as_string();
-  if (value == nullptr) refuse(node, name, found_words(node), allowed);
+std::string toml_value::text(std::string_view allowed) const {
+  const auto* value = required(allowed).as_string();
+  if (value == nullptr) refuse(allowed);
   return value->get();
 }
 
-int table_reader::integer(std::string_view key, int least, int most) const {
-  return integer_of(required(key, whole_words(least, most)), key, least, most);
+std::size_t toml_value::choice(std::initializer_list<std::string_view> choices) const {
+  const std::vector<std::string> known(choices.begin(), choices.end());
+  const std::string allowed = fmt::format("\"{}\"", fmt::join(known, "\" or \""));
+  const std::string value = text(allowed);
+  const auto at = std::ranges::find(known, value);
+  if (at == known.end()) refuse(found() + did_you_mean(value, known), allowed);
+  return at - known.begin();
 }
 
-std::size_t table_reader::choice(std::string_view key,
-                                 std::initializer_list<std::string_view> choices) const {
-  std::string allowed;
-  for (const std::string_view c : choices)
-    allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : " or ", c);
-  const toml::node& node = required(key, allowed);
-  const std::string_view value = text_of(node, key, allowed);
-  const auto* const at = std::find(choices.begin(), choices.end(), value);
-  if (at == choices.end()) {
-    const std::vector<std::string> known(choices.begin(), choices.end());
-    refuse(node, key, found_words(node) + did_you_mean(value, known), allowed);
-  }
-  return at - choices.begin();
-}
-
-const toml::array& table_reader::array(std::string_view key, std::string_view allowed, std::size_t least,
-                                       std::size_t most) const {
-  const toml::array* const array = required(key, allowed).as_array();
-  if (array == nullptr || array->size() < least || array->size() > most) refuse_key(key, allowed);
+const toml::array& toml_value::array(std::string_view allowed, std::size_t least, std::size_t most) const {
+  const toml::array* const array = required(allowed).as_array();
+  if (array == nullptr || array->size() < least || array->size() > most) refuse(allowed);
   return *array;
 }
 
-std::vector<double> table_reader::reals(std::string_view key, const real_range& range,
-                                        std::size_t least) const {
+std::vector<toml_value> toml_value::entries(std::string_view allowed, std::size_t least,
+                                            std::size_t most) const {
+  std::vector<toml_value> all;
+  for (const toml::node& entry : array(allowed, least, most)) all.push_back(entry_at(entry, all.size()));
+  return all;
+}
+
+std::vector<toml_value> toml_value::each(std::string_view allowed) const {
+  return required(allowed).is_array() ? entries(allowed, 1) : std::vector{*this};
+}
+
+std::vector<double> toml_value::reals(const real_range& range, std::size_t least) const {
   const std::string allowed = fmt::format("an array of at least {} numbers, each {}", least, range.words);
   std::vector<double> values;
-  for (const toml::node& entry : array(key, allowed, least)) {
+  for (const toml::node& entry : array(allowed, least)) {
     // The name is made for a message alone: these arrays can be long.
     const auto* const real = entry.as_floating_point();
     const bool good = real != nullptr && std::isfinite(real->get()) && range.holds(real->get());
-    values.push_back(good ? real->get() : real_of(entry, indexed(key, values.size()), range));
+    values.push_back(good ? real->get() : entry_at(entry, values.size()).real(range));
   }
   return values;
 }
 
-std::vector<const toml::node*> table_reader::each_of(std::string_view key, std::string_view allowed) const {
-  if (!required(key, allowed).is_array()) return {&required(key, allowed)};
-  std::vector<const toml::node*> entries;
-  for (const toml::node& entry : array(key, allowed, 1)) entries.push_back(&entry);
-  return entries;
-}
-
-std::vector<double> table_reader::reals_for(std::string_view key, const real_range& range, std::size_t count,
-                                            std::string_view things) const {
-  const toml::node& node = required(key, range.words);
-  if (!node.is_array() || (count == 1 && !comma_hint(node, 1).empty())) return {real(key, range)};
-  std::vector<double> values = reals(key, range, 1);
+std::vector<double> toml_value::reals_for(const real_range& range, std::size_t count,
+                                          std::string_view things) const {
+  const toml::node& node = required(range.words);
+  if (!node.is_array() || (count == 1 && !comma_hint(node, 1).empty())) return {real(range)};
+  std::vector<double> values = reals(range, 1);
   if (values.size() != count)
-    refuse_key(key, fmt::format("{}{}", found_words(node), comma_hint(node, count)),
-               count == 1 ? "one number" : fmt::format("one number, or {}: one for each {}", count, things));
+    refuse(found().append(comma_hint(node, count)),
+           count == 1 ? "one number" : fmt::format("one number, or {}: one for each {}", count, things));
   return values;
 }
 
-std::vector<int> table_reader::numbers(std::string_view key, int count) const {
+std::vector<int> toml_value::numbers(int count) const {
   const std::string allowed =
       fmt::format(R"(a list of whole numbers from 1 to {}, each once, "a..b" or "all")", count);
   std::vector<int> list;
-  if (const auto* text = required(key, allowed).as_string()) {
+  if (const auto* text = required(allowed).as_string()) {
     const auto [first, last] = range_in(text->get(), count);
-    if (first < 1 || first > last || last > count) refuse_key(key, allowed);
+    if (first < 1 || first > last || last > count) refuse(allowed);
     for (int number = first; number <= last; ++number) list.push_back(number - 1);
     return list;
   }
   std::unordered_set<int> seen;  // not one mark for each of `count`: a file may hold thousands of short lists
-  for (const toml::node& entry : array(key, allowed, 1)) {
-    const std::string name = indexed(key, list.size());
-    list.push_back(integer_of(entry, name, 1, count) - 1);
-    if (!seen.insert(list.back()).second)
-      refuse(entry, name, found_words(entry) + ", a second time", allowed);
+  for (const toml_value& entry : entries(allowed, 1)) {
+    list.push_back(entry.integer(1, count) - 1);
+    if (!seen.insert(list.back()).second) entry.refuse(entry.found() + ", a second time", allowed);
   }
   return list;
 }
 
-table_reader table_reader::table(std::string_view key) const {
-  const toml::node& node = required(key, "a table");
-  const toml::table* table = node.as_table();
-  if (table == nullptr) {
-    const bool doubled = where_.empty() && node.is_array_of_tables();
-    refuse(node, key, found_words(node),
-           doubled ? fmt::format("a table, [{}] in single brackets", key) : "a table");
-  }
-  return {*table, full_name(key), file_};
+toml_value toml_value::table() const {
+  if (required("a table").is_table()) return *this;
+  refuse(is_top_level() && node_->is_array_of_tables()
+             ? fmt::format("a table, [{}] in single brackets", name_)
+             : "a table");
 }
 
-std::vector<table_reader> table_reader::tables(std::string_view key) const {
-  const toml::node& node = required(key, "at least one table");
-  const bool single = where_.empty() && node.is_table();
-  const std::string allowed =
-      single ? fmt::format("at least one table, each under [[{}]] in double brackets", key)
-             : "an array of at least one table";
-  std::vector<table_reader> readers;
-  for (const toml::node& entry : array(key, allowed, 1)) {
-    const std::string name = indexed(key, readers.size());
-    const toml::table* const table = entry.as_table();
-    if (table == nullptr) refuse(entry, name, found_words(entry), "a table");
-    readers.emplace_back(*table, full_name(name), file_);
-  }
-  return readers;
+std::vector<toml_value> toml_value::tables() const {
+  if (required("at least one table").is_table() && is_top_level())
+    refuse(fmt::format("at least one table, each under [[{}]] in double brackets", name_));
+  std::vector<toml_value> all = entries("an array of at least one table", 1);
+  for (const toml_value& t : all)
+    if (!t.is_table()) t.refuse("a table");
+  return all;
 }
 
-void table_reader::allow_only(const std::vector<std::string_view>& keys) const {
-  for (const auto& [key, node] : *table_) {
-    if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
+toml_value toml_value::operator[](std::string_view key) const {
+  const toml::node* const node = node_->as_table()->get(key);
+  return {node, node == nullptr ? at_ : node->source().begin, name_of_key(key), file_};
+}
+
+void toml_value::refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
+                               std::string_view allowed) const {
+  for (const std::string_view other : others)
+    if (has(other)) (*this)[other].refuse(fmt::format("this beside {}", beside), allowed);
+}
+
+void toml_value::allow_only(const std::vector<std::string_view>& keys) const {
+  for (const auto& [key, node] : *node_->as_table()) {
+    if (std::ranges::find(keys, key.str()) != keys.end()) continue;
     const std::vector<std::string> known(keys.begin(), keys.end());
-    refuse_at(file_, key.source().begin, full_name(printable(key.str())),
+    refuse_at(file_, key.source().begin, name_of_key(printable(key.str())),
               "an unknown key" + did_you_mean(key.str(), known), fmt::format("{}", fmt::join(keys, ", ")));
   }
 }

@@ -6,8 +6,8 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/read/placed_numbers.hpp"
 #include "contct/read/toml_reader.hpp"
+#include "contct/read/written_numbers.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/exact_run.hpp"
 #include "contct/serve/listing_kernels.hpp"
@@ -25,7 +25,7 @@ using json = nlohmann::ordered_json;
 void put_places(json& out, const problem& p, const char* text, const std::string& file) {
   const toml::table document = parse_toml(text, file);
   json& numbers = out["numbers"] = json::array();
-  for (const placed_number& n : placed_numbers(document, text))
+  for (const written_number& n : numbers_in(document, text))
     numbers.push_back({{"key", n.key},
                        {"value", n.value},
                        {"whole", n.is_whole},

@@ -46,8 +46,8 @@ std::optional<std::int64_t> exponent_in(std::string_view rest) {
   return minus ? -exponent : exponent;
 }
 
-}  // namespace
-
+/// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing where it is no decimal: hexadecimal,
+/// infinite, empty.
 std::optional<decimal> decimal_in(std::string_view literal) {
   decimal d;
   d.negative = take_minus(literal);
@@ -69,6 +69,8 @@ std::optional<decimal> decimal_in(std::string_view literal) {
   d.digits.erase(0, d.digits.find_first_not_of('0'));
   return d;
 }
+
+}  // namespace
 
 std::optional<int> last_written_digit(std::string_view literal) {
   (void)take_minus(literal);

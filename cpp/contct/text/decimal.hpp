@@ -1,7 +1,6 @@
 // Decimal literals, and the doubles that they become.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,10 +19,6 @@ struct decimal {
 
   [[nodiscard]] bool operator==(const decimal&) const = default;
 };
-
-/// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing where it is no decimal: hexadecimal,
-/// infinite, empty.
-[[nodiscard]] std::optional<decimal> decimal_in(std::string_view literal);
 
 /// The power of ten of the last digit that is written: -3 of "1.250", 2 of "1.25e4". Nothing where `literal`
 /// is no decimal, and for whole numbers without point and exponent, which nothing has rounded.

@@ -87,34 +87,21 @@ void text_lines::refuse_unended() const {
 }
 
 bool field_lines::next() {
-  do {
-    if (!text_lines::next()) {
-      count_ = 0;
-      return false;
+  fields_.clear();
+  while (fields_.empty()) {
+    if (!text_lines::next()) return false;
+    for (std::size_t at = here().find_first_not_of(blanks); at < here().size();) {
+      const std::size_t end = std::min(here().find_first_of(blanks, at), here().size());
+      fields_.push_back(here().substr(at, end - at));
+      at = here().find_first_not_of(blanks, end);
     }
-    split();
-  } while (count_ == 0);
+  }
   refuse_unended();
   return true;
 }
 
-void field_lines::split() {
-  count_ = 0;
-  const std::string_view line = here();
-  std::size_t at = line.find_first_not_of(blanks);
-  while (at != std::string_view::npos) {
-    const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
-    if (count_ == most_fields) {
-      ++count_;
-      return;
-    }
-    fields_[count_++] = line.substr(at, end - at);
-    at = line.find_first_not_of(blanks, end);
-  }
-}
-
 void field_lines::expect(std::size_t fields, std::string_view allowed) const {
-  if (count_ != fields) refuse(field_words(here(), "a line"), allowed);
+  if (fields_.size() != fields) refuse(field_words(here(), "a line"), allowed);
 }
 
 }  // namespace contct::text

@@ -2,7 +2,6 @@
 // and line.
 #pragma once
 
-#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "contct/text/strings.hpp"
 
@@ -85,8 +85,7 @@ class field_lines : public text_lines {
   /// Go to the next line that is not blank; false where there is none.
   bool next();
 
-  /// How many fields the line has; more than `most_fields` count as one more than these.
-  [[nodiscard]] std::size_t fields() const { return count_; }
+  [[nodiscard]] std::size_t fields() const { return fields_.size(); }
   [[nodiscard]] std::string_view field(std::size_t i) const { return fields_[i]; }
 
   /// Field `i`, from 0, as a number.
@@ -100,13 +99,8 @@ class field_lines : public text_lines {
   /// Refuse the line when it has another number of fields.
   void expect(std::size_t fields, std::string_view allowed) const;
 
-  static constexpr std::size_t most_fields = 8;
-
  private:
-  void split();
-
-  std::array<std::string_view, most_fields> fields_;
-  std::size_t count_ = 0;
+  std::vector<std::string_view> fields_;
 };
 
 }  // namespace contct::text

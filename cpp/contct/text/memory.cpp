@@ -4,27 +4,14 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
-
-#include "contct/text/input_text.hpp"
 
 namespace contct::text {
 
 std::int64_t memory_limit() {
-  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-  constexpr std::int64_t mib = std::int64_t{1} << 20;
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  if (const char* const said = std::getenv("CONTCT_MEMORY_MIB"); said != nullptr) {
-    const std::int64_t limit = number_in<std::int64_t>(said).value_or(0);
-    if (limit < 1 || limit > most / mib)
-      throw input_error("CONTCT_MEMORY_MIB: found " + in_quotes(said) +
-                        "; allowed: a whole number of MiB, 1 or more");
-    return limit * mib;
-  }
   const std::int64_t pages = sysconf(_SC_PHYS_PAGES);
   const std::int64_t bytes = sysconf(_SC_PAGESIZE);
-  return pages <= 0 || bytes <= 0 ? most : pages / 4 * 3 * bytes;
+  return pages <= 0 || bytes <= 0 ? std::numeric_limits<std::int64_t>::max() : pages / 4 * 3 * bytes;
 }
 
 std::string bytes_words(std::int64_t bytes) {

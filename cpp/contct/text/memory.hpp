@@ -8,8 +8,7 @@
 
 namespace contct::text {
 
-/// How many bytes a structure may take: what CONTCT_MEMORY_MIB in the environment says, in MiB, or three
-/// quarters of what the machine has. Throws input_error when the variable is not a whole number of 1 or more.
+/// How many bytes a structure may take: three quarters of what the machine has.
 [[nodiscard]] std::int64_t memory_limit();
 
 /// "1.5 GiB", "12 MiB".

@@ -34,9 +34,11 @@ fs::path followed(fs::path path) {
   return (wrong ? folder : resolved) / path.filename();
 }
 
-/// How temporary names begin: in the folder of `target`, since a link cannot leave its file system.
-std::string temporary_prefix(const std::string& target) {
-  return (fs::path(target).parent_path() / ".contct-partial").string();
+/// A new file with a temporary name beside `target`, since a rename cannot leave its file system: its
+/// descriptor, or -1.
+int open_beside(const std::string& target, std::string& name) {
+  name = (fs::path(target).parent_path() / ".contct-partial-XXXXXX").string();
+  return mkostemp(name.data(), O_CLOEXEC);
 }
 
 /// Waits until what was written is on the disk; 0, or what went wrong. Some file systems have nothing to wait
@@ -49,8 +51,11 @@ int sync_to_disk(int descriptor) {
   return error == EINVAL || error == ENOSYS || error == EROFS ? 0 : error;
 }
 
-/// Copy all of one file to another; 0, or what went wrong.
+/// Copy all of one file to another, which gets the rights of any new file; 0, or what went wrong.
 int copy_all(int from, int to) {
+  const mode_t removed = umask(0);
+  umask(removed);
+  fchmod(to, 0666 & ~removed);
   char block[1 << 16];
   off_t at = 0;
   ssize_t got = 0;
@@ -67,7 +72,9 @@ int copy_all(int from, int to) {
 
 }  // namespace
 
-output_file::output_file(std::string path, naming how) : path_(std::move(path)), how_(how) {
+/// The file without a name is in the target's own folder, so that a place that cannot be written is refused
+/// at once.
+output_file::output_file(std::string path) : path_(std::move(path)) {
   if (is_standard_output()) {
     file_ = stdout;
     return;
@@ -78,10 +85,15 @@ output_file::output_file(std::string path, naming how) : path_(std::move(path)),
   if (kind == fs::file_type::directory) fail(EISDIR);
   if (kind == fs::file_type::regular || kind == fs::file_type::not_found) {
     target_ = followed(path_).string();
-    open_without_name();
-    return;
+    const signals_wait until_unlinked;
+    std::string name;
+    const int descriptor = open_beside(target_, name);
+    if (descriptor < 0) fail(errno);
+    unlink(name.c_str());
+    file_ = fdopen(descriptor, "w+b");
+  } else {
+    file_ = std::fopen(path_.c_str(), "wb");
   }
-  file_ = std::fopen(path_.c_str(), "wb");
   if (file_ == nullptr) fail(errno);
 }
 
@@ -89,88 +101,38 @@ output_file::~output_file() {
   if (file_ != nullptr && file_ != stdout) (void)std::fclose(file_);
 }
 
-/// In the target's own folder, so that a place that cannot be written is refused at once.
-void output_file::open_without_name() {
-  int descriptor = -1;
-#ifdef O_TMPFILE
-  const std::string folder = fs::path(target_).parent_path().string();
-  if (how_ == naming::link_or_copy) descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-#endif
-  if (descriptor < 0) {
-    how_ = naming::copy;
-    const signals_wait until_unlinked;
-    std::string name = temporary_prefix(target_) + "-XXXXXX";
-    descriptor = mkstemp(name.data());
-    if (descriptor < 0) fail(errno);
-    unlink(name.c_str());
-  }
-  file_ = fdopen(descriptor, "w+b");
-  if (file_ == nullptr) fail(errno);
-}
-
 void output_file::write(std::string_view text) {
   if (kept_ != nullptr) {
     kept_->append(text);
-    return;
+  } else if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) {
+    fail(errno);
   }
-  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail(errno);
-}
-
-void output_file::flush() {
-  if (kept_ != nullptr) return;
-  if (is_standard_output()) return flush_standard_output();
-  if (std::fflush(file_) != 0) fail(errno);
 }
 
 void output_file::finish() {
-  flush();
-  if (kept_ != nullptr || is_standard_output()) return;
+  if (kept_ != nullptr) return;
+  if (is_standard_output()) return flush_standard_output();
+  if (std::fflush(file_) != 0) fail(errno);
   if (!target_.empty()) give_name();
-  std::FILE* const file = std::exchange(file_, nullptr);
-  if (std::fclose(file) != 0) fail(errno);
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(errno);
 }
 
-/// A file without a name can be linked to a free name only. To replace a file it takes a temporary name
-/// first. It is on the disk before it replaces another: otherwise a loss of power could leave neither.
-void output_file::give_name() {
-  if (link_to(target_)) return;
-  if (const int error = sync_to_disk(fileno(file_)); error != 0) fail(error);
+/// A copy takes a temporary name and then the target's. It is on the disk before it replaces another file:
+/// otherwise a loss of power could leave neither.
+void output_file::give_name() const {
   const signals_wait until_named;
-  std::string temporary;
-  int error = link_beside(temporary) ? 0 : copy_beside(temporary);
-  if (error == 0 && std::rename(temporary.c_str(), target_.c_str()) != 0) error = errno;
-  if (error == 0) return;
-  unlink(temporary.c_str());
-  fail(error);
-}
-
-bool output_file::link_to(const std::string& name) const {
-  const std::string nameless = "/proc/self/fd/" + std::to_string(fileno(file_));
-  return how_ == naming::link_or_copy &&
-         linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
-}
-
-bool output_file::link_beside(std::string& name) const {
-  constexpr int most_tries = 100;
-  for (int i = 0; i < most_tries; ++i) {
-    name = temporary_prefix(target_) + "-" + std::to_string(getpid()) + "-" + std::to_string(i);
-    if (link_to(name)) return true;
-    if (errno != EEXIST) break;
-  }
-  return false;
-}
-
-/// Returns 0, or what went wrong.
-int output_file::copy_beside(std::string& name) const {
-  name = temporary_prefix(target_) + "-XXXXXX";
-  const int copy = mkstemp(name.data());
-  if (copy < 0) return errno;
-  const mode_t removed = umask(0);
-  umask(removed);
-  fchmod(copy, 0666 & ~removed);  // as any new file
+  std::error_code ignored;
+  const bool replaces = fs::exists(target_, ignored);  // before the copy: without memory it would stay
+  std::string name;
+  const int copy = open_beside(target_, name);
+  if (copy < 0) fail(errno);
   int error = copy_all(fileno(file_), copy);
-  if (error == 0) error = sync_to_disk(copy);
-  return close(copy) != 0 && error == 0 ? errno : error;
+  if (error == 0 && replaces) error = sync_to_disk(copy);
+  if (close(copy) != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(name.c_str(), target_.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  unlink(name.c_str());
+  fail(error);
 }
 
 void output_file::fail(int error) const {

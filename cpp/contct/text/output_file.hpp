@@ -34,40 +34,28 @@ class output_error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How a finished file gets its name. It is copied where the file system has no files without names
-/// (O_TMPFILE) or /proc is missing.
-enum class naming { link_or_copy, copy };
-
 /// A file that has no name until `finish` gives it one: if the process ends before, nothing remains. A
 /// symbolic link is followed, and its target replaced. "-" is standard output; a path that exists and is not
 /// a regular file, such as a device, is written directly.
 class output_file {
  public:
-  explicit output_file(std::string path, naming how = naming::link_or_copy);
+  explicit output_file(std::string path);
   /// No file: what is written is appended to `kept`, which must outlive this object.
-  explicit output_file(std::string* kept) : path_("a text"), how_(naming::copy), kept_(kept) {}
+  explicit output_file(std::string* kept) : path_("a text"), kept_(kept) {}
   ~output_file();
   output_file(const output_file&) = delete;
   output_file& operator=(const output_file&) = delete;
 
   void write(std::string_view text);
-  /// Hand all to the system, without the name: `finish` cannot fail for a full disk then, where the name is a
-  /// link.
-  void flush();
   void finish();
-  [[nodiscard]] bool is_standard_output() const { return path_ == "-"; }
 
  private:
-  void open_without_name();
-  void give_name();
-  [[nodiscard]] bool link_to(const std::string& name) const;
-  [[nodiscard]] bool link_beside(std::string& name) const;
-  [[nodiscard]] int copy_beside(std::string& name) const;
+  [[nodiscard]] bool is_standard_output() const { return path_ == "-"; }
+  void give_name() const;
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
   std::string target_;  // path_ with links followed; empty when written directly
-  naming how_;
   std::string* kept_ = nullptr;
   std::FILE* file_ = nullptr;
 };

@@ -67,6 +67,27 @@ bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
+/// The least number of edits between two words (Damerau-Levenshtein): a character inserted, deleted or
+/// replaced, or two neighbours swapped. Case does not count.
+int edits_between(std::string_view a, std::string_view b) {
+  const auto lower = [](char ch) { return ch >= 'A' && ch <= 'Z' ? static_cast<char>(ch - 'A' + 'a') : ch; };
+  // edits[i][j]: from the first i characters of a to the first j of b.
+  std::vector<std::vector<int>> edits(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = static_cast<int>(i);
+  for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      const int replaced = edits[i - 1][j - 1] + (same ? 0 : 1);
+      edits[i][j] = std::min({replaced, edits[i - 1][j] + 1, edits[i][j - 1] + 1});
+      const bool swapped =
+          i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (swapped) edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
+    }
+  }
+  return edits[a.size()][b.size()];
+}
+
 }  // namespace
 
 std::string joined(const std::vector<std::string>& words, std::string_view between) {
@@ -137,25 +158,6 @@ std::string json_escaped(std::string_view json) {
 
 std::string in_quotes(std::string_view text) {
   return "\"" + printable(text) + "\"";
-}
-
-int edits_between(std::string_view a, std::string_view b) {
-  const auto lower = [](char ch) { return ch >= 'A' && ch <= 'Z' ? static_cast<char>(ch - 'A' + 'a') : ch; };
-  // edits[i][j]: from the first i characters of a to the first j of b.
-  std::vector<std::vector<int>> edits(a.size() + 1, std::vector<int>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = static_cast<int>(i);
-  for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = static_cast<int>(j);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
-      const int replaced = edits[i - 1][j - 1] + (same ? 0 : 1);
-      edits[i][j] = std::min({replaced, edits[i - 1][j] + 1, edits[i][j - 1] + 1});
-      const bool swapped =
-          i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
-      if (swapped) edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
-    }
-  }
-  return edits[a.size()][b.size()];
 }
 
 std::string did_you_mean(std::string_view found, std::span<const std::string> known) {

@@ -55,10 +55,6 @@ template <class Json>
   return json_escaped(value.dump(indent, ' ', false, Json::error_handler_t::replace));
 }
 
-/// The least number of edits between two words (Damerau-Levenshtein): a character inserted, deleted or
-/// replaced, or two neighbours swapped. Case does not count.
-[[nodiscard]] int edits_between(std::string_view a, std::string_view b);
-
 /// " (did you mean \"stiffness\"?)": the nearest of `known`, the first of equals, with at most a third of its
 /// letters wrong. Empty where none is near.
 [[nodiscard]] std::string did_you_mean(std::string_view found, std::span<const std::string> known);

@@ -12,7 +12,7 @@
 namespace contct::read {
 
 /// A number in a file, and where it stands.
-struct placed_number {
+struct written_number {
   std::string key;  ///< "step[1].point[2].w"
   double value = 0;
   bool is_whole = false;
@@ -22,7 +22,7 @@ struct placed_number {
 };
 
 /// All finite numbers of a document, in the order in which they stand. `text` is the document's.
-[[nodiscard]] std::vector<placed_number> placed_numbers(const toml::table& document, std::string_view text);
+[[nodiscard]] std::vector<written_number> numbers_in(const toml::table& document, std::string_view text);
 
 /// A warning for each number of the document, `text` in the file `file`, that is not the shortest decimal of
 /// its double, in the order in which they stand; of many, for the first ten, and how many there are.

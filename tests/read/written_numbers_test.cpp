@@ -1,5 +1,5 @@
 // Where the numbers of a file stand, and which of them doubles cannot tell from others.
-#include "contct/read/placed_numbers.hpp"
+#include "contct/read/written_numbers.hpp"
 
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("zeros, signs, exponents and underscores make no other number") {
       "b = [0.250000000000000000000, 10000000000000000000e-1, 1.7976931348623157e308, 5e-324]\n"
       "c = [0.1000000000000000000000000000e+00, 9007199254740992, 0.30000000000000004]\n";
   CHECK(warnings_of(text).empty());
-  CHECK(placed_numbers(parse_toml(text, "p.toml"), text).size() == 19);  // all but inf and nan
+  CHECK(numbers_in(parse_toml(text, "p.toml"), text).size() == 19);  // all but inf and nan
 }
 
 TEST_CASE("whole numbers are warned of where doubles have no such one, hexadecimal or not") {
@@ -84,7 +84,7 @@ TEST_CASE(
   for (int i = 0; i < count; ++i) text += "{w=1.5,n=2},";
   text += "{w=0.10000000000000000001}]\n";
   CHECK(warnings_of(text).size() == 1);
-  CHECK(placed_numbers(parse_toml(text, "p.toml"), text).size() == 2 * count + 1);
+  CHECK(numbers_in(parse_toml(text, "p.toml"), text).size() == 2 * count + 1);
 }
 
 TEST_CASE("a problem has such warnings, and its numbers are those of the shortest decimals") {

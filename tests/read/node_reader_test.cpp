@@ -1,5 +1,5 @@
 // Which nodes a table names: by numbers, coordinates, grid points and labels.
-#include "contct/read/places.hpp"
+#include "contct/read/node_reader.hpp"
 
 #include "catch.hpp"
 #include "read/refusals.hpp"
@@ -21,7 +21,7 @@ model a_matrix() {
 
 std::vector<int> nodes_in(const model& m, const std::string& text) {
   const toml::table document = parse_toml(text, "f.toml");
-  return node_places(m).read(table_reader(document, "", "f.toml"));
+  return node_reader(m).read(toml_value(document, "f.toml"));
 }
 
 std::string refusal(const model& m, const std::string& text) {
@@ -67,11 +67,4 @@ TEST_CASE("nodes are named in one way, and what is missing is said with all ways
                       "nodes or x in its place"));
   CHECK_THAT(refusal(a_plate, ""), Contains("or nodes or at in its place"));
   CHECK_THAT(refusal(a_matrix(), ""), Contains("dof: found nothing: this key is missing; allowed: a label"));
-}
-
-TEST_CASE("an x that is no node is refused with the two nearest and what would make it one") {
-  CHECK_THAT(
-      refusal(a_beam, "x = 0.35"),
-      Contains("x: found 0.35, where there is no node; allowed: the coordinate of a node; the nearest are "
-               "0.3 (node 2) and 0.5 (node 3); element_size in [beam] puts a node at every x"));
 }

@@ -13,32 +13,32 @@
 namespace contct::read {
 
 /// Reads the keys that name nodes: node, nodes, and x (beams) or at (plates); dof and dofs on a matrix.
-class node_places {
+class node_reader {
  public:
   /// `m` must outlive this object.
-  explicit node_places(const model& m);
+  explicit node_reader(const model& m);
 
-  /// These keys and `others`, for table_reader::allow_only.
+  /// These keys and `others`, for toml_value::allow_only.
   [[nodiscard]] std::vector<std::string_view> keys_with(std::vector<std::string_view> others) const;
 
   /// Does a table name nodes?
-  [[nodiscard]] bool named_in(const table_reader& t) const { return t.has(key_in(t)); }
+  [[nodiscard]] bool named_in(const toml_value& t) const { return t.has(key_in(t)); }
 
   /// The nodes that a table names, from 0, in its order, each once; at least one.
-  [[nodiscard]] std::vector<int> read(const table_reader& t) const;
+  [[nodiscard]] std::vector<int> read(const toml_value& t) const;
 
   [[nodiscard]] const model& structure() const { return structure_; }
   [[nodiscard]] bool on_matrix() const { return index_.has_value(); }
 
   /// The dofs of a node that stand as keys in a table, from 0; refuses a table with none.
-  [[nodiscard]] std::vector<int> dofs_in(const table_reader& t, std::string_view found) const;
+  [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
 
   /// The names of a node's dofs.
   [[nodiscard]] const std::vector<std::string_view>& dof_names() const { return dof_names_; }
 
  private:
-  [[nodiscard]] std::string_view key_in(const table_reader& t) const;
-  [[nodiscard]] int node_at(const table_reader& t, const toml::node& entry, std::string_view name) const;
+  [[nodiscard]] std::string_view key_in(const toml_value& t) const;
+  [[nodiscard]] int node_at(const toml_value& named) const;
 
   const model& structure_;
   std::optional<dof_index> index_;           // where the structure is a matrix

@@ -1,0 +1,94 @@
+#include "contct/read/node_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <unordered_set>
+
+#include "contct/read/mesh.hpp"
+#include "contct/text/strings.hpp"
+
+namespace contct::read {
+namespace {
+
+constexpr const char* point_words = "[x, y], or a list of such points";
+
+/// What a key takes that names several nodes.
+std::string_view list_words(std::string_view key) {
+  if (key == "at") return point_words;
+  return key == "x" ? "a number, or a list of numbers" : "a list of labels";
+}
+
+/// The grid point [x, y] of a plate.
+int grid_point(const plate& p, const toml_value& named) {
+  const std::vector<toml_value> point = named.entries(point_words, 2, 2);
+  constexpr std::string_view remedy = "grid lines are set by x and y, or elements, in [plate]";
+  const int i = coordinate_row{p.x, "grid line along x", remedy}.index_of(point[0]);
+  const int j = coordinate_row{p.y, "grid line along y", remedy}.index_of(point[1]);
+  return p.node_at(i, j);
+}
+
+}  // namespace
+
+node_reader::node_reader(const model& m) : structure_(m) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) index_.emplace(*a);
+  if (index_) keys_ = {"dof", "dofs"};
+  if (std::holds_alternative<beam>(m.kind)) keys_ = {"node", "nodes", "x"};
+  if (std::holds_alternative<plate>(m.kind)) keys_ = {"node", "nodes", "at"};
+  for (const char* name : contct::structure::dof_names(m)) dof_names_.emplace_back(name);
+}
+
+std::vector<std::string_view> node_reader::keys_with(std::vector<std::string_view> others) const {
+  others.insert(others.begin(), keys_.begin(), keys_.end());
+  return others;
+}
+
+std::string_view node_reader::key_in(const toml_value& t) const {
+  std::string_view found;
+  for (const std::string_view key : keys_) {
+    if (!t.has(key)) continue;
+    if (!found.empty()) t.refuse_beside({found}, key, fmt::format("either {} or {}", found, key));
+    found = key;
+  }
+  return found.empty() ? keys_.front() : found;
+}
+
+int node_reader::node_at(const toml_value& named) const {
+  if (const auto* b = std::get_if<beam>(&structure_.kind)) return nodes_along(b->x).index_of(named);
+  if (const auto* p = std::get_if<plate>(&structure_.kind)) return grid_point(*p, named);
+  const std::optional<int> dof = index_->find(named.text(index_->allowed()));
+  if (!dof) named.refuse(index_->allowed());
+  return *dof;
+}
+
+std::vector<int> node_reader::read(const toml_value& t) const {
+  const std::string_view key = key_in(t);
+  const toml_value named = t[key];
+  const int count = nodes(structure_);
+  if (key == "nodes") return named.numbers(count);
+  const std::string allowed =
+      on_matrix()
+          ? index_->allowed()
+          : fmt::format("a whole number from 1 to {}, or {} or {} in its place", count, keys_[1], keys_[2]);
+  const toml::array* const point = named.required(allowed).as_array();
+  if (key == "node") return {named.integer(1, count) - 1};
+  if (key == "at" && point != nullptr && !point->empty() && point->front().is_number())
+    return {node_at(named)};
+  std::vector<int> list;
+  std::unordered_set<int> seen;
+  for (const toml_value& entry : named.each(list_words(key))) {
+    list.push_back(node_at(entry));
+    if (!seen.insert(list.back()).second)
+      entry.refuse(place_words(structure_, list.back()) + ", a second time", "each of them once");
+  }
+  return list;
+}
+
+std::vector<int> node_reader::dofs_in(const toml_value& t, std::string_view found) const {
+  std::vector<int> there;
+  for (std::size_t dof = 0; dof < dof_names_.size(); ++dof)
+    if (t.has(dof_names_[dof])) there.push_back(static_cast<int>(dof));
+  if (there.empty()) t.refuse(found, fmt::format("at least one of {}", fmt::join(dof_names_, ", ")));
+  return there;
+}
+
+}  // namespace contct::read
