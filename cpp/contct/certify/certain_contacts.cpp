@@ -78,7 +78,7 @@ std::vector<int> error_prover::holding(std::span<const double_double> u, std::ve
   std::ranges::stable_sort(nearest, {}, [&](int i) { return -depth(i, u).hi; });
   for (const int i : nearest) {
     const int before = rank.rank();
-    rank.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
+    rank.hold(structure_.dof_of_pair(i));
     if (rank.rank() > before) closed.push_back(i);
   }
   std::ranges::sort(closed);
@@ -181,10 +181,10 @@ bool error_prover::find_balanced(int step, std::span<const double_double> u, con
 bool error_prover::stands_free(int step, std::span<const double_double> u, const error_bounds& b) const {
   const rigid_rank held = held_by(b.closed);
   const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);
-  if (structure_.is_held(held) || structure_.truth->driven_by(work, held.dofs())) return false;
+  if (structure_.is_held(held) || structure_.driven_motion(held, {}, work)) return false;
   for (std::size_t i = 0; i < true_.pairs.size(); ++i) {
     rigid_rank with_it = held;
-    with_it.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
+    with_it.hold(structure_.dof_of_pair(i));
     if (with_it.rank() > held.rank() && !is_certainly_open(i, u, b.rho)) return false;
   }
   return true;

@@ -196,7 +196,7 @@ std::vector<error_prover::true_reaction> error_prover::reactions_at(std::span<co
     const std::size_t dof = s.node * per_node + s.dof;
     true_reaction& force = all.emplace_back();
     if (!s.fixed) {
-      force.force = -(long_decimal(s.spring) * u[dof]);
+      force.force = -(structure::number_of<double_double>(s.spring) * u[dof]);
       force.slack = true_rounding * std::abs(force.force.hi);
       if (true_.fixed[dof] == 0)
         force.per_rho = std::min(std::sqrt(s.spring) * (1 + summation_slack), s.spring * reach(dof));

@@ -3,8 +3,6 @@
 #include <numeric>
 #include <utility>
 
-#include "contct/structure/exact_numbers.hpp"
-
 namespace contct::exact {
 namespace {
 

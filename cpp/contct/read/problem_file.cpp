@@ -13,7 +13,7 @@
 #include "contct/read/placed_numbers.hpp"
 #include "contct/read/places.hpp"
 #include "contct/read/step_tables.hpp"
-#include "contct/structure/polynomials.hpp"
+#include "contct/structure/line.hpp"
 
 namespace contct::read {
 namespace {
