@@ -84,8 +84,9 @@ TEST_CASE(
       parse_problem("[beam]\nx = [100000000, 100000000.1]\nEI = 3.0\n[[step]]\nuniform = 0.0\n", "b.toml");
   const long_system t = long_system_of(p);
   // w = 1e6 + 1e3 s + s^2 over s = 0 to 1/10
-  const long_vector u = {1e6, 1e3, double_double(1e6) + 100 + contct::numeric::long_decimal(0.01),
-                         double_double(1e3) + contct::numeric::long_decimal(0.2)};
+  const long_vector u = {1e6, 1e3,
+                         double_double(1e6) + 100 + contct::structure::number_of<double_double>(0.01),
+                         double_double(1e3) + contct::structure::number_of<double_double>(0.2)};
   const std::vector<element_value> v = t.element_values(1, u);
   REQUIRE(v.size() == 4);
   CHECK(off(v[0].value, 0) <= 64 * long_rounding * v[0].size);

@@ -198,15 +198,6 @@ TEST_CASE("recovery gives every dof from the load and the pairs' forces") {
   CHECK(u[1] == 0.0);
 }
 
-TEST_CASE("a stiffness matrix without a factor is an exception, not a number") {
-  beam_problem p{even_beam(1.0, 1, 1.0), {}, {}, {}};
-  linear_structure s = p.structure();
-  s.stiffness.band().add(0, 0, -100.0);
-  const auto engine = make_engine("refactor", s);
-  std::vector<double> d_star(0);
-  CHECK_THROWS_AS(engine->respond({std::vector<double>(4, 1.0), 1.0}, d_star), no_factor);
-}
-
 TEST_CASE(
     "whichever way a plate is numbered inside, dofs, supports, pairs and forces keep their own numbers") {
   // The same plate lying and standing: 5 by 2 elements numbered along y, 2 by 5 in its own order.

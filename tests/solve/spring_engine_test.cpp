@@ -21,7 +21,6 @@ class recording_engine final : public spring_engine {
   }
   void recover(std::span<const double> /*load*/, std::span<const double> /*pair_forces*/,
                std::span<double> /*u*/) override {}
-  [[nodiscard]] double reciprocal_condition() override { return 1.0; }
 
   [[nodiscard]] const std::vector<char>& applied() const { return applied_; }
   std::vector<int> order;

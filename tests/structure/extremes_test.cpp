@@ -92,15 +92,15 @@ TEST_CASE(
   const load l{{{1, 0, -3.0}}, {{{1.0, -2.0, 0.5}, {1}}, {{4.0}, {}}}};
   const std::vector<double> u = bent(b, l, {{0, 0, true}, {0, 1, true}, {2, 0, true}});
   const beam_lines lines(b, l, u);
-  const auto ends = forces_in_elements(b, l, u);
+  const element_results ends = results_in_elements(b, l, u);
   for (int e = 0; e < 2; ++e) {
     const element_line line = lines.at(e);
     CHECK(line.left == b.x[e]);
     CHECK(polynomial_at(line.w, 1.0) == Approx(u[2 * e + 2]).epsilon(1e-10).margin(1e-14));
     CHECK(polynomial_at(line.slope, 0.0) == Approx(u[2 * e + 1]).margin(1e-15));
     CHECK(polynomial_at(line.slope, 1.0) == Approx(u[2 * e + 3]).epsilon(1e-10));
-    CHECK(polynomial_at(line.moment, 1.0) == Approx(ends[e].moment[1]).epsilon(1e-10).margin(1e-10));
-    CHECK(polynomial_at(line.shear, 1.0) == Approx(ends[e].shear[1]).epsilon(1e-10));
+    CHECK(polynomial_at(line.moment, 1.0) == Approx(ends.at(e, 1)[1]).epsilon(1e-10).margin(1e-10));
+    CHECK(polynomial_at(line.shear, 1.0) == Approx(ends.at(e, 0)[1]).epsilon(1e-10));
     const double t = 0.3, d = 1e-4;
     const auto slope_of = [&](const std::vector<double>& p) {
       return (polynomial_at(p, t + d) - polynomial_at(p, t - d)) / (2 * d * line.h);
@@ -178,7 +178,7 @@ TEST_CASE("the lines of all elements begin with the shears and moments that they
   for (int e = 0; e < 3; ++e) {
     CHECK(lines.at(e).shear[0] == given[std::size_t{4} * e]);
     CHECK(lines.at(e).moment[0] == given[std::size_t{4} * e + 2]);
-    CHECK(lines.ends(e).moment[1] == given[std::size_t{4} * e + 3]);
+    CHECK(lines.ends().at(e, 1)[1] == given[std::size_t{4} * e + 3]);
   }
 }
 

@@ -89,7 +89,7 @@ std::vector<int> certain_contacts::holding(std::span<const double_double> u, std
   std::ranges::stable_sort(nearest, {}, [&](int i) { return -system_.depth(i, u).hi; });
   for (const int i : nearest) {
     const int before = rank.rank();
-    rank.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
+    rank.hold(structure_.dof_of_pair(i));
     if (rank.rank() > before) closed.push_back(i);
   }
   std::ranges::sort(closed);
@@ -192,10 +192,10 @@ bool certain_contacts::find_balanced(int step, std::span<const double_double> u,
 bool certain_contacts::stands_free(int step, std::span<const double_double> u, const contact_set& b) const {
   const rigid_rank held = held_by(b.closed);
   const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);
-  if (structure_.is_held(held) || structure_.truth->driven_by(work, held.dofs())) return false;
+  if (structure_.is_held(held) || structure_.driven_motion(held, {}, work)) return false;
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     rigid_rank with_it = held;
-    with_it.hold(structure_.held_by_pairs[i], structure_.dof_of_pair(i));
+    with_it.hold(structure_.dof_of_pair(i));
     if (with_it.rank() > held.rank() && !is_certainly_open(i, u, b.rho)) return false;
   }
   return true;

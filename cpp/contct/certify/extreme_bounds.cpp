@@ -71,9 +71,9 @@ void widen(const structure::beam& b, const reported_state& state, const structur
     const double of_load = 0x1p-80 * line.load_size * line.h;
     bounds.size.take(quantity::w, std::abs(structure::polynomial_at(line.w, 0.5)));
     if (line.load_size != 0.0) {  // otherwise both are largest at the ends
-      inside.take(quantity::shear, of_load + off_extremes(line.shear, printed[2], lines.ends(e).shear[1]));
+      inside.take(quantity::shear, of_load + off_extremes(line.shear, printed[2], lines.ends().at(e, 0)[1]));
       inside.take(quantity::moment,
-                  of_load * line.h + off_extremes(line.moment, printed[1], lines.ends(e).moment[1]));
+                  of_load * line.h + off_extremes(line.moment, printed[1], lines.ends().at(e, 1)[1]));
     }
     inside.take(quantity::w, of_load * line.h * line.h * line.h / b.EI[e] + of_slope +
                                  off_extremes(line.w, printed[0], state.displacement[right]));

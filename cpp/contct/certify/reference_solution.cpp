@@ -146,8 +146,7 @@ class reference_solver::search {
   /// p = a rigid motion.
   void put(const free_motion& motion, numbers& p) const {
     for (int dof = 0; dof < structure_.dofs(); ++dof)
-      p[structure_.row_of(dof)] =
-          structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof, structure_.rigid_rows[dof]);
+      p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof);
     for (std::size_t i = 0; i < set_.size(); ++i)
       if (set_[i] != 0) p[pair_rows_[i]] = 0.0L;  // what is left there is rounding
   }
@@ -157,7 +156,7 @@ class reference_solver::search {
     for (int dof = 0; dof < structure_.dofs() && rank.rank() < structure_.rigid_motions; ++dof) {
       const int before = rank.rank();
       if (structure_.fixed[dof] != 0) continue;
-      rank.hold(structure_.rigid_rows[dof], dof);
+      rank.hold(dof);
       if (rank.rank() == before) continue;
       const int row = structure_.row_of(dof);
       holding_.push_back({static_cast<std::size_t>(row), structure_.stiffness.diagonal(row), u_[row]});

@@ -4,8 +4,6 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "contct/structure/exact_numbers.hpp"
-
 namespace contct::exact {
 namespace {
 

@@ -34,11 +34,6 @@ rational two_to(int exponent) {
   return exponent < 0 ? rational(integer(1), power) : rational(power);
 }
 
-rational value_of(const decimal& d) {
-  const rational size = rational(integer(d.digits)) * ten_to(static_cast<int>(d.exponent));
-  return d.negative ? rational(-size) : size;
-}
-
 /// The exponent of the leading digit of x > 0: 10^e <= x < 10^(e + 1).
 int leading_exponent(const rational& x) {
   const auto top = static_cast<double>(length_in_bits(numerator(x)));
@@ -93,7 +88,10 @@ void allocate_as_new_does() {
 }
 
 rational decimal_of(double x) {
-  return value_of(text::shortest_decimal(x));
+  const decimal d = text::shortest_decimal(x);
+  const integer digits((d.negative ? "-" : "") + d.digits);
+  const integer power = power_of(10, static_cast<unsigned>(std::abs(d.exponent)));
+  return d.exponent < 0 ? rational(digits, power) : rational(integer(digits * power));
 }
 
 rational binary_value(double x) {

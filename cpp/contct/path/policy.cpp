@@ -48,15 +48,14 @@ bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   for (std::size_t i = 0; i < now.pairs(); ++i) {
     now.d_star[i] = 0.0;
     if (now.status[i] == in_contact) continue;
-    now.d_star[i] = motion->at(static_cast<int>(now.at_dof[i]), now.structure.held_by_pairs[i]);
+    now.d_star[i] = motion->at(static_cast<int>(now.at_dof[i]));
     if (now.d_star[i] != 0.0) longest_way = std::max(longest_way, (now.c[i] - now.d[i]) / now.d_star[i]);
   }
   const double longest = longest_way > 0.0 ? 2.0 * longest_way : 1.0;
   for (double& moves : now.d_star) moves *= longest;
   everywhere.assign(now.total.size(), 0.0);
   for (std::size_t dof = 0; dof < everywhere.size(); ++dof)
-    if (now.structure.fixed[dof] == 0)
-      everywhere[dof] = longest * motion->at(static_cast<int>(dof), now.structure.rigid_rows[dof]);
+    if (now.structure.fixed[dof] == 0) everywhere[dof] = longest * motion->at(static_cast<int>(dof));
   return true;
 }
 

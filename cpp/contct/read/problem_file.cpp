@@ -13,7 +13,7 @@
 #include "contct/read/node_reader.hpp"
 #include "contct/read/step_tables.hpp"
 #include "contct/read/written_numbers.hpp"
-#include "contct/structure/polynomials.hpp"
+#include "contct/structure/line.hpp"
 
 namespace contct::read {
 namespace {

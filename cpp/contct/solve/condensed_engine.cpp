@@ -89,7 +89,7 @@ node_matrix block(const band_matrix& k, int row_node, int column_node) {
 /// tens of them: the cost of an event does not depend on the length of the beam.
 class condensed_engine final : public spring_engine {
  public:
-  explicit condensed_engine(const linear_structure& s) : spring_engine(s), stiffness_(s) {
+  explicit condensed_engine(const linear_structure& s) : spring_engine(s) {
     if (!can_be_condensed(s))
       throw std::invalid_argument(
           "engine \"condensed\": found another structure; allowed: a beam with pairs");
@@ -98,9 +98,8 @@ class condensed_engine final : public spring_engine {
     kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
     for (std::size_t i = 0; i < s.pairs.size(); ++i) {
       place_.push_back(std::lower_bound(kept_.begin(), kept_.end(), s.pairs[i].node) - kept_.begin());
-      spring_factor_.push_back(s.fixed[s.dof_of_pair(i)] != 0 ? 0.0 : 1.0);
+      spring_.push_back(s.fixed[s.dof_of_pair(i)] != 0 ? 0.0 : s.pairs[i].stiffness);
     }
-    for (std::size_t i = 0; i < place_.size(); ++i) in_order_ = in_order_ && place_[i] == i;
     pairs_at_.resize(kept_.size());
     for (std::size_t i = 0; i < place_.size(); ++i) pairs_at_[place_[i]].push_back(static_cast<int>(i));
     x_.resize(kept_.size());
@@ -119,27 +118,17 @@ class condensed_engine final : public spring_engine {
       return true;
     });
     if (!has_response || (drift_.is_due() && !refine_response())) respond_anew(residual);
-    give_response(residual.share, d_star);
+    for (std::size_t i = 0; i < d_star.size(); ++i) d_star[i] = residual.share * x_[place_[i]].w;
   }
 
   void recover(std::span<const double> load, std::span<const double> pair_forces,
                std::span<double> u) override {
     stiffness_.factor(wanted_);
     ++counts_.factors;
-    stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
+    solve_for_all(load, pair_forces, u);
   }
-
-  [[nodiscard]] double reciprocal_condition() override { return stiffness_.reciprocal_condition(wanted_); }
 
  private:
-  void give_response(double share, std::span<double> d_star) const {
-    if (in_order_) {
-      for (std::size_t i = 0; i < d_star.size(); ++i) d_star[i] = share * x_[i].w;
-    } else {
-      for (std::size_t i = 0; i < d_star.size(); ++i) d_star[i] = share * x_[place_[i]].w;
-    }
-  }
-
   /// Eliminate the nodes between two kept ones; node -1 and node `nodes` stand for the beam's ends.
   void eliminate_between(int left_node, int right_node, std::size_t left) {
     const band_matrix& k = structure_.stiffness.band();
@@ -197,7 +186,7 @@ class condensed_engine final : public spring_engine {
   void add_springs(std::size_t at) {
     d_[at].ww = without_springs_[at];
     for (const int pair : pairs_at_[at])
-      if (applied_[pair] != 0) d_[at].ww += spring_factor_[pair] * stiffness_of(pair);
+      if (applied_[pair] != 0) d_[at].ww += spring_[pair];
   }
 
   /// L_i, and how a column goes on from i + 1 to i.
@@ -277,9 +266,8 @@ class condensed_engine final : public spring_engine {
   [[nodiscard]] bool update_response(int pair) {
     const std::size_t at = place_[pair];
     ++counts_.updates;
-    const double k = spring_factor_[pair] * stiffness_of(pair);
-    const double sigma_k = applied_[pair] != 0 ? k : -k;
-    if (k == 0.0) return true;
+    const double sigma_k = applied_[pair] != 0 ? spring_[pair] : -spring_[pair];
+    if (sigma_k == 0.0) return true;
     sweep_from(at);
     const node_matrix middle = left_[at] + right_[at] - d_[at];
     if (!is_definite(middle)) return false;
@@ -344,11 +332,10 @@ class condensed_engine final : public spring_engine {
 
   bool is_condensed_ = false;
   std::vector<std::size_t> place_;               // of each pair's node among the kept ones [pairs]
-  bool in_order_ = true;                         // each pair's place is its own number
   std::vector<int> kept_;                        // nodes with pairs, from 0, in order
   std::vector<std::vector<int>> pairs_at_;       // [kept nodes]
   std::vector<double> without_springs_;          // D_ww of no pair in contact [kept nodes]
-  std::vector<double> spring_factor_;            // [pairs] 1, or 0 where the dof is fixed
+  std::vector<double> spring_;                   // [pairs] k; 0 where the dof is fixed
   std::vector<node_matrix> d_, e_;               // D_i; E_i couples i (rows) with i + 1 (columns)
   std::vector<node_matrix> left_, right_;        // L_i, R_i
   std::vector<node_matrix> go_left_, go_right_;  // -L_i^-1 E_i; -R_i^-1 E_{i-1}^T
@@ -357,7 +344,6 @@ class condensed_engine final : public spring_engine {
   std::vector<node_vector> column_;  // the residual, and what it corrects
   std::uint64_t response_to_ = 0;
   drift_monitor drift_{{32, 512, 1e-11, 1e-11 / 4}};
-  factored_stiffness stiffness_;
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ mpi_job* job_of_this_process = nullptr;  // MPI has no more than one for a proce
 /// Memory: two bands, the structure's own and the factor.
 class refactor_engine final : public spring_engine {
  public:
-  explicit refactor_engine(const linear_structure& s) : spring_engine(s), stiffness_(s), w_star_(s.dofs()) {}
+  explicit refactor_engine(const linear_structure& s) : spring_engine(s), w_star_(s.dofs()) {}
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
     factor();
@@ -27,10 +27,8 @@ class refactor_engine final : public spring_engine {
   void recover(std::span<const double> load, std::span<const double> pair_forces,
                std::span<double> u) override {
     factor();
-    stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
+    solve_for_all(load, pair_forces, u);
   }
-
-  [[nodiscard]] double reciprocal_condition() override { return stiffness_.reciprocal_condition(wanted_); }
 
  private:
   /// For the one solve that follows.
@@ -40,7 +38,6 @@ class refactor_engine final : public spring_engine {
     ++counts_.solves;
   }
 
-  factored_stiffness stiffness_;
   std::vector<double> w_star_;  // [dofs]
 };
 

@@ -1,5 +1,5 @@
-// What all engines have: the springs that are wanted and those that are applied, counts, and a monitor of
-// drift.
+// What all engines have: a factor, the springs that are wanted and those that are applied, counts, and a
+// monitor of drift.
 #pragma once
 
 #include <algorithm>
@@ -66,9 +66,11 @@ class spring_engine : public stiffness_engine {
     switched_.push_back(pair);
   }
   [[nodiscard]] engine_counts counts() const override { return counts_; }
+  [[nodiscard]] double reciprocal_condition() override { return stiffness_.reciprocal_condition(wanted_); }
 
  protected:
-  explicit spring_engine(const linear_structure& s) : structure_(s), applied_(s.pairs.size()) {
+  explicit spring_engine(const linear_structure& s, factored_by how = factored_by::storage)
+      : structure_(s), stiffness_(s, how), applied_(s.pairs.size()) {
     for (const contact_pair& p : s.pairs) wanted_.push_back(p.closed ? 1 : 0);
   }
 
@@ -95,7 +97,13 @@ class spring_engine : public stiffness_engine {
 
   [[nodiscard]] double stiffness_of(int pair) const { return structure_.pairs[pair].stiffness; }
 
+  /// Solve for every dof by the factor, which has the wanted springs.
+  void solve_for_all(std::span<const double> load, std::span<const double> pair_forces, std::span<double> u) {
+    stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
+  }
+
   const linear_structure& structure_;
+  factored_stiffness stiffness_;
   std::vector<char> wanted_;   // closed, as switched [pairs]
   std::vector<char> applied_;  // closed, in the factor and its updates [pairs]
   engine_counts counts_;

@@ -129,8 +129,7 @@ class inverse_columns {
 class updated_engine final : public spring_engine {
  public:
   updated_engine(const linear_structure& s, factored_by how)
-      : spring_engine(s),
-        stiffness_(s, how),
+      : spring_engine(s, how),
         columns_(stiffness_, s.pairs.size()),
         most_toggles_(columns_worth_keeping(stiffness_.flops(), s.pairs.size())),
         response_(s.pairs.size()),
@@ -152,13 +151,13 @@ class updated_engine final : public spring_engine {
                std::span<double> u) override {
     if (!has_factor_ || !columns_.toggles().empty() || applied_ != wanted_) factor_anew();
     apply_all();
-    stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
+    solve_for_all(load, pair_forces, u);
   }
 
   [[nodiscard]] double reciprocal_condition() override {
     has_factor_ = false;
     response_to_ = 0;
-    return stiffness_.reciprocal_condition(wanted_);
+    return spring_engine::reciprocal_condition();
   }
 
   [[nodiscard]] engine_counts counts() const override {
@@ -216,7 +215,6 @@ class updated_engine final : public spring_engine {
     return drift_.accepts(found);
   }
 
-  factored_stiffness stiffness_;
   inverse_columns columns_;
   bool has_factor_ = false;
   std::size_t most_toggles_;                          // between factors

@@ -46,18 +46,13 @@ linear_structure build(const assembled& a, std::span<const support> supports,
   }
   s.rigid_motions = motions.count;
   s.rigid_rounding = motions.rounding;
-  s.held_by_supports.clear();
   s.supported_dofs.clear();
-  s.held_by_pairs.clear();
   for (std::size_t dof = 0; dof < s.fixed.size(); ++dof)
     if (s.fixed[dof] == 0) s.rigid_rows[dof] = motions.rows[s.row_of(dof)];
-  // A matrix does not say which of its dofs are lengths. Those of pairs are; without pairs, all are taken to
-  // be.
+  // A matrix does not say which of its dofs are lengths. Those of pairs are; without pairs, all count as
+  // such.
   s.lengths.assign(a.dofs(), s.pairs.empty() ? 1 : 0);
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
-    s.held_by_pairs.push_back(s.rigid_rows[s.dof_of_pair(i)]);
-    s.lengths[s.dof_of_pair(i)] = 1;
-  }
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) s.lengths[s.dof_of_pair(i)] = 1;
   return s;
 }
 

@@ -3,12 +3,35 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <type_traits>
 #include <vector>
 
+#include "contct/numeric/double_double.hpp"
 #include "contct/structure/structure.hpp"
+
+namespace contct::structure {
+
+/// How large a number is that rounding may put off; rational ones are never off.
+template <class Number>
+[[nodiscard]] double size_of(const Number& /*x*/) {
+  return 0.0;
+}
+template <>
+[[nodiscard]] inline double size_of(const numeric::double_double& x) {
+  return std::abs(x.hi);
+}
+
+/// A distributed load on an element: a polynomial in t = (x - left) / h, from 0 to 1, constant first.
+template <class Number>
+struct load_on_element {
+  std::vector<Number> q;
+  double size = 0.0;  ///< each of q is off by at most 2^-89 of it
+};
+
+}  // namespace contct::structure
 
 namespace contct::structure::formulas {
 
@@ -61,8 +84,7 @@ struct weighted_place {
 };
 
 /// By Boole's rule, whose places and weights are rational: exact for degree 5, and the integrals are of
-/// degree
-/// 4. Doubles, for which neither thirds nor roots are exact, take Gauss's three points.
+/// degree 4. Doubles, for which neither thirds nor roots are exact, take Gauss's three points.
 template <class Number>
 std::vector<weighted_place<Number>> places_of_integration() {
   std::vector<weighted_place<Number>> all;

@@ -9,19 +9,9 @@
 #include <vector>
 
 #include "contct/structure/element_formulas.hpp"
-#include "contct/structure/polynomials.hpp"
+#include "contct/structure/line.hpp"
 
 namespace contct::structure {
-
-/// How large a number is that rounding may put off; rational ones are never off.
-template <class Number>
-[[nodiscard]] double size_of(const Number& /*x*/) {
-  return 0.0;
-}
-template <>
-[[nodiscard]] inline double size_of(const numeric::double_double& x) {
-  return std::abs(x.hi);
-}
 
 /// What a load does on the shape functions of one element, and the magnitudes that this is summed from.
 template <class Number, std::size_t Dofs>
@@ -35,11 +25,14 @@ template <class Number>
 class beam_elements {
  public:
   /// `b` must outlive this object.
-  explicit beam_elements(const beam& b) : beam_(b), line_(b.x, b.runs), h_(line_.lengths()) {}
+  explicit beam_elements(const beam& b) : beam_(b), h_(line<Number>(b.x, b.runs).lengths()) {
+    for (std::size_t e = 0; e < b.EI.size(); ++e)  // most beams have one stiffness
+      EI_.push_back(e > 0 && b.EI[e] == b.EI[e - 1] ? EI_.back() : number_of<Number>(b.EI[e]));
+  }
 
   [[nodiscard]] int count() const { return beam_.elements(); }
   [[nodiscard]] const std::vector<Number>& lengths() const { return h_; }
-  [[nodiscard]] Number EI(int e) const { return number_of<Number>(beam_.EI[e]); }
+  [[nodiscard]] const Number& EI(int e) const { return EI_[e]; }
   [[nodiscard]] static std::array<int, 4> dofs_of(int e) { return {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3}; }
   /// Have two elements the same stiffness?
   [[nodiscard]] bool are_alike(int e, int other) const {
@@ -58,7 +51,7 @@ class beam_elements {
         visit(e, element_work<double, 4>{dofs_of(e), force, {}});
       });
     } else {
-      for_each_polynomial<Number>(line_, l, [&](int e, const load_on_element<Number>& on) {
+      for_each_polynomial<Number>(beam_, l, [&](int e, const load_on_element<Number>& on) {
         element_work<Number, 4> work{dofs_of(e), formulas::beam_load<Number>(on.q, h_[e]), {}};
         const double size = on.size * size_of(h_[e]);
         for (std::size_t i = 0; i < 4; ++i) work.size[i] = size * (i % 2 == 0 ? 1.0 : size_of(h_[e]));
@@ -83,13 +76,32 @@ class beam_elements {
     return forces;
   }
 
+  /// The same for each quantity of element_results, one element after the other.
+  [[nodiscard]] std::vector<Number> values(const load& l, std::span<const Number> u) const {
+    std::vector<Number> all;
+    for (const auto& of_element : end_forces(l, u))
+      all.insert(all.end(), of_element.begin(), of_element.end());
+    return all;
+  }
+
+  /// Add to `need` [dofs] what the elements beside each dof need there, beyond the loads on them.
+  void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
+    const auto forces = end_forces(l, u);
+    for (std::size_t e = 0; e < forces.size(); ++e) {
+      const auto& [left_shear, right_shear, left_moment, right_moment] = forces[e];
+      need[2 * e] += left_shear;
+      need[2 * e + 1] -= left_moment;
+      need[2 * e + 2] -= right_shear;
+      need[2 * e + 3] += right_moment;
+    }
+  }
+
   /// The length that each node stands for.
   [[nodiscard]] std::vector<Number> shares() const { return tributary_lengths<Number>(h_); }
 
  private:
   const beam& beam_;
-  line<Number> line_;
-  std::vector<Number> h_;
+  std::vector<Number> h_, EI_;
 };
 
 template <class Number>
@@ -185,7 +197,7 @@ class plate_elements {
     const halves own = halves_of(e);
     return formulas::plate_forces(own.a, own.b, D_, nu_, displacement(e, u));
   }
-  /// Moments at its corners: see corner_moments.
+  /// M_x, M_y and M_xy at its corners: see element_results.
   [[nodiscard]] std::array<std::array<Number, 4>, 3> moments(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     const auto at = formulas::curvatures_at_corners(own.a, own.b, deformation(e, u));
@@ -196,6 +208,28 @@ class plate_elements {
       m[2][k] = D_ * (1 - nu_) * at[k].xy;
     }
     return m;
+  }
+
+  /// The moments of all elements, one after the other.
+  [[nodiscard]] std::vector<Number> values(const load& /*l*/, std::span<const Number> u) const {
+    std::vector<Number> all;
+    for (int e = 0; e < count(); ++e)
+      for (const auto& quantity : moments(e, u)) all.insert(all.end(), quantity.begin(), quantity.end());
+    return all;
+  }
+
+  /// Add to `need` [dofs] what the elements beside each dof need there, beyond the loads on them.
+  void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
+    const std::vector<summed_pressure> pressure = pressures(l);
+    for (int e = 0; e < count(); ++e) {
+      const std::array<int, 12> dofs = dofs_of(e);
+      const vector held = forces(e, u);
+      const vector unit = unit_pressure_on(e);
+      for (std::size_t i = 0; i < 12; ++i) {
+        need[dofs[i]] += held[i];
+        need[dofs[i]] -= pressure[e].value * unit[i];
+      }
+    }
   }
 
   /// The area that each node stands for: a quarter of each element beside it.
@@ -220,6 +254,9 @@ struct no_elements {
   template <class Visit>
   void for_each_work(const load& /*l*/, const Visit& /*visit*/) const {}
   [[nodiscard]] static std::vector<Number> shares() { return {}; }
+  [[nodiscard]] static std::vector<Number> values(const load& /*l*/, std::span<const Number> /*u*/) {
+    return {};
+  }
 };
 
 template <class Number>

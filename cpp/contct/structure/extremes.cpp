@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "contct/structure/line.hpp"
+
 namespace contct::structure {
 namespace {
 
@@ -55,10 +57,19 @@ class extremes {
     if (v.value > most_.shown.value) most_.follow(v, from);
   }
 
-  [[nodiscard]] value_range range() const { return {name_, least_.shown, most_.shown}; }
-  [[nodiscard]] bool has(double least, double most) const {
-    return least >= least_.shown.value && most <= most_.shown.value;
+  /// The line of a beam's element. Its ends, by `left_value` and `right_value`, are not computed from the
+  /// polynomial.
+  void take_element(const element_line& line, int e, const poly& p, double left_value, double right_value) {
+    take({left_value, line.left, 0.0, e}, line.left);
+    take({right_value, line.left + line.h, 0.0, e + 1}, line.left);
+    const poly hull = bernstein_of(p);
+    const auto [least, most] = std::ranges::minmax(hull);
+    if (least >= least_.shown.value && most <= most_.shown.value) return;
+    for (const double t : zeros_of(derivative(p)))
+      take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, line.left);
   }
+
+  [[nodiscard]] value_range range() const { return {name_, least_.shown, most_.shown}; }
 
  private:
   struct extreme {
@@ -83,43 +94,21 @@ double w_at(std::span<const double> u, std::size_t node) {
   return u[beam::dofs_per_node * node];
 }
 
-/// One quantity along a beam.
-class range_along {
- public:
-  range_along(std::string_view name, const placed_value& first) : values_(name, first) {}
-
-  /// An element's own line. Its ends, by `left_value` and `right_value`, are not computed from the
-  /// polynomial.
-  void take_element(const element_line& line, int e, const poly& p, double left_value, double right_value) {
-    values_.take({left_value, line.left, 0.0, e}, line.left);
-    values_.take({right_value, line.left + line.h, 0.0, e + 1}, line.left);
-    const poly hull = bernstein_of(p);
-    const auto [least, most] = std::ranges::minmax(hull);
-    if (values_.has(least, most)) return;
-    for (const double t : zeros_of(derivative(p)))
-      values_.take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, line.left);
-  }
-
-  [[nodiscard]] value_range range() const { return values_.range(); }
-
- private:
-  extremes values_;
-};
-
 std::vector<value_range> ranges(const beam& b, const load& l, std::span<const double> u,
                                 std::span<const int> /*deflecting*/, std::span<const double> element_values) {
   const beam_lines lines(b, l, u, element_values);
   const element_line first = lines.at(0);
   const auto start = [&](double value) { return placed_value{value, b.x.front(), 0.0, 0}; };
-  range_along w("w", start(u[0]));
-  range_along moment("moment", start(first.moment.front()));
-  range_along shear("shear", start(first.shear.front()));
+  extremes w("w", start(u[0]));
+  extremes moment("moment", start(first.moment.front()));
+  extremes shear("shear", start(first.shear.front()));
   for (int e = 0; e < b.elements(); ++e) {
     const element_line line = lines.at(e);
-    const element_forces& ends = lines.ends(e);
+    const auto shears = lines.ends().at(e, 0);
+    const auto moments = lines.ends().at(e, 1);
     w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
-    moment.take_element(line, e, line.moment, ends.moment[0], ends.moment[1]);
-    shear.take_element(line, e, line.shear, ends.shear[0], ends.shear[1]);
+    moment.take_element(line, e, line.moment, moments[0], moments[1]);
+    shear.take_element(line, e, line.shear, shears[0], shears[1]);
   }
   return {w.range(), moment.range(), shear.range()};
 }
@@ -170,7 +159,7 @@ std::vector<double> bernstein_of(std::span<const double> p) {
 
 value_range deflections_between(const beam& b, const beam_lines& lines, std::span<const double> u, int first,
                                 int last) {
-  range_along w("w", {w_at(u, first), b.x[first], 0.0, first});
+  extremes w("w", {w_at(u, first), b.x[first], 0.0, first});
   for (int e = first; e < last; ++e) {
     const element_line line = lines.at(e);
     w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
@@ -180,14 +169,10 @@ value_range deflections_between(const beam& b, const beam_lines& lines, std::spa
 
 beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
                        std::span<const double> element_values)
-    : beam_(b), u_(u), forces_(forces_in_elements(b, l, u)), loads_(b.elements()) {
-  for (std::size_t e = 0; e < forces_.size() && !element_values.empty(); ++e) {
-    const auto v = element_values.subspan(4 * e, 4);
-    forces_[e] = {{v[0], v[1]}, {v[2], v[3]}};
-  }
-  const line<numeric::double_double> x(b.x, b.runs);
-  for (const numeric::double_double& h : x.lengths()) h_.push_back(h.hi);
-  for_each_polynomial<numeric::double_double>(x, l, [&](int e, const auto& on) {
+    : beam_(b), u_(u), ends_(results_in_elements(model{b}, l, u)), loads_(b.elements()) {
+  if (!element_values.empty()) ends_.values.assign(element_values.begin(), element_values.end());
+  for (const auto& h : line<numeric::double_double>(b.x, b.runs).lengths()) h_.push_back(h.hi);
+  for_each_polynomial<numeric::double_double>(b, l, [&](int e, const auto& on) {
     auto& sum = loads_[e];
     sum.q.resize(std::max(sum.q.size(), on.q.size()));
     for (std::size_t i = 0; i < on.q.size(); ++i) sum.q[i] += on.q[i];
@@ -204,9 +189,9 @@ element_line beam_lines::at(int e) const {
   element_line line{beam_.x[e], h, poly(size + 4), {}, {}, {}, q, loads_[e].size};
   line.shear.assign(size + 1, 0.0);
   line.moment.assign(size + 2, 0.0);
-  line.shear[0] = forces_[e].shear[0];
-  line.moment[0] = forces_[e].moment[0];
-  line.moment[1] = forces_[e].shear[0] * h;
+  line.shear[0] = ends_.at(e, 0)[0];
+  line.moment[0] = ends_.at(e, 1)[0];
+  line.moment[1] = line.shear[0] * h;
   for (std::size_t j = 0; j < size; ++j) {  // dV/dx = q, dM/dx = V
     const auto n = static_cast<double>(j);
     line.shear[j + 1] = q[j] * h / (n + 1);

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/structure/polynomials.hpp"
+#include "contct/structure/element_formulas.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::structure {
 
@@ -28,12 +29,13 @@ class beam_lines {
 
   /// Element `e`, from 0.
   [[nodiscard]] element_line at(int e) const;
-  [[nodiscard]] const element_forces& ends(std::size_t e) const { return forces_[e]; }
+  /// Shear and moment at the ends of the elements.
+  [[nodiscard]] const element_results& ends() const { return ends_; }
 
  private:
   const beam& beam_;
   std::span<const double> u_;
-  std::vector<element_forces> forces_;
+  element_results ends_;
   std::vector<double> h_;                                       // of each element
   std::vector<load_on_element<numeric::double_double>> loads_;  // likewise; without coefficients: none
 };

@@ -1,59 +1,74 @@
-// Lines of nodes in numbers of any kind that knows + - * /: doubles, pairs of doubles or rational ones.
+// Numbers of a file, lines of nodes and polynomials along them, in numbers of any kind that knows + - * /:
+// doubles, pairs of doubles or rational ones.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <type_traits>
 #include <vector>
 
 #include "contct/numeric/double_double.hpp"
+#include "contct/structure/element_formulas.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct::structure {
 
-/// What a number of a file means: the shortest decimal that reads as it. In doubles it is the number itself.
+// What a number of a file means: the shortest decimal that reads as it. In doubles it is the number itself.
+// What follows from several of them is computed exactly and rounded once, in pairs of doubles, too: line.cpp
+// has it.
+
 template <class Number>
 [[nodiscard]] Number number_of(double x);
 
-/// The difference of two such numbers, without the rounding of these.
+/// a - b, however much of them cancels.
 template <class Number>
-[[nodiscard]] Number difference_of(double a, double b) {
-  return number_of<Number>(a) - number_of<Number>(b);
-}
+[[nodiscard]] Number difference_of(double a, double b);
 
 /// The sum of such numbers; exactly 0 where their decimals cancel.
 template <class Number>
-[[nodiscard]] Number sum_of(std::span<const double> all) {
-  Number sum(0);
-  for (const double x : all) sum += number_of<Number>(x);
-  return sum;
-}
+[[nodiscard]] Number sum_of(std::span<const double> all);
+template <>
+[[nodiscard]] double sum_of(std::span<const double> all);
+
+/// The coefficients of a distributed load: the sums of its parts in the file, where it has several.
+template <class Number>
+[[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
+
+/// D of a plate, or E t^3 / 12 (1 - nu^2) where the file has these.
+template <class Number>
+[[nodiscard]] Number stiffness_of(const plate& p);
+
+/// The values of a polynomial in x at nodes of a beam: far from x = 0 its terms may cancel in every digit.
+template <class Number>
+[[nodiscard]] std::vector<Number> values_at(const beam& b, std::span<const double> polynomial,
+                                            std::span<const int> nodes);
 
 template <>
 [[nodiscard]] inline double number_of(double x) {
   return x;
 }
 template <>
-[[nodiscard]] inline double sum_of(std::span<const double> all) {
-  if (all.size() > 1 && numeric::decimal_sum(all) == 0.0) return 0.0;
-  double sum = 0.0;
-  for (const double x : all) sum += x;
-  return sum;
+[[nodiscard]] inline double difference_of(double a, double b) {
+  return a - b;
+}
+template <>
+[[nodiscard]] inline std::vector<double> coefficients_of(const distributed_load& d) {
+  return d.polynomial;
+}
+template <>
+[[nodiscard]] inline double stiffness_of(const plate& p) {
+  return p.D;
 }
 
-template <>
-[[nodiscard]] inline numeric::double_double number_of(double x) {
-  return numeric::long_decimal(x);
-}
-template <>
-[[nodiscard]] inline numeric::double_double difference_of(double a, double b) {
-  return numeric::decimal_difference(a, b);
-}
-template <>
-[[nodiscard]] inline numeric::double_double sum_of(std::span<const double> all) {
-  return numeric::decimal_sum(all);
-}
+/// Visit every element, from 0, for every load that acts on it.
+template <class Number>
+using load_visitor = std::function<void(int element, const load_on_element<Number>&)>;
+
+/// Distributed loads on a beam, about its elements, in pairs of doubles and in rational numbers.
+template <class Number>
+void for_each_polynomial(const beam& b, const load& l, const load_visitor<Number>& visit);
 
 /// Equal elements from a point on.
 struct even_part {
@@ -79,13 +94,8 @@ class line {
     }
   }
 
-  /// The same line in other numbers, none of them double.
-  template <class Other>
-  explicit line(const line<Other>& other) : x_(other.x_), parts_(other.parts_) {}
-
   [[nodiscard]] std::size_t size() const { return x_.size(); }
   [[nodiscard]] int intervals() const { return static_cast<int>(x_.size()) - 1; }
-  [[nodiscard]] std::span<const double> rounded() const { return x_; }
 
   [[nodiscard]] Number at(std::size_t point) const {
     if (parts_.empty()) return number_of<Number>(x_[point]);
@@ -97,21 +107,21 @@ class line {
   /// From a point to the next one: not a difference of rounded points.
   [[nodiscard]] Number length(std::size_t interval) const {
     if (parts_.empty()) return difference_of<Number>(x_[interval + 1], x_[interval]);
-    const even_part& p = part_from(interval);
-    return difference_of<Number>(p.run.end, p.start) / p.run.elements;
+    return length_in(part_from(interval));
   }
 
   [[nodiscard]] std::vector<Number> lengths() const {
     std::vector<Number> all;
     all.reserve(intervals());
-    for (int i = 0; i < intervals(); ++i) all.push_back(length(i));
+    for (const even_part& p : parts_) all.resize(all.size() + p.run.elements, length_in(p));
+    for (int i = 0; parts_.empty() && i < intervals(); ++i) all.push_back(length(i));
     return all;
   }
 
  private:
-  template <class Other>
-  friend class line;
-
+  [[nodiscard]] static Number length_in(const even_part& p) {
+    return difference_of<Number>(p.run.end, p.start) / p.run.elements;
+  }
   [[nodiscard]] const even_part& part_from(std::size_t point) const {
     const auto is_before = [](std::size_t wanted, const even_part& p) { return wanted < p.first; };
     return *(std::upper_bound(parts_.begin(), parts_.end(), point, is_before) - 1);
@@ -132,28 +142,5 @@ template <class Number>
   }
   return lengths;
 }
-
-/// The coefficients of a distributed load: the sums of its parts in the file, where it has several.
-template <class Number>
-[[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
-
-/// D of a plate, or E t^3 / 12 (1 - nu^2) where the file has these.
-template <class Number>
-[[nodiscard]] Number stiffness_of(const plate& p);
-
-template <>
-[[nodiscard]] inline std::vector<double> coefficients_of(const distributed_load& d) {
-  return d.polynomial;
-}
-template <>
-[[nodiscard]] inline double stiffness_of(const plate& p) {
-  return p.D;
-}
-
-// These come from rational numbers, each rounded once: near nu = -1 the bracket cancels.
-template <>
-[[nodiscard]] std::vector<numeric::double_double> coefficients_of(const distributed_load& d);
-template <>
-[[nodiscard]] numeric::double_double stiffness_of(const plate& p);
 
 }  // namespace contct::structure

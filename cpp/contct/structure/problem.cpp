@@ -6,62 +6,21 @@
 
 #include "contct/numeric/rational.hpp"
 #include "contct/structure/elements.hpp"
-#include "contct/structure/rigid_shape.hpp"
 
 namespace contct::structure {
 namespace {
 
-/// The elements that meet at a node, one to four.
-std::vector<int> elements_around(const plate& p, int node) {
-  const int i = node % p.columns();
-  const int j = node / p.columns();
-  std::vector<int> around;
-  for (int row = std::max(j - 1, 0); row <= std::min(j, p.rows() - 2); ++row)
-    for (int column = std::max(i - 1, 0); column <= std::min(i, p.columns() - 2); ++column)
-      around.push_back(row * (p.columns() - 1) + column);
-  return around;
-}
-
-/// What the elements beside a dof need there, beyond the loads on them.
-need_of_elements needs(const beam& b, const load& l, std::span<const double> u) {
-  return [last = b.elements(), forces = beam_elements<double>(b).end_forces(l, u)](int node, int dof) {
-    const std::size_t left = dof == 0 ? 0 : 2;
-    double need = 0.0;
-    if (node < last) need += dof == 0 ? forces[node][left] : -forces[node][left];
-    if (node > 0) need += dof == 0 ? -forces[node - 1][left + 1] : forces[node - 1][left + 1];
-    return need;
-  };
-}
-
-need_of_elements needs(const plate& p, const load& l, std::span<const double> u) {
-  const plate_elements<double> elements(p);
-  return [&p, u, elements, pressure = elements.pressures(l)](int node, int dof) {
-    double need = 0.0;
-    for (const int e : elements_around(p, node)) {
-      const std::array<int, 4> nodes_of_e = p.corners_of(e);
-      const auto place = std::ranges::find(nodes_of_e, node) - nodes_of_e.begin();
-      const std::size_t own = 3 * place + dof;
-      need += elements.forces(e, u)[own];
-      need -= pressure[e].value * elements.unit_pressure_on(e)[own];
-    }
-    return need;
-  };
-}
-
-need_of_elements needs(const assembled& a, const load& /*l*/, std::span<const double> u) {
-  return [all = a.stiffness.times(u)](int dof, int /*of_node*/) { return static_cast<double>(all[dof]); };
-}
-
+/// What the elements beside each dof need there, beyond the loads on them.
 template <class Kind>
-std::vector<rigid_row> rigid_rows_of(const Kind& kind) {
-  const rigid_shape<double> shape(kind);
-  std::vector<rigid_row> rows;
-  rows.reserve(kind.dofs());
-  for (int dof = 0; dof < kind.dofs(); ++dof) {
-    const auto [up, along_x, along_y] = shape.row_of(dof);
-    rows.push_back({up, along_x, along_y});
-  }
-  return rows;
+std::vector<double> needs_of(const Kind& kind, const load& l, std::span<const double> u) {
+  std::vector<double> need(u.size());
+  elements_of<double>(kind).add_needs(l, u, need);
+  return need;
+}
+
+std::vector<double> needs_of(const assembled& a, const load& /*l*/, std::span<const double> u) {
+  const std::vector<long double> all = a.stiffness.times(u);
+  return {all.begin(), all.end()};
 }
 
 template <class Kind>
@@ -83,23 +42,15 @@ linear_structure build_of_elements(const model& m, const Kind& kind, std::span<c
   return s;
 }
 
-element_results table_of(const beam& b, const load& l, std::span<const double> u) {
-  element_results r{{"shear", "moment"}, 2, {}};
-  for (const auto& of_element : beam_elements<double>(b).end_forces(l, u))
-    r.values.insert(r.values.end(), of_element.begin(), of_element.end());
-  return r;
+/// What element_results have, without values.
+element_results names_of_results(const beam& /*b*/) {
+  return {{"shear", "moment"}, 2, {}};
 }
-
-element_results table_of(const plate& p, const load& /*l*/, std::span<const double> u) {
-  element_results r{{"mx", "my", "mxy"}, 4, {}};
-  for (const corner_moments& e : moments_in_elements(p, u))
-    for (const auto& quantity : {e.mx, e.my, e.mxy})
-      r.values.insert(r.values.end(), quantity.begin(), quantity.end());
-  return r;
+element_results names_of_results(const plate& /*p*/) {
+  return {{"mx", "my", "mxy"}, 4, {}};
 }
-
-element_results table_of(const assembled& /*a*/, const load& /*l*/, std::span<const double> /*u*/) {
-  return {};  // a matrix has no elements
+element_results names_of_results(const assembled& /*a*/) {
+  return {};
 }
 
 template <class Kind>
@@ -158,32 +109,20 @@ std::vector<double> tributary_shares(const model& m) {
   return std::visit([](const auto& kind) { return elements_of<double>(kind).shares(); }, m.kind);
 }
 
-std::vector<element_forces> forces_in_elements(const beam& b, const load& l, std::span<const double> u) {
-  std::vector<element_forces> forces;
-  for (const auto& [v1, v2, m1, m2] : beam_elements<double>(b).end_forces(l, u))
-    forces.push_back({{v1, v2}, {m1, m2}});
-  return forces;
-}
-
-std::vector<corner_moments> moments_in_elements(const plate& p, std::span<const double> u) {
-  const plate_elements<double> elements(p);
-  std::vector<corner_moments> moments;
-  moments.reserve(p.elements());
-  for (int e = 0; e < p.elements(); ++e) {
-    const auto [mx, my, mxy] = elements.moments(e, u);
-    moments.push_back({mx, my, mxy});
-  }
-  return moments;
-}
-
 std::vector<double> reactions(const model& m, const load& l, std::span<const support> supports,
                               std::span<const double> u) {
-  const need_of_elements need = std::visit([&](const auto& kind) { return needs(kind, l, u); }, m.kind);
+  const std::vector<double> need = std::visit([&](const auto& kind) { return needs_of(kind, l, u); }, m.kind);
   return reactions_of(supports, l, u, dofs_per_node(m), need);
 }
 
 element_results results_in_elements(const model& m, const load& l, std::span<const double> u) {
-  return std::visit([&](const auto& kind) { return table_of(kind, l, u); }, m.kind);
+  return std::visit(
+      [&](const auto& kind) {
+        element_results r = names_of_results(kind);
+        r.values = elements_of<double>(kind).values(l, u);
+        return r;
+      },
+      m.kind);
 }
 
 resultant resultant_of(const model& m, const load& l) {

@@ -99,15 +99,13 @@ struct placed_node {
 /// A straight line between two nodes, from 0.
 struct mesh_edge {
   int from, to;
-  int elements;  ///< how many have it: few at the outer edges of a solid, many
-                 ///< inside; 1 for a coupling
+  int elements;  ///< how many have it: few at the outer edges of a solid, many inside; 1 for a coupling
 };
 
 /// Where a dof is.
 struct placed_dof {
   int node = -1;      ///< from 0; -1 where that is not known
-  int direction = 0;  ///< 1 to 3 along x, y and z, 4 to 6 about them; 0 where
-                      ///< that is not known
+  int direction = 0;  ///< 1 to 3 along x, y and z, 4 to 6 about them; 0 where that is not known
 
   [[nodiscard]] bool is_length() const { return direction >= 1 && direction <= 3; }
 };
@@ -130,10 +128,8 @@ struct assembled {
   std::vector<std::string> labels;  ///< [dofs] each once; empty: "1", "2", ...
   std::string labels_from;          ///< the file that has them
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
-  bool as_band = true;              ///< otherwise K is stored by columns, and only CHOLMOD
-                                    ///< can solve with it
-  std::optional<int> free_motions;  ///< how many motions it leaves free on its
-                                    ///< supports, where that is known
+  bool as_band = true;              ///< otherwise K is stored by columns, for CHOLMOD
+  std::optional<int> free_motions;  ///< how many motions it leaves free on its supports, where that is known
   placed_nodes places;              ///< for pictures only
 
   static constexpr int dofs_per_node = 1;
@@ -213,33 +209,17 @@ void add_consistent_loads(const model& m, const load& l, std::span<double> f);
 [[nodiscard]] std::vector<double> reactions(const model& m, const load& l, std::span<const support> supports,
                                             std::span<const double> u);
 
-/// What an engineer reads off a beam's element, at its left and right ends. Moment M = EI w'': positive when
-/// the beam sags. Shear V = dM/dx = EI w''': the upward force that the part of the beam on the left of a cut
-/// exerts on the part on the right.
-struct element_forces {
-  double shear[2];
-  double moment[2];
-};
-
-/// Shear and moment at the ends of every element, under displacement `u` [dofs] and load `l`.
-[[nodiscard]] std::vector<element_forces> forces_in_elements(const beam& b, const load& l,
-                                                             std::span<const double> u);
-
-/// Bending and twisting moments per length at an element's corners, in the order of corners_of:
-///     M_x = D (w_xx + nu w_yy),  M_y = D (w_yy + nu w_xx),  M_xy = D (1 - nu)
-///     w_xy.
-/// M_x bends the plate along x, as a beam's moment EI w'' does, and like it is positive when the plate sags;
-/// so is M_y along y. M_xy is positive where dw/dy grows with x. Elements that meet at a node each have their
-/// own value there; the differences go with the mesh.
-struct corner_moments {
-  std::array<double, 4> mx, my, mxy;
-};
-
-/// Moments at the corners of every element, under displacement `u` [dofs].
-[[nodiscard]] std::vector<corner_moments> moments_in_elements(const plate& p, std::span<const double> u);
-
-/// The results of elements of any kind: beams have "shear" and "moment" at 2 ends, plates "mx", "my" and
-/// "mxy" at 4 corners, matrices nothing.
+/// What an engineer reads off the elements; a matrix has none. Neighbours each have a value of their own at a
+/// node.
+///
+/// A beam's have "shear" and "moment" at 2 ends, left and right. Moment M = EI w'': positive when the beam
+/// sags. Shear V = dM/dx = EI w''': the upward force that the part of the beam on the left of a cut exerts on
+/// the part on the right.
+///
+/// A plate's have "mx", "my" and "mxy" per length at 4 corners, in the order of corners_of:
+///     M_x = D (w_xx + nu w_yy),  M_y = D (w_yy + nu w_xx),  M_xy = D (1 - nu) w_xy.
+/// M_x bends the plate along x and is positive when it sags; so is M_y along y. M_xy is positive where dw/dy
+/// grows with x. The differences between neighbours go with the mesh.
 struct element_results {
   std::vector<std::string_view> names;
   int places = 0;              ///< in an element
@@ -248,8 +228,7 @@ struct element_results {
   [[nodiscard]] std::size_t elements() const {
     return names.empty() ? 0 : values.size() / (names.size() * places);
   }
-  /// Quantity `name` of an element, at all its places. Elements and names from
-  /// 0.
+  /// Quantity `name` of an element, at all its places. Elements and names from 0.
   [[nodiscard]] std::span<const double> at(std::size_t element, std::size_t name) const {
     return std::span(values).subspan((element * names.size() + name) * places, places);
   }

@@ -7,6 +7,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 #include "contct/numeric/random.hpp"
+#include "contct/structure/rigid_truth.hpp"
 
 extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* uplo, const int* n, double* a,
                                                const int* lda, double* w, double* work, const int* lwork,
@@ -215,6 +216,36 @@ void refuse_count(const numbers& values, int in_doubt, std::optional<int> known)
 
 }  // namespace
 
+void rigid_rank::hold(int dof) {
+  if (rank_ == most_rigid_motions) return;
+  if (truth_ != nullptr) {
+    if (truth_->is_independent(dofs(), dof)) dofs_[rank_++] = dof;
+    return;
+  }
+  // Only its direction counts; a slope's row, 1 over a length, may be of any size.
+  rigid_row direction = rows_[dof];
+  const double largest = largest_of(direction);
+  if (!(largest > 0.0)) return;
+  for (double& entry : direction) entry /= largest;
+  rigid_row rest = free_part(direction);
+  const double left = std::sqrt(along(rest, rest));
+  if (!(left > independent_ * std::sqrt(along(direction, direction)))) return;
+  for (double& entry : rest) entry /= left;
+  dofs_[rank_] = dof;
+  basis_[rank_++] = rest;
+}
+
+rigid_row rigid_rank::free_part(const rigid_row& motion) const {
+  rigid_row rest = motion;
+  for (int pass = 0; pass < 2; ++pass) {  // twice is enough for Gram-Schmidt
+    for (int k = 0; k < rank_; ++k) {
+      const double share = along(rest, basis_[k]);
+      for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= share * basis_[k][i];
+    }
+  }
+  return rest;
+}
+
 free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> known,
                                const std::function<double(std::span<const double>)>& doubt) {
   free_motions found;
@@ -233,12 +264,9 @@ free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> kno
   const std::size_t m = found.count;
   if (m == 0) return found;
   double off = std::numeric_limits<double>::epsilon();
-  for (std::size_t i = 0; i < m; ++i) {
-    found.stiffest_free = std::max(found.stiffest_free, std::abs(space.values[i]));
-    off = std::max({off, space.left_over[i], found.stiffest_free});
-  }
-  if (m < space.values.size()) found.softest_held = space.values[m];
-  found.rounding = std::clamp(16 * off / found.softest_held, 1e-12, 1e-2);
+  for (std::size_t i = 0; i < m; ++i) off = std::max({off, space.left_over[i], std::abs(space.values[i])});
+  const double softest_held = m < space.values.size() ? space.values[m] : 1.0;
+  found.rounding = std::clamp(16 * off / softest_held, 1e-12, 1e-2);
   found.rows = rows_of(space, d, found);
   return found;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,9 +26,7 @@ using rigid_row = std::array<double, most_rigid_motions>;
 
 /// What a motion q, one number for each rigid motion, does where `row` belongs.
 [[nodiscard]] inline double along(const rigid_row& q, const rigid_row& row) {
-  double sum = q[0] * row[0];
-  for (std::size_t i = 1; i < row.size(); ++i) sum += q[i] * row[i];
-  return sum;
+  return std::inner_product(q.begin(), q.end(), row.begin(), 0.0);
 }
 
 /// The largest magnitude in a row.
@@ -43,53 +42,28 @@ class rigid_truth;
 /// The structure is a mechanism when this is less than the number of its rigid motions.
 class rigid_rank {
  public:
-  /// Rows that are known from a matrix are rounded: one is independent whose part beside the others is larger
-  /// than this share of it.
-  explicit rigid_rank(double independent) : independent_(independent) {}
-  /// Rows that `truth` knows exactly. It must outlive this object.
+  /// `rows` of all dofs, which are known from a matrix and rounded: one is independent whose part beside the
+  /// others is larger than this share of it. They must outlive this object, as `truth` must.
+  rigid_rank(std::span<const rigid_row> rows, double independent) : rows_(rows), independent_(independent) {}
+  /// By rows that `truth` knows exactly.
   explicit rigid_rank(const rigid_truth& truth) : truth_(&truth) {}
 
-  /// Count dof `dof`, whose row this is, as held.
-  void hold(const rigid_row& row, int dof) {
-    if (rank_ == most_rigid_motions) return;
-    if (truth_ != nullptr && !is_independent(dof)) return;
-    // Only its direction counts; a slope's row, 1 over a length, may be of any size.
-    const double largest = largest_of(row);
-    if (!(largest > 0.0)) return;
-    rigid_row direction = row;
-    for (double& entry : direction) entry /= largest;
-    rigid_row rest = free_part(direction);
-    const double left = std::sqrt(along(rest, rest));
-    if (truth_ == nullptr && !(left > independent_ * std::sqrt(along(direction, direction)))) return;
-    for (double& entry : rest) entry = left > 0.0 ? entry / left : 0.0;
-    dofs_[rank_] = dof;
-    basis_[rank_++] = rest;
-  }
+  /// Count a dof as held.
+  void hold(int dof);
 
   [[nodiscard]] int rank() const { return rank_; }
 
   /// Held dofs that are independent of each other, and stop all that is stopped.
   [[nodiscard]] std::span<const int> dofs() const { return {dofs_.data(), static_cast<std::size_t>(rank_)}; }
 
-  /// The part of a combination of motions that is still free.
-  [[nodiscard]] rigid_row free_part(const rigid_row& motion) const {
-    rigid_row rest = motion;
-    for (int pass = 0; pass < 2; ++pass) {  // twice is enough for Gram-Schmidt
-      for (int k = 0; k < rank_; ++k) {
-        const rigid_row& b = basis_[k];
-        const double share = along(rest, b);
-        for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= share * b[i];
-      }
-    }
-    return rest;
-  }
+  /// The part of a combination of motions that is still free; of rows of a matrix.
+  [[nodiscard]] rigid_row free_part(const rigid_row& motion) const;
 
  private:
-  [[nodiscard]] bool is_independent(int dof) const;
-
+  std::span<const rigid_row> rows_;
   double independent_ = 0.0;
   const rigid_truth* truth_ = nullptr;
-  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal, but for rounding
+  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal, but for rounding; of rows of a matrix
   std::array<int, most_rigid_motions> dofs_{};
   int rank_ = 0;
 };
@@ -104,8 +78,6 @@ struct free_motions {
   int count = 0;
   std::vector<rigid_row> rows;  ///< [rows of the matrix] what each motion does there
   double rounding = 0.0;        ///< how far off these may be, relative
-  double stiffest_free = 0.0;   ///< the largest eigenvalue that counts as 0, in magnitude
-  double softest_held = 1.0;    ///< the smallest that is not; 1 where it was not needed
 };
 
 /// Find them in `k`, whose diagonal is positive. `known`: how many there are, where that is known; they must

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "contct/structure/rigid_modes.hpp"
 
@@ -16,6 +17,10 @@ struct contact_pair;
 struct load;
 struct plate;
 struct resultant;
+
+/// What the rigid motions of a beam or plate do at its dofs [dofs], in doubles.
+[[nodiscard]] std::vector<rigid_row> rigid_rows_of(const beam& b);
+[[nodiscard]] std::vector<rigid_row> rigid_rows_of(const plate& p);
 
 /// The work of a load on each rigid motion of a beam or plate, exactly; or nothing, where that is not known.
 class rigid_work {
@@ -36,18 +41,20 @@ class rigid_work {
 /// A rigid motion, scaled so that the largest of its parts is 1.
 class free_motion {
  public:
-  /// What moves by less than `still`, relative to the size of its row, is at rest. `work`: what the load does
-  /// on the motion, positive.
-  free_motion(const rigid_row& parts, double still, double work)
-      : parts_(parts), still_(still), work_(work) {}
+  /// What moves by less than `still`, relative to the size of its row among `rows` [dofs], is at rest, unless
+  /// `truth` decides that. `rows` must outlive this object. `work`: what the load does on the motion,
+  /// positive.
+  free_motion(const rigid_row& parts, std::span<const rigid_row> rows, double still, double work)
+      : parts_(parts), rows_(rows), still_(still), work_(work) {}
 
-  /// What it does at a dof whose row in rigid_rows is `row`; 0 where the dof rests.
-  [[nodiscard]] double at(int dof, const rigid_row& row) const;
+  /// What it does at a dof; 0 where the dof rests.
+  [[nodiscard]] double at(int dof) const;
   [[nodiscard]] double work() const { return work_; }
 
  private:
   friend class rigid_truth;
   rigid_row parts_;
+  std::span<const rigid_row> rows_;
   double still_;
   double work_;
   // The same parts without rounding, and what evaluates them: they decide what is at rest, where they are
@@ -75,8 +82,9 @@ class rigid_truth : public std::enable_shared_from_this<rigid_truth> {
   [[nodiscard]] resultant resultant_of(const load& l) const;
 
   /// The steepest of the motions that the dofs of `held`, independent of each other, leave free: none where
-  /// `work`, which is known, is 0 on all of these.
-  [[nodiscard]] std::optional<free_motion> driven_by(const rigid_work& work, std::span<const int> held) const;
+  /// `work`, which is known, is 0 on all of these. `rows`: rigid_rows_of the structure.
+  [[nodiscard]] std::optional<free_motion> driven_by(const rigid_work& work, std::span<const int> held,
+                                                     std::span<const rigid_row> rows) const;
 
   /// Is there an equilibrium under a load of this `work`, which is known: do forces of the supports of
   /// `supported`, and of pairs that press, balance it? The energy of a structure is otherwise without a least

@@ -70,7 +70,7 @@ std::vector<int> linear_structure::pairs_that_hold(rigid_rank& rank) const {
   std::vector<int> holding;
   for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i) {
     const int before = rank.rank();
-    rank.hold(held_by_pairs[i], dof_of_pair(i));
+    rank.hold(dof_of_pair(i));
     if (rank.rank() > before) holding.push_back(static_cast<int>(i));
   }
   return holding;
@@ -79,7 +79,7 @@ std::vector<int> linear_structure::pairs_that_hold(rigid_rank& rank) const {
 std::optional<free_motion> linear_structure::driven_motion(const rigid_rank& held,
                                                            std::span<const double> load,
                                                            const rigid_work& work) const {
-  if (truth && work.is_known()) return truth->driven_by(work, held.dofs());
+  if (truth && work.is_known()) return truth->driven_by(work, held.dofs(), rigid_rows);
   constexpr double rounding_of_work = 1e-12;
   constexpr double rounding_of_motion = 1e-10;
   rigid_row sum{};
@@ -91,11 +91,13 @@ std::optional<free_motion> linear_structure::driven_motion(const rigid_rank& hel
       size[m] += std::abs(load[dof] * rigid_rows[dof][m]);
     }
   }
-  rigid_row motion = held.free_part(sum);
+  rigid_rank by_rows(rigid_rows, std::max(1e-12, rigid_rounding));
+  for (const int dof : held.dofs()) by_rows.hold(dof);
+  rigid_row motion = by_rows.free_part(sum);
   const double driven = largest_of(motion);
   if (!(driven > std::max(rounding_of_work, rigid_rounding) * largest_of(size))) return std::nullopt;
   for (double& part : motion) part /= driven;
-  return free_motion(motion, std::max(rounding_of_motion, rigid_rounding), along(motion, sum));
+  return free_motion(motion, rigid_rows, std::max(rounding_of_motion, rigid_rounding), along(motion, sum));
 }
 
 void add_to_band(band_matrix& k, int row, int column, double entry, int element) {
@@ -148,12 +150,10 @@ void put_on_supports(linear_structure& s, std::span<const support> supports,
     } else {
       s.stiffness.add_to_diagonal(s.row_of(dof), p.spring);
     }
-    s.held_by_supports.push_back(s.rigid_rows[dof]);
     s.supported_dofs.push_back(dof);
   }
   fix(s);
   s.pairs = std::move(pairs);
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) s.held_by_pairs.push_back(s.rigid_rows[s.dof_of_pair(i)]);
 }
 
 void add_settlements(const linear_structure& s, const load& l, std::span<double> f) {
@@ -169,7 +169,7 @@ void add_settlements(const linear_structure& s, const load& l, std::span<double>
 }
 
 std::vector<double> reactions_of(std::span<const support> supports, const load& l, std::span<const double> u,
-                                 int dofs_per_node, const need_of_elements& need) {
+                                 int dofs_per_node, std::span<const double> need) {
   std::vector<double> points(u.size(), 0.0);
   add_point_loads(l, dofs_per_node, points);
   std::vector<double> values;
@@ -183,7 +183,7 @@ std::vector<double> reactions_of(std::span<const support> supports, const load& 
     if (!s.fixed) {
       values.push_back(-s.spring * u[dof]);
     } else if (reacted.insert(dof).second) {
-      values.push_back(need(s.node, s.dof) - points[dof]);
+      values.push_back(need[dof] - points[dof]);
     } else {
       values.push_back(0.0);
     }

@@ -134,11 +134,9 @@ struct linear_structure {
 
   std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
 
-  int rigid_motions = 0;                    ///< 2 for a beam, 3 for a plate, up to 6 for other bodies
-  std::vector<rigid_row> rigid_rows;        ///< [dofs] what the rigid motions do there
-  std::vector<rigid_row> held_by_supports;  ///< a row for each dof that a support holds
-  std::vector<int> supported_dofs;          ///< these dofs
-  std::vector<rigid_row> held_by_pairs;     ///< [pairs] the row that a closed pair holds
+  int rigid_motions = 0;              ///< 2 for a beam, 3 for a plate, up to 6 for other bodies
+  std::vector<rigid_row> rigid_rows;  ///< [dofs] what the rigid motions do there
+  std::vector<int> supported_dofs;    ///< those whose supports stop such motions
   /// The motions without rounding, of beams and plates; null for others.
   std::shared_ptr<const rigid_truth> truth;
   /// How far off `rigid_rows` may be, relative to the largest: 0 where they are known by a formula, more
@@ -164,16 +162,15 @@ struct linear_structure {
   }
   /// What stops rigid motions while no dof is held.
   [[nodiscard]] rigid_rank nothing_held() const {
-    return truth ? rigid_rank(*truth) : rigid_rank(std::max(1e-12, rigid_rounding));
+    return truth ? rigid_rank(*truth) : rigid_rank(rigid_rows, std::max(1e-12, rigid_rounding));
   }
   /// The motions that the supports and those pairs stop, from 0, for which `closed(pair)` is true.
   template <class Closed>
   [[nodiscard]] rigid_rank held_by(Closed closed) const {
     rigid_rank rank = nothing_held();
-    for (std::size_t i = 0; i < held_by_supports.size() && !is_held(rank); ++i)
-      rank.hold(held_by_supports[i], supported_dofs[i]);
+    for (std::size_t i = 0; i < supported_dofs.size() && !is_held(rank); ++i) rank.hold(supported_dofs[i]);
     for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i)
-      if (closed(i)) rank.hold(held_by_pairs[i], dof_of_pair(i));
+      if (closed(i)) rank.hold(dof_of_pair(i));
     return rank;
   }
   /// Are these all of its rigid motions?
@@ -194,7 +191,7 @@ struct linear_structure {
 };
 
 /// Put an assembled structure on its supports and give it its pairs: springs and fixed dofs go into
-/// the stiffness, and what is held is taken from `rigid_rows`.
+/// the stiffness.
 void put_on_supports(linear_structure& s, std::span<const support> supports, std::vector<contact_pair> pairs);
 
 /// Complete a load vector [dofs], which has the loads of `l` by now: at settling dofs the displacements g
@@ -206,14 +203,11 @@ void add_settlements(const linear_structure& s, const load& l, std::span<double>
 /// element (from 1), when it is not a finite number.
 void add_to_band(band_matrix& k, int row, int column, double entry, int element);
 
-/// The force or moment that the elements beside a dof need there, beyond their own loads.
-using need_of_elements = std::function<double(int node, int dof)>;
-
 /// The force (or moment) on the structure by each support, in the order of `supports`: minus spring times
-/// displacement for an elastic one; for a fixed one, what the elements beside it need beyond the point loads
-/// at its dof. A dof fixed twice gives its reaction to the first.
+/// displacement for an elastic one; for a fixed one, what the elements beside it need (`need` [dofs], beyond
+/// their own loads) beyond the point loads at its dof. A dof fixed twice gives its reaction to the first.
 [[nodiscard]] std::vector<double> reactions_of(std::span<const support> supports, const load& l,
                                                std::span<const double> u, int dofs_per_node,
-                                               const need_of_elements& need);
+                                               std::span<const double> need);
 
 }  // namespace contct::structure

@@ -1,6 +1,7 @@
-// Faces and loads that are polynomials in x, where their terms cancel.
-#include "contct/structure/polynomials.hpp"
+// What numbers of a file mean, and faces and loads that are polynomials in x, where their terms cancel.
+#include "contct/structure/line.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "catch.hpp"
@@ -17,17 +18,53 @@ struct visited {
 
 std::vector<visited> visits(const beam& b, const load& l) {
   std::vector<visited> all;
-  const contct::structure::line<double_double> x(b.x, b.runs);
-  contct::structure::for_each_polynomial<double_double>(x, l, [&](int e, const auto& on) {
+  contct::structure::for_each_polynomial<double_double>(b, l, [&](int e, const auto& on) {
     visited& v = all.emplace_back(visited{e, {}, on.size});
     for (const auto& coefficient : on.q) v.q.push_back(coefficient.hi);
   });
   return all;
 }
 
+double_double decimal(double x) {
+  return contct::structure::number_of<double_double>(x);
+}
+
 const std::vector<double> sixth_power = {1e18, -6e15, 1.5e13, -2e10, 1.5e7, -6000, 1};  // (x - 1000)^6
 
 }  // namespace
+
+TEST_CASE("the decimal 0.1 is one tenth, which its double is not") {
+  CHECK(decimal(0.1).hi == 0.1);
+  CHECK(decimal(0.1).lo != 0.0);
+  CHECK(std::abs((decimal(0.1) * 10 - 1.0).hi) <= 0x1p-100);
+  CHECK(std::abs((decimal(-2.5e-7) * 4e6 + 1.0).hi) <= 0x1p-100);
+  CHECK(std::abs((decimal(1.25e22) / 1e22 - 1.25).hi) <= 0x1p-100);
+  for (const double x : {0.0, -0.0, 3.0, -7.0, 0x1p52, 0.5, 0.25}) {
+    CHECK(decimal(x).hi == x);
+    CHECK(decimal(x).lo == 0.0);
+  }
+}
+
+TEST_CASE("a decimal at the ends of the range of doubles is no less than its double") {
+  for (const double x : {5e-324, -5e-324, 1e-310, 2.2250738585072014e-308, -1.2345678901234567e-300,
+                         1.2345678901234567e-293, 1.7976931348623157e308}) {
+    INFO(x);
+    CHECK(decimal(x).hi == x);
+    CHECK(std::abs(decimal(x).lo) <= std::abs(x) * 0x1p-53);
+    CHECK(contct::structure::difference_of<double_double>(x, 1.0).hi == x - 1.0);
+  }
+}
+
+TEST_CASE("decimals are added up exactly before they are rounded: 0.1, 0.2 and -0.3 are nothing") {
+  const auto sum = [](const std::vector<double>& parts) {
+    return contct::structure::sum_of<double_double>(parts);
+  };
+  CHECK(sum({}) == 0.0);
+  CHECK(sum({0.1, 0.2, -0.3}) == 0.0);
+  CHECK(sum({-0.3, 1e-20, 0.2, 0.1}) == decimal(1e-20));
+  CHECK(sum({1e300, 1e-300, -1e300}) == decimal(1e-300));
+  CHECK(contct::structure::sum_of<double>(std::vector<double>{0.1, 0.2, -0.3}) == 0.0);
+}
 
 TEST_CASE("A polynomial face is rounded once, though its terms are 1e33 times as large") {
   const beam b{{0.0, 1.1, 2.2}, {1e4, 1e4}};
@@ -36,8 +73,13 @@ TEST_CASE("A polynomial face is rounded once, though its terms are 1e33 times as
   REQUIRE(faces.size() == 2);
   for (const auto& face : faces) {
     CHECK(face.hi == -0.001);
-    CHECK(face == long_decimal(-0.001));
+    CHECK(face == decimal(-0.001));
   }
+}
+
+TEST_CASE("each point of a line stands for half of the intervals beside it") {
+  CHECK(contct::structure::tributary_lengths<double>(std::vector<double>{2, 1}) ==
+        std::vector<double>{1, 1.5, 0.5});
 }
 
 TEST_CASE("Nodes that are equal parts of a length have faces at the exact parts") {
