@@ -210,50 +210,6 @@ TEST_CASE("a pair without any event that is toggled by its mark SS = 1 is said t
   CHECK(pair["after"] == "contact");
 }
 
-TEST_CASE("the JSON has the numbers, the branches with their margins, and both kernels' bits") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  const finished f = contct_program(dir.path(), {"explain", "pb.toml", "--json", "-"});
-  CHECK(f.exit == 0);
-  const json all = json::parse(f.out);
-  CHECK(all["format"] == "contct-explain-1");
-  CHECK(all["status"] == "solved");
-  CHECK(all["lockstep"] == json({{"calls", 2}, {"values_compared", 8}, {"mismatches", 0}}));
-  REQUIRE(all["increments"].size() == 2);
-  const json& first = all["increments"][0];
-  CHECK(first["smin"]["fortran"] == first["smin"]["cpp"]);
-  CHECK(first["smin"]["ulps"] == 0);
-  CHECK(first["winner"] == json({{"pair", 1}}));
-  const json& pair = first["pairs"][0];
-  CHECK(pair["gap"] == -0.004);
-  CHECK(pair["s"].get<double>() == Approx(0.25));
-  CHECK(pair["kind"] == "advancing");
-  CHECK(pair["bits"] == first["smin"]);
-  CHECK(pair["branches"][0]["if"] == "DTEST(NDOF).EQ.0.");
-  CHECK(pair["branches"][0]["outcome"] == false);
-  CHECK(all["increments"][1]["winner"].is_null());
-}
-
-TEST_CASE("every line in the JSON is the listing's") {
-  const scratch_folder dir;
-  const std::vector<std::string> listing = listing_lines();
-  const finished f = explained({pb7, "--json", "-"});
-  const json all = json::parse(f.out);
-  int cited = 0;
-  const auto check = [&](const json& story) {
-    for (const json& t : story) {
-      if (!t.contains("line")) continue;
-      ++cited;
-      if (listing[t["line"].get<std::size_t>() - 1] != t["statement"].get<std::string>()) FAIL(t.dump());
-    }
-  };
-  for (const json& i : all["increments"]) {
-    check(i["story"]);
-    for (const json& p : i["pairs"]) check(p["story"]);
-  }
-  CHECK(cited > 150);
-}
-
 TEST_CASE("a second kernel that rounds otherwise is told by its ULP, and is exit 1") {
   const scratch_folder dir;
   const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";

@@ -218,7 +218,7 @@ void measurement::step_ended(const step_state& s) {
   const load total = load_path(problem_).at(s.step, s.fraction);
   steps_.push_back({{s.displacement.begin(), s.displacement.end()},
                     {s.isep.begin(), s.isep.end()},
-                    results_of(problem_, total, s, deflecting_)});
+                    results_of(problem_, total, state_of(s))});
 }
 
 double measurement::of(const expected_number& e) const {

@@ -71,7 +71,6 @@ class measurement final : public observer {
 
  private:
   const problem& problem_;
-  std::vector<int> deflecting_ = deflecting_nodes(problem_);
   path_record path_;
   std::vector<step_record> steps_;
 };

@@ -12,9 +12,7 @@ using json = nlohmann::ordered_json;
 
 /// Sums of two doubles each.
 json sums(const std::vector<numeric::double_double>& all) {
-  json list = json::array();
-  for (const numeric::double_double& x : all) list.push_back({x.hi, x.lo});
-  return list;
+  return list_of(all, [](const numeric::double_double& x) -> json { return {x.hi, x.lo}; });
 }
 
 /// Rows of L, each from its first entry in the band to its diagonal.
@@ -29,30 +27,20 @@ json rows_of(const matrix::band_matrix& l) {
 }
 
 void put_stiffness(json& step, const certify::stiffness_proof& s) {
-  json scale = json::array();
-  for (const double x : s.scale) scale.push_back(std::ilogb(x));
-  step["scale"] = std::move(scale);
+  step["scale"] = list_of(s.scale, [](double x) { return std::ilogb(x); });
   step["row_of"] = s.row_of;
   step["shift"] = s.shift;
   step["L"] = rows_of(s.factor);
   if (s.factor_low) step["L_low"] = rows_of(*s.factor_low);
 }
 
-/// From 1.
-json numbers_of(const std::vector<int>& pairs) {
-  json list = json::array();
-  for (const int pair : pairs) list.push_back(pair + 1);
-  return list;
-}
-
 json step_json(const certify::step_proof& s) {
   json step = {{"force", s.pair_forces}, {"reactions", s.reactions}, {"elements", s.element_values}};
   if (!s.of_stiffness) return step;  // it may stand anywhere: its displacements and statuses are not claimed
   step["displacement"] = s.displacement;
-  step["state"] = json::array();
-  for (const int isep : s.statuses) step["state"].push_back(state_name(isep));
+  step["state"] = list_of(s.statuses, state_name);
   step["u"] = sums(s.state);
-  step["closed"] = numbers_of(s.closed);
+  step["closed"] = numbered(s.closed);
   step["z"] = sums(s.z);
   put_stiffness(step, *s.of_stiffness);
   return step;
