@@ -26,8 +26,6 @@ struct report_options {
 /// What `contct run` draws and tabulates.
 struct picture_options {
   std::string html, csv, vtu;
-
-  [[nodiscard]] bool wants_frames() const { return !html.empty() || !vtu.empty(); }
 };
 
 /// What every command with a problem has.

@@ -26,7 +26,7 @@ exit_status run_command(const exact_options& options) {
     const linear_structure structure = build_with_progress(p, options.quiet);
     path_progress shown(p.steps.size(), options.quiet);
     for (const std::string& name : options.kernels)
-      kernels.push_back(digits_of_kernel(name, p, structure, path, shown.before.get(), shown.behind.get()));
+      kernels.push_back(digits_of_kernel(name, p, structure, path, &shown));
     shown.line.erase();
   }
   const exact_result result{p, exactly, path, kernels};

@@ -110,30 +110,31 @@ exit_status run_command(const explain_options& options) {
     text.emplace(of, look_at_terminal(), explain_detail{chosen, options.hex});
   if (output_file* const file = files["--json"]) json.emplace(of, *file);
   std::optional<exact_explanation> exactly;
+  path_progress shown(p.steps.size(), options.quiet);
   explained_path told(leader->facts(), second_kernel(options.kernels), wanted, [&](const auto& i) {
     if (exactly) exactly->told->begin(i);
-    const explain_addition* const more = exactly ? &*exactly->told : nullptr;
-    if (text) text->print(i, more);
+    const exact_addition* const more = exactly ? &*exactly->told : nullptr;
+    shown.line.erase();
+    if (text) print_text(text->add(i, more));
     if (json) json->write(i, more);
   });
   const linear_structure structure = build_with_progress(p, options.quiet);
   if (options.exact) exactly.emplace(p, wanted);
-  path_progress shown(p.steps.size(), options.quiet);
-  std::vector<observer*> watching = {shown.before.get(), &told, shown.behind.get()};
+  std::vector<observer*> watching = {&told, &shown};
   if (exactly && exactly->path) watching.insert(watching.begin(), &*exactly->path);
   const path_end end = follow(p, structure, chosen_engine(options.engine, structure), *leader, watching);
   shown.line.erase();
 
   const bool anything = end.status != path_status::not_factored && told.explained() > 0;
-  if (anything && text) text->finish();
+  if (anything && text) print_text(text->finish());
   if (anything && text && options.kernels.size() > 1) print_comparison(options.kernels, told);
   if (anything) flush_standard_output();
   if (anything && told.first()) complain_of(words_of(*told.first()));
   if (end.status != path_status::solved) complain("{}: {}", whole_line(options.file), end_words(p, end));
   if (!anything) return nothing_told(options, wanted, end, told);
   const bool equal = told.compared().mismatches == 0;
-  if (json) json->finish(equal ? status_name(end.status) : "kernels-disagree", told);
-  return equal ? status_of(end.status) : exit_status::kernels_differ;
+  if (json) json->finish(status_name(end.status, equal), told);
+  return status_of(end.status, equal);
 }
 
 }  // namespace contct::app

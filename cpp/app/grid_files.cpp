@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "contct/write/path_states.hpp"
+
 namespace contct::app {
 namespace {
 
@@ -24,8 +26,8 @@ void add_grid_files(const std::string& vtu, std::vector<output_option>& all) {
     throw std::invalid_argument(fmt::format("--vtu: found \"{}\"; allowed: a file that ends in .vtu", vtu));
   all.push_back({"--vtu", vtu});
   all.push_back({vtu_collection, beside(vtu, ".pvd")});
-  for (std::size_t i = 0; i < frame_limits{}.most_frames; ++i)
-    all.push_back({vtu_increments, beside(vtu, name_of_frame("", i)), true});
+  for (std::size_t i = 0; i < most_pictures; ++i)
+    all.push_back({vtu_increments, beside(vtu, name_of_state("", i)), true});
 }
 
 void check_grid_coordinates(const problem& p) {
@@ -46,14 +48,14 @@ void check_grid_coordinates(const problem& p) {
 
 /// The collection last: whoever sees it finds all that it names.
 void write_grids(const output_files& files, const std::string& vtu, const run_result& r) {
-  const std::span<const frame> frames = r.frames;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    output_file file(beside(vtu, name_of_frame("", i)));
-    file.write(vtu_of_frame(r.what, frames[i]));
+  const std::vector<structure_state> states = pictures_of(r);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    output_file file(beside(vtu, name_of_state("", i)));
+    file.write(vtu_of_state(r.what, states[i]));
     file.finish();
   }
-  files.write("--vtu", vtu_of_frame(r.what, frames.back()));
-  files.write(vtu_collection, pvd_of_frames(fs::path(vtu).stem().string(), frames.size()));
+  files.write("--vtu", vtu_of_state(r.what, states.back()));
+  files.write(vtu_collection, pvd_of_states(fs::path(vtu).stem().string(), states.size()));
 }
 
 }  // namespace contct::app

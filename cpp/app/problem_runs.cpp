@@ -10,37 +10,6 @@
 #include "contct/write/words.hpp"
 
 namespace contct::app {
-namespace {
-
-struct eraser final : observer {
-  explicit eraser(progress& p) : shown(p) {}
-  void incremented(const increment& /*i*/) override { shown.erase(); }
-  void step_ended(const step_state& /*s*/) override { shown.erase(); }
-
-  progress& shown;
-};
-
-struct increment_counter final : observer {
-  increment_counter(progress& p, std::size_t all_steps) : shown(p), steps(all_steps) {}
-  void called(const answered_call& /*c*/) override {
-    shown.say(fmt::format("step {} of {}, increment {}", step, steps, ++number));
-  }
-  void incremented(const increment& i) override {
-    shown.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", i.step, steps,
-                          i.number + 1, 100.0 * i.fraction));
-  }
-  void step_ended(const step_state& s) override {
-    step = s.step + 1;
-    number = 0;
-  }
-
-  progress& shown;
-  std::size_t steps;
-  int step = 1, number = 0;
-};
-
-}  // namespace
-
 std::vector<std::string> engine_choices() {
   std::vector<std::string> names = engine_names();
   names.insert(names.begin(), "auto");
@@ -79,8 +48,20 @@ linear_structure build_with_progress(const problem& p, bool quiet) {
 }
 
 path_progress::path_progress(std::size_t steps, bool quiet)
-    : line(static_cast<std::int64_t>(steps), "steps", quiet),
-      before(std::make_unique<eraser>(line)),
-      behind(std::make_unique<increment_counter>(line, steps)) {}
+    : line(static_cast<std::int64_t>(steps), "steps", quiet), steps_(steps) {}
+
+void path_progress::called(const answered_call& /*c*/) {
+  line.say(fmt::format("step {} of {}, increment {}", step_, steps_, ++number_));
+}
+
+void path_progress::incremented(const increment& i) {
+  line.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", i.step, steps_,
+                       i.number + 1, 100.0 * i.fraction));
+}
+
+void path_progress::step_ended(const step_state& s) {
+  step_ = s.step + 1;
+  number_ = 0;
+}
 
 }  // namespace contct::app

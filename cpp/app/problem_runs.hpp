@@ -1,10 +1,10 @@
 // What the commands that follow a problem share: progress at a terminal, and how the path ended, in words.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "app/outputs.hpp"
+#include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/write/words.hpp"
@@ -33,13 +33,21 @@ void refuse_engine_option(const std::string& name);
 /// The structure of a problem. Throws as structure_of does.
 [[nodiscard]] linear_structure build_with_progress(const problem& p, bool quiet);
 
-/// Shows the step and the increment that a path has reached, by two observers around whoever prints.
-struct path_progress {
+/// Observes a path and shows the step and the increment that it has reached. Whoever prints meanwhile erases
+/// the line first.
+class path_progress final : public observer {
+ public:
   path_progress(std::size_t steps, bool quiet);
 
+  void called(const answered_call& c) override;
+  void incremented(const increment& i) override;
+  void step_ended(const step_state& s) override;
+
   progress line;
-  std::unique_ptr<observer> before;  ///< erases the line when something may be printed
-  std::unique_ptr<observer> behind;  ///< shows it again
+
+ private:
+  std::size_t steps_;
+  int step_ = 1, number_ = 0;
 };
 
 }  // namespace contct::app

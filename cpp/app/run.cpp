@@ -12,7 +12,7 @@
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/pictures.hpp"
+#include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::app {
@@ -81,15 +81,20 @@ int node_that_deflects_most(const run_setup& setup) {
   const load_history loads = loads_of(setup.what, setup.structure);
   const std::vector<int> nodes = deflecting_nodes(setup.what);
   reference_solver finds(setup.structure);
-  extreme most;
+  double most = 0.0;
+  int at = 0;
   for (int step = 1; step <= std::ssize(setup.what.steps); ++step) {
     std::vector<double> load(setup.structure.dofs());
     loads(step, load);
     const reference_answer answer = finds.solve(load, loads.work(step));
     if (answer.how != reference_answer::outcome::found) break;
-    for (const int node : nodes) most.take(node, deflection_of(setup.what, answer.displacement, node));
+    for (const int node : nodes) {
+      const double size = std::abs(deflection_of(setup.what, answer.displacement, node));
+      if (size > most) at = node;
+      most = std::max(most, size);
+    }
   }
-  return most.at;
+  return at;
 }
 
 run_setup set_up(const run_options& o) {
@@ -106,7 +111,7 @@ session::run_request request_of(const run_setup& setup) {
   const picture_options& pictures = o.pictures;
   session::run_request r{.file = o.file, .engine = o.engine, .free_run = o.free_run, .envelope = o.envelope};
   if (!o.final_only) r.kernels = o.kernels;
-  r.pictures = pictures.wants_frames();
+  r.pictures = !pictures.vtu.empty();
   r.max_increments = o.max_increments;
   r.date = setup.date;
   if (!o.watched.empty()) {
@@ -137,7 +142,7 @@ void print_heading(const shown_run& o) {
       fmt::format("{}, {}, {}", counted(nodes(setup.what.geometry), node_name(setup.what.geometry)),
                   counted(setup.what.pairs.size(), "pair"), counted(setup.what.steps.size(), "step")),
       kernels.empty() ? "only the end" : fmt::format("kernels {}", joined(kernels, ", ")),
-      "engine " + o.run.engine + (setup.structure.stiffness.is_band() ? "" : ", sparse")};
+      "engine " + o.run.result.engine + (setup.structure.stiffness.is_band() ? "" : ", sparse")};
   for (const std::string& line : wrap(facts, setup.screen.width)) print_text(fmt::format("{}\n", line));
   print_text("\n");
 }
@@ -153,32 +158,27 @@ void go(shown_run& o) {
   const run_setup& setup = o.setup;
   print_heading(o);
   path_progress progress(setup.what.steps.size(), setup.options.report.quiet);
-  std::vector<observer*> shown = {progress.before.get()};
-  std::optional<table> rows;
-  if (setup.prints)
-    shown.push_back(
-        &rows.emplace(setup.what, o.run.compared(), o.run.judged, setup.screen, setup.options.detail));
-  shown.push_back(progress.behind.get());
   const output_files& f = o.files;
   o.run.go({f["--json"], result_parts::ends, f["--log"], f["--trace"], f["--proof"], f["--html"], f["--csv"],
             f[csv_pairs]},
-           shown);
+           {&progress});
   progress.line.erase();
-  if (!rows) return;
-  if (const std::vector<std::string> legend = rows->legend(); !legend.empty())
-    print_verdict(o, paint::quiet, legend);
+  if (!setup.prints) return;
+  const run_table rows = table_of(o.run.result, setup.screen, setup.options.detail);
+  print_text(rows.text);
+  if (!rows.legend.empty()) print_verdict(o, paint::quiet, rows.legend);
 }
 
 /// Print how the comparison came out. A mismatch under a bad probe is the environment's.
 void report_lockstep(shown_run& o) {
-  const lockstep& compared = *o.run.compared();
+  const lockstep& compared = *o.run.result.compared;
   const std::string names = joined(o.run.wanted.kernels, " and ");
   if (compared.calls() == 0)
     return print_verdict(o, paint::quiet, {names + " were never called: nothing is compared"});
-  const bool equal = o.run.compares.equal;
-  print_verdict(
-      o, equal ? paint::good : paint::bad,
-      {fmt::format("{} {} to the bit", names, equal ? "are equal" : "are NOT equal"), o.run.compares.words});
+  const bool equal = o.run.result.equal;
+  print_verdict(o, equal ? paint::good : paint::bad,
+                {fmt::format("{} {} to the bit", names, equal ? "are equal" : "are NOT equal"),
+                 o.run.result.comparison});
   if (!compared.first()) return;
   const std::vector<std::string> lines = words_of(*compared.first());
   complain_of(lines);
@@ -189,10 +189,11 @@ void report_lockstep(shown_run& o) {
 
 /// Let another kernel follow its own path, and print how it compares with the leader's.
 void report_free_run(shown_run& o, const std::string& name) {
-  const auto [d, certified, distances] = o.run.follow_alone(name);
+  const compared_path& other = o.run.follow_alone(name);
+  const free_run_difference& d = other.difference;
   print_verdict(o, d.within_bound() ? paint::good : paint::bad,
                 {fmt::format("{} in free run: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
-                 distances, certified ? "certified" : "NOT certified"});
+                 other.distances, other.certified ? "certified" : "NOT certified"});
   if (!d.first_difference.empty()) {
     o.differences += name + ": " + d.first_difference + "\n";
     complain("{}: first difference: {}", name, d.first_difference);
@@ -207,22 +208,22 @@ void report_free_run(shown_run& o, const std::string& name) {
 void report_comparison(shown_run& o) {
   const std::vector<std::string>& kernels = o.run.wanted.kernels;
   if (kernels.empty())
-    return print_verdict(
-        o, paint::quiet,
-        {"only the end of each step, no path", fmt::format("{} factorisations", o.run.end.work.factors)});
-  if (o.run.compared() != nullptr) return report_lockstep(o);
+    return print_verdict(o, paint::quiet,
+                         {"only the end of each step, no path",
+                          fmt::format("{} factorisations", o.run.result.end.work.factors)});
+  if (o.run.result.compared) return report_lockstep(o);
   // Unit 26 exists only once: one kernel after the other.
   for (const std::string& name : std::span(kernels).subspan(1)) report_free_run(o, name);
 }
 
 /// The report for --junit and --markdown.
 check_report check_report_of(const shown_run& o) {
-  const session::run& run = o.run;
-  const std::vector<std::string>& kernels = run.wanted.kernels;
-  check_report r{"contct run", common_facts(), {}, 0.0};
-  r.facts.push_back(fmt::format("{}: kernels {}", run.wanted.file, joined(kernels, ", ")));
+  const run_result& run = o.run.result;
+  const std::vector<std::string>& kernels = run.kernels;
+  check_report r{"contct run", run.facts, {}, 0.0};
+  r.facts.push_back(fmt::format("{}: kernels {}", run.file, joined(kernels, ", ")));
   if (kernels.size() > 1)
-    r.results.push_back({"kernels", passed_if(run.compares.equal), run.compares.words, o.differences});
+    r.results.push_back({"kernels", passed_if(run.equal), run.comparison, o.differences});
   const std::string ended = end_words(run.what, run.end);
   const bool solved = run.end.status == path_status::solved;
   r.results.push_back({"path", passed_if(solved), solved ? "every step's load is applied" : ended, ended});
@@ -230,8 +231,7 @@ check_report check_report_of(const shown_run& o) {
     r.results.push_back({"certificate", outcome::passed, "every final state is certified", ""});
   } else {  // without --strict nothing fails for it
     r.results.push_back({"certificate", o.setup.options.strict ? outcome::failed : outcome::skipped,
-                         "NOT certified",
-                         joined(certificate_complaints(run.what, run.judged, run.early), "\n")});
+                         "NOT certified", joined(certificate_complaints(run), "\n")});
   }
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - o.setup.started).count();
   return r;
@@ -240,21 +240,21 @@ check_report check_report_of(const shown_run& o) {
 /// Complete and name all files.
 void write_files(shown_run& o) {
   o.run.finish();
-  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.pictures.vtu, o.run.result());
+  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.pictures.vtu, o.run.result);
   o.files.write(check_report_of(o));
 }
 
 /// What every run ends with: certificate, files, messages, exit status.
 exit_status finish(shown_run& o) {
-  const bool solved = o.run.end.status == path_status::solved;
-  const bool certified = o.run.judged.all_certified();
-  std::vector<std::string> summary = certificate_summary(o.run.judged, solved);
+  const bool solved = o.run.result.end.status == path_status::solved;
+  const bool certified = o.run.result.judged.all_certified();
+  std::vector<std::string> summary = certificate_summary(o.run.result.judged, solved);
   if (solved && certified) summary.front() += " for this mesh";
   print_verdict(o, solved && certified ? paint::good : paint::bad, summary);
   const exit_status status = o.run.exit();
   if (status != exit_status::bad_input) write_files(o);  // without numbers no files
   flush_standard_output();                               // the table before what is said about it
-  complain_of(end_messages(o.run.result()));
+  complain_of(end_messages(o.run.result));
   return status == exit_status::solved && o.setup.options.strict && !certified ? exit_status::uncertified
                                                                                : status;
 }

@@ -54,7 +54,8 @@ TEST_CASE("a bare contct run compares FORTRAN with C++ and writes no file") {
   CHECK(o.json.empty());
   CHECK(o.log.empty());
   CHECK(o.trace.empty());
-  CHECK_FALSE(o.pictures.wants_frames());
+  CHECK(o.pictures.html.empty());
+  CHECK(o.pictures.vtu.empty());
   CHECK_FALSE((o.free_run || o.final_only || o.strict || o.report.quiet));
   CHECK(o.max_increments == 0);
 }

@@ -306,12 +306,10 @@ TEST_CASE("a result on a matrix names dofs by their labels, and its w is its dis
   const problem p = read_problem((reference / "structures" / "frame.toml").string());
   const scratch_folder here;
   const linear_structure s = structure_of(p);
-  certifier judged(p, s, contct::exact::exact_means_of(p));
   output_file file((here.path() / "r.json").string());
-  run_recorder record;
-  const early_toggles none;
-  const path_end end = follow(p, s, "refactor", *make_kernel("fortran"), {&judged, &record});
-  write_result({.what = p, .record = record, .judged = judged, .early = none, .end = end}, file);
+  run_result r(p, s, contct::exact::exact_means_of(p));
+  r.end = follow(p, s, "refactor", *make_kernel("fortran"), {&r.judged, &r.record});
+  write_result(r, file);
   const std::string text = here.read("r.json");
   CHECK_THAT(text, Catch::Matchers::Contains(R"({"pair":1,"dof":"6.y","surface":"below","state":)"));
   CHECK_THAT(text, Catch::Matchers::Contains(R"({"pair":1,"dof":"6.y","surface":"below","change":"make"})"));

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
-#include "contct/write/run_result.hpp"
+#include "contct/write/path_states.hpp"
 #include "read/good_problem.hpp"
 
 namespace contct::app {
@@ -24,46 +25,31 @@ inline const std::string propped_cantilever =
     "[beam]\nlength = 2.0\nelements = 2\nEI = 100.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
     "[[support]]\nnode = 3\nfix = [\"w\"]\n[[step]]\nuniform = -8.0\n";
 
-/// FORTRAN leading C++ in lockstep, or another kernel alone, seen by all that pictures are made from.
+/// FORTRAN leading C++ in lockstep, or another kernel alone, with all that outputs are made from.
 struct a_run {
-  problem what;
-  linear_structure structure;
-  std::unique_ptr<kernel> leader;
-  lockstep compared;
-  frame_keeper kept;
-  run_recorder record;
-  certifier judged;
-  early_toggles early;
-  path_end end;
+  const problem what;
+  const linear_structure structure;
+  run_result result;
 
-  explicit a_run(const std::string& text, const std::vector<observer*>& more = {},
-                 const frame_limits& limits = {}, const std::string& leads = "fortran")
-      : what(parse_problem(text, "pb.toml", reach::anywhere)),
-        structure(structure_of(what)),
-        leader(make_kernel(leads)),
-        compared(make_lockstep(leader->facts(), std::vector<std::string>(leads == "fortran" ? 1 : 0, "cpp"))),
-        kept(structure, loads_of(what, structure), false, limits),
-        record(&compared, true),
-        judged(what, structure) {
-    std::vector<observer*> watching = {&compared, &judged, &early, &kept, &record};
-    watching.insert(watching.end(), more.begin(), more.end());
-    end = follow(what, structure, "refactor", *leader, watching);
-    leader.reset();  // unit 26 is there only once
-  }
+  explicit a_run(const std::string& text, const std::string& leads = "fortran")
+      : a_run(parse_problem(text, "pb.toml", reach::anywhere), leads) {}
 
-  [[nodiscard]] run_result result() const {
-    return {.what = what,
-            .record = record,
-            .judged = judged,
-            .early = early,
-            .end = end,
-            .file = "pb.toml",
-            .kernels = {"fortran", "cpp"},
-            .engine = "refactor",
-            .compared = &compared,
-            .comparison = "all equal",
-            .facts = {"contct 0"},
-            .frames = kept.frames()};
+  explicit a_run(problem p, const std::string& leads = "fortran")
+      : what(std::move(p)), structure(structure_of(what)), result(what, structure) {
+    const std::unique_ptr<kernel> leader = make_kernel(leads);
+    std::vector<observer*> watching = {&result.judged, &result.early, &result.record};
+    if (leads == "fortran") {
+      result.compared.emplace(make_lockstep(leader->facts(), std::vector<std::string>{"cpp"}));
+      watching.insert(watching.begin(), &*result.compared);
+    }
+    result.record =
+        run_recorder(result.compared ? &*result.compared : nullptr, {.calls = true, .states = true});
+    result.file = "pb.toml";
+    result.kernels = {"fortran", "cpp"};
+    result.engine = "refactor";
+    result.comparison = "all equal";
+    result.facts = {"contct 0"};
+    result.end = follow(what, structure, "refactor", *leader, watching, {0, result.judged.ends()});
   }
 };
 

@@ -2,10 +2,7 @@
 // are tested on the program: tests/app/explain_test.cpp.
 #include "contct/write/explain.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -27,30 +24,16 @@ std::vector<int> lines_of(const nlohmann::json& story) {
   return lines;
 }
 
-/// What `print` writes to standard output.
-template <class Print>
-std::string printed(Print print) {
-  const scratch_folder folder;
-  (void)std::fflush(stdout);
-  const int kept = dup(STDOUT_FILENO);
-  std::FILE* const file = std::fopen(folder.at("out").c_str(), "w");
-  dup2(fileno(file), STDOUT_FILENO);
-  print();
-  (void)std::fflush(stdout);
-  dup2(kept, STDOUT_FILENO);
-  close(kept);
-  (void)std::fclose(file);
-  return folder.read("out");
+std::string explained_text(const problem& p, int pair, int width, explain_detail detail = {}) {
+  explain_text text({p, {"fortran", "cpp"}, 8, pair}, {width, false}, detail);
+  std::string all;
+  explain_run(p, [&](const explained_increment& i) { all += text.add(i); });
+  return all + text.finish();
 }
 
 std::string explained_text(int pair, int width, const std::string& toml = two_pairs,
                            explain_detail detail = {}) {
-  const problem p = parse_problem(toml, "pb.toml");
-  return printed([&] {
-    explain_text text({p, {"fortran", "cpp"}, 8, pair}, {width, false}, detail);
-    explain_run(p, [&](const explained_increment& i) { text.print(i); });
-    text.finish();
-  });
+  return explained_text(parse_problem(toml, "pb.toml"), pair, width, detail);
 }
 
 /// `steps` load steps more, each without an event: an increment each.
@@ -88,26 +71,17 @@ TEST_CASE("a pair's story cites the lines that it went through, with the paper's
 
 TEST_CASE("two numbers are equal to the bit, so many ULP apart, or one is no number") {
   const double next = std::nextafter(0.25, 1.0);
+  const problem p = parse_problem(two_pairs, "pb.toml");
+  const explained_kernels of{p, {"a", "b"}, 8, 0};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(side_by_side_words("a", 0.25, "b", 0.25, 8, true) == "a 0x1p-2, b equal to the bit");
-  CHECK_THAT(side_by_side_words("a", 0.25, "b", next, 8, true), Contains(": 1 ULP apart"));
-  CHECK_THAT(side_by_side_words("a", 0.25, "b", nan, 8, true), Contains("one is NaN"));
-  CHECK(side_by_side_words("a", 0.25, "b", 0.25, 8, false) == "a and b are equal to the bit");
-  CHECK(side_by_side_words("a", 0.25, "b", next, 8, false) == "a and b are 1 ULP apart");
-  CHECK(side_by_side_words("a", 0.25, "b", nan, 8, false) == "a and b are different: one is NaN");
+  CHECK(side_by_side_words(of, 0.25, 0.25, true) == "a 0x1p-2, b equal to the bit");
+  CHECK_THAT(side_by_side_words(of, 0.25, next, true), Contains(": 1 ULP apart"));
+  CHECK_THAT(side_by_side_words(of, 0.25, nan, true), Contains("one is NaN"));
+  CHECK(side_by_side_words(of, 0.25, 0.25, false) == "a and b are equal to the bit");
+  CHECK(side_by_side_words(of, 0.25, next, false) == "a and b are 1 ULP apart");
+  CHECK(side_by_side_words(of, 0.25, nan, false) == "a and b are different: one is NaN");
   CHECK(ulps_apart(0.25, next, 8) == 1);
   CHECK(ulps_apart(0.25, std::nextafter(0.25F, 1.0F), 4) == 1);
-}
-
-TEST_CASE("an explanation has a heading for each increment and each pair, and says when kernels agree") {
-  const std::string text = explained_text(0, 80);
-  CHECK_THAT(text, Contains("Step 1, increment 1\n-----"));
-  CHECK_THAT(text, Contains("Step 1, increment 2\n"));
-  CHECK_THAT(text, Contains("Pair 1, node 2, face below, separated: advancing\n"));
-  CHECK_THAT(text, Contains("Pair 2, node 1, face below, separated: no response\n"));
-  CHECK_THAT(text,
-             Contains("fortran and cpp are equal to the bit") && !Contains("DIFFERENT") && !Contains("0x"));
-  CHECK_THAT(explained_text(2, 80), !Contains("Pair 1, node 2"));
 }
 
 TEST_CASE("more than twenty increments are a line each, unless all are wanted") {
@@ -122,6 +96,16 @@ TEST_CASE("more than twenty increments are a line each, unless all are wanted") 
           !Contains("Step"));
   CHECK_THAT(explained_text(0, 80, two_pairs_and(19)),
              Contains("Step 20, increment 1\n") && !Contains("--all"));
+}
+
+TEST_CASE("a summary has the title once, names what is toggled too early, and counts events beyond twelve") {
+  std::string toml = "title = \"Stops\"\n" + two_pairs_and(20);
+  const std::string stop = "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n";
+  for (int i = 0; i < 13; ++i) toml += stop;
+  toml += "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.2501\nstiffness = 1\n";
+  const std::string text = explained_text(0, 60, toml, {false, false});
+  CHECK_THAT(text, StartsWith("Stops\n  incr  share      events\n   1.1  0.25       make 1, make 3"));
+  CHECK_THAT(text, Contains("\n                   make 7") && Contains("make 13, 3 more; too early: 16\n"));
 }
 
 TEST_CASE("the bits of s are shown where they are asked for") {
@@ -152,7 +136,8 @@ TEST_CASE("each increment has its numbers, the winner and every pair with the re
   CHECK(stop["why"] == "winner");
   CHECK(stop["bits"]["ulps"] == 0);
   CHECK(stop["bits"]["fortran"] == stop["bits"]["cpp"]);
-  CHECK(stop["story"][0]["line"] == 30);
+  CHECK(stop["branches"][0]["if"] == "DTEST(NDOF).EQ.0.");
+  CHECK(stop["branches"][0]["outcome"] == false);
   const nlohmann::json& clamped = first["pairs"][1];
   CHECK(clamped["node"] == 1);
   CHECK(clamped["kind"] == "no response");
@@ -185,20 +170,9 @@ TEST_CASE("an event exactly at the full load is none for the listing, and the ex
   (void)explain_run(
       p, [](const explained_increment&) {}, &keeps);
   p.pairs[0].face = end.at(2);
-  const std::string text = printed([&] {
-    explain_text all({p, {"fortran", "cpp"}, 8, 0}, {100, false}, {});
-    explain_run(p, [&](const explained_increment& i) { all.print(i); });
-    all.finish();
-  });
-  CHECK_THAT(text, Contains("Exactly at the full load: the listing takes this for no event."));
+  CHECK_THAT(explained_text(p, 0, 100),
+             Contains("Exactly at the full load: the listing takes this for no event."));
   CHECK_THAT(explained_text(0, 100), !Contains("Exactly at the full load"));
-}
-
-TEST_CASE("the text names the pair that wins, the equation, and how each pair was toggled") {
-  const std::string text = explained_text(0, 100);
-  CHECK_THAT(text, Contains("not 1. Pair 1 wins."));
-  CHECK_THAT(text, Contains("(9)\n") && Contains("(4)\n"));
-  CHECK_THAT(text, Contains("DIFF = 0: s is SMIN.") && Contains("ISEP = -1: in contact. Make."));
 }
 
 TEST_CASE("a pair that leaves its face is told as a break, with the listing's line") {
@@ -236,11 +210,7 @@ TEST_CASE(
     explained_path path = explain_run(p, [&](explained_increment i) {
       i.apart = apart;
       json.write(i);
-      text += printed([&] {
-        explain_text all({p, {"fortran", "cpp"}, 8, 0}, {100, false}, {});
-        all.print(i);
-        all.finish();
-      });
+      text += explain_text({p, {"fortran", "cpp"}, 8, 0}, {100, false}).add(i);
     });
     json.finish("solved", path);
     return std::pair(text, nlohmann::json::parse(folder.read("x.json"))["increments"][0]["apart"]);

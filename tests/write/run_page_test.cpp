@@ -34,15 +34,15 @@ const std::string nasty = "</script><script>alert(1)</script> <b>& \\\"{{data}}\
 TEST_CASE("a title with markup stays text: no new element comes of it, and the data say it unchanged") {
   const a_run plain(good_problem);
   const a_run titled("title = \"" + nasty + "\"\n" + good_problem);
-  const std::string page = run_page(titled.result());
-  CHECK(count(page, "<script") == count(run_page(plain.result()), "<script"));
-  CHECK(count(page, "<b>") == count(run_page(plain.result()), "<b>"));
+  const std::string page = run_page(titled.result);
+  CHECK(count(page, "<script") == count(run_page(plain.result), "<script"));
+  CHECK(count(page, "<b>") == count(run_page(plain.result), "<b>"));
   CHECK_THAT(page, Contains("<title>&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; &lt;b&gt;&amp;"));
   CHECK(embedded_in(page)["title"] == "</script><script>alert(1)</script> <b>& \"{{data}}\" <!--");
 }
 
 TEST_CASE("the page names no other file and no network") {
-  const std::string page = run_page(a_run(good_problem).result());
+  const std::string page = run_page(a_run(good_problem).result);
   for (const char* way : {"src=", "@import", "fetch(", "<link", "<img", "XMLHttp", "url("}) {
     INFO(way);
     CHECK(count(page, way) == 0);
@@ -57,7 +57,7 @@ TEST_CASE("the parallel edition is in the page, folded, as reference/ has it") {
   const std::string edition =
       whole.substr(whole.find("<section"), whole.find("</body>") - whole.find("<section"));
   REQUIRE(count(edition, "<pre>") >= 20);
-  const std::string page = run_page(a_run(good_problem).result());
+  const std::string page = run_page(a_run(good_problem).result);
   CHECK(count(page, "<!DOCTYPE") == 1);
   CHECK(count(page, "<title>") == 1);
   CHECK_THAT(page, Contains(edition) && Contains("<details id=\"edition\">"));

@@ -1,10 +1,11 @@
-// Frames for ParaView, and the judge of their XML.
+// Grids for ParaView, and the judge of their XML.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "catch.hpp"
 #include "contct/write/pictures.hpp"
+#include "contct/write/step_results.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
@@ -17,17 +18,18 @@ using Catch::Matchers::Contains;
 TEST_CASE("grids are well-formed, with as many points and cells as the structure and its pairs have") {
   for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
     const a_run r(text);
-    const std::string vtu = vtu_of_frame(r.what, r.kept.frames().back());
+    const std::string vtu = vtu_of_state(r.what, pictures_of(r.result).back());
     CHECK(why_not_well_formed(vtu).empty());
     const auto cells = static_cast<std::size_t>(elements(r.what.geometry)) + r.what.pairs.size();
     CHECK_THAT(vtu, Contains("NumberOfPoints=\"" + std::to_string(nodes(r.what.geometry)) +
                              "\" NumberOfCells=\"" + std::to_string(cells) + "\""));
-    for (const frame& f : r.kept.frames()) CHECK(why_not_well_formed(vtu_of_frame(r.what, f)).empty());
+    for (const structure_state& s : pictures_of(r.result))
+      CHECK(why_not_well_formed(vtu_of_state(r.what, s)).empty());
   }
 }
 
 TEST_CASE("a collection names its files in their order, relative to itself") {
-  const std::string pvd = pvd_of_frames("a&b", 11);
+  const std::string pvd = pvd_of_states("a&b", 11);
   CHECK(why_not_well_formed(pvd).empty());
   CHECK_THAT(pvd, Contains("timestep=\"0\" part=\"0\" file=\"a&amp;b.000.vtu\""));
   CHECK_THAT(pvd, Contains("timestep=\"10\" part=\"0\" file=\"a&amp;b.010.vtu\""));
@@ -35,7 +37,7 @@ TEST_CASE("a collection names its files in their order, relative to itself") {
 
 TEST_CASE("grids of structures from elsewhere: points where nodes are, edges, and pairs that have a node") {
   const a_run r(structure_problem("", "frame", {{"dof       = \"8.x\"", "dof = \"8.r\""}}));
-  const std::string vtu = vtu_of_frame(r.what, r.kept.frames().back());
+  const std::string vtu = vtu_of_state(r.what, pictures_of(r.result).back());
   CHECK(why_not_well_formed(vtu).empty());
   CHECK_THAT(vtu, Contains("NumberOfPoints=\"11\" NumberOfCells=\"12\""));
   CHECK_THAT(vtu, Contains("Name=\"rotation\" NumberOfComponents=\"3\""));
@@ -43,23 +45,24 @@ TEST_CASE("grids of structures from elsewhere: points where nodes are, edges, an
       vtu,
       Contains("Name=\"direction\" NumberOfComponents=\"1\" format=\"ascii\">\n0 0 0 0 0 0 0 0 0 0 2 6\n"));
   const a_run solid(structure_problem("calculix/", "console", {{"dof       = \"49.3\"", "dof = \"55.1\""}}));
-  const std::string bricks = vtu_of_frame(solid.what, solid.kept.frames().back());
+  const std::string bricks = vtu_of_state(solid.what, pictures_of(solid.result).back());
   CHECK_THAT(bricks, Contains("NumberOfPoints=\"54\" NumberOfCells=\"114\"") && !Contains("rotation"));
 }
 
 TEST_CASE("points have the reactions of supports and a bed's pressure") {
-  a_run r(good_problem);
-  r.what.beds = {{4.0, {0.5}, 0}};
-  const frame& f = r.kept.frames().back();
-  const std::string vtu = vtu_of_frame(r.what, f);
+  problem p = parse_problem(good_problem, "pb.toml");
+  p.beds = {{4.0, {0.5}, 0}};
+  const a_run r(p);
+  const structure_state s = pictures_of(r.result).back();
+  const std::string vtu = vtu_of_state(r.what, s);
   CHECK(why_not_well_formed(vtu).empty());
-  const std::vector<double> at = reactions(r.what.geometry, r.what.steps[0], r.what.supports, f.displacement);
+  const std::vector<double> at = reactions(r.what.geometry, r.what.steps[0], r.what.supports, s.displacement);
   CHECK_THAT(vtu, Contains(fmt::format(
                       "Name=\"reaction\" NumberOfComponents=\"2\" format=\"ascii\">\n{} {} 0 0 0 0\n", at[0],
                       at[1])));
   CHECK_THAT(vtu,
              Contains(fmt::format("Name=\"pressure\" NumberOfComponents=\"1\" format=\"ascii\">\n0 0 {}\n",
-                                  reading_of(r.what, f, 0).force / 0.5)));
+                                  results_of(r.what, r.what.steps[0], s).pairs[0].force / 0.5)));
 }
 
 TEST_CASE("the judge of well-formed XML finds what is wrong") {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "catch.hpp"
@@ -9,7 +10,6 @@
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
-#include "support/beams.hpp"
 #include "support/structures.hpp"
 
 using namespace contct::app;
@@ -30,29 +30,13 @@ problem beam_over_stops(double face, double q) {
 /// Where its path ends, with the numbers read off there.
 struct ended {
   explicit ended(const problem& p) {
-    recorder seen;
-    follow(p, structure_of(p), "refactor", *make_kernel("corrected"), {&seen});
-    const auto& last = seen.steps.back();
-    u = last.u;
-    const load total = load_path(p).at(last.step, last.fraction);
-    read = results_of(p, total, u, last.isep, deflecting_nodes(p));
-    through = deepest_passage(p, total, u);
+    const a_run run(p, "corrected");
+    const structure_state& last = run.result.record.steps.back().end;
+    read = results_of(p, p.steps.back(), last);
+    through = deepest_passage(p, p.steps.back(), last.displacement);
   }
-  std::vector<double> u;
   step_results read;
   std::optional<passage> through;
-};
-
-/// The envelope of a run, as the page of all its frames would have it, and as every increment gives it.
-struct enveloped {
-  explicit enveloped(const std::string& text) : what(parse_problem(text, "pb.toml")), all(what) {
-    const linear_structure s = structure_of(what);
-    frame_keeper few(s, loads_of(what, s), true, {.most_frames = 4});
-    few.show_each_to([this](const frame& f) { all.take(f); });
-    follow(what, s, "refactor", *make_kernel("corrected"), {&few});
-  }
-  problem what;
-  envelope all;
 };
 
 }  // namespace
@@ -101,34 +85,28 @@ TEST_CASE("A beam that sags through a face between two pairs is told, a flatter 
 }
 
 TEST_CASE("An envelope has the largest of each quantity over all increments, with the increment") {
-  const enveloped e(loaded_and_freed);
-  const a_run run(loaded_and_freed);
-  CHECK(e.all.states() == run.kept.increments());
-  const envelope::range& w = e.all.ranges().front();
-  CHECK(w.name == "w");
-  const std::vector<frame>& frames = run.kept.frames();
+  const a_run run(loaded_and_freed, "corrected");
+  const envelope all = envelope_of(run.result);
+  const std::vector<structure_state> states = pictures_of(run.result);
+  CHECK(all.states == static_cast<int>(states.size()) - 1);  // all but the unloaded one
   double least = 0.0;
   double force = 0.0;
-  for (const frame& f : frames) {
-    least = std::min(least, f.displacement[4]);
-    for (std::size_t pair = 0; pair < 2; ++pair)
-      force = std::max(force, pair == 0 ? reading_of(run.what, f, pair).force : 0.0);
+  for (const structure_state& s : states) {
+    if (s.step == 0) continue;
+    least = std::min(least, s.displacement[4]);
+    force = std::max(force, results_of(run.what, {}, s).pairs[0].force);
   }
-  CHECK(w.least.at.value == Approx(least).epsilon(1e-12));
-  CHECK(w.least.reached.step == 1);
-  CHECK(w.most.reached.step == 2);
-  CHECK(e.all.pairs().at(0).force == Approx(force).epsilon(1e-12));
-  CHECK(e.all.pairs().at(0).reached.step == 1);
-  REQUIRE(e.all.reactions().size() == 2);
-  CHECK(e.all.reactions()[0].most > 0.0);
-  CHECK(e.all.reactions()[0].least < 0.0);
-  CHECK(e.all.reactions()[0].least_reached.step == 2);
-}
-
-TEST_CASE("The end of a step is in the envelope as the path itself tells it, to the bit") {
-  const enveloped e(good_problem);
-  const a_run run(good_problem);
-  CHECK(e.all.ranges().front().least.at.value == run.kept.frames().back().displacement[4]);
+  CHECK(all.names.front() == "w");
+  const auto& w = all.values.front();
+  CHECK(w.least.value.value == least);
+  CHECK(w.least.step == 1);
+  CHECK(w.most.step == 2);
+  CHECK(all.pairs.at(0).value == Approx(force).epsilon(1e-12));
+  CHECK(all.pairs.at(0).step == 1);
+  REQUIRE(all.reactions.size() == 2);
+  CHECK(all.reactions[0].most.value > 0.0);
+  CHECK(all.reactions[0].least.value < 0.0);
+  CHECK(all.reactions[0].least.step == 2);
 }
 
 TEST_CASE("Places and units are in words: nodes with coordinates, places between nodes, labels") {
@@ -148,10 +126,41 @@ TEST_CASE("Places and units are in words: nodes with coordinates, places between
 }
 
 TEST_CASE("the warning of a beam that sags through a face names both pairs, from 1, and the step") {
-  const problem p = beam_over_stops(0.0, -500.0);
-  const linear_structure s = structure_of(p);
-  run_recorder seen;
-  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&seen});
-  CHECK_THAT(passage_warning(p, seen.steps),
+  const a_run run(beam_over_stops(0.0, -500.0));
+  CHECK_THAT(passage_warning(run.what, run.result.record.steps),
              Catch::Matchers::StartsWith("step 1: between pairs 1 and 2 the beam passes through"));
+}
+
+TEST_CASE("a pair is read at its deflection: gap or force, never both") {
+  const problem p = parse_problem(good_problem, "pb.toml");  // face -0.004, stiffness 5e4
+  const pair_reading open = reading_of(p.pairs[0], -0.001, false);
+  CHECK(open.gap == Approx(0.003));
+  CHECK(open.force == 0.0);
+  CHECK(open.look == pair_state::open);
+  const pair_reading closed = reading_of(p.pairs[0], -0.005, true);
+  CHECK(closed.gap == 0.0);
+  CHECK(closed.force == Approx(50.0));
+  CHECK(closed.look == pair_state::closed);
+  CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_state::at_face);
+}
+
+TEST_CASE("what deflects is what is known to be a length: a matrix's pairs, and what is along an axis") {
+  const problem placed = parse_problem(portal_frame(), "p.toml", reach::anywhere);
+  const std::vector<int> dofs = deflecting_nodes(placed);
+  CHECK(dofs.size() == 22);
+  CHECK(std::none_of(dofs.begin(), dofs.end(), [](int dof) { return dof % 3 == 2; }));
+  problem bare = parse_problem(frame_without_coordinates(), "p.toml", reach::anywhere);
+  CHECK(deflecting_nodes(bare) == std::vector<int>{16, 21});
+  bare.pairs.clear();
+  CHECK(deflecting_nodes(bare).size() == 33);
+}
+
+TEST_CASE("a plate's nodes go along x first, and w is the first of a node's dofs") {
+  const problem p = parse_problem(good_plate, "pb.toml");
+  CHECK(place_of_node(p.geometry, 4).x == 0.5);
+  CHECK(place_of_node(p.geometry, 4).y == 1.0);
+  CHECK(place_name(p.geometry, 4) == "5");
+  std::vector<double> u(18);
+  u[12] = 7.0;
+  CHECK(deflection_of(p, u, 4) == 7.0);
 }

@@ -1,16 +1,11 @@
 // The run as tables; what a whole one looks like on the terminal is tested on the program itself (tests/app).
 #include "contct/write/table.hpp"
 
-#include <unistd.h>
-
-#include <cstdio>
 #include <cstdlib>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
-#include "contct/read/problem_file.hpp"
 #include "contct/write/pictures.hpp"
-#include "contct/write/run_result.hpp"
+#include "contct/write/words.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
@@ -50,24 +45,17 @@ std::vector<row> rows_of(const std::string& text) {
 
 struct tables {
   std::vector<row> increments, pairs;
-  std::vector<frame> frames;
+  std::vector<structure_state> states;  // to compare with
 };
 
-/// Two runs of one problem: its tables, and its frames to compare with.
-tables tables_of(const std::string& text) {
-  const problem p = parse_problem(text, "pb.toml");
-  const scratch_folder folder;
-  output_file increments(folder.at("run.csv")), pairs(folder.at("run.pairs.csv"));
-  auto leader = make_kernel("fortran");
-  lockstep compared = make_lockstep(leader->facts(), std::vector<std::string>{"cpp"});
-  const linear_structure s = structure_of(p);
-  frame_keeper states(s, loads_of(p, s), false);
-  states.solve_each();
-  run_csv csv(p, &compared, states, 1, increments, &pairs);
-  follow(p, s, "refactor", *leader, {&compared, &states, &csv});
-  csv.finish();
-  leader.reset();  // unit 26 is there only once
-  return {rows_of(folder.read("run.csv")), rows_of(folder.read("run.pairs.csv")), a_run(text).kept.frames()};
+/// With the second node watched.
+tables tables_of(const a_run& r) {
+  std::string increments;
+  std::string pairs;
+  output_file to(&increments);
+  output_file of_pairs(&pairs);
+  write_csv(r.result, 1, to, &of_pairs);
+  return {rows_of(increments), rows_of(pairs), pictures_of(r.result)};
 }
 
 double number(const std::string& field) {
@@ -78,39 +66,17 @@ double number(const std::string& field) {
 
 TEST_CASE("a path that is lost before any call has a table, with the state that was found without it") {
   // Nothing holds the corner's slope in doubles.
-  const problem p = parse_problem(
+  const a_run r(
       "[plate]\nsize = [2, 2]\nelements = [2, 2]\nnu = 0\nD = 1\n[[support]]\nnode = 8\nspring = { wy = 1 }\n"
       "[[contact]]\nnode = 9\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
       "[[step]]\npoint = [ { node = 9, wy = 0.84375 } ]\n",
-      "pb.toml");
-  const scratch_folder folder;
-  output_file increments(folder.at("run.csv")), pairs(folder.at("run.pairs.csv"));
-  const auto leader = make_kernel("corrected");
-  const linear_structure s = structure_of(p);
-  frame_keeper states(s, loads_of(p, s), true);
-  states.solve_each();
-  run_csv csv(p, nullptr, states, 1, increments, &pairs);
-  certifier judged(p, s);
-  const path_end end = follow(p, s, "refactor", *leader, {&judged, &states, &csv}, {0, judged.ends()});
-  csv.finish();
-  CHECK(end.status == path_status::solved);
-  const std::vector<row> rows = rows_of(folder.read("run.csv"));
-  REQUIRE(rows.size() == 2);
-  CHECK(rows[1][10].empty());  // smin
-  CHECK(rows[1][2] == "rescue");
-  CHECK(rows_of(folder.read("run.pairs.csv")).size() == 2);
-}
-
-TEST_CASE("the terminal's width comes from COLUMNS, within reason, and a pipe has no colour") {
-  setenv("COLUMNS", "120", 1);
-  CHECK(look_at_terminal().width == 120);
-  setenv("COLUMNS", "7", 1);
-  CHECK(look_at_terminal().width == 40);
-  setenv("COLUMNS", "wide", 1);
-  CHECK(look_at_terminal().width == 80);
-  unsetenv("COLUMNS");
-  CHECK(painted({80, false}, paint::bad, "DIFFER") == "DIFFER");
-  CHECK(painted({80, true}, paint::bad, "DIFFER") != "DIFFER");
+      "corrected");
+  CHECK(r.result.end.status == path_status::solved);
+  const tables t = tables_of(r);
+  REQUIRE(t.increments.size() == 2);
+  CHECK(t.increments[1][10].empty());  // smin
+  CHECK(t.increments[1][2] == "rescue");
+  CHECK(t.pairs.size() == 2);
 }
 
 TEST_CASE("a share takes nine columns at most, and is 1 only when it is") {
@@ -125,14 +91,6 @@ TEST_CASE("a share takes nine columns at most, and is 1 only when it is") {
     CHECK(share_words(x).size() <= 9);
     CHECK(share_words(x) != "1");
   }
-}
-
-TEST_CASE("items are joined while they fit, and a long one goes on in the next line, between words") {
-  using lines = std::vector<std::string>;
-  CHECK(wrap({"one", "two", "three"}, 8) == lines{"one; two", "three"});
-  CHECK(wrap({"one two three four", "five"}, 9) == lines{"one two", "three", "four", "five"});
-  CHECK(wrap({"unbreakable word"}, 5) == lines{"unbreakable", "word"});
-  CHECK(wrap({}, 5).empty());
 }
 
 TEST_CASE("a field is quoted where a comma, a quote or a line end is in it") {
@@ -154,42 +112,40 @@ TEST_CASE("no text cell begins as a formula does, nor where blanks stand before 
 }
 
 TEST_CASE("the table of increments has their numbers to the last digit, and their events") {
-  const tables t = tables_of(loaded_and_freed);
-  REQUIRE(t.increments.size() == t.frames.size());  // a heading, where the frames have the start
+  const tables t = tables_of(a_run(loaded_and_freed));
+  REQUIRE(t.increments.size() == t.states.size());  // a heading, where the states have the start
   CHECK(t.increments[0] == row{"step", "increment", "kind", "s", "share", "force", "events", "closed", "open",
                                "at_face", "smin", "kernels", "node", "w"});
   for (std::size_t i = 1; i < t.increments.size(); ++i) {
     const row& r = t.increments[i];
     INFO("row " << i);
     REQUIRE(r.size() == 14);
-    CHECK(r[0] == std::to_string(t.frames[i].step));
-    CHECK(r[1] == std::to_string(t.frames[i].number));
-    CHECK(number(r[3]) == t.frames[i].s);
-    CHECK(number(r[4]) == t.frames[i].fraction);
-    CHECK(number(r[10]) == t.frames[i].s);
+    CHECK(r[0] == std::to_string(t.states[i].step));
+    CHECK(r[1] == std::to_string(t.states[i].number));
+    CHECK(number(r[3]) == number(r[10]));
+    CHECK(number(r[4]) == t.states[i].fraction);
     CHECK(r[11] == "equal");
     CHECK(r[12] == "2");
-    CHECK(number(r[13]) == t.frames[i].displacement[2]);
+    CHECK(number(r[13]) == t.states[i].displacement[2]);
   }
   CHECK(t.increments[1][6] == "make 1");
   CHECK(number(t.increments[2][5]) == -60.0);
 }
 
-TEST_CASE("the table of pairs has each in every increment, as the frames have it") {
-  const tables t = tables_of(loaded_and_freed);
-  REQUIRE(t.pairs.size() == 1 + 2 * (t.frames.size() - 1));
+TEST_CASE("the table of pairs has each in every increment, as the states have it") {
+  const tables t = tables_of(a_run(loaded_and_freed));
+  REQUIRE(t.pairs.size() == 1 + 2 * (t.states.size() - 1));
   bool pressed = false;
   for (std::size_t i = 1; i < t.pairs.size(); ++i) {
     const row& r = t.pairs[i];
-    const frame& f = t.frames[(i + 1) / 2];
+    const structure_state& f = t.states[(i + 1) / 2];
     const std::size_t pair = (i + 1) % 2;
     INFO("row " << i);
     REQUIRE(r.size() == 10);
     CHECK(r[2] == std::to_string(pair + 1));
     CHECK(r[5] == (f.closed(pair) ? "contact" : "separated"));
     const double w = f.displacement[pair == 0 ? 4 : 2];
-    // Exactly the state of a step's end; elsewhere the path's own D, which the frame's solution meets.
-    if (f.step_end) CHECK(number(r[7]) == w);
+    // Within a step the path's own D, which the solution for the whole shape meets.
     CHECK(number(r[7]) == Approx(w).margin(1e-14));
     pressed = pressed || number(r[9]) > 10;
   }
@@ -197,7 +153,7 @@ TEST_CASE("the table of pairs has each in every increment, as the frames have it
 }
 
 TEST_CASE("a step that never moves has a row all the same") {
-  const tables t = tables_of(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]"));
+  const tables t = tables_of(a_run(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]")));
   REQUIRE(t.increments.size() == 2);
   CHECK(t.increments[1][2] == "end");
   CHECK(t.increments[1][3].empty());
@@ -206,19 +162,12 @@ TEST_CASE("a step that never moves has a row all the same") {
 
 TEST_CASE("tables of structures from elsewhere name dofs by their labels, with coordinates or without") {
   for (const auto& text : {portal_frame(), frame_without_coordinates()}) {
-    const problem p = parse_problem(text, "p.toml", reach::anywhere);
-    const scratch_folder folder;
-    output_file increments(folder.at("mesh.csv"));
-    output_file pairs(folder.at("mesh.pairs.csv"));
-    auto leader = make_kernel("cpp");
-    const linear_structure s = structure_of(p);
-    frame_keeper states(s, loads_of(p, s), false);
-    states.solve_each();
-    run_csv csv(p, nullptr, states, 0, increments, &pairs);
-    follow(p, s, "refactor", *leader, {&states, &csv});
-    csv.finish();
-    const std::string table = folder.read("mesh.pairs.csv");
-    CHECK_THAT(table, Contains("\r\n1,1,1,6.y,below,contact,") && Contains("\r\n3,3,2,8.x,above,separated,"));
+    std::string increments;
+    std::string pairs;
+    output_file to(&increments);
+    output_file of_pairs(&pairs);
+    write_csv(a_run(text, "cpp").result, 0, to, &of_pairs);
+    CHECK_THAT(pairs, Contains("\r\n1,1,1,6.y,below,contact,") && Contains("\r\n3,3,2,8.x,above,separated,"));
   }
 }
 
@@ -236,25 +185,6 @@ TEST_CASE("labels that are no plain words are quoted fields in tables") {
 
 namespace {
 
-/// What a table without kernels beside prints of a path.
-std::string printed_rows(const std::string& text) {
-  const problem p = parse_problem(text, "pb.toml");
-  const linear_structure s = structure_of(p);
-  certifier judged(p, s);
-  const scratch_folder folder;
-  (void)std::fflush(stdout);
-  const int kept = dup(STDOUT_FILENO);
-  std::FILE* const file = std::fopen(folder.at("out").c_str(), "w");
-  dup2(fileno(file), STDOUT_FILENO);
-  table rows(p, nullptr, judged, {100, false}, false);
-  (void)follow(p, s, "refactor", *make_kernel("fortran"), {&judged, &rows});
-  (void)std::fflush(stdout);
-  dup2(kept, STDOUT_FILENO);
-  close(kept);
-  (void)std::fclose(file);
-  return folder.read("out");
-}
-
 /// A beam of so many elements that lies on springs, pressed at its middle.
 std::string lying_beam(int elements) {
   return "[beam]\nlength = 10.0\nelements = " + std::to_string(elements) +
@@ -263,24 +193,46 @@ std::string lying_beam(int elements) {
          std::to_string(elements / 2 + 1) + ", w = -1.0 } ]\n";
 }
 
+run_table rows_for(const std::string& text, const std::string& leads = "fortran") {
+  return table_of(a_run(text, leads).result, {100, false}, false);
+}
+
 }  // namespace
 
 TEST_CASE("many pairs that open as the load begins to act share one row, and a few are named in theirs") {
-  const std::string many = printed_rows(lying_beam(40));
-  CHECK_THAT(many, Contains(" at first load"));
-  const std::string few = printed_rows(lying_beam(3));
-  CHECK_THAT(few, Contains("break 4: node 4 below") && !Contains(" at first load"));
+  CHECK_THAT(rows_for(lying_beam(40)).text, Contains(" at first load"));
+  CHECK_THAT(rows_for(lying_beam(3)).text, Contains("break 4: node 4 below") && !Contains(" at first load"));
 }
 
 TEST_CASE("the column of kernels is explained where there is one, and not where one kernel runs alone") {
-  const auto legend_of = [](bool beside) {
-    const a_run r(good_problem);
-    table rows(r.what, beside ? &r.compared : nullptr, r.judged, {100, false}, false);
-    rows.incremented({1, 1, 1.0, 1.0, {}});
+  const auto legend_of = [](const std::string& leads) {
     std::string all;
-    for (const std::string& words : rows.legend()) all += words + "\n";
+    for (const std::string& words : rows_for(good_problem, leads).legend) all += words + "\n";
     return all;
   };
-  CHECK_THAT(legend_of(true), Contains("kernels: whether their bits are equal"));
-  CHECK_THAT(legend_of(false), !Contains("kernels:") && Contains("share:"));
+  CHECK_THAT(legend_of("fortran"), Contains("kernels: whether their bits are equal"));
+  CHECK_THAT(legend_of("cpp"), !Contains("kernels:") && Contains("share:"));
+}
+
+TEST_CASE("The largest of each quantity has its unit, and moves to the left where there is no room") {
+  const a_run r("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem));
+  CHECK_THAT(table_of(r.result, {100, false}, false).text,
+             Contains("moment        -36.2791 kN m     node 1, x = 0\n"));
+  CHECK_THAT(table_of(r.result, {44, false}, false).text, Contains("moment -36.2791 kN m, node 1, x = 0\n"));
+}
+
+TEST_CASE("The detailed tables have every pair, reaction and end of an element, within 80 columns") {
+  const std::string text = table_of(a_run(good_problem).result, {80, false}, true).text;
+  CHECK_THAT(text, Contains("       1          3  below    contact                 0       41.86047"));
+  CHECK_THAT(text, Contains("               node  dof                       reaction\n"));
+  CHECK_THAT(text, Contains("w                         18.13953"));
+  CHECK_THAT(text, Contains("theta                     36.27907"));
+  CHECK_THAT(text, Contains("       2  shear") && Contains("          moment"));
+  for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+    CHECK(end - at <= 80);
+}
+
+TEST_CASE("What is nothing but the rounding of larger numbers before it is printed as 0, without a place") {
+  CHECK_THAT(rows_for(std::string(propped_cantilever) + "[[step]]\nuniform = 1e-15\n").text,
+             Contains("        moment        0\n") && Contains("        reaction      0\n"));
 }

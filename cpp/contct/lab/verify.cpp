@@ -111,7 +111,7 @@ double of_support(const problem& p, const step_results& s, const expected_number
   return not_there;
 }
 
-double of_pair(const problem& p, const frame& end, const step_results& s, const expected_number& e) {
+double of_pair(const problem& p, const structure_state& end, const step_results& s, const expected_number& e) {
   const std::size_t pair = e.pair - std::size_t{1};
   if (pair >= s.pairs.size()) return not_there;
   if (e.quantity == "state") return end.isep[pair];
@@ -208,9 +208,8 @@ std::string quantity_words(const expected_number& e) {
 
 measurement::measurement(const problem& p, const run_recorder& path) : problem_(p), path_(path) {
   const load_path loads(p);
-  const std::vector<int> deflecting = deflecting_nodes(p);
   for (const step_record& s : path.steps)
-    read_.push_back(results_of(p, loads.at(s.end.step, s.end.fraction), s.end, deflecting));
+    read_.push_back(results_of(p, loads.at(s.end.step, s.end.fraction), s.end));
 }
 
 double measurement::of(const expected_number& e) const {

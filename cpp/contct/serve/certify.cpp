@@ -71,31 +71,28 @@ given_states read_states(const request& r, const problem& p, const linear_struct
 }
 
 void certify_states(const char* text, const char* options, answer& a) {
-  const request r(options, {"file", "folder", "allow_outside", "displacement", "closed"});
-  const problem p = read_problem_text(text, r.file(), r.allowed(), a);
+  const request asked(options, {"file", "folder", "allow_outside", "displacement", "closed"});
+  const problem p = read_problem_text(text, asked.file(), asked.allowed(), a);
   const linear_structure s = structure_of(p);
-  const given_states states = read_states(r, p, s);
-  certifier judged(p, s, exact::exact_means_of(p));
-  run_recorder record;
-  path_end end{path_status::solved, 0, 1.0, {}};
+  const given_states states = read_states(asked, p, s);
+  run_result r(p, s, exact::exact_means_of(p));
+  r.engine = "given";
   for (std::size_t i = 0; i < states.displacement.size(); ++i) {
     const std::unique_ptr<stiffness_engine> factored = make_engine("refactor", s);
     for (std::size_t pair = 0; pair < p.pairs.size(); ++pair)
       if ((states.isep[i][pair] == in_contact) != p.pairs[pair].closed)
         factored->switch_spring(static_cast<int>(pair), states.isep[i][pair] == in_contact);
-    end.step = static_cast<int>(i) + 1;
-    const step_state given{end.step, 1.0, states.displacement[i], states.isep[i],
+    r.end.step = static_cast<int>(i) + 1;
+    const step_state given{r.end.step, 1.0, states.displacement[i], states.isep[i],
                            factored->reciprocal_condition()};
-    judged.step_ended(given);
-    record.step_ended(given);
+    r.judged.step_ended(given);
+    r.record.step_ended(given);
   }
   output_file out(&a.result);
-  const early_toggles none;
-  write_result({.what = p, .record = record, .judged = judged, .early = none, .end = end, .engine = "given"},
-               out);
-  const std::vector<std::string> complaints = certificate_complaints(p, judged, {});
+  write_result(r, out);
+  const std::vector<std::string> complaints = certificate_complaints(r);
   a.messages.insert(a.messages.end(), complaints.begin(), complaints.end());
-  a.exit = judged.all_certified() ? exit_status::solved : exit_status::uncertified;
+  a.exit = r.judged.all_certified() ? exit_status::solved : exit_status::uncertified;
 }
 
 }  // namespace

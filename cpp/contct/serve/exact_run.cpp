@@ -100,11 +100,11 @@ exact_path follow_exactly(const exact_problem& p, const std::string& rule, const
 /// The path that `contct run` takes with this kernel, and the numbers that it hands out, beside the exact
 /// ones.
 kernel_digits digits_of_kernel(const std::string& name, const problem& p, const linear_structure& s,
-                               const exact_path& exactly, observer* before, observer* behind) {
+                               const exact_path& exactly, observer* shown) {
   constexpr double rounding[] = {1e-9, 1e-4};  // of an event's share, in 8 and in 4 bytes
   const std::unique_ptr<kernel> leader = make_kernel(name);
   digit_counter counter(p, exactly);
-  std::vector<observer*> all = {before, &counter, behind};
+  std::vector<observer*> all = {&counter, shown};
   std::erase(all, nullptr);
   certifier judged(p, s, exact_means_of(p));
   const path_end end = follow(p, s, engine_for(leader->facts(), "", s), *leader, all, {0, judged.ends()});

@@ -22,10 +22,9 @@ namespace contct::serve {
 [[nodiscard]] exact_path follow_exactly(const exact_problem& p, const std::string& rule,
                                         const std::string& file, const exact_progress& tell = nullptr);
 
-/// How many digits of the path of the kernel `name` are right; `before` and `behind` observe it, and may be
-/// null.
+/// How many digits of the path of the kernel `name` are right; `shown` observes it, and may be null.
 [[nodiscard]] kernel_digits digits_of_kernel(const std::string& name, const problem& p,
                                              const linear_structure& s, const exact_path& exactly,
-                                             observer* before = nullptr, observer* behind = nullptr);
+                                             observer* shown = nullptr);
 
 }  // namespace contct::serve

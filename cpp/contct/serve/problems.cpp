@@ -115,9 +115,9 @@ void explain_path(const char* text, const char* options, answer& a) {
             ? fmt::format("{}: no increment is explained: the path has no such one", r.file())
             : r.file() + ": " + end_words(p, end));
   const bool equal = told.compared().mismatches == 0;
-  written.finish(equal ? status_name(end.status) : "kernels-disagree", told);
+  written.finish(status_name(end.status, equal), told);
   if (end.status != path_status::solved) a.messages.push_back(r.file() + ": " + end_words(p, end));
-  a.exit = equal ? status_of(end.status) : write::exit_status::kernels_differ;
+  a.exit = status_of(end.status, equal);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ served_request read_run_request(const char* options) {
     throw std::invalid_argument(
         "options: found final_only with log or trace; allowed: a path, which calls kernels");
   wanted.pictures = wanted.states;
-  wanted.kept.refined = wanted.page || wanted.envelope;
+  wanted.refined_states = wanted.page || wanted.envelope;
   return wanted;
 }
 
@@ -62,8 +62,8 @@ void tell(const session::run& run, std::vector<std::string>& messages) {
   const auto add = [&messages](const std::vector<std::string>& lines) {
     messages.insert(messages.end(), lines.begin(), lines.end());
   };
-  if (run.compared() != nullptr && run.compared()->first()) add(words_of(*run.compared()->first()));
-  add(end_messages(run.result()));
+  if (run.result.compared && run.result.compared->first()) add(words_of(*run.result.compared->first()));
+  add(end_messages(run.result));
 }
 
 void serve_run(const served_request& wanted, const problem& p, answer& a) {
@@ -80,8 +80,8 @@ void serve_run(const served_request& wanted, const problem& p, answer& a) {
   const auto asked = [](bool flag, kept_text& to) { return flag ? &to.file : nullptr; };
   run.go({&result.file, wanted.states ? result_parts::states : result_parts::ends, asked(wanted.log, log),
           asked(wanted.trace, trace), asked(wanted.proof, proof), asked(wanted.page, page)});
-  if (status_of(run.end.status) == exit_status::bad_input)
-    throw std::invalid_argument(wanted.file + ": " + end_words(p, run.end));
+  if (status_of(run.result.end.status) == exit_status::bad_input)
+    throw std::invalid_argument(wanted.file + ": " + end_words(p, run.result.end));
   run.finish();
   a.exit = run.exit();
   a.result = std::move(result.text);

@@ -13,17 +13,15 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/pictures.hpp"
-#include "contct/write/result_json.hpp"
-#include "contct/write/words.hpp"
 
 namespace contct::session {
 namespace {
 
-trace_header header_of_trace(const run& r, const kernel_facts& leader) {
+trace_header header_of_trace(const run_result& r, const kernel_facts& leader) {
   trace_header h = header_for(leader, CONTCT_LISTING_SHA256, lapack_identity());
-  const std::string& file = r.wanted.file;
-  h.about = {"every call of " + (file == "-" ? "a problem from standard input"
-                                             : on_one_line(std::filesystem::path(file).filename().string()))};
+  h.about = {"every call of " + (r.file == "-"
+                                     ? "a problem from standard input"
+                                     : on_one_line(std::filesystem::path(r.file).filename().string()))};
   if (!r.what.title.empty()) h.about.push_back(on_one_line(r.what.title));
   return h;
 }
@@ -31,114 +29,92 @@ trace_header header_of_trace(const run& r, const kernel_facts& leader) {
 }  // namespace
 
 run::run(const problem& p, const linear_structure& s, run_request request)
-    : what(p), structure(s), wanted(std::move(request)), judged(p, s, exact::exact_means_of(p)) {
+    : wanted(std::move(request)), result(p, s, exact::exact_means_of(p)) {
+  result.file = wanted.file;
+  result.kernels = wanted.kernels;
+  result.engine = "reference";
+  result.facts = {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
+                  "floating point: " + describe(probe_floating_point())};
+  result.date = wanted.date;
+  result.envelope = wanted.envelope;
+  result.refined_states = wanted.refined_states;
   if (wanted.kernels.empty()) return;
   leader_ = make_kernel(wanted.kernels.front());
   leader_facts_ = leader_->facts();
   if (!wanted.free_run && wanted.kernels.size() > 1)
-    compared_.emplace(make_lockstep(leader_facts_, std::span(wanted.kernels).subspan(1)));
-  engine = engine_for(leader_facts_, wanted.engine, s);
+    result.compared.emplace(make_lockstep(leader_facts_, std::span(wanted.kernels).subspan(1)));
+  result.engine = engine_for(leader_facts_, wanted.engine, s);
 }
 
 void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
   to_ = to;
-  record_ = run_recorder(compared(), to.page != nullptr);
-  if (to.proof != nullptr) judged.keep_proofs();
+  const bool drawn = to.page != nullptr;
+  lockstep* const compared = result.compared ? &*result.compared : nullptr;
+  result.record = run_recorder(
+      compared, {.calls = drawn,
+                 .states = leader_ && (drawn || wanted.pictures || wanted.envelope || to.table != nullptr)});
+  if (to.proof != nullptr) result.judged.keep_proofs();
   std::vector<observer*> all;
-  if (compared_) all.push_back(&*compared_);
-  all.insert(all.end(), {&judged, &early});
+  if (compared != nullptr) all.push_back(compared);
+  all.insert(all.end(), {&result.judged, &result.early});
   all.insert(all.end(), shown.begin(), shown.end());
   if (to.log != nullptr) all.push_back(&log_.emplace(*to.log));
-  all.push_back(&record_);
-  end = leader_ ? follow_leader(all) : judged.find_final_states(all);
-  if (compared_) compares = {compared_->compared().mismatches == 0, counts_of(*compared_)};
-  if (own_path_) own_path_->end = end;
+  all.push_back(&result.record);
+  result.end = leader_ ? follow_leader(all) : result.judged.find_final_states(all);
+  if (compared != nullptr) {
+    result.equal = compared->compared().mismatches == 0;
+    result.comparison = counts_of(*compared);
+  }
+  if (own_path_) own_path_->end = result.end;
   leader_.reset();  // one FORTRAN kernel at a time has unit 26
 }
 
 path_end run::follow_leader(std::vector<observer*>& all) {
   if (to_.trace != nullptr)
-    all.push_back(&trace_.emplace(header_of_trace(*this, leader_facts_),
+    all.push_back(&trace_.emplace(header_of_trace(result, leader_facts_),
                                   [this](std::string_view text) { to_.trace->write(text); }));
-  if (wanted.pictures || wanted.envelope || to_.page != nullptr || to_.table != nullptr) keep_states(all);
   if (wanted.free_run) all.push_back(&own_path_.emplace());
-  return follow_with(engine, *leader_, all, judged);
-}
-
-void run::keep_states(std::vector<observer*>& all) {
-  const bool forces_by_law = leader_facts_.rule != contact_rule::listing;
-  all.push_back(&frames_.emplace(structure, loads_of(what, structure), forces_by_law, wanted.kept));
-  if (wanted.envelope) {
-    extremes_.emplace(what);
-    frames_->show_each_to([this](const frame& f) { extremes_->take(f); });
-  }
-  if (to_.table == nullptr) return;
-  frames_->solve_each();
-  all.push_back(&tables_.emplace(what, compared(), *frames_, wanted.watched, *to_.table, to_.pairs));
+  return follow_with(result.engine, *leader_, all, result.judged);
 }
 
 path_end run::follow_with(const std::string& engine_name, kernel& leader, const std::vector<observer*>& all,
                           certifier& judge) const {
-  return follow(what, structure, engine_name, leader, all, {wanted.max_increments, judge.ends()});
+  return follow(result.what, result.structure, engine_name, leader, all,
+                {wanted.max_increments, judge.ends()});
 }
 
-run::other_path run::follow_alone(const std::string& name) {
+const compared_path& run::follow_alone(const std::string& name) {
   path_record own;
-  certifier judge(what, structure, exact::exact_means_of(what));
+  certifier judge(result.what, result.structure, exact::exact_means_of(result.what));
   const kernel_facts facts = facts_of_kernel(name);
-  own.end =
-      follow_with(engine_for(facts, wanted.engine, structure), *make_kernel(name), {&judge, &own}, judge);
+  own.end = follow_with(engine_for(facts, wanted.engine, result.structure), *make_kernel(name),
+                        {&judge, &own}, judge);
   const free_run_difference d =
-      compare_paths(*own_path_, own, free_run_bound(leader_facts_, facts), structure.dofs_per_node);
-  other_path other{d, judge.all_certified(),
-                   fmt::format("shares of the step within {:.2g}, D within {:.2g} (bound {:.0e})", d.fraction,
-                               d.displacement, d.bound)};
-  free_runs_.push_back({name, d, other.certified});
-  compares.equal = compares.equal && d.within_bound();
-  compares.words += (compares.words.empty() ? "" : "; ") + name + ": " + other.words;
+      compare_paths(*own_path_, own, free_run_bound(leader_facts_, facts), result.structure.dofs_per_node);
+  result.free_runs.push_back({name, d, judge.all_certified(),
+                              fmt::format("shares of the step within {:.2g}, D within {:.2g} (bound {:.0e})",
+                                          d.fraction, d.displacement, d.bound)});
+  const compared_path& other = result.free_runs.back();
+  result.equal = result.equal && d.within_bound();
+  result.comparison += (result.comparison.empty() ? "" : "; ") + name + ": " + other.distances;
   return other;
 }
 
 void run::finish() {
-  const run_result r = result();
-  if (to_.result != nullptr) write_result(r, *to_.result, to_.parts);
+  if (to_.result != nullptr) write_result(result, *to_.result, to_.parts);
   for (output_file* const file : {to_.log, to_.trace})
     if (file != nullptr) file->finish();
-  if (tables_) tables_->finish();
+  if (to_.table != nullptr) write_csv(result, wanted.watched, *to_.table, to_.pairs);
   const auto write_all = [](output_file& file, const std::string& text) {
     file.write(text);
     file.finish();
   };
-  if (to_.proof != nullptr) write_all(*to_.proof, proof_json(what, judged));
-  if (to_.page != nullptr) write_all(*to_.page, run_page(r));
-}
-
-run_result run::result() const {
-  return {.what = what,
-          .record = record_,
-          .judged = judged,
-          .early = early,
-          .end = end,
-          .file = wanted.file,
-          .kernels = wanted.kernels,
-          .engine = engine,
-          .compared = compared(),
-          .free_runs = free_runs_,
-          .equal = compares.equal,
-          .comparison = compares.words,
-          .facts = {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
-                    "floating point: " + describe(probe_floating_point())},
-          .date = wanted.date,
-          .all_increments = extremes(),
-          .frames = frames_ ? std::span<const frame>(frames_->frames()) : std::span<const frame>()};
-}
-
-std::string run::status() const {
-  return std::string(compares.equal ? status_name(end.status) : "kernels-disagree");
+  if (to_.proof != nullptr) write_all(*to_.proof, proof_json(result.what, result.judged));
+  if (to_.page != nullptr) write_all(*to_.page, run_page(result));
 }
 
 exit_status run::exit() const {
-  return compares.equal ? status_of(end.status) : exit_status::kernels_differ;
+  return status_of(result.end.status, result.equal);
 }
 
 }  // namespace contct::session

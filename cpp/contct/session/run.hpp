@@ -7,13 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
-#include "contct/compare/lockstep.hpp"
-#include "contct/path/frames.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/run_result.hpp"
-#include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::session {
@@ -25,11 +21,11 @@ struct run_request {
   std::string engine = {};  ///< empty: what suits the leader
   bool free_run = false;    ///< each kernel follows a path of its own, see follow_alone
   bool envelope = false;
-  bool pictures = false;  ///< states are kept, also where no output here needs them
-  frame_limits kept = {};
-  int max_increments = 0;  ///< in a step; 0: the default limit
-  int watched = 0;         ///< the node of the table, from 0
-  std::string date = {};   ///< of the page; may be empty
+  bool pictures = false;       ///< states are kept, also where no output here needs them
+  bool refined_states = true;  ///< see run_result
+  int max_increments = 0;      ///< in a step; 0: the default limit
+  int watched = 0;             ///< the node of the table, from 0
+  std::string date = {};       ///< of the page; may be empty
 };
 
 /// Null: not asked for.
@@ -37,13 +33,7 @@ struct run_outputs {
   output_file* result = nullptr;
   result_parts parts = result_parts::ends;  ///< of the result
   output_file *log = nullptr, *trace = nullptr, *proof = nullptr, *page = nullptr;
-  output_file *table = nullptr, *pairs = nullptr;  ///< of run_csv
-};
-
-/// How the kernels compared.
-struct comparison {
-  bool equal = true;       ///< in lockstep: to the bit; on paths of their own: within the bound
-  std::string words = {};  ///< for reports; empty where nothing was compared
+  output_file *table = nullptr, *pairs = nullptr;  ///< of write_csv
 };
 
 class run {
@@ -51,46 +41,30 @@ class run {
   /// `p` and `s`, its structure, must outlive this object. Throws std::invalid_argument for kernels that
   /// cannot be compared.
   run(const problem& p, const linear_structure& s, run_request request);
+  run(const run&) = delete;
+  run& operator=(const run&) = delete;
+  ~run() = default;
 
   /// Follow the leader's path, or find the ends of the steps. `to` is written to here and in `finish`.
-  /// `shown`, who shows the path while it goes on, observes behind the comparison and the certificate.
+  /// `shown`, who shows how far the path has come, observes behind the comparison and the certificate.
   void go(const run_outputs& to, const std::vector<observer*>& shown = {});
 
   /// How the path of another kernel compares with the leader's, for the result too.
-  struct other_path {
-    free_run_difference difference;
-    bool certified;
-    std::string words;  ///< the distances
-  };
-  other_path follow_alone(const std::string& name);
+  const compared_path& follow_alone(const std::string& name);
 
   /// Complete and name the outputs.
   void finish();
 
-  /// What outputs are made from, when the run is over.
-  [[nodiscard]] run_result result() const;
-  /// Null where nothing is compared in lockstep.
-  [[nodiscard]] const lockstep* compared() const { return compared_ ? &*compared_ : nullptr; }
-  /// As results have it: "solved", "kernels-disagree", ..
-  [[nodiscard]] std::string status() const;
   /// Of a run that need not be certified.
   [[nodiscard]] exit_status exit() const;
 
-  const problem& what;
-  const linear_structure& structure;
   const run_request wanted;
-  std::string engine = "reference";  ///< of the leader's path
-  certifier judged;
-  early_toggles early{};
-  path_end end{};
-  comparison compares{};
+  run_result result;
 
  private:
   path_end follow_leader(std::vector<observer*>& all);
-  void keep_states(std::vector<observer*>& all);
   path_end follow_with(const std::string& engine_name, kernel& leader, const std::vector<observer*>& all,
                        certifier& judge) const;
-  [[nodiscard]] const envelope* extremes() const { return extremes_ ? &*extremes_ : nullptr; }
 
   /// Writes what the leader writes to unit 26.
   struct log_writer final : observer {
@@ -102,16 +76,10 @@ class run {
 
   std::unique_ptr<kernel> leader_;  // while it follows the path
   kernel_facts leader_facts_ = {};
-  std::optional<lockstep> compared_;
   run_outputs to_;
   std::optional<log_writer> log_;
   std::optional<trace_recorder> trace_;
-  std::optional<frame_keeper> frames_;
-  run_recorder record_;
-  std::optional<envelope> extremes_;
-  std::optional<run_csv> tables_;
   std::optional<path_record> own_path_;  // of the leader, in free run
-  std::vector<compared_path> free_runs_;
 };
 
 }  // namespace contct::session

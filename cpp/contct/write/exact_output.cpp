@@ -18,6 +18,14 @@ json fractions(const rational_vector& numbers) {
   return list_of(numbers, [](const rational& x) { return fraction_words(x); });
 }
 
+/// Of numbers at all dofs, those of the nodes' deflections.
+rational_vector deflections_in(const problem& p, const rational_vector& u) {
+  const auto per_node = static_cast<std::size_t>(dofs_per_node(p.geometry));
+  rational_vector w;
+  for (std::size_t dof = 0; dof < u.size(); dof += per_node) w.push_back(u[dof]);
+  return w;
+}
+
 json increment_json(const problem& p, const exact_increment& i, std::size_t number) {
   json entry = {{"increment", number + 1},
                 {"fraction", fraction_words(i.fraction)},
@@ -53,21 +61,12 @@ class exact_printer {
  private:
   [[nodiscard]] std::string number(const rational& x) const { return short_words(x, digits_); }
 
-  /// The sum of the loads on deflections at a share of a step.
-  [[nodiscard]] rational load_at(std::size_t step, const rational& fraction) const {
-    const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
+  /// The sum of the loads on deflections at the end of a step, from 1; 0 before the first.
+  [[nodiscard]] rational total_load(std::size_t step) const {
     rational sum;
-    for (std::size_t dof = 0; dof < r_.exactly.dofs(); dof += per_node) {
-      const rational before = step == 0 ? rational(0) : r_.exactly.steps[step - 1].force[dof];
-      sum += before + fraction * (r_.exactly.steps[step].force[dof] - before);
-    }
+    if (step == 0) return sum;
+    for (const rational& x : deflections_in(r_.what, r_.exactly.steps[step - 1].force)) sum += x;
     return sum;
-  }
-
-  [[nodiscard]] std::string pair_words(std::size_t pair) const {
-    const contact_pair& at = r_.what.pairs[pair];
-    return fmt::format("pair {} ({}, {})", pair + 1, place_words(r_.what.geometry, at.node),
-                       surface_name(at.surface));
   }
 
   void print_step(std::size_t step) {
@@ -76,33 +75,33 @@ class exact_printer {
     const std::string title =
         fmt::format("step {}{}", step + 1, name.empty() ? "" : ", " + on_one_line(name));
     out_ += fmt::format("{}{}\n", out_.empty() ? "" : "\n", painted(terminal_, paint::strong, title));
+    const rational before = total_load(step);
+    const rational added = total_load(step + 1) - before;
     for (const exact_increment& i : s.increments) {
       std::vector<std::string> events;
       for (const event& e : i.events)
-        events.push_back(pair_words(static_cast<std::size_t>(e.pair)) +
-                         (e.what == change::make ? " makes" : " breaks"));
+        events.push_back(pair_words(r_.what, e.pair) + (e.what == change::make ? " makes" : " breaks"));
       if (i.snaps) events.emplace_back("a rigid-body motion at constant load");
-      out_ += fmt::format("  share {}, load {}{}{}\n", number(i.fraction), number(load_at(step, i.fraction)),
-                          events.empty() ? "" : ": ", joined(events, ", "));
+      out_ +=
+          fmt::format("  share {}, load {}{}{}\n", number(i.fraction), number(before + i.fraction * added),
+                      events.empty() ? "" : ": ", joined(events, ", "));
     }
     print_end(s);
   }
 
   void print_end(const exact_step_end& s) {
-    std::size_t largest = 0;
-    const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
-    for (std::size_t dof = 0; dof < s.displacement.size(); dof += per_node)
-      if (abs(s.displacement[dof]) > abs(s.displacement[largest])) largest = dof;
-    out_ += fmt::format("  largest w {} at {}\n", number(s.displacement[largest]),
-                        place_words(r_.what.geometry, static_cast<int>(largest / per_node)));
+    const rational_vector w = deflections_in(r_.what, s.displacement);
+    const auto largest =
+        std::ranges::max_element(w, [](const rational& x, const rational& y) { return abs(x) < abs(y); });
+    out_ += fmt::format("  largest w {} at {}\n", number(*largest),
+                        place_words(r_.what.geometry, static_cast<int>(largest - w.begin())));
     if (s.closed.size() > most_rows) {
       out_ += fmt::format("  {} of {} pairs in contact\n", std::count(s.closed.begin(), s.closed.end(), 1),
                           s.closed.size());
       return;
     }
     for (std::size_t i = 0; i < s.closed.size(); ++i) {
-      const rational& w = s.displacement[static_cast<std::size_t>(r_.exactly.pairs[i].dof)];
-      out_ += fmt::format("  {}: w {}, {}\n", pair_words(i), number(w),
+      out_ += fmt::format("  {}: w {}, {}\n", pair_words(r_.what, i), number(w[r_.what.pairs[i].node]),
                           s.closed[i] != 0 ? "force " + number(s.force[i]) : "gap " + number(s.gap[i]));
     }
   }
@@ -113,10 +112,10 @@ class exact_printer {
         "\n{}: the supports and the pairs in contact allow this rigid-body motion, no other pair stops it, "
         "and the step's full load does work {} on it.\n  w",
         painted(terminal_, paint::bad, "no equilibrium"), number(proof.work));
-    const auto per_node = static_cast<std::size_t>(dofs_per_node(r_.what.geometry));
-    for (std::size_t dof = 0; dof < proof.motion.size() && dof < most_rows * per_node; dof += per_node)
-      out_ += (dof == 0 ? " " : ", ") + number(proof.motion[dof]);
-    out_ += proof.motion.size() > most_rows * per_node ? ", ..\n" : "\n";
+    const rational_vector w = deflections_in(r_.what, proof.motion);
+    for (std::size_t node = 0; node < w.size() && node < most_rows; ++node)
+      out_ += (node == 0 ? " " : ", ") + number(w[node]);
+    out_ += w.size() > most_rows ? ", ..\n" : "\n";
   }
 
   void print_kernel(const kernel_digits& k) {
@@ -148,15 +147,12 @@ void write_exact_json(const exact_result& r, output_file& out) {
       "steps");
   for (std::size_t step = 0; step < r.path.steps.size(); ++step) {
     const exact_step_end& s = r.path.steps[step];
-    rational_vector w;
-    const auto per_node = static_cast<std::size_t>(dofs_per_node(r.what.geometry));
-    for (std::size_t dof = 0; dof < s.displacement.size(); dof += per_node) w.push_back(s.displacement[dof]);
     const json members = {{"step", step + 1},
                           {"name", r.what.steps[step].name},
                           {"fraction", fraction_words(s.fraction)},
                           {"increments", nullptr},
                           {"displacement", fractions(s.displacement)},
-                          {"w", fractions(w)},
+                          {"w", fractions(deflections_in(r.what, s.displacement))},
                           {"pairs", nullptr},
                           {"reactions", nullptr}};
     document.add(members, {{"increments", s.increments.size(),
@@ -167,9 +163,7 @@ void write_exact_json(const exact_result& r, output_file& out) {
                                                      fraction_words(s.gap[i]), fraction_words(s.force[i]));
                             }},
                            {"reactions", s.reactions.size(), [&](auto i) {
-                              json entry = support_json(r.what.geometry, r.what.supports[i]);
-                              entry["value"] = fraction_words(s.reactions[i]);
-                              return entry;
+                              return reaction_json(r.what, i, fraction_words(s.reactions[i]));
                             }}});
   }
   json members = {{"kernels", list_of(r.kernels, kernel_json)}};

@@ -7,6 +7,7 @@
 
 #include "contct/numeric/rational.hpp"
 #include "contct/text/strings.hpp"
+#include "contct/write/explain_story.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
@@ -20,19 +21,13 @@ std::string exact_number(const rational& x) {
   return short_words(x, shown_digits);
 }
 
-/// "1 and 3", "1, 2 and 3", of pairs from 0.
-std::string pair_numbers(const std::vector<int>& pairs) {
-  std::string words;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const char* const before = i == 0 ? "" : i + 1 == pairs.size() ? " and " : ", ";
-    words += fmt::format("{}{}", before, pairs[i] + 1);
-  }
-  return words;
-}
-
+/// "no pair", "pair 1", "pairs 1, 2 and 3", of pairs from 0.
 std::string counted_pairs(const std::vector<int>& pairs) {
   if (pairs.empty()) return "no pair";
-  return fmt::format("{} {}", pairs.size() == 1 ? "pair" : "pairs", pair_numbers(pairs));
+  std::string words = pairs.size() == 1 ? "pair " : "pairs ";
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    words += fmt::format("{}{}", i == 0 ? "" : i + 1 == pairs.size() ? " and " : ", ", pairs[i] + 1);
+  return words;
 }
 
 /// "+0.31 ULP", "exact", or what the number is.
@@ -101,17 +96,11 @@ json errors_json(const explained_kernels& of, double first, const double* second
   return out;
 }
 
-json pair_list(const std::vector<int>& pairs) {
-  json list = json::array();
-  for (const int pair : pairs) list.push_back(pair + 1);
-  return list;
-}
-
 json answer_json(const explained_kernels& of, const explained_increment& i, const listing_answer& a) {
   return {{"smin", fraction_words(a.s_min)},
           {"ulps_off", errors_json(of, i.call.smin, other_smin(i), a.s_min)},
-          {"winners", pair_list(a.winners())},
-          {"toggled", pair_list(a.toggled)}};
+          {"winners", numbered(a.winners())},
+          {"toggled", numbered(a.toggled)}};
 }
 
 json pair_answer_json(const explained_kernels& of, const explained_increment& i, const explained_pair& p,
@@ -134,8 +123,8 @@ std::optional<listing_answer> answer_of(const explained_call& c) {
   return answer_exactly(pairs);
 }
 
-explain_addition::remarks exact_addition::of_s(const explained_kernels& of, const explained_increment& i,
-                                               const explained_pair& p) const {
+exact_addition::remarks exact_addition::of_s(const explained_kernels& of, const explained_increment& i,
+                                             const explained_pair& p) const {
   remarks all;
   if (!call_) {
     all.push_back({"Not every number of this call is finite: there is no exact s.", true});
@@ -147,8 +136,8 @@ explain_addition::remarks exact_addition::of_s(const explained_kernels& of, cons
   return all;
 }
 
-explain_addition::remarks exact_addition::of_smin(const explained_kernels& of,
-                                                  const explained_increment& i) const {
+exact_addition::remarks exact_addition::of_smin(const explained_kernels& of,
+                                                const explained_increment& i) const {
   remarks all;
   const auto number_and_errors = [&](const rational& s_min) {
     return exact_number(s_min) + "; " + errors_words(of, i.call.smin, other_smin(i), s_min);
@@ -170,8 +159,8 @@ explain_addition::remarks exact_addition::of_smin(const explained_kernels& of,
   return all;
 }
 
-explain_addition::remarks exact_addition::of_end(const explained_kernels& of,
-                                                 const explained_increment& i) const {
+exact_addition::remarks exact_addition::of_end(const explained_kernels& of,
+                                               const explained_increment& i) const {
   if (path_ == nullptr) return {{"The exact path is not followed: " + why_no_path_ + "."}};
   if (!path_->stopped().empty())
     return {{fmt::format("The exact path is not shown: {}.", path_->stopped()), true}};

@@ -11,9 +11,7 @@ using json = nlohmann::ordered_json;
 
 /// Sums of two doubles each.
 json sums(const std::vector<numeric::double_double>& all) {
-  json list = json::array();
-  for (const numeric::double_double& x : all) list.push_back({x.hi, x.lo});
-  return list;
+  return list_of(all, [](const numeric::double_double& x) -> json { return {x.hi, x.lo}; });
 }
 
 /// Rows of L, each from its first entry in the band to its diagonal.
@@ -29,9 +27,7 @@ json rows_of(const Band& l, const Number& number) {
 }
 
 void put_stiffness(json& step, const certify::stiffness_proof& s) {
-  json scale = json::array();
-  for (const double x : s.scale) scale.push_back(std::ilogb(x));
-  step["scale"] = std::move(scale);
+  step["scale"] = list_of(s.scale, [](double x) { return std::ilogb(x); });
   step["row_of"] = s.row_of;
   step["shift"] = s.shift;
   if (!s.long_factor) {
@@ -42,23 +38,15 @@ void put_stiffness(json& step, const certify::stiffness_proof& s) {
   }
 }
 
-/// From 1.
-json numbers_of(const std::vector<int>& pairs) {
-  json list = json::array();
-  for (const int pair : pairs) list.push_back(pair + 1);
-  return list;
-}
-
 json step_json(const certify::step_proof& s) {
   json step = {{"force", s.numbers.pair_forces},
                {"reactions", s.numbers.reactions},
                {"elements", s.numbers.element_values}};
   if (!s.of_stiffness) return step;  // it may stand anywhere: its displacements and statuses are not claimed
   step["displacement"] = s.displacement;
-  step["state"] = json::array();
-  for (const int isep : s.isep) step["state"].push_back(state_name(isep));
+  step["state"] = list_of(s.isep, state_name);
   step["u"] = sums(s.state);
-  step["closed"] = numbers_of(s.closed);
+  step["closed"] = numbered(s.closed);
   step["z"] = sums(s.z);
   put_stiffness(step, *s.of_stiffness);
   return step;

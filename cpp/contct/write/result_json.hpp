@@ -53,6 +53,9 @@ class json_document {
   std::string_view before_;  // the next element
 };
 
+/// Numbers from 1.
+[[nodiscard]] nlohmann::ordered_json numbered(const std::vector<int>& from_0);
+
 /// { "w", .. }: the proved bounds on the errors of a step's numbers; null where nothing is proved.
 [[nodiscard]] nlohmann::ordered_json error_json(const problem& p, const std::optional<certificate>& c);
 
@@ -80,6 +83,10 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json pair_state_json(const problem& p, std::size_t i, int isep,
                                                      const nlohmann::ordered_json& gap,
                                                      const nlohmann::ordered_json& force);
+
+/// The reaction of support `i`, from 0.
+[[nodiscard]] nlohmann::ordered_json reaction_json(const problem& p, std::size_t i,
+                                                   const nlohmann::ordered_json& value);
 
 /// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
 void put_place(nlohmann::ordered_json& entry, const model& m, int node);

@@ -1,117 +1,50 @@
-// The result of a run, from which all outputs are made: its loads, what is read off its states, what is
-// recorded while it goes on, and how it ended.
+// The result of a run, from which all outputs are made: what is recorded while it goes on, and how it ended.
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/free_run.hpp"
 #include "contct/compare/lockstep.hpp"
-#include "contct/path/frames.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
-#include "contct/structure/extremes.hpp"
 #include "contct/structure/problem.hpp"
+#include "contct/structure/structure.hpp"
 
 namespace contct::write {
 
-/// The loads of a problem's steps, and what acts between them. Steps count from 1.
-class load_path {
- public:
-  /// `p` must outlive this object.
-  explicit load_path(const problem& p);
+/// The whole structure after an increment of a path, or at the end of a step.
+struct structure_state {
+  int step = 0;                             ///< from 1; 0: nothing is loaded yet
+  int number = 0;                           ///< of the increment in the step, from 1; 0: it ended without one
+  double fraction = 0.0;                    ///< share of the step's load consumed
+  std::vector<double> displacement = {};    ///< [dofs]
+  std::vector<int> isep = {};               ///< [pairs]
+  std::vector<double> pair_forces = {};     ///< better known than from `displacement`; or empty [pairs]
+  std::optional<end_numbers> numbers = {};  ///< likewise
 
-  /// Everything that acts at share `fraction` of step `step`; nothing in step 0, before the first.
-  [[nodiscard]] load at(int step, double fraction) const;
-  /// Its resultant, 0 where the sum is nothing but rounding; `step` is at least 1.
-  [[nodiscard]] resultant resultant_at(int step, double fraction) const;
-  /// The resultant's force, in step 0 too.
-  [[nodiscard]] double force_at(int step, double fraction) const {
-    return step == 0 ? 0.0 : resultant_at(step, fraction).force;
-  }
-
-  /// Has either end of the step more than 32 parts to list? Each element of a scattered list counts.
-  [[nodiscard]] bool has_many_parts(int step) const;
-
-  /// A few words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load; with
-  /// as many digits, six at most, as fit into `width` columns. Never cut: the number alone, or
-  /// nothing, where the words do not fit.
-  [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
-
- private:
-  const problem& problem_;
-  std::vector<resultant> totals_;   // at the start, then at the end of each step
-  std::vector<std::size_t> parts_;  // how many things there are to write, likewise
+  [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
 };
 
-/// Do these elements follow one another, each once?
-[[nodiscard]] bool is_run(const std::vector<int>& elements);
+/// The end of a step as the path tells it.
+[[nodiscard]] structure_state state_of(const step_state& s);
 
-/// The deflection of node `node`, from 0, under the displacement `u` [dofs].
-[[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
-[[nodiscard]] inline double deflection_of(const problem& p, const frame& f, int node) {
-  return deflection_of(p, f.displacement, node);
-}
-
-/// How a pair stands, and its gap and force as results have them.
-struct pair_reading {
-  double w, gap, force;
-  pair_state look;
-};
-/// At deflection `w`.
-[[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
-/// Reactions and what is read off the elements, in a frame under load `l`.
-[[nodiscard]] std::vector<double> reactions_in(const problem& p, const load& l, const frame& f);
-[[nodiscard]] element_results elements_in(const problem& p, const load& l, const frame& f);
-
-/// Pair `pair`, from 0, in a frame.
-[[nodiscard]] pair_reading reading_of(const problem& p, const frame& f, std::size_t pair);
-
-/// A place, from 0, and the value there.
-struct extreme {
-  int at = 0;
-  double value = 0.0;
-
-  /// Keep the larger one of this and another value, by magnitude.
-  void take(int other_at, double other);
-};
-
-/// The nodes whose displacement is a deflection: all of a beam and a plate. Of a matrix the dofs that are
-/// known to be lengths: those that meet faces, and those along an axis where places are known; all where
-/// there are neither.
-[[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
-
-/// Pairs of each look: open, closed, at their faces.
-struct pair_counts {
-  std::size_t open = 0, closed = 0, at_face = 0;
-  [[nodiscard]] std::size_t& of(pair_state look) {
-    return look == pair_state::open ? open : look == pair_state::closed ? closed : at_face;
-  }
-};
-
-/// What beds press on the structure by, at each node: force over tributary share [nodes].
-[[nodiscard]] std::vector<double> bed_pressure(const problem& p, const frame& f);
-
-/// A node's name in tables: its number, from 1, or its label where each dof is a node of its own.
-[[nodiscard]] std::string place_name(const model& m, int node);
-
-/// Where a node is: x along a beam; x and y on a plate.
-struct place {
-  double x = 0.0, y = 0.0;
-};
-[[nodiscard]] place place_of_node(const model& m, int node);
-
-/// One increment of the path, with events of its own: the path's are gone when it goes on.
-struct increment_record : increment {
-  explicit increment_record(const increment& i)
-      : increment{i.step, i.number, i.s, i.fraction, {}, i.snaps, {}},
-        events(i.events.begin(), i.events.end()) {}
-
+/// One increment of the path, and the last call before it.
+struct increment_record {
+  int step, number;
+  double s, fraction;
+  bool snaps;
   std::vector<event> events;
+  std::optional<double> smin = {};  ///< as the kernel gave it; none before the first call
+  bool equal = true;                ///< the kernels agreed in that call
+  // Where states are asked for, as `increment` has them [pairs]:
+  std::vector<double> d = {}, pair_force = {};
+  std::vector<int> isep = {};
 };
 
 /// One call of the leader, and how the followers answered it.
@@ -124,24 +57,32 @@ struct call_record {
 
 /// A step as far as the path went.
 struct step_record {
-  frame end;
+  structure_state end;
   double rcond;
+  bool from_fallback, from_exact_path;  ///< as step_state has them
   std::vector<increment_record> increments;
 };
 
-/// Observes a path and keeps its increments and the ends of its steps; and where calls are asked for, the
-/// first ones and the beginning of the unit-26 text. What is beyond is counted.
+/// What is recorded of a path beside its increments and the ends of its steps.
+struct recorded_parts {
+  bool calls = false;   ///< the first ones, and the beginning of the unit-26 text; what is beyond is counted
+  bool states = false;  ///< D, ISEP and the forces at the pairs after each increment
+};
+
+/// Observes a path and records it.
 class run_recorder final : public observer {
  public:
   static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;  ///< calls, pairs, bytes
 
   /// `compared` is null for a kernel alone; it must outlive this object, and observe before it.
-  explicit run_recorder(const lockstep* compared = nullptr, bool keeps_calls = false)
-      : compared_(compared), keeps_calls_(keeps_calls) {}
+  explicit run_recorder(const lockstep* compared = nullptr, recorded_parts parts = {})
+      : compared_(compared), parts_(parts) {}
 
   void called(const answered_call& c) override;
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
+
+  [[nodiscard]] bool keeps_states() const { return parts_.states; }
 
   std::vector<step_record> steps;
   std::vector<call_record> calls;
@@ -149,9 +90,12 @@ class run_recorder final : public observer {
   std::size_t all_calls = 0, all_log = 0;  ///< kept or not
 
  private:
+  void keep_call(const answered_call& c);
+
   const lockstep* compared_;
-  bool keeps_calls_;
+  recorded_parts parts_;
   bool answers_ = false;                      // the last call kept has not led to an increment yet
+  std::optional<double> smin_;                // of the last call
   std::vector<increment_record> increments_;  // of the current step
 };
 
@@ -160,28 +104,32 @@ struct compared_path {
   std::string kernel;
   free_run_difference difference;
   bool certified;
+  std::string distances;  ///< in words
 };
-
-class envelope;
 
 /// All that is known of a run when it is over: every output is made from this.
 struct run_result {
+  /// `p` and `s`, its structure, must outlive this object.
+  run_result(const problem& p, const linear_structure& s, exact_means exactly = {})
+      : what(p), structure(s), judged(p, s, std::move(exactly)) {}
+
   const problem& what;
-  const run_recorder& record;
-  const certifier& judged;
-  const early_toggles& early;
+  const linear_structure& structure;
+  certifier judged;
+  run_recorder record;
+  early_toggles early;
   path_end end;
-  std::string file = {};                  ///< the problem's, as it was named
-  std::vector<std::string> kernels = {};  ///< the leader first
-  std::string engine = {};
-  const lockstep* compared = nullptr;  ///< null: no kernel was compared call by call
-  std::vector<compared_path> free_runs = {};
-  bool equal = true;                         ///< the kernels agreed
-  std::string comparison = {};               ///< how they did, in words; empty for a kernel alone
-  std::vector<std::string> facts = {};       ///< version, listing, floating point
-  std::string date = {};                     ///< of the run, in UTC; may be empty
-  const envelope* all_increments = nullptr;  ///< where it was asked for
-  std::span<const frame> frames = {};        ///< the states that are kept for pictures; may be empty
+  std::string file;                  ///< the problem's, as it was named
+  std::vector<std::string> kernels;  ///< the leader first
+  std::string engine;
+  std::optional<lockstep> compared;  ///< none: no kernel was compared call by call
+  std::vector<compared_path> free_runs;
+  bool equal = true;               ///< the kernels agreed
+  std::string comparison;          ///< how they did, in words; empty for a kernel alone
+  std::vector<std::string> facts;  ///< version, listing, floating point
+  std::string date;                ///< of the run, in UTC; may be empty
+  bool envelope = false;           ///< it was asked for
+  bool refined_states = true;      ///< false: states within steps have the digits of one solve
 
   /// As results have it: "solved", "kernels-disagree", ..
   [[nodiscard]] std::string_view status() const;

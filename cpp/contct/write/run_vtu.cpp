@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/pictures.hpp"
+#include "contct/write/step_results.hpp"
 
 namespace contct::write {
 namespace {
@@ -46,23 +46,27 @@ std::string data_array(std::string_view name, std::size_t components, const std:
       type, markup_text(name), components, fmt::join(values, " "));
 }
 
-/// A pair that has a cell, at a node, and what the cell says.
-struct placed_pair {
-  int number, node, direction, surface, look;
-  double face, gap, force;
+/// A state and what is read off it.
+struct read_state {
+  const problem& what;
+  const structure_state& state;
+  step_results read = results_of(what, load_path(what).at(state.step, state.fraction), state);
+};
+
+/// A pair that has a cell, from 0, and where it is.
+struct pair_cell {
+  std::size_t pair;
+  placed_dof at;
 };
 
 /// All pairs, but for those of a matrix whose dof has no place.
-std::vector<placed_pair> placed_pairs(const problem& p, const frame& f) {
+std::vector<pair_cell> pair_cells(const problem& p) {
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
-  std::vector<placed_pair> list;
+  std::vector<pair_cell> list;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const contact_pair& of = p.pairs[i];
-    const placed_dof at = a == nullptr ? placed_dof{of.node, 3} : a->places.dofs[of.node];
-    const pair_reading now = reading_of(p, f, i);
-    if (at.node >= 0)
-      list.push_back({static_cast<int>(i) + 1, at.node, at.direction, of.surface, static_cast<int>(now.look),
-                      of.face, now.gap, now.force});
+    const int node = p.pairs[i].node;
+    const placed_dof at = a == nullptr ? placed_dof{node, 3} : a->places.dofs[node];
+    if (at.node >= 0) list.push_back({i, at});
   }
   return list;
 }
@@ -80,9 +84,6 @@ std::vector<double> points_of(const problem& p) {
   }
   return at;
 }
-
-/// A displacement of a structure from elsewhere.
-using in_space = std::array<double, 3>;
 
 /// The dof, from 0, of a node along each axis and about it; -1 where it has none.
 struct dofs_of_node {
@@ -105,21 +106,13 @@ std::vector<dofs_of_node> dofs_of_nodes(const placed_nodes& places) {
   return list;
 }
 
-/// The numbers [dofs] at three dofs; 0 where there is none.
-in_space reading_at(const std::array<int, 3>& dofs, const std::vector<double>& numbers) {
-  in_space u{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (dofs[axis] >= 0) u[axis] = numbers[dofs[axis]];
-  return u;
-}
-
 /// The reaction at each dof; 0 where nothing holds it.
-std::vector<double> reactions_at_dofs(const problem& p, const frame& f) {
-  const load now = load_path(p).at(f.step, f.fraction);
-  const std::vector<double> of_support = reactions_in(p, now, f);
-  std::vector<double> at(f.displacement.size());
-  for (std::size_t i = 0; i < of_support.size(); ++i)
-    at[p.supports[i].node * dofs_per_node(p.geometry) + p.supports[i].dof] += of_support[i];
+std::vector<double> reactions_at_dofs(const read_state& r) {
+  std::vector<double> at(r.state.displacement.size());
+  for (std::size_t i = 0; i < r.read.reactions.size(); ++i) {
+    const support& by = r.what.supports[i];
+    at[by.node * dofs_per_node(r.what.geometry) + by.dof] += r.read.reactions[i];
+  }
   return at;
 }
 
@@ -130,19 +123,19 @@ struct point_arrays {
 };
 
 /// Displacements and reactions, and rotations where there are any.
-point_arrays mesh_point_data(const problem& p, const placed_nodes& places, const frame& f) {
-  const std::vector<double> reacting = reactions_at_dofs(p, f);
+point_arrays mesh_point_data(const placed_nodes& places, const read_state& r) {
+  const std::vector<double> reacting = reactions_at_dofs(r);
   std::vector<double> displacement;
   std::vector<double> rotation;
   std::vector<double> reaction;
   bool turns = false;
+  const auto put = [](std::vector<double>& list, const std::array<int, 3>& dofs, const auto& numbers) {
+    for (const int dof : dofs) list.push_back(dof < 0 ? 0.0 : numbers[dof]);
+  };
   for (const dofs_of_node& of : dofs_of_nodes(places)) {
-    const in_space u = reading_at(of.along, f.displacement);
-    const in_space r = reading_at(of.about, f.displacement);
-    displacement.insert(displacement.end(), u.begin(), u.end());
-    rotation.insert(rotation.end(), r.begin(), r.end());
-    const in_space force = reading_at(of.along, reacting);
-    reaction.insert(reaction.end(), force.begin(), force.end());
+    put(displacement, of.along, r.state.displacement);
+    put(rotation, of.about, r.state.displacement);
+    put(reaction, of.along, reacting);
     turns = turns || of.about != dofs_of_node{}.about;
   }
   return {R"( Vectors="displacement")", data_array("displacement", 3, displacement) +
@@ -150,47 +143,52 @@ point_arrays mesh_point_data(const problem& p, const placed_nodes& places, const
                                             data_array("reaction", 3, reaction)};
 }
 
-point_arrays point_data(const problem& p, const frame& f) {
-  if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) return mesh_point_data(p, a->places, f);
-  const auto names = dof_names(p.geometry);
+point_arrays point_data(const read_state& r) {
+  const model& m = r.what.geometry;
+  if (const auto* a = std::get_if<assembled>(&m.kind)) return mesh_point_data(a->places, r);
+  const auto names = dof_names(m);
+  const std::vector<double>& u = r.state.displacement;
   std::vector<double> displacement;
   std::vector<std::vector<double>> by_dof(names.size());
-  for (std::size_t i = 0; i < f.displacement.size(); i += names.size()) {
-    displacement.insert(displacement.end(), {0.0, 0.0, f.displacement[i]});
-    for (std::size_t dof = 0; dof < names.size(); ++dof) by_dof[dof].push_back(f.displacement[i + dof]);
+  for (std::size_t i = 0; i < u.size(); i += names.size()) {
+    displacement.insert(displacement.end(), {0.0, 0.0, u[i]});
+    for (std::size_t dof = 0; dof < names.size(); ++dof) by_dof[dof].push_back(u[i + dof]);
   }
   std::string arrays = data_array("displacement", 3, displacement);
   for (std::size_t dof = 0; dof < names.size(); ++dof) arrays += data_array(names[dof], 1, by_dof[dof]);
-  arrays += data_array("reaction", names.size(), reactions_at_dofs(p, f));
-  if (!p.beds.empty()) arrays += data_array("pressure", 1, bed_pressure(p, f));
+  arrays += data_array("reaction", names.size(), reactions_at_dofs(r));
+  if (!r.what.beds.empty()) arrays += data_array("pressure", 1, bed_pressure(r.what, r.read.pairs));
   return {R"( Vectors="displacement" Scalars="w")", std::move(arrays)};
 }
 
 /// A column has a number for each element, the same for all, then one for each pair; then comes what the
 /// elements read, with zeros for the pairs behind them.
-std::string cell_data(const problem& p, const frame& f, std::size_t elements,
-                      const std::vector<placed_pair>& pairs) {
+std::string cell_data(const read_state& r, std::size_t elements, const std::vector<pair_cell>& cells) {
   const auto column = [&](const char* name, auto of_elements, auto of_pair) {
     std::vector<decltype(of_elements)> values(elements, of_elements);
-    for (const placed_pair& at : pairs) values.push_back(at.*of_pair);
+    for (const pair_cell& c : cells) values.push_back(of_pair(c));
     return data_array(name, 1, values);
   };
-  std::string arrays = column("pair", 0, &placed_pair::number) + column("state", -1, &placed_pair::look) +
-                       column("surface", 0, &placed_pair::surface) +
-                       column("direction", 0, &placed_pair::direction) +
-                       column("face", 0.0, &placed_pair::face) + column("gap", 0.0, &placed_pair::gap) +
-                       column("force", 0.0, &placed_pair::force);
-  const load now = load_path(p).at(f.step, f.fraction);
-  const element_results results = elements_in(p, now, f);
-  const auto places = static_cast<std::size_t>(results.places);
-  for (std::size_t name = 0; name < results.names.size(); ++name) {
+  const std::vector<contact_pair>& pairs = r.what.pairs;
+  const element_results& read = r.read.elements;
+  const std::vector<pair_reading>& now = r.read.pairs;
+  std::string arrays =
+      column("pair", 0, [](const pair_cell& c) { return static_cast<int>(c.pair) + 1; }) +
+      column("state", -1, [&](const pair_cell& c) { return static_cast<int>(now[c.pair].look); }) +
+      column("surface", 0, [&](const pair_cell& c) { return pairs[c.pair].surface; }) +
+      column("direction", 0, [](const pair_cell& c) { return c.at.direction; }) +
+      column("face", 0.0, [&](const pair_cell& c) { return pairs[c.pair].face; }) +
+      column("gap", 0.0, [&](const pair_cell& c) { return now[c.pair].gap; }) +
+      column("force", 0.0, [&](const pair_cell& c) { return now[c.pair].force; });
+  const auto places = static_cast<std::size_t>(read.places);
+  for (std::size_t name = 0; name < read.names.size(); ++name) {
     std::vector<double> values;
     for (std::size_t e = 0; e < elements; ++e) {
-      const auto at = results.at(e, name);
+      const auto at = read.at(e, name);
       values.insert(values.end(), at.begin(), at.end());
     }
-    values.resize((elements + pairs.size()) * places);
-    arrays += data_array(results.names[name], places, values);
+    values.resize((elements + cells.size()) * places);
+    arrays += data_array(read.names[name], places, values);
   }
   return arrays;
 }
@@ -210,14 +208,14 @@ std::string cells_of(const std::vector<std::vector<int>>& cells) {
                      data_array("types", 1, types));
 }
 
-std::string field_data(const frame& f) {
+std::string field_data(const structure_state& s) {
   const auto one = [](std::string_view name, std::string_view type, auto value) {
     return fmt::format(
         "      <DataArray type=\"{}\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n",
         type, name, value);
   };
-  return "    <FieldData>\n" + one("step", "Int32", f.step) + one("increment", "Int32", f.number) +
-         one("share", "Float64", f.fraction) + "    </FieldData>\n";
+  return "    <FieldData>\n" + one("step", "Int32", s.step) + one("increment", "Int32", s.number) +
+         one("share", "Float64", s.fraction) + "    </FieldData>\n";
 }
 
 /// A file of VTK's, with what is in its one part.
@@ -231,32 +229,33 @@ std::string file_of(std::string_view type, std::string_view content) {
 
 }  // namespace
 
-std::string vtu_of_frame(const problem& p, const frame& f) {
-  const std::vector<placed_pair> pairs = placed_pairs(p, f);
+std::string vtu_of_state(const problem& p, const structure_state& s) {
+  const read_state r{p, s};
+  const std::vector<pair_cell> pairs = pair_cells(p);
   std::vector<std::vector<int>> cells = elements_of(p.geometry);
   const std::size_t elements = cells.size();
-  for (const placed_pair& at : pairs) cells.push_back({at.node});
+  for (const pair_cell& c : pairs) cells.push_back({c.at.node});
   const std::vector<double> points = points_of(p);
-  const point_arrays of_points = point_data(p, f);
+  const point_arrays of_points = point_data(r);
   return file_of("UnstructuredGrid",
-                 field_data(f) +
+                 field_data(s) +
                      fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                                  points.size() / 3, cells.size()) +
                      section("PointData", of_points.attributes, of_points.arrays) +
-                     section("CellData", "", cell_data(p, f, elements, pairs)) +
+                     section("CellData", "", cell_data(r, elements, pairs)) +
                      section("Points", "", data_array("points", 3, points)) + cells_of(cells) +
                      "    </Piece>\n");
 }
 
-std::string pvd_of_frames(const std::string& stem, std::size_t count) {
+std::string pvd_of_states(const std::string& stem, std::size_t count) {
   std::string files;
   for (std::size_t i = 0; i < count; ++i)
     files += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", i,
-                         markup_text(name_of_frame(stem, i)));
+                         markup_text(name_of_state(stem, i)));
   return file_of("Collection", files);
 }
 
-std::string name_of_frame(const std::string& stem, std::size_t number) {
+std::string name_of_state(const std::string& stem, std::size_t number) {
   return fmt::format("{}.{:03}.vtu", stem, number);
 }
 

@@ -7,7 +7,9 @@
 #include <numeric>
 #include <utility>
 
+#include "contct/kernel/contct.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/write/path_states.hpp"
 
 namespace contct::write {
 namespace {
@@ -16,6 +18,36 @@ namespace {
 constexpr double above_ties = 1 + 1e-9;
 
 }  // namespace
+
+double deflection_of(const problem& p, std::span<const double> u, int node) {
+  return u[static_cast<std::size_t>(node) * dofs_per_node(p.geometry)];
+}
+
+std::vector<int> deflecting_nodes(const problem& p) {
+  std::vector<char> is_length(nodes(p.geometry), 1);
+  const auto* a = std::get_if<assembled>(&p.geometry.kind);
+  if (a != nullptr && (a->places.known() || !p.pairs.empty())) {
+    for (std::size_t dof = 0; dof < is_length.size(); ++dof)
+      is_length[dof] = a->places.known() && a->places.dofs[dof].is_length() ? 1 : 0;
+    for (const contact_pair& pair : p.pairs) is_length[pair.node] = 1;
+  }
+  std::vector<int> list;
+  for (int node = 0; node < nodes(p.geometry); ++node)
+    if (is_length[node] != 0) list.push_back(node);
+  return list;
+}
+
+std::string place_name(const model& m, int node) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  return a != nullptr ? a->label_of(node) : std::to_string(node + 1);
+}
+
+place place_of_node(const model& m, int node) {
+  if (const auto* b = std::get_if<beam>(&m.kind)) return {b->x[node], 0.0};
+  const auto* p = std::get_if<plate>(&m.kind);
+  if (p == nullptr) return {static_cast<double>(node), 0.0};
+  return {p->x[node % p->columns()], p->y[node / p->columns()]};
+}
 
 std::optional<std::size_t> step_results::hardest_pair() const {
   std::optional<std::size_t> hardest;
@@ -33,17 +65,35 @@ std::optional<std::size_t> step_results::hardest_support(const problem& p) const
   return hardest;
 }
 
-step_results results_of(const problem& p, const load& l, std::span<const double> u, std::span<const int> isep,
-                        std::span<const int> deflecting, const end_numbers* numbers) {
+pair_reading reading_of(const contact_pair& p, double w, bool closed) {
+  const pair_state look = std::abs(p.face - w) < constants<double>::epsgap ? pair_state::at_face
+                          : closed                                         ? pair_state::closed
+                                                                           : pair_state::open;
+  return {w, gap_of(p, w, closed), force_of(p, w, closed), look};
+}
+
+step_results results_of(const problem& p, const load& l, const structure_state& s) {
+  const std::vector<double>& u = s.displacement;
   step_results r{{}, results_in_elements(p.geometry, l, u), {}, {}};
-  if (numbers != nullptr) r.elements.values = numbers->element_values;
-  r.ranges = ranges_of(p.geometry, l, u, deflecting, r.elements.values);
-  r.reactions = numbers != nullptr ? numbers->reactions : reactions(p, l, u, isep);
-  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    r.pairs.push_back(reading_of(p.pairs[i], deflection_of(p, u, p.pairs[i].node), isep[i] == in_contact));
-    if (numbers != nullptr) r.pairs.back().force = numbers->pair_forces[i];
-  }
+  if (s.numbers) r.elements.values = s.numbers->element_values;
+  r.ranges = ranges_of(p.geometry, l, u, deflecting_nodes(p), r.elements.values);
+  r.reactions = s.numbers ? s.numbers->reactions : reactions(p, l, u, s.isep);
+  for (std::size_t i = 0; i < p.pairs.size(); ++i)
+    r.pairs.push_back(reading_of(p.pairs[i], deflection_of(p, u, p.pairs[i].node), s.closed(i)));
+  const std::vector<double>& known = s.numbers ? s.numbers->pair_forces : s.pair_forces;
+  for (std::size_t i = 0; i < known.size(); ++i) r.pairs[i].force = known[i];
   return r;
+}
+
+std::vector<double> bed_pressure(const problem& p, const std::vector<pair_reading>& pairs) {
+  std::vector<double> at(nodes(p.geometry));
+  for (const bed& b : p.beds) {
+    for (std::size_t i = 0; i < b.share.size(); ++i) {
+      const std::size_t pair = b.first_pair + i;
+      if (b.share[i] > 0.0) at[p.pairs[pair].node] += pairs[pair].force / b.share[i];
+    }
+  }
+  return at;
 }
 
 std::optional<passage> deepest_passage(const problem& p, const load& l, std::span<const double> u) {
@@ -75,20 +125,6 @@ std::optional<passage> deepest_passage(const problem& p, const load& l, std::spa
   return worst;
 }
 
-std::vector<double> means_at_nodes(const plate& p, const element_results& results, std::size_t name) {
-  std::vector<double> sum(p.nodes());
-  std::vector<int> count(p.nodes());
-  for (int e = 0; e < p.elements(); ++e) {
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const int node = p.corners_of(e)[corner];
-      sum[node] += results.at(e, name)[corner];
-      ++count[node];
-    }
-  }
-  for (std::size_t node = 0; node < sum.size(); ++node) sum[node] /= count[node];
-  return sum;
-}
-
 std::string_view ranges_are_at(const model& m) {
   constexpr std::string_view places[] = {"the whole length", "nodes and corners of elements", "dofs"};
   return places[m.kind.index()];
@@ -107,37 +143,60 @@ std::string unit_words(const problem& p, std::string_view quantity) {
   if (is_slope) return "";
   if (quantity == "mx" || quantity == "my" || quantity == "mxy")
     return on_one_line(fmt::format(" {0} {1}/{1}", p.units.force, p.units.length));
-  return " " + unit_words(p.units, quantity == "w" ? 0 : 1, quantity == "w" || quantity == "moment" ? 1 : 0);
+  if (quantity == "w") return " " + p.units.length;
+  return " " + p.units.force + (quantity == "moment" ? " " + p.units.length : "");
 }
 
-std::string unit_words(const unit_labels& u, int force, int length) {
-  constexpr std::string_view powers[] = {"", "", "²", "³"};
-  if (u.length.empty()) return "";
-  std::string of_length = length == 0 ? "" : u.length + std::string(powers[std::abs(length)]);
-  if (force == 0) return of_length;
-  return u.force + (length == 0 ? "" : length > 0 ? " " : "/") + of_length;
+namespace {
+
+/// Keep the smaller one, or the larger one, of what is known and what a state has.
+template <class Value>
+void take(envelope::range<Value>& known, const envelope::range<Value>& now, auto size_of) {
+  if (size_of(now.least.value) < size_of(known.least.value)) known.least = now.least;
+  if (size_of(now.most.value) > size_of(known.most.value)) known.most = now.most;
 }
 
-void envelope::take(const frame& f) {
-  if (f.step == 0) return;
-  const step_results r = results_of(problem_, loads_.at(f.step, f.fraction), f, deflecting_);
-  const when now{f.step, f.number};
-  if (states_++ == 0) {
-    for (const value_range& v : r.ranges) ranges_.push_back({v.name, {v.least, now}, {v.most, now}});
-    pairs_.assign(r.pairs.size(), {0.0, now});
-    for (const double value : r.reactions) reactions_.push_back({value, value, now, now});
+/// What a state has, as an envelope of it alone.
+envelope of_one_state(const problem& p, const load& l, const structure_state& s) {
+  const step_results r = results_of(p, l, s);
+  envelope e;
+  e.states = 1;
+  for (const value_range& v : r.ranges) {
+    e.names.push_back(v.name);
+    e.values.push_back({{v.least, s.step, s.number}, {v.most, s.step, s.number}});
   }
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    if (r.ranges[i].least.value < ranges_[i].least.at.value) ranges_[i].least = {r.ranges[i].least, now};
-    if (r.ranges[i].most.value > ranges_[i].most.at.value) ranges_[i].most = {r.ranges[i].most, now};
+  for (const pair_reading& pair : r.pairs) e.pairs.push_back({std::max(0.0, pair.force), s.step, s.number});
+  for (const double value : r.reactions)
+    e.reactions.push_back({{value, s.step, s.number}, {value, s.step, s.number}});
+  return e;
+}
+
+void take(envelope& known, const envelope& now) {
+  if (known.states++ == 0) {
+    known = now;
+    return;
   }
-  for (std::size_t i = 0; i < pairs_.size(); ++i)
-    if (r.pairs[i].force > pairs_[i].force) pairs_[i] = {r.pairs[i].force, now};
-  for (std::size_t i = 0; i < reactions_.size(); ++i) {
-    reaction_range& known = reactions_[i];
-    if (r.reactions[i] < known.least) known = {r.reactions[i], known.most, now, known.most_reached};
-    if (r.reactions[i] > known.most) known = {known.least, r.reactions[i], known.least_reached, now};
+  for (std::size_t i = 0; i < now.values.size(); ++i)
+    take(known.values[i], now.values[i], [](const placed_value& v) { return v.value; });
+  for (std::size_t i = 0; i < now.pairs.size(); ++i)
+    if (now.pairs[i].value > known.pairs[i].value) known.pairs[i] = now.pairs[i];
+  for (std::size_t i = 0; i < now.reactions.size(); ++i)
+    take(known.reactions[i], now.reactions[i], [](double v) { return v; });
+}
+
+}  // namespace
+
+envelope envelope_of(const run_result& r) {
+  const load_path loads(r.what);
+  path_states states(r);
+  envelope all;
+  for (const path_moment& m : moments_of(r)) {
+    structure_state s = states.at(m);
+    if (s.displacement.empty()) continue;
+    s.pair_forces.clear();  // all numbers of an envelope are those of the solved shape
+    take(all, of_one_state(r.what, loads.at(s.step, s.fraction), s));
   }
+  return all;
 }
 
 }  // namespace contct::write

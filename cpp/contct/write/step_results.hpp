@@ -2,16 +2,46 @@
 // envelope.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contct/structure/extremes.hpp"
+#include "contct/write/load_path.hpp"
 #include "contct/write/run_result.hpp"
 
 namespace contct::write {
+
+/// The deflection of node `node`, from 0, under the displacement `u` [dofs].
+[[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
+
+/// The nodes whose displacement is a deflection: all of a beam and a plate. Of a matrix the dofs that are
+/// known to be lengths: those that meet faces, and those along an axis where places are known; all where
+/// there are neither.
+[[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
+
+/// A node's name in tables: its number, from 1, or its label where each dof is a node of its own.
+[[nodiscard]] std::string place_name(const model& m, int node);
+
+/// Where a node is: x along a beam; x and y on a plate.
+struct place {
+  double x = 0.0, y = 0.0;
+};
+[[nodiscard]] place place_of_node(const model& m, int node);
+
+/// What a picture tells apart: at its face are pairs whose gap the listing takes for zero (under EPSGAP),
+/// whatever their status: stationary ones, which carry no force worth the name.
+enum class pair_state { open, closed, at_face };
+
+/// How a pair stands, and its gap and force as results have them.
+struct pair_reading {
+  double w, gap, force;
+  pair_state look;
+};
+/// At deflection `w`.
+[[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
 
 /// Read off one state. Pairs, supports and nodes count from 0.
 struct step_results {
@@ -26,20 +56,11 @@ struct step_results {
   [[nodiscard]] std::optional<std::size_t> hardest_support(const problem& p) const;
 };
 
-/// Of displacement `u` [dofs] and statuses `isep` [pairs] under load `l`. `deflecting`: see deflecting_nodes.
-/// `numbers`: what is known better than from `u`; null: nothing.
-[[nodiscard]] step_results results_of(const problem& p, const load& l, std::span<const double> u,
-                                      std::span<const int> isep, std::span<const int> deflecting,
-                                      const end_numbers* numbers = nullptr);
-/// Of the end of a step, and of a frame.
-[[nodiscard]] inline step_results results_of(const problem& p, const load& l, const step_state& s,
-                                             std::span<const int> deflecting) {
-  return results_of(p, l, s.displacement, s.isep, deflecting, s.numbers);
-}
-[[nodiscard]] inline step_results results_of(const problem& p, const load& l, const frame& f,
-                                             std::span<const int> deflecting) {
-  return results_of(p, l, f.displacement, f.isep, deflecting, f.numbers ? &*f.numbers : nullptr);
-}
+/// Of a state under load `l`.
+[[nodiscard]] step_results results_of(const problem& p, const load& l, const structure_state& s);
+
+/// What beds press on the structure by, at each node: force over tributary share [nodes].
+[[nodiscard]] std::vector<double> bed_pressure(const problem& p, const std::vector<pair_reading>& pairs);
 
 /// A beam that passes through a face between two neighbouring pairs that have it: contact there is not in the
 /// model.
@@ -52,72 +73,38 @@ struct passage {
 [[nodiscard]] std::optional<passage> deepest_passage(const problem& p, const load& l,
                                                      std::span<const double> u);
 
-/// The mean of what the elements at a node have there, for contours [nodes].
-[[nodiscard]] std::vector<double> means_at_nodes(const plate& p, const element_results& results,
-                                                 std::size_t name);
-
-/// Beside a quantity of this size, the value is printed as 0.
-[[nodiscard]] inline bool is_rounding(double value, double size) {
-  return std::abs(value) <= 1e-12 * size;
-}
-
 /// Where ranges_of looks: "the whole length", "nodes and corners of elements" or "dofs".
 [[nodiscard]] std::string_view ranges_are_at(const model& m);
 
 /// A place in words: "node 9, x = 4", "x = 4.31", "node 9, (1, 0.5)" or "dof 185.3".
 [[nodiscard]] std::string place_words(const model& m, const placed_value& at);
 
-/// The unit of a quantity that goes with these powers of force (0 or 1) and length: "kN/m". Empty where the
-/// problem has no units.
-[[nodiscard]] std::string unit_words(const unit_labels& u, int force, int length);
-
 /// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", ..; empty where
 /// the problem names no units.
 [[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity);
 
-/// The least and largest of everything on a path.
-class envelope {
- public:
-  /// An increment of a step, from 1; 0: the step ended without one.
-  struct when {
+/// The least and largest of everything on a path: after its increments, as far as their states can be solved
+/// for, and at the ends of its steps.
+struct envelope {
+  /// A value, and the increment of a step, from 1, that had it; increment 0: the step ended without one.
+  template <class Value>
+  struct reached {
+    Value value;
     int step = 0, increment = 0;
   };
-  struct bound {
-    placed_value at;
-    when reached;
-  };
+  template <class Value>
   struct range {
-    std::string_view name;
-    bound least, most;
-  };
-  struct peak {
-    double force = 0.0;
-    when reached;
-  };
-  struct reaction_range {
-    double least = 0.0, most = 0.0;
-    when least_reached, most_reached;
+    reached<Value> least, most;
   };
 
-  /// `p` must outlive this object.
-  explicit envelope(const problem& p) : problem_(p), loads_(p), deflecting_(deflecting_nodes(p)) {}
-
-  /// A state of the path, the unloaded one excepted.
-  void take(const frame& f);
-
-  [[nodiscard]] int states() const { return states_; }
-  [[nodiscard]] const std::vector<range>& ranges() const { return ranges_; }
-  [[nodiscard]] const std::vector<peak>& pairs() const { return pairs_; }                    ///< [pairs]
-  [[nodiscard]] const std::vector<reaction_range>& reactions() const { return reactions_; }  ///< [supports]
-
- private:
-  const problem& problem_;
-  load_path loads_;
-  std::vector<int> deflecting_;
-  int states_ = 0;
-  std::vector<range> ranges_;
-  std::vector<peak> pairs_;
-  std::vector<reaction_range> reactions_;
+  int states = 0;
+  std::vector<std::string_view> names;      ///< of the quantities
+  std::vector<range<placed_value>> values;  ///< of each of them
+  std::vector<reached<double>> pairs;       ///< the largest force of each, or 0 [pairs]
+  std::vector<range<double>> reactions;     ///< [supports]
 };
+
+/// Of a run whose recorder keeps states.
+[[nodiscard]] envelope envelope_of(const run_result& r);
 
 }  // namespace contct::write

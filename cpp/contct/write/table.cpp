@@ -4,13 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <functional>
+#include <map>
+#include <set>
 #include <utility>
 
-#include "contct/matrix/cholesky.hpp"
+#include "contct/text/strings.hpp"
+#include "contct/write/step_results.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct::write {
+
+std::string share_words(double x) {
+  for (int digits = 8; digits > 1; --digits) {
+    std::string text = fmt::format("{:.{}g}", x, digits);
+    if (x < 1.0 && text == "1") return fmt::format("1-{:.0e}", 1.0 - x);
+    if (text.size() <= 9) return text;
+  }
+  return fmt::format("{:.1g}", x);
+}
+
 namespace {
 
 // increment, share and s, each with the blanks behind it: what every row has.
@@ -23,11 +36,15 @@ constexpr std::size_t most_events_shown = 12;
 /// At no larger share of its load, a step has only begun: structures that rest on their faces let go at once.
 constexpr double first_load = 1e-12;
 
+/// "node 3 below", of a pair from 0.
+std::string face_words(const problem& p, std::size_t pair) {
+  const contact_pair& at = p.pairs[pair];
+  return fmt::format("{} {}", place_words(p.geometry, at.node), surface_name(at.surface));
+}
+
 /// "make 1: node 3 below".
 std::string event_words(const problem& p, change what, int pair) {
-  const contact_pair& at = p.pairs[pair];
-  return fmt::format("{} {}: {} {}", change_name(what), pair + 1, place_words(p.geometry, at.node),
-                     surface_name(at.surface));
+  return fmt::format("{} {}: {}", change_name(what), pair + 1, face_words(p, pair));
 }
 
 /// Columns that any one event of a problem may take.
@@ -37,238 +54,6 @@ int widest_event(const problem& p) {
     widest = std::max(widest, event_words(p, change::break_, static_cast<int>(i)).size());
   return static_cast<int>(widest);
 }
-
-}  // namespace
-
-std::string share_words(double x) {
-  for (int digits = 8; digits > 1; --digits) {
-    std::string text = fmt::format("{:.{}g}", x, digits);
-    if (x < 1.0 && text == "1") return fmt::format("1-{:.0e}", 1.0 - x);
-    if (text.size() <= 9) return text;
-  }
-  return fmt::format("{:.1g}", x);
-}
-
-table::table(const problem& p, const lockstep* compared, const certifier& judged, const terminal& t,
-             bool detail)
-    : problem_(p),
-      loads_(p),
-      compared_(compared),
-      judged_(judged),
-      terminal_(t),
-      deflecting_(deflecting_nodes(p)),
-      detail_(detail) {
-  const int room = t.width - fixed_width - (compared == nullptr ? 0 : kernels_width);
-  const int widest = widest_event(p);
-  events_below_ = room < widest;
-  load_width_ = std::min(load_width_at_most, events_below_ ? room : room - 2 - widest);
-  if (load_width_ < load_width_at_least) load_width_ = 0;
-  indent_ = events_below_ ? 4 : t.width - room + (load_width_ > 0 ? load_width_ + 2 : 0);
-}
-
-std::string table::row(std::string_view number, std::string_view share, std::string_view s,
-                       std::string_view kernels, std::string_view load, std::string_view events) const {
-  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  ", number, share, s);
-  if (compared_ != nullptr) line += fmt::format("{}  ", kernels);
-  if (load_width_ > 0) line += fmt::format("{:<{}}  ", load, load_width_);
-  if (!events_below_) line += events;
-  return line.erase(line.find_last_not_of(' ') + 1);
-}
-
-std::string table::agreement() const {
-  if (compared_ == nullptr) return "";
-  return compared_->last_call_equal() && first_load_.equal ? painted(terminal_, paint::good, "equal") + "  "
-                                                           : painted(terminal_, paint::bad, "DIFFER") + " ";
-}
-
-void table::incremented(const increment& i) {
-  last_events_.assign(i.events.begin(), i.events.end());
-  const std::size_t shown = detail_ ? i.events.size() : std::min(i.events.size(), most_events_shown);
-  std::vector<std::string> events;
-  for (const event& e : i.events.first(shown)) events.push_back(event_words(problem_, e.what, e.pair));
-  if (i.events.size() > shown) events.push_back(fmt::format("{} more in --json", i.events.size() - shown));
-  if (i.fraction > first_load || detail_) {
-    flush_first_load();
-    return print_row(i, agreement(), events);
-  }
-  for (const event& e : i.events)
-    (e.what == change::make ? first_load_.makes : first_load_.breaks).insert(e.pair);
-  first_load_.last = {i.step, i.number, i.s, i.fraction, {}, i.snaps};
-  ++first_load_.increments;
-  first_load_.equal = first_load_.equal && (compared_ == nullptr || compared_->last_call_equal());
-  first_load_.events = std::move(events);
-}
-
-/// One such increment with a few events has a row as any other.
-void table::flush_first_load() {
-  if (first_load_.increments == 0) return;
-  const auto toggled = [](std::size_t n, const char* what) {
-    return n == 0 ? "" : fmt::format("{} pair{} {}{}", n, n == 1 ? "" : "s", what, n == 1 ? "s" : "");
-  };
-  std::vector<std::string> words;
-  for (const std::string& part :
-       {toggled(first_load_.breaks.size(), "break"), toggled(first_load_.makes.size(), "make")})
-    if (!part.empty()) words.push_back(part);
-  if (!words.empty()) words.back() += " at first load";
-  const bool few = first_load_.increments == 1 && first_load_.makes.size() + first_load_.breaks.size() <= 3;
-  const auto said = std::exchange(first_load_, {});
-  first_load_.equal = said.equal;
-  print_row(said.last, agreement(), few ? said.events : words);
-  first_load_.equal = true;
-}
-
-void table::print_row(const increment& i, std::string_view kernels, const std::vector<std::string>& events) {
-  if (!std::exchange(headed_, true)) {
-    const std::string heading = row("incr", "share", "s", "kernels", "load", "events");
-    print_text(fmt::format("{}\n", painted(terminal_, paint::strong, heading)));
-  }
-  std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
-  if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
-  snapped_ = snapped_ || i.snaps;
-  print_text(fmt::format("{}\n", row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
-                                     i.snaps ? "snap" : share_words(i.s), kernels,
-                                     loads_.words_at(i.step, i.fraction, load_width_), lines.front())));
-  for (const std::string& more : std::span(lines).subspan(1))
-    print_text(fmt::format("{:{}}{}\n", "", indent_, more));
-}
-
-void table::step_ended(const step_state& s) {
-  flush_first_load();
-  ended_ = true;
-  // Where the path ends at a pair's opening, its status is as it was before, without force.
-  auto closed = std::count(s.isep.begin(), s.isep.end(), in_contact);
-  for (const event& e : last_events_)
-    if (e.what == change::break_ && s.isep[e.pair] == in_contact) --closed;
-  last_events_.clear();
-  std::string label = events_below_ ? "end " : "   end  ";
-  const int width = terminal_.width - static_cast<int>(label.size());
-  std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.isep.size()),
-                                    certificate_mark(judged_.steps().back())};
-  if (const std::optional<certificate>& judged = judged_.steps().back())
-    items.insert(items.begin() + 1, digits_words(*judged));
-  if (const std::string& name = problem_.steps[s.step - 1].name; !name.empty())
-    items.insert(items.begin(), on_one_line(name));
-  if (s.from_exact_path)
-    items.emplace_back("from the exact path");
-  else if (s.from_fallback)
-    items.emplace_back("from the reference solution");
-  for (const std::string& line : wrap(items, width)) {
-    print_text(fmt::format("{}\n", label + line));
-    label.assign(label.size(), ' ');
-  }
-  const step_results r = results_of(problem_, loads_.at(s.step, s.fraction), s, deflecting_);
-  for (const std::string& largest : largest_lines(problem_, r, width, sizes_))
-    for (const std::string& line : wrap({largest}, width))
-      print_text(fmt::format("{}\n", painted(terminal_, paint::strong, label + line)));
-  if (detail_) print_text(detail_tables(problem_, s, r));
-}
-
-std::vector<std::string> table::legend() const {
-  std::vector<std::string> words;
-  if (headed_)
-    words = {"share: share of the step applied so far",
-             "s: share of the remaining load that the increment applies"};
-  if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
-  if (headed_ && compared_ != nullptr) words.emplace_back("kernels: whether their bits are equal");
-  if (ended_) words.emplace_back("digits: correct in every number");
-  return words;
-}
-
-std::string csv_field(std::string_view raw) {
-  // Spreadsheets take a cell that begins so for a formula.
-  constexpr std::string_view beginnings[] = {"=",  "+",      "-",      "@",      "\t",
-                                             "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20"};
-  const std::string_view behind_blanks = raw.substr(std::min(raw.find_first_not_of(" \n"), raw.size()));
-  const bool formula =
-      std::ranges::any_of(beginnings, [&](std::string_view b) { return behind_blanks.starts_with(b); });
-  std::string text = (formula ? "'" : "") + terminal_text(raw);
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-run_csv::run_csv(const problem& p, const lockstep* compared, const frame_keeper& states, int watched,
-                 output_file& increments, output_file* pairs)
-    : problem_(p),
-      loads_(p),
-      compared_(compared),
-      states_(states),
-      watched_(watched),
-      increments_(increments),
-      pairs_(pairs) {
-  increments_.write("step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w\r\n");
-  if (pairs_ != nullptr) pairs_->write("step,increment,pair,node,surface,state,look,w,gap,force\r\n");
-}
-
-void run_csv::called(const answered_call& c) {
-  if (pending_) write_pending();
-  smin_ = c.c.smin;
-  agreement_ = compared_ == nullptr ? "" : compared_->last_call_equal() ? "equal" : "differ";
-}
-
-void run_csv::incremented(const increment& i) {
-  last_ = {i.step,
-           i.number,
-           i.snaps ? "snap" : "load",
-           i.s,
-           i.fraction,
-           {i.events.begin(), i.events.end()},
-           {i.d.begin(), i.d.end()},
-           {i.isep.begin(), i.isep.end()},
-           states_.latest().pair_forces,
-           {}};
-  const frame& now = states_.latest();
-  if (!now.displacement.empty()) last_.watched = deflection_of(problem_, now, watched_);
-  pending_ = true;
-}
-
-void run_csv::step_ended(const step_state& s) {
-  if (!pending_ || last_.step != s.step || s.from_fallback) {
-    if (pending_) write_pending();
-    last_ = {s.step, 0, s.from_fallback ? "rescue" : "end", 0.0, s.fraction, {}, {}, {}, {}, {}};
-    agreement_ = "";
-  }
-  last_.isep.assign(s.isep.begin(), s.isep.end());
-  last_.watched = deflection_of(problem_, s.displacement, watched_);
-  last_.forces = states_.frames().back().pair_forces;
-  last_.w.clear();
-  for (const contact_pair& p : problem_.pairs)
-    last_.w.push_back(deflection_of(problem_, s.displacement, p.node));
-  write_pending();
-}
-
-void run_csv::write_pending() {
-  pending_ = false;
-  pair_counts n;
-  for (std::size_t i = 0; i < last_.w.size(); ++i)
-    ++n.of(look_of(problem_.pairs[i], last_.w[i], last_.isep[i] == in_contact));
-  std::vector<std::string> events;
-  for (const event& e : last_.events) events.push_back(fmt::format("{} {}", change_name(e.what), e.pair + 1));
-  const bool called = last_.number > 0;
-  const double force = loads_.force_at(last_.step, last_.fraction);
-  increments_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number,
-                                last_.kind, called ? fmt::format("{}", last_.s) : "", last_.fraction, force,
-                                csv_field(fmt::format("{}", fmt::join(events, ", "))), n.closed, n.open,
-                                n.at_face, called && smin_ ? fmt::format("{}", *smin_) : "", agreement_,
-                                csv_field(place_name(problem_.geometry, watched_)),
-                                last_.watched ? fmt::format("{}", *last_.watched) : ""));
-  if (pairs_ == nullptr) return;
-  for (std::size_t i = 0; i < last_.w.size(); ++i) {
-    const contact_pair& p = problem_.pairs[i];
-    const pair_reading r = reading_of(p, last_.w[i], last_.isep[i] == in_contact);
-    pairs_->write(fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", last_.step, last_.number, i + 1,
-                              csv_field(place_name(problem_.geometry, p.node)), surface_name(p.surface),
-                              state_name(last_.isep[i]), look_name(r.look), r.w, r.gap, last_.forces[i]));
-  }
-}
-
-void run_csv::finish() {
-  increments_.finish();
-  if (pairs_ != nullptr) pairs_->finish();
-}
-
-namespace {
 
 /// The quantity whose extremes stand for the bending of the structure.
 const value_range* bending(const std::vector<value_range>& ranges) {
@@ -282,13 +67,12 @@ const value_range* bending(const std::vector<value_range>& ranges) {
   return most;
 }
 
-std::string pair_place(const problem& p, std::size_t pair) {
-  const contact_pair& at = p.pairs[pair];
-  return fmt::format("pair {}, {} {}", pair + 1, place_words(p.geometry, at.node), surface_name(at.surface));
-}
+/// The largest of each quantity on a path so far, by name: what is nothing but rounding of it is printed as
+/// 0.
+using sizes_so_far = std::map<std::string, double, std::less<>>;
 
-}  // namespace
-
+/// The largest deflection, moment, contact force and reaction with their places, a line each, of at most
+/// `width` columns where that is 60 or more.
 std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
                                        sizes_so_far& sizes) {
   std::vector<std::string> lines;
@@ -296,7 +80,7 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
                        const std::string& at) {
     double& size = sizes[std::string(name)];
     size = std::max(size, std::abs(value));
-    const bool is_none = is_rounding(value, size);
+    const bool is_none = std::abs(value) <= 1e-12 * size;
     const std::string with_unit = fmt::format("{:.6g}", is_none ? 0.0 : value) + unit_words(p, quantity);
     std::string line = fmt::format("{:<14}{:<18}{}", name, with_unit, is_none ? "" : at);
     line.erase(line.find_last_not_of(' ') + 1);
@@ -311,13 +95,15 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
   if (const value_range* const m = bending(r.ranges))
     add(m->name, m->largest().value, m->name, place_words(p.geometry, m->largest()));
   if (const auto pair = r.hardest_pair())
-    add("contact force", r.pairs[*pair].force, "force", pair_place(p, *pair));
+    add("contact force", r.pairs[*pair].force, "force",
+        fmt::format("pair {}, {}", *pair + 1, face_words(p, *pair)));
   if (const auto i = r.hardest_support(p))
     add("reaction", r.reactions[*i], "force", place_words(p.geometry, p.supports[*i].node));
   return lines;
 }
 
-std::string detail_tables(const problem& p, const step_state& s, const step_results& r) {
+/// Tables of all pairs, reactions and ends of elements, 80 columns wide.
+std::string detail_tables(const problem& p, const structure_state& s, const step_results& r) {
   std::string text;
   const auto line = [&text]<class... A>(fmt::format_string<A...> words, A&&... all) {
     text += fmt::format(words, std::forward<A>(all)...) + '\n';
@@ -345,6 +131,167 @@ std::string detail_tables(const problem& p, const step_state& s, const step_resu
     }
   }
   return text;
+}
+
+/// Prints the rows of a run.
+class table_printer {
+ public:
+  table_printer(const run_result& r, const terminal& t, bool detail)
+      : run_(r), problem_(r.what), loads_(r.what), terminal_(t), detail_(detail) {
+    const int room = t.width - fixed_width - (is_compared() ? kernels_width : 0);
+    const int widest = widest_event(problem_);
+    events_below_ = room < widest;
+    load_width_ = std::min(load_width_at_most, events_below_ ? room : room - 2 - widest);
+    if (load_width_ < load_width_at_least) load_width_ = 0;
+    indent_ = events_below_ ? 4 : t.width - room + (load_width_ > 0 ? load_width_ + 2 : 0);
+  }
+
+  run_table print() {
+    for (std::size_t step = 0; step < run_.record.steps.size(); ++step) print_step(step);
+    return {std::move(text_), legend()};
+  }
+
+ private:
+  using increments = std::span<const increment_record>;
+
+  [[nodiscard]] bool is_compared() const { return run_.compared.has_value(); }
+  void print_step(std::size_t number);
+  void print_first_load(increments begun);
+  void print_row(const increment_record& i, bool equal, const std::vector<std::string>& events);
+  void print_end(const step_record& s, const std::optional<certificate>& judged);
+  [[nodiscard]] std::vector<std::string> events_of(const increment_record& i) const;
+  [[nodiscard]] std::string row(std::string_view number, std::string_view share, std::string_view s,
+                                std::string_view kernels, std::string_view load,
+                                std::string_view events) const;
+  [[nodiscard]] std::vector<std::string> legend() const;
+
+  const run_result& run_;
+  const problem& problem_;
+  load_path loads_;
+  const terminal& terminal_;
+  bool detail_;
+  int load_width_ = 0;                     // 0: no room for loads
+  int indent_ = 0;                         // of the events
+  bool events_below_ = false;              // on a narrow terminal they stand on lines of their own
+  bool headed_ = false, snapped_ = false;  // what the rows so far have shown
+  sizes_so_far sizes_;
+  std::string text_;
+};
+
+/// Increments at which the step's load has only begun share a row.
+void table_printer::print_step(std::size_t number) {
+  const step_record& s = run_.record.steps[number];
+  const increments all = s.increments;
+  for (std::size_t i = 0; i < all.size();) {
+    const std::size_t first = i;
+    while (!detail_ && i < all.size() && all[i].fraction <= first_load) ++i;
+    if (i > first) {
+      print_first_load(all.subspan(first, i - first));
+    } else {
+      print_row(all[i], all[i].equal, events_of(all[i]));
+      ++i;
+    }
+  }
+  print_end(s, run_.judged.steps()[number]);
+}
+
+std::vector<std::string> table_printer::events_of(const increment_record& i) const {
+  const std::size_t shown = detail_ ? i.events.size() : std::min(i.events.size(), most_events_shown);
+  std::vector<std::string> events;
+  for (const event& e : std::span(i.events).first(shown))
+    events.push_back(event_words(problem_, e.what, e.pair));
+  if (i.events.size() > shown) events.push_back(fmt::format("{} more in --json", i.events.size() - shown));
+  return events;
+}
+
+/// One such increment with a few events has a row as any other.
+void table_printer::print_first_load(increments begun) {
+  std::set<int> makes;
+  std::set<int> breaks;
+  for (const increment_record& i : begun)
+    for (const event& e : i.events) (e.what == change::make ? makes : breaks).insert(e.pair);
+  const auto toggled = [](std::size_t n, const char* what) {
+    return n == 0 ? "" : fmt::format("{} pair{} {}{}", n, n == 1 ? "" : "s", what, n == 1 ? "s" : "");
+  };
+  std::vector<std::string> words;
+  for (const std::string& part : {toggled(breaks.size(), "break"), toggled(makes.size(), "make")})
+    if (!part.empty()) words.push_back(part);
+  if (!words.empty()) words.back() += " at first load";
+  const bool few = begun.size() == 1 && makes.size() + breaks.size() <= 3;
+  print_row(begun.back(), std::ranges::all_of(begun, &increment_record::equal),
+            few ? events_of(begun.back()) : words);
+}
+
+std::string table_printer::row(std::string_view number, std::string_view share, std::string_view s,
+                               std::string_view kernels, std::string_view load,
+                               std::string_view events) const {
+  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  ", number, share, s);
+  if (is_compared()) line += fmt::format("{}  ", kernels);
+  if (load_width_ > 0) line += fmt::format("{:<{}}  ", load, load_width_);
+  if (!events_below_) line += events;
+  return line.erase(line.find_last_not_of(' ') + 1);
+}
+
+void table_printer::print_row(const increment_record& i, bool equal, const std::vector<std::string>& events) {
+  if (!std::exchange(headed_, true))
+    text_ += painted(terminal_, paint::strong, row("incr", "share", "s", "kernels", "load", "events")) + '\n';
+  const std::string kernels = !is_compared() ? ""
+                              : equal        ? painted(terminal_, paint::good, "equal") + "  "
+                                             : painted(terminal_, paint::bad, "DIFFER") + " ";
+  std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
+  if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
+  snapped_ = snapped_ || i.snaps;
+  text_ += row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
+               i.snaps ? "snap" : share_words(i.s), kernels, loads_.words_at(i.step, i.fraction, load_width_),
+               lines.front()) +
+           '\n';
+  for (const std::string& more : std::span(lines).subspan(1))
+    text_ += fmt::format("{:{}}{}\n", "", indent_, more);
+}
+
+void table_printer::print_end(const step_record& s, const std::optional<certificate>& judged) {
+  // Where the path ends at a pair's opening, its status is as it was before, without force.
+  auto closed = std::ranges::count(s.end.isep, in_contact);
+  if (!s.increments.empty())
+    for (const event& e : s.increments.back().events)
+      if (e.what == change::break_ && s.end.closed(e.pair)) --closed;
+  std::string label = events_below_ ? "end " : "   end  ";
+  const int width = terminal_.width - static_cast<int>(label.size());
+  std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.end.isep.size())};
+  if (judged) items.push_back(digits_words(*judged));
+  items.push_back(certificate_mark(judged));
+  if (const std::string& name = problem_.steps[s.end.step - 1].name; !name.empty())
+    items.insert(items.begin(), on_one_line(name));
+  if (s.from_exact_path)
+    items.emplace_back("from the exact path");
+  else if (s.from_fallback)
+    items.emplace_back("from the reference solution");
+  for (const std::string& line : wrap(items, width)) {
+    text_ += label + line + '\n';
+    label.assign(label.size(), ' ');
+  }
+  const step_results r = results_of(problem_, loads_.at(s.end.step, s.end.fraction), s.end);
+  for (const std::string& largest : largest_lines(problem_, r, width, sizes_))
+    for (const std::string& line : wrap({largest}, width))
+      text_ += painted(terminal_, paint::strong, label + line) + '\n';
+  if (detail_) text_ += detail_tables(problem_, s.end, r);
+}
+
+std::vector<std::string> table_printer::legend() const {
+  std::vector<std::string> words;
+  if (headed_)
+    words = {"share: share of the step applied so far",
+             "s: share of the remaining load that the increment applies"};
+  if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
+  if (headed_ && is_compared()) words.emplace_back("kernels: whether their bits are equal");
+  if (!run_.record.steps.empty()) words.emplace_back("digits: correct in every number");
+  return words;
+}
+
+}  // namespace
+
+run_table table_of(const run_result& r, const terminal& t, bool detail) {
+  return table_printer(r, t, detail).print();
 }
 
 }  // namespace contct::write

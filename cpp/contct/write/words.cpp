@@ -7,6 +7,7 @@
 
 #include "contct/matrix/cholesky.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct::write {
 namespace {
@@ -28,24 +29,31 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
     if (t.step <= step && (worst == nullptr || t.share > worst->share)) worst = &t;
   }
   if (worst == nullptr) return "";
-  const contact_pair& at = p.pairs[worst->what.pair];
   return fmt::format(
-      "; in increment {}.{} pair {} ({}, {}) {} contact {:.2g} from its face ({:.2g} of the largest "
-      "deflection)",
-      worst->step, worst->number, worst->what.pair + 1, place_words(p.geometry, at.node),
-      surface_name(at.surface), worst->what.what == change::make ? "made" : "broke", worst->distance,
-      worst->share);
+      "; in increment {}.{} {} {} contact {:.2g} from its face ({:.2g} of the largest deflection)",
+      worst->step, worst->number, pair_words(p, worst->what.pair),
+      worst->what.what == change::make ? "made" : "broke", worst->distance, worst->share);
 }
 
 /// The pair in contact that pulls most, in words; nothing where none does.
 std::string pull_words(const certificate& c, const problem& p) {
   if (c.pulling < 0) return "";
-  const contact_pair& at = p.pairs[c.pulling];
-  return fmt::format("; pair {} ({}, {}) pulls with {:.3g}", c.pulling + 1, place_words(p.geometry, at.node),
-                     surface_name(at.surface), c.pull);
+  return fmt::format("; {} pulls with {:.3g}", pair_words(p, c.pulling), c.pull);
 }
 
 }  // namespace
+
+std::string event_names(std::span<const event> events) {
+  std::vector<std::string> names;
+  for (const event& e : events) names.push_back(fmt::format("{} {}", change_name(e.what), e.pair + 1));
+  return joined(names, ", ");
+}
+
+std::string pair_words(const problem& p, std::size_t pair) {
+  const contact_pair& at = p.pairs[pair];
+  return fmt::format("pair {} ({}, {})", pair + 1, place_words(p.geometry, at.node),
+                     surface_name(at.surface));
+}
 
 std::string certificate_mark(const std::optional<certificate>& c) {
   if (!c) return "no certificate";
@@ -90,13 +98,13 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
   return items;
 }
 
-std::vector<std::string> certificate_complaints(const problem& p, const certifier& judged,
-                                                const early_toggles& early) {
+std::vector<std::string> certificate_complaints(const run_result& r) {
   std::vector<std::string> lines;
-  for (int step = 1; const auto& c : judged.steps()) {
+  for (int step = 1; const auto& c : r.judged.steps()) {
     if (c && !c->certified)
       lines.push_back(fmt::format("step {} is not certified: {}; allowed: {:.1e}{}{}", step, c->problem,
-                                  certified_share, pull_words(*c, p), worst_until(step, *c, p, early)));
+                                  certified_share, pull_words(*c, r.what),
+                                  worst_until(step, *c, r.what, r.early)));
     ++step;
   }
   return lines;
@@ -112,11 +120,8 @@ namespace {
 std::string words_of_pairs(const problem& p, const std::vector<int>& pairs) {
   constexpr std::size_t most_named = 8;
   std::string words;
-  for (std::size_t i = 0; i < pairs.size() && i < most_named; ++i) {
-    const contact_pair& at = p.pairs[static_cast<std::size_t>(pairs[i])];
-    words += fmt::format("{}pair {} ({}, {})", i == 0 ? "" : ", ", pairs[i] + 1,
-                         place_words(p.geometry, at.node), surface_name(at.surface));
-  }
+  for (std::size_t i = 0; i < pairs.size() && i < most_named; ++i)
+    words += (i == 0 ? "" : ", ") + pair_words(p, pairs[i]);
   if (pairs.size() > most_named) words += fmt::format(" and {} more", pairs.size() - most_named);
   return words;
 }
@@ -175,7 +180,8 @@ std::string end_words(const problem& p, const path_end& end) {
   }
 }
 
-exit_status status_of(path_status status) {
+exit_status status_of(path_status status, bool kernels_agree) {
+  if (!kernels_agree) return exit_status::kernels_differ;
   constexpr exit_status statuses[] = {exit_status::solved,          exit_status::mechanism,
                                       exit_status::iteration_limit, exit_status::iteration_limit,
                                       exit_status::bad_input,       exit_status::iteration_limit};
@@ -207,7 +213,7 @@ std::string digit_warning(std::span<const step_record> steps) {
   const step_record* worst = nullptr;
   for (const step_record& s : steps) {
     // Refined states, and those of the exact path, keep their digits.
-    if (s.end.numbers || s.end.from_exact_path || digits_left(s.rcond) >= fewest) continue;
+    if (s.end.numbers || s.from_exact_path || digits_left(s.rcond) >= fewest) continue;
     fewest = digits_left(s.rcond);
     worst = &s;
   }
@@ -222,7 +228,7 @@ std::string digit_warning(std::span<const step_record> steps) {
 }
 
 std::vector<std::string> complaints_of(const run_result& r) {
-  std::vector<std::string> lines = certificate_complaints(r.what, r.judged, r.early);
+  std::vector<std::string> lines = certificate_complaints(r);
   // Where not even bounds are proved, the other rule may prove none either.
   const bool is_bounded =
       std::ranges::all_of(r.judged.steps(), [](const auto& c) { return !c || c->proved; });

@@ -12,7 +12,6 @@
 
 #include "contct/certify/certificate.hpp"
 #include "contct/compare/lockstep.hpp"
-#include "contct/path/frames.hpp"
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/write/exit_status.hpp"
@@ -32,13 +31,21 @@ constexpr std::string_view state_name(int isep) {
   return isep == in_contact ? "contact" : "separated";
 }
 
+/// "make 1, break 3".
+[[nodiscard]] std::string event_names(std::span<const event> events);
+
+/// "pair 3 (node 4, below)", of pair 2 from 0.
+[[nodiscard]] std::string pair_words(const problem& p, std::size_t pair);
+
 /// As --csv has it.
 constexpr std::string_view look_name(pair_state look) {
   constexpr std::string_view names[] = {"open", "closed", "at its face"};
   return names[static_cast<std::size_t>(look)];
 }
 
-constexpr std::string_view status_name(path_status status) {
+/// As results have it.
+constexpr std::string_view status_name(path_status status, bool kernels_agree = true) {
+  if (!kernels_agree) return "kernels-disagree";
   if (status == path_status::solved) return "solved";
   if (status == path_status::path_ended) return "path-ended";
   return status == path_status::mechanism ? "mechanism" : "iteration-limit";
@@ -64,8 +71,7 @@ constexpr std::string_view end_reason(path_status status) {
 
 /// For every step that is not certified a line that says what is wrong, how far off, and which
 /// increment toggled which pair away from its face before.
-[[nodiscard]] std::vector<std::string> certificate_complaints(const problem& p, const certifier& judged,
-                                                              const early_toggles& early);
+[[nodiscard]] std::vector<std::string> certificate_complaints(const run_result& r);
 
 /// What to do about them: the command that follows the problem in `file` by the corrected rule. Empty where
 /// the first of `kernels`, which leads, has another rule than the listing's.
@@ -75,8 +81,8 @@ constexpr std::string_view end_reason(path_status status) {
 /// it. Empty for a path that did.
 [[nodiscard]] std::string end_words(const problem& p, const path_end& end);
 
-/// What the program ends with after such a path, where the kernels agree.
-[[nodiscard]] exit_status status_of(path_status status);
+/// What the program ends with after such a path.
+[[nodiscard]] exit_status status_of(path_status status, bool kernels_agree = true);
 
 /// "8 calls, 64 values compared, 0 mismatches", of what compares the calls of a path.
 template <class Comparing>

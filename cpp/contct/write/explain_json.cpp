@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "contct/numeric/bits.hpp"
+#include "contct/write/explain.hpp"
+#include "contct/write/explain_exact.hpp"
+#include "contct/write/explain_story.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::write {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json story_json(const std::vector<sentence>& story) {
+  return list_of(story, [](const sentence& t) {
+    json entry;
+    if (t.at.number > 0) entry = {{"line", t.at.number}, {"statement", t.at.statement}};
+    entry["words"] = t.words;
+    if (!t.equation.empty()) entry["equation"] = t.equation;
+    return entry;
+  });
+}
+
+/// The IFs that were reached, in the listing's order, each with its margin.
+json branches_json(const explained_pair& p) {
+  json list = json::array();
+  for (std::size_t b = 0; b < branch_names.size(); ++b) {
+    const taken_branch& t = p.taken[b];
+    if (!t.reached) continue;
+    json& entry = list.emplace_back(json{{"if", branch_conditions[b]}, {"outcome", t.outcome}});
+    if (static_cast<branch>(b) != branch::was_separated) entry["ulps"] = t.ulps;
+  }
+  return list;
+}
+
+/// A number of both kernels: as both have it, and how far they are apart.
+json both_json(const explained_kernels& of, double first, const double* second) {
+  json out = {{of.names[0], hexfloat(first)}};
+  if (second == nullptr) return out;
+  out[of.names[1]] = hexfloat(*second);
+  out["ulps"] = ulps_apart(first, *second, of.real_bytes);
+  return out;
+}
+
+json pair_json(const explained_kernels& of, const explained_increment& i, const exact_addition* more,
+               const explained_pair& p) {
+  json out = {{"pair", p.pair + 1}};
+  put_place(out, of.what.geometry, p.node - 1);
+  out.update({{"surface", surface_name(p.surface)},
+              {"before", state_name(p.isep_before)},
+              {"after", state_name(p.isep_after)},
+              {"kind", kind_name(p)},
+              {"c", p.c},
+              {"d", p.d},
+              {"d_star", p.d_star},
+              {"gap", p.gap},
+              {"s", p.s}});
+  if (p.at(branch::check_positive).reached) out["s_chk"] = p.s_chk;
+  if (p.at(branch::within_epsmul).reached) out["diff"] = p.diff;
+  out.update({{"leads", p.took_the_lead()}, {"toggled", p.toggled()}, {"why", name_of(p.why)}});
+  if (p.toggled()) out["distance_from_face"] = p.distance;
+  out["branches"] = branches_json(p);
+  out["bits"] = both_json(of, p.s, i.other == nullptr ? nullptr : &i.other->ss[p.pair]);
+  if (i.other != nullptr) out["isep"] = {{of.names[0], p.isep_after}, {of.names[1], i.other->isep[p.pair]}};
+  if (more != nullptr) more->put_pair(out, of, i, p);
+  std::vector<sentence> story = scale_factor_story(p);
+  if (i.call.winner >= 0) std::ranges::move(toggle_story(i.call, p), std::back_inserter(story));
+  out["story"] = story_json(story);
+  return out;
+}
+
+json winner_json(const explained_call& c) {
+  if (c.winner < 0) return nullptr;
+  json out = {{"pair", c.winner + 1}};
+  if (c.next >= 0)
+    out.update({{"next_pair", c.next + 1}, {"next_s", c.pairs[c.next].s}, {"ulps_ahead", c.ulps_ahead}});
+  return out;
+}
+
+json narrowest_json(const std::optional<decision>& d) {
+  if (!d) return nullptr;
+  json out = {{"if", branch_conditions[index_of(d->what)]}, {"outcome", d->outcome}, {"ulps", d->ulps}};
+  if (d->pair >= 0) out["pair"] = d->pair + 1;
+  return out;
+}
+
+}  // namespace
+
+explain_json::explain_json(explained_kernels of, output_file& out)
+    : of_(std::move(of)),
+      document_(out,
+                {{"format", "contct-explain-1"},
+                 {"title", of_.what.title},
+                 {"kernels", of_.names},
+                 {"real_bytes", of_.real_bytes}},
+                "increments") {}
+
+void explain_json::write(const explained_increment& i, const exact_addition* more) {
+  json out = {{"step", i.what.step},
+              {"increment", i.what.number},
+              {"fraction_before", i.fraction_before},
+              {"fraction", i.what.fraction},
+              {"s", i.what.s},
+              {"load", load_json(of_.what.geometry, of_.loads, i.what.step, i.what.fraction)},
+              {"smin", both_json(of_, i.call.smin, i.other == nullptr ? nullptr : &i.other->smin)},
+              {"winner", winner_json(i.call)},
+              {"narrowest", narrowest_json(i.call.narrowest)},
+              {"left_undone", i.left_undone},
+              {"story", story_json(winner_story(i.call))}};
+  if (i.apart)
+    out["apart"] = {{"field", i.apart->field},
+                    {"index", i.apart->index},
+                    {of_.names[0], i.apart->leader},
+                    {of_.names[1], i.apart->follower}};
+  if (more != nullptr) more->put_increment(out, of_, i);
+  out["pairs"] = nullptr;
+  const bool all = of_.pair == 0;
+  document_.add(out, {{"pairs", all ? i.call.pairs.size() : 1, [&](std::size_t k) {
+                         return pair_json(of_, i, more, i.call.pairs[all ? k : of_.pair - 1]);
+                       }}});
+}
+
+void explain_json::finish(std::string_view status, const explained_path& path) {
+  json compared = nullptr;
+  if (of_.names.size() > 1) compared = agreement_json(path.calls(), path.compared());
+  document_.finish({{"lockstep", compared}, {"status", status}});
+}
+
+}  // namespace contct::write

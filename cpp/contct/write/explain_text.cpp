@@ -1,0 +1,251 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contct/numeric/bits.hpp"
+#include "contct/write/explain.hpp"
+#include "contct/write/explain_exact.hpp"
+#include "contct/write/explain_story.hpp"
+#include "contct/write/table.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::write {
+
+std::uint64_t ulps_apart(double first, double second, int real_bytes) {
+  return real_bytes == 4 ? ulps_between(static_cast<float>(first), static_cast<float>(second))
+                         : ulps_between(first, second);
+}
+
+std::string side_by_side_words(const explained_kernels& of, double first, double second, bool hex) {
+  const std::string words = hex ? fmt::format("{} {}, {} ", of.names[0], hexfloat(first), of.names[1])
+                                : fmt::format("{} and {} are ", of.names[0], of.names[1]);
+  if (same_bits(first, second)) return words + "equal to the bit";
+  const std::string apart = std::isnan(first) != std::isnan(second)
+                                ? (hex ? "one is NaN" : "different: one is NaN")
+                                : fmt::format("{} ULP apart", ulps_apart(first, second, of.real_bytes));
+  return words + (hex ? fmt::format("{}: {}", hexfloat(second), apart) : apart);
+}
+
+namespace {
+
+/// The text of one increment.
+class increment_printer {
+ public:
+  increment_printer(const explained_kernels& of, const terminal& t, bool hex, const explained_increment& i,
+                    const exact_addition* more)
+      : of_(of), terminal_(t), hex_(hex), i_(i), more_(more) {}
+
+  std::string text(bool first) {
+    if (first && !of_.what.title.empty()) say(paint::strong, on_one_line(of_.what.title));
+    if (first)
+      say(paint::quiet,
+          "On the left: line numbers of the listing, fortran/contct.f. On the right: equations of the "
+          "paper.");
+    out_ += "\n";
+    const std::string heading = fmt::format("Step {}, increment {}", i_.what.step, i_.what.number);
+    say(paint::strong, heading);
+    say(paint::strong, std::string(heading.size(), '-'));
+    print_load();
+    for (const explained_pair& p : i_.call.pairs) {
+      if (of_.wants(p)) print_pair(p);
+    }
+    print_winner();
+    print_toggles();
+    print_outcome();
+    return std::move(out_);
+  }
+
+ private:
+  void say(paint p, const std::string& words) {
+    for (const std::string& line : wrap({words}, terminal_.width)) out_ += painted(terminal_, p, line) + "\n";
+  }
+
+  /// "  38  s = GAP / d* = 0.25.                 (4)"; where there is room, with the statement behind its
+  /// number.
+  void say(const sentence& t, bool loud = false) {
+    constexpr int margin = 6;
+    constexpr int statement_width = 49;
+    constexpr int width_with_statements = 120;
+    std::string head = t.at.number > 0 ? fmt::format("{:>4}  ", t.at.number) : std::string(margin, ' ');
+    if (terminal_.width >= width_with_statements)
+      head += fmt::format("{:<{}}", t.at.statement, statement_width);
+    const int room = terminal_.width - static_cast<int>(head.size());
+    std::vector<std::string> lines = wrap({t.words}, room);
+    if (!t.equation.empty()) {
+      const auto free = room - static_cast<int>(lines.back().size() + t.equation.size());
+      if (free >= 1) {
+        lines.back() += std::string(free, ' ') + t.equation;
+      } else {
+        lines.push_back(fmt::format("{:>{}}", t.equation, room));
+      }
+    }
+    for (const std::string& line : lines) {
+      out_ += head + (loud ? painted(terminal_, paint::bad, line) : line) + "\n";
+      head.assign(head.size(), ' ');
+    }
+  }
+
+  void say_side_by_side(std::string_view what, double first, double second) {
+    const std::string words = side_by_side_words(of_, first, second, hex_);
+    say({no_line, fmt::format("{}: {}", what, words)}, words.find("equal to the bit") == std::string::npos);
+  }
+
+  void say(const std::vector<added_remark>& remarks) {
+    for (const added_remark& r : remarks) say({no_line, r.words}, r.loud);
+  }
+
+  void print_load() {
+    constexpr int room = 24;
+    const std::string now = of_.loads.words_at(i_.what.step, i_.fraction_before, room);
+    const std::string aim = of_.loads.words_at(i_.what.step, 1.0, room);
+    if (now.empty() || aim.empty()) return;
+    say(paint::quiet, fmt::format("The residual load leads from {} to {}.", now, aim));
+  }
+
+  void print_pair(const explained_pair& p) {
+    out_ += "\n";
+    say(paint::strong, fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1,
+                                   place_words(of_.what.geometry, p.node - 1), surface_name(p.surface),
+                                   p.isep_before == separated ? "separated" : "in contact", kind_name(p)));
+    for (const sentence& t : scale_factor_story(p)) say(t);
+    if (i_.other != nullptr) say_side_by_side("s", p.s, i_.other->ss[p.pair]);
+    if (more_ != nullptr) say(more_->of_s(of_, i_, p));
+  }
+
+  void print_winner() {
+    out_ += "\n";
+    say(paint::strong, "The smallest s");
+    for (const sentence& t : winner_story(i_.call)) say(t);
+    if (i_.other != nullptr) say_side_by_side("SMIN", i_.call.smin, i_.other->smin);
+    if (more_ != nullptr) say(more_->of_smin(of_, i_));
+    if (!i_.call.narrowest) return;
+    constexpr std::uint64_t close = 1'000'000;
+    say({no_line, i_.call.narrowest->ulps <= close
+                      ? "The narrowest decision of this call: " + words_of(*i_.call.narrowest) + "."
+                      : "No decision of this call was close."});
+  }
+
+  void print_toggles() {
+    if (i_.call.winner < 0) return;
+    for (const explained_pair& p : i_.call.pairs) {
+      if (!of_.wants(p)) continue;
+      out_ += "\n";
+      say(paint::strong, fmt::format("Pair {}: {}", p.pair + 1, name_of(p.why)));
+      for (const sentence& t : toggle_story(i_.call, p))
+        say(t, t.at.number == 0 && p.why != why_toggled::same_moment);
+      if (i_.other != nullptr && i_.other->isep[p.pair] != p.isep_after)
+        say({no_line, fmt::format("ISEP: {} {}, {} {}: DIFFERENT", of_.names[0], p.isep_after, of_.names[1],
+                                  i_.other->isep[p.pair])},
+            true);
+    }
+  }
+
+  void print_outcome() {
+    out_ += "\n";
+    if (i_.left_undone) {
+      say(paint::quiet,
+          "After this event only rounding would be left of the load. The driver, not CONTCT, restores ISEP "
+          "and applies the whole residual load.");
+    }
+    if (i_.what.s == 1.0) {
+      say(paint::quiet, "The whole residual load is applied: D + d* is the new D (10). The step ends here.");
+    } else {
+      say(paint::quiet, fmt::format("The share s = {} of the residual load is applied: D + s d* is the new D "
+                                    "(10). The share of the step is now {}.",
+                                    share_words(i_.what.s), share_words(i_.what.fraction)));
+    }
+    if (more_ != nullptr) {
+      for (const added_remark& r : more_->of_end(of_, i_)) say(r.loud ? paint::bad : paint::quiet, r.words);
+    }
+    if (i_.apart && i_.other == nullptr)
+      say(paint::bad, fmt::format("{} gave no answer: {}", of_.names[1], i_.apart->follower));
+    if (i_.apart && i_.apart->field == "text")
+      say(paint::bad, fmt::format(R"(Unit 26, line {}: {} wrote "{}", {} wrote "{}")", i_.apart->index,
+                                  of_.names[0], i_.apart->leader, of_.names[1], i_.apart->follower));
+  }
+
+  const explained_kernels& of_;
+  const terminal& terminal_;
+  bool hex_;
+  const explained_increment& i_;
+  const exact_addition* more_;
+  std::string out_;
+};
+
+/// "1, 3" for the pairs that were toggled for this reason.
+std::string pairs_toggled(const explained_call& c, why_toggled why) {
+  std::vector<int> pairs;
+  for (const explained_pair& p : c.pairs)
+    if (p.why == why) pairs.push_back(p.pair + 1);
+  return fmt::format("{}", fmt::join(pairs, ", "));
+}
+
+/// "make 1, break 3", "too early: 3": the events of an increment, and those that came at the wrong place.
+std::vector<std::string> summary_words(const explained_increment& i) {
+  constexpr std::size_t most_named = 12;
+  const std::span<const event> events = i.what.events;
+  std::vector<std::string> words = {event_names(events.first(std::min(events.size(), most_named)))};
+  if (events.empty()) words[0] = i.left_undone ? "no event: the load left after it is rounding" : "no event";
+  if (events.size() > most_named) words[0] += fmt::format(", {} more", events.size() - most_named);
+  if (i.left_undone) return words;
+  if (const std::string early = pairs_toggled(i.call, why_toggled::too_early); !early.empty())
+    words.push_back("too early: " + early);
+  if (const std::string marked = pairs_toggled(i.call, why_toggled::by_mark); !marked.empty())
+    words.push_back("by its mark: " + marked);
+  return words;
+}
+
+/// What stands above the lines of a summary: the problem's title, which may be empty, and the columns.
+std::string summary_head(const terminal& t, const std::string& title) {
+  return (title.empty() ? "" : painted(t, paint::strong, title) + "\n") +
+         painted(t, paint::strong, fmt::format("{:>6}  {:<9}  {}", "incr", "share", "events")) + "\n";
+}
+
+/// An increment with its share of the step, its events, and which of these were too early.
+std::string summary_line(const terminal& t, const explained_increment& i) {
+  constexpr int indent = 6 + 2 + 9 + 2;
+  std::string text;
+  std::string head = fmt::format("{:>6}  {:<9}  ", fmt::format("{}.{}", i.what.step, i.what.number),
+                                 share_words(i.what.fraction));
+  for (const std::string& line : wrap(summary_words(i), t.width - indent)) {
+    text += head + line + "\n";
+    head.assign(indent, ' ');
+  }
+  return text;
+}
+
+std::string summary_end(const terminal& t, std::size_t increments) {
+  const std::vector<std::string> advice = {
+      fmt::format("{} increments; share: share of the step applied so far", increments),
+      "explain one with --increment STEP.INCREMENT, a step with --step, all with --all"};
+  std::string text = "\n";
+  for (const std::string& line : wrap(advice, t.width)) text += line + "\n";
+  return text;
+}
+
+}  // namespace
+
+explain_text::explain_text(explained_kernels of, const terminal& t, explain_detail detail)
+    : of_(std::move(of)), terminal_(t), detail_(detail), summary_(summary_head(t, of_.what.title)) {}
+
+std::string explain_text::add(const explained_increment& i, const exact_addition* more) {
+  ++increments_;
+  const bool in_full = detail_.all || increments_ <= most_told_in_full;
+  std::string text;
+  if (in_full) text = increment_printer(of_, terminal_, detail_.hex, i, more).text(increments_ == 1);
+  if (detail_.all) return text;
+  in_full_ += text;
+  summary_ += summary_line(terminal_, i);
+  if (in_full) return "";
+  in_full_.clear();
+  return std::exchange(summary_, "");
+}
+
+std::string explain_text::finish() {
+  if (detail_.all || increments_ == 0) return "";
+  return increments_ <= most_told_in_full ? in_full_ : summary_end(terminal_, increments_);
+}
+
+}  // namespace contct::write

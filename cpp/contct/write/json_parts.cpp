@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "contct/write/result_json.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct::write {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+/// "all", "2..9", or a list; from 1.
+json elements_json(const std::vector<int>& elements) {
+  if (elements.empty()) return "all";
+  if (!is_run(elements)) return numbered(elements);
+  return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
+}
+
+}  // namespace
+
+json_document::json_document(output_file& out, const json& members, std::string_view name) : out_(out) {
+  out_.write("{");
+  write_members(members, {}, 2);
+  out_.write(fmt::format(",\n  {}: [", json_text(json(name))));
+}
+
+void json_document::write_members(const json& members, const std::vector<list>& lists, int indent) {
+  std::string_view before;
+  for (const auto& [name, value] : members.items()) {
+    out_.write(fmt::format("{}\n{:{}}{}: ", std::exchange(before, ","), "", indent, json_text(json(name))));
+    const auto l = std::ranges::find(lists, std::string_view(name), &list::name);
+    if (l == lists.end()) {
+      out_.write(json_text(value));
+    } else {
+      out_.write("[");
+      for (std::size_t i = 0; i < l->count; ++i)
+        out_.write(fmt::format("{}\n{:{}}{}", i == 0 ? "" : ",", "", indent + 2, json_text(l->entry(i))));
+      out_.write(l->count == 0 ? "]" : fmt::format("\n{:{}}]", "", indent));
+    }
+  }
+}
+
+void json_document::add(const json& members, const std::vector<list>& lists) {
+  out_.write(fmt::format("{}\n    {{", std::exchange(before_, ",")));
+  write_members(members, lists, 6);
+  out_.write("\n    }");
+}
+
+void json_document::finish(const json& members, const std::vector<list>& lists) {
+  out_.write(before_.empty() ? "]," : "\n  ],");
+  write_members(members, lists, 2);
+  out_.write("\n}\n");
+  out_.finish();
+}
+
+json numbered(const std::vector<int>& from_0) {
+  return list_of(from_0, [](int i) { return i + 1; });
+}
+
+json certificate_json(const std::optional<certificate>& c) {
+  if (!c) return nullptr;
+  json out = {{"exact", c->certified},         {"displacement_error", c->displacement_error},
+              {"equilibrium", c->equilibrium}, {"penetration", c->penetration},
+              {"tension", c->tension},         {"rcond", c->rcond},
+              {"tolerance", certified_share},  {"shape_error", c->shape_error},
+              {"unique", c->unique},           {"independent", c->independent},
+              {"digits", digits_of(*c)}};
+  if (!c->unique) out["displacement_error"] = out["shape_error"] = nullptr;
+  if (!c->problem.empty()) out["problem"] = c->problem;
+  return out;
+}
+
+json error_json(const problem& p, const std::optional<certificate>& c) {
+  const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);
+  const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
+  json out = json::object();
+  const auto put = [&](quantity q, bool is_there) {
+    const std::optional<double> bound = c && c->proved ? c->error[q] : std::nullopt;
+    if (is_there) out[quantity_names[static_cast<std::size_t>(q)]] = bound ? json(*bound) : json(nullptr);
+  };
+  put(quantity::w, true);
+  put(quantity::slope, !of_matrix);
+  put(quantity::force, !p.pairs.empty());
+  put(quantity::gap, !p.pairs.empty());
+  put(quantity::reaction, !p.supports.empty());
+  put(quantity::moment, !of_matrix);
+  put(quantity::shear, of_beam);
+  return out;
+}
+
+json agreement_json(std::int64_t calls, const tally& compared) {
+  return {{"calls", calls}, {"values_compared", compared.values}, {"mismatches", compared.mismatches}};
+}
+
+json load_json(const model& m, const load_path& loads, int step, double fraction) {
+  const resultant r = loads.resultant_at(step, fraction);
+  const auto names = dof_names(m);
+  json out = {{std::holds_alternative<assembled>(m.kind) ? "sum" : "force", r.force}};
+  for (std::size_t i = 0; i < r.moments.size(); ++i)
+    out[r.moments.size() == 1 ? "moment" : fmt::format("moment_{}", names[i + 1])] = r.moments[i];
+  if (loads.has_many_parts(step)) return out;
+  const load l = loads.at(step, fraction);
+  for (const distributed_load& d : l.distributed) {
+    const bool constant = d.polynomial.size() == 1;
+    out["uniform"].push_back(
+        {{constant ? "value" : "polynomial", constant ? json(d.polynomial[0]) : json(d.polynomial)},
+         {"elements", elements_json(d.elements)}});
+  }
+  for (const point_load& p : l.points) {
+    json& point = out["point"].emplace_back();
+    put_place(point, m, p.node);
+    point[names[p.dof]] = p.value;
+  }
+  for (const prescribed_displacement& g : l.settlements) {
+    json& settled = out["settlement"].emplace_back();
+    put_place(settled, m, g.node);
+    settled[names[g.dof]] = g.value;
+  }
+  return out;
+}
+
+void put_place(json& entry, const model& m, int node) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) {
+    entry["dof"] = a->label_of(node);
+  } else {
+    entry["node"] = node + 1;
+  }
+}
+
+json event_json(const problem& p, const event& e) {
+  const contact_pair& at = p.pairs[e.pair];
+  json entry = {{"pair", e.pair + 1}};
+  put_place(entry, p.geometry, at.node);
+  entry.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
+  return entry;
+}
+
+json pair_state_json(const problem& p, std::size_t i, int isep, const json& gap, const json& force) {
+  json entry = {{"pair", i + 1}};
+  put_place(entry, p.geometry, p.pairs[i].node);
+  entry.update({{"surface", surface_name(p.pairs[i].surface)},
+                {"state", state_name(isep)},
+                {"gap", gap},
+                {"force", force}});
+  return entry;
+}
+
+json reaction_json(const problem& p, std::size_t i, const json& value) {
+  json entry = support_json(p.geometry, p.supports[i]);
+  entry["value"] = value;
+  return entry;
+}
+
+json support_json(const model& m, const support& at) {
+  json entry;
+  put_place(entry, m, at.node);
+  if (!entry.contains("dof")) entry["dof"] = dof_names(m)[at.dof];
+  return entry;
+}
+
+}  // namespace contct::write
