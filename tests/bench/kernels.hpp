@@ -12,8 +12,8 @@ namespace bench {
 struct seconds_of_a_call {
   double fortran;
   double cpp;
-  double text;      ///< the listing's call without pairs
-  double lockstep;  ///< both kernels' answers compared; the texts in blocks of calls
+  double text;              ///< the listing's call without pairs
+  double lockstep;          ///< both kernels' answers compared; the texts in blocks of calls
   double lockstep_on_path;  ///< the same with the text of each call compared by itself, as on a path
 };
 [[nodiscard]] seconds_of_a_call time_kernels(std::size_t pairs, int rounds);

@@ -116,7 +116,7 @@ TEST_CASE("exact states are compared by name, and a number without an exact one 
 
 TEST_CASE("errors are measured by the largest number of their kind on the path") {
   const followed f("pb01-cantilever-tip-stop.toml");
-  const measurement m(f.p, f.path.result().record);
+  const measurement m(f.p, f.path.result.record);
   const auto size = [&](const char* quantity, const char* dof = "") {
     expected_number e;
     e.quantity = quantity;
@@ -137,7 +137,7 @@ TEST_CASE("errors are measured by the largest number of their kind on the path")
 TEST_CASE(
     "what a plate does not have measures as nothing: a fifth corner, an element too many, a beam's moment") {
   const followed f("pp01a-simply-supported-plate-n4.toml");
-  const measurement m(f.p, f.path.result().record);
+  const measurement m(f.p, f.path.result.record);
   expected_number e;
   e.step = 1;
   e.quantity = "mx";
@@ -215,7 +215,7 @@ TEST_CASE("verifying a problem compares both paths with the exact number, as clo
 
 TEST_CASE("extremes are named by bound and quantity, and one that the structure does not have is not there") {
   const followed f("pb07-three-gap-supports.toml");
-  const measurement m(f.p, f.path.result().record);
+  const measurement m(f.p, f.path.result.record);
   expected_number e;
   e.step = 3;
   const auto of = [&](const char* quantity) {

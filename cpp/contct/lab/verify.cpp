@@ -111,13 +111,14 @@ double of_support(const problem& p, const step_results& s, const expected_number
   return not_there;
 }
 
-double of_pair(const problem& p, const structure_state& end, const step_results& s, const expected_number& e) {
+double of_pair(const problem& p, const structure_state& end, const step_results& s,
+               const expected_number& e) {
   const std::size_t pair = e.pair - std::size_t{1};
   if (pair >= s.pairs.size()) return not_there;
   if (e.quantity == "state") return end.isep[pair];
   if (e.quantity == "force") return s.pairs[pair].force;
   if (e.quantity != "gap") return not_there;
-  return gap_of(p.pairs[pair], deflection_of(p, end, p.pairs[pair].node), end.closed(pair));
+  return gap_of(p.pairs[pair], deflection_of(p, end.displacement, p.pairs[pair].node), end.closed(pair));
 }
 
 /// "max moment", "min w", or where that is: "x of max moment".
@@ -277,12 +278,12 @@ struct verified_run {
   verified_run(const problem& p, const linear_structure& s, std::vector<std::string> kernels)
       : path(p, s, {.kernels = std::move(kernels), .engine = "refactor"}) {
     path.go({});
-    measured.emplace(p, path.result().record);
+    measured.emplace(p, path.result.record);
   }
 
   /// The certificate of the step that is asked about; null where there is none.
   [[nodiscard]] const certificate* certified(const expected_number& e) const {
-    const auto& steps = path.judged.steps();
+    const auto& steps = path.result.judged.steps();
     const std::size_t at = e.step - 1;
     return at < steps.size() && steps[at] ? &*steps[at] : nullptr;
   }
@@ -313,15 +314,21 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   const linear_structure s = structure_of(p);
   const verified_run listing(p, s, {"fortran", "cpp"});
   const verified_run corrected(p, s, {"corrected"});
-  const lockstep& compared = *listing.path.compared();
-  verified_case out{
-      c.file, p.title, {}, listing.path.judged.steps(), compared.calls(), compared.compared().mismatches, ""};
+  const lockstep& compared = *listing.path.result.compared;
+  verified_case out{c.file,
+                    p.title,
+                    {},
+                    listing.path.result.judged.steps(),
+                    compared.calls(),
+                    compared.compared().mismatches,
+                    ""};
   if (out.calls == 0) out.failure = "the kernels were never called";
   if (out.mismatches > 0) out.failure = "FORTRAN and C++ differ";
-  if (listing.path.end.status != path_status::solved) out.failure = "FORTRAN's path does not reach its end";
-  if (corrected.path.end.status != path_status::solved)
+  if (listing.path.result.end.status != path_status::solved)
+    out.failure = "FORTRAN's path does not reach its end";
+  if (corrected.path.result.end.status != path_status::solved)
     out.failure = "the corrected path does not reach its end";
-  else if (!corrected.path.judged.all_certified())
+  else if (!corrected.path.result.judged.all_certified())
     out.failure = "the corrected kernel is not certified";
   for (const expected_number& e : c.checks) out.numbers.push_back(judged_number(e, listing, corrected));
   return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -110,7 +111,7 @@ struct compared_path {
 /// All that is known of a run when it is over: every output is made from this.
 struct run_result {
   /// `p` and `s`, its structure, must outlive this object.
-  run_result(const problem& p, const linear_structure& s, exact_means exactly = {})
+  run_result(const problem& p, const linear_structure& s, std::unique_ptr<exact_means> exactly = {})
       : what(p), structure(s), judged(p, s, std::move(exactly)) {}
 
   const problem& what;
