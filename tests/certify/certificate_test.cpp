@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/compare/lockstep.hpp"
+#include "contct/path/path_observers.hpp"
 #include "support/beams.hpp"
 #include "support/followed.hpp"
 

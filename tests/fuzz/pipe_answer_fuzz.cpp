@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "contct/outside/child_process.hpp"
+#include "contct/outside/child_kernel.hpp"
 #include "contct/trace/trace.hpp"
 #include "fuzz/fuzz.hpp"
 

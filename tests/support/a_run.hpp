@@ -29,7 +29,7 @@ struct a_run {
   problem what;
   linear_structure structure;
   std::unique_ptr<kernel> leader;
-  lockstep compared;
+  lockstep_on_path compared;
   frame_keeper kept;
   run_recorder record;
   certifier judged;
@@ -41,7 +41,7 @@ struct a_run {
       : what(parse_problem(text, "pb.toml", reach::anywhere)),
         structure(structure_of(what)),
         leader(make_kernel(leads)),
-        compared(make_lockstep(leader->facts(), std::vector<std::string>(leads == "fortran" ? 1 : 0, "cpp"))),
+        compared(leader->facts(), std::vector<std::string>(leads == "fortran" ? 1 : 0, "cpp")),
         kept(structure, loads_of(what, structure), false, limits),
         record(&compared, true),
         judged(what, structure) {

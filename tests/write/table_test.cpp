@@ -59,7 +59,7 @@ tables tables_of(const std::string& text) {
   const scratch_folder folder;
   output_file increments(folder.at("run.csv")), pairs(folder.at("run.pairs.csv"));
   auto leader = make_kernel("fortran");
-  lockstep compared = make_lockstep(leader->facts(), std::vector<std::string>{"cpp"});
+  lockstep_on_path compared(leader->facts(), std::vector<std::string>{"cpp"});
   const linear_structure s = structure_of(p);
   frame_keeper states(s, loads_of(p, s), false);
   states.solve_each();

@@ -73,8 +73,7 @@ class fuzzing final : public observer {
 
   void called(const answered_call& c) override {
     path_.push_back(inputs_of(c));
-    const bool has_text = leader_->facts().has_text;
-    compare(std::ssize(path_), c.c, c.isep_before, has_text ? std::optional(c.text) : std::nullopt);
+    compare(c);
   }
 
  private:
@@ -85,7 +84,7 @@ class fuzzing final : public observer {
       const call_inputs<double>& in = source_.at(number);
       call<double> answered = outputs.prepare(in);
       leader_->answer(answered);
-      compare(number, answered, in.isep, std::nullopt);
+      compare({answered, in.isep, {}, number});
       block.push_back(number);
       if (std::ssize(block) == calls_in_a_block) end_block(block);
     }
@@ -105,10 +104,9 @@ class fuzzing final : public observer {
     if (progress_) progress_(run_.result.problems, request_.problems / request_.shards, "problems");
   }
 
-  void compare(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
-               std::optional<std::string_view> text) {
-    run_.result.count(answered, isep_before);
-    compared_->put(number, answered, isep_before, text);
+  void compare(const answered_call& c) {
+    run_.result.count(c.c, c.isep_before);
+    compared_->put(c);
     for (std::size_t f = 0; f < firsts_.size(); ++f)
       run_.result.followers[f].note(compared_->last_answers()[f]);
   }
@@ -151,7 +149,7 @@ class fuzzing final : public observer {
         continue;  // counted already
       }
       if (const auto found = compare_text(text, f.asked().take_text(), f.compared, f.equality()))
-        f.note(number, *found, answered, in.isep);
+        f.note(*found, {answered, in.isep, {}, number});
     }
   }
 

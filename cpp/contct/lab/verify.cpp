@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "contct/compare/lockstep.hpp"
 #include "contct/exact/exact_means.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/numeric/rational.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/read/toml_reader.hpp"
@@ -310,7 +310,7 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   certifier judged(p, s, exact::exact_means_of(p));
   const auto fortran = make_kernel("fortran");
   const std::string followers[] = {"cpp"};
-  lockstep compared = make_lockstep(fortran->facts(), followers);
+  lockstep_on_path compared(fortran->facts(), followers);
   const path_end end = follow(p, s, "refactor", *fortran, {&compared, &judged, &listing});
   measurement corrected(p);
   const problem_result right = try_structure(p, s, *make_kernel("corrected"), "refactor", {&corrected});

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/free_run.hpp"
+#include "contct/path/free_run.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/write/step_results.hpp"

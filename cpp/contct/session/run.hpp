@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/free_run.hpp"
-#include "contct/compare/lockstep.hpp"
 #include "contct/path/frames.hpp"
+#include "contct/path/free_run.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/run_result.hpp"
 #include "contct/write/table.hpp"
@@ -95,14 +95,14 @@ class run {
   /// Writes what the leader writes to unit 26.
   struct log_writer final : observer {
     explicit log_writer(output_file& file) : out(file) {}
-    void called(const answered_call& c) override { out.write(c.text); }
+    void called(const answered_call& c) override { out.write(c.text.value_or("")); }
 
     output_file& out;
   };
 
   std::unique_ptr<kernel> leader_;  // while it follows the path
   kernel_facts leader_facts_ = {};
-  std::optional<lockstep> compared_;
+  std::optional<lockstep_on_path> compared_;
   run_outputs to_;
   std::optional<log_writer> log_;
   std::optional<trace_recorder> trace_;

@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/free_run.hpp"
-#include "contct/compare/lockstep.hpp"
 #include "contct/path/frames.hpp"
-#include "contct/path/observer.hpp"
+#include "contct/path/free_run.hpp"
 #include "contct/path/path.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/structure/extremes.hpp"
 #include "contct/structure/problem.hpp"
 
