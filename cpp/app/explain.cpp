@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
-#include "contct/compare/explanation.hpp"
 #include "contct/exact/exact_problem.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/listing_kernels.hpp"
 #include "contct/text/input_text.hpp"

@@ -24,13 +24,13 @@ using namespace matrix;
 namespace contct::solve {
 using namespace structure;
 }
-namespace contct::path {
+namespace contct::compare {
 using namespace outside;
+}
+namespace contct::path {
+using namespace compare;
 using namespace solve;
 }  // namespace contct::path
-namespace contct::compare {
-using namespace path;
-}
 namespace contct::certify {
 using namespace path;
 }
@@ -41,7 +41,6 @@ namespace contct::read {
 using namespace structure;
 }
 namespace contct::write {
-using namespace compare;
 using namespace certify;
 using namespace exact;
 }  // namespace contct::write

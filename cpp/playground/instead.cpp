@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/outside/child_process.hpp"
+#include "contct/outside/child_kernel.hpp"
 
 extern "C" {
 void ilaver_(int* major, int* minor, int* patch);

@@ -55,7 +55,7 @@ class both_kernels {
   /// SMIN, SS and ISEP of each call, and the text of a block of calls.
   void ask_in_block() {
     contct::app::call<double> c = asked_of_leader();
-    (void)follows_.ask(++calls_, c, isep_before_, std::nullopt);
+    (void)follows_.ask({c, isep_before_, {}, ++calls_});
     constexpr int block = 2048;
     if (calls_ % block != 0) return;
     (void)compare_text(leader_->take_text(), cpp_->take_text(), follows_.compared);
@@ -64,7 +64,7 @@ class both_kernels {
   void ask_on_path() {
     contct::app::call<double> c = asked_of_leader();
     const std::string text = leader_->take_text();
-    (void)follows_.ask(++calls_, c, isep_before_, text);
+    (void)follows_.ask({c, isep_before_, text, ++calls_});
   }
 
   /// Throws where they differ, or less was compared than SMIN, SS and ISEP of each call.

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/compare/lockstep.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
 

@@ -11,20 +11,15 @@ using namespace contct::app;
 
 namespace {
 
-/// The decisions of an answered call.
-std::vector<decision> decided(small_call<double> c) {
-  const std::vector<int> before = c.isep;
-  c.ask();
-  call<double> answered = c.arguments();
-  answered.smin = c.smin;
-  return decisions_of(answered, before);
-}
-
-std::uint64_t margin_of(const std::vector<decision>& all, branch what, int pair) {
-  for (const decision& d : all)
-    if (d.what == what && d.pair == pair) return d.ulps;
-  FAIL("no such decision");
-  return 0;
+/// The margin of that decision of the call, once it is answered.
+std::uint64_t margin_of(small_call<double> c, branch what, std::size_t pair) {
+  std::optional<std::uint64_t> margin;
+  const answered_call answered = c.ask().answered();
+  for_each_decision(answered.c, answered.isep_before, [&](branch b, std::size_t i, bool, double x, double y) {
+    if (b == what && i == pair) margin = margin_between(x, y);
+  });
+  REQUIRE(margin);
+  return *margin;
 }
 
 }  // namespace
@@ -34,12 +29,9 @@ TEST_CASE("each IF of the listing is counted by its outcome") {
                         {0.0, 1.0, 0.0, in_contact, face_below},    // stationary, pulled: breaks
                         {0.0, -1.0, 0.0, in_contact, face_below},   // stationary, pressed: quiet
                         {0.0, 1.0, -0.5, separated, face_below}});  // moves away
-  const std::vector<int> before = c.isep;
-  c.ask();
-  call<double> answered = c.arguments();
-  answered.smin = c.smin;
+  const answered_call answered = c.ask().answered();
   branch_counts counts;
-  counts.count(answered, before);
+  counts.count(answered.c, answered.isep_before);
   CHECK(counts.of(branch::no_response, true) == 1);
   CHECK(counts.of(branch::no_response, false) == 3);
   CHECK(counts.of(branch::stationary, true) == 2);
@@ -60,44 +52,44 @@ TEST_CASE("each IF of the listing is counted by its outcome") {
 TEST_CASE("an event within EPSMUL by one ULP has the margin of that ULP, and one exactly at it has none") {
   const double edge = 0.5 + 0.5 / 256;
   for (const auto& [face, ulps] : {std::pair(edge, 0UL), {std::nextafter(edge, 0.0), 1UL}}) {
-    const auto all = decided(small_call<double>(
-        {{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, face, separated, face_above}}));
+    const small_call<double> c(
+        {{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, face, separated, face_above}});
     // Below 2^-8 numbers are 2^-61 apart; one ULP of an s of 0.5 makes 2^-52 of DIFF.
-    CHECK(margin_of(all, branch::within_epsmul, 1) == ulps * 512);
+    CHECK(margin_of(c, branch::within_epsmul, 1) == ulps * 512);
   }
 }
 
-TEST_CASE("a gap one ULP below EPSGAP is at its face by one ULP") {
-  const auto all =
-      decided(small_call<double>({{0.0, 1.0, std::nextafter(1e-10, 0.0), separated, face_above}}));
-  CHECK(margin_of(all, branch::stationary, 0) == 1);
-  const std::optional<decision> least = narrowest(all);
+TEST_CASE("a gap one ULP below EPSGAP is at its face by one ULP, which is the call's narrowest decision") {
+  small_call<double> c({{0.0, 1.0, std::nextafter(1e-10, 0.0), separated, face_above}});
+  CHECK(margin_of(c, branch::stationary, 0) == 1);
+  const std::optional<decision> least = narrowest_decision(c.ask().answered(), 8);
   REQUIRE(least);
   CHECK(words_of(*least) == "pair 1: IF (ABS(GAP).LT.EPSGAP) was true by 1 ULP");
 }
 
 TEST_CASE("both zeros are exactly on the threshold of IF (DTEST(NDOF).EQ.0.)") {
-  for (const double zero : {0.0, -0.0}) {
-    const auto all = decided(small_call<double>({{0.0, zero, 0.5, separated, face_above}}));
-    CHECK(margin_of(all, branch::no_response, 0) == 0);
-  }
-  const double least = std::numeric_limits<double>::denorm_min();
-  CHECK(margin_of(decided(small_call<double>({{0.0, least, 0.5, separated, face_above}})),
-                  branch::no_response, 0) == 1);
+  const auto margin = [](double d_star) {
+    return margin_of(small_call<double>({{0.0, d_star, 0.5, separated, face_above}}), branch::no_response, 0);
+  };
+  CHECK(margin(0.0) == 0);
+  CHECK(margin(-0.0) == 0);
+  CHECK(margin(std::numeric_limits<double>::denorm_min()) == 1);
 }
 
 TEST_CASE("with NaN there is no count, and the words say so") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto all = decided(small_call<double>({{nan, 1.0, 0.5, separated, face_above}}));
-  CHECK(margin_of(all, branch::stationary, 0) == std::numeric_limits<std::uint64_t>::max());
-  CHECK(words_of(all[1]) == "pair 1: IF (ABS(GAP).LT.EPSGAP) was false, with NaN");
+  const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  CHECK(margin_of(small_call<double>({{nan, 1.0, 0.5, separated, face_above}}), branch::stationary, 0) ==
+        most);
+  CHECK(words_of({branch::stationary, 0, false, most}) ==
+        "pair 1: IF (ABS(GAP).LT.EPSGAP) was false, with NaN");
 }
 
 TEST_CASE("margins of a 4-byte call are counted in 4-byte numbers") {
-  const float edge = std::nextafter(1e-10F, 0.0F);
-  small_call<double> c({{0.0, 1.0, static_cast<double>(edge), separated, face_above}});
-  call<double> answered = c.arguments();
-  answered.smin = 1e-20;
-  const auto all = decisions_of(answered, c.isep, 4);
-  CHECK(margin_of(all, branch::stationary, 0) == 1);
+  const auto face = static_cast<double>(std::nextafter(1e-10F, 0.0F));
+  small_call<double> c({{0.0, 1.0, face, separated, face_above}});
+  const std::optional<decision> least = narrowest_decision(c.ask().answered(), 4);
+  REQUIRE(least);
+  CHECK(least->what == branch::stationary);
+  CHECK(least->ulps == 1);
 }

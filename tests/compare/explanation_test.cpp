@@ -18,11 +18,7 @@ using namespace contct::app;
 namespace {
 
 explained_call explained(small_call<double> c, double largest = 0.0) {
-  const std::vector<int> before = c.isep;
-  c.ask();
-  call<double> answered = c.arguments();
-  answered.smin = c.smin;
-  return explain(answered, before, 8, largest);
+  return explain(c.ask().answered(), 8, largest);
 }
 
 /// The statement field of fixed form: behind column 6, without blanks at its ends.
@@ -122,7 +118,7 @@ TEST_CASE("the winner's s is SMIN, and what is explained as toggled was toggled:
       k->answer(c);
       out.smin = c.smin;
       double largest = 0.0;
-      const explained_call e = explain(c, in.isep, k->facts().real_bytes, largest);
+      const explained_call e = explain({c, in.isep}, k->facts().real_bytes, largest);
       events += e.winner >= 0 ? 1 : 0;
       wrong += agree(in, out, e) ? 0 : 1;
     }
@@ -153,13 +149,10 @@ TEST_CASE(
   small_call<double> c({{0.1, 1.0, 0.4, separated, face_above},
                         {0.4, 1.0, 0.1, separated, face_above},
                         {0.0, 0.0, 1.0, separated, face_above}});
-  const std::vector<int> before = c.isep;
   c.ask();
-  call<double> answered = c.arguments();
-  answered.smin = c.smin;
   double largest = 0.0;
   for (const int bytes : {8, 4}) {
-    const explained_call e = explain(answered, before, bytes, largest);
+    const explained_call e = explain(c.answered(), bytes, largest);
     CHECK(e.real_bytes == bytes);
     CHECK(e.pairs[0].gap == (bytes == 8 ? 0.4 - 0.1 : static_cast<double>(0.4F - 0.1F)));
     CHECK(e.pairs[1].gap < 0.0);

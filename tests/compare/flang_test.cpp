@@ -22,7 +22,7 @@ TEST_CASE("flang's unit 26 is its own: one for each run-time library, and one at
   const auto first = make_kernel("flang");
   const auto beside = make_kernel("fortran");
   CHECK_THROWS_AS(make_kernel("flang"), std::logic_error);
-  const kernel_answer a = ask_kernel(*first, one_pair_at(0.25));
+  const call_outputs a = answer_of(*first, one_pair_at(0.25));
   CHECK_THAT(a.text, Catch::Matchers::Contains("SCALE FACTOR =  0.2500E+00"));
   CHECK(beside->take_text().empty());
 }

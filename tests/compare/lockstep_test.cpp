@@ -1,5 +1,3 @@
-#include "contct/compare/lockstep.hpp"
-
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -7,6 +5,7 @@
 
 #include "catch.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/path/path_observers.hpp"
 #include "support/beams.hpp"
 
 using namespace contct::app;
@@ -35,23 +34,23 @@ class faulty_kernel final : public kernel {
 };
 
 /// PB1 led by FORTRAN, with one follower.
-lockstep in_lockstep_with(std::unique_ptr<kernel> follower) {
+lockstep_on_path in_lockstep_with(std::unique_ptr<kernel> follower) {
   const auto leader = make_kernel("fortran");
   std::vector<std::unique_ptr<kernel>> followers;
   followers.push_back(std::move(follower));
-  lockstep compared(leader->facts(), std::move(followers));
+  lockstep_on_path compared(leader->facts(), std::move(followers));
   cantilever_over_a_stop().run(*leader, {&compared});
   return compared;
 }
 
-lockstep with_fault(std::function<void(call<double>&, std::string&)> fault) {
+lockstep_on_path with_fault(std::function<void(call<double>&, std::string&)> fault) {
   return in_lockstep_with(std::make_unique<faulty_kernel>(std::move(fault)));
 }
 
 }  // namespace
 
 TEST_CASE("FORTRAN and C++ follow PB1 in lockstep, and everything is counted") {
-  const lockstep compared = in_lockstep_with(make_kernel("cpp"));
+  const lockstep_on_path compared = in_lockstep_with(make_kernel("cpp"));
   CHECK(compared.calls() == 6);
   CHECK(compared.compared().values == 6L * 4);  // SMIN, SS, ISEP, text
   CHECK(compared.compared().mismatches == 0);
@@ -60,13 +59,13 @@ TEST_CASE("FORTRAN and C++ follow PB1 in lockstep, and everything is counted") {
 }
 
 TEST_CASE("how far each follower was off in the last call is counted in ULPs, for SMIN and for the worst s") {
-  const lockstep good = in_lockstep_with(make_kernel("cpp"));
+  const lockstep_on_path good = in_lockstep_with(make_kernel("cpp"));
   REQUIRE(good.last_answers().size() == 1);
   CHECK(good.last_answers()[0].values == 4);
   CHECK(good.last_answers()[0].mismatches == 0);
   CHECK(good.last_answers()[0].smin_ulps == 0);
   CHECK(good.last_answers()[0].ss_ulps == 0);
-  const lockstep off = with_fault([](call<double>& c, std::string&) {
+  const lockstep_on_path off = with_fault([](call<double>& c, std::string&) {
     c.smin = std::nextafter(c.smin, 2.0);
     c.ss[0] = std::nextafter(std::nextafter(c.ss[0], 2.0), 2.0);
   });
@@ -78,7 +77,7 @@ TEST_CASE("how far each follower was off in the last call is counted in ULPs, fo
 
 TEST_CASE("a fault of one ULP in SMIN is caught at its first call") {
   int call_number = 0;
-  const lockstep compared = with_fault([&](call<double>& c, std::string&) {
+  const lockstep_on_path compared = with_fault([&](call<double>& c, std::string&) {
     if (++call_number == 2) c.smin = std::nextafter(c.smin, 1.0);
   });
   REQUIRE(compared.first());
@@ -103,7 +102,7 @@ TEST_CASE("the last call is equal only when no follower's answer to it differs")
       else
         followers.push_back(make_kernel("cpp"));
     }
-    lockstep compared(leader->facts(), std::move(followers));
+    lockstep_on_path compared(leader->facts(), std::move(followers));
     cantilever_over_a_stop().run(*leader, {&compared});
     CHECK_FALSE(compared.last_call_equal());
     CHECK(compared.last_answers()[place].mismatches == 1);
@@ -114,7 +113,7 @@ TEST_CASE("the last call is equal only when no follower's answer to it differs")
 }
 
 TEST_CASE("a follower that gives no answer has one mismatch in its call, and its distance is not measured") {
-  const lockstep compared =
+  const lockstep_on_path compared =
       with_fault([](call<double>&, std::string&) { throw kernel_failure("it ended with status 3"); });
   CHECK(compared.compared().values == 6);
   CHECK(compared.compared().mismatches == 6);
@@ -133,18 +132,11 @@ TEST_CASE("faults in SS, in ISEP and in the text are caught too") {
 TEST_CASE("a follower that goes wrong does not lead the path astray") {
   // Every call goes to the follower with the leader's inputs, so one fault is one mismatch.
   int call_number = 0;
-  const lockstep compared = with_fault([&](call<double>& c, std::string&) {
+  const lockstep_on_path compared = with_fault([&](call<double>& c, std::string&) {
     if (++call_number == 1) c.isep[0] = in_contact;
   });
   CHECK(compared.compared().mismatches == 1);
   CHECK(compared.last_call_equal());
-}
-
-TEST_CASE("kernels of different precision cannot be compared in lockstep, and the refusal names --free-run") {
-  std::vector<std::unique_ptr<kernel>> followers;
-  followers.push_back(make_kernel("cpp-r4"));
-  const auto leader = make_kernel("fortran");
-  CHECK_THROWS_WITH(lockstep(leader->facts(), std::move(followers)), Catch::Matchers::Contains("--free-run"));
 }
 
 TEST_CASE("of several followers the mismatch of the earliest call is told, whichever of them comes first") {
@@ -158,7 +150,7 @@ TEST_CASE("of several followers the mismatch of the earliest call is told, which
     std::vector<std::unique_ptr<kernel>> followers;
     followers.push_back(wrong_from(early_first ? 2 : 4, early_first ? 0.25 : 0.5));
     followers.push_back(wrong_from(early_first ? 4 : 2, early_first ? 0.5 : 0.25));
-    lockstep compared(leader->facts(), std::move(followers));
+    lockstep_on_path compared(leader->facts(), std::move(followers));
     cantilever_over_a_stop().run(*leader, {&compared});
     REQUIRE(compared.first());
     CHECK(compared.first()->call == 2);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/kernel/call_inputs.hpp"
+#include "contct/kernel/call.hpp"
 
 namespace golden {
 

@@ -101,6 +101,20 @@ TEST_CASE("a defect of the listing: its mark for 'no event' is toggled when the 
   CHECK(c.isep == std::vector<int>{touching, touching});
 }
 
+// An initial state that its faces contradict: problem files refuse it (reference/DIVERGENCES.md, way 5).
+TEST_CASE(
+    "a pair that starts on the wrong side of its face toggles the wrong way round, and nothing notices") {
+  small_call<double> pressed({{0.0, -1.0, 0.1, apart, below}});  // the face is inside the structure
+  CHECK(pressed.ask().smin == 1.0);                              // which ends 1.1 deep
+  CHECK(pressed.ss[0] == -0.1);
+  small_call<double> leaves({{0.0, 1.0, 0.1, apart, below}});
+  CHECK(leaves.ask().smin == 0.1);
+  CHECK(leaves.isep[0] == touching);
+  small_call<double> reaches({{0.0, -1.0, -0.1, touching, below}});
+  CHECK(reaches.ask().smin == 0.1);
+  CHECK(reaches.isep[0] == apart);
+}
+
 TEST_CASE("EPSGAP is a length: in small units every gap counts as closed") {
   // The same structure in units in which it measures 1e-10: a real gap is taken for contact at rest.
   small_call<double> c({{0.0, -4e-11, -1e-11, apart, below}});

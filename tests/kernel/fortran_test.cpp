@@ -3,7 +3,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -58,19 +57,6 @@ TEST_CASE("unit 26 hands its text back, once") {
   c.isep[0] = separated;
   fortran::contct(arguments);
   CHECK(log.take() == text);
-}
-
-TEST_CASE("text longer than any buffer comes back whole") {
-  fortran::unit_26 log;
-  auto c = one_that_closes();
-  call<double> arguments = c.arguments();
-  constexpr int calls = 5000;
-  for (int i = 0; i < calls; ++i) {
-    c.isep[0] = separated;
-    fortran::contct(arguments);
-  }
-  const std::string text = log.take();
-  CHECK(std::count(text.begin(), text.end(), '\n') == 2L * calls);
 }
 
 TEST_CASE(

@@ -4,23 +4,14 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/kernel/call_inputs.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/numeric/bits.hpp"
 #include "contct/outside/registry.hpp"
+#include "support/one_pair.hpp"
 
 using namespace contct::app;
 
 namespace {
-
-call_outputs answer(kernel& k, const call_inputs<double>& in) {
-  call_outputs out;
-  call<double> c = out.prepare(in);
-  k.answer(c);
-  out.smin = c.smin;
-  out.text = k.take_text();
-  return out;
-}
 
 bool same(const call_outputs& a, const call_outputs& b) {
   return same_bits(a.smin, b.smin) && a.isep == b.isep && a.text == b.text &&
@@ -39,11 +30,11 @@ TEST_CASE("every kernel gives the same bits when it is asked again, in another o
     INFO(name);
     const auto k = make_kernel(name);
     std::vector<call_outputs> first;
-    for (int i = 0; i < calls; ++i) first.push_back(answer(*k, inputs[i]));
+    for (int i = 0; i < calls; ++i) first.push_back(answer_of(*k, inputs[i]));
     int events = 0;
     for (int i = calls - 1; i >= 0; --i) {
-      REQUIRE(same(answer(*k, inputs[i]), first[i]));
-      REQUIRE(same(answer(*k, inputs[i]), first[i]));
+      REQUIRE(same(answer_of(*k, inputs[i]), first[i]));
+      REQUIRE(same(answer_of(*k, inputs[i]), first[i]));
       events += first[i].isep != inputs[i].isep ? 1 : 0;
     }
     CHECK(events > calls / 10);

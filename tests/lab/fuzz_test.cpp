@@ -87,14 +87,14 @@ TEST_CASE("how near a follower came is the largest distance, and whether its eve
   std::vector<std::unique_ptr<kernel>> followers;
   followers.push_back(make_kernel("cpp"));
   lockstep compared(facts_of_kernel("cpp"), std::move(followers));
-  compared.put(1, led, in.isep, std::nullopt);
+  compared.put({led, in.isep, {}, 1});
   fuzz_follower r;
   r.note(compared.last_answers()[0]);
   CHECK(r.most_ulps == 2);
   CHECK(r.same_events);
   CHECK(r.always_answered);
   led.isep[0] = separated;
-  compared.put(2, led, in.isep, std::nullopt);
+  compared.put({led, in.isep, {}, 2});
   r.note(compared.last_answers()[0]);
   CHECK_FALSE(r.same_events);
 }

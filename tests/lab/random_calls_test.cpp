@@ -46,11 +46,12 @@ TEMPLATE_TEST_CASE("adversarial calls stand on every threshold, and one ULP to e
     events.resize(in.pairs());
     call<Real> c{in.dd, in.dtest, in.cc, ss, Real(0), in.id, isep, in.isurf, in.dof};
     (void)contct::app::contct(c, std::span<event>(events));
-    for (const decision& d : decisions_of<Real>(c, in.isep)) {
-      near[d.what][0] += d.ulps == 0;
-      near[d.what][1] += d.ulps == 1 && d.outcome;
-      near[d.what][2] += d.ulps == 1 && !d.outcome;
-    }
+    for_each_decision(c, in.isep, [&near](branch b, std::size_t, bool outcome, Real left, Real right) {
+      const std::uint64_t ulps = margin_between(left, right);
+      near[b][0] += ulps == 0;
+      near[b][1] += ulps == 1 && outcome;
+      near[b][2] += ulps == 1 && !outcome;
+    });
   }
   for (const branch b : {branch::no_response, branch::stationary, branch::s_positive, branch::s_is_smallest,
                          branch::no_events}) {

@@ -72,7 +72,7 @@ void put_random_calls(const std::string& language, int real_bytes, std::uint64_t
     contct::app::call<double> c = led.prepare(in);
     leader->answer(c);
     const std::string text = leader->take_text();
-    const auto& found = asked.ask(static_cast<std::int64_t>(n), c, in.isep, text);
+    const auto& found = asked.ask({c, in.isep, text, static_cast<std::int64_t>(n)});
     if (found) return say_difference(static_cast<std::int64_t>(n), *found);
   }
 }

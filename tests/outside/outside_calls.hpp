@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/outside/child_process.hpp"
+#include "contct/outside/child_kernel.hpp"
 #include "support/one_pair.hpp"
 #include "support/scratch_folder.hpp"
 

@@ -31,29 +31,6 @@ TEST_CASE("PB1: the stop closes at F = -15 and presses with the hand calculation
   }
 }
 
-TEST_CASE("in one step or in many: a frictionless elastic contact does not remember its path") {
-  beam_problem many = cantilever_over_a_stop();
-  many.steps = {tip_load(2, -7), tip_load(2, -31), tip_load(2, 4), tip_load(2, -60)};
-  beam_problem one = cantilever_over_a_stop();
-  one.steps = {tip_load(2, -60)};
-  recorder a;
-  recorder b;
-  many.run("fortran", {&a});
-  one.run("fortran", {&b});
-  CHECK(a.steps.back().u[4] == Approx(b.steps.back().u[4]).epsilon(1e-12));
-}
-
-TEST_CASE("a free beam on springs sinks evenly under an even load") {
-  beam_problem p = free_beam_on_springs(4.0, 8, 100.0, 2.0);
-  p.steps = {{{}, {{{-1.0}, {}}}}};
-  recorder r;
-  CHECK(p.run("fortran", {&r}).status == path_status::solved);
-  double force = 0.0;
-  for (std::size_t i = 0; i < p.pairs.size(); ++i) force -= p.pairs[i].stiffness * r.steps[0].u[2 * i];
-  CHECK(force == Approx(4.0).epsilon(1e-10));
-  CHECK(r.events().empty());
-}
-
 TEST_CASE("a face above: the beam is stopped on its way up") {
   beam_problem p = cantilever_over_a_stop();
   p.pairs = {{2, 1, 0.002, 5e4, false}, {2, -1, -0.004, 5e4, false}};  // two pairs at one node

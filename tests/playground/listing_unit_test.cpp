@@ -51,11 +51,11 @@ std::vector<Real> as(const std::vector<double>& numbers) {
 }
 
 template <class Real, class Function>
-kernel_answer ask_page(Function procedure, const call_inputs<double>& in, unit_26& unit) {
+call_outputs ask_page(Function procedure, const call_inputs<double>& in, unit_26& unit) {
   const auto [dd, dtest, cc] = std::tuple{as<Real>(in.dd), as<Real>(in.dtest), as<Real>(in.cc)};
   std::vector<Real> ss(cc.size(), static_cast<Real>(not_an_answer));
   auto smin = static_cast<Real>(not_an_answer);
-  kernel_answer a{0.0, {}, in.isep, {}};
+  call_outputs a{0.0, {}, in.isep, {}};
   procedure(dd.data(), dtest.data(), cc.data(), ss.data(), &smin, in.id.data(), a.isep.data(),
             in.isurf.data(), static_cast<int>(cc.size()), in.dof.indof, in.dof.ndofpn);
   a.smin = smin;
@@ -73,8 +73,8 @@ void check_all(const std::string& name, Function procedure) {
   std::int64_t lines = 0, different = 0;
   for (std::int64_t number = 1; number <= calls; ++number) {
     const call_inputs<double>& in = source.at(number);
-    const kernel_answer a = ask_page<Real>(procedure, in, unit);
-    const kernel_answer b = ask_kernel(*gfortran, in);
+    const call_outputs a = ask_page<Real>(procedure, in, unit);
+    const call_outputs b = answer_of(*gfortran, in);
     (void)compare_answers<double>({b.smin, b.ss, b.isep}, {a.smin, a.ss, a.isep}, answers);
     if (a.text != b.text && different++ == 0) {
       INFO(number);

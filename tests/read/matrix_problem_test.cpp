@@ -8,9 +8,9 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/lockstep.hpp"
 #include "contct/exact/exact_means.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/problem_file.hpp"
@@ -88,7 +88,7 @@ run_of_problem run(const problem& p) {
   const linear_structure s = structure_of(p);
   const auto leader = make_kernel("fortran");
   const std::vector<std::string> others = {"cpp"};
-  lockstep compared = make_lockstep(leader->facts(), others);
+  lockstep_on_path compared(leader->facts(), others);
   certifier judged(p, s, contct::exact::exact_means_of(p));
   r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen}, {0, judged.ends()});
   r.calls = compared.calls();

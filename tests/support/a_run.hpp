@@ -39,7 +39,7 @@ struct a_run {
     const std::unique_ptr<kernel> leader = make_kernel(leads);
     std::vector<observer*> watching = {&result.judged, &result.early, &result.record};
     if (leads == "fortran") {
-      result.compared.emplace(make_lockstep(leader->facts(), std::vector<std::string>{"cpp"}));
+      result.compared.emplace(leader->facts(), std::vector<std::string>{"cpp"});
       watching.insert(watching.begin(), &*result.compared);
     }
     result.record =

@@ -58,7 +58,7 @@ struct recorder final : observer {
   std::vector<seen_step> steps;
   std::string text;
 
-  void called(const answered_call& c) override { text += c.text; }
+  void called(const answered_call& c) override { text += c.text.value_or(""); }
   void incremented(const increment& i) override {
     increments.push_back({i.step, i.number, i.s, i.fraction, {i.events.begin(), i.events.end()}, i.snaps});
   }

@@ -1,10 +1,10 @@
-// A call with one pair, or a few at nodes of their own, as a test likes to write it.
+// A call with one pair, or a few at nodes of their own, as a test likes to write it; and any call's answer.
 #pragma once
 
 #include <vector>
 
 #include "contct/kernel/contct.hpp"
-#include "contct/kernel/log_text.hpp"
+#include "contct/kernel/kernel.hpp"
 
 namespace contct::app {
 
@@ -28,7 +28,7 @@ struct pair_at {
 template <class Real>
 struct small_call {
   std::vector<Real> dd, dtest, cc, ss;
-  std::vector<int> id, isep, isurf;
+  std::vector<int> id, isep, isurf, before;
   std::vector<event> events;
   Real smin = 0;
 
@@ -49,11 +49,29 @@ struct small_call {
 
   /// Ask the C++ kernel.
   small_call& ask() {
+    before = isep;
     call<Real> c = arguments();
     events.resize(static_cast<std::size_t>(contct(c, std::span<event>(events))));
     smin = c.smin;
     return *this;
   }
+
+  /// The call, and its answer to `ask`.
+  answered_call answered() {
+    call<Real> c = arguments();
+    c.smin = smin;
+    return {c, before};
+  }
 };
+
+/// What a kernel answers.
+inline call_outputs answer_of(kernel& k, const call_inputs<double>& in) {
+  call_outputs out;
+  call<double> c = out.prepare(in);
+  k.answer(c);
+  out.smin = c.smin;
+  out.text = k.take_text();
+  return out;
+}
 
 }  // namespace contct::app

@@ -9,7 +9,6 @@
 #include "contct/compare/branches.hpp"
 #include "contct/compare/compare.hpp"
 #include "contct/kernel/call.hpp"
-#include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/fortran.hpp"
 
 namespace contct::app {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
 
 #include "catch.hpp"
 #include "contct/kernel/kernel.hpp"
@@ -364,12 +363,6 @@ TEST_CASE("a kernel's name of several lines stays one line of the header") {
   CHECK(reader.read_header().kernel == "pipe:while read x do echo $x done");
 }
 
-TEST_CASE("the trace that the attacks start from is good") {
-  const read_result r = read_all(good);
-  CHECK(r.refused.empty());
-  CHECK(r.calls == 2);
-}
-
 TEST_CASE("a malformed trace is refused with file and line, what was found and what is allowed") {
   const std::vector<attack> all = attacks();
   CHECK(all.size() >= 90);
@@ -399,26 +392,6 @@ TEST_CASE("a trace cut off anywhere is refused, unless what is left is whole") {
     }
   }
   CHECK(whole < static_cast<int>(good.find("call 1")) + 6);
-}
-
-TEST_CASE("a line left out, or written twice, is noticed where it means something") {
-  std::vector<std::string> lines;
-  std::istringstream text(good);
-  for (std::string line; std::getline(text, line);) lines.push_back(line + "\n");
-  for (std::size_t i = 6; i < lines.size(); ++i) {
-    // A note and a line of unit 26 may be missing, and an empty line be more.
-    if (lines[i] == "\n" || lines[i].starts_with("note") || lines[i].starts_with("|")) continue;
-    std::string without;
-    std::string twice;
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      if (k != i) without += lines[k];
-      twice += lines[k];
-      if (k == i) twice += lines[k];
-    }
-    INFO("line " << i + 1 << ": " << lines[i]);
-    CHECK_FALSE(read_all(without).refused.empty());
-    CHECK_FALSE(read_all(twice).refused.empty());
-  }
 }
 
 TEST_CASE("what one call says of a dof is forgotten in the next") {

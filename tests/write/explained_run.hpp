@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "contct/compare/explanation.hpp"
 #include "contct/outside/registry.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct::app {

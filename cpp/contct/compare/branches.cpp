@@ -14,14 +14,22 @@ std::int64_t branch_counts::rarest() const {
   return *std::ranges::min_element(counts_);
 }
 
-std::vector<decision> decisions_of(const call<double>& c, std::span<const int> isep_before, int real_bytes) {
-  if (real_bytes == 8) return decisions_of<double>(c, isep_before);
-  return as_float_call(c, [&](const call<float>& f) { return decisions_of<float>(f, isep_before); });
+namespace {
+
+template <class Real>
+std::optional<decision> narrowest_in(const call<Real>& c, std::span<const int> isep_before) {
+  std::optional<decision> least;
+  for_each_decision(c, isep_before, [&least](branch b, std::size_t i, bool outcome, Real left, Real right) {
+    keep_narrower(least, b, i, outcome, margin_between(left, right));
+  });
+  return least;
 }
 
-std::optional<decision> narrowest(const std::vector<decision>& all) {
-  const auto least = std::ranges::min_element(all, {}, &decision::ulps);
-  return least == all.end() ? std::nullopt : std::optional<decision>(*least);
+}  // namespace
+
+std::optional<decision> narrowest_decision(const answered_call& c, int real_bytes) {
+  if (real_bytes == 8) return narrowest_in(c.c, c.isep_before);
+  return as_float_call(c.c, [&](const call<float>& f) { return narrowest_in(f, c.isep_before); });
 }
 
 std::string words_of(const decision& d) {

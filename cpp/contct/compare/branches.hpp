@@ -9,7 +9,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "contct/kernel/call.hpp"
 #include "contct/numeric/bits.hpp"
@@ -113,18 +112,6 @@ template <class Real>
   return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
 }
 
-/// `then(call<float>)` with the call of a 4-byte kernel, which comes in double precision, rounded as the
-/// kernel rounds it.
-template <class Then>
-auto as_float_call(const call<double>& c, Then then) {
-  const auto rounded = [](std::span<const double> x) { return std::vector<float>(x.begin(), x.end()); };
-  const std::vector<float> dd = rounded(c.dd);
-  const std::vector<float> dtest = rounded(c.dtest);
-  const std::vector<float> cc = rounded(c.cc);
-  std::vector<float> ss = rounded(c.ss);
-  return then(call<float>{dd, dtest, cc, ss, static_cast<float>(c.smin), c.id, c.isep, c.isurf, c.dof});
-}
-
 /// One decision of one call, and by how much it was taken.
 struct decision {
   branch what;
@@ -134,25 +121,16 @@ struct decision {
                        ///< there is where one of them is NaN
 };
 
-/// All decisions of a finished call, in the listing's order. IF (ISEP(I).EQ.1) compares whole numbers
-/// and has no margin: it is left out.
-template <class Real>
-[[nodiscard]] std::vector<decision> decisions_of(const call<Real>& c, std::span<const int> isep_before) {
-  std::vector<decision> all;
-  for_each_decision(c, isep_before, [&all](branch b, std::size_t i, bool outcome, Real left, Real right) {
-    if (b == branch::was_separated) return;
-    const int pair = b == branch::no_events ? -1 : static_cast<int>(i);
-    all.push_back({b, pair, outcome, margin_between(left, right)});
-  });
-  return all;
+/// Keep a decision in `least` that was taken by less than the one there. IF (ISEP(I).EQ.1) compares whole
+/// numbers and has no margin: it is left out.
+inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t pair, bool outcome,
+                          std::uint64_t ulps) {
+  if (b == branch::was_separated || (least && least->ulps <= ulps)) return;
+  least = decision{b, b == branch::no_events ? -1 : static_cast<int>(pair), outcome, ulps};
 }
 
-/// The same for a kernel of `real_bytes`, whose call comes in double precision.
-[[nodiscard]] std::vector<decision> decisions_of(const call<double>& c, std::span<const int> isep_before,
-                                                 int real_bytes);
-
-/// The decision that was taken by least; none when there was none.
-[[nodiscard]] std::optional<decision> narrowest(const std::vector<decision>& all);
+/// The decision of a call of a kernel of `real_bytes` that was taken by least; none when there was none.
+[[nodiscard]] std::optional<decision> narrowest_decision(const answered_call& c, int real_bytes);
 
 /// "pair 3: IF (DIFF.LT.EPSMUL) was false by 1 ULP".
 [[nodiscard]] std::string words_of(const decision& d);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contct/kernel/limits.hpp"
+#include "contct/kernel/call.hpp"
 
 namespace contct::compare {
 namespace {
@@ -57,7 +57,7 @@ std::string ulp_words(const mismatch& d) {
 
 /// The branch margin.
 std::string margin_words(const mismatch_report& f) {
-  const std::optional<decision> least = narrowest(f.decisions);
+  const std::optional<decision>& least = f.narrowest;
   if (!least) return "branch margin: no decision in this call";
   const bool with_nan = least->ulps == std::numeric_limits<std::uint64_t>::max();
   const bool tie = least->ulps <= tie_ulps;
@@ -68,10 +68,6 @@ std::string margin_words(const mismatch_report& f) {
 }
 
 }  // namespace
-
-text_equality text_equality_of(const kernel_facts& leader, const kernel_facts& follower) {
-  return leader.text_by_meaning || follower.text_by_meaning ? text_equality::meaning : text_equality::bytes;
-}
 
 std::optional<mismatch> compare_text(std::string_view leader, std::string_view follower, tally& t,
                                      text_equality equality) {
@@ -107,11 +103,10 @@ void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower) {
 
 follower::follower(kernel_facts leader, kernel& k) : leader_(std::move(leader)), kernel_(&k) {}
 
-std::optional<mismatch> follower::compare(const call<double>& answered, std::span<const int> isep_before,
-                                          std::optional<std::string_view> text) {
-  answer_.ss.assign(answered.ss.size(), not_an_answer);
-  answer_.isep.assign(isep_before.begin(), isep_before.end());
-  call<double> asked = answered;
+std::optional<mismatch> follower::compare(const answered_call& c) {
+  answer_.ss.assign(c.c.ss.size(), not_an_answer);
+  answer_.isep.assign(c.isep_before.begin(), c.isep_before.end());
+  call<double> asked = c.c;
   asked.ss = answer_.ss;
   asked.isep = answer_.isep;
   asked.smin = not_an_answer;
@@ -123,28 +118,25 @@ std::optional<mismatch> follower::compare(const call<double>& answered, std::spa
     return mismatch{"answer", 0, "an answer", failure.what(), 0};
   }
   answer_.smin = asked.smin;
-  std::optional<mismatch> found = compare_answers<double>({answered.smin, answered.ss, answered.isep},
-                                                          {asked.smin, asked.ss, asked.isep}, compared);
-  if (!text || !kernel_->facts().has_text) return found;
+  std::optional<mismatch> found =
+      compare_answers<double>({c.c.smin, c.c.ss, c.c.isep}, {asked.smin, asked.ss, asked.isep}, compared);
+  if (!c.text || !kernel_->facts().has_text) return found;
   answer_.text = kernel_->take_text();
-  std::optional<mismatch> in_text = compare_text(*text, answer_.text, compared, equality());
+  std::optional<mismatch> in_text = compare_text(*c.text, answer_.text, compared, equality());
   return found ? found : in_text;
 }
 
-const std::optional<mismatch>& follower::ask(std::int64_t number, const call<double>& answered,
-                                             std::span<const int> isep_before,
-                                             std::optional<std::string_view> text) {
-  refuse_beyond_limits(answered, isep_before);
-  difference_ = compare(answered, isep_before, text);
-  if (difference_) note(number, *difference_, answered, isep_before);
+const std::optional<mismatch>& follower::ask(const answered_call& c) {
+  refuse_beyond_limits(c.c, c.isep_before);
+  difference_ = compare(c);
+  if (difference_) note(*difference_, c);
   return difference_;
 }
 
-void follower::note(std::int64_t number, const mismatch& found, const call<double>& answered,
-                    std::span<const int> isep_before) {
-  if (first_ && first_->call <= number) return;
-  first_ = mismatch_report{number, leader_.name, kernel_->facts().name, found,
-                           decisions_of(answered, isep_before, leader_.real_bytes)};
+void follower::note(const mismatch& found, const answered_call& c) {
+  if (first_ && first_->call <= c.number) return;
+  first_ = mismatch_report{c.number, leader_.name, kernel_->facts().name, found,
+                           narrowest_decision(c, leader_.real_bytes)};
 }
 
 bool comparable(const trace_header& h, const kernel_facts& k) {
@@ -160,14 +152,10 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
   follower asked({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, k);
   while (calls.next(c)) {
     ++report.calls;
-    const call<double> recorded{c.in.dd, c.in.dtest, c.in.cc,    c.out.ss, c.out.smin,
-                                c.in.id, c.out.isep, c.in.isurf, c.in.dof};
-    report.branches.count(recorded, c.in.isep);
+    const answered_call recorded = c.answered();
+    report.branches.count(recorded.c, recorded.isep_before);
     if (progress) progress(report.calls);
-    // A kernel with text writes some in every call: where the trace has none, its kernel had none.
-    std::optional<std::string_view> text;
-    if (!c.out.text.empty()) text = c.out.text;
-    (void)asked.ask(c.number, recorded, c.in.isep, text);
+    (void)asked.ask(recorded);
   }
   report.compared = asked.compared;
   report.first = asked.first();

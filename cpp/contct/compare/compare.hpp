@@ -91,7 +91,10 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
                                      text_equality equality = text_equality::bytes);
 
 /// How the text of two kernels is compared.
-[[nodiscard]] text_equality text_equality_of(const kernel_facts& leader, const kernel_facts& follower);
+[[nodiscard]] inline text_equality text_equality_of(const kernel_facts& leader,
+                                                    const kernel_facts& follower) {
+  return leader.text_by_meaning || follower.text_by_meaning ? text_equality::meaning : text_equality::bytes;
+}
 
 /// The first call in which a follower did not answer as the leader.
 struct mismatch_report {
@@ -99,7 +102,7 @@ struct mismatch_report {
   std::string leader;     ///< names of the kernels
   std::string follower;
   mismatch where;
-  std::vector<decision> decisions;  ///< of the leader in that call
+  std::optional<decision> narrowest;  ///< of the leader in that call
 };
 
 /// Two lines: "call 7: mine differs in SS(3): fortran has 0x1p-1, mine has 0x1p-2 (4503599627370496 ULP)",
@@ -116,15 +119,12 @@ class follower {
   /// `k` must outlive this object. The leader's facts say what its calls are: precision, text.
   follower(kernel_facts leader, kernel& k);
 
-  /// Ask call `number` (from 1), which the leader answered and whose ISEP was `isep_before`, and compare
-  /// SMIN, all of SS and all of ISEP; the text too, where the kernel writes any. `text` is the leader's unit
-  /// 26, or nothing where it is not to be compared. A kernel that fails has one mismatch, in the field
-  /// "answer". Throws std::invalid_argument where the call is beyond the limits of refuse_beyond_limits.
-  const std::optional<mismatch>& ask(std::int64_t number, const call<double>& answered,
-                                     std::span<const int> isep_before, std::optional<std::string_view> text);
-  /// Keep a mismatch that was found in call `number`, unless an earlier call has one.
-  void note(std::int64_t number, const mismatch& found, const call<double>& answered,
-            std::span<const int> isep_before);
+  /// Ask a call that the leader answered, and compare SMIN, all of SS and all of ISEP; the text too, where
+  /// the call has one and the kernel writes any. A kernel that fails has one mismatch, in the field "answer".
+  /// Throws std::invalid_argument where the call is beyond the limits of refuse_beyond_limits.
+  const std::optional<mismatch>& ask(const answered_call& c);
+  /// Keep a mismatch that was found in a call, unless an earlier call has one.
+  void note(const mismatch& found, const answered_call& c);
 
   [[nodiscard]] kernel& asked() const { return *kernel_; }
   /// How its text is compared with the leader's.
@@ -137,8 +137,7 @@ class follower {
   tally compared;
 
  private:
-  std::optional<mismatch> compare(const call<double>& answered, std::span<const int> isep_before,
-                                  std::optional<std::string_view> text);
+  std::optional<mismatch> compare(const answered_call& c);
 
   kernel_facts leader_;
   kernel* kernel_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace contct::compare {
 namespace {
@@ -38,8 +37,7 @@ template <class Real>
 void take_decisions(const call<Real>& c, std::span<const int> isep_before, explained_call& out) {
   for_each_decision(c, isep_before, [&out](branch b, std::size_t i, bool outcome, Real left, Real right) {
     const std::uint64_t ulps = margin_between(left, right);
-    if (b != branch::was_separated && (!out.narrowest || ulps < out.narrowest->ulps))
-      out.narrowest = decision{b, b == branch::no_events ? -1 : static_cast<int>(i), outcome, ulps};
+    keep_narrower(out.narrowest, b, i, outcome, ulps);
     if (b == branch::no_events) return;
     explained_pair& p = out.pairs[i];
     p.taken[index_of(b)] = {true, outcome, ulps};
@@ -87,49 +85,12 @@ explained_call explain_in(const call<Real>& c, std::span<const int> isep_before,
   return out;
 }
 
-/// The kernel, if there is one.
-std::vector<std::unique_ptr<kernel>> list_of(std::unique_ptr<kernel> k) {
-  std::vector<std::unique_ptr<kernel>> list;
-  if (k) list.push_back(std::move(k));
-  return list;
-}
-
 }  // namespace
 
-explained_call explain(const call<double>& c, std::span<const int> isep_before, int real_bytes,
-                       double& largest) {
-  if (real_bytes == 8) return explain_in<double>(c, isep_before, largest);
-  return as_float_call(c, [&](const call<float>& f) { return explain_in<float>(f, isep_before, largest); });
-}
-
-explained_path::explained_path(const kernel_facts& leader, std::unique_ptr<kernel> second,
-                               increments_wanted wanted, sink to)
-    : real_bytes_(leader.real_bytes),
-      compared_(leader, list_of(std::move(second))),
-      wanted_(wanted),
-      to_(std::move(to)) {}
-
-void explained_path::called(const answered_call& c) {
-  if (number_++ == 0) ++steps_;
-  compared_.called(c);
-  // Calls that are not wanted are explained too: the largest deflection decides what is rounding in later
-  // ones.
-  call_ = explain(c.c, c.isep_before, real_bytes_, largest_);
-}
-
-void explained_path::incremented(const increment& i) {
-  const double before = std::exchange(fraction_, i.fraction);
-  if (wanted_.step == 0 || wanted_.step == i.step) most_increments_ = std::max(most_increments_, i.number);
-  if (!wanted_.holds(i.step, i.number)) return;
-  ++explained_;
-  const follower* const second = compared_.followers().empty() ? nullptr : &compared_.followers().front();
-  to_({i, before, call_, second != nullptr && second->answered() ? &second->answer() : nullptr,
-       second != nullptr ? second->difference() : std::nullopt, call_.winner >= 0 && i.events.empty()});
-}
-
-void explained_path::step_ended(const step_state& /*s*/) {
-  number_ = 0;
-  fraction_ = 0.0;
+explained_call explain(const answered_call& c, int real_bytes, double& largest) {
+  if (real_bytes == 8) return explain_in<double>(c.c, c.isep_before, largest);
+  return as_float_call(c.c,
+                       [&](const call<float>& f) { return explain_in<float>(f, c.isep_before, largest); });
 }
 
 }  // namespace contct::compare

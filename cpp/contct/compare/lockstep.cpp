@@ -1,10 +1,7 @@
 #include "contct/compare/lockstep.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 
-#include "contct/compare/explanation.hpp"
 #include "contct/outside/registry.hpp"
 
 namespace contct::compare {
@@ -24,35 +21,33 @@ follower_answer measured(const call<double>& leader, const follower& f, const ta
   return m;
 }
 
+std::vector<std::unique_ptr<kernel>> made(const kernel_facts& leader, std::span<const std::string> names) {
+  for (const std::string& name : names) refuse_unequal(leader, facts_of_kernel(name));
+  std::vector<std::unique_ptr<kernel>> kernels(names.size());
+  std::ranges::transform(names, kernels.begin(), make_kernel);
+  return kernels;
+}
+
 }  // namespace
 
 lockstep::lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kernel>> followers)
-    : leader_has_text_(leader.has_text), kernels_(std::move(followers)) {
+    : kernels_(std::move(followers)) {
   for (const auto& k : kernels_) {
     refuse_unequal(leader, k->facts());
     followers_.emplace_back(leader, *k);
   }
 }
 
-lockstep make_lockstep(const kernel_facts& leader, std::span<const std::string> followers) {
-  for (const std::string& name : followers) refuse_unequal(leader, facts_of_kernel(name));
-  std::vector<std::unique_ptr<kernel>> kernels(followers.size());
-  std::ranges::transform(followers, kernels.begin(), make_kernel);
-  return {leader, std::move(kernels)};
-}
+lockstep::lockstep(const kernel_facts& leader, std::span<const std::string> followers)
+    : lockstep(leader, made(leader, followers)) {}
 
-void lockstep::called(const answered_call& c) {
-  put(calls_ + 1, c.c, c.isep_before, leader_has_text_ ? std::optional(c.text) : std::nullopt);
-}
-
-void lockstep::put(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
-                   std::optional<std::string_view> text) {
+void lockstep::put(const answered_call& c) {
   ++calls_;
   last_answers_.clear();
   for (follower& f : followers_) {
     const tally before = f.compared;
-    (void)f.ask(number, answered, isep_before, text);
-    last_answers_.push_back(measured(answered, f, before));
+    (void)f.ask(c);
+    last_answers_.push_back(measured(c.c, f, before));
   }
 }
 
@@ -74,24 +69,6 @@ const std::optional<mismatch_report>& lockstep::first() const {
 bool lockstep::last_call_equal() const {
   return std::none_of(last_answers_.begin(), last_answers_.end(),
                       [](const follower_answer& a) { return a.mismatches > 0; });
-}
-
-void early_toggles::called(const answered_call& c) {
-  distances_.assign(c.isep_before.size(), 0.0);
-  for (std::size_t i = 0; i < c.isep_before.size(); ++i) {
-    const int dof = c.c.dof.dof_of(c.c.id[i]) - 1;
-    const double reached = c.c.dd[dof] + c.c.smin * c.c.dtest[dof];
-    if (std::isfinite(reached)) largest_ = std::max(largest_, std::abs(reached));
-    if (c.c.isep[i] != c.isep_before[i]) distances_[i] = std::abs(c.c.cc[i] - reached);
-  }
-}
-
-void early_toggles::incremented(const increment& i) {
-  const double rounding = rounding_share(sizeof(double)) * largest_;
-  for (const event& e : i.events) {
-    const double distance = e.pair < std::ssize(distances_) ? distances_[e.pair] : 0.0;
-    if (distance > rounding) all_.push_back({i.step, i.number, e, distance, distance / largest_});
-  }
 }
 
 }  // namespace contct::compare

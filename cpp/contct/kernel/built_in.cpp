@@ -40,30 +40,15 @@ class corrected_kernel final : public built_in {
   void answer(call<double>& c) override { contct_corrected(c); }
 };
 
-/// The arrays of a call of the listing as printed, behind a double-precision boundary.
-class narrow_call {
- public:
-  /// `answer(call<float>&)` answers the call.
-  template <class Answer>
-  void put(call<double>& c, Answer answer) {
-    dd_.resize(c.dd.size());
-    dtest_.resize(c.dtest.size());
-    cc_.assign(c.cc.begin(), c.cc.end());
-    ss_.resize(c.ss.size());
-    for (const int node : c.id) {  // only the dofs that pairs watch are rounded: the rest is never read
-      const std::size_t dof = c.dof.dof_of(node) - 1;
-      dd_[dof] = static_cast<float>(c.dd[dof]);
-      dtest_[dof] = static_cast<float>(c.dtest[dof]);
-    }
-    call<float> narrow{dd_, dtest_, cc_, ss_, 0.0F, c.id, c.isep, c.isurf, c.dof};
+/// A call put to what answers in 4-byte numbers, behind a double-precision boundary.
+template <class Answer>
+void answer_narrow(call<double>& c, Answer answer) {
+  as_float_call(c, [&](call<float>& narrow) {
     answer(narrow);
-    std::copy(ss_.begin(), ss_.end(), c.ss.begin());
+    std::copy(narrow.ss.begin(), narrow.ss.end(), c.ss.begin());
     c.smin = narrow.smin;
-  }
-
- private:
-  std::vector<float> dd_, dtest_, cc_, ss_;
-};
+  });
+}
 
 /// C++ CONTCT, with its text.
 class cpp_kernel final : public built_in {
@@ -71,7 +56,7 @@ class cpp_kernel final : public built_in {
   using built_in::built_in;
   void answer(call<double>& c) override {
     if (facts().real_bytes == 8) return answer_in_precision(c);
-    narrow_.put(c, [this](call<float>& narrow) { answer_in_precision(narrow); });
+    answer_narrow(c, [this](call<float>& narrow) { answer_in_precision(narrow); });
   }
 
  private:
@@ -83,7 +68,6 @@ class cpp_kernel final : public built_in {
   }
 
   std::vector<event> events_;
-  narrow_call narrow_;
 };
 
 /// The 1989 code by one compiler, with the unit 26 of that one's library kept while this kernel lives.
@@ -93,14 +77,13 @@ class fortran_kernel final : public built_in {
       : built_in(facts), listing_(by), log_(by) {}
   void answer(call<double>& c) override {
     if (facts().real_bytes == 8) return fortran::contct(c, listing_);
-    narrow_.put(c, [](call<float>& narrow) { fortran::contct(narrow); });
+    answer_narrow(c, [](call<float>& narrow) { fortran::contct(narrow); });
   }
   std::string take_text() override { return log_.take(); }
 
  private:
   const fortran::compiled_listing& listing_;
   fortran::unit_26 log_;
-  narrow_call narrow_;
 };
 
 struct entry {

@@ -1,7 +1,13 @@
-// One call of CONTCT: the listing's arguments as data.
+// One call of CONTCT: the listing's arguments as data, with storage of their own, and with the answer to
+// them.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "contct/rooms.hpp"
 
@@ -46,8 +52,8 @@ enum class way_to_s {
 /// The arguments of CONTCT in the listing's order, and COMMON /DOF/.
 /// `nc` is cc.size(); every array over pairs has that length. Every id[i] must address a dof
 /// inside dd and dtest, nc must be below 2^31 - 1, and neither (id[i] - 1) * ndofpn + indof nor isep[i] *
-/// isurf[i] may leave 32 bits; the listing does not check, and neither do the kernels. limits.hpp refuses
-/// what is beyond that.
+/// isurf[i] may leave 32 bits; the listing does not check, and neither do the kernels: refuse_beyond_limits
+/// does.
 template <class Real>
 struct call {
   std::span<const Real> dd;     ///< DD: D, accumulated deflection [system dofs]
@@ -62,5 +68,62 @@ struct call {
 
   [[nodiscard]] int nc() const { return static_cast<int>(cc.size()); }
 };
+
+/// A call with the answer to it, as comparisons, traces and those who observe a path see it.
+struct answered_call {
+  call<double> c;                             ///< inputs and outputs; c.isep is already toggled
+  std::span<const int> isep_before;           ///< ISEP as it went in [pairs]
+  std::optional<std::string_view> text = {};  ///< unit 26; nothing where there is none, or it is not compared
+  std::int64_t number = 0;                    ///< on its path or in its trace, from 1
+};
+
+/// What goes into one call, owned. dd and dtest may be longer than the dofs in use.
+template <class Real>
+struct call_inputs {
+  std::vector<Real> dd, dtest;       ///< [dofs]
+  std::vector<Real> cc;              ///< [pairs]
+  std::vector<int> id, isep, isurf;  ///< [pairs]
+  dof_layout dof;
+
+  [[nodiscard]] std::size_t pairs() const { return cc.size(); }
+  /// The dof of pair `i`, from 0: its place in dd and dtest.
+  [[nodiscard]] std::size_t dof_of_pair(std::size_t i) const { return dof.dof_of(id[i]) - 1; }
+};
+
+/// What SMIN and SS hold before a call: no kernel may leave it behind.
+inline constexpr double not_an_answer = -7.0;
+
+/// What comes out of one call, owned.
+struct call_outputs {
+  double smin = 0.0;
+  std::vector<double> ss;  ///< [pairs]
+  std::vector<int> isep;   ///< [pairs]
+  std::string text;        ///< unit 26, of a kernel that has text
+
+  /// Ready for a call with `in`: outputs hold what no kernel may leave behind, ISEP what goes in.
+  call<double> prepare(const call_inputs<double>& in) {
+    ss.assign(in.pairs(), not_an_answer);
+    isep = in.isep;
+    return {in.dd, in.dtest, in.cc, ss, not_an_answer, in.id, isep, in.isurf, in.dof};
+  }
+};
+
+/// `then(call<float>&)` with the call of a 4-byte kernel, which comes in double precision, rounded as the
+/// kernel rounds it.
+template <class Then>
+auto as_float_call(const call<double>& c, Then then) {
+  const auto rounded = [](std::span<const double> x) { return std::vector<float>(x.begin(), x.end()); };
+  const std::vector<float> dd = rounded(c.dd);
+  const std::vector<float> dtest = rounded(c.dtest);
+  const std::vector<float> cc = rounded(c.cc);
+  std::vector<float> ss = rounded(c.ss);
+  call<float> narrow{dd, dtest, cc, ss, static_cast<float>(c.smin), c.id, c.isep, c.isurf, c.dof};
+  return then(narrow);
+}
+
+/// Throws std::invalid_argument where NC, a product ISEP * ISURF or a dof of `c` leaves the 32 bits of
+/// INTEGER: the result of an overflow is undefined in FORTRAN and in C++, and compilers differ there. `isep`
+/// is ISEP before the call.
+void refuse_beyond_limits(const call<double>& c, std::span<const int> isep);
 
 }  // namespace contct::kernels

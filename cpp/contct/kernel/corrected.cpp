@@ -8,24 +8,16 @@
 namespace contct::kernels {
 namespace {
 
-/// `take` over `number(i)`, i from `begin` to before `end`, begun with `start`: in four chains that do not
-/// wait for each other.
+/// `take` over `start` and `number(i)`, i below `n`: in four chains that do not wait for each other.
 template <class Number, class Take>
-double folded(std::size_t begin, std::size_t end, double start, Number number, Take take) {
+double folded(std::size_t n, double start, Number number, Take take) {
   std::array<double, 4> chains{};
   chains.fill(start);
-  std::size_t i = begin;
-  for (; i + chains.size() <= end; i += chains.size())
+  std::size_t i = 0;
+  for (; i + chains.size() <= n; i += chains.size())
     for (std::size_t k = 0; k < chains.size(); ++k) chains[k] = take(chains[k], number(i + k));
-  for (; i < end; ++i) chains[0] = take(chains[0], number(i));
+  for (; i < n; ++i) chains[0] = take(chains[0], number(i));
   return take(take(chains[0], chains[1]), take(chains[2], chains[3]));
-}
-
-double larger(double a, double b) {
-  return std::max(a, b);
-}
-double smaller(double a, double b) {
-  return std::min(a, b);
 }
 
 /// Rules 1 and 2: s of each pair, or 1 where it has no event ahead; `dof(i)`: the dof of pair i, from 0. A
@@ -40,8 +32,8 @@ void find_scale_factors(call<double>& c, Dof dof) {
   const int* const isep = c.isep.data();
   const int* const isurf = c.isurf.data();
   double* const ss = c.ss.data();
-  const double m = folded(
-      0, nc, 0.0, [&](std::size_t i) { return std::abs(dtest[dof(i)]); }, larger);
+  const auto size_of_response = [&](std::size_t i) { return std::abs(dtest[dof(i)]); };
+  const double m = folded(nc, 0.0, size_of_response, [](double a, double b) { return std::max(a, b); });
   for (std::size_t i = 0; i < nc; ++i) {
     const double sigma_n = static_cast<double>(isep[i]) * isurf[i];
     const double gap = sigma_n * (cc[i] - dd[dof(i)]);
@@ -54,22 +46,6 @@ void find_scale_factors(call<double>& c, Dof dof) {
     const double s = ss[i] > 1.0 ? 1.0 : ss[i];
     ss[i] = sigma_v > theta ? s : 1.0;
   }
-}
-
-/// Sets SMIN. The first pair at it is in the stretch of pairs that begins with the one returned.
-std::size_t find_smin(call<double>& c) {
-  constexpr std::size_t stretch = 256;
-  const double* const ss = c.ss.data();
-  const auto s = [ss](std::size_t i) { return ss[i]; };
-  std::size_t found = 0;
-  c.smin = 1.0;
-  for (std::size_t begin = 0; begin < c.cc.size(); begin += stretch) {
-    const double least = folded(begin, std::min(begin + stretch, c.cc.size()), 1.0, s, smaller);
-    if (!(least < c.smin)) continue;
-    c.smin = least;
-    found = begin;
-  }
-  return found;
 }
 
 /// The dof of pair `i`, from 0.
@@ -92,15 +68,17 @@ void contct_corrected(call<double>& c) noexcept {
   } else {
     find_scale_factors(c, [&c](std::size_t i) { return dof_at(c, i); });
   }
-  const std::size_t first = find_smin(c);
+  const double* const ss = c.ss.data();
+  const auto s = [ss](std::size_t i) { return ss[i]; };
+  c.smin = folded(c.cc.size(), 1.0, s, [](double a, double b) { return std::min(a, b); });
   if (c.smin == 1.0) return;
 
   // Rules 3 and 4: the first pair at SMIN; but of those at their faces the one with the largest |d*|.
   const auto size_of_response = [&c](std::size_t i) { return std::abs(c.dtest[dof_at(c, i)]); };
   const bool by_index = c.smin > 0.0;
   std::size_t chosen = c.cc.size();
-  for (std::size_t i = first; i < c.cc.size(); ++i) {
-    if (c.ss[i] != c.smin) continue;
+  for (std::size_t i = 0; i < c.cc.size(); ++i) {
+    if (ss[i] != c.smin) continue;
     if (chosen == c.cc.size() || (!by_index && size_of_response(i) > size_of_response(chosen))) chosen = i;
     if (by_index) break;
   }

@@ -77,49 +77,29 @@ void forget_unit_26() {
   (void)gfortran.log.open(nowhere.data(), static_cast<int>(nowhere.size()));
 }
 
-namespace {
-
-/// A file without a name, and a path that opens it.
-struct unnamed_file {
-  int descriptor = -1;
-  std::string path;
-};
-
-/// In memory where the system has that: on a full disk the listing's runtime would lose lines without a word.
-/// The path is empty where it must be a file on the disk.
-unnamed_file file_in_memory() {
-  unnamed_file made;
-#ifdef __linux__
-  made.descriptor = memfd_create("contct-unit26", MFD_CLOEXEC);
-  if (made.descriptor < 0) return made;
-  made.path = "/proc/self/fd/" + std::to_string(made.descriptor);
-  if (access(made.path.c_str(), R_OK | W_OK) == 0) return made;
-  close(made.descriptor);
-  made = {};
-#endif
-  return made;
-}
-
-}  // namespace
-
 unit_26::unit_26(compiled_listing& of) : listing_(of) {
   const std::scoped_lock lock(process_wide());
   if (listing_.log.is_open) throw std::logic_error("unit 26 is in use: it belongs to the whole process");
   const signals_wait until_unlinked;
-  unnamed_file file = file_in_memory();
-  const bool on_disk = file.descriptor < 0;
-  if (on_disk) {
-    file.path = (std::filesystem::temp_directory_path() / "contct-unit26-XXXXXX").string();
-    file.descriptor = mkstemp(file.path.data());
+  std::string path;
+#ifdef __linux__
+  // In memory: on a full disk the listing's runtime would lose lines without a word.
+  file_ = memfd_create("contct-unit26", MFD_CLOEXEC);
+  path = "/proc/self/fd/" + std::to_string(file_);
+#endif
+  const bool in_memory = file_ >= 0 && access(path.c_str(), R_OK | W_OK) == 0;
+  if (!in_memory) {
+    if (file_ >= 0) close(file_);
+    path = (std::filesystem::temp_directory_path() / "contct-unit26-XXXXXX").string();
+    file_ = mkstemp(path.data());
   }
-  file_ = file.descriptor;
   if (file_ < 0)
-    throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + file.path);
-  const int status = listing_.log.open(file.path.data(), static_cast<int>(file.path.size()));
-  if (on_disk) unlink(file.path.c_str());  // both sides hold it open
+    throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + path);
+  const int status = listing_.log.open(path.data(), static_cast<int>(path.size()));
+  if (!in_memory) unlink(path.c_str());  // both sides hold it open
   if (status != 0) {
     close(file_);
-    throw std::runtime_error("cannot connect unit 26 to " + file.path);
+    throw std::runtime_error("cannot connect unit 26 to " + path);
   }
   listing_.log.is_open = true;
 }

@@ -73,7 +73,7 @@ class fuzzing final : public observer {
 
   void called(const answered_call& c) override {
     path_.push_back(inputs_of(c));
-    compare(std::ssize(path_), c.c, c.isep_before, c.text);
+    compare(c);
   }
 
  private:
@@ -84,7 +84,8 @@ class fuzzing final : public observer {
       call<double> answered = outputs.prepare(in);
       leader_->answer(answered);
       const std::string text = leader_->take_text();
-      compare(number, answered, in.isep, text);
+      const bool has_text = leader_->facts().has_text;
+      compare({answered, in.isep, has_text ? std::optional<std::string_view>(text) : std::nullopt, number});
       keep_firsts([this](std::int64_t last) {
         call_sequence calls;
         for (std::int64_t k = std::min(most_calls_before, (last - 1) / request_.shards); k >= 0; --k)
@@ -108,11 +109,9 @@ class fuzzing final : public observer {
     if (progress_) progress_(run_.result.problems, request_.problems / request_.shards, "problems");
   }
 
-  void compare(std::int64_t number, const call<double>& answered, std::span<const int> isep_before,
-               std::string_view text) {
-    run_.result.count(answered, isep_before);
-    const bool has_text = leader_->facts().has_text;
-    compared_->put(number, answered, isep_before, has_text ? std::optional(text) : std::nullopt);
+  void compare(const answered_call& c) {
+    run_.result.count(c.c, c.isep_before);
+    compared_->put(c);
     for (std::size_t f = 0; f < firsts_.size(); ++f) {
       run_.result.followers[f].note(compared_->last_answers()[f]);
       (void)followers()[f].asked().take_text();  // where it was not compared

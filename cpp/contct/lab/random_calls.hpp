@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "contct/kernel/call_inputs.hpp"
+#include "contct/kernel/call.hpp"
 
 namespace contct::lab {
 

@@ -185,12 +185,13 @@ std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make, co
     out.smin = answered.smin;
     out.text = leader.take_text();
     const auto text = leader.facts().has_text ? std::optional<std::string_view>(out.text) : std::nullopt;
-    asked.ask(std::ssize(c.leader), answered, in.isep, text);
-    c.what.decisions = decisions_of(answered, in.isep, leader.facts().real_bytes);
+    const answered_call whole{answered, in.isep, text, std::ssize(c.leader)};
+    (void)asked.ask(whole);
+    c.what.narrowest = narrowest_decision(whole, leader.facts().real_bytes);
   }
   const std::optional<mismatch>& last = asked.difference();
   if (!last || (!field.empty() && last->field != field)) return {};
-  c.what = {std::ssize(calls), leader.facts().name, fresh->facts().name, *last, c.what.decisions};
+  c.what = {std::ssize(calls), leader.facts().name, fresh->facts().name, *last, c.what.narrowest};
   return c;
 }
 

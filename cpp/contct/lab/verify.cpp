@@ -314,7 +314,7 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   const linear_structure s = structure_of(p);
   const verified_run listing(p, s, {"fortran", "cpp"});
   const verified_run corrected(p, s, {"corrected"});
-  const lockstep& compared = *listing.path.result.compared;
+  const lockstep_on_path& compared = *listing.path.result.compared;
   verified_case out{c.file,
                     p.title,
                     {},

@@ -1,4 +1,4 @@
-// A kernel that is a shared library with the plug-in ABI, loaded and called in a child process.
+// What the child process of a plug-in does: load it and make calls.
 #include "contct/outside/plugin.h"
 
 #include <dlfcn.h>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "contct/kernel/fortran.hpp"
-#include "contct/outside/child_process.hpp"
+#include "contct/outside/child_kernel.hpp"
 #include "contct/outside/own_kernel.hpp"
 #include "contct/trace/trace.hpp"
 
@@ -15,8 +15,6 @@ namespace contct::outside {
 namespace {
 
 using abi_function = decltype(&contct_kernel_abi);
-constexpr std::string_view ready_word = "ready";
-constexpr const char* too_slow = "did not load within its time";
 
 /// Make the call, and say what came of it as trace text.
 std::string answer_to(std::string_view asked, kernel_procedure* ask) {
@@ -53,8 +51,9 @@ void serve(kernel_procedure* ask, int channel) {
   }
 }
 
-/// What the child does: load the library, say "ready" or what is wrong, serve.
-void host(const std::string& path, int channel) {
+}  // namespace
+
+void host_plugin(const std::string& path, int channel) {
   fortran::forget_unit_26();  // the plug-in may be FORTRAN and write to its own unit 26
   // dlopen looks for a name without a slash among the system's libraries only.
   void* const library =
@@ -73,40 +72,6 @@ void host(const std::string& path, int channel) {
                "found ABI " + std::to_string(found) + "; allowed: " + std::to_string(CONTCT_KERNEL_ABI));
   say(channel, ready_word);
   serve(ask, channel);
-}
-
-class plugin_kernel final : public kernel_in_child {
- public:
-  plugin_kernel(const std::string& path, const outside_limits& limits)
-      : kernel_in_child(facts_of_outside("plugin:" + path, "a shared library"), limits), path_(path) {
-    if (const std::string wrong = load(); !wrong.empty())
-      throw std::invalid_argument("plugin:" + path + ": " + wrong);
-  }
-
- private:
-  void start() override {
-    if (const std::string wrong = load(); !wrong.empty()) fail(wrong, wrong == too_slow);
-  }
-
-  /// Start the child. Returns what is wrong with the library.
-  std::string load() {
-    child_.emplace([this](int channel) { host(path_, channel); });
-    std::string word;
-    const auto how = child_->receive(word, deadline());
-    if (how == child_process::sent::whole && word == ready_word) return "";
-    const std::string words = child_->end();
-    child_.reset();
-    if (how == child_process::sent::whole) return word;
-    return how == child_process::sent::late ? too_slow : words + " while it was loaded";
-  }
-
-  std::string path_;
-};
-
-}  // namespace
-
-std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limits& limits) {
-  return std::make_unique<plugin_kernel>(path, limits);
 }
 
 }  // namespace contct::outside

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "contct/outside/child_process.hpp"
+#include "contct/outside/child_kernel.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct::outside {

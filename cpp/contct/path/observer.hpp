@@ -2,19 +2,11 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "contct/kernel/call.hpp"
 
 namespace contct::path {
-
-/// One call of the leading kernel.
-struct answered_call {
-  const call<double>& c;             ///< inputs and outputs; c.isep is already toggled
-  std::span<const int> isep_before;  ///< ISEP as it went in [pairs]
-  std::string_view text;             ///< the leader's unit-26 text of this call
-};
 
 /// One increment of a step.
 struct increment {
@@ -54,7 +46,7 @@ struct step_state {
 class observer {
  public:
   virtual ~observer() = default;
-  virtual void called(const answered_call& /*c*/) {}
+  virtual void called(const answered_call& /*c*/) {}  // of the leading kernel
   virtual void incremented(const increment& /*i*/) {}
   virtual void step_ended(const step_state& /*s*/) {}
 };

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -117,7 +120,8 @@ struct path_state {
   /// Put one call to the kernel, with `d_test` [pairs] for d*, and tell the observers. Sets s, status and
   /// events; returns s_min. Throws no_factor when d* is not finite.
   double ask(kernel& leader, std::span<const double> d_test) {
-    if (!response_is_finite()) throw no_factor("the response to the residual load is not finite");
+    if (!std::ranges::all_of(d_star, [](double moves) { return std::isfinite(moves); }))
+      throw no_factor("the response to the residual load is not finite");
     call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
     if (as_listed_) {
       for (std::size_t i = 0; i < pairs(); ++i) {
@@ -132,7 +136,10 @@ struct path_state {
     find_events();
     const std::string text = leader.take_text();
     residual.last_s = s;
-    for (observer* o : observers_) o->called({arguments, sprung, text});
+    const answered_call answered{
+        arguments, sprung, leader.facts().has_text ? std::optional<std::string_view>(text) : std::nullopt,
+        ++calls_};
+    for (observer* o : observers_) o->called(answered);
     return arguments.smin;
   }
 
@@ -231,34 +238,16 @@ struct path_state {
   }
 
  private:
-  /// Events are rare, so 16 statuses are compared at once.
   void find_events() {
-    constexpr std::size_t stretch = 16;
     events.clear();
-    const auto look_at = [this](std::size_t i) {
+    for (std::size_t i = 0; i < pairs(); ++i)
       if (status[i] != sprung[i])
         events.push_back({static_cast<int>(i), status[i] == in_contact ? change::make : change::break_});
-    };
-    std::size_t i = 0;
-    for (; i + stretch <= pairs(); i += stretch) {
-      int differs = 0;
-      for (std::size_t j = 0; j < stretch; ++j) differs |= status[i + j] ^ sprung[i + j];
-      for (std::size_t j = 0; differs != 0 && j < stretch; ++j) look_at(i + j);
-    }
-    for (; i < pairs(); ++i) look_at(i);
-  }
-
-  [[nodiscard]] bool response_is_finite() const {
-    std::array<double, 4> off{};  // sums of zeros, unless there is one that is not finite
-    std::size_t i = 0;
-    for (; i + off.size() <= d_star.size(); i += off.size())
-      for (std::size_t j = 0; j < off.size(); ++j) off[j] += d_star[i + j] - d_star[i + j];
-    for (; i < d_star.size(); ++i) off[0] += d_star[i] - d_star[i];
-    return off[0] + off[1] + off[2] + off[3] == 0.0;
   }
 
   const load_history* loads_ = nullptr;
   std::span<observer* const> observers_;
+  std::int64_t calls_ = 0;
   bool as_listed_;
   std::vector<double> dd_, dtest_;  // D and d* over the structure, where the kernel is called so [dofs]
 };

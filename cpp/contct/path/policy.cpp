@@ -13,9 +13,9 @@ response path_policy::respond() {
   return response::elastic;
 }
 
-bool path_policy::accept(double& s_min) {
-  if (s_min < 1.0 && reaches_full_load(s_min)) leave_undone(s_min);
-  return true;
+std::optional<double> path_policy::decide() {
+  const double s_min = now_.ask(leader_, now_.d_star);
+  return s_min < 1.0 && reaches_full_load(s_min) ? leave_undone() : s_min;
 }
 
 /// The springs of the last increment, which its events have not switched yet, are those in the stiffness.
@@ -83,21 +83,17 @@ class corrected_policy final : public path_policy {
     return response::elastic;
   }
 
-  double ask() override {
-    const double s_min = now_.ask(leader_, d_test());
+  std::optional<double> decide() override {
+    double s_min = now_.ask(leader_, d_test());
     answers_at_rest_ = s_min == 0.0 ? answers_at_rest_ + 1 : 0;
     if (answers_at_rest_ > quick_answers_at_rest(now_.pairs()) && !now_.events.empty())
       toggle_first_at_rest();
-    return s_min;
-  }
-
-  bool accept(double& s_min) override {
-    if (rigid_ && s_min == 1.0) return false;
+    if (rigid_ && s_min == 1.0) return std::nullopt;
     // Only the last pairs that hold the structure open too early; any other event is followed.
-    if (s_min < 1.0 && !now_.held() && opens_at_full_load(s_min)) leave_undone(s_min);
+    if (s_min < 1.0 && !now_.held() && opens_at_full_load(s_min)) s_min = leave_undone();
     if (keep_in_contact_if_toggled_again(s_min)) cycles_.reset();
     if (rigid_) now_.move_shape(s_min, motion_);
-    return true;
+    return s_min;
   }
 
   [[nodiscard]] bool goes_on() const override { return true; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "contct/kernel/kernel.hpp"
@@ -38,12 +39,9 @@ class path_policy {
   /// Write d* [pairs] to the state. Throws no_factor.
   virtual response respond();
 
-  /// Put the call to the kernel, which toggles statuses; returns s_min.
-  virtual double ask() { return now_.ask(leader_, now_.d_star); }
-
-  /// Replace the kernel's s_min, and its toggles, where the driver knows better. False when a rigid motion
-  /// meets no face: a mechanism.
-  virtual bool accept(double& s_min);
+  /// Put the call to the kernel, which toggles statuses, and replace its answer where the driver knows
+  /// better. Returns s_min; nothing where a rigid motion meets no face: a mechanism.
+  virtual std::optional<double> decide();
 
   /// May the path go on after the events of this increment, or do they leave a mechanism?
   [[nodiscard]] virtual bool goes_on() const { return now_.held(); }
@@ -62,9 +60,10 @@ class path_policy {
   [[nodiscard]] bool reaches_full_load(double s_min) const;
 
   /// Undo the kernel's toggles and apply all of R*: as the listing does with an event exactly at s = 1.
-  void leave_undone(double& s_min) {
+  /// Returns this s.
+  double leave_undone() {
     now_.take_back_toggles();
-    s_min = 1.0;
+    return 1.0;
   }
 
   path_state& now_;

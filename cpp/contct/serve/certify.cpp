@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/lockstep.hpp"
 #include "contct/exact/exact_means.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"

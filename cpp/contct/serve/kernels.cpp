@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "contct/compare/compare.hpp"
-#include "contct/kernel/limits.hpp"
+#include "contct/kernel/call.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/numeric/probe.hpp"
 #include "contct/outside/registry.hpp"

@@ -42,7 +42,7 @@ run::run(const problem& p, const linear_structure& s, run_request request)
   leader_ = make_kernel(wanted.kernels.front());
   leader_facts_ = leader_->facts();
   if (!wanted.free_run && wanted.kernels.size() > 1)
-    result.compared.emplace(make_lockstep(leader_facts_, std::span(wanted.kernels).subspan(1)));
+    result.compared.emplace(leader_facts_, std::span(wanted.kernels).subspan(1));
   result.engine = engine_for(leader_facts_, wanted.engine, s);
 }
 

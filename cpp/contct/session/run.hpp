@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "contct/compare/free_run.hpp"
+#include "contct/path/free_run.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/run_result.hpp"
 #include "contct/write/words.hpp"
@@ -69,7 +69,7 @@ class run {
   /// Writes what the leader writes to unit 26.
   struct log_writer final : observer {
     explicit log_writer(output_file& file) : out(file) {}
-    void called(const answered_call& c) override { out.write(c.text); }
+    void called(const answered_call& c) override { out.write(c.text.value_or("")); }
 
     output_file& out;
   };

@@ -136,9 +136,9 @@ void append_header(const trace_header& h, std::string& text) {
   }
 }
 
-void append_inputs(std::int64_t number, std::string_view note, const call<double>& c,
-                   std::span<const int> isep, std::string& text) {
-  text += "\ncall " + std::to_string(number) + "\n";
+void append_inputs(const answered_call& answered, std::string_view note, std::string& text) {
+  const call<double>& c = answered.c;
+  text += "\ncall " + std::to_string(answered.number) + "\n";
   append_line(text, "note", note);
   text += "indof " + std::to_string(c.dof.indof) + " ndofpn " + std::to_string(c.dof.ndofpn) + " dofs " +
           std::to_string(c.dd.size()) + " nc " + std::to_string(c.nc()) + "\n";
@@ -148,15 +148,16 @@ void append_inputs(std::int64_t number, std::string_view note, const call<double
   }
   for (std::size_t i = 0; i < c.cc.size(); ++i) {
     text += "pair " + std::to_string(i + 1) + " id " + std::to_string(c.id[i]) + " isep " +
-            std::to_string(isep[i]) + " isurf " + std::to_string(c.isurf[i]) + " cc " + hexfloat(c.cc[i]) +
-            "\n";
+            std::to_string(answered.isep_before[i]) + " isurf " + std::to_string(c.isurf[i]) + " cc " +
+            hexfloat(c.cc[i]) + "\n";
   }
   text += "ask\n";
 }
 
 void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
                    std::string& text) {
-  append_inputs(number, note, {in.dd, in.dtest, in.cc, {}, 0.0, in.id, {}, in.isurf, in.dof}, in.isep, text);
+  append_inputs({{in.dd, in.dtest, in.cc, {}, 0.0, in.id, {}, in.isurf, in.dof}, in.isep, {}, number}, note,
+                text);
 }
 
 void append_answer(double smin, std::span<const double> ss, std::span<const int> isep,

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "contct/kernel/call.hpp"
-#include "contct/kernel/call_inputs.hpp"
 #include "contct/kernel/kernel.hpp"
 #include "contct/text/input_text.hpp"
 
@@ -37,6 +36,15 @@ struct recorded_call {
   std::string note;  ///< what the call is there for; may be empty
   call_inputs<double> in;
   call_outputs out;
+
+  /// The same for comparisons. A kernel with text writes some in every call: where the trace has none, its
+  /// kernel had none.
+  [[nodiscard]] answered_call answered() {
+    return {{in.dd, in.dtest, in.cc, out.ss, out.smin, in.id, out.isep, in.isurf, in.dof},
+            in.isep,
+            out.text.empty() ? std::nullopt : std::optional<std::string_view>(out.text),
+            number};
+  }
 };
 
 /// The header of a trace that a kernel with these facts answers, in this process: `listing` is the checksum;
@@ -48,9 +56,8 @@ struct recorded_call {
 void append_header(const trace_header& h, std::string& text);
 
 /// Append the inputs of a call, from "call N" and its note to "ask". Of dd and dtest only what the pairs
-/// address is written: nothing else may be read by a kernel. `isep` is the status as it went in.
-void append_inputs(std::int64_t number, std::string_view note, const call<double>& c,
-                   std::span<const int> isep, std::string& text);
+/// address is written: nothing else may be read by a kernel.
+void append_inputs(const answered_call& c, std::string_view note, std::string& text);
 void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
                    std::string& text);
 

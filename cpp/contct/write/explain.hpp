@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "contct/compare/explanation.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/text/terminal.hpp"
 #include "contct/write/result_json.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/compare/explanation.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/rooms.hpp"
 
 namespace contct::write {

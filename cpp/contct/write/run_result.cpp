@@ -25,9 +25,10 @@ void run_recorder::called(const answered_call& c) {
 
 void run_recorder::keep_call(const answered_call& c) {
   ++all_calls;
-  all_log += c.text.size();
+  const std::string_view text = c.text.value_or("");
+  all_log += text.size();
   // Whole calls only: a text is never cut in the middle of an event.
-  if (log.size() + c.text.size() <= most_log && log.size() + c.text.size() == all_log) log += c.text;
+  if (log.size() + text.size() <= most_log && log.size() + text.size() == all_log) log += text;
   answers_ = calls.size() < most_calls;
   if (!answers_) return;
   const auto first = c.c.ss.first(std::min(most_ss, c.c.ss.size()));

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/free_run.hpp"
-#include "contct/compare/lockstep.hpp"
+#include "contct/path/free_run.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/structure/structure.hpp"
 
@@ -123,7 +123,7 @@ struct run_result {
   std::string file;                  ///< the problem's, as it was named
   std::vector<std::string> kernels;  ///< the leader first
   std::string engine;
-  std::optional<lockstep> compared;  ///< none: no kernel was compared call by call
+  std::optional<lockstep_on_path> compared;  ///< none: no kernel was compared call by call
   std::vector<compared_path> free_runs;
   bool equal = true;               ///< the kernels agreed
   std::string comparison;          ///< how they did, in words; empty for a kernel alone

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/compare/lockstep.hpp"
 #include "contct/path/path.hpp"
+#include "contct/path/path_observers.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/write/exit_status.hpp"
 #include "contct/write/step_results.hpp"

@@ -1,7 +1,7 @@
 // A C++ program with CONTCT in it: the template, the kernels by name, the comparison.
 #include <cmath>
 #include <contct/compare/compare.hpp>
-#include <contct/kernel/call_inputs.hpp>
+#include <contct/kernel/call.hpp>
 #include <contct/kernel/contct.hpp>
 #include <contct/outside/registry.hpp>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "contct/compare/free_run.hpp"
+#include "contct/path/free_run.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
 // What observes a path: the explanation of its calls, the toggles that came too early, and its trace.
+#include "contct/path/path_observers.hpp"
+
 #include <cmath>
 
 #include "catch.hpp"
 #include "contct/compare/compare.hpp"
-#include "contct/compare/explanation.hpp"
-#include "contct/compare/lockstep.hpp"
 #include "support/beams.hpp"
 
 using namespace contct::app;
@@ -40,7 +40,7 @@ void call_with(observer& o, double d, double d_star, double c, double smin, int 
   const std::vector<int> id = {1}, before = {separated}, isurf = {face_below};
   std::vector<int> isep = {isep_after};
   const call<double> answered{dd, dtest, cc, ss, smin, id, isep, isurf, {}};
-  o.called({answered, before, ""});
+  o.called({answered, before});
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 // Calls beyond the limits of 32-bit whole numbers.
-#include "contct/kernel/limits.hpp"
+#include "contct/kernel/call.hpp"
 
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/kernel/call_inputs.hpp"
 
 using namespace contct::app;
 using Catch::Matchers::Contains;

@@ -1,9 +1,9 @@
-#include "contct/compare/free_run.hpp"
+#include "contct/path/free_run.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contct::compare {
+namespace contct::path {
 namespace {
 
 std::string words_at(const std::vector<timed_event>& events, std::size_t i) {
@@ -67,4 +67,4 @@ free_run_difference compare_paths(const path_record& leader, const path_record& 
   return d;
 }
 
-}  // namespace contct::compare
+}  // namespace contct::path

@@ -1,0 +1,79 @@
+#include "contct/path/path_observers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace contct::path {
+namespace {
+
+/// The kernel, if there is one.
+std::vector<std::unique_ptr<kernel>> list_of(std::unique_ptr<kernel> k) {
+  std::vector<std::unique_ptr<kernel>> list;
+  if (k) list.push_back(std::move(k));
+  return list;
+}
+
+}  // namespace
+
+void early_toggles::called(const answered_call& c) {
+  distances_.assign(c.isep_before.size(), 0.0);
+  for (std::size_t i = 0; i < c.isep_before.size(); ++i) {
+    const int dof = c.c.dof.dof_of(c.c.id[i]) - 1;
+    const double reached = c.c.dd[dof] + c.c.smin * c.c.dtest[dof];
+    if (std::isfinite(reached)) largest_ = std::max(largest_, std::abs(reached));
+    if (c.c.isep[i] != c.isep_before[i]) distances_[i] = std::abs(c.c.cc[i] - reached);
+  }
+}
+
+void early_toggles::incremented(const increment& i) {
+  const double rounding = rounding_share(sizeof(double)) * largest_;
+  for (const event& e : i.events) {
+    const double distance = e.pair < std::ssize(distances_) ? distances_[e.pair] : 0.0;
+    if (distance > rounding) all_.push_back({i.step, i.number, e, distance, distance / largest_});
+  }
+}
+
+trace_recorder::trace_recorder(const trace_header& h, sink to) : to_(std::move(to)) {
+  append_header(h, text_);
+  to_(text_);
+}
+
+void trace_recorder::called(const answered_call& c) {
+  text_.clear();
+  append_inputs(c, "", text_);
+  append_answer(c.c.smin, c.c.ss, c.c.isep, c.text.value_or(""), text_);
+  to_(text_);
+}
+
+explained_path::explained_path(const kernel_facts& leader, std::unique_ptr<kernel> second,
+                               increments_wanted wanted, sink to)
+    : real_bytes_(leader.real_bytes),
+      compared_(leader, list_of(std::move(second))),
+      wanted_(wanted),
+      to_(std::move(to)) {}
+
+void explained_path::called(const answered_call& c) {
+  if (number_++ == 0) ++steps_;
+  compared_.put(c);
+  // Calls that are not wanted are explained too: the largest deflection decides what is rounding in later
+  // ones.
+  call_ = explain(c, real_bytes_, largest_);
+}
+
+void explained_path::incremented(const increment& i) {
+  const double before = std::exchange(fraction_, i.fraction);
+  if (wanted_.step == 0 || wanted_.step == i.step) most_increments_ = std::max(most_increments_, i.number);
+  if (!wanted_.holds(i.step, i.number)) return;
+  ++explained_;
+  const follower* const second = compared_.followers().empty() ? nullptr : &compared_.followers().front();
+  to_({i, before, call_, second != nullptr && second->answered() ? &second->answer() : nullptr,
+       second != nullptr ? second->difference() : std::nullopt, call_.winner >= 0 && i.events.empty()});
+}
+
+void explained_path::step_ended(const step_state& /*s*/) {
+  number_ = 0;
+  fraction_ = 0.0;
+}
+
+}  // namespace contct::path
