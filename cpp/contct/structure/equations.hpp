@@ -95,7 +95,7 @@ void assemble(const Kind& /*kind*/, const Elements& elements, sparse_rows<Number
 template <class Number>
 void assemble(const assembled& a, const no_elements<Number>& /*none*/, sparse_rows<Number>& k) {
   for (const matrix_entry& m : a.stiffness.entries) {
-    const Number value = number_of<Number>(m.value);
+    const auto value = number_of<Number>(m.value);
     k[m.row][m.column] += value;
     if (m.row != m.column) k[m.column][m.row] += value;
   }
