@@ -49,7 +49,7 @@ run::run(const problem& p, const linear_structure& s, run_request request)
 void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
   to_ = to;
   const bool drawn = to.page != nullptr;
-  lockstep* const compared = result.compared ? &*result.compared : nullptr;
+  lockstep_on_path* const compared = result.compared ? &*result.compared : nullptr;
   result.record = run_recorder(
       compared, {.calls = drawn,
                  .states = leader_ && (drawn || wanted.pictures || wanted.envelope || to.table != nullptr)});
