@@ -86,6 +86,7 @@ using ::ranges::binary_search;
 using ::ranges::copy;
 using ::ranges::count;
 using ::ranges::count_if;
+using ::ranges::fill;
 using ::ranges::find;
 using ::ranges::find_if;
 using ::ranges::lower_bound;

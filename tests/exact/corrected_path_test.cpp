@@ -54,7 +54,7 @@ int check_ends(const contct::structure::problem& p) {
   int checked = 0;
   for (std::size_t step = 0; step < path.steps.size(); ++step) {
     if (path.steps[step].fraction != 1) continue;
-    CHECK(wrong_with(e, e.steps[step], path.steps[step]) == "");
+    CHECK(wrong_with(e, e.steps[step], path.steps[step]).empty());
     ++checked;
   }
   return checked;

@@ -500,7 +500,7 @@ TEST_CASE("what holds the plate is told to the path: three points not on a line,
 TEST_CASE("D of a plate is right to 32 digits where 1 - nu^2 cancels in doubles") {
   const plate p{{0, 1}, {0, 1}, 1.0, -0.9999999999999999, 2484, 0.1};
   // 1 - nu^2 = 1e-16 (2 - 1e-16), and D = 0.207 / (1 - nu^2).
-  const double_double D = stiffness_of<double_double>(p);
+  const auto D = stiffness_of<double_double>(p);
   const auto nu_off = number_of<double_double>(1e-16);
   CHECK(std::abs((D * nu_off * (2 - nu_off) - number_of<double_double>(0.207)).hi) < 1e-30);
   CHECK(std::abs(bending_stiffness(p.E, p.nu, p.thickness) / D.hi - 1) > 0.05);

@@ -57,7 +57,7 @@ void append_header(const trace_header& h, std::string& text);
 
 /// Append the inputs of a call, from "call N" and its note to "ask". Of dd and dtest only what the pairs
 /// address is written: nothing else may be read by a kernel.
-void append_inputs(const answered_call& c, std::string_view note, std::string& text);
+void append_inputs(const answered_call& answered, std::string_view note, std::string& text);
 void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
                    std::string& text);
 
