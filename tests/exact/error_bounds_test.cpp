@@ -24,7 +24,7 @@ namespace {
 struct told_end {
   [[nodiscard]] reported_state handed() const { return {step, displacement, isep, numbers}; }
 
-  int step;
+  int step = 0;
   std::vector<double> displacement;
   std::vector<int> isep;
   end_numbers numbers;
