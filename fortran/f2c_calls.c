@@ -2,9 +2,7 @@
  * COMMON /DOF/ is gfortran's and flang's as well: calls must be serialised by the caller. */
 #include <f2c.h>
 
-extern struct {
-  integer indof, ndofpn;
-} dof_;
+extern struct { integer indof, ndofpn; } dof_;
 
 int f2c8_(doublereal* dd, doublereal* dtest, doublereal* cc, doublereal* ss, doublereal* smin, integer* id,
           integer* isep, integer* isurf, integer* nc);

@@ -5,7 +5,7 @@
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 std::string structure_words(const problem& p) {
@@ -87,4 +87,4 @@ exit_status run_command(const check_options& options) {
   return exit_status::solved;
 }
 
-}  // namespace contct::app
+}  // namespace contct

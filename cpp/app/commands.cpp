@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
-#include "contct/numeric/probe.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/number/probe.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 // Problems to start from, with every key explained.
@@ -146,4 +146,4 @@ exit_status run_command(const kernels_options& /*options*/) {
   return exit_status::solved;
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "contct/lab/fuzz.hpp"
-#include "contct/write/exit_status.hpp"
+#include "contct/session/exit_status.hpp"
 
-namespace contct::app {
+namespace contct {
 
 // One structure a command. A string is a file's name where nothing else is said; empty: not asked for.
 
@@ -142,4 +142,4 @@ inline exit_status run_command(const printed_text& t) {
   return exit_status::solved;
 }
 
-}  // namespace contct::app
+}  // namespace contct

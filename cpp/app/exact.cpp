@@ -1,11 +1,11 @@
 // contct exact: the path in rational arithmetic, and how many digits of each kernel are right.
 #include "app/problem_runs.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/exact_run.hpp"
 #include "contct/write/exact_output.hpp"
 
-namespace contct::app {
+namespace contct {
 
 exit_status run_command(const exact_options& options) {
   for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
@@ -44,4 +44,4 @@ exit_status run_command(const exact_options& options) {
   return status_of(path.status);
 }
 
-}  // namespace contct::app
+}  // namespace contct

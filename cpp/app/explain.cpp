@@ -5,7 +5,7 @@
 
 #include "app/problem_runs.hpp"
 #include "contct/exact/exact_problem.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/listing_kernels.hpp"
@@ -13,7 +13,7 @@
 #include "contct/write/explain_exact.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 /// All of `text` as a number from 1; 0 where it is none.
@@ -137,4 +137,4 @@ exit_status run_command(const explain_options& options) {
   return status_of(end.status, equal);
 }
 
-}  // namespace contct::app
+}  // namespace contct

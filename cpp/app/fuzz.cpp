@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "app/outputs.hpp"
-#include "contct/numeric/probe.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/number/probe.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 /// "I/N" as two numbers; throws std::invalid_argument.
@@ -144,4 +144,4 @@ exit_status run_command(const fuzz_options& options) {
   return missed.empty() ? exit_status::solved : exit_status::bad_input;
 }
 
-}  // namespace contct::app
+}  // namespace contct

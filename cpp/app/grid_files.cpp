@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "contct/write/path_states.hpp"
+#include "contct/session/path_states.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,4 +58,4 @@ void write_grids(const output_files& files, const std::string& vtu, const run_re
   files.write(vtu_collection, pvd_of_states(fs::path(vtu).stem().string(), states.size()));
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/outputs.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/model/problem.hpp"
 #include "contct/write/pictures.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// A file in the folder of `file`: its name without the extension, and `end`.
 [[nodiscard]] std::string beside(const std::string& file, const std::string& end);
@@ -23,4 +23,4 @@ void check_grid_coordinates(const problem& p);
 /// Write all files of --vtu. Throws as output_file does.
 void write_grids(const output_files& files, const std::string& vtu, const run_result& r);
 
-}  // namespace contct::app
+}  // namespace contct

@@ -9,7 +9,7 @@
 
 #include "contct/solve/mpi_job.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,4 +72,4 @@ void leave_job() noexcept {
   if (job != nullptr) job->leave();
 }
 
-}  // namespace contct::app
+}  // namespace contct

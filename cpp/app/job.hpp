@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace contct::app {
+namespace contct {
 
 /// Join the job where the command line asks for it, through the module contct_petsc.so. This is looked at
 /// before anything is parsed: rank 0 alone parses, reads, talks and writes. False on the other ranks, when
@@ -15,4 +15,4 @@ namespace contct::app {
 /// Let the other ranks go, where there are any. The last thing that rank 0 does.
 void leave_job() noexcept;
 
-}  // namespace contct::app
+}  // namespace contct

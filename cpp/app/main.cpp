@@ -9,9 +9,9 @@
 #include "app/job.hpp"
 #include "app/outputs.hpp"
 #include "app/problem_runs.hpp"
-#include "contct/numeric/rational.hpp"
+#include "contct/number/rational.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 /// Nothing where the command line has no meaning, which is said.
@@ -50,14 +50,14 @@ exit_status status_of_program(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace contct::app
+}  // namespace contct
 
 int main(int argc, char** argv) {
-  std::set_new_handler(contct::app::end_for_memory);
-  contct::numeric::allocate_as_new_does();
-  contct::app::hold_standard_streams();
+  std::set_new_handler(contct::end_for_memory);
+  contct::allocate_as_new_does();
+  contct::hold_standard_streams();
   (void)std::signal(SIGPIPE, SIG_IGN);
-  const contct::app::exit_status status = contct::app::status_of_program(argc, argv);
-  contct::app::leave_job();
+  const contct::exit_status status = contct::status_of_program(argc, argv);
+  contct::leave_job();
   return static_cast<int>(status);
 }

@@ -9,7 +9,7 @@
 #include "contct/path/path.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 constexpr std::int64_t most_random_cases = 1'000'000'000'000;
@@ -381,4 +381,4 @@ command_options parse_contct_replay(int argc, const char* const* argv) {
   return p.parse(argc, argv);
 }
 
-}  // namespace contct::app
+}  // namespace contct

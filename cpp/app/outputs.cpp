@@ -10,10 +10,10 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "contct/numeric/probe.hpp"
+#include "contct/number/probe.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 /// An attribute with a blank before it. XML takes a line's end in it for a blank unless it is a reference.
@@ -260,4 +260,4 @@ std::jthread shown_activity(const std::string& activity, bool quiet) {
   });
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -18,7 +18,7 @@
 #include "contct/text/strings.hpp"
 #include "contct/text/terminal.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// Take the place of standard streams that are closed, so that no file of ours gets their number
 /// and, with it, what is printed.
@@ -160,4 +160,4 @@ class progress {
 /// model.toml, 3 s". Nothing else may be printed meanwhile, and no process forked.
 [[nodiscard]] std::jthread shown_activity(const std::string& activity, bool quiet);
 
-}  // namespace contct::app
+}  // namespace contct

@@ -9,7 +9,7 @@
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::app {
+namespace contct {
 std::vector<std::string> engine_choices() {
   std::vector<std::string> names = engine_names();
   names.insert(names.begin(), "auto");
@@ -64,4 +64,4 @@ void path_progress::step_ended(const step_state& s) {
   number_ = 0;
 }
 
-}  // namespace contct::app
+}  // namespace contct

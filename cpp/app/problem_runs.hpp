@@ -4,12 +4,12 @@
 #include <string>
 
 #include "app/outputs.hpp"
+#include "contct/model/problem.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
-#include "contct/structure/problem.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// "1 node", "3 nodes".
 [[nodiscard]] inline std::string counted(std::size_t n, std::string_view what) {
@@ -50,4 +50,4 @@ class path_progress final : public observer {
   int step_ = 1, number_ = 0;
 };
 
-}  // namespace contct::app
+}  // namespace contct

@@ -12,7 +12,7 @@
 #include "app/commands.hpp"
 #include "app/outputs.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,4 +47,4 @@ exit_status run_command(const prove_options& options) {
   throw std::system_error(errno, std::generic_category(), std::string("cannot run ") + python);
 }
 
-}  // namespace contct::app
+}  // namespace contct

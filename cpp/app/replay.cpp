@@ -3,11 +3,11 @@
 
 #include "app/outputs.hpp"
 #include "contct/compare/compare.hpp"
-#include "contct/numeric/probe.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/number/probe.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 /// What a replay says. What a floating point that is not strict computes says nothing of a kernel.
@@ -89,4 +89,4 @@ exit_status run_command(const replay_options& options) {
   return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;
 }
 
-}  // namespace contct::app
+}  // namespace contct

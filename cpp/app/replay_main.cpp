@@ -3,7 +3,7 @@
 
 #include "app/outputs.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 exit_status status_of_replay(int argc, char** argv) {
@@ -20,10 +20,10 @@ exit_status status_of_replay(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace contct::app
+}  // namespace contct
 
 int main(int argc, char** argv) {
-  std::set_new_handler(contct::app::end_for_memory);
-  contct::app::hold_standard_streams();
-  return static_cast<int>(contct::app::status_of_replay(argc, argv));
+  std::set_new_handler(contct::end_for_memory);
+  contct::hold_standard_streams();
+  return static_cast<int>(contct::status_of_replay(argc, argv));
 }

@@ -8,14 +8,15 @@
 
 #include "app/grid_files.hpp"
 #include "app/problem_runs.hpp"
-#include "contct/numeric/probe.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
+#include "contct/write/outputs.hpp"
 #include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,10 +107,10 @@ run_setup set_up(const run_options& o) {
   return setup;
 }
 
-session::run_request request_of(const run_setup& setup) {
+run_request request_of(const run_setup& setup) {
   const run_options& o = setup.options;
   const picture_options& pictures = o.pictures;
-  session::run_request r{.file = o.file, .engine = o.engine, .free_run = o.free_run, .envelope = o.envelope};
+  run_request r{.file = o.file, .engine = o.engine, .free_run = o.free_run, .envelope = o.envelope};
   if (!o.final_only) r.kernels = o.kernels;
   r.pictures = !pictures.vtu.empty();
   r.max_increments = o.max_increments;
@@ -126,7 +127,7 @@ session::run_request request_of(const run_setup& setup) {
 /// reported at once.
 struct shown_run {
   const run_setup& setup;
-  session::run run{setup.what, setup.structure, request_of(setup)};
+  contct::run run{setup.what, setup.structure, request_of(setup)};
   output_files files{setup.outputs};
   bool has_verdict = false;
   std::string differences = {};  // of the kernels, lines
@@ -239,7 +240,7 @@ check_report check_report_of(const shown_run& o) {
 
 /// Complete and name all files.
 void write_files(shown_run& o) {
-  o.run.finish();
+  write_outputs(o.run);
   if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.pictures.vtu, o.run.result);
   o.files.write(check_report_of(o));
 }
@@ -269,4 +270,4 @@ exit_status run_command(const run_options& options) {
   return finish(o);
 }
 
-}  // namespace contct::app
+}  // namespace contct

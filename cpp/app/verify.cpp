@@ -15,7 +15,7 @@
 #include "contct/text/terminal.hpp"
 #include "contct/write/result_json.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -235,4 +235,4 @@ exit_status run_command(const verify_options& options) {
   return all.failed == 0 && all.numbers > 0 ? exit_status::solved : exit_status::kernels_differ;
 }
 
-}  // namespace contct::app
+}  // namespace contct

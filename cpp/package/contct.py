@@ -674,7 +674,7 @@ def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, ise
 
 
 class _PythonKernel:
-    """A Python function as contct_kernel of contct/outside/plugin.h. The first exception ends it, and is kept."""
+    """A Python function as contct_kernel of contct/kernel/plugin.h. The first exception ends it, and is kept."""
 
     def __init__(self, function: Callable[[Inputs], tuple[Any, float, Any]]) -> None:
         self.function = function

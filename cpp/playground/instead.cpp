@@ -2,8 +2,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "contct/kernel/child_kernel.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/outside/child_kernel.hpp"
 
 extern "C" {
 void ilaver_(int* major, int* minor, int* patch);
@@ -37,7 +37,7 @@ void dsyev_(const char* /*jobz*/, const char* /*uplo*/, const int* /*n*/, double
 }
 }
 
-namespace contct::matrix {
+namespace contct {
 
 std::string lapack_identity() {
   int major = 0;
@@ -48,9 +48,9 @@ std::string lapack_identity() {
          ", by f2c";
 }
 
-}  // namespace contct::matrix
+}  // namespace contct
 
-namespace contct::outside {
+namespace contct {
 
 std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limits& /*limits*/) {
   throw std::invalid_argument("plugin:" + path + ": found a library; allowed in a page: built-in kernels");
@@ -60,4 +60,4 @@ std::unique_ptr<kernel> make_pipe(const std::string& command, const outside_limi
   throw std::invalid_argument("pipe:" + command + ": found a command; allowed in a page: built-in kernels");
 }
 
-}  // namespace contct::outside
+}  // namespace contct

@@ -5,7 +5,7 @@
  *
  * -ffp-contract=off: without it some machines round a product and a sum once where the listing rounds
  * twice. */
-#include <contct/outside/plugin.h>
+#include <contct/kernel/plugin.h>
 #include <math.h>
 
 /* The listing's DATA statement. */

@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "read/good_problem.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 

@@ -6,7 +6,7 @@
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 

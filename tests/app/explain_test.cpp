@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "read/bad_inputs.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

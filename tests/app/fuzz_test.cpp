@@ -4,12 +4,12 @@
 #include "app/process.hpp"
 #include "catch.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {
 
-/// The plug-in of tests/outside/plugins/variant.c with a fault.
+/// The plug-in of tests/kernel/plugins/variant.c with a fault.
 std::string variant(const char* fault) {
   return "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_" + fault + ".so";
 }

@@ -5,7 +5,7 @@
 #include "app/process.hpp"
 #include "catch.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "read/bad_inputs.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 

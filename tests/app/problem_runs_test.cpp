@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;

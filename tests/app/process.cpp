@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace contct::app {
+namespace contct {
 namespace {
 
 /// In the child: become the program. Streams that are files keep clear of pipes that fill up.
@@ -86,4 +86,4 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
   return f;
 }
 
-}  // namespace contct::app
+}  // namespace contct

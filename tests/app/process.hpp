@@ -8,7 +8,7 @@
 
 #include "support/scratch_folder.hpp"
 
-namespace contct::app {
+namespace contct {
 
 struct finished {
   int exit = -1;         ///< exit status; -1 when a signal ended it
@@ -34,4 +34,4 @@ finished shell(const std::string& line);
 finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                         const process_options& options = {});
 
-}  // namespace contct::app
+}  // namespace contct

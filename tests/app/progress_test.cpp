@@ -4,7 +4,7 @@
 #include "app/process.hpp"
 #include "catch.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 

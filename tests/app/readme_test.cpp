@@ -6,7 +6,7 @@
 #include "app/process.hpp"
 #include "catch.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

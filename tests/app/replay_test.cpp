@@ -8,7 +8,7 @@
 #include "app/process.hpp"
 #include "catch.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 

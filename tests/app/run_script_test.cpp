@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "read/bad_inputs.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 namespace fs = std::filesystem;

@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "contct/text/strings.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;

@@ -28,7 +28,7 @@ using json = nlohmann::ordered_json;
 
 struct options {
   std::vector<std::string> problems;  // none: the usual ones
-  std::vector<std::string> engines = contct::app::engine_names();
+  std::vector<std::string> engines = contct::engine_names();
   int events = 0;
   int rounds = 3;
   std::string json_file;
@@ -58,8 +58,8 @@ void show(const std::string& words) {
 }
 
 /// The median run of several; the first one's certificate.
-bench::run_of_engine measured(const options& o, const contct::app::problem& p,
-                              const contct::app::linear_structure& s, const std::string& engine, int events) {
+bench::run_of_engine measured(const options& o, const contct::problem& p, const contct::linear_structure& s,
+                              const std::string& engine, int events) {
   std::vector<bench::run_of_engine> runs;
   for (int round = 0; round < o.rounds; ++round) {
     runs.push_back(bench::run_engine(p, s, engine, events, round == 0));
@@ -113,14 +113,14 @@ json bench_kernels(int rounds) {
 
 void bench_problem(const options& o, const std::string& name, json& rows) {
   show(name + ": building");
-  const contct::app::problem p = bench::make_problem(name);
-  const contct::app::linear_structure s = contct::app::structure_of(p);
+  const contct::problem p = bench::make_problem(name);
+  const contct::linear_structure s = contct::structure_of(p);
   const double solve_ms = 1e3 * bench::seconds_of_a_solve(s);
   std::optional<bench::run_of_engine> reference;
   fmt::print("{}: {} dofs, half bandwidth {}, {} pairs; one dpbtrs {:.3f} ms\n", name, s.dofs(),
              s.stiffness.band().subdiagonals(), s.pairs.size(), solve_ms);
   for (const std::string& engine : o.engines) {
-    if (engine == "condensed" && !contct::app::can_be_condensed(s)) continue;
+    if (engine == "condensed" && !contct::can_be_condensed(s)) continue;
     show(name + ": " + engine);
     const bench::run_of_engine r =
         measured(o, p, s, engine, engine == "refactor" ? events_of_refactor(o, name) : o.events);
@@ -170,8 +170,8 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
 /// What only the ends of the steps cost, in factorisations.
 json bench_final_states(const std::string& name) {
   show(name + ": final states");
-  const contct::app::problem p = bench::make_problem(name);
-  const contct::app::linear_structure s = contct::app::structure_of(p);
+  const contct::problem p = bench::make_problem(name);
+  const contct::linear_structure s = contct::structure_of(p);
   const bench::final_states f = bench::time_final_states(p, s);
   show("");
   const double ratio = f.seconds / f.factorisations / f.seconds_of_a_factor;
@@ -187,9 +187,9 @@ json bench_final_states(const std::string& name) {
 /// CHOLMOD alone, where it was found, on a problem of one load step.
 void bench_peers(const options& o, const std::string& name, json& rows) {
   show(name + ": CHOLMOD");
-  const contct::app::problem p = bench::make_problem(name);
+  const contct::problem p = bench::make_problem(name);
   if (p.steps.size() > 1) return;
-  for (const bench::peer_answer& a : bench::time_cholmod(p, contct::app::structure_of(p), o.rounds)) {
+  for (const bench::peer_answer& a : bench::time_cholmod(p, contct::structure_of(p), o.rounds)) {
     show("");
     fmt::print("  CHOLMOD alone, {}: {:.1f} ms, {:.1f} digits, {} wrong statuses\n", a.method,
                1e3 * a.seconds, a.digits, a.wrong_statuses);
@@ -205,11 +205,10 @@ void bench_peers(const options& o, const std::string& name, json& rows) {
 
 int run(options o) {
   if (o.problems.empty()) o.problems = bench::usual_problems();
-  std::optional<contct::app::output_file> out;
+  std::optional<contct::output_file> out;
   if (!o.json_file.empty()) out.emplace(o.json_file);
   pin();
-  fmt::print("{}; core type: {}; one thread, its processor time\n", contct::app::lapack_identity(),
-             core_type());
+  fmt::print("{}; core type: {}; one thread, its processor time\n", contct::lapack_identity(), core_type());
   json kernels = o.without_kernels ? json::array() : bench_kernels(o.rounds);
   json rows = json::array();
   json ends = json::array();
@@ -220,9 +219,9 @@ int run(options o) {
     bench_peers(o, name, peers);
   }
   if (out) {
-    const json document = {{"blas", contct::app::lapack_identity()}, {"core", core_type()},
-                           {"kernels", std::move(kernels)},          {"rows", rows},
-                           {"final_states", std::move(ends)},        {"peers", std::move(peers)}};
+    const json document = {{"blas", contct::lapack_identity()}, {"core", core_type()},
+                           {"kernels", std::move(kernels)},     {"rows", rows},
+                           {"final_states", std::move(ends)},   {"peers", std::move(peers)}};
     out->write(document.dump(1) + "\n");
     out->finish();
   }

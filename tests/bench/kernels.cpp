@@ -10,8 +10,8 @@
 #include "contct/compare/compare.hpp"
 #include "contct/kernel/contct.h"
 #include "contct/kernel/contct.hpp"
-#include "contct/numeric/random.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/number/random.hpp"
 
 namespace bench {
 namespace {
@@ -21,14 +21,14 @@ namespace {
 struct quiet_pairs {
   explicit quiet_pairs(std::size_t n)
       : dd(2 * n), dtest(2 * n), cc(n), ss(n), id(n), isep(n), isurf(n), events(n) {
-    contct::app::random_numbers random(1989);
+    contct::random_numbers random(1989);
     for (std::size_t i = 0; i < n; ++i) {
       id[i] = static_cast<int>(i) + 1;
-      isurf[i] = random.chance(0.5) ? contct::app::face_above : contct::app::face_below;
+      isurf[i] = random.chance(0.5) ? contct::face_above : contct::face_below;
       const double gap = 0.5 + 0.5 * random.unit();
       const int kind = random.whole(0, 9);
       const bool closed = kind == 0;
-      isep[i] = closed ? contct::app::in_contact : contct::app::separated;
+      isep[i] = closed ? contct::in_contact : contct::separated;
       cc[i] = isurf[i] * gap;
       dd[2 * i] = closed ? cc[i] : 0.0;
       dtest[2 * i] = kind == 1 ? 0.0 : isurf[i] * (closed || random.chance(0.5) ? 0.25 : -0.25) * gap;
@@ -37,7 +37,7 @@ struct quiet_pairs {
 
   std::vector<double> dd, dtest, cc, ss;
   std::vector<int> id, isep, isurf;
-  std::vector<contct::app::event> events;
+  std::vector<contct::event> events;
 };
 
 template <class Call>
@@ -54,7 +54,7 @@ class both_kernels {
 
   /// SMIN, SS and ISEP of each call, and the text of a block of calls.
   void ask_in_block() {
-    contct::app::call<double> c = asked_of_leader();
+    contct::call<double> c = asked_of_leader();
     (void)follows_.ask({c, isep_before_, {}, ++calls_});
     constexpr int block = 2048;
     if (calls_ % block != 0) return;
@@ -62,7 +62,7 @@ class both_kernels {
   }
 
   void ask_on_path() {
-    contct::app::call<double> c = asked_of_leader();
+    contct::call<double> c = asked_of_leader();
     const std::string text = leader_->take_text();
     (void)follows_.ask({c, isep_before_, text, ++calls_});
   }
@@ -75,8 +75,8 @@ class both_kernels {
   }
 
  private:
-  contct::app::call<double> asked_of_leader() {
-    contct::app::call<double> c{q_.dd, q_.dtest, q_.cc, q_.ss, 0.0, q_.id, q_.isep, q_.isurf, {1, 2}};
+  contct::call<double> asked_of_leader() {
+    contct::call<double> c{q_.dd, q_.dtest, q_.cc, q_.ss, 0.0, q_.id, q_.isep, q_.isurf, {1, 2}};
     leader_->answer(c);
     return c;
   }
@@ -84,9 +84,9 @@ class both_kernels {
   quiet_pairs& q_;
   std::vector<int> isep_before_;
   std::int64_t calls_ = 0;
-  std::unique_ptr<contct::app::kernel> leader_ = contct::app::make_kernel("fortran");
-  std::unique_ptr<contct::app::kernel> cpp_ = contct::app::make_kernel("cpp");
-  contct::app::follower follows_{leader_->facts(), *cpp_};
+  std::unique_ptr<contct::kernel> leader_ = contct::make_kernel("fortran");
+  std::unique_ptr<contct::kernel> cpp_ = contct::make_kernel("cpp");
+  contct::follower follows_{leader_->facts(), *cpp_};
 };
 
 void time_lockstep(quiet_pairs& q, int rounds, int repeats, seconds_of_a_call& least) {
@@ -120,9 +120,8 @@ seconds_of_a_call time_kernels(std::size_t pairs, int rounds) {
                    q.isurf.data(), 0, 1, 2);
   };
   const auto cpp = [&] {
-    contct::app::call<double> c{q.dd, q.dtest, q.cc, q.ss, 0.0, q.id, q.isep, q.isurf, {1, 2}};
-    if (contct::app::contct(c, q.events) != 0)
-      throw std::logic_error("a pair that was to be quiet has an event");
+    contct::call<double> c{q.dd, q.dtest, q.cc, q.ss, 0.0, q.id, q.isep, q.isurf, {1, 2}};
+    if (contct::contct(c, q.events) != 0) throw std::logic_error("a pair that was to be quiet has an event");
   };
   constexpr double never = std::numeric_limits<double>::infinity();
   seconds_of_a_call least{never, never, never, never, never};

@@ -9,8 +9,8 @@
 
 #include "bench/cpu_clock.hpp"
 #include "contct/certify/certificate.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 
@@ -32,15 +32,15 @@ void forget_peak() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-class watch final : public contct::app::observer {
+class watch final : public contct::observer {
  public:
   explicit watch(run_of_engine& r) : r_(r) {}
 
-  void incremented(const contct::app::increment& i) override {
-    for (const contct::app::event& e : i.events) r_.events.push_back({e.pair, i.step - 1 + i.fraction});
+  void incremented(const contct::increment& i) override {
+    for (const contct::event& e : i.events) r_.events.push_back({e.pair, i.step - 1 + i.fraction});
     if (!i.events.empty() || r_.events.empty()) last_ = clock::now();
   }
-  void step_ended(const contct::app::step_state& s) override {
+  void step_ended(const contct::step_state& s) override {
     r_.displacement.assign(s.displacement.begin(), s.displacement.end());
     last_step_ = s.step;
     isep_.assign(s.isep.begin(), s.isep.end());
@@ -49,7 +49,7 @@ class watch final : public contct::app::observer {
   void start() { last_ = start_ = clock::now(); }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(last_ - start_).count(); }
   [[nodiscard]] int last_step() const { return last_step_; }
-  [[nodiscard]] contct::app::full_load_state last_state() const { return {r_.displacement, isep_}; }
+  [[nodiscard]] contct::full_load_state last_state() const { return {r_.displacement, isep_}; }
 
  private:
   run_of_engine& r_;
@@ -60,32 +60,32 @@ class watch final : public contct::app::observer {
 
 }  // namespace
 
-run_of_engine run_engine(const contct::app::problem& p, const contct::app::linear_structure& s,
+run_of_engine run_engine(const contct::problem& p, const contct::linear_structure& s,
                          const std::string& engine, int most_events, bool certify) {
   run_of_engine r;
-  const std::unique_ptr<contct::app::kernel> leader = contct::app::make_kernel("corrected");
-  const contct::app::load_history loads = contct::app::loads_of(p, s);
+  const std::unique_ptr<contct::kernel> leader = contct::make_kernel("corrected");
+  const contct::load_history loads = contct::loads_of(p, s);
   watch w(r);
-  contct::app::observer* const observers[] = {&w};
-  contct::app::path_limits limits;
+  contct::observer* const observers[] = {&w};
+  contct::path_limits limits;
   limits.increments_per_step = most_events;
   forget_peak();
   w.start();
-  const std::unique_ptr<contct::app::stiffness_engine> solves = contct::app::make_engine(engine, s);
-  const contct::app::path_end end = contct::app::follow_path(s, static_cast<int>(p.steps.size()), loads,
-                                                             *solves, *leader, observers, limits);
+  const std::unique_ptr<contct::stiffness_engine> solves = contct::make_engine(engine, s);
+  const contct::path_end end =
+      contct::follow_path(s, static_cast<int>(p.steps.size()), loads, *solves, *leader, observers, limits);
   r.seconds = w.seconds();
   r.peak_kib = peak_kib();
   r.counts = solves->counts();
-  r.whole = end.status == contct::app::path_status::solved;
+  r.whole = end.status == contct::path_status::solved;
   if (!certify || !r.whole) return r;
   const auto seconds_since = [](clock::time_point start) {
     return std::chrono::duration<double>(clock::now() - start).count();
   };
   const clock::time_point start = clock::now();
-  contct::app::certifier judge(p, s);
-  const contct::app::full_load_state reached = w.last_state();
-  const contct::app::full_load_state proved = judge.ends()(w.last_step(), &reached).state.value();
+  contct::certifier judge(p, s);
+  const contct::full_load_state reached = w.last_state();
+  const contct::full_load_state proved = judge.ends()(w.last_step(), &reached).state.value();
   judge.step_ended({.step = w.last_step(),
                     .fraction = 1.0,
                     .displacement = proved.displacement,
@@ -97,48 +97,47 @@ run_of_engine run_engine(const contct::app::problem& p, const contct::app::linea
   return r;
 }
 
-final_states time_final_states(const contct::app::problem& p, const contct::app::linear_structure& s) {
+final_states time_final_states(const contct::problem& p, const contct::linear_structure& s) {
   final_states f;
   const auto seconds_since = [](clock::time_point start) {
     return std::chrono::duration<double>(clock::now() - start).count();
   };
-  const contct::app::load_history loads = contct::app::loads_of(p, s);
+  const contct::load_history loads = contct::loads_of(p, s);
   const clock::time_point start = clock::now();
-  contct::app::reference_solver finds(s);
+  contct::reference_solver finds(s);
   for (int step = 1; step <= std::ssize(p.steps); ++step) {
     std::vector<double> load(s.dofs());
     loads(step, load);
-    if (finds.solve(load, loads.work(step)).how != contct::app::reference_answer::outcome::found)
+    if (finds.solve(load, loads.work(step)).how != contct::reference_answer::outcome::found)
       throw std::runtime_error("no final states");
   }
   f.seconds = seconds_since(start);
   f.factorisations = finds.factorisations();
-  const bool by_cholmod = contct::app::quickest_factor(s) == contct::app::factored_by::cholmod;
-  const std::optional<contct::app::stiffness_matrix> entries =
-      by_cholmod ? contct::app::entries_for(s, contct::app::factored_by::cholmod) : std::nullopt;
-  contct::app::stiffness_factor factor(entries ? *entries : s.stiffness);
-  const std::vector<contct::app::spring_at> springs =
-      contct::app::springs_of(s, std::vector<char>(s.pairs.size(), 1));
+  const bool by_cholmod = contct::quickest_factor(s) == contct::factored_by::cholmod;
+  const std::optional<contct::stiffness_matrix> entries =
+      by_cholmod ? contct::entries_for(s, contct::factored_by::cholmod) : std::nullopt;
+  contct::stiffness_factor factor(entries ? *entries : s.stiffness);
+  const std::vector<contct::spring_at> springs = contct::springs_of(s, std::vector<char>(s.pairs.size(), 1));
   const clock::time_point again = clock::now();
   if (!factor.factor(springs)) throw std::runtime_error("the stiffness has no factor");
   f.seconds_of_a_factor = seconds_since(again);
   return f;
 }
 
-std::optional<double> entries_of_factor(const contct::app::linear_structure& s, const std::string& engine) {
-  const contct::app::band_matrix& k = s.stiffness.band();
+std::optional<double> entries_of_factor(const contct::linear_structure& s, const std::string& engine) {
+  const contct::band_matrix& k = s.stiffness.band();
   if (engine == "condensed") return std::nullopt;
-  if (engine == "refactor" || contct::app::quickest_factor(s) == contct::app::factored_by::storage)
+  if (engine == "refactor" || contct::quickest_factor(s) == contct::factored_by::storage)
     return static_cast<double>(s.dofs()) * (k.subdiagonals() + 1);
-  const auto factor = contct::app::sparse_factor::make(columns_of(k));
+  const auto factor = contct::sparse_factor::make(columns_of(k));
   return static_cast<double>(factor->bytes()) / sizeof(double);
 }
 
-double seconds_of_a_solve(const contct::app::linear_structure& s) {
-  contct::app::stiffness_factor f(s.stiffness);
+double seconds_of_a_solve(const contct::linear_structure& s) {
+  contct::stiffness_factor f(s.stiffness);
   std::vector<char> closed(s.pairs.size());
   for (std::size_t i = 0; i < closed.size(); ++i) closed[i] = s.pairs[i].closed ? 1 : 0;
-  if (!f.factor(contct::app::springs_of(s, closed))) throw std::runtime_error("the stiffness has no factor");
+  if (!f.factor(contct::springs_of(s, closed))) throw std::runtime_error("the stiffness has no factor");
   std::vector<double> x(static_cast<std::size_t>(s.dofs()));
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 15; ++round) {

@@ -17,7 +17,7 @@
 namespace bench {
 namespace {
 
-namespace app = contct::app;
+using namespace contct;
 
 /// It presses at a row of K with stiffness * side * (u - face) where that is positive.
 struct one_sided_spring {
@@ -27,15 +27,15 @@ struct one_sided_spring {
 
 /// Find u with K u + the springs' forces = load, at the dofs that no support fixes.
 struct contact_problem {
-  contct::matrix::sparse_columns stiffness;
+  contct::sparse_columns stiffness;
   std::vector<double> load;
   std::vector<one_sided_spring> springs;
   std::vector<int> dofs;  // of each row
 };
 
-contact_problem contact_problem_of(const app::problem& p, const app::linear_structure& s) {
-  const contct::matrix::sparse_columns all =
-      s.stiffness.is_band() ? contct::matrix::columns_of(s.stiffness.band()) : s.stiffness.columns();
+contact_problem contact_problem_of(const problem& p, const linear_structure& s) {
+  const contct::sparse_columns all =
+      s.stiffness.is_band() ? contct::columns_of(s.stiffness.band()) : s.stiffness.columns();
   std::vector<int> dof_at(static_cast<std::size_t>(s.dofs()));
   for (int dof = 0; dof < s.dofs(); ++dof) dof_at[s.row_of(dof)] = dof;
   std::vector<int> number(dof_at.size(), -1);  // of each row, among those that are free
@@ -55,10 +55,10 @@ contact_problem contact_problem_of(const app::problem& p, const app::linear_stru
     c.stiffness.starts.push_back(static_cast<int>(c.stiffness.rows.size()));
   }
   std::vector<double> load(static_cast<std::size_t>(s.dofs()));
-  app::loads_of(p, s)(1, load);
+  loads_of(p, s)(1, load);
   for (const int dof : c.dofs) c.load.push_back(load[dof]);
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
-    const app::contact_pair& at = s.pairs[i];
+    const contact_pair& at = s.pairs[i];
     const int row = number[s.row_of(s.dof_of_pair(i))];
     if (row < 0) throw std::invalid_argument("found a pair at a fixed dof, which other programs do not have");
     c.springs.push_back({row, at.surface, at.face, at.stiffness});
@@ -105,7 +105,7 @@ class newton {
   std::vector<double> u;
 
  private:
-  cholmod_sparse* matrix_of(const contct::matrix::sparse_columns& k) {
+  cholmod_sparse* matrix_of(const contct::sparse_columns& k) {
     const auto n = static_cast<std::size_t>(k.order());
     cholmod_sparse* a = cholmod_allocate_sparse(n, n, k.values.size(), 1, 1, -1, CHOLMOD_REAL, &common_);
     std::copy(k.starts.begin(), k.starts.end(), static_cast<int*>(a->p));
@@ -190,20 +190,20 @@ class newton {
 };
 
 /// Our own end, certified, and the proved bounds on it: no number of a kind is further from the truth.
-class certified_end final : public app::observer {
+class certified_end final : public observer {
  public:
-  certified_end(const app::problem& p, const app::linear_structure& s) {
-    app::certifier judge(p, s);
-    app::observer* const observers[] = {&judge, this};
+  certified_end(const problem& p, const linear_structure& s) {
+    certifier judge(p, s);
+    observer* const observers[] = {&judge, this};
     (void)judge.find_final_states(observers);
     if (!judge.all_certified() || !judge.steps().front() || !judge.steps().front()->proved)
       throw std::runtime_error("the end of " + p.title + " is not certified");
-    const app::certificate& c = *judge.steps().front();
-    for (const app::quantity q : {app::quantity::w, app::quantity::slope, app::quantity::force})
+    const certificate& c = *judge.steps().front();
+    for (const quantity q : {quantity::w, quantity::slope, quantity::force})
       bounds.push_back(c.error[q].value_or(0.0));
   }
 
-  void step_ended(const app::step_state& s) override {
+  void step_ended(const step_state& s) override {
     u.assign(s.displacement.begin(), s.displacement.end());
     if (s.numbers != nullptr) forces = s.numbers->pair_forces;
   }
@@ -213,7 +213,7 @@ class certified_end final : public app::observer {
 
 /// The distance of an answer from our state, and the bound on our state's from the truth, are taken together:
 /// no answer gets more digits than are proved.
-void judge(const certified_end& ours, const contact_problem& c, const app::linear_structure& s,
+void judge(const certified_end& ours, const contact_problem& c, const linear_structure& s,
            const std::vector<double>& u, peer_answer& a) {
   std::array<double, 3> size{}, off{};  // of deflections, other displacements, forces
   const auto compare = [&](std::size_t kind, double right, double found) {
@@ -237,7 +237,7 @@ void judge(const certified_end& ours, const contact_problem& c, const app::linea
 
 }  // namespace
 
-std::vector<peer_answer> time_cholmod(const app::problem& p, const app::linear_structure& s, int rounds) {
+std::vector<peer_answer> time_cholmod(const problem& p, const linear_structure& s, int rounds) {
   const contact_problem c = contact_problem_of(p, s);
   const certified_end ours(p, s);
   std::vector<peer_answer> answers;
@@ -266,8 +266,8 @@ std::vector<peer_answer> time_cholmod(const app::problem& p, const app::linear_s
 
 namespace bench {
 
-std::vector<peer_answer> time_cholmod(const contct::app::problem& /*p*/,
-                                      const contct::app::linear_structure& /*s*/, int /*rounds*/) {
+std::vector<peer_answer> time_cholmod(const contct::problem& /*p*/, const contct::linear_structure& /*s*/,
+                                      int /*rounds*/) {
   return {};
 }
 

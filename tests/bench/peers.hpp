@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "contct/structure/problem.hpp"
-#include "contct/structure/structure.hpp"
+#include "contct/model/problem.hpp"
+#include "contct/model/structure.hpp"
 
 namespace bench {
 
@@ -22,7 +22,7 @@ struct peer_answer {
 /// For a problem of one load step without settlements: Newton's method on K and the springs that press, a
 /// factor updated by those that change, and a factor anew for each step. Nothing where CHOLMOD was not found.
 /// Throws std::runtime_error where our own end is not certified.
-[[nodiscard]] std::vector<peer_answer> time_cholmod(const contct::app::problem& p,
-                                                    const contct::app::linear_structure& s, int rounds);
+[[nodiscard]] std::vector<peer_answer> time_cholmod(const contct::problem& p,
+                                                    const contct::linear_structure& s, int rounds);
 
 }  // namespace bench

@@ -76,7 +76,7 @@ std::string grid(int n) {
 
 }  // namespace
 
-contct::app::problem make_problem(const std::string& name) {
+contct::problem make_problem(const std::string& name) {
   const std::size_t dash = name.find('-');
   const std::string family = name.substr(0, dash);
   int size = 0;
@@ -90,7 +90,7 @@ contct::app::problem make_problem(const std::string& name) {
     throw std::invalid_argument("--problem: found \"" + name +
                                 "\"; allowed: rail-S (2 to 5000 spans), mat-N, grid-N (4 to 400 elements a "
                                 "side)");
-  return contct::app::parse_problem(text, name);
+  return contct::parse_problem(text, name);
 }
 
 std::vector<std::string> usual_problems() {

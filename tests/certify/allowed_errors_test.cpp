@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

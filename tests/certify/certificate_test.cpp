@@ -7,12 +7,12 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

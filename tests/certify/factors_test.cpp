@@ -7,8 +7,7 @@
 #include "catch.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct::app;
-using namespace contct::certify;
+using namespace contct;
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "support/beams.hpp"
 #include "support/tried_problem.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using outcome = reference_answer::outcome;
 
 namespace {

@@ -6,12 +6,11 @@
 #include <numeric>
 
 #include "catch.hpp"
-#include "contct/numeric/rational.hpp"
+#include "contct/number/rational.hpp"
 #include "contct/path/solve_problem.hpp"
 
-using namespace contct::app;
-using namespace contct::certify;
-using contct::numeric::rational;
+using namespace contct;
+using contct::rational;
 
 namespace {
 
@@ -34,7 +33,7 @@ long_system chain(int n, double more = 0.0) {
 
 /// The largest sum of magnitudes in a row of S A S - shift I - L L', for a chain A.
 rational error_of(const long_system& a, const stiffness_proof& p) {
-  using contct::numeric::binary_value;
+  using contct::binary_value;
   const int n = p.factor.order();
   rational most = 0;
   for (int i = 0; i < n; ++i) {
@@ -117,8 +116,7 @@ TEST_CASE("a bound is no more than the shift less the error of the factor, in ra
     const double mu = k.least_eigenvalue();
     if (mu == 0.0 || !k.proof() || k.proof()->long_factor) continue;
     CAPTURE(n, i, mu);
-    CHECK(contct::numeric::binary_value(mu) <=
-          contct::numeric::binary_value(k.proof()->shift) - error_of(t, *k.proof()));
+    CHECK(contct::binary_value(mu) <= contct::binary_value(k.proof()->shift) - error_of(t, *k.proof()));
     ++proved;
   }
   CHECK(proved >= 100);

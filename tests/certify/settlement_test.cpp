@@ -5,12 +5,12 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/matrix/sparse_factor.hpp"
-#include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

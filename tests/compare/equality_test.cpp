@@ -13,7 +13,7 @@
 #include "contct/lab/random_calls.hpp"
 #include "support/side_by_side.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/lab/random_calls.hpp"
-#include "contct/numeric/bits.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/number/bits.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -2,9 +2,9 @@
 
 #include "catch.hpp"
 #include "compare/other_compiler.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("f2c's translation answers 20,000 random calls as gfortran's and C++ do, its text by meaning") {
   const three_compared found = compare_three("f2c", 20'000);

@@ -2,9 +2,9 @@
 
 #include "catch.hpp"
 #include "compare/other_compiler.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("flang's build answers 20,000 random calls as gfortran's and C++ do, to the bit and to the byte") {
   const three_compared found = compare_three("flang", 20'000);

@@ -8,10 +8,10 @@
 
 #include "catch.hpp"
 #include "contct/compare/compare.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "golden/cases.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

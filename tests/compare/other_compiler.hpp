@@ -6,11 +6,11 @@
 #include <string>
 
 #include "contct/compare/compare.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/lab/random_calls.hpp"
-#include "contct/outside/registry.hpp"
 #include "support/one_pair.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// What came of putting calls to the kernel `name`, to "fortran" and to "cpp".
 struct three_compared {
@@ -44,4 +44,4 @@ inline call_inputs<double> one_pair_at(double s) {
   return {{0.0}, {1.0 / s}, {1.0}, {1}, {separated}, {face_above}, {}};
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -7,23 +7,19 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/exact_means.hpp"
 #include "contct/exact/path.hpp"
-#include "contct/numeric/random.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/number/random.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct::app;
-using namespace contct::certify;
-namespace exact = contct::exact;
+using namespace contct;
 
 namespace {
 
 /// The ends of a path, as they were told, with their certificates.
 struct judged_run final : observer {
   judged_run(problem given, const std::string& kernel)
-      : what(std::move(given)),
-        structure(structure_of(what)),
-        judged(what, structure, exact::exact_means_of(what)) {
+      : what(std::move(given)), structure(structure_of(what)), judged(what, structure, exact_means_of(what)) {
     const auto leader = make_kernel(kernel);
     end = follow(what, structure, "refactor", *leader, {&judged, this}, {0, judged.ends()});
   }
@@ -49,23 +45,23 @@ struct judged_run final : observer {
   std::vector<std::vector<int>> statuses;
 };
 
-double error_of(double told, const exact::rational& truly) {
-  return std::abs(exact::rounded(exact::binary_value(told) - truly));
+double error_of(double told, const rational& truly) {
+  return std::abs(contct::rounded(binary_value(told) - truly));
 }
 
 /// The largest force or reaction in a state; of one without any, on the path before it.
-double largest_force(const exact::exact_path& truly, std::size_t step) {
+double largest_force(const exact_path& truly, std::size_t step) {
   double largest = 0.0;
   for (; step > 0 && largest == 0.0; --step)
-    for (const exact::rational_vector* all : {&truly.steps[step - 1].force, &truly.steps[step - 1].reactions})
-      for (const exact::rational& f : *all) largest = std::max(largest, std::abs(exact::rounded(f)));
+    for (const rational_vector* all : {&truly.steps[step - 1].force, &truly.steps[step - 1].reactions})
+      for (const rational& f : *all) largest = std::max(largest, std::abs(contct::rounded(f)));
   return largest;
 }
 
 /// What a certified state claims and is not so, in words; empty where all of it is true.
-std::string false_claim(const judged_run& r, const exact::exact_path& truly, std::size_t step) {
+std::string false_claim(const judged_run& r, const exact_path& truly, std::size_t step) {
   const certificate& c = r.of_step(step);
-  const exact::exact_step_end& right = truly.steps.at(step - 1);
+  const exact_step_end& right = truly.steps.at(step - 1);
   const end_numbers& told = r.numbers.at(step - 1);
   const double largest = largest_force(truly, step);
   for (std::size_t i = 0; i < told.reactions.size(); ++i) {
@@ -133,7 +129,7 @@ TEST_CASE(
     int certified = 0;
     for (std::uint64_t number = 0; number < 500; ++number) {
       const judged_run r(settling_beam(number), kernel);
-      const exact::exact_path truly = exact::follow_corrected_path(exact::exact_problem_of(r.what));
+      const exact_path truly = follow_corrected_path(exact_problem_of(r.what));
       for (std::size_t step = 1; step <= r.judged.steps().size(); ++step) {
         const std::optional<certificate>& c = r.judged.steps()[step - 1];
         if (!c || !c->certified) continue;

@@ -6,10 +6,10 @@
 #include "contct/lab/random_problem.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct::exact;
-using contct::kernels::change;
-using contct::read::parse_problem;
-using contct::read::read_problem;
+using namespace contct;
+using contct::change;
+using contct::parse_problem;
+using contct::read_problem;
 
 namespace {
 
@@ -48,7 +48,7 @@ std::string wrong_with(const exact_problem& p, const exact_step& acting, const e
 }
 
 /// How many ends of steps that reach their load there are; each is in equilibrium.
-int check_ends(const contct::structure::problem& p) {
+int check_ends(const contct::problem& p) {
   const exact_problem e = exact_problem_of(p);
   const exact_path path = follow_corrected_path(e);
   int checked = 0;
@@ -105,9 +105,8 @@ TEST_CASE("the two outer stops of three are reached at exactly 3/38 of the step"
 }
 
 TEST_CASE("a nearly rigid plate on springs has the published -208/58875 and 176/153075 but for its bending") {
-  contct::structure::problem p =
-      read_problem(CONTCT_REFERENCE "/problems/pb09b-plate-on-springs-ei-4e8.toml");
-  for (double& EI : std::get<contct::structure::beam>(p.geometry.kind).EI) EI = 1e40;
+  contct::problem p = read_problem(CONTCT_REFERENCE "/problems/pb09b-plate-on-springs-ei-4e8.toml");
+  for (double& EI : std::get<contct::beam>(p.geometry.kind).EI) EI = 1e40;
   const exact_path path = follow_corrected_path(exact_problem_of(p));
   const rational tiny(integer(1), boost::multiprecision::pow(integer(10), 36U));
   CHECK(abs(at(path, 0, 0) - rational(-208, 58875)) < tiny);
@@ -138,7 +137,7 @@ TEST_CASE("pairs at their faces are decided together, as their complementarity p
 TEST_CASE("a free beam falls onto its faces at constant load, one after the other") {
   const exact_path path = followed(free_beam + pair(1, "below", "-1", "2") + pair(3, "below", "-2", "2") +
                                    "[[step]]\npoint = [ { node = 2, w = -4 } ]\n");
-  CHECK(path.status == contct::path::path_status::solved);
+  CHECK(path.status == contct::path_status::solved);
   CHECK(told(path.steps[0]) == "0: snap; 0: +1 snap; 0: +2; 1:");
   CHECK(at(path, 0, 0) == -2);
   CHECK(at(path, 0, 4) == -3);
@@ -149,7 +148,7 @@ TEST_CASE("a mechanism is proved by a free motion on which the load does work") 
   const exact_path path =
       followed(free_beam + pair(1, "below", "0", "1") + pair(2, "below", "0", "1") +
                "[[step]]\npoint = [ { node = 2, w = -1 }, { node = 2, theta = -4e-13 } ]\n");
-  REQUIRE(path.status == contct::path::path_status::mechanism);
+  REQUIRE(path.status == contct::path_status::mechanism);
   REQUIRE(path.mechanism);
   CHECK(path.steps[0].fraction == 0);
   // It turns about the pair at the middle.
@@ -161,7 +160,7 @@ TEST_CASE("a step that takes away the last contact ends in a mechanism at that s
   const exact_path path =
       followed(free_beam + pair(1, "below", "0", "1") + pair(3, "below", "0", "1") +
                "[[step]]\npoint = [ { node = 2, w = -2 } ]\n[[step]]\npoint = [ { node = 2, w = 3 } ]\n");
-  REQUIRE(path.status == contct::path::path_status::mechanism);
+  REQUIRE(path.status == contct::path_status::mechanism);
   CHECK(path.steps[1].fraction == rational(2, 5));
   CHECK(path.mechanism->motion == rational_vector{1, 0, 1, 0, 1, 0});
   CHECK(path.mechanism->work == 3);
@@ -170,13 +169,13 @@ TEST_CASE("a step that takes away the last contact ends in a mechanism at that s
 TEST_CASE("a free motion that the load does not drive stays where it is") {
   const exact_path path = followed(free_beam + pair(2, "below", "0", "1") +
                                    "[[step]]\npoint = [ { node = 1, w = -1 }, { node = 3, w = -1 } ]\n");
-  REQUIRE(path.status == contct::path::path_status::solved);
+  REQUIRE(path.status == contct::path_status::solved);
   CHECK(at(path, 0, 2) == -2);
   CHECK(at(path, 0, 0) == at(path, 0, 4));
 }
 
 TEST_CASE("a settlement of a support is reached exactly, and moves the rest as the beam's stiffness says") {
-  contct::structure::problem p = parse_problem(
+  contct::problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = "
       "3\n"
       "fix = [\"w\"]\n" +
@@ -211,7 +210,7 @@ TEST_CASE("numbers of absurd size are solved like any other") {
   const exact_path path =
       followed("[beam]\nx = [0, 1]\nEI = 1e-300\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n" +
                pair(2, "below", "-1e-300", "1e300") + "[[step]]\npoint = [ { node = 2, w = -1e308 } ]\n");
-  CHECK(path.status == contct::path::path_status::solved);
+  CHECK(path.status == contct::path_status::solved);
   CHECK(length_in_bits(path.steps[0].displacement[2]) > 1000);
 }
 
@@ -223,8 +222,7 @@ TEST_CASE("reference beams and plates end their steps in exact equilibrium") {
         "pb10-cantilever-gapped-spring", "pb11a-strip-footing-n20", "pp02a-settled-column-n4",
         "pp03d-corners-and-settled-stop-n4"}) {
     INFO(name);
-    const contct::structure::problem p =
-        read_problem(std::string(CONTCT_REFERENCE "/problems/") + name + ".toml");
+    const contct::problem p = read_problem(std::string(CONTCT_REFERENCE "/problems/") + name + ".toml");
     const int checked = check_ends(p);
     CHECK(checked == static_cast<int>(p.steps.size()));
     steps += checked;
@@ -233,13 +231,13 @@ TEST_CASE("reference beams and plates end their steps in exact equilibrium") {
 }
 
 TEST_CASE("exact ends of 300 random problems are equilibria") {
-  contct::lab::random_problem_kind kind;
+  contct::random_problem_kind kind;
   kind.most_elements = 8;
   kind.most_lines = 2;
   int steps = 0;
   for (std::uint64_t number = 0; number < 300; ++number) {
     INFO(number);
-    steps += check_ends(contct::lab::make_random_problem(2026, number, kind));
+    steps += check_ends(contct::make_random_problem(2026, number, kind));
   }
   CHECK(steps > 700);
 }

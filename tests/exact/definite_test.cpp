@@ -5,12 +5,12 @@
 
 #include "catch.hpp"
 
-using namespace contct::exact;
-using contct::structure::assembled;
+using namespace contct;
+using contct::assembled;
 
 namespace {
 
-using entries = std::vector<contct::matrix::matrix_entry>;
+using entries = std::vector<contct::matrix_entry>;
 
 struct decided {
   exact_problem exactly;
@@ -32,7 +32,7 @@ decided of(int n, const entries& lower, int fixed = -1) {
   assembled a;
   a.stiffness = {n, lower, {}};
   for (int row = 0; row < n; ++row) a.rows.push_back(row);
-  contct::structure::problem p;
+  contct::problem p;
   p.geometry = {a};
   if (fixed >= 0) p.supports = {{fixed, 0, true}};
   const exact_problem e = exact_problem_of(p);

@@ -8,15 +8,12 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/lab/random_problem.hpp"
+#include "contct/model/element_formulas.hpp"
 #include "contct/read/problem_file.hpp"
-#include "contct/structure/element_formulas.hpp"
 #include "support/beams.hpp"
 
-using namespace contct::app;
-using namespace contct::certify;
-namespace exact = contct::exact;
-namespace formulas = contct::structure::formulas;
-namespace lab = contct::lab;
+using namespace contct;
+namespace formulas = contct::formulas;
 
 namespace {
 
@@ -50,38 +47,36 @@ struct prover_of_path final : observer {
   std::vector<told_end> ends;
 };
 
-double off(double told, const exact::rational& true_value) {
-  return std::abs(exact::rounded(exact::binary_value(told) - true_value));
+double off(double told, const rational& true_value) {
+  return std::abs(contct::rounded(binary_value(told) - true_value));
 }
 
 /// Moments of a plate under u in 32 digits.
-exact::rational_vector plate_values(const problem& p, int step, const exact::rational_vector& u) {
+rational_vector plate_values(const problem& p, int step, const rational_vector& u) {
   long_vector rounded;
-  for (const exact::rational& x : u) rounded.push_back(contct::numeric::long_rounded(x));
-  exact::rational_vector all;
+  for (const rational& x : u) rounded.push_back(contct::long_rounded(x));
+  rational_vector all;
   for (const element_value& v : long_system_of(p).element_values(step, rounded))
-    all.push_back(exact::binary_value(v.value.hi) + exact::binary_value(v.value.lo));
+    all.push_back(binary_value(v.value.hi) + binary_value(v.value.lo));
   return all;
 }
 
 /// Shear at both ends and moment at both ends of each element of a beam.
-exact::rational_vector beam_values(const problem& p, const beam& b, int step,
-                                   const exact::rational_vector& u) {
-  exact::rational_vector all;
+rational_vector beam_values(const problem& p, const beam& b, int step, const rational_vector& u) {
+  rational_vector all;
   for (int e = 0; e < b.elements(); ++e) {
     const auto at = static_cast<std::size_t>(e);
-    const exact::rational left = exact::decimal_of(b.x[at]);
-    const exact::rational h = exact::decimal_of(b.x[at + 1]) - left;
-    const auto k = formulas::beam_stiffness(exact::decimal_of(b.EI[at]), h);
-    std::array<exact::rational, 4> f;
+    const rational left = decimal_of(b.x[at]);
+    const rational h = decimal_of(b.x[at + 1]) - left;
+    const auto k = formulas::beam_stiffness(decimal_of(b.EI[at]), h);
+    std::array<rational, 4> f;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) f[i] += k[i][j] * u[2 * at + j];
     for (const distributed_load& d : p.steps[static_cast<std::size_t>(step) - 1].distributed) {
       if (!d.elements.empty() && std::ranges::find(d.elements, e) == d.elements.end()) continue;
-      exact::rational_vector q;
-      for (const double a : d.polynomial) q.push_back(exact::decimal_of(a));
-      const auto work =
-          formulas::beam_load<exact::rational>(formulas::in_element<exact::rational>(q, left, h), h);
+      rational_vector q;
+      for (const double a : d.polynomial) q.push_back(decimal_of(a));
+      const auto work = formulas::beam_load<rational>(formulas::in_element<rational>(q, left, h), h);
       for (std::size_t i = 0; i < 4; ++i) f[i] -= work[i];
     }
     all.insert(all.end(), {f[0], -f[2], -f[1], f[3]});
@@ -90,7 +85,7 @@ exact::rational_vector beam_values(const problem& p, const beam& b, int step,
 }
 
 /// The largest error of each kind in a told end.
-by_quantity errors_of(const problem& p, const exact::exact_step_end& truly, const told_end& told) {
+by_quantity errors_of(const problem& p, const exact_step_end& truly, const told_end& told) {
   by_quantity worst;
   const int per_node = dofs_per_node(p.geometry);
   for (std::size_t dof = 0; dof < told.displacement.size(); ++dof)
@@ -102,8 +97,8 @@ by_quantity errors_of(const problem& p, const exact::exact_step_end& truly, cons
     worst.take(p.supports[i].dof == 0 ? quantity::reaction : quantity::moment,
                off(told.numbers.reactions[i], truly.reactions[i]));
   const beam* const b = std::get_if<beam>(&p.geometry.kind);
-  const exact::rational_vector values = b != nullptr ? beam_values(p, *b, told.step, truly.displacement)
-                                                     : plate_values(p, told.step, truly.displacement);
+  const rational_vector values = b != nullptr ? beam_values(p, *b, told.step, truly.displacement)
+                                              : plate_values(p, told.step, truly.displacement);
   for (std::size_t i = 0; i < values.size(); ++i)
     worst.take(b != nullptr && i % 4 < 2 ? quantity::shear : quantity::moment,
                off(told.numbers.element_values[i], values[i]));
@@ -147,7 +142,7 @@ struct one_end {
   explicit one_end(const std::string& text)
       : what(parse_problem(text, "b.toml")), structure(structure_of(what)), watch(what, structure) {
     (void)follow(what, structure, "refactor", *make_kernel("corrected"), {&watch}, refined_by(watch.prover));
-    truly = exact::follow_corrected_path(exact::exact_problem_of(what)).steps.back();
+    truly = follow_corrected_path(exact_problem_of(what)).steps.back();
     end = watch.ends.back();  // NOLINT(cppcoreguidelines-prefer-member-initializer): the path comes first
   }
   /// Bounds for numbers with a fault in them.
@@ -156,7 +151,7 @@ struct one_end {
   problem what;
   linear_structure structure;
   prover_of_path watch;
-  exact::exact_step_end truly;
+  exact_step_end truly;
   told_end end;
 };
 
@@ -174,9 +169,9 @@ TEST_CASE(
   int compared = 0;
   int proved = 0;
   for (std::uint64_t number = 0; number < problems; ++number) {
-    const lab::random_problem drawn = lab::make_random_problem(17, number, {.most_elements = 5});
+    const random_problem drawn = make_random_problem(17, number, {.most_elements = 5});
     const problem& p = drawn;
-    const exact::exact_path truly = exact::follow_corrected_path(exact::exact_problem_of(p));
+    const exact_path truly = follow_corrected_path(exact_problem_of(p));
     const linear_structure s = structure_of(p);
     for (const bool refined : {true, false}) {
       prover_of_path watch(p, s);

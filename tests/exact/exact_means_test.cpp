@@ -6,13 +6,12 @@
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/path.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct::app;
-namespace exact = contct::exact;
-using contct::numeric::double_double;
+using namespace contct;
+using contct::double_double;
 
 namespace {
 
@@ -29,10 +28,10 @@ struct kept_path final : observer {
 
 struct run {
   explicit run(const std::string& name, bool with_exact_path = true)
-      : what(contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/" + name + ".toml")),
+      : what(contct::read_problem(CONTCT_REFEREE_PROBLEMS "/" + name + ".toml")),
         structure(structure_of(what)),
-        judged(what, structure, with_exact_path ? exact::exact_means_of(what) : nullptr) {
-    const auto leader = contct::outside::make_kernel("corrected");
+        judged(what, structure, with_exact_path ? exact_means_of(what) : nullptr) {
+    const auto leader = contct::make_kernel("corrected");
     end = follow(what, structure, "refactor", *leader, {&path, &judged}, {0, judged.ends()});
   }
 
@@ -64,55 +63,55 @@ TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact
   CHECK(r.path.exactly.front() == 1);
   CHECK(r.judged.all_certified());
 
-  const exact::exact_path path = follow_corrected_path(exact::exact_problem_of(r.what));
-  const found_end end = exact::exact_means_of(r.what)->end_of(2);
+  const exact_path path = follow_corrected_path(exact_problem_of(r.what));
+  const found_end end = exact_means_of(r.what)->end_of(2);
   REQUIRE(end.state);
   CHECK(end.exists == true);
   CHECK(end.state->from_exact_path);
   for (std::size_t i = 0; i < path.steps[1].closed.size(); ++i)
     CHECK((end.state->isep[i] == in_contact) == (path.steps[1].closed[i] != 0));
   for (std::size_t dof = 0; dof < end.state->displacement.size(); ++dof)
-    CHECK(end.state->displacement[dof] == exact::rounded(path.steps[1].displacement[dof]));
+    CHECK(end.state->displacement[dof] == contct::rounded(path.steps[1].displacement[dof]));
 }
 
 TEST_CASE("what only rounding could tell from a mechanism is followed to its end, and a mechanism is told") {
   CHECK(run("held-by-a-hair").end.status == path_status::solved);
-  problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/held-by-a-hair.toml");
+  problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/held-by-a-hair.toml");
   p.steps[0].points[1].value = -4e-17;  // it tips the other way
   p.steps[0].points[0].value = 0.032;
-  const found_end end = exact::exact_means_of(p)->end_of(1);
+  const found_end end = exact_means_of(p)->end_of(1);
   CHECK_FALSE(end.state);
   CHECK(end.exists == false);
 }
 
 TEST_CASE("no step behind the end of an exact path is known, nor any of a problem that is too large") {
-  const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
-  CHECK_FALSE(exact::exact_means_of(p)->end_of(3).exists);
+  const problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
+  CHECK_FALSE(exact_means_of(p)->end_of(3).exists);
 
   problem large = p;
   beam long_beam;
-  for (int i = 0; i <= exact::most_dofs_beside_doubles / 2; ++i) long_beam.x.push_back(i);
+  for (int i = 0; i <= most_dofs_beside_doubles / 2; ++i) long_beam.x.push_back(i);
   long_beam.EI.assign(long_beam.x.size() - 1, 1.0);
   large.geometry.kind = long_beam;
-  CHECK_FALSE(exact::exact_means_of(large)->end_of(1).exists);
-  CHECK_FALSE(exact::small_exact_problem_of(large));
+  CHECK_FALSE(exact_means_of(large)->end_of(1).exists);
+  CHECK_FALSE(small_exact_problem_of(large));
 }
 
 TEST_CASE(
     "at the exact end of a step nothing is left but the rounding of u, and at a fixed dof the reaction") {
-  const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
-  const exact::exact_path path = exact::follow_corrected_path(exact::exact_problem_of(p));
-  const auto exactly = exact::exact_means_of(p);
+  const problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
+  const exact_path path = follow_corrected_path(exact_problem_of(p));
+  const auto exactly = exact_means_of(p);
   int checked = 0;
   for (int step = 1; step <= 2; ++step) {
     std::vector<double_double> u;
-    for (const exact::rational& x : path.steps[static_cast<std::size_t>(step) - 1].displacement)
-      u.push_back(contct::numeric::long_rounded(x));
+    for (const rational& x : path.steps[static_cast<std::size_t>(step) - 1].displacement)
+      u.push_back(contct::long_rounded(x));
     const auto needed = exactly->residual_of(step, u);
     REQUIRE(needed);
     REQUIRE(needed->size() == u.size());
-    const exact::rational_vector& reactions = path.steps[static_cast<std::size_t>(step) - 1].reactions;
-    CHECK((*needed)[0].hi == Approx(exact::rounded(reactions[0])).epsilon(1e-12));
+    const rational_vector& reactions = path.steps[static_cast<std::size_t>(step) - 1].reactions;
+    CHECK((*needed)[0].hi == Approx(contct::rounded(reactions[0])).epsilon(1e-12));
     for (std::size_t dof = 2; dof < u.size(); ++dof, ++checked)
       CHECK(std::abs((*needed)[dof].hi) < 1e-12);  // 12 EI / h^3 is 1e17 here, times 2^-106
   }
@@ -120,27 +119,26 @@ TEST_CASE(
 }
 
 TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a face that it is on") {
-  const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
-  const auto exactly = exact::exact_means_of(p);
-  const exact::rational face = exact::decimal_of(-7.6e-12);
-  const exact::rational h = exact::decimal_of(8e-11);
-  const exact::rational bends = 12 * exact::decimal_of(7e-4) / (h * h * h);
-  const double_double near = contct::numeric::long_rounded(face);
+  const problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
+  const auto exactly = exact_means_of(p);
+  const rational face = decimal_of(-7.6e-12);
+  const rational h = decimal_of(8e-11);
+  const rational bends = 12 * decimal_of(7e-4) / (h * h * h);
+  const double_double near = contct::long_rounded(face);
   for (const double off : {-0x1p-138, 0x1p-138}) {  // some tenths of its last digit
     std::vector<double_double> u(6, 0.0);
     u[4] = {near.hi, near.lo + off};
-    const exact::rational at = exact::binary_value(u[4].hi) + exact::binary_value(u[4].lo);
-    const exact::rational pressed =
-        at < face ? exact::rational(exact::decimal_of(7.8e44) * (at - face)) : exact::rational(0);
-    const double expected = exact::rounded(exact::rational(bends * at + pressed));
+    const rational at = binary_value(u[4].hi) + binary_value(u[4].lo);
+    const rational pressed = at < face ? rational(decimal_of(7.8e44) * (at - face)) : rational(0);
+    const double expected = contct::rounded(rational(bends * at + pressed));
     CHECK((*exactly->residual_of(1, u))[4].hi == expected);
     CHECK((at < face) == (off < 0));
   }
 }
 
 TEST_CASE("a residual beyond doubles is infinite, and there is none of displacements that are no numbers") {
-  const problem p = contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
-  const auto exactly = exact::exact_means_of(p);
+  const problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
+  const auto exactly = exact_means_of(p);
   std::vector<double_double> u(6, 0.0);
   u[4] = 1e300;
   const auto needed = exactly->residual_of(1, u);

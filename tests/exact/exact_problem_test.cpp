@@ -4,8 +4,8 @@
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct::exact;
-using contct::read::parse_problem;
+using namespace contct;
+using contct::parse_problem;
 
 namespace {
 
@@ -54,7 +54,7 @@ TEST_CASE("elastic supports join the stiffness, fixed ones do not") {
 }
 
 TEST_CASE("pressure on a plate is consistent, and a settlement moves a fixed dof") {
-  contct::structure::problem p = parse_problem(
+  contct::problem p = parse_problem(
       "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0.3\n[[support]]\nnode = 1\nfix = [\"w\"]\n"
       "[[step]]\nuniform = 0.6\n",
       "problem.toml");

@@ -7,52 +7,48 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/exact_problem.hpp"
 #include "contct/exact/path.hpp"
-#include "contct/numeric/random.hpp"
+#include "contct/model/element_formulas.hpp"
+#include "contct/model/extremes.hpp"
+#include "contct/number/random.hpp"
 #include "contct/read/problem_file.hpp"
-#include "contct/structure/element_formulas.hpp"
-#include "contct/structure/extremes.hpp"
 #include "support/beams.hpp"
 
-using namespace contct::app;
-using namespace contct::certify;
-namespace exact = contct::exact;
-namespace formulas = contct::structure::formulas;
-using exact::rational;
+using namespace contct;
+namespace formulas = contct::formulas;
 
 namespace {
 
-rational value_at(const exact::rational_vector& p, const rational& t) {
+rational value_at(const rational_vector& p, const rational& t) {
   rational sum;
   for (std::size_t i = p.size(); i-- > 0;) sum = sum * t + p[i];
   return sum;
 }
 
-exact::rational_vector derivative_of(const exact::rational_vector& p) {
-  exact::rational_vector d;
+rational_vector derivative_of(const rational_vector& p) {
+  rational_vector d;
   for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<int>(i));
   return d;
 }
 
 /// w, moment and shear of an element in t, from 0 to 1.
-std::array<exact::rational_vector, 3> exact_line(const beam& b, const load& l, int e,
-                                                 const exact::rational_vector& u) {
+std::array<rational_vector, 3> exact_line(const beam& b, const load& l, int e, const rational_vector& u) {
   const auto at = static_cast<std::size_t>(e);
-  const rational left = exact::decimal_of(b.x[at]);
-  const rational h = exact::decimal_of(b.x[at + 1]) - left;
-  const rational EI = exact::decimal_of(b.EI[at]);
-  exact::rational_vector coefficients;
-  for (const double a : l.distributed.front().polynomial) coefficients.push_back(exact::decimal_of(a));
-  const exact::rational_vector q = formulas::in_element<rational>(coefficients, left, h);
+  const rational left = decimal_of(b.x[at]);
+  const rational h = decimal_of(b.x[at + 1]) - left;
+  const rational EI = decimal_of(b.EI[at]);
+  rational_vector coefficients;
+  for (const double a : l.distributed.front().polynomial) coefficients.push_back(decimal_of(a));
+  const rational_vector q = formulas::in_element<rational>(coefficients, left, h);
   const auto k = formulas::beam_stiffness(EI, h);
   const auto work = formulas::beam_load<rational>(q, h);
   rational force[2] = {-work[0], -work[1]};
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 4; ++j) force[i] += k[i][j] * u[2 * at + j];
-  exact::rational_vector shear = {force[0]};
+  rational_vector shear = {force[0]};
   for (std::size_t j = 0; j < q.size(); ++j) shear.emplace_back(q[j] * h / static_cast<int>(j + 1));
-  exact::rational_vector moment = {-force[1]};
+  rational_vector moment = {-force[1]};
   for (std::size_t j = 0; j < shear.size(); ++j) moment.emplace_back(shear[j] * h / static_cast<int>(j + 1));
-  exact::rational_vector w = {u[2 * at], u[2 * at + 1] * h};
+  rational_vector w = {u[2 * at], u[2 * at + 1] * h};
   for (std::size_t j = 0; j < moment.size(); ++j)
     w.emplace_back(moment[j] * h * h / EI / static_cast<int>((j + 1) * (j + 2)));
   return {w, moment, shear};
@@ -64,8 +60,8 @@ struct range {
 
 /// At both ends, and where the derivative changes its sign between neighbours of 33 places, each bisected
 /// until what is left changes the value by 1e-20 of itself.
-void take_extremes(const exact::rational_vector& p, range& known) {
-  const exact::rational_vector slope = derivative_of(p);
+void take_extremes(const rational_vector& p, range& known) {
+  const rational_vector slope = derivative_of(p);
   const auto take = [&](const rational& t) {
     const rational value = value_at(p, t);
     known.least = std::min(known.least, value);
@@ -91,16 +87,15 @@ struct end_keeper final : observer {
   explicit end_keeper(const problem& p) : what(p) {}
   void step_ended(const step_state& s) override {
     const reported_state h = reported_state_at(what, s);
-    printed = contct::structure::ranges_of(what.geometry, what.steps[0], s.displacement, {},
-                                           h.numbers.element_values);
+    printed = contct::ranges_of(what.geometry, what.steps[0], s.displacement, {}, h.numbers.element_values);
   }
   const problem& what;
-  std::vector<contct::structure::value_range> printed;
+  std::vector<contct::value_range> printed;
 };
 
 struct outcome {
   certificate proof;
-  std::vector<contct::structure::value_range> printed;
+  std::vector<contct::value_range> printed;
   std::array<range, 3> truly;
 };
 
@@ -110,8 +105,7 @@ outcome outcome_of(const problem& p) {
   end_keeper keeps(p);
   (void)follow(p, s, "refactor", *make_kernel("corrected"), {&proves, &keeps}, {0, proves.ends()});
   outcome o{proves.steps().at(0).value(), keeps.printed, {}};
-  const exact::rational_vector u =
-      exact::follow_corrected_path(exact::exact_problem_of(p)).steps.back().displacement;
+  const rational_vector u = follow_corrected_path(exact_problem_of(p)).steps.back().displacement;
   const beam& b = std::get<beam>(p.geometry.kind);
   for (int e = 0; e < b.elements(); ++e) {
     const auto line = exact_line(b, p.steps[0], e, u);
@@ -128,12 +122,12 @@ int check_extremes(const outcome& o) {
   int compared = 0;
   const quantity kinds[] = {quantity::w, quantity::moment, quantity::shear};
   for (std::size_t i = 0; i < 3; ++i) {
-    const rational bound = exact::binary_value(o.proof.error[kinds[i]].value());
-    CAPTURE(quantity_names[static_cast<std::size_t>(kinds[i])], exact::rounded(bound));
+    const rational bound = binary_value(o.proof.error[kinds[i]].value());
+    CAPTURE(quantity_names[static_cast<std::size_t>(kinds[i])], contct::rounded(bound));
     for (const auto& [told, truly] : {std::pair(o.printed[i].least.value, o.truly[i].least),
                                       std::pair(o.printed[i].most.value, o.truly[i].most)}) {
-      CAPTURE(told, exact::rounded(truly));
-      CHECK(abs(exact::binary_value(told) - truly) <= bound);
+      CAPTURE(told, contct::rounded(truly));
+      CHECK(abs(binary_value(told) - truly) <= bound);
       ++compared;
     }
   }
@@ -147,8 +141,8 @@ problem far_beam(random_numbers& random) {
   std::vector<rational> sum(1);
   for (int i = degree; i >= 0; --i) {  // Horner's rule in x - left
     sum.emplace_back(0);
-    for (std::size_t k = sum.size(); k-- > 1;) sum[k] = sum[k - 1] - sum[k] * exact::decimal_of(left);
-    sum[0] = random.whole(-9, 9) - sum[0] * exact::decimal_of(left);
+    for (std::size_t k = sum.size(); k-- > 1;) sum[k] = sum[k - 1] - sum[k] * decimal_of(left);
+    sum[0] = random.whole(-9, 9) - sum[0] * decimal_of(left);
   }
   sum.pop_back();
   std::ostringstream text;
@@ -157,7 +151,7 @@ problem far_beam(random_numbers& random) {
        << "[[support]]\nnodes = [1, 3]\nfix = [\"w\"]\n"
        << "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1e-5\nstiffness = 1e5\n"
        << "[[step]]\nuniform = [ { polynomial = [";
-  for (const rational& a : sum) text << exact::rounded(a) << (&a == &sum.back() ? "" : ", ");
+  for (const rational& a : sum) text << contct::rounded(a) << (&a == &sum.back() ? "" : ", ");
   text << "] } ]\n";
   return parse_problem(text.str(), "far.toml");
 }

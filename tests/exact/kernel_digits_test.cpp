@@ -6,17 +6,17 @@
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct::exact;
+using namespace contct;
 using Catch::Matchers::Contains;
-using contct::kernels::change;
-using contct::kernels::event;
-using contct::path::path_status;
+using contct::change;
+using contct::event;
+using contct::path_status;
 
 namespace {
 
 /// A cantilever that reaches its stop at a third of the load, and leaves it in the next step.
 struct stop_run {
-  contct::structure::problem what = contct::read::parse_problem(
+  contct::problem what = contct::parse_problem(
       "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\n"
       "surface = \"below\"\nface = -1\nstiffness = 3\n[[step]]\npoint = [ { node = 2, w = -9 } ]\n"
       "[[step]]\npoint = [ { node = 2, w = 0 } ]\n",
@@ -29,8 +29,8 @@ struct stop_run {
     digit_counter counter(what, exactly);
     const std::vector<event> makes = {{0, first}};
     const std::vector<event> breaks = {{0, change::break_}};
-    const std::vector<int> closed = {contct::kernels::in_contact};
-    const std::vector<int> open = {contct::kernels::separated};
+    const std::vector<int> closed = {contct::in_contact};
+    const std::vector<int> open = {contct::separated};
     counter.incremented({1, 1, 0.0, 1.0 / 3.0 + share_error, makes});
     counter.step_ended({1, 1.0, std::vector<double>{0, 0, -2 + w_error, -3}, closed, 1.0});
     counter.incremented({2, 1, 0.0, 2.0 / 3.0, breaks});
@@ -100,7 +100,7 @@ TEST_CASE(
   counter.incremented({2, 1, 0.0, 2.0 / 3.0, breaks});
   CHECK(counter.result("k", path_status::solved, 1e-9).same_events);
 
-  contct::structure::problem touches = run.what;
+  contct::problem touches = run.what;
   touches.steps.resize(1);
   touches.steps[0].points[0].value = -3;
   const exact_path exactly = follow_corrected_path(exact_problem_of(touches));

@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "catch.hpp"
-#include "contct/numeric/random.hpp"
+#include "contct/number/random.hpp"
 
-using namespace contct::exact;
+using namespace contct;
 
 namespace {
 
@@ -17,7 +17,7 @@ std::vector<int> in_order(std::size_t n) {
 }
 
 /// (K + springs) x.
-rational_vector product(const contct::exact::sparse_rows& k, const std::vector<added_spring>& springs,
+rational_vector product(const contct::rational_rows& k, const std::vector<added_spring>& springs,
                         const rational_vector& x) {
   rational_vector y(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -28,8 +28,8 @@ rational_vector product(const contct::exact::sparse_rows& k, const std::vector<a
 }
 
 /// A chain of springs of stiffness 1/3 + i, held nowhere.
-contct::exact::sparse_rows chain(std::size_t n) {
-  contct::exact::sparse_rows k(n);
+contct::rational_rows chain(std::size_t n) {
+  contct::rational_rows k(n);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const rational stiffness = rational(1, 3) + static_cast<int>(i);
     const auto a = static_cast<int>(i);
@@ -44,7 +44,7 @@ contct::exact::sparse_rows chain(std::size_t n) {
 }  // namespace
 
 TEST_CASE("a held chain is solved exactly, in any order of its places") {
-  const contct::exact::sparse_rows k = chain(7);
+  const contct::rational_rows k = chain(7);
   const std::vector<char> fixed(7, 0);
   const std::vector<added_spring> springs = {{0, rational(1, 7)}, {4, rational(22, 7)}};
   rational_vector b(7);
@@ -59,7 +59,7 @@ TEST_CASE("a held chain is solved exactly, in any order of its places") {
 }
 
 TEST_CASE("dofs that are fixed stay where they are") {
-  const contct::exact::sparse_rows k = chain(3);
+  const contct::rational_rows k = chain(3);
   const std::vector<char> fixed = {1, 0, 0};
   const std::vector<int> places = in_order(3);
   lifted_solver solver(k, fixed, places);
@@ -68,7 +68,7 @@ TEST_CASE("dofs that are fixed stay where they are") {
 }
 
 TEST_CASE("the free motion of a chain that nothing holds is found, and loads without work on it are solved") {
-  const contct::exact::sparse_rows k = chain(5);
+  const contct::rational_rows k = chain(5);
   const std::vector<char> fixed(5, 0);
   const std::vector<int> places = in_order(5);
   lifted_solver solver(k, fixed, places);
@@ -80,7 +80,7 @@ TEST_CASE("the free motion of a chain that nothing holds is found, and loads wit
 }
 
 TEST_CASE("a stiffness that is 0 modulo the first prime is solved with another") {
-  contct::exact::sparse_rows k(2);
+  contct::rational_rows k(2);
   k[0] = {{0, rational(integer((std::uint64_t{1} << 61U) - 1))}};
   k[1] = {{1, rational(2)}};
   const std::vector<char> fixed(2, 0);
@@ -93,7 +93,7 @@ TEST_CASE("a stiffness that is 0 modulo the first prime is solved with another")
 }
 
 TEST_CASE("an indefinite matrix with a zero on its diagonal is refused") {
-  contct::exact::sparse_rows k(2);
+  contct::rational_rows k(2);
   k[0] = {{0, rational(0)}, {1, rational(1)}};
   k[1] = {{0, rational(1)}, {1, rational(0)}};
   const std::vector<char> fixed(2, 0);
@@ -103,7 +103,7 @@ TEST_CASE("an indefinite matrix with a zero on its diagonal is refused") {
 }
 
 TEST_CASE("numbers that become too long are refused with the figure") {
-  contct::exact::sparse_rows k = chain(30);
+  contct::rational_rows k = chain(30);
   for (std::size_t i = 0; i < k.size(); ++i)
     k[i][static_cast<int>(i)] += rational(1, 1000003 + 2 * static_cast<int>(i));
   const std::vector<char> fixed(30, 0);

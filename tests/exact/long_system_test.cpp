@@ -7,24 +7,22 @@
 #include "contct/exact/exact_problem.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct::app;
-using namespace contct::certify;
-namespace exact = contct::exact;
+using namespace contct;
 
 namespace {
 
-exact::rational exactly(const double_double& x) {
-  return exact::binary_value(x.hi) + exact::binary_value(x.lo);
+rational exactly(const double_double& x) {
+  return binary_value(x.hi) + binary_value(x.lo);
 }
 
-double off(const double_double& x, const exact::rational& true_value) {
-  return std::abs(exact::rounded(exactly(x) - true_value));
+double off(const double_double& x, const rational& true_value) {
+  return std::abs(contct::rounded(exactly(x) - true_value));
 }
 
 /// All that the two have, as far as they may differ.
 int compare(const problem& p) {
   const long_system t = long_system_of(p);
-  const exact::exact_problem e = exact::exact_problem_of(p);
+  const exact_problem e = exact_problem_of(p);
   int compared = 0;
   REQUIRE(t.dofs() == e.dofs());
   for (std::size_t row = 0; row < t.dofs(); ++row) {
@@ -32,7 +30,7 @@ int compare(const problem& p) {
       CHECK(off(entry, e.stiffness[row].at(column)) <= long_rounding * t.root[row] * t.root[column]);
       ++compared;
     }
-    CHECK(t.root[row] * t.root[row] >= exact::rounded(e.stiffness[row].at(static_cast<int>(row))));
+    CHECK(t.root[row] * t.root[row] >= contct::rounded(e.stiffness[row].at(static_cast<int>(row))));
   }
   for (std::size_t i = 0; i < t.pairs.size(); ++i, compared += 2) {
     CHECK(off(t.pairs[i].face, e.pairs[i].face) <= long_rounding * std::abs(t.pairs[i].face.hi));
@@ -84,9 +82,8 @@ TEST_CASE(
       parse_problem("[beam]\nx = [100000000, 100000000.1]\nEI = 3.0\n[[step]]\nuniform = 0.0\n", "b.toml");
   const long_system t = long_system_of(p);
   // w = 1e6 + 1e3 s + s^2 over s = 0 to 1/10
-  const long_vector u = {1e6, 1e3,
-                         double_double(1e6) + 100 + contct::structure::number_of<double_double>(0.01),
-                         double_double(1e3) + contct::structure::number_of<double_double>(0.2)};
+  const long_vector u = {1e6, 1e3, double_double(1e6) + 100 + contct::number_of<double_double>(0.01),
+                         double_double(1e3) + contct::number_of<double_double>(0.2)};
   const std::vector<element_value> v = t.element_values(1, u);
   REQUIRE(v.size() == 4);
   CHECK(off(v[0].value, 0) <= 64 * long_rounding * v[0].size);

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 
-using namespace contct::exact;
-using contct::outside::make_kernel;
-using contct::path::observer;
-using contct::read::parse_problem;
-using contct::read::read_problem;
+using namespace contct;
+using contct::make_kernel;
+using contct::observer;
+using contct::parse_problem;
+using contct::read_problem;
 
 namespace {
 
@@ -40,7 +40,7 @@ std::string stop(int node, const std::string& face, const std::string& k) {
 /// What was beside each increment.
 struct beside_log final : observer {
   explicit beside_log(const exact_companion& b) : beside(b) {}
-  void incremented(const contct::path::increment& i) override {
+  void incremented(const contct::increment& i) override {
     const exact_call* const c = beside.call();
     calls.push_back(c == nullptr ? "-" : std::to_string(c->step) + "." + std::to_string(c->increment));
     if (c != nullptr && beside.parted() == std::nullopt) {
@@ -68,7 +68,7 @@ path_beside follow_beside(const std::string& file, const char* kernel, std::opti
   exact_companion beside(exactly, last);
   beside_log log(beside);
   const auto leader = make_kernel(kernel);
-  (void)contct::path::follow(p, contct::path::structure_of(p), "refactor", *leader, {&beside, &log});
+  (void)contct::follow(p, contct::structure_of(p), "refactor", *leader, {&beside, &log});
   return {log.calls, log.compared, beside.parted(), beside.stopped()};
 }
 
@@ -170,8 +170,8 @@ TEST_CASE("where the 1989 code goes wrong, its rule does, as reference/DIVERGENC
     const exact_problem e = exact_problem_of(read_problem(file));
     const exact_path truly = follow_corrected_path(e);
     const exact_path listed_path = follow_1989_path(e);
-    CHECK(truly.status == contct::path::path_status::solved);
-    CHECK((listed_path.status == contct::path::path_status::mechanism) == ends_early);
+    CHECK(truly.status == contct::path_status::solved);
+    CHECK((listed_path.status == contct::path_status::mechanism) == ends_early);
     rational largest;
     rational worst;
     for (std::size_t step = 0; step < listed_path.steps.size(); ++step) {
@@ -189,7 +189,7 @@ TEST_CASE("where the 1989 code goes wrong, its rule does, as reference/DIVERGENC
 TEST_CASE("a structure that no closed pair holds is a mechanism for the 1989 driver") {
   const exact_path path = listed("[beam]\nx = [0, 1]\nEI = 1\n" + stop(1, "-1", "1") + stop(2, "-1", "1") +
                                  "[[step]]\nuniform = -1\n");
-  CHECK(path.status == contct::path::path_status::mechanism);
+  CHECK(path.status == contct::path_status::mechanism);
   CHECK(path.steps[0].fraction == 0);
 }
 
@@ -225,14 +225,14 @@ TEST_CASE("an exact path that ends before the kernel's says why") {
   const auto p = read_problem(CONTCT_REFERENCE "/problems/divergences/standstill.toml");
   const exact_problem exactly = exact_problem_of(p);
   exact_companion beside(exactly);
-  const contct::kernels::event first[] = {{0, contct::kernels::change::make}};
+  const contct::event first[] = {{0, contct::change::make}};
   path_1989 walk(exactly);
   int number = 0;
   while (walk.next()) {
     beside.incremented({1, ++number, 0.5, 0.5, walk.call().led_to.events});
     CHECK_FALSE(beside.parted().has_value());
   }
-  REQUIRE(walk.status() == contct::path::path_status::mechanism);
+  REQUIRE(walk.status() == contct::path_status::mechanism);
   beside.incremented({1, number + 1, 0.5, 0.5, first});
   CHECK(beside.call() == nullptr);
   CHECK(beside.stopped() == "it ends before: the structure has become a mechanism");

@@ -7,7 +7,7 @@
 namespace {
 
 using namespace contct::fuzz;
-using namespace contct::read;
+using namespace contct;
 
 void check(const assembled& a) {
   const dof_index dofs(a);

@@ -10,7 +10,7 @@
 namespace {
 
 using namespace contct::fuzz;
-using namespace contct::read;
+using namespace contct;
 
 /// A matrix that couples each dof with the next.
 assembled chain_of(std::vector<std::string> labels) {

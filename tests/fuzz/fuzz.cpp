@@ -20,7 +20,7 @@ bool is_read(const std::function<void()>& read) {
   try {
     read();
     return true;
-  } catch (const text::input_error& e) {
+  } catch (const input_error& e) {
     const std::string_view message(e.what());
     require(!message.empty(), "a refusal says why");
     require(message.size() <= longest_message, "a refusal is no longer than a message may be", message);

@@ -7,7 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contct::fuzz;
-  using namespace contct::read;
+  using namespace contct;
   assembled a;
   a.labels = {"1.x", "2.x", "12.3"};
   a.stiffness.order = 3;

@@ -12,7 +12,7 @@
 namespace {
 
 using namespace contct::fuzz;
-using namespace contct::read;
+using namespace contct;
 
 void require_sound(const sparse_matrix& m) {
   const matrix_entry* before = nullptr;

@@ -1,10 +1,10 @@
 // What a kernel behind a pipe answers.
-#include "contct/trace/trace.hpp"
+#include "contct/kernel/trace.hpp"
 #include "fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contct::fuzz;
-  using namespace contct::trace;
+  using namespace contct;
   for (const std::size_t pairs : {0U, 1U, 2U, 5U}) {
     call_outputs out;
     out.ss.resize(pairs);

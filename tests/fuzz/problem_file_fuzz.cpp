@@ -12,7 +12,7 @@ namespace {
 #endif
 
 using namespace contct::fuzz;
-using namespace contct::read;
+using namespace contct;
 
 void check_pairs(const problem& p) {
   for (const contact_pair& c : p.pairs) {

@@ -24,7 +24,7 @@ std::string answer_to(std::string_view function, const std::string& options) {
                                                                             {"certify", contct_certify}}};
   for (const auto& [name, ask] : functions) {
     if (name != function) continue;
-    char* const text = ask(contct::app::good_problem, options.c_str());
+    char* const text = ask(contct::good_problem, options.c_str());
     require(text != nullptr, "there is an answer");
     std::string answer(text);  // NOLINT(clang-analyzer-cplusplus.StringChecker): see the line above
     contct_free(text);

@@ -1,11 +1,11 @@
 // The reader of traces: what it reads and what is written of that are the same.
-#include "contct/trace/trace.hpp"
+#include "contct/kernel/trace.hpp"
 #include "fuzz/fuzz.hpp"
 
 namespace {
 
 using namespace contct::fuzz;
-using namespace contct::trace;
+using namespace contct;
 
 struct read_trace {
   trace_header header;

@@ -7,11 +7,11 @@
 namespace golden {
 namespace {
 
-using contct::app::call_inputs;
-using contct::app::face_above;
-using contct::app::face_below;
-using contct::app::in_contact;
-using contct::app::separated;
+using contct::call_inputs;
+using contct::face_above;
+using contct::face_below;
+using contct::in_contact;
+using contct::separated;
 
 /// Where one pair stands: D, d*, c, ISEP, ISURF.
 template <class Real>

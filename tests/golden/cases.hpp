@@ -11,7 +11,7 @@ namespace golden {
 /// A call, and what it is there for.
 struct golden_call {
   std::string note;
-  contct::app::call_inputs<double> in;
+  contct::call_inputs<double> in;
 };
 
 /// A trace of the golden set: reference/traces/<name>.trace.

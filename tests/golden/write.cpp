@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   }
   try {
     for (const golden::golden_trace& t : golden::all_traces()) {
-      contct::app::output_file out(std::string(argv[1]) + "/" + t.name + ".trace");
+      contct::output_file out(std::string(argv[1]) + "/" + t.name + ".trace");
       out.write(golden::recorded(t));
       out.finish();
     }

@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEMPLATE_TEST_CASE("a pair closes at the share of the load that brings it to its face (eq. 4)", "", float,
                    double) {
@@ -143,7 +143,7 @@ TEST_CASE("pairs are found through ID, INDOF and NDOFPN, and one node may have s
   const std::vector<int> isurf = {above, below};
   call<double> c{dd, dtest, cc, ss, 0.0, id, isep, isurf, {2, 3}};
   std::vector<event> events(2);
-  CHECK(contct::app::contct(c, std::span<event>(events)) == 1);
+  CHECK(contct::contct(c, std::span<event>(events)) == 1);
   CHECK(ss == std::vector<double>{0.5, -0.5});
   CHECK(isep == std::vector<int>{touching, apart});
 }

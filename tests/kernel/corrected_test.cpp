@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/numeric/bits.hpp"
-#include "contct/numeric/random.hpp"
+#include "contct/number/bits.hpp"
+#include "contct/number/random.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "catch.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -1,10 +1,10 @@
 #include <stdexcept>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("every kernel built in can be made, and says what it is") {
   const auto names = kernel_names();

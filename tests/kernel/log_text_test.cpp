@@ -8,7 +8,7 @@
 #include "contct/kernel/fortran.hpp"
 #include "support/one_pair.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "contct/lab/fuzz.hpp"
 #include "contct/lab/random_calls.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "contct/compare/branches.hpp"
 #include "contct/kernel/contct.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 
@@ -45,7 +45,7 @@ TEMPLATE_TEST_CASE("adversarial calls stand on every threshold, and one ULP to e
     isep = in.isep;
     events.resize(in.pairs());
     call<Real> c{in.dd, in.dtest, in.cc, ss, Real(0), in.id, isep, in.isurf, in.dof};
-    (void)contct::app::contct(c, std::span<event>(events));
+    (void)contct::contct(c, std::span<event>(events));
     for_each_decision(c, in.isep, [&near](branch b, std::size_t, bool outcome, Real left, Real right) {
       const std::uint64_t ulps = margin_between(left, right);
       near[b][0] += ulps == 0;

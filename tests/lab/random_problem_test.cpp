@@ -10,10 +10,10 @@
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/kernel/call.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "support/tried_problem.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/lab/fuzz.hpp"
 #include "contct/lab/random_calls.hpp"
-#include "contct/outside/registry.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

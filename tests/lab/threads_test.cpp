@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/lab/random_problem.hpp"
-#include "contct/outside/registry.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "contct/session/run.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -26,7 +26,7 @@ struct followed {
 
   problem p;
   linear_structure s = structure_of(p);
-  contct::session::run path{p, s, {.kernels = {"fortran"}, .engine = "refactor"}};
+  contct::run path{p, s, {.kernels = {"fortran"}, .engine = "refactor"}};
 };
 
 }  // namespace

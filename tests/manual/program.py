@@ -43,7 +43,7 @@ def shown_options(text, options):
 
 
 def statuses_in_source(root):
-    enum = re.search(r"enum class exit_status \{(.*?)\};", (root / "cpp/contct/write/exit_status.hpp").read_text(), re.S).group(1)
+    enum = re.search(r"enum class exit_status \{(.*?)\};", (root / "cpp/contct/session/exit_status.hpp").read_text(), re.S).group(1)
     return set(re.findall(r"= (\d+)", enum))
 
 

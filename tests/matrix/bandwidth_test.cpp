@@ -4,7 +4,7 @@
 #include "contct/matrix/stiffness_matrix.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("a chain whose rows are shuffled becomes a band of one subdiagonal again") {
   constexpr int n = 23;

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/model/problem.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 extern "C" void dpbcon_(const char* uplo, const int* n, const int* kd, const double* ab, const int* ldab,
                         const double* anorm, double* rcond, double* work, int* iwork, int* info,

@@ -3,7 +3,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("K with springs is solved alike by LAPACK as a band and by CHOLMOD as it is") {
   const stiffness_matrix wide(random_band(40, 7, 3));

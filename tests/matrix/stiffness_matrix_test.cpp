@@ -4,7 +4,7 @@
 #include "catch.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "contct/compare/compare.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/lab/random_calls.hpp"
-#include "contct/outside/registry.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct_test {
@@ -28,7 +28,7 @@ void say(const std::string& line) {
   (void)std::fflush(stdout);
 }
 
-void say_difference(std::int64_t call, const contct::app::mismatch& where) {
+void say_difference(std::int64_t call, const contct::mismatch& where) {
   std::string field = where.field;
   if (where.field == "text") field += " line " + std::to_string(where.index);
   if (where.field != "text" && where.index > 0) field += "(" + std::to_string(where.index) + ")";
@@ -41,11 +41,11 @@ std::string in_precision(const std::string& language, int real_bytes) {
 
 void put_trace(const std::filesystem::path& file, const std::string& language) {
   say("at trace " + file.stem().string());
-  const std::string text = contct::app::read_input(file.string(), "trace", 2048);
-  contct::app::trace_reader calls(text, file.string());
-  const contct::app::trace_header h = calls.read_header();
-  const auto k = contct::app::make_kernel(in_precision(language, h.real_bytes));
-  const contct::app::replay_report report = contct::app::replay(h, calls, *k);
+  const std::string text = contct::read_input(file.string(), "trace", 2048);
+  contct::trace_reader calls(text, file.string());
+  const contct::trace_header h = calls.read_header();
+  const auto k = contct::make_kernel(in_precision(language, h.real_bytes));
+  const contct::replay_report report = contct::replay(h, calls, *k);
   if (report.first) say_difference(report.first->call, report.first->where);
 }
 
@@ -61,15 +61,14 @@ int put_traces(const std::filesystem::path& folder, const std::string& language)
 /// Random and adversarial calls in turn, answered by the kernel of the other language too.
 void put_random_calls(const std::string& language, int real_bytes, std::uint64_t count, std::uint64_t seed) {
   say("at random " + std::to_string(real_bytes));
-  const auto leader =
-      contct::app::make_kernel(in_precision(language == "cpp" ? "fortran" : "cpp", real_bytes));
-  const auto mutant = contct::app::make_kernel(in_precision(language, real_bytes));
-  contct::app::call_source source(seed, real_bytes);
-  contct::app::call_outputs led;
-  contct::app::follower asked(leader->facts(), *mutant);
+  const auto leader = contct::make_kernel(in_precision(language == "cpp" ? "fortran" : "cpp", real_bytes));
+  const auto mutant = contct::make_kernel(in_precision(language, real_bytes));
+  contct::call_source source(seed, real_bytes);
+  contct::call_outputs led;
+  contct::follower asked(leader->facts(), *mutant);
   for (std::uint64_t n = 1; n <= count; ++n) {
-    const contct::app::call_inputs<double>& in = source.at(n);
-    contct::app::call<double> c = led.prepare(in);
+    const contct::call_inputs<double>& in = source.at(n);
+    contct::call<double> c = led.prepare(in);
     leader->answer(c);
     const std::string text = leader->take_text();
     const auto& found = asked.ask({c, in.isep, text, static_cast<std::int64_t>(n)});
@@ -79,7 +78,7 @@ void put_random_calls(const std::string& language, int real_bytes, std::uint64_t
 
 int judge(const std::string& language, const std::filesystem::path& folder, std::uint64_t calls,
           std::uint64_t seed) {
-  if (put_traces(folder, language) == 0) throw contct::app::input_error("no traces in " + folder.string());
+  if (put_traces(folder, language) == 0) throw contct::input_error("no traces in " + folder.string());
   put_random_calls(language, 8, calls, seed);
   put_random_calls(language, 4, calls, seed);
   say("end");
@@ -98,7 +97,7 @@ int main(int argc, char** argv) {
   try {
     return contct_test::judge(language, argv[2], std::strtoull(argv[3], nullptr, 10),
                               std::strtoull(argv[4], nullptr, 10));
-  } catch (const contct::app::input_error& e) {  // anything else is the mutant's doing
+  } catch (const contct::input_error& e) {  // anything else is the mutant's doing
     (void)std::fprintf(stderr, "contct_mutant_judge: %s\n", e.what());
     return contct_test::not_the_mutants_fault;
   } catch (const std::filesystem::filesystem_error& e) {

@@ -17,7 +17,6 @@ for header in $(sed -n 's/^| `\(contct\/[^`]*\)`.*/\1/p' "$source/reference/libr
       # shellcheck disable=SC2086
       $CC $CFLAGS -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" "$work/alone.c" ;;
     *) printf '#include <%s>
-using namespace contct;
 struct call {}; struct load {}; struct table {}; struct event {}; struct change {}; struct kernel {};
 struct beam {}; struct problem {}; struct observer {}; struct increment {};
 void fill(call, load, table, event, change, kernel, beam, problem, observer, increment);

@@ -24,7 +24,7 @@ if grep -rInE '/[^ ;"]*/lib[^/ ;"]+[.](a|so)([^a-z]|$)' "$prefix" --include='*.c
   echo "a library is named by its full path (above)" >&2
   exit 1
 fi
-for name in contct/kernel/contct.h contct/outside/plugin.h contct/kernel/contct.hpp contct/compare/compare.hpp \
+for name in contct/kernel/contct.h contct/kernel/plugin.h contct/kernel/contct.hpp contct/compare/compare.hpp \
   contct/path/path.hpp contct_c.mod contct-config.cmake contct-config-version.cmake contct.pc contct-cxx.pc \
   doc/contct/LICENSE doc/contct/README.md; do
   [ -n "$(find "$prefix" -path "*/$name")" ] || { echo "$name is not installed" >&2; exit 1; }

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "support/beams.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

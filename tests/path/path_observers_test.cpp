@@ -7,7 +7,7 @@
 #include "contct/compare/compare.hpp"
 #include "support/beams.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

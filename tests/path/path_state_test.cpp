@@ -8,7 +8,7 @@
 #include "support/beams.hpp"
 #include "support/made_kernel.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("a loop of any length is found, whatever runs into it") {
   for (int lead : {0, 1, 5, 17}) {

@@ -7,7 +7,7 @@
 #include "support/beams.hpp"
 #include "support/matrices.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("PB1: the stop closes at F = -15 and presses with the hand calculation's force") {
   for (const char* kernel : {"fortran", "cpp"}) {

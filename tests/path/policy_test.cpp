@@ -12,7 +12,7 @@
 #include "support/beams.hpp"
 #include "support/made_kernel.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "support/followed.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

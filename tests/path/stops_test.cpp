@@ -3,11 +3,11 @@
 #include <functional>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "support/beams.hpp"
 #include "support/made_kernel.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("a mechanism: the pair whose opening frees the beam is named, with the load at which it opened") {
   // A beam on two springs; a force that moves outside them lifts the other end off.

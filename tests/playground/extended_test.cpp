@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "contct/numeric/random.hpp"
+#include "contct/number/random.hpp"
 
 __extension__ using quad = __float128;
 
@@ -18,7 +18,7 @@ quad page_root(quad a);
 
 namespace {
 
-using contct::numeric::random_numbers;
+using contct::random_numbers;
 
 /// Zeros, infinities, NaN, and numbers of few or of all 64 bits, large and small.
 long double any_number(random_numbers& random) {

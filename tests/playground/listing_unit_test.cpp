@@ -16,7 +16,7 @@ void unit_contct_log_rewind(void);
 void unit_contct_log_close(void);
 }
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -34,7 +34,7 @@ launcher="sh;$source/tests/probe/slack.sh;$slack"
     -DCONTCT_REPLAY_ONLY=ON \
     -DCONTCT_FLANG=OFF -DCONTCT_F2C=OFF "-DCMAKE_CXX_COMPILER=$CXX" "-DCMAKE_Fortran_COMPILER=$FC" \
     "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" "-DCMAKE_Fortran_COMPILER_LAUNCHER=$launcher" &&
-    "$CMAKE" --build "$work/build" --target contct_compare &&
+    "$CMAKE" --build "$work/build" --target contct_kit &&
     # shellcheck disable=SC2086 # no word where there is no flag
     "$CXX" $link -o "$work/replay" -Wl,--start-group "$work"/build/cpp/lib*.a "$work"/build/fortran/lib*.a "$@" \
       -Wl,--end-group

@@ -12,8 +12,8 @@
 
 namespace {
 
-using contct::kernels::change;
-using contct::kernels::event;
+using contct::change;
+using contct::event;
 
 constexpr std::size_t batch = 4096;
 constexpr std::size_t width = 11;
@@ -32,7 +32,7 @@ int differences(std::span<const float> values) {
   texts_(values.data(), &n, by_fortran.data(), width);
   int id = 1;
   int isurf = 1;
-  contct::kernels::call<float> c{};
+  contct::call<float> c{};
   c.id = {&id, 1};
   c.isurf = {&isurf, 1};
   const event made{0, change::make};

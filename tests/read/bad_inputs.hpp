@@ -6,7 +6,7 @@
 #include "read/good_problem.hpp"
 #include "read/refusals.hpp"
 
-namespace contct::app {
+namespace contct {
 
 inline std::vector<bad_input> bad_inputs() {
   return {
@@ -123,4 +123,4 @@ inline std::vector<bad_input> bad_inputs() {
   };
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -8,7 +8,7 @@
 #include "read/good_problem.hpp"
 #include "read/refusals.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// `good_problem` on a beam with element_size instead of coordinates and EI, given by these lines.
 inline std::string sized_with(const std::string& lines) {
@@ -179,4 +179,4 @@ inline std::vector<bad_input> bad_places() {
   return all;
 }
 
-}  // namespace contct::app
+}  // namespace contct

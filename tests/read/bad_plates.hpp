@@ -6,7 +6,7 @@
 
 #include "read/refusals.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// A good plate, in which each mistake is made by replacing one piece. Lines are counted from 1.
 inline const char* const good_plate =
@@ -138,4 +138,4 @@ inline std::vector<bad_input> bad_plates() {
   };
 }
 
-}  // namespace contct::app
+}  // namespace contct

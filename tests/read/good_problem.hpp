@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace contct::app {
+namespace contct {
 
 /// Each mistake is made by replacing one piece. Lines are counted from 1.
 inline const char* const good_problem =
@@ -27,4 +27,4 @@ inline std::string with(const std::string& piece, const std::string& mistake) {
   return text.replace(text.find(piece), piece.size(), mistake);
 }
 
-}  // namespace contct::app
+}  // namespace contct

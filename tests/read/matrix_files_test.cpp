@@ -9,7 +9,7 @@
 #include "contct/matrix/stiffness_matrix.hpp"
 #include "read/refusals.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

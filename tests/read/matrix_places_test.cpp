@@ -7,7 +7,7 @@
 #include "contct/read/matrix_files.hpp"
 #include "read/refusals.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

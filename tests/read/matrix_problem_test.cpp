@@ -9,7 +9,7 @@
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/exact_means.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/matrix_files.hpp"
@@ -21,7 +21,7 @@
 #include "support/matrices.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct::app;
+using namespace contct;
 namespace fs = std::filesystem;
 
 namespace {
@@ -83,13 +83,13 @@ struct run_of_problem {
   bool unique = true;
 };
 
-run_of_problem run(const problem& p) {
+run_of_problem run_of(const problem& p) {
   run_of_problem r;
   const linear_structure s = structure_of(p);
   const auto leader = make_kernel("fortran");
   const std::vector<std::string> others = {"cpp"};
   lockstep_on_path compared(leader->facts(), others);
-  certifier judged(p, s, contct::exact::exact_means_of(p));
+  certifier judged(p, s, contct::exact_means_of(p));
   r.end = follow(p, s, "refactor", *leader, {&compared, &judged, &r.seen}, {0, judged.ends()});
   r.calls = compared.calls();
   r.mismatches = compared.compared().mismatches;
@@ -174,8 +174,8 @@ TEST_CASE("the same structure by its matrix has the same events and the same D, 
     INFO(name);
     const problem native = read_problem((reference / "problems" / (std::string(name) + ".toml")).string());
     const scratch_folder here;
-    const run_of_problem by_name = run(native);
-    check_same(by_name, run(read_problem(exported(native, here))));
+    const run_of_problem by_name = run_of(native);
+    check_same(by_name, run_of(read_problem(exported(native, here))));
     for (const auto& i : by_name.seen.increments) events += static_cast<int>(i.events.size());
   }
   CHECK(events >= 12);
@@ -188,8 +188,8 @@ TEST_CASE("a beam or plate that only its pairs hold is held by them by its matri
     problem native = read_problem((reference / "problems" / (std::string(name) + ".toml")).string());
     if (native.geometry.kind.index() == 0) native.supports.clear();
     const scratch_folder here;
-    const run_of_problem by_matrix = run(read_problem(exported(native, here)));
-    check_same(run(native), by_matrix);
+    const run_of_problem by_matrix = run_of(read_problem(exported(native, here)));
+    check_same(run_of(native), by_matrix);
     // The first one's K, rounded to doubles, is not semidefinite in the last digits; FORTRAN has 6 digits of
     // pb11a.
     const bool is_proved = std::string(name).starts_with("pb04c") || std::string(name).starts_with("pp03a");
@@ -203,9 +203,9 @@ TEST_CASE("a beam on two faces that is lifted off them is a mechanism by its mat
   p.pairs = {{0, face_below, 0.0, 10.0, true}, {3, face_below, 0.0, 10.0, true}};
   p.steps = {load{{{1, 0, -1.0}}, {}}, load{{{1, 0, 1.0}}, {}}};
   const scratch_folder here;
-  const run_of_problem native = run(p);
+  const run_of_problem native = run_of(p);
   CHECK(native.end.status == path_status::mechanism);
-  check_same(native, run(read_problem(exported(p, here))));
+  check_same(native, run_of(read_problem(exported(p, here))));
 }
 
 TEST_CASE(
@@ -223,7 +223,7 @@ TEST_CASE(
     CHECK(kept.str().size() > 50);
   }
   const problem p = read_problem((frame / "frame.toml").string());
-  const run_of_problem r = run(p);
+  const run_of_problem r = run_of(p);
   CHECK(r.end.status == path_status::solved);
   CHECK(r.mismatches == 0);
   CHECK(r.certified);
@@ -254,8 +254,8 @@ TEST_CASE("a frame from CalculiX's own files is the frame from Matrix Market's")
   std::string toml = text.str();
   const std::size_t from = toml.find("[matrix]");
   toml.replace(from, toml.find("[[support]]") - from, "[calculix]\njob = \"frame\"\n");
-  const run_of_problem a = run(p);
-  const run_of_problem b = run(read_problem(here.write("c.toml", toml)));
+  const run_of_problem a = run_of(p);
+  const run_of_problem b = run_of(read_problem(here.write("c.toml", toml)));
   check_same(a, b);
 }
 
@@ -307,7 +307,7 @@ TEST_CASE("a result on a matrix names dofs by their labels, and its w is its dis
   const scratch_folder here;
   const linear_structure s = structure_of(p);
   output_file file((here.path() / "r.json").string());
-  run_result r(p, s, contct::exact::exact_means_of(p));
+  run_result r(p, s, contct::exact_means_of(p));
   r.end = follow(p, s, "refactor", *make_kernel("fortran"), {&r.judged, &r.record});
   write_result(r, file);
   const std::string text = here.read("r.json");
@@ -434,7 +434,7 @@ TEST_CASE("where half a unit in a matrix's last digits decides whether it is hel
             "[[contact]]\ndof = \"2\"\nsurface = \"above\"\nface = 1\nstiffness = 1e-13\n"
             "[[step]]\npoint = [{ dof = \"1\", value = 1 }, { dof = \"2\", value = -0.9999999 }]\n"));
     const linear_structure s = structure_of(p);
-    certifier judged(p, s, contct::exact::exact_means_of(p));
+    certifier judged(p, s, contct::exact_means_of(p));
     observer* const watching[] = {&judged};
     (void)judged.find_final_states(watching);
     REQUIRE(judged.steps().size() == 1);

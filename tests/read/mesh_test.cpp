@@ -7,7 +7,7 @@
 #include "contct/read/problem_file.hpp"
 #include "read/refusals.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "read/small_matrix.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -8,7 +8,7 @@
 #include "contct/text/input_text.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 

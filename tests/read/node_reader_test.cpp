@@ -4,7 +4,7 @@
 #include "catch.hpp"
 #include "read/refusals.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

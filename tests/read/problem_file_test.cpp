@@ -6,7 +6,7 @@
 #include "read/bad_places.hpp"
 #include "read/good_problem.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// What is said of a file, or "accepted".
 inline std::string verdict(const std::function<void()>& reads) {
@@ -51,4 +51,4 @@ inline void check_refusals(const std::vector<bad_file>& files,
   }
 }
 
-}  // namespace contct::app
+}  // namespace contct

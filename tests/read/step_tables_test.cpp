@@ -6,7 +6,7 @@
 #include "read/bad_places.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "contct/read/toml_reader.hpp"
 #include "contct/text/input_text.hpp"
 
-using namespace contct::read;
+using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 

@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "contct/kernel/call.hpp"
-#include "contct/numeric/random.hpp"
+#include "contct/number/random.hpp"
 
 namespace contct::referee {
 namespace {
 
-using namespace structure;
 
 /// mantissa * 10^exponent, rounded once, from its decimal.
 double decimal(std::int64_t mantissa, int exponent) {
@@ -33,7 +32,8 @@ class hard_drawing {
         &hard_drawing::stiff_pairs,      &hard_drawing::drop,        &hard_drawing::small_after_large,
         &hard_drawing::cancelling_loads, &hard_drawing::graded_mesh, &hard_drawing::pairs_alone,
         &hard_drawing::near_tipping,     &hard_drawing::soft_matrix, &hard_drawing::spring_decades};
-    (this->*draws[static_cast<int>(kind)])();
+    const auto drawn = draws[static_cast<int>(kind)];  // g++ 12 checks another index in `->*draws[..]`
+    (this->*drawn)();
     return std::move(p_);
   }
 

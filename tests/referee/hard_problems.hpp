@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "contct/structure/problem.hpp"
+#include "contct/model/problem.hpp"
 
 namespace contct::referee {
 
@@ -26,6 +26,6 @@ inline constexpr int hard_kinds = 9;
 [[nodiscard]] std::string_view name_of(hard_kind k);
 
 /// Problem `number` of `seed`.
-[[nodiscard]] structure::problem make_hard_problem(std::uint64_t seed, std::uint64_t number, hard_kind kind);
+[[nodiscard]] problem make_hard_problem(std::uint64_t seed, std::uint64_t number, hard_kind kind);
 
 }  // namespace contct::referee

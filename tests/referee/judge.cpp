@@ -11,15 +11,12 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/exact_means.hpp"
 #include "contct/exact/kernel_digits.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct::referee {
 namespace {
 
-using namespace certify;
-using namespace exact;
-using structure::problem;
 
 /// The kinds of numbers, in the order of the faults.
 enum class number_kind { deflection, slope, force, reaction };
@@ -208,9 +205,9 @@ class comparing {
 path_end solve(const problem& p, const linear_structure& s, way how, const std::vector<observer*>& observers,
                certifier& judged) {
   if (how == way::final_only) return judged.find_final_states(observers);
-  const auto leader = outside::make_kernel(how == way::listing ? "cpp" : "corrected");
+  const auto leader = make_kernel(how == way::listing ? "cpp" : "corrected");
   const std::string engine(how == way::default_engine ? quickest_engine(s) : "refactor");
-  return path::follow(p, s, engine, *leader, observers, {0, judged.ends()});
+  return follow(p, s, engine, *leader, observers, {0, judged.ends()});
 }
 
 /// What is wrong with how it ended; nothing where that is right.
@@ -243,7 +240,7 @@ std::string_view name_of(fault f) {
   return names[static_cast<int>(f)];
 }
 
-exact_answer::exact_answer(const structure::problem& p)
+exact_answer::exact_answer(const contct::problem& p)
     : problem(exact_problem_of(p)), path(follow_corrected_path(problem)) {
   lifted_solver holds(problem.stiffness, problem.fixed, problem.place);
   for (const exact_step_end& s : path.steps) {
@@ -281,7 +278,7 @@ void judge_run(const problem& p, const exact_answer& exactly, way how, judgement
 
 }  // namespace
 
-judgement judge(const structure::problem& p, const exact_answer& exactly, way how) {
+judgement judge(const problem& p, const exact_answer& exactly, way how) {
   judgement j;
   const auto refused = [&j](const std::exception& e) {
     j.findings.push_back({fault::refused, 1.0, e.what()});

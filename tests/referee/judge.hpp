@@ -8,7 +8,7 @@
 
 #include "contct/exact/exact_problem.hpp"
 #include "contct/exact/path.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/model/problem.hpp"
 
 namespace contct::referee {
 
@@ -48,10 +48,10 @@ inline constexpr int faults = 17;
 
 /// A problem and its exact path.
 struct exact_answer {
-  explicit exact_answer(const structure::problem& p);
+  explicit exact_answer(const contct::problem& p);
 
-  exact::exact_problem problem;
-  exact::exact_path path;
+  exact_problem problem;
+  exact_path path;
   /// [steps] Does the state at the end of a step have the only displacements that are in equilibrium?
   std::vector<char> unique;
 };
@@ -74,6 +74,6 @@ struct judgement {
 
 /// Solve `p` and judge what is said. Where equilibria differ by a rigid motion, forces and reactions alone
 /// are compared.
-[[nodiscard]] judgement judge(const structure::problem& p, const exact_answer& exactly, way how);
+[[nodiscard]] judgement judge(const problem& p, const exact_answer& exactly, way how);
 
 }  // namespace contct::referee

@@ -78,18 +78,18 @@ options options_of(int argc, char** argv) {
 
 struct drawn_problem {
   std::string kind;
-  contct::structure::problem problem;
+  contct::problem problem;
 };
 
 drawn_problem draw_of_laboratory(std::uint64_t seed, std::uint64_t number) {
   constexpr const char* layouts[] = {"gaps",      "zero-gaps", "mixed",         "equal-gaps",
                                      "near-ties", "symmetric", "antisymmetric", "two-sided"};
-  contct::lab::random_problem_kind small;
+  contct::random_problem_kind small;
   small.most_elements = 8;
   small.most_lines = 2;
-  const contct::lab::random_problem r = contct::lab::make_random_problem(seed, number, small);
+  const contct::random_problem r = contct::make_random_problem(seed, number, small);
   return {std::string(r.held ? "held:" : "free:") + layouts[static_cast<int>(r.layout)],
-          static_cast<const contct::structure::problem&>(r)};
+          static_cast<const contct::problem&>(r)};
 }
 
 /// Problem `number` of `seed`: the even ones are the laboratory's, small ones, named by their layouts; the
@@ -289,8 +289,7 @@ int judge_drawn(const drawn_problem& p) {
 int main(int argc, char** argv) {
   try {
     const options o = options_of(argc, argv);
-    if (!o.problem_file.empty())
-      return judge_one({o.problem_file, contct::read::read_problem(o.problem_file)});
+    if (!o.problem_file.empty()) return judge_one({o.problem_file, contct::read_problem(o.problem_file)});
     return o.only ? judge_drawn(draw(o.seed, *o.only)) : judge_all(o);
   } catch (const std::exception& e) {
     fmt::print(stderr, "contct_referee: {}\n", e.what());

@@ -8,7 +8,6 @@
 namespace contct::referee {
 namespace {
 
-using namespace structure;
 
 /// As TOML has it: "-0" would be the whole number 0.
 std::string number_text(double x) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "contct/structure/problem.hpp"
+#include "contct/model/problem.hpp"
 
 namespace contct::referee {
 
@@ -15,6 +15,6 @@ struct problem_text {
 
 /// Every number as the shortest decimal that reads as its double, which `contct exact` takes for what is
 /// meant. Pairs of a bed are written one by one.
-[[nodiscard]] problem_text text_of(const structure::problem& p);
+[[nodiscard]] problem_text text_of(const problem& p);
 
 }  // namespace contct::referee

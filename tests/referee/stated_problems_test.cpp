@@ -8,8 +8,8 @@
 #include "referee/judge.hpp"
 
 using namespace contct::referee;
-using contct::exact::short_words;
-using contct::path::path_status;
+using contct::path_status;
+using contct::short_words;
 
 namespace {
 
@@ -89,8 +89,8 @@ TEST_CASE("problems that were certified wrong have their exact numbers, and no m
   int checked = 0;
   for (const stated_problem& stated : stated_problems()) {
     INFO(stated.file);
-    const contct::structure::problem p =
-        contct::read::read_problem(CONTCT_REFEREE_PROBLEMS "/" + std::string(stated.file) + ".toml");
+    const contct::problem p =
+        contct::read_problem(CONTCT_REFEREE_PROBLEMS "/" + std::string(stated.file) + ".toml");
     const exact_answer answer(p);
     CHECK(answer.path.status == stated.ends);
     for (const stated_number& n : stated.numbers)

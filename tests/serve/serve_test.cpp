@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 std::string problem_text(const std::string& name) {
-  return contct::text::read_input(std::string(CONTCT_REFERENCE) + "/problems/" + name + ".toml");
+  return contct::read_input(std::string(CONTCT_REFERENCE) + "/problems/" + name + ".toml");
 }
 
 /// The text that a function returned, read and freed.

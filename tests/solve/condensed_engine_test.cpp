@@ -1,11 +1,11 @@
 #include <stdexcept>
 
 #include "catch.hpp"
+#include "contct/model/problem.hpp"
 #include "contct/solve/spring_engine.hpp"
-#include "contct/structure/problem.hpp"
 #include "support/beam_over_stops.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("beams with pairs can be condensed, beams without and plates not") {
   CHECK(can_be_condensed(cantilever_over_stops(3)));

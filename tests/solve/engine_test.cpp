@@ -8,16 +8,16 @@
 #include <stdexcept>
 
 #include "catch.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/lab/random_problem.hpp"
-#include "contct/numeric/random.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/model/problem.hpp"
+#include "contct/number/random.hpp"
 #include "contct/path/path.hpp"
 #include "contct/solve/spring_engine.hpp"
-#include "contct/structure/problem.hpp"
 #include "support/beams.hpp"
 #include "support/tried_problem.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

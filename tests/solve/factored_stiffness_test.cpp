@@ -2,11 +2,11 @@
 
 #include "catch.hpp"
 #include "contct/matrix/sparse_factor.hpp"
+#include "contct/model/problem.hpp"
 #include "contct/solve/engine.hpp"
-#include "contct/structure/problem.hpp"
 #include "support/beam_over_stops.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

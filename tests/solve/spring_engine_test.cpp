@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "support/beams.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include "contct/solve/spring_engine.hpp"
 #include "support/beam_over_stops.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("toggles are taken in without a factor, and the response is that of a new one") {
   const linear_structure s = cantilever_over_stops(12);

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
-#include "contct/write/path_states.hpp"
+#include "contct/session/path_states.hpp"
 #include "read/good_problem.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// The good problem with a second step, which loads the beam upwards, towards a stop above it.
 inline const std::string loaded_and_freed =
@@ -53,4 +53,4 @@ struct a_run {
   }
 };
 
-}  // namespace contct::app
+}  // namespace contct

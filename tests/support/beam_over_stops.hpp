@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "contct/model/problem.hpp"
 #include "contct/solve/factored_stiffness.hpp"
-#include "contct/structure/problem.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// Clamped at its left end, all pairs open; springs of every order from softer to stiffer than the beam.
 inline linear_structure cantilever_over_stops(int elements) {
@@ -42,4 +42,4 @@ inline double relative_difference(std::span<const double> a, std::span<const dou
   return off / size;
 }
 
-}  // namespace contct::app
+}  // namespace contct

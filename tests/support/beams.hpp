@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/model/problem.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/structure/problem.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// A beam problem in memory, and its run.
 struct beam_problem {
@@ -106,4 +106,4 @@ inline beam_problem free_beam_on_springs(double length, int elements, double EI,
   return p;
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/lab/random_problem.hpp"
-#include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// What was seen on a path, and what the certificate says of its states.
 struct followed {
@@ -50,4 +50,4 @@ inline followed follow(const random_problem& p, bool proved = true) {
   return f;
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -7,7 +7,7 @@
 
 #include "contct/kernel/kernel.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// A kernel made for a test, of the corrected rule unless it says so.
 class made_kernel final : public kernel {
@@ -23,4 +23,4 @@ class made_kernel final : public kernel {
   std::function<void(call<double>&)> answer_;
 };
 
-}  // namespace contct::app
+}  // namespace contct

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "contct/matrix/stiffness_matrix.hpp"
-#include "contct/numeric/random.hpp"
-#include "contct/structure/structure.hpp"
+#include "contct/model/structure.hpp"
+#include "contct/number/random.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// The entries of a structure's matrix, in the order of its dofs.
 inline sparse_matrix entries_of(const linear_structure& s) {
@@ -96,4 +96,4 @@ inline std::vector<double> random_vector(int order, std::uint64_t seed) {
   return x;
 }
 
-}  // namespace contct::app
+}  // namespace contct

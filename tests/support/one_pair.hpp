@@ -6,7 +6,7 @@
 #include "contct/kernel/contct.hpp"
 #include "contct/kernel/kernel.hpp"
 
-namespace contct::app {
+namespace contct {
 
 // Short words for tables of pairs.
 inline constexpr int apart = separated;
@@ -74,4 +74,4 @@ inline call_outputs answer_of(kernel& k, const call_inputs<double>& in) {
   return out;
 }
 
-}  // namespace contct::app
+}  // namespace contct

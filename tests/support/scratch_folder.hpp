@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-namespace contct::app {
+namespace contct {
 
 /// A new folder below the system's temporary folder, removed with everything in it at the end.
 class scratch_folder {
@@ -57,4 +57,4 @@ class scratch_folder {
   std::filesystem::path path_;
 };
 
-}  // namespace contct::app
+}  // namespace contct

@@ -3,7 +3,7 @@
 #include "contct/kernel/contct.hpp"
 #include "contct/kernel/log_text.hpp"
 
-namespace contct::app {
+namespace contct {
 namespace {
 constexpr std::size_t text_block = std::size_t{1} << 20;
 }
@@ -49,4 +49,4 @@ void side_by_side<Real>::note(const std::optional<mismatch>& found) {
 template class side_by_side<float>;
 template class side_by_side<double>;
 
-}  // namespace contct::app
+}  // namespace contct

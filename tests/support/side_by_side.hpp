@@ -11,7 +11,7 @@
 #include "contct/kernel/call.hpp"
 #include "contct/kernel/fortran.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// Puts calls to FORTRAN and C++ in one precision. SMIN, SS and ISEP are compared at once, the
 /// unit-26 text in blocks: reading it back after every call would cost ten times the call.
@@ -57,4 +57,4 @@ class side_by_side {
 extern template class side_by_side<float>;
 extern template class side_by_side<double>;
 
-}  // namespace contct::app
+}  // namespace contct

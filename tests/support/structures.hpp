@@ -8,7 +8,7 @@
 
 #include "contct/text/input_text.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// A problem of reference/structures, its files named by their full paths; each piece in `replaced` is
 /// replaced.
@@ -38,4 +38,4 @@ inline std::string frame_without_coordinates() {
   return structure_problem("", "frame", {{"coordinates = \"frame.xyz\"", ""}});
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -7,7 +7,7 @@
 
 #include "contct/lab/random_problem.hpp"
 
-namespace contct::app {
+namespace contct {
 
 inline std::string_view name_of(face_layout f) {
   constexpr std::string_view names[] = {"gaps",      "zero gaps", "mixed",         "equal gaps",
@@ -50,4 +50,4 @@ inline problem_result try_and_count(const random_problem& p, kernel& leader, pat
   return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, "refactor", {&counts});
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace contct::app {
+namespace contct {
 
 /// Why not, in words; empty when it is. Elements, attributes and the five entities; no comments,
 /// CDATA or document types.
@@ -22,7 +22,7 @@ inline std::string why_not_well_formed(const std::string& text) {
     while (at < text.size() && is_name(text[at])) ++at;
     return text.substr(from, at - from);
   };
-  const auto blanks = [&] {
+  const auto skip_blanks = [&] {
     while (at < text.size() && std::isspace(static_cast<unsigned char>(text[at])) != 0) ++at;
   };
   const auto entity = [&] {
@@ -54,7 +54,7 @@ inline std::string why_not_well_formed(const std::string& text) {
     if (open.empty() && had_root) return "a second root, " + element;
     had_root = true;
     std::set<std::string> seen;
-    for (blanks(); at < text.size() && is_name(text[at]); blanks()) {
+    for (skip_blanks(); at < text.size() && is_name(text[at]); skip_blanks()) {
       const std::string attribute = name();
       if (!seen.insert(attribute).second) return attribute + " is there twice in " + element;
       if (text.compare(at, 2, "=\"") != 0) return attribute + " of " + element + " has no quoted value";
@@ -76,4 +76,4 @@ inline std::string why_not_well_formed(const std::string& text) {
   return had_root ? "" : "no element at all";
 }
 
-}  // namespace contct::app
+}  // namespace contct

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

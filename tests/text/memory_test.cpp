@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 
-using namespace contct::text;
+using namespace contct;
 
 TEST_CASE("amounts of memory have the digits that matter") {
   CHECK(bytes_words(1 << 19) == "0.5 MiB");

@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct::app;
+using namespace contct;
 namespace fs = std::filesystem;
 
 TEST_CASE("a file appears when it is finished, and not before, not even under another name") {

@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 TEST_CASE("the nearest word is meant, and none where too much is wrong") {
   const std::vector<std::string> keys = {"node", "nodes", "surface", "face", "stiffness"};

@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include "contct/text/input_text.hpp"
 #include "support/scratch_folder.hpp"
 
-using namespace contct::write;
+using namespace contct;
 using Catch::Matchers::Contains;
-using contct::app::scratch_folder;
+using contct::scratch_folder;
 
 namespace {
 
@@ -26,7 +26,7 @@ struct followed_exactly {
     const std::string file = (dir.path() / "exact.json").string();
     output_file out(file);
     write_exact_json(result(), out);
-    return exact_json::parse(contct::text::read_input(file));
+    return exact_json::parse(contct::read_input(file));
   }
 
   problem what;
@@ -36,7 +36,7 @@ struct followed_exactly {
 };
 
 problem reference(const std::string& name) {
-  return contct::read::read_problem(CONTCT_REFERENCE "/problems/" + name + ".toml");
+  return contct::read_problem(CONTCT_REFERENCE "/problems/" + name + ".toml");
 }
 
 const std::string falling =
@@ -106,7 +106,7 @@ TEST_CASE("the document has every number as a fraction") {
 }
 
 TEST_CASE("a mechanism is told with the motion and the work that prove it") {
-  const followed_exactly run(contct::read::parse_problem(falling, "falling.toml"));
+  const followed_exactly run(contct::parse_problem(falling, "falling.toml"));
   CHECK_THAT(exact_text(run.result(), 20, {}),
              Contains("share 0, load 0: a rigid-body motion at constant load\n") &&
                  Contains("\nno equilibrium: ") &&

@@ -11,7 +11,7 @@
 #include "support/scratch_folder.hpp"
 #include "write/explained_run.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
 
-namespace contct::app {
+namespace contct {
 
 /// FORTRAN with C++ beside it; `sink` is given each increment, after `first`, where there is one, has seen
 /// it. Returns the path, which has the totals.
@@ -29,4 +29,4 @@ inline const char* const two_pairs =
     "[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
     "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
 
-}  // namespace contct::app
+}  // namespace contct

@@ -5,12 +5,12 @@
 #include "catch.hpp"
 #include "contct/exact/exact_means.hpp"
 #include "contct/kernel/call.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/write/result_json.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 
@@ -18,7 +18,7 @@ namespace {
 nlohmann::json proof_of(const std::string& text) {
   const problem p = parse_problem(text, "b.toml");
   const linear_structure s = structure_of(p);
-  certifier judged(p, s, contct::exact::exact_means_of(p));
+  certifier judged(p, s, contct::exact_means_of(p));
   judged.keep_proofs();
   const auto k = make_kernel("corrected");
   (void)follow(p, s, "refactor", *k, {&judged}, {0, judged.ends()});

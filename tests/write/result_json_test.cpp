@@ -8,7 +8,7 @@
 #include <set>
 
 #include "catch.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_inputs.hpp"
@@ -18,7 +18,7 @@
 #include "support/scratch_folder.hpp"
 #include "support/structures.hpp"
 
-using namespace contct::app;
+using namespace contct;
 
 namespace {
 

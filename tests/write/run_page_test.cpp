@@ -9,7 +9,7 @@
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

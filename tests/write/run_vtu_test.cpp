@@ -4,15 +4,15 @@
 #include <algorithm>
 
 #include "catch.hpp"
+#include "contct/session/step_results.hpp"
 #include "contct/write/pictures.hpp"
-#include "contct/write/step_results.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 #include "support/structures.hpp"
 #include "support/well_formed.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 TEST_CASE("grids are well-formed, with as many points and cells as the structure and its pairs have") {

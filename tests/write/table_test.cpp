@@ -12,7 +12,7 @@
 #include "support/scratch_folder.hpp"
 #include "support/structures.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -8,7 +8,7 @@
 #include "read/bad_inputs.hpp"
 #include "support/a_run.hpp"
 
-using namespace contct::app;
+using namespace contct;
 using Catch::Matchers::Contains;
 
 TEST_CASE("sides, events and states have the words of a problem file") {

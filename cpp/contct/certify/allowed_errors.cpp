@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-namespace contct::certify {
+namespace contct {
 namespace {
 
 /// Of what is related to a kind, this share counts as none: shears of a beam that only couples bend are 0 but
@@ -101,4 +101,4 @@ std::string worst_bound(const by_quantity& error, const by_quantity& allowed) {
   return text;
 }
 
-}  // namespace contct::certify
+}  // namespace contct

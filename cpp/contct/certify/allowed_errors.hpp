@@ -6,7 +6,7 @@
 
 #include "contct/certify/error_bounds.hpp"
 
-namespace contct::certify {
+namespace contct {
 
 /// Certified means: every proved bound on an error is at most this share of the size of its kind in this
 /// state.
@@ -33,4 +33,4 @@ class allowed_errors {
 /// The bound that is furthest above what is allowed, in words; empty where none is.
 [[nodiscard]] std::string worst_bound(const by_quantity& error, const by_quantity& allowed);
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace contct::certify {
+namespace contct {
 namespace {
 
 /// What products of numbers that are all but 0 may lose.
@@ -201,4 +201,4 @@ bool certain_contacts::stands_free(int step, std::span<const double_double> u, c
   return true;
 }
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "contct/certify/scaled_stiffness.hpp"
-#include "contct/structure/structure.hpp"
+#include "contct/model/structure.hpp"
 
-namespace contct::certify {
+namespace contct {
 
 /// What is certain about a state's contacts.
 struct contact_set {
@@ -71,4 +71,4 @@ class certain_contacts {
   long_vector z_;  // about K_A^-1 r
 };
 
-}  // namespace contct::certify
+}  // namespace contct

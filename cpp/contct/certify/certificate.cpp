@@ -10,7 +10,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/memory.hpp"
 
-namespace contct::certify {
+namespace contct {
 namespace {
 
 using outcome = reference_answer::outcome;
@@ -39,10 +39,10 @@ std::string worst_of(const certificate& c) {
 
 /// A sparse factor that fits into memory three times, and whose product takes a minute or less.
 bool can_be_proved_by_columns(const linear_structure& s) {
-  if (!matrix::sparse_factor::available()) return false;
+  if (!sparse_factor::available()) return false;
   constexpr double most_flops = 5e10;
-  const auto factor = matrix::sparse_factor::make(s.stiffness.columns());
-  return 3 * factor->bytes() <= text::memory_limit() && factor->flops() <= most_flops;
+  const auto factor = sparse_factor::make(s.stiffness.columns());
+  return 3 * factor->bytes() <= memory_limit() && factor->flops() <= most_flops;
 }
 
 /// A band, of which two more are held during a proof, besides those of the path and of the comparison.
@@ -50,7 +50,7 @@ bool can_be_proved(const linear_structure& s) {
   if (!s.stiffness.is_band()) return can_be_proved_by_columns(s);
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
   constexpr std::int64_t bytes = 40;  // of five doubles
-  return bytes * s.dofs() * width <= text::memory_limit();
+  return bytes * s.dofs() * width <= memory_limit();
 }
 
 /// The pairs in contact, and where these and the supports leave a motion free, separated ones that would stop
@@ -370,4 +370,4 @@ path_end certifier::find_final_states(std::span<observer* const> observers) {
   return end;
 }
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -5,7 +5,7 @@
 //
 // The reference solution shares no code with kernels, engines or the loop. It does share the assembled
 // stiffness, its Cholesky factor (matrix/cholesky) and the count of rigid motions
-// (structure/rigid_modes) with them.
+// (model/rigid_modes) with them.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 
-namespace contct::certify {
+namespace contct {
 
 /// What is known about the state that a step ended in. Lengths are relative to the largest
 /// deflection that the path has seen, so that a state of no load has a measure too; and where slopes
@@ -120,4 +120,4 @@ class certifier final : public observer {
   std::vector<std::optional<certificate>> steps_;
 };
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -7,7 +7,7 @@
 
 #include "contct/path/solve_problem.hpp"
 
-namespace contct::certify {
+namespace contct {
 namespace {
 
 /// Displacements so small that products of them underflow become 0.
@@ -417,4 +417,4 @@ std::optional<error_bounds> error_prover::bound_closely(const reported_state& to
   return b;
 }
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -10,7 +10,7 @@
 #include "contct/certify/certain_contacts.hpp"
 #include "contct/path/path.hpp"
 
-namespace contct::certify {
+namespace contct {
 
 /// The kinds of numbers that a state has.
 enum class quantity { w, slope, force, reaction, moment, shear, gap };
@@ -158,4 +158,4 @@ class error_prover {
 /// too. Those of plates and matrices are at nodes and corners: nothing changes.
 void widen_by_extremes(const problem& p, const reported_state& state, error_bounds& b);
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "contct/certify/error_bounds.hpp"
-#include "contct/structure/extremes.hpp"
+#include "contct/model/extremes.hpp"
 
-namespace contct::certify {
+namespace contct {
 namespace {
 
 double sum_of_sizes(const std::vector<double>& p) {
@@ -41,35 +41,34 @@ double above(std::vector<double> b, double top, double close, int bisections, do
 }
 
 /// How far the polynomial is from its printed extremes, and from what was handed out for its right end.
-double off_extremes(const std::vector<double>& p, const structure::value_range& printed, double right_end) {
+double off_extremes(const std::vector<double>& p, const value_range& printed, double right_end) {
   constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
   const double close = rounding_in(p);
-  std::vector<double> b = structure::bernstein_of(p);
+  std::vector<double> b = bernstein_of(p);
   double reached = 0.0;
   double beyond = above(b, printed.most.value, close, bisections, reached);
   for (double& x : b) x = -x;
   reached = 0.0;
   beyond = std::max(beyond, above(std::move(b), -printed.least.value, close, bisections, reached));
-  return beyond + std::abs(structure::polynomial_at(p, 1.0) - right_end) + close;
+  return beyond + std::abs(polynomial_at(p, 1.0) - right_end) + close;
 }
 
 /// The error of M is linear in t, but for rounding, and that of V constant: nowhere larger than at the ends.
 /// That of w is a cubic; of Hermite's functions those of w add up to 1 and those of slopes to at most h / 4.
-void widen(const structure::beam& b, const reported_state& state, const structure::load& l,
-           error_bounds& bounds) {
-  const std::vector<structure::value_range> printed =
-      structure::ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
-  const structure::beam_lines lines(b, l, state.displacement, state.numbers.element_values);
+void widen(const beam& b, const reported_state& state, const load& l, error_bounds& bounds) {
+  const std::vector<value_range> printed =
+      ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
+  const beam_lines lines(b, l, state.displacement, state.numbers.element_values);
   by_quantity& error = bounds.error;
   by_quantity inside;
   for (int e = 0; e < b.elements(); ++e) {
-    const structure::element_line line = lines.at(e);
+    const element_line line = lines.at(e);
     const std::size_t right = 2 * e + 2;
-    const double slope = std::abs(structure::polynomial_at(line.slope, 1.0) - state.displacement[right + 1]);
+    const double slope = std::abs(polynomial_at(line.slope, 1.0) - state.displacement[right + 1]);
     const double of_slope = line.h / 4 * (error[quantity::slope].value_or(0.0) + slope);
     // Where parts of a load cancel, their sum has errors of 2^-89 of the parts.
     const double of_load = 0x1p-80 * line.load_size * line.h;
-    bounds.size.take(quantity::w, std::abs(structure::polynomial_at(line.w, 0.5)));
+    bounds.size.take(quantity::w, std::abs(polynomial_at(line.w, 0.5)));
     if (line.load_size != 0.0) {  // otherwise both are largest at the ends
       inside.take(quantity::shear, of_load + off_extremes(line.shear, printed[2], lines.ends().at(e, 0)[1]));
       inside.take(quantity::moment,
@@ -85,8 +84,8 @@ void widen(const structure::beam& b, const reported_state& state, const structur
 }  // namespace
 
 void widen_by_extremes(const problem& p, const reported_state& state, error_bounds& b) {
-  if (const auto* const of_beam = std::get_if<structure::beam>(&p.geometry.kind))
-    widen(*of_beam, state, b.unloaded ? structure::load{} : p.steps[state.step - 1], b);
+  if (const auto* const of_beam = std::get_if<beam>(&p.geometry.kind))
+    widen(*of_beam, state, b.unloaded ? load{} : p.steps[state.step - 1], b);
 }
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -5,17 +5,15 @@
 #include <limits>
 #include <utility>
 
-namespace contct::certify {
+namespace contct {
 namespace {
-
-using matrix::sparse_columns;
 
 constexpr double half_ulp = 0x1p-53;
 
 double_double root_of(const double_double& x) {
   const double near = std::sqrt(x.hi);
-  const double_double left = x - numeric::exact_product(near, near);
-  return numeric::renormalized(near, left.hi / (2 * near));
+  const double_double left = x - exact_product(near, near);
+  return renormalized(near, left.hi / (2 * near));
 }
 
 /// The sum of l_ik l_jk over the columns k < `end` that both rows have.
@@ -181,13 +179,13 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
 }
 
 sparse_columns reordered(const sparse_columns& a, std::span<const int> places) {
-  matrix::sparse_matrix moved{a.order(), {}};
+  sparse_matrix moved{a.order(), {}};
   for (int column = 0; column < a.order(); ++column)
     for (int at = a.starts[column]; at < a.starts[column + 1]; ++at) {
       const auto [right, below] = std::minmax(places[a.rows[at]], places[column]);
       moved.entries.push_back({below, right, a.values[at]});
     }
-  return matrix::columns_of(moved);
+  return columns_of(moved);
 }
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "contct/matrix/stiffness_matrix.hpp"
-#include "contct/numeric/double_double.hpp"
+#include "contct/number/double_double.hpp"
 
-namespace contct::certify {
+namespace contct {
 
-using numeric::double_double;
-using long_band = matrix::band_of_numbers<double_double>;
+using long_band = band_of_numbers<double_double>;
 
 /// May a band be factored so, by the time that takes?
 [[nodiscard]] bool can_be_factored_long(int order, int subdiagonals);
@@ -49,9 +48,9 @@ class row_sums {
 
 /// The same of a symmetric A and a lower triangle L by columns, both in the same order. Rounding of the sums
 /// is in the bound.
-[[nodiscard]] double largest_row_of_error(const matrix::sparse_columns& a, const matrix::sparse_columns& l);
+[[nodiscard]] double largest_row_of_error(const sparse_columns& a, const sparse_columns& l);
 
 /// A with row i at `places[i]`.
-[[nodiscard]] matrix::sparse_columns reordered(const matrix::sparse_columns& a, std::span<const int> places);
+[[nodiscard]] sparse_columns reordered(const sparse_columns& a, std::span<const int> places);
 
-}  // namespace contct::certify
+}  // namespace contct

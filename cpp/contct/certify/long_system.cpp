@@ -4,11 +4,8 @@
 #include <cmath>
 #include <limits>
 
-namespace contct::certify {
+namespace contct {
 namespace {
-
-using structure::beam_elements;
-using structure::plate_elements;
 
 /// Loads that act on the same elements as one load there, of which together nothing may be left.
 load merged(const load& l, int elements) {
@@ -72,8 +69,8 @@ std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double
   const double tilt = std::abs((own[3] - own[0]).hi) + std::abs((own[9] - own[0]).hi);
   std::array<curvature_size, 4> sizes;
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto [xi, eta] = structure::formulas::corners[k];
-    const auto c = structure::formulas::curvatures_at<double>(xi, eta);
+    const auto [xi, eta] = formulas::corners[k];
+    const auto c = formulas::curvatures_at<double>(xi, eta);
     for (std::size_t i = 0; i < 12; ++i) {
       const double size = std::abs(v[i].hi) + tilt;
       sizes[k].bends += size * (std::abs(c.xx[i]) / (a * a) + std::abs(c.yy[i]) / (b * b));
@@ -106,7 +103,7 @@ std::vector<element_value> values_of(const plate_elements<double_double>& plate,
   return all;
 }
 
-std::vector<element_value> values_of(const structure::no_elements<double_double>& /*none*/, const load& /*l*/,
+std::vector<element_value> values_of(const no_elements<double_double>& /*none*/, const load& /*l*/,
                                      std::span<const double_double> /*u*/) {
   return {};
 }
@@ -208,7 +205,7 @@ double extent_of(const model& m) {
 }
 
 long_system long_system_of(const problem& p) {
-  long_system t(structure::equations_of<double_double>(p));
+  long_system t(equations_of<double_double>(p));
   t.extent = extent_of(p.geometry);
   for (int dof = 0; dof < static_cast<int>(t.dofs()); ++dof) {
     t.root.push_back(std::sqrt(t.stiffness[dof].at(dof).hi) * (1 + 0x1p-50));
@@ -219,7 +216,7 @@ long_system long_system_of(const problem& p) {
   std::visit(
       [&](const auto& kind) {
         t.least_product = least_product_of(kind);
-        t.element_values = [acting, elements = structure::elements_of<double_double>(kind)](
+        t.element_values = [acting, elements = elements_of<double_double>(kind)](
                                int step, std::span<const double_double> u) {
           return values_of(elements, acting(step), u);
         };
@@ -228,4 +225,4 @@ long_system long_system_of(const problem& p) {
   return t;
 }
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -8,11 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "contct/structure/equations.hpp"
+#include "contct/model/equations.hpp"
 
-namespace contct::certify {
+namespace contct {
 
-using numeric::double_double;
 using long_vector = std::vector<double_double>;
 
 /// Every entry of K is off by at most this share of sqrt(K_ii K_jj), every other number by this share of
@@ -22,10 +21,10 @@ inline constexpr double long_rounding = 0x1p-90;
 /// Sums of doubles are off by less than this share of their magnitudes.
 inline constexpr double summation_slack = 0x1p-30;
 
-using long_pair = structure::pair_in<double_double>;
+using long_pair = pair_in<double_double>;
 
 /// What acts at the end of a step.
-struct long_loads : structure::loads_in<double_double> {
+struct long_loads : loads_in<double_double> {
   int step = 0;  ///< at whose end they act, from 1; 0 in between
 };
 
@@ -36,7 +35,7 @@ struct long_residual {
   long_vector needed;         ///< K u less the loads and what pairs press with, at every dof [dofs]
 };
 
-/// A value at the end of an element, in the order of structure::element_results.
+/// A value at the end of an element, in the order of element_results.
 struct element_value {
   double_double value;
   double size = 0.0;    ///< the sum of the magnitudes that make it
@@ -48,9 +47,9 @@ struct element_value {
   [[nodiscard]] double noise() const { return 4 * long_rounding * size; }
 };
 
-struct long_system : structure::equations<double_double> {
+struct long_system : equations<double_double> {
   long_system() = default;
-  explicit long_system(structure::equations<double_double> e) : equations(std::move(e)) {}
+  explicit long_system(equations<double_double> e) : equations(std::move(e)) {}
 
   std::vector<double> root;    ///< [dofs] sqrt(K_ii), rounded up
   std::vector<char> deflects;  ///< [dofs] 1: a deflection, 0: a slope
@@ -94,4 +93,4 @@ struct long_system : structure::equations<double_double> {
 /// `p` must outlive it.
 [[nodiscard]] long_system long_system_of(const problem& p);
 
-}  // namespace contct::certify
+}  // namespace contct

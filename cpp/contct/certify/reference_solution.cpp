@@ -9,7 +9,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/solve/factored_stiffness.hpp"
 
-namespace contct::certify {
+namespace contct {
 namespace {
 
 constexpr int most_iterations = 500;
@@ -66,8 +66,8 @@ class reference_solver::search {
       in_factor_.reset();
       if (!factor_.factor(springs)) return 0.0;
     }
-    return contct::matrix::reciprocal_condition(stiffness_, stiffness_.diagonal_with(springs),
-                                                [this](std::span<double> b) { factor_.solve(b); });
+    return contct::reciprocal_condition(stiffness_, stiffness_.diagonal_with(springs),
+                                        [this](std::span<double> b) { factor_.solve(b); });
   }
 
   [[nodiscard]] int factorisations() const { return factorisations_; }
@@ -335,4 +335,4 @@ int reference_solver::factorisations() const {
   return search_->factorisations();
 }
 
-}  // namespace contct::certify
+}  // namespace contct

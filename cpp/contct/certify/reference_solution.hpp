@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "contct/structure/structure.hpp"
+#include "contct/model/structure.hpp"
 
-namespace contct::certify {
+namespace contct {
 
 /// What was found for one load.
 struct reference_answer {
@@ -68,4 +68,4 @@ class reference_solver {
   std::unique_ptr<search> search_;
 };
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -8,10 +8,8 @@
 
 #include "contct/matrix/cholesky.hpp"
 
-namespace contct::certify {
+namespace contct {
 namespace {
-
-using matrix::band_matrix;
 
 /// The power of two whose square brings a positive `x` between 1/8 and 1.
 double root_scale(double x) {
@@ -62,7 +60,7 @@ double_double long_product(const double* x, const double* y, int count) {
   return sum;
 }
 
-std::vector<double> diagonal_of(const matrix::sparse_columns& a) {
+std::vector<double> diagonal_of(const sparse_columns& a) {
   std::vector<double> diagonal(a.order());
   for (int row = 0; row < a.order(); ++row) diagonal[row] = a.diagonal(row);
   return diagonal;
@@ -97,8 +95,8 @@ void scaled_stiffness::each_entry(double shift, const Put& put) const {
 }
 
 template <class Number>
-matrix::band_of_numbers<Number> scaled_stiffness::band(double shift) const {
-  matrix::band_of_numbers<Number> all(static_cast<int>(system_.dofs()), *subdiagonals_);
+band_of_numbers<Number> scaled_stiffness::band(double shift) const {
+  band_of_numbers<Number> all(static_cast<int>(system_.dofs()), *subdiagonals_);
   each_entry(shift, [&all](int row, int column, const double_double& x) {
     if constexpr (std::is_same_v<Number, double>)
       all.at(row, column) = x.hi;
@@ -108,12 +106,12 @@ matrix::band_of_numbers<Number> scaled_stiffness::band(double shift) const {
   return all;
 }
 
-matrix::sparse_columns scaled_stiffness::columns(double shift) const {
-  matrix::sparse_matrix all{static_cast<int>(system_.dofs()), {}};
+sparse_columns scaled_stiffness::columns(double shift) const {
+  sparse_matrix all{static_cast<int>(system_.dofs()), {}};
   each_entry(shift, [&all](int row, int column, const double_double& x) {
     all.entries.push_back({row, column, x.hi});
   });
-  return matrix::columns_of(all);
+  return columns_of(all);
 }
 
 bool scaled_stiffness::factor(std::span<const int> pairs) {
@@ -132,19 +130,19 @@ bool scaled_stiffness::factor(std::span<const int> pairs) {
 bool scaled_stiffness::factor_in_doubles() {
   long_.reset();
   if (!subdiagonals_) {
-    matrix::sparse_columns all = columns(0.0);
+    sparse_columns all = columns(0.0);
     const std::vector<double> diagonal = diagonal_of(all);
-    sparse_ = matrix::sparse_factor::make(std::move(all));
+    sparse_ = sparse_factor::make(std::move(all));
     return sparse_->factor(diagonal);
   }
   factor_ = band<double>(0.0);
-  return matrix::factor(factor_);
+  return contct::factor(factor_);
 }
 
 bool scaled_stiffness::factor_in_32_digits() {
   if (!subdiagonals_ || !can_be_factored_long(static_cast<int>(system_.dofs()), *subdiagonals_)) return false;
   long_ = band<double_double>(0.0);
-  return certify::factor(*long_);
+  return contct::factor(*long_);
 }
 
 std::vector<double> scaled_stiffness::suspect() const {
@@ -166,7 +164,7 @@ void scaled_stiffness::solve_rows(std::span<double> x) const {
     return;
   }
   if (sparse_) return sparse_->solve(x);
-  matrix::solve_with(factor_, x);
+  contct::solve_with(factor_, x);
 }
 
 void scaled_stiffness::solve(std::span<double> b) const {
@@ -235,7 +233,7 @@ double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double 
 
 std::optional<double> scaled_stiffness::error_of_band(double shift) {
   band_matrix l = band<double>(shift);
-  if (!matrix::factor(l)) return std::nullopt;
+  if (!contct::factor(l)) return std::nullopt;
   const double error = largest_row_of_error(l, shift);
   if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l), {}};
   return error;
@@ -244,20 +242,20 @@ std::optional<double> scaled_stiffness::error_of_band(double shift) {
 std::optional<double> scaled_stiffness::error_of_long_band(double shift) {
   const long_band a = band<double_double>(shift);
   long_band l = a;
-  if (!certify::factor(l)) return std::nullopt;
-  const double error = certify::largest_row_of_error(a, l, long_rounding);
+  if (!contct::factor(l)) return std::nullopt;
+  const double error = contct::largest_row_of_error(a, l, long_rounding);
   if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, {}, std::move(l)};
   return error;
 }
 
 std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
-  const matrix::sparse_columns a = columns(shift);
-  const auto l = matrix::sparse_factor::make(a);
+  const sparse_columns a = columns(shift);
+  const auto l = sparse_factor::make(a);
   if (!l->factor(diagonal_of(a))) return std::nullopt;
   std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double
   for (const auto& row : system_.stiffness) most = std::max(most, row.size());
   const double rounding = static_cast<double>(most) * (0x1p-53 + long_rounding);
-  return certify::largest_row_of_error(reordered(a, l->places()), l->lower()) + rounding;
+  return contct::largest_row_of_error(reordered(a, l->places()), l->lower()) + rounding;
 }
 
 double scaled_stiffness::least_eigenvalue() {
@@ -281,4 +279,4 @@ double scaled_stiffness::proved_below_estimate() {
   return 0.0;
 }
 
-}  // namespace contct::certify
+}  // namespace contct

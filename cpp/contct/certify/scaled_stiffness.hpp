@@ -13,14 +13,14 @@
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
-namespace contct::certify {
+namespace contct {
 
 /// S K_A S - shift I is all but L L': what proves that S K_A S >= mu I.
 struct stiffness_proof {
   std::vector<double> scale;  ///< S [dofs], powers of two
   std::vector<int> row_of;    ///< the row of each dof in L [dofs], from 0
   double shift = 0.0;
-  matrix::band_matrix factor;            ///< L
+  band_matrix factor;                    ///< L
   std::optional<long_band> long_factor;  ///< in place of it, where doubles are too short for L
 };
 
@@ -60,8 +60,8 @@ class scaled_stiffness {
  private:
   /// S K_A S - shift I, in rows of the band, or by columns.
   template <class Number>
-  [[nodiscard]] matrix::band_of_numbers<Number> band(double shift) const;
-  [[nodiscard]] matrix::sparse_columns columns(double shift) const;
+  [[nodiscard]] band_of_numbers<Number> band(double shift) const;
+  [[nodiscard]] sparse_columns columns(double shift) const;
   template <class Put>
   void each_in_row(int dof, double shift, const Put& put) const;
   template <class Put>
@@ -75,18 +75,18 @@ class scaled_stiffness {
   [[nodiscard]] std::optional<double> error_of_band(double shift);
   [[nodiscard]] std::optional<double> error_of_long_band(double shift);
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
-  [[nodiscard]] double largest_row_of_error(const matrix::band_matrix& factor, double shift) const;
+  [[nodiscard]] double largest_row_of_error(const band_matrix& factor, double shift) const;
 
   const long_system& system_;
   std::vector<int> row_of_, dof_at_;
   std::optional<int> subdiagonals_;
   long_vector springs_;        // [dofs] of the pairs taken in
   std::vector<double> scale_;  // S [dofs]
-  matrix::band_matrix factor_;
-  std::unique_ptr<matrix::sparse_factor> sparse_;  // in place of it
-  std::optional<long_band> long_;                  // in place of both
+  band_matrix factor_;
+  std::unique_ptr<sparse_factor> sparse_;  // in place of it
+  std::optional<long_band> long_;          // in place of both
   bool keeps_proof_ = false;
   std::optional<stiffness_proof> proof_;
 };
 
-}  // namespace contct::certify
+}  // namespace contct

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-namespace contct::compare {
+namespace contct {
 
 void branch_counts::add(const branch_counts& other) {
   std::ranges::transform(counts_, other.counts_, counts_.begin(), std::plus());
@@ -41,4 +41,4 @@ std::string words_of(const decision& d) {
   return words + " by " + std::to_string(d.ulps) + " ULP";
 }
 
-}  // namespace contct::compare
+}  // namespace contct

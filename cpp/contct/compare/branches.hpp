@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "contct/kernel/call.hpp"
-#include "contct/numeric/bits.hpp"
+#include "contct/number/bits.hpp"
 
-namespace contct::compare {
+namespace contct {
 
 /// The IFs of the listing, in its order; the compound IF of the DO 10 loop counts twice.
 enum class branch {
@@ -138,4 +138,4 @@ inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t 
 /// A decision taken by at most this many ULP is within the rounding of one or two operations.
 inline constexpr std::uint64_t tie_ulps = 4;
 
-}  // namespace contct::compare
+}  // namespace contct

@@ -7,7 +7,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct::compare {
+namespace contct {
 namespace {
 
 /// Cut the first line off `text`, without its end.
@@ -162,4 +162,4 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
   return report;
 }
 
-}  // namespace contct::compare
+}  // namespace contct

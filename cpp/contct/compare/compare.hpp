@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "contct/compare/branches.hpp"
-#include "contct/numeric/bits.hpp"
-#include "contct/trace/trace.hpp"
+#include "contct/kernel/trace.hpp"
+#include "contct/number/bits.hpp"
 
-namespace contct::compare {
+namespace contct {
 
 /// What a kernel gives back, as far as it is compared.
 template <class Real>
@@ -169,4 +169,4 @@ struct replay_report {
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                                    const std::function<void(std::int64_t)>& progress = nullptr);
 
-}  // namespace contct::compare
+}  // namespace contct

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct::compare {
+namespace contct {
 namespace {
 
 /// What went into the DO 10 loop for pair `i`, and GAP.
@@ -93,4 +93,4 @@ explained_call explain(const answered_call& c, int real_bytes, double& largest) 
                        [&](const call<float>& f) { return explain_in<float>(f, c.isep_before, largest); });
 }
 
-}  // namespace contct::compare
+}  // namespace contct

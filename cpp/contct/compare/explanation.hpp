@@ -10,7 +10,7 @@
 #include "contct/compare/branches.hpp"
 #include "contct/kernel/call.hpp"
 
-namespace contct::compare {
+namespace contct {
 
 /// A statement of fortran/contct.f that an explanation cites.
 struct listing_line {
@@ -108,4 +108,4 @@ struct explained_call {
 /// listing's text.
 [[nodiscard]] explained_call explain(const answered_call& c, int real_bytes, double& largest);
 
-}  // namespace contct::compare
+}  // namespace contct

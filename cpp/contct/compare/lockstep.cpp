@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 
-namespace contct::compare {
+namespace contct {
 namespace {
 
 /// How far the answer is from the leader's.
@@ -71,4 +71,4 @@ bool lockstep::last_call_equal() const {
                       [](const follower_answer& a) { return a.mismatches > 0; });
 }
 
-}  // namespace contct::compare
+}  // namespace contct

@@ -10,7 +10,7 @@
 
 #include "contct/compare/compare.hpp"
 
-namespace contct::compare {
+namespace contct {
 
 /// How one follower answered one call of the leader.
 struct follower_answer {
@@ -51,4 +51,4 @@ class lockstep {
   std::vector<follower_answer> last_answers_;
 };
 
-}  // namespace contct::compare
+}  // namespace contct

@@ -6,7 +6,7 @@
 
 #include "contct/exact/position.hpp"
 
-namespace contct::exact {
+namespace contct {
 namespace {
 
 rational dot(const rational_vector& a, const rational_vector& b) {
@@ -116,7 +116,7 @@ class corrected_path {
 
   void keep_increment(std::vector<event> events, bool snaps) {
     exact_increment i{at_.fraction, std::move(events), snaps};
-    for (const exact_pair& c : at_.problem.pairs) i.at.push_back(numeric::rounded(at_.u[c.dof]));
+    for (const exact_pair& c : at_.problem.pairs) i.at.push_back(contct::rounded(at_.u[c.dof]));
     increments_.push_back(std::move(i));
   }
 
@@ -247,4 +247,4 @@ exact_path follow_corrected_path(const exact_problem& p, const exact_progress& t
   return corrected_path(p, tell).follow();
 }
 
-}  // namespace contct::exact
+}  // namespace contct

@@ -5,7 +5,7 @@
 
 #include "contct/exact/exact_problem.hpp"
 
-namespace contct::exact {
+namespace contct {
 
 /// A displacement on which the matrix does negative work: no structure has such a matrix.
 struct negative_work {
@@ -25,4 +25,4 @@ struct definiteness {
 /// lifted_solver::factor does.
 [[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
-}  // namespace contct::exact
+}  // namespace contct

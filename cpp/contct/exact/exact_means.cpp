@@ -7,17 +7,14 @@
 #include "contct/exact/definite.hpp"
 #include "contct/exact/path.hpp"
 
-namespace contct::exact {
+namespace contct {
 namespace {
-
-using numeric::double_double;
 
 rational_vector exactly(const exact_problem& p, const exact_step& s, std::span<const double_double> u) {
   rational_vector all;
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)
-    all.push_back(p.fixed[dof] != 0
-                      ? s.settlement[dof]
-                      : rational(numeric::binary_value(u[dof].hi) + numeric::binary_value(u[dof].lo)));
+    all.push_back(p.fixed[dof] != 0 ? s.settlement[dof]
+                                    : rational(binary_value(u[dof].hi) + binary_value(u[dof].lo)));
   return all;
 }
 
@@ -34,20 +31,20 @@ rational_vector residual(const exact_problem& p, const exact_step& s, const rati
   return needed;
 }
 
-path::full_load_state state_of(const exact_step_end& end) {
-  path::full_load_state s;
+full_load_state state_of(const exact_step_end& end) {
+  full_load_state s;
   s.from_exact_path = true;
-  for (const rational& u : end.displacement) s.displacement.push_back(numeric::rounded(u));
+  for (const rational& u : end.displacement) s.displacement.push_back(contct::rounded(u));
   for (const char closed : end.closed) s.isep.push_back(closed != 0 ? in_contact : separated);
   return s;
 }
 
 /// The problem is converted, and its exact path followed, when that is first asked for.
-class problem_beside final : public certify::exact_means {
+class problem_beside final : public exact_means {
  public:
   explicit problem_beside(const problem& p) : what_(p) {}
 
-  [[nodiscard]] path::found_end end_of(int step) override {
+  [[nodiscard]] found_end end_of(int step) override {
     if (!path_) path_ = followed();
     const int followed_steps = static_cast<int>(path_->steps.size());
     if (step > followed_steps) return {};
@@ -57,14 +54,13 @@ class problem_beside final : public certify::exact_means {
     return {};
   }
 
-  [[nodiscard]] std::optional<certify::long_vector> residual_of(int step,
-                                                                std::span<const double_double> u) override {
+  [[nodiscard]] std::optional<long_vector> residual_of(int step, std::span<const double_double> u) override {
     if (!converted() || !std::ranges::all_of(u, [](const double_double& x) { return std::isfinite(x.hi); }))
       return std::nullopt;
     const exact_step& s = converted()->steps[step - 1];
-    certify::long_vector all;
+    long_vector all;
     for (const rational& x : residual(*converted(), s, exactly(*converted(), s, u)))
-      all.push_back(numeric::long_rounded(x));  // infinite beyond doubles: no bound is proved by that
+      all.push_back(long_rounded(x));  // infinite beyond doubles: no bound is proved by that
     return all;
   }
 
@@ -109,8 +105,8 @@ std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   }
 }
 
-std::unique_ptr<certify::exact_means> exact_means_of(const problem& p) {
+std::unique_ptr<exact_means> exact_means_of(const problem& p) {
   return std::make_unique<problem_beside>(p);
 }
 
-}  // namespace contct::exact
+}  // namespace contct

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <numeric>
 
-namespace contct::exact {
+namespace contct {
 namespace {
 
 std::vector<added_spring> ground_of(const beam& b) {
@@ -30,8 +30,8 @@ std::vector<added_spring> ground_of(const assembled& a) {
 
 exact_problem exact_problem_of(const problem& p) {
   exact_problem e;
-  static_cast<structure::equations<rational>&>(e) = structure::equations_of<rational>(p);
-  e.place = structure::rows_in_band(p.geometry);
+  static_cast<equations<rational>&>(e) = equations_of<rational>(p);
+  e.place = rows_in_band(p.geometry);
   if (e.place.empty()) {
     e.place.resize(e.dofs());
     std::iota(e.place.begin(), e.place.end(), 0);
@@ -50,4 +50,4 @@ int subdiagonals(const exact_problem& p) {
   return most;
 }
 
-}  // namespace contct::exact
+}  // namespace contct

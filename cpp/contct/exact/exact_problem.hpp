@@ -4,19 +4,19 @@
 #include <vector>
 
 #include "contct/exact/lifted_solver.hpp"
-#include "contct/numeric/rational.hpp"
-#include "contct/structure/equations.hpp"
+#include "contct/model/equations.hpp"
+#include "contct/number/rational.hpp"
 
-namespace contct::exact {
+namespace contct {
 
 /// More dofs than this would take more than a machine has: their numbers grow with them.
 inline constexpr int most_exact_dofs = 50'000;
 
-using exact_pair = structure::pair_in<rational>;
+using exact_pair = pair_in<rational>;
 
-using exact_step = structure::loads_in<rational>;
+using exact_step = loads_in<rational>;
 
-struct exact_problem : structure::equations<rational> {
+struct exact_problem : equations<rational> {
   std::vector<int> place;  ///< of each dof in a narrow band
   std::vector<exact_step> steps;
   /// Weights of the squares of displacements by which rigid motions are measured, at dofs that hold all of
@@ -36,4 +36,4 @@ struct exact_problem : structure::equations<rational> {
 /// Of its band.
 [[nodiscard]] int subdiagonals(const exact_problem& p);
 
-}  // namespace contct::exact
+}  // namespace contct

@@ -8,7 +8,7 @@
 
 #include "contct/certify/long_system.hpp"
 
-namespace contct::exact {
+namespace contct {
 namespace {
 
 constexpr double all_digits = 16.0;
@@ -24,8 +24,8 @@ double digits_of(const rational& error, const rational& largest) {
 }
 
 /// The structure's longest side; 1 for a matrix, which has one kind of dof.
-rational length_of(const structure::model& m) {
-  const double span = certify::extent_of(m);
+rational length_of(const model& m) {
+  const double span = extent_of(m);
   return span > 0.0 ? binary_value(span) : rational(1);
 }
 
@@ -36,7 +36,7 @@ rational error_of(double x, const rational& exactly, const rational& largest) {
 
 }  // namespace
 
-digit_counter::digit_counter(const structure::problem& p, const exact_path& exactly)
+digit_counter::digit_counter(const problem& p, const exact_path& exactly)
     : problem_(p), exactly_(exactly), largest_(dofs_per_node(p.geometry)), error_(largest_.size()) {
   for (const exact_step_end& s : exactly.steps) {
     for (std::size_t dof = 0; dof < s.displacement.size(); ++dof) {
@@ -56,11 +56,11 @@ digit_counter::digit_counter(const structure::problem& p, const exact_path& exac
     if (largest_[kind] == 0) largest_[kind] = slope;
 }
 
-void digit_counter::incremented(const path::increment& i) {
+void digit_counter::incremented(const increment& i) {
   for (const event& e : i.events) events_.push_back({i.step - 1 + i.fraction, e});
 }
 
-void digit_counter::step_ended(const path::step_state& s) {
+void digit_counter::step_ended(const step_state& s) {
   const auto step = static_cast<std::size_t>(s.step - 1);
   if (s.fraction != 1.0 || step >= exactly_.steps.size() || exactly_.steps[step].fraction != 1) return;
   ++steps_;
@@ -71,7 +71,7 @@ void digit_counter::step_ended(const path::step_state& s) {
         std::max(error_[kind], error_of(s.displacement[dof], exactly.displacement[dof], largest_[kind]));
   }
   for (std::size_t i = 0; i < problem_.pairs.size(); ++i) {
-    const structure::contact_pair& c = problem_.pairs[i];
+    const contact_pair& c = problem_.pairs[i];
     const double w = s.displacement[c.node * error_.size()];
     const double force =
         s.numbers != nullptr ? s.numbers->pair_forces[i] : force_of(c, w, s.isep[i] == in_contact);
@@ -171,4 +171,4 @@ kernel_digits digit_counter::result(const std::string& name, path_status ended, 
   return r;
 }
 
-}  // namespace contct::exact
+}  // namespace contct

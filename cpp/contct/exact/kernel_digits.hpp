@@ -7,7 +7,7 @@
 #include "contct/exact/path.hpp"
 #include "contct/path/observer.hpp"
 
-namespace contct::exact {
+namespace contct {
 
 /// What a kernel's path came to, beside the exact one.
 struct kernel_digits {
@@ -24,13 +24,13 @@ struct kernel_digits {
 };
 
 /// Observes a kernel's path.
-class digit_counter final : public path::observer {
+class digit_counter final : public observer {
  public:
   /// Both must outlive this object.
-  digit_counter(const structure::problem& p, const exact_path& exactly);
+  digit_counter(const problem& p, const exact_path& exactly);
 
-  void incremented(const path::increment& i) override;
-  void step_ended(const path::step_state& s) override;
+  void incremented(const increment& i) override;
+  void step_ended(const step_state& s) override;
 
   /// `tie`: events whose shares differ by less may come in any order.
   [[nodiscard]] kernel_digits result(const std::string& name, path_status ended, double tie) const;
@@ -49,7 +49,7 @@ class digit_counter final : public path::observer {
   void compare_events(kernel_digits& r, double tie) const;
   [[nodiscard]] static std::string words(const placed_event& e);
 
-  const structure::problem& problem_;
+  const problem& problem_;
   const exact_path& exactly_;
   event_list events_;
   std::size_t steps_ = 0;          // that reached their load
@@ -58,4 +58,4 @@ class digit_counter final : public path::observer {
   rational largest_force_, force_error_;
 };
 
-}  // namespace contct::exact
+}  // namespace contct

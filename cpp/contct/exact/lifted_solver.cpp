@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdlib>
 
-namespace contct::exact {
+namespace contct {
 namespace {
 
 /// The largest primes below 2^61, for a matrix that is singular modulo one of them by chance.
@@ -193,7 +193,7 @@ class lifted_solver::lifting {
   integer modulus_ = 1;  // the prime to their number
 };
 
-lifted_solver::lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place,
+lifted_solver::lifted_solver(const rational_rows& k, std::span<const char> fixed, std::span<const int> place,
                              std::size_t longest)
     : k_(k),
       fixed_(fixed),
@@ -317,4 +317,4 @@ rational_vector lifted_solver::solve(const rational_vector& b) const {
   return lifting(*this, b).solution();
 }
 
-}  // namespace contct::exact
+}  // namespace contct

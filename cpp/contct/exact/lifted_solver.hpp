@@ -7,15 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "contct/numeric/rational.hpp"
-#include "contct/structure/equations.hpp"
+#include "contct/model/equations.hpp"
+#include "contct/number/rational.hpp"
 
-namespace contct::exact {
+namespace contct {
 
 using rational_vector = std::vector<rational>;
 
 /// All entries of a symmetric matrix, row by row.
-using sparse_rows = structure::sparse_rows<rational>;
+using rational_rows = sparse_rows<rational>;
 
 /// What is added to the diagonal at a dof.
 struct added_spring {
@@ -30,7 +30,7 @@ class lifted_solver {
   static constexpr std::size_t most_bits = std::size_t{1} << 19;
 
   /// `place`: the row of each dof in the factor, for a narrow band. All arguments must outlive this object.
-  lifted_solver(const sparse_rows& k, std::span<const char> fixed, std::span<const int> place,
+  lifted_solver(const rational_rows& k, std::span<const char> fixed, std::span<const int> place,
                 std::size_t longest = most_bits);
 
   /// Throws too_long, and std::runtime_error where the matrix is indefinite.
@@ -87,7 +87,7 @@ class lifted_solver {
   [[nodiscard]] rational entry(std::size_t row, int column, const rational& k) const;
   class lifting;
 
-  const sparse_rows& k_;
+  const rational_rows& k_;
   std::span<const char> fixed_;
   std::span<const int> place_;
   std::size_t longest_;
@@ -103,4 +103,4 @@ class lifted_solver {
   std::vector<rational_vector> free_motions_;
 };
 
-}  // namespace contct::exact
+}  // namespace contct

@@ -9,7 +9,7 @@
 #include "contct/kernel/call.hpp"
 #include "contct/path/path.hpp"
 
-namespace contct::exact {
+namespace contct {
 
 /// What happened at one share of a step's load.
 struct exact_increment {
@@ -54,4 +54,4 @@ using exact_progress = std::function<void(int step, int increment, const rationa
 /// driver: springs gather their forces increment by increment. Throws too_long.
 [[nodiscard]] exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell = {});
 
-}  // namespace contct::exact
+}  // namespace contct

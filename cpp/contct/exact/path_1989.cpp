@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace contct::exact {
+namespace contct {
 namespace {
 
 // The constants as they are printed: 1.E-20, 1.E-10 and .390625E-02.
@@ -121,7 +121,7 @@ exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell) 
   return path;
 }
 
-void exact_companion::incremented(const path::increment& i) {
+void exact_companion::incremented(const increment& i) {
   has_call_ = false;
   const bool is_behind_last =
       last_ && (i.step > last_->step ||
@@ -143,4 +143,4 @@ void exact_companion::incremented(const path::increment& i) {
   if (!std::ranges::equal(path_.call().led_to.events, i.events)) parted_ = {i.step, i.number};
 }
 
-}  // namespace contct::exact
+}  // namespace contct

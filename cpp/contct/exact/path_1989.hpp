@@ -11,7 +11,7 @@
 #include "contct/exact/position.hpp"
 #include "contct/path/observer.hpp"
 
-namespace contct::exact {
+namespace contct {
 
 /// What CONTCT is told of a pair.
 struct listing_pair {
@@ -80,14 +80,14 @@ struct path_place {
 /// Observes the path of a kernel with the listing's rule and asks the exact path one call for each of its
 /// calls. Both are comparable as long as they had the same events: then the call of the same number is the
 /// same one but for rounding.
-class exact_companion final : public path::observer {
+class exact_companion final : public observer {
  public:
   /// `p` must outlive this object. Nothing is computed behind `last`, where that is given; an increment 0 in
   /// it means all of the step.
   explicit exact_companion(const exact_problem& p, std::optional<path_place> last = {})
       : path_(p), last_(last) {}
 
-  void incremented(const path::increment& i) override;
+  void incremented(const increment& i) override;
 
   /// The exact call with the number of the kernel's last one. Null after the paths have parted, and where
   /// the exact one cannot be followed.
@@ -104,4 +104,4 @@ class exact_companion final : public path::observer {
   bool has_call_ = false;
 };
 
-}  // namespace contct::exact
+}  // namespace contct

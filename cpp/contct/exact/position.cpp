@@ -3,7 +3,7 @@
 #include <set>
 #include <utility>
 
-namespace contct::exact {
+namespace contct {
 
 position::position(const exact_problem& p)
     : problem(p),
@@ -97,4 +97,4 @@ exact_step_end position::end(std::vector<exact_increment> increments, bool pairs
   return e;
 }
 
-}  // namespace contct::exact
+}  // namespace contct

@@ -5,7 +5,7 @@
 
 #include "contct/exact/path.hpp"
 
-namespace contct::exact {
+namespace contct {
 
 /// Step, share of its load, displacements and statuses.
 class position {
@@ -67,4 +67,4 @@ class position {
   return 1000 + 50 * p.pairs.size();
 }
 
-}  // namespace contct::exact
+}  // namespace contct

@@ -8,7 +8,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/kernel/log_text.hpp"
 
-namespace contct::kernels {
+namespace contct {
 
 extern template int contct(call<float>& c, std::span<event> events) noexcept;  // in contct.cpp
 extern template int contct(call<double>& c, std::span<event> events) noexcept;
@@ -148,4 +148,4 @@ std::vector<std::string> kernel_names() {
   return names;
 }
 
-}  // namespace contct::kernels
+}  // namespace contct

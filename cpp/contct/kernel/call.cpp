@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace contct::kernels {
+namespace contct {
 namespace {
 
 [[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
@@ -41,4 +41,4 @@ void refuse_beyond_limits(const call<double>& c, std::span<const int> isep) {
   }
 }
 
-}  // namespace contct::kernels
+}  // namespace contct

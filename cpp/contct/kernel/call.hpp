@@ -9,9 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/rooms.hpp"
-
-namespace contct::kernels {
+namespace contct {
 
 /// COMMON /DOF/ of the listing.
 struct dof_layout {
@@ -126,4 +124,4 @@ auto as_float_call(const call<double>& c, Then then) {
 /// is ISEP before the call.
 void refuse_beyond_limits(const call<double>& c, std::span<const int> isep);
 
-}  // namespace contct::kernels
+}  // namespace contct

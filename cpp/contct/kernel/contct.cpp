@@ -2,9 +2,9 @@
 // C++.
 #include "contct/kernel/contct.hpp"
 
-namespace contct::kernels {
+namespace contct {
 
 template int contct(call<float>& c, std::span<event> events) noexcept;
 template int contct(call<double>& c, std::span<event> events) noexcept;
 
-}  // namespace contct::kernels
+}  // namespace contct

@@ -7,7 +7,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct::kernels {
+namespace contct {
 
 /// The constants of the listing's DATA statement, each literal read in the precision of the
 /// build: the single-precision 1.E-20 is not the double nearest to 1e-20.
@@ -72,4 +72,4 @@ int contct(call<Real>& c, std::span<event> events) noexcept {
   return happened;
 }
 
-}  // namespace contct::kernels
+}  // namespace contct

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace contct::kernels {
+namespace contct {
 namespace {
 
 /// `take` over `start` and `number(i)`, i below `n`: in four chains that do not wait for each other.
@@ -85,4 +85,4 @@ void contct_corrected(call<double>& c) noexcept {
   c.isep[chosen] = c.isep[chosen] == separated ? in_contact : separated;
 }
 
-}  // namespace contct::kernels
+}  // namespace contct

@@ -15,9 +15,9 @@
 #include "contct/kernel/contct.h"
 #include "contct/text/output_file.hpp"
 
-using contct::kernels::fortran::call_r8;
-using contct::kernels::fortran::log_act;
-using contct::kernels::fortran::log_open;
+using contct::fortran::call_r8;
+using contct::fortran::log_act;
+using contct::fortran::log_open;
 
 extern "C" {
 call_r8 contct_flang_call_r8, contct_f2c_call_r8;
@@ -26,7 +26,7 @@ log_act contct_flang_log_flush, contct_flang_log_rewind, contct_flang_log_close;
 log_act contct_f2c_log_flush, contct_f2c_log_rewind, contct_f2c_log_close;
 }
 
-namespace contct::kernels::fortran {
+namespace contct::fortran {
 
 // The compilers' names are set by CMake.
 compiled_listing gfortran{"fortran",
@@ -134,4 +134,4 @@ void unit_26::begin_anew() {
   taken_ = 0;
 }
 
-}  // namespace contct::kernels::fortran
+}  // namespace contct::fortran

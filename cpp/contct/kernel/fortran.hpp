@@ -7,7 +7,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct::kernels::fortran {
+namespace contct::fortran {
 
 // The procedures of fortran/contct_c.f90 and fortran/f2c_calls.c.
 using call_r8 = void(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
@@ -70,4 +70,4 @@ class unit_26 {
   std::size_t taken_ = 0;  // of the file, from its beginning
 };
 
-}  // namespace contct::kernels::fortran
+}  // namespace contct::fortran

@@ -13,7 +13,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct::kernels {
+namespace contct {
 
 /// How a kernel decides about contact.
 enum class contact_rule {
@@ -82,4 +82,4 @@ class kernel {
 /// The names of all built-in kernels.
 [[nodiscard]] std::vector<std::string> kernel_names();
 
-}  // namespace contct::kernels
+}  // namespace contct

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace contct::kernels {
+namespace contct {
 namespace {
 
 /// Append `digits` right-justified in a field of `width`; asterisks when it does not fit.
@@ -81,4 +81,4 @@ void append_log_text(const call<Real>& c, std::span<const event> events, std::st
 template void append_log_text(const call<float>&, std::span<const event>, std::string&);
 template void append_log_text(const call<double>&, std::span<const event>, std::string&);
 
-}  // namespace contct::kernels
+}  // namespace contct

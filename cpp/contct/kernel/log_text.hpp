@@ -6,7 +6,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct::kernels {
+namespace contct {
 
 /// Append the unit-26 text of one finished call: its FORMATs 20, or 40, 50 and 60, byte for byte
 /// as gfortran writes them. `c` holds the outputs of the call, `events` what it returned.
@@ -17,4 +17,4 @@ void append_log_text(const call<Real>& c, std::span<const event> events, std::st
 extern template void append_log_text(const call<float>&, std::span<const event>, std::string&);
 extern template void append_log_text(const call<double>&, std::span<const event>, std::string&);
 
-}  // namespace contct::kernels
+}  // namespace contct

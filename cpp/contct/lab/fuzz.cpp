@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "contct/kernel/contct.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/lab/random_calls.hpp"
 #include "contct/lab/random_problem.hpp"
-#include "contct/outside/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 
-namespace contct::lab {
+namespace contct {
 namespace {
 
 constexpr std::int64_t calls_between_progress = 2048;
@@ -250,4 +250,4 @@ fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress, const ke
   return fuzzing(r, progress, make).run();
 }
 
-}  // namespace contct::lab
+}  // namespace contct

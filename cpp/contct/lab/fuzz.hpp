@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "contct/compare/lockstep.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 
-namespace contct::lab {
+namespace contct {
 
 /// Calls in order; the answers to the last one differ. More than one where a kernel keeps something from call
 /// to call.
@@ -124,4 +124,4 @@ using fuzz_progress = std::function<void(std::int64_t done, std::int64_t all, co
 /// The calls of a case with the leader's answers, as a trace. `h` says whose they are.
 [[nodiscard]] std::string trace_of(const found_case& c, trace_header h);
 
-}  // namespace contct::lab
+}  // namespace contct

@@ -5,7 +5,7 @@
 #include "contct/lab/fuzz.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::lab {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -58,4 +58,4 @@ std::string trace_of(const found_case& c, trace_header h) {
   return text;
 }
 
-}  // namespace contct::lab
+}  // namespace contct

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "contct/kernel/contct.hpp"
-#include "contct/numeric/random.hpp"
+#include "contct/number/random.hpp"
 
-namespace contct::lab {
+namespace contct {
 namespace {
 
 constexpr int most_pairs = 64;
@@ -208,4 +208,4 @@ const call_inputs<double>& call_source::at(std::uint64_t number) {
   return wide_;
 }
 
-}  // namespace contct::lab
+}  // namespace contct

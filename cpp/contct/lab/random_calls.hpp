@@ -5,7 +5,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct::lab {
+namespace contct {
 
 /// Calls in one precision. A reference is good until the next call is asked for.
 template <class Real>
@@ -50,4 +50,4 @@ class call_source {
   call_inputs<double> wide_;
 };
 
-}  // namespace contct::lab
+}  // namespace contct

@@ -5,10 +5,10 @@
 
 #include "contct/exact/exact_means.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/numeric/random.hpp"
+#include "contct/number/random.hpp"
 #include "contct/path/solve_problem.hpp"
 
-namespace contct::lab {
+namespace contct {
 namespace {
 
 /// Draws one problem, in units of its own: length and force are scaled at the places they enter.
@@ -272,7 +272,7 @@ problem_result try_problem(const problem& p, kernel& leader, std::string_view en
 problem_result try_structure(const problem& p, const linear_structure& s, kernel& leader,
                              std::string_view engine, std::vector<observer*> watching) {
   problem_result t;
-  certifier judged(p, s, exact::exact_means_of(p));
+  certifier judged(p, s, exact_means_of(p));
   watching.push_back(&judged);
   const path_end end = follow(p, s, engine, leader, watching, {0, judged.ends()});
   for (const auto& c : judged.steps())
@@ -281,4 +281,4 @@ problem_result try_structure(const problem& p, const linear_structure& s, kernel
   return t;
 }
 
-}  // namespace contct::lab
+}  // namespace contct

@@ -8,9 +8,9 @@
 
 #include "contct/certify/certificate.hpp"
 #include "contct/kernel/kernel.hpp"
-#include "contct/structure/problem.hpp"
+#include "contct/model/problem.hpp"
 
-namespace contct::lab {
+namespace contct {
 
 /// How the faces are placed.
 enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, antisymmetric, two_sided };
@@ -60,4 +60,4 @@ struct problem_result {
 [[nodiscard]] problem_result try_structure(const problem& p, const linear_structure& s, kernel& leader,
                                            std::string_view engine, std::vector<observer*> watching = {});
 
-}  // namespace contct::lab
+}  // namespace contct

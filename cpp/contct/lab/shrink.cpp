@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "contct/lab/fuzz.hpp"
-#include "contct/numeric/bits.hpp"
+#include "contct/number/bits.hpp"
 
-namespace contct::lab {
+namespace contct {
 namespace {
 
 /// `x` with `digits` significant decimal digits.
@@ -204,4 +204,4 @@ std::optional<found_case> shrunk_case(kernel& leader, const fresh_kernel& follow
   return reproduce(leader, follower, shrink(calls, differs, most_tries), field);
 }
 
-}  // namespace contct::lab
+}  // namespace contct

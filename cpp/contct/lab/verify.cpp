@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "contct/numeric/rational.hpp"
+#include "contct/number/rational.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/read/toml_reader.hpp"
 #include "contct/session/run.hpp"
 
-namespace contct::lab {
+namespace contct {
 namespace {
 
 constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
@@ -33,7 +33,7 @@ std::optional<double> nearest_to(std::string_view words) {
   const std::string top(words.substr(sign, slash - sign));
   const std::string bottom(words.substr(slash + 1));
   if (!is_whole(top) || !is_whole(bottom)) return std::nullopt;
-  return (sign == 1 ? -1.0 : 1.0) * exact::rounded(rational(integer(top), integer(bottom)));
+  return (sign == 1 ? -1.0 : 1.0) * contct::rounded(rational(integer(top), integer(bottom)));
 }
 
 expected_number read_check(const toml_value& t) {
@@ -288,7 +288,7 @@ struct verified_run {
     return at < steps.size() && steps[at] ? &*steps[at] : nullptr;
   }
 
-  session::run path;
+  run path;
   std::optional<measurement> measured;
 };
 
@@ -334,4 +334,4 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   return out;
 }
 
-}  // namespace contct::lab
+}  // namespace contct

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/structure/problem.hpp"
-#include "contct/write/run_result.hpp"
-#include "contct/write/step_results.hpp"
+#include "contct/model/problem.hpp"
+#include "contct/session/run_result.hpp"
+#include "contct/session/step_results.hpp"
 
-namespace contct::lab {
+namespace contct {
 
 /// One number of reference/verification.toml, whose head explains the fields. Nodes, elements and
 /// pairs count from 1, as in the file; 0 where a quantity does not need them.
@@ -105,4 +105,4 @@ struct verified_case {
 /// bit may differ between FORTRAN and C++, and the corrected kernel's states must be certified.
 [[nodiscard]] verified_case verify_case(const verification_case& c, const problem& p);
 
-}  // namespace contct::lab
+}  // namespace contct

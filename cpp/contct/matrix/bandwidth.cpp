@@ -7,7 +7,7 @@
 
 #include "contct/matrix/stiffness_matrix.hpp"
 
-namespace contct::matrix {
+namespace contct {
 namespace {
 
 // Both directions of every entry off the diagonal.
@@ -77,4 +77,4 @@ std::vector<int> rows_for_small_band(const sparse_matrix& a) {
   return rows;
 }
 
-}  // namespace contct::matrix
+}  // namespace contct

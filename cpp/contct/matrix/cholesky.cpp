@@ -18,7 +18,7 @@ void CONTCT_FC_GLOBAL(dlacn2, DLACN2)(const int* n, double* v, double* x, int* i
                                       int* isave);
 }
 
-namespace contct::matrix {
+namespace contct {
 namespace {
 
 /// 1 / sqrt of each entry: what scales a matrix with this diagonal to a unit diagonal. Empty when an entry is
@@ -99,7 +99,7 @@ double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs
   const std::vector<double> diagonal = k_.diagonal_with(springs);
   if (!k_.is_band()) {
     if (!factor(springs)) return 0.0;
-    return contct::matrix::reciprocal_condition(k_, diagonal, [this](std::span<double> b) { solve(b); });
+    return contct::reciprocal_condition(k_, diagonal, [this](std::span<double> b) { solve(b); });
   }
   const std::vector<double> scale = unit_scale(diagonal);
   if (scale.empty()) return 0.0;
@@ -108,8 +108,8 @@ double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs
   stiffness_matrix scaled(std::move(band_));
   scaled.scale(scale);
   band_ = std::move(scaled.band());
-  if (!std::isfinite(norm) || !contct::matrix::factor(band_)) return 0.0;
+  if (!std::isfinite(norm) || !contct::factor(band_)) return 0.0;
   return reciprocal(norm, norm_of_inverse(k_.order(), [this](std::span<double> x) { solve(x); }));
 }
 
-}  // namespace contct::matrix
+}  // namespace contct

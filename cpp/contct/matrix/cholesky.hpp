@@ -12,7 +12,7 @@
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
 
-namespace contct::matrix {
+namespace contct {
 
 /// Replace `matrix` by its Cholesky factor L, A = L L^T (dpbtrf, lower). Returns false when a
 /// pivot is not positive. Rounding can give the matrix of a mechanism a factor, too.
@@ -55,7 +55,7 @@ class stiffness_factor {
   [[nodiscard]] bool factor(std::span<const spring_at> springs) {
     if (sparse_) return sparse_->factor(k_.diagonal_with(springs));
     assemble(springs);
-    return contct::matrix::factor(band_);
+    return contct::factor(band_);
   }
 
   /// Solve in place, by rows, for one right-hand side or several, one after the other.
@@ -87,4 +87,4 @@ class stiffness_factor {
   std::unique_ptr<sparse_factor> sparse_;  // of K where it is no band
 };
 
-}  // namespace contct::matrix
+}  // namespace contct

@@ -15,7 +15,7 @@ void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)(const char* uplo, const int* n, const int*
 void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 }
 
-namespace contct::matrix {
+namespace contct {
 namespace {
 
 /// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found. Throws
@@ -53,4 +53,4 @@ std::string lapack_identity() {
   return words;
 }
 
-}  // namespace contct::matrix
+}  // namespace contct

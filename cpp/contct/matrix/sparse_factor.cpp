@@ -15,7 +15,7 @@ __attribute__((weak)) int omp_get_max_active_levels();
 __attribute__((weak)) void omp_set_max_active_levels(int levels);
 }
 
-namespace contct::matrix {
+namespace contct {
 namespace {
 
 /// While it exists this thread starts no others by OpenMP. CHOLMOD asks for four to copy a supernode: to
@@ -231,11 +231,11 @@ std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns a) {
   return std::make_unique<cholmod>(std::move(a));
 }
 
-}  // namespace contct::matrix
+}  // namespace contct
 #else
 #include <stdexcept>
 
-namespace contct::matrix {
+namespace contct {
 
 bool sparse_factor::available() {
   return false;
@@ -246,5 +246,5 @@ std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns /*a*/) {
   throw std::logic_error("a sparse factor needs CHOLMOD, which is not built in");
 }
 
-}  // namespace contct::matrix
+}  // namespace contct
 #endif

@@ -9,7 +9,7 @@
 
 #include "contct/matrix/stiffness_matrix.hpp"
 
-namespace contct::matrix {
+namespace contct {
 
 /// The factor of a symmetric positive definite matrix A, in an order of little fill. Rows are A's, from 0.
 class sparse_factor {
@@ -44,4 +44,4 @@ class sparse_factor {
   [[nodiscard]] virtual double flops() const = 0;
 };
 
-}  // namespace contct::matrix
+}  // namespace contct

@@ -9,7 +9,7 @@
 #include <string>
 #include <tuple>
 
-namespace contct::matrix {
+namespace contct {
 namespace {
 
 int place_of(int row, std::span<const int> rows) {
@@ -201,4 +201,4 @@ std::optional<stiffness_matrix> without_zeros(const stiffness_matrix& k) {
   return columns_of(k.band());
 }
 
-}  // namespace contct::matrix
+}  // namespace contct

@@ -10,9 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "contct/rooms.hpp"
-
-namespace contct::matrix {
+namespace contct {
 
 /// Symmetric band matrix of order n with kd subdiagonals, in LAPACK's lower band storage. Column j has its
 /// diagonal entry and those below it, one column after the other; for n = 5, kd = 2 (rows and columns from
@@ -187,4 +185,4 @@ class stiffness_matrix {
 /// to the bit, and take a tenth of the time. Nothing of other matrices.
 [[nodiscard]] std::optional<stiffness_matrix> without_zeros(const stiffness_matrix& k);
 
-}  // namespace contct::matrix
+}  // namespace contct

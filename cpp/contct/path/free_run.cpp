@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contct::path {
+namespace contct {
 namespace {
 
 std::string words_at(const std::vector<timed_event>& events, std::size_t i) {
@@ -67,4 +67,4 @@ free_run_difference compare_paths(const path_record& leader, const path_record& 
   return d;
 }
 
-}  // namespace contct::path
+}  // namespace contct

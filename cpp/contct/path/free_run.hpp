@@ -8,7 +8,7 @@
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 
-namespace contct::path {
+namespace contct {
 
 /// An event and the share of its step's load at which it happened.
 struct timed_event {
@@ -56,4 +56,4 @@ struct free_run_difference {
 [[nodiscard]] free_run_difference compare_paths(const path_record& leader, const path_record& other,
                                                 double bound, int dofs_per_node);
 
-}  // namespace contct::path
+}  // namespace contct

@@ -6,7 +6,7 @@
 
 #include "contct/kernel/call.hpp"
 
-namespace contct::path {
+namespace contct {
 
 /// One increment of a step.
 struct increment {
@@ -51,4 +51,4 @@ class observer {
   virtual void step_ended(const step_state& /*s*/) {}
 };
 
-}  // namespace contct::path
+}  // namespace contct

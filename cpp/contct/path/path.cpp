@@ -9,7 +9,7 @@
 #include "contct/path/path_state.hpp"
 #include "contct/path/policy.hpp"
 
-namespace contct::path {
+namespace contct {
 namespace {
 
 /// The loop, and how it ends.
@@ -165,4 +165,4 @@ path_end follow_path(const linear_structure& s, int steps, const load_history& t
   return end;
 }
 
-}  // namespace contct::path
+}  // namespace contct

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "contct/kernel/kernel.hpp"
+#include "contct/model/structure.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/solve/engine.hpp"
-#include "contct/structure/structure.hpp"
 
-namespace contct::path {
+namespace contct {
 
 /// How a path ended.
 enum class path_status {
@@ -101,4 +101,4 @@ path_end follow_path(const linear_structure& s, int steps, const load_history& t
                      stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,
                      const path_limits& limits = {});
 
-}  // namespace contct::path
+}  // namespace contct

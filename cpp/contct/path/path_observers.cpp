@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace contct::path {
+namespace contct {
 namespace {
 
 /// The kernel, if there is one.
@@ -76,4 +76,4 @@ void explained_path::step_ended(const step_state& /*s*/) {
   fraction_ = 0.0;
 }
 
-}  // namespace contct::path
+}  // namespace contct

@@ -12,10 +12,10 @@
 
 #include "contct/compare/explanation.hpp"
 #include "contct/compare/lockstep.hpp"
+#include "contct/kernel/trace.hpp"
 #include "contct/path/observer.hpp"
-#include "contct/trace/trace.hpp"
 
-namespace contct::path {
+namespace contct {
 
 /// Puts each call of a path to other kernels.
 class lockstep_on_path final : public observer, public lockstep {
@@ -113,4 +113,4 @@ class explained_path final : public observer {
   explained_call call_;    // the last one
 };
 
-}  // namespace contct::path
+}  // namespace contct

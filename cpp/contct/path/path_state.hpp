@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "contct/kernel/kernel.hpp"
+#include "contct/model/structure.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 #include "contct/solve/engine.hpp"
-#include "contct/structure/structure.hpp"
 
-namespace contct::path {
+namespace contct {
 
 /// R*, D, d*, and all that belongs to the pairs. Pairs and dofs count from 0, but for ID.
 struct path_state {
@@ -303,4 +303,4 @@ class cycle_detector {
   std::deque<std::vector<event>> recent_;
 };
 
-}  // namespace contct::path
+}  // namespace contct

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace contct::path {
+namespace contct {
 
 response path_policy::respond() {
   if (!now_.held()) return response::none;
@@ -197,4 +197,4 @@ std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader, cycle_
   return std::make_unique<corrected_policy>(now, leader, cycles);
 }
 
-}  // namespace contct::path
+}  // namespace contct

@@ -8,7 +8,7 @@
 #include "contct/kernel/kernel.hpp"
 #include "contct/path/path_state.hpp"
 
-namespace contct::path {
+namespace contct {
 
 /// How the structure responds to the residual load.
 enum class response {
@@ -75,4 +75,4 @@ class path_policy {
 [[nodiscard]] std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader,
                                                        cycle_detector& cycles);
 
-}  // namespace contct::path
+}  // namespace contct

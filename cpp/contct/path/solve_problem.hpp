@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "contct/model/problem.hpp"
+#include "contct/model/structure.hpp"
 #include "contct/path/path.hpp"
-#include "contct/structure/problem.hpp"
-#include "contct/structure/structure.hpp"
 
-namespace contct::path {
+namespace contct {
 
 /// Load steps given by their totals, on `s`, which was built from `geometry`. All must outlive what is
 /// returned. add_consistent_loads must know the geometry.
@@ -87,4 +87,4 @@ inline path_end follow(const problem& p, const linear_structure& s, std::string_
   return all;
 }
 
-}  // namespace contct::path
+}  // namespace contct

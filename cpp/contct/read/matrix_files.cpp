@@ -11,10 +11,10 @@
 #include <tuple>
 #include <utility>
 
-#include "contct/text/decimal.hpp"
+#include "contct/number/decimal.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 /// Rows, and entries, that a file may say it has.
@@ -345,4 +345,4 @@ std::vector<placed_node> parse_coordinates(std::string_view text, std::string_vi
   return nodes;
 }
 
-}  // namespace contct::read
+}  // namespace contct

@@ -9,9 +9,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "contct/structure/problem.hpp"
+#include "contct/model/problem.hpp"
 
-namespace contct::read {
+namespace contct {
 
 /// No such file may be larger, in MiB.
 inline constexpr std::size_t largest_matrix_file = 16384;
@@ -59,4 +59,4 @@ class dof_index {
 /// follows it are a comment. Without z it is 0. Throws input_error.
 [[nodiscard]] std::vector<placed_node> parse_coordinates(std::string_view text, std::string_view file);
 
-}  // namespace contct::read
+}  // namespace contct

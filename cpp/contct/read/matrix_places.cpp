@@ -14,7 +14,7 @@
 #include "contct/read/matrix_files.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 constexpr int any_number = std::numeric_limits<int>::max();
@@ -358,4 +358,4 @@ placed_nodes places_by_mesh(std::string_view text, std::string_view file, const 
   return places;
 }
 
-}  // namespace contct::read
+}  // namespace contct

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-#include "contct/structure/problem.hpp"
+#include "contct/model/problem.hpp"
 
-namespace contct::read {
+namespace contct {
 
 /// Places by a file of coordinates (see parse_coordinates): each dof's node is found by its label,
 /// "NAME.DIRECTION", and nodes that the matrix couples have an edge where these are few, as in frames. No
@@ -19,4 +19,4 @@ namespace contct::read {
 /// have no edges, *INCLUDE is not followed, and all else is ignored. Linear in the text, but for sorting.
 [[nodiscard]] placed_nodes places_by_mesh(std::string_view text, std::string_view file, const assembled& a);
 
-}  // namespace contct::read
+}  // namespace contct

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 /// How far coordinates between these may be apart and still be the same decimal.
@@ -118,4 +118,4 @@ mesh_line sized_mesh(const toml_value& beam, const toml_value& top, const std::v
   return line;
 }
 
-}  // namespace contct::read
+}  // namespace contct

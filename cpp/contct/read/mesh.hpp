@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "contct/model/problem.hpp"
 #include "contct/read/toml_reader.hpp"
-#include "contct/structure/problem.hpp"
 
-namespace contct::read {
+namespace contct {
 
 inline constexpr int most_elements = 2'000'000;
 
@@ -53,4 +53,4 @@ struct mesh_line {
 [[nodiscard]] mesh_line sized_mesh(const toml_value& beam, const toml_value& top,
                                    const std::vector<double>& ends);
 
-}  // namespace contct::read
+}  // namespace contct

@@ -15,7 +15,7 @@
 #include "contct/text/input_text.hpp"
 #include "contct/text/memory.hpp"
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 // Two bands of this size are held: 8 GB together.
@@ -321,4 +321,4 @@ model read_model(const toml_value& top, const named_files& files, std::vector<st
   top.refuse("neither beam nor plate, matrix or calculix", allowed);
 }
 
-}  // namespace contct::read
+}  // namespace contct

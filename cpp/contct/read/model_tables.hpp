@@ -1,15 +1,15 @@
 // The structure itself in a problem file: [beam], [plate], [matrix] or [calculix].
 #pragma once
 
+#include "contct/model/problem.hpp"
 #include "contct/read/named_files.hpp"
 #include "contct/read/toml_reader.hpp"
-#include "contct/structure/problem.hpp"
 
-namespace contct::read {
+namespace contct {
 
 /// Read the one table of the document `top` that describes a structure; refuses a document with none
 /// of them, or with several. `files` finds others that it names; `warnings` gets those about their numbers.
 [[nodiscard]] model read_model(const toml_value& top, const named_files& files,
                                std::vector<std::string>& warnings);
 
-}  // namespace contct::read
+}  // namespace contct

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace contct::read {
+namespace contct {
 
 namespace fs = std::filesystem;
 
@@ -35,4 +35,4 @@ bool named_files::is_below(const std::string& path) const {
          std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-}  // namespace contct::read
+}  // namespace contct

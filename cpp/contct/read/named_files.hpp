@@ -8,7 +8,7 @@
 
 #include "contct/read/toml_reader.hpp"
 
-namespace contct::read {
+namespace contct {
 
 /// Which files a problem file may name. A problem from a stranger must not read what its user can.
 enum class reach { own_folder, anywhere };
@@ -34,4 +34,4 @@ class named_files {
   std::shared_ptr<std::vector<std::string>> all_ = std::make_shared<std::vector<std::string>>();
 };
 
-}  // namespace contct::read
+}  // namespace contct

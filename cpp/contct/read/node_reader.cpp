@@ -7,7 +7,7 @@
 #include "contct/read/mesh.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 constexpr const char* point_words = "[x, y], or a list of such points";
@@ -34,7 +34,7 @@ node_reader::node_reader(const model& m) : structure_(m) {
   if (index_) keys_ = {"dof", "dofs"};
   if (std::holds_alternative<beam>(m.kind)) keys_ = {"node", "nodes", "x"};
   if (std::holds_alternative<plate>(m.kind)) keys_ = {"node", "nodes", "at"};
-  for (const char* name : contct::structure::dof_names(m)) dof_names_.emplace_back(name);
+  for (const char* name : contct::dof_names(m)) dof_names_.emplace_back(name);
 }
 
 std::vector<std::string_view> node_reader::keys_with(std::vector<std::string_view> others) const {
@@ -91,4 +91,4 @@ std::vector<int> node_reader::dofs_in(const toml_value& t, std::string_view foun
   return there;
 }
 
-}  // namespace contct::read
+}  // namespace contct

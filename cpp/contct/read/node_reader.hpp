@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "contct/model/problem.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/toml_reader.hpp"
-#include "contct/structure/problem.hpp"
 
-namespace contct::read {
+namespace contct {
 
 /// Reads the keys that name nodes: node, nodes, and x (beams) or at (plates); dof and dofs on a matrix.
 class node_reader {
@@ -46,4 +46,4 @@ class node_reader {
   std::vector<std::string_view> dof_names_;  // of a node
 };
 
-}  // namespace contct::read
+}  // namespace contct

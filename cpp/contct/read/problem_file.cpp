@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "contct/kernel/call.hpp"
+#include "contct/model/line.hpp"
 #include "contct/read/model_tables.hpp"
 #include "contct/read/node_reader.hpp"
 #include "contct/read/step_tables.hpp"
 #include "contct/read/written_numbers.hpp"
-#include "contct/structure/line.hpp"
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 /// What pairs of one table have in common.
@@ -66,7 +66,7 @@ class problem_reader {
   }
 
  private:
-  [[nodiscard]] int nodes() const { return contct::structure::nodes(problem_.geometry); }
+  [[nodiscard]] int nodes() const { return contct::nodes(problem_.geometry); }
 
   [[nodiscard]] std::size_t dof_of(int node, int dof) const {
     return node * nodes_->dof_names().size() + dof;
@@ -261,4 +261,4 @@ problem read_problem(const std::string& path, reach allowed) {
   return parse_problem(read_input(path), file, allowed);
 }
 
-}  // namespace contct::read
+}  // namespace contct

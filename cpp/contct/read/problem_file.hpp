@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
+#include "contct/model/problem.hpp"
 #include "contct/read/named_files.hpp"
-#include "contct/structure/problem.hpp"
 #include "contct/text/input_text.hpp"
 
-namespace contct::read {
+namespace contct {
 
 /// Read and check the problem in the file at `path`; "-" is standard input.
 /// Throws input_error: nothing is half-accepted. A number means the shortest decimal that reads as its
@@ -20,4 +20,4 @@ namespace contct::read {
 [[nodiscard]] problem parse_problem(std::string_view text, std::string_view file,
                                     reach allowed = reach::own_folder);
 
-}  // namespace contct::read
+}  // namespace contct

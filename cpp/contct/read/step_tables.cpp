@@ -10,7 +10,7 @@
 
 #include "contct/read/model_tables.hpp"
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 void refuse_endless_sums(const toml_value& t, const model& m, const load& l) {
@@ -159,4 +159,4 @@ void step_reader::read_settlements(const toml_value& t, load& l) const {
   }
 }
 
-}  // namespace contct::read
+}  // namespace contct

@@ -6,7 +6,7 @@
 #include "contct/read/named_files.hpp"
 #include "contct/read/node_reader.hpp"
 
-namespace contct::read {
+namespace contct {
 
 /// As many coefficients as a polynomial may have.
 inline constexpr std::size_t most_coefficients = 21;
@@ -42,4 +42,4 @@ class step_reader {
   std::vector<hold> held_;  // [dofs] by supports
 };
 
-}  // namespace contct::read
+}  // namespace contct

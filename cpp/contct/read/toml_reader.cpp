@@ -10,7 +10,7 @@
 #include "contct/text/input_text.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 /// "file:12:3", or the file alone when the place is not known.
@@ -248,4 +248,4 @@ void toml_value::allow_only(const std::vector<std::string_view>& keys) const {
   }
 }
 
-}  // namespace contct::read
+}  // namespace contct

@@ -11,7 +11,7 @@
 
 #include "contct/text/input_text.hpp"
 
-namespace contct::read {
+namespace contct {
 
 /// A range of numbers in words and as a test.
 struct real_range {
@@ -112,4 +112,4 @@ class toml_value {
 /// Parse a whole document. Throws input_error with line and column.
 [[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view file);
 
-}  // namespace contct::read
+}  // namespace contct

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "contct/number/decimal.hpp"
 #include "contct/read/toml_reader.hpp"
-#include "contct/text/decimal.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::read {
+namespace contct {
 namespace {
 
 /// Goes forward through a text by lines and columns as toml++ counts them: from 1, columns in code points.
@@ -88,4 +88,4 @@ std::vector<std::string> rounding_warnings(const toml::table& document, std::str
   return warnings;
 }
 
-}  // namespace contct::read
+}  // namespace contct

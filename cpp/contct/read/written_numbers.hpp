@@ -7,9 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/rooms.hpp"
-
-namespace contct::read {
+namespace contct {
 
 /// A number in a file, and where it stands.
 struct written_number {
@@ -29,4 +27,4 @@ struct written_number {
 [[nodiscard]] std::vector<std::string> rounding_warnings(const toml::table& document, std::string_view text,
                                                          std::string_view file);
 
-}  // namespace contct::read
+}  // namespace contct

@@ -15,7 +15,7 @@
 #include "contct/text/input_text.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::serve {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -58,8 +58,8 @@ std::string error_json(const std::string& message) {
 }
 
 /// Results are written as text, and stay so: reading them again would cost more than the path.
-std::string text_of(const answer& a, const std::optional<std::string>& error) {
-  const auto exit = error ? write::exit_status::bad_input : a.exit;
+std::string text_of(const served_answer& a, const std::optional<std::string>& error) {
+  const auto exit = error ? exit_status::bad_input : a.exit;
   std::string text =
       fmt::format(R"({{"format": "contct-answer-1", "exit": {}, "messages": [)", static_cast<int>(exit));
   for (std::size_t i = 0; i < a.messages.size(); ++i)
@@ -92,7 +92,7 @@ request::request(const char* text, std::initializer_list<std::string_view> known
   } catch (const nlohmann::json::exception& e) {
     constexpr std::size_t longest = 300;  // it quotes a whole text of the options
     throw std::invalid_argument(
-        fmt::format("options: found no JSON: {}; allowed: an object", text::printable(e.what(), longest)));
+        fmt::format("options: found no JSON: {}; allowed: an object", printable(e.what(), longest)));
   }
   if (!options_.is_object())
     throw std::invalid_argument(fmt::format("options: found {}; allowed: an object", options_.type_name()));
@@ -160,7 +160,7 @@ std::string request::file() const {
   return folder.empty() || name.starts_with('/') ? name : folder + "/" + name;
 }
 
-problem read_problem_text(const char* text, const std::string& file, reach allowed, answer& a) {
+problem read_problem_text(const char* text, const std::string& file, reach allowed, served_answer& a) {
   if (text == nullptr)
     throw std::invalid_argument("problem: found null; allowed: the text of a problem file");
   problem p = parse_problem(text, file, allowed);
@@ -180,9 +180,9 @@ std::recursive_mutex& turn() {
   return mutex;
 }
 
-char* answered(const std::function<void(answer&)>& find) noexcept {
+char* answered(const std::function<void(served_answer&)>& find) noexcept {
   try {
-    answer a;
+    served_answer a;
     std::optional<std::string> error;
     try {
       find(a);
@@ -200,4 +200,4 @@ char* answered(const std::function<void(answer&)>& find) noexcept {
   }
 }
 
-}  // namespace contct::serve
+}  // namespace contct

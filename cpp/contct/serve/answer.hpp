@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "contct/model/problem.hpp"
 #include "contct/read/named_files.hpp"
-#include "contct/structure/problem.hpp"
-#include "contct/write/exit_status.hpp"
+#include "contct/session/exit_status.hpp"
 
-namespace contct::serve {
+namespace contct {
 
 /// The options of one request. All refusals are std::invalid_argument: "options: kernels: found 3; allowed:
 /// ..".
@@ -44,8 +44,8 @@ class request {
 };
 
 /// The answer to one request, while it is found.
-struct answer {
-  write::exit_status exit = write::exit_status::solved;
+struct served_answer {
+  exit_status exit = exit_status::solved;
   std::vector<std::string> messages;
   std::string result;                                      ///< JSON as text; empty: null
   std::vector<std::pair<std::string, std::string>> texts;  ///< what else was asked for, by its key
@@ -53,7 +53,8 @@ struct answer {
 
 /// The problem in a text; its warnings become messages. Throws as parse_problem does. `file`, its name,
 /// and `allowed` are the request's.
-[[nodiscard]] problem read_problem_text(const char* text, const std::string& file, reach allowed, answer& a);
+[[nodiscard]] problem read_problem_text(const char* text, const std::string& file, reach allowed,
+                                        served_answer& a);
 
 /// Throws std::invalid_argument for what is no engine's name, nor "auto", nor empty.
 void refuse_unknown_engine(const std::string& name);
@@ -64,6 +65,6 @@ void refuse_unknown_engine(const std::string& name);
 
 /// What a C function returns: the answer that `find` fills in, or the error that it throws, as text on the C
 /// heap; null without memory for it.
-[[nodiscard]] char* answered(const std::function<void(answer&)>& find) noexcept;
+[[nodiscard]] char* answered(const std::function<void(served_answer&)>& find) noexcept;
 
-}  // namespace contct::serve
+}  // namespace contct

@@ -14,7 +14,7 @@
 #include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::serve {
+namespace contct {
 namespace {
 
 /// The states of a request, each with its pairs' statuses.
@@ -70,12 +70,12 @@ given_states read_states(const request& r, const problem& p, const linear_struct
   return states;
 }
 
-void certify_states(const char* text, const char* options, answer& a) {
+void certify_states(const char* text, const char* options, served_answer& a) {
   const request asked(options, {"file", "folder", "allow_outside", "displacement", "closed"});
   const problem p = read_problem_text(text, asked.file(), asked.allowed(), a);
   const linear_structure s = structure_of(p);
   const given_states states = read_states(asked, p, s);
-  run_result r(p, s, exact::exact_means_of(p));
+  run_result r(p, s, exact_means_of(p));
   r.engine = "given";
   for (std::size_t i = 0; i < states.displacement.size(); ++i) {
     const std::unique_ptr<stiffness_engine> factored = make_engine("refactor", s);
@@ -96,9 +96,8 @@ void certify_states(const char* text, const char* options, answer& a) {
 }
 
 }  // namespace
-}  // namespace contct::serve
+}  // namespace contct
 
 char* contct_certify(const char* text, const char* options) {
-  return contct::serve::answered(
-      [&](contct::serve::answer& a) { contct::serve::certify_states(text, options, a); });
+  return contct::answered([&](contct::served_answer& a) { contct::certify_states(text, options, a); });
 }

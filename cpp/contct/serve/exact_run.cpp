@@ -11,11 +11,11 @@
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/definite.hpp"
 #include "contct/exact/exact_means.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::serve {
+namespace contct {
 namespace {
 
 void refuse_too_many_dofs(const problem& p, const std::string& file) {
@@ -111,4 +111,4 @@ kernel_digits digits_of_kernel(const std::string& name, const problem& p, const 
   return counter.result(name, end.status, rounding[leader->facts().real_bytes == 4 ? 1 : 0]);
 }
 
-}  // namespace contct::serve
+}  // namespace contct

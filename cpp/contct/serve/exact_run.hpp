@@ -6,12 +6,12 @@
 #include "contct/exact/exact_problem.hpp"
 #include "contct/exact/kernel_digits.hpp"
 #include "contct/exact/path.hpp"
+#include "contct/model/problem.hpp"
+#include "contct/model/structure.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
-#include "contct/structure/problem.hpp"
-#include "contct/structure/structure.hpp"
 
-namespace contct::serve {
+namespace contct {
 
 /// The problem in rational numbers. Throws std::invalid_argument, naming
 /// `file`, for one that is too large, or whose matrix is not positive semidefinite.
@@ -27,4 +27,4 @@ namespace contct::serve {
                                              const linear_structure& s, const exact_path& exactly,
                                              observer* shown = nullptr);
 
-}  // namespace contct::serve
+}  // namespace contct

@@ -1,15 +1,15 @@
 // contct_judge: a function of the caller's, put the calls and problems of contct fuzz.
 #include <stdexcept>
 
+#include "contct/kernel/own_kernel.hpp"
 #include "contct/lab/fuzz.hpp"
-#include "contct/outside/own_kernel.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
 
-namespace contct::serve {
+namespace contct {
 namespace {
 
-void judge(contct_kernel_function* procedure, const char* options, answer& a) {
+void judge(contct_kernel_function* procedure, const char* options, served_answer& a) {
   const request r(options, {"leader", "name", "calls", "problems", "seed"});
   if (procedure == nullptr) throw std::invalid_argument("kernel: found null; allowed: a function");
   constexpr int most_calls = 2'000'000'000;
@@ -30,14 +30,14 @@ void judge(contct_kernel_function* procedure, const char* options, answer& a) {
     a.messages.insert(a.messages.end(), f.mismatch_reports.begin(), f.mismatch_reports.end());
   if (!missed.empty()) a.messages.push_back(missed);
   a.result = fuzz_json(run.result);
-  a.exit = run.result.compared().mismatches > 0 ? write::exit_status::kernels_differ
-           : missed.empty()                     ? write::exit_status::solved
-                                                : write::exit_status::bad_input;
+  a.exit = run.result.compared().mismatches > 0 ? exit_status::kernels_differ
+           : missed.empty()                     ? exit_status::solved
+                                                : exit_status::bad_input;
 }
 
 }  // namespace
-}  // namespace contct::serve
+}  // namespace contct
 
 char* contct_judge(contct_kernel_function* kernel, const char* options) {
-  return contct::serve::answered([&](contct::serve::answer& a) { contct::serve::judge(kernel, options, a); });
+  return contct::answered([&](contct::served_answer& a) { contct::judge(kernel, options, a); });
 }

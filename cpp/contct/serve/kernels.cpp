@@ -7,19 +7,19 @@
 
 #include "contct/compare/compare.hpp"
 #include "contct/kernel/call.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/numeric/probe.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/number/probe.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
 #include "contct/solve/engine.hpp"
 
-namespace contct::serve {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
 
-void tell_about(answer& a) {
+void tell_about(served_answer& a) {
   json out = {{"version", CONTCT_VERSION},
               {"listing_sha256", CONTCT_LISTING_SHA256},
               {"floating_point", describe(probe_floating_point())},
@@ -50,7 +50,7 @@ std::string answer_call(const char* name, call<double> c, double* smin) {
   return k->take_text();
 }
 
-void replay_trace(const char* text, const char* options, answer& a) {
+void replay_trace(const char* text, const char* options, served_answer& a) {
   const request r(options, {"file", "folder", "kernel"});
   if (text == nullptr) throw std::invalid_argument("trace: found null; allowed: the text of a trace");
   trace_reader calls(text, r.text("file", "trace"));
@@ -72,27 +72,27 @@ void replay_trace(const char* text, const char* options, answer& a) {
               {"first", nullptr}};
   if (found.first) out["first"] = words_of(*found.first);
   a.result = json_text(out);
-  a.exit = found.compared.mismatches == 0 ? write::exit_status::solved : write::exit_status::kernels_differ;
+  a.exit = found.compared.mismatches == 0 ? exit_status::solved : exit_status::kernels_differ;
 }
 
 }  // namespace
-}  // namespace contct::serve
+}  // namespace contct
 
-using contct::serve::answer;
-using contct::serve::answered;
+using contct::answered;
+using contct::served_answer;
 
 int contct_serve_version() {
   return CONTCT_SERVE_VERSION;
 }
 
 char* contct_about() {
-  return answered([](answer& a) { contct::serve::tell_about(a); });
+  return answered([](served_answer& a) { contct::tell_about(a); });
 }
 
 char* contct_call(const char* kernel, const double dd[], const double dtest[], const double cc[], double ss[],
                   double* smin, const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn,
                   int ndof) {
-  return answered([&](answer& a) {
+  return answered([&](served_answer& a) {
     if (nc < 0 || ndof < 0 || smin == nullptr ||
         (nc > 0 &&
          (cc == nullptr || ss == nullptr || id == nullptr || isep == nullptr || isurf == nullptr)) ||
@@ -101,23 +101,23 @@ char* contct_call(const char* kernel, const double dd[], const double dtest[], c
           "call: found null, or a length below 0; allowed: arrays as long as nc and ndof say");
     const auto pairs = static_cast<std::size_t>(nc);
     const auto dofs = static_cast<std::size_t>(ndof);
-    const std::string text = contct::serve::answer_call(kernel,
-                                                        {{dd, dofs},
-                                                         {dtest, dofs},
-                                                         {cc, pairs},
-                                                         {ss, pairs},
-                                                         0.0,
-                                                         {id, pairs},
-                                                         {isep, pairs},
-                                                         {isurf, pairs},
-                                                         {indof, ndofpn}},
-                                                        smin);
-    a.result = contct::text::json_text(nlohmann::json{{"text", text}});
+    const std::string text = contct::answer_call(kernel,
+                                                 {{dd, dofs},
+                                                  {dtest, dofs},
+                                                  {cc, pairs},
+                                                  {ss, pairs},
+                                                  0.0,
+                                                  {id, pairs},
+                                                  {isep, pairs},
+                                                  {isurf, pairs},
+                                                  {indof, ndofpn}},
+                                                 smin);
+    a.result = contct::json_text(nlohmann::json{{"text", text}});
   });
 }
 
 char* contct_replay(const char* trace, const char* options) {
-  return answered([&](answer& a) { contct::serve::replay_trace(trace, options, a); });
+  return answered([&](served_answer& a) { contct::replay_trace(trace, options, a); });
 }
 
 void contct_free(char* text) {

@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "contct/compare/compare.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 
-namespace contct::serve {
+namespace contct {
 
 void refuse_other_rules(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
@@ -36,4 +36,4 @@ std::unique_ptr<kernel> second_kernel(const std::vector<std::string>& names) {
   return make_kernel(names[1]);
 }
 
-}  // namespace contct::serve
+}  // namespace contct

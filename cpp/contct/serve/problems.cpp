@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/toml_reader.hpp"
 #include "contct/read/written_numbers.hpp"
@@ -16,7 +16,7 @@
 #include "contct/write/explain.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::serve {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -52,7 +52,7 @@ void put_places(json& out, const problem& p, const char* text, const std::string
   }
 }
 
-void check(const char* text, const char* options, answer& a) {
+void check(const char* text, const char* options, served_answer& a) {
   const request r(options, {"file", "folder", "allow_outside", "places"});
   const problem p = read_problem_text(text, r.file(), r.allowed(), a);
   json out = {{"title", p.title},
@@ -71,7 +71,7 @@ void check(const char* text, const char* options, answer& a) {
   a.result = json_text(out);
 }
 
-void follow_exact_path(const char* text, const char* options, answer& a) {
+void follow_exact_path(const char* text, const char* options, served_answer& a) {
   const request r(options, {"file", "folder", "allow_outside", "rule", "kernels"});
   const std::string rule = r.text("rule", "corrected");
   if (rule != "corrected" && rule != "1989")
@@ -92,7 +92,7 @@ void follow_exact_path(const char* text, const char* options, answer& a) {
   a.exit = status_of(path.status);
 }
 
-void explain_path(const char* text, const char* options, answer& a) {
+void explain_path(const char* text, const char* options, served_answer& a) {
   const request r(options, {"file", "folder", "allow_outside", "kernels", "engine", "step", "increment"});
   const std::vector<std::string> names = r.texts("kernels", {"fortran", "cpp"});
   const std::string engine = r.text("engine", "refactor");
@@ -121,19 +121,19 @@ void explain_path(const char* text, const char* options, answer& a) {
 }
 
 }  // namespace
-}  // namespace contct::serve
+}  // namespace contct
 
-using contct::serve::answer;
-using contct::serve::answered;
+using contct::answered;
+using contct::served_answer;
 
 char* contct_check(const char* text, const char* options) {
-  return answered([&](answer& a) { contct::serve::check(text, options, a); });
+  return answered([&](served_answer& a) { contct::check(text, options, a); });
 }
 
 char* contct_exact(const char* text, const char* options) {
-  return answered([&](answer& a) { contct::serve::follow_exact_path(text, options, a); });
+  return answered([&](served_answer& a) { contct::follow_exact_path(text, options, a); });
 }
 
 char* contct_explain(const char* text, const char* options) {
-  return answered([&](answer& a) { contct::serve::explain_path(text, options, a); });
+  return answered([&](served_answer& a) { contct::explain_path(text, options, a); });
 }

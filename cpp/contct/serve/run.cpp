@@ -6,16 +6,17 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "contct/outside/registry.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
+#include "contct/write/outputs.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::serve {
+namespace contct {
 namespace {
 
-struct served_request : session::run_request {
+struct served_request : run_request {
   reach allowed = reach::own_folder;
   bool page = false, log = false, trace = false, proof = false, states = false;
 };
@@ -58,7 +59,7 @@ struct kept_text {
 };
 
 /// What is wrong with the run, as messages.
-void tell(const session::run& run, std::vector<std::string>& messages) {
+void tell(const run& run, std::vector<std::string>& messages) {
   const auto add = [&messages](const std::vector<std::string>& lines) {
     messages.insert(messages.end(), lines.begin(), lines.end());
   };
@@ -66,9 +67,9 @@ void tell(const session::run& run, std::vector<std::string>& messages) {
   add(end_messages(run.result));
 }
 
-void serve_run(const served_request& wanted, const problem& p, answer& a) {
+void serve_run(const served_request& wanted, const problem& p, served_answer& a) {
   const linear_structure structure = structure_of(p);
-  session::run run(p, structure, static_cast<const session::run_request&>(wanted));
+  run run(p, structure, static_cast<const run_request&>(wanted));
   if (wanted.kernels.empty() && (wanted.page || wanted.states || wanted.envelope))
     throw std::invalid_argument(
         "options: found final_only with page, states or envelope; allowed: these with a path");
@@ -82,7 +83,7 @@ void serve_run(const served_request& wanted, const problem& p, answer& a) {
           asked(wanted.trace, trace), asked(wanted.proof, proof), asked(wanted.page, page)});
   if (status_of(run.result.end.status) == exit_status::bad_input)
     throw std::invalid_argument(wanted.file + ": " + end_words(p, run.result.end));
-  run.finish();
+  write_outputs(run);
   a.exit = run.exit();
   a.result = std::move(result.text);
   tell(run, a.messages);
@@ -93,16 +94,16 @@ void serve_run(const served_request& wanted, const problem& p, answer& a) {
 }
 
 }  // namespace
-}  // namespace contct::serve
+}  // namespace contct
 
-using contct::serve::answer;
-using contct::serve::answered;
+using contct::answered;
+using contct::served_answer;
 
 char* contct_run(const char* text, const char* options) {
-  return answered([&](answer& a) {
-    const auto wanted = contct::serve::read_run_request(options);
-    const auto p = contct::serve::read_problem_text(text, wanted.file, wanted.allowed, a);
-    const std::scoped_lock mine(contct::serve::turn());
-    contct::serve::serve_run(wanted, p, a);
+  return answered([&](served_answer& a) {
+    const auto wanted = contct::read_run_request(options);
+    const auto p = contct::read_problem_text(text, wanted.file, wanted.allowed, a);
+    const std::scoped_lock mine(contct::turn());
+    contct::serve_run(wanted, p, a);
   });
 }

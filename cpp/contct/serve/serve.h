@@ -84,14 +84,14 @@ CONTCT_SERVE_EXPORT char* contct_explain(const char* problem, const char* option
  * touches or enters its face "closed"        [[..], ..]: the pairs that are closed instead, from 1 */
 CONTCT_SERVE_EXPORT char* contct_certify(const char* problem, const char* options);
 
-/* One call of a kernel: the arguments of contct_kernel (contct/outside/plugin.h), behind the kernel's name.
+/* One call of a kernel: the arguments of contct_kernel (contct/kernel/plugin.h), behind the kernel's name.
  * "result": { "text": what it wrote to unit 26 }. A call whose id or dimensions lead outside the arrays is
  * refused. */
 CONTCT_SERVE_EXPORT char* contct_call(const char* kernel, const double dd[], const double dtest[],
                                       const double cc[], double ss[], double* smin, const int id[],
                                       int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof);
 
-/* A kernel of the caller's, as contct_kernel of contct/outside/plugin.h. It is called in this process. */
+/* A kernel of the caller's, as contct_kernel of contct/kernel/plugin.h. It is called in this process. */
 /* NOLINTNEXTLINE(modernize-use-using): this is C */
 typedef void contct_kernel_function(const double dd[], const double dtest[], const double cc[], double ss[],
                                     double* smin, const int id[], int isep[], const int isurf[], int nc,

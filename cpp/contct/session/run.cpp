@@ -7,14 +7,13 @@
 #include <utility>
 
 #include "contct/exact/exact_means.hpp"
+#include "contct/kernel/registry.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/numeric/probe.hpp"
-#include "contct/outside/registry.hpp"
+#include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/pictures.hpp"
 
-namespace contct::session {
+namespace contct {
 namespace {
 
 trace_header header_of_trace(const run_result& r, const kernel_facts& leader) {
@@ -29,7 +28,7 @@ trace_header header_of_trace(const run_result& r, const kernel_facts& leader) {
 }  // namespace
 
 run::run(const problem& p, const linear_structure& s, run_request request)
-    : wanted(std::move(request)), result(p, s, exact::exact_means_of(p)) {
+    : wanted(std::move(request)), result(p, s, exact_means_of(p)) {
   result.file = wanted.file;
   result.kernels = wanted.kernels;
   result.engine = "reference";
@@ -46,8 +45,8 @@ run::run(const problem& p, const linear_structure& s, run_request request)
   result.engine = engine_for(leader_facts_, wanted.engine, s);
 }
 
-void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
-  to_ = to;
+void run::go(const run_outputs& outputs, const std::vector<observer*>& shown) {
+  to = outputs;
   const bool drawn = to.page != nullptr;
   lockstep_on_path* const compared = result.compared ? &*result.compared : nullptr;
   result.record = run_recorder(
@@ -70,9 +69,9 @@ void run::go(const run_outputs& to, const std::vector<observer*>& shown) {
 }
 
 path_end run::follow_leader(std::vector<observer*>& all) {
-  if (to_.trace != nullptr)
+  if (to.trace != nullptr)
     all.push_back(&trace_.emplace(header_of_trace(result, leader_facts_),
-                                  [this](std::string_view text) { to_.trace->write(text); }));
+                                  [this](std::string_view text) { to.trace->write(text); }));
   if (wanted.free_run) all.push_back(&own_path_.emplace());
   return follow_with(result.engine, *leader_, all, result.judged);
 }
@@ -85,7 +84,7 @@ path_end run::follow_with(const std::string& engine_name, kernel& leader, const 
 
 const compared_path& run::follow_alone(const std::string& name) {
   path_record own;
-  certifier judge(result.what, result.structure, exact::exact_means_of(result.what));
+  certifier judge(result.what, result.structure, exact_means_of(result.what));
   const kernel_facts facts = facts_of_kernel(name);
   own.end = follow_with(engine_for(facts, wanted.engine, result.structure), *make_kernel(name),
                         {&judge, &own}, judge);
@@ -100,21 +99,8 @@ const compared_path& run::follow_alone(const std::string& name) {
   return other;
 }
 
-void run::finish() {
-  if (to_.result != nullptr) write_result(result, *to_.result, to_.parts);
-  for (output_file* const file : {to_.log, to_.trace})
-    if (file != nullptr) file->finish();
-  if (to_.table != nullptr) write_csv(result, wanted.watched, *to_.table, to_.pairs);
-  const auto write_all = [](output_file& file, const std::string& text) {
-    file.write(text);
-    file.finish();
-  };
-  if (to_.proof != nullptr) write_all(*to_.proof, proof_json(result.what, result.judged));
-  if (to_.page != nullptr) write_all(*to_.page, run_page(result));
-}
-
 exit_status run::exit() const {
   return status_of(result.end.status, result.equal);
 }
 
-}  // namespace contct::session
+}  // namespace contct

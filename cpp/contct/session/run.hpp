@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "contct/path/free_run.hpp"
-#include "contct/write/result_json.hpp"
-#include "contct/write/run_result.hpp"
-#include "contct/write/words.hpp"
+#include "contct/session/exit_status.hpp"
+#include "contct/session/run_result.hpp"
+#include "contct/text/output_file.hpp"
 
-namespace contct::session {
+namespace contct {
 
 struct run_request {
   std::string file = {};  ///< the problem's, as it was named
@@ -26,6 +26,13 @@ struct run_request {
   int max_increments = 0;      ///< in a step; 0: the default limit
   int watched = 0;             ///< the node of the table, from 0
   std::string date = {};       ///< of the page; may be empty
+};
+
+/// What else than the ends of steps is written.
+enum class result_parts {
+  ends,
+  states,  ///< also the structure, states within steps, and all in words: what draws the run needs no more
+  report   ///< also the leader's calls and unit 26
 };
 
 /// Null: not asked for.
@@ -45,21 +52,20 @@ class run {
   run& operator=(const run&) = delete;
   ~run() = default;
 
-  /// Follow the leader's path, or find the ends of the steps. `to` is written to here and in `finish`.
+  /// Follow the leader's path, or find the ends of the steps. Log and trace are written meanwhile, the others
+  /// by write_outputs (contct/write/outputs.hpp).
   /// `shown`, who shows how far the path has come, observes behind the comparison and the certificate.
-  void go(const run_outputs& to, const std::vector<observer*>& shown = {});
+  void go(const run_outputs& outputs, const std::vector<observer*>& shown = {});
 
   /// How the path of another kernel compares with the leader's, for the result too.
   const compared_path& follow_alone(const std::string& name);
-
-  /// Complete and name the outputs.
-  void finish();
 
   /// Of a run that need not be certified.
   [[nodiscard]] exit_status exit() const;
 
   const run_request wanted;
   run_result result;
+  run_outputs to = {};
 
  private:
   path_end follow_leader(std::vector<observer*>& all);
@@ -76,10 +82,9 @@ class run {
 
   std::unique_ptr<kernel> leader_;  // while it follows the path
   kernel_facts leader_facts_ = {};
-  run_outputs to_;
   std::optional<log_writer> log_;
   std::optional<trace_recorder> trace_;
   std::optional<path_record> own_path_;  // of the leader, in free run
 };
 
-}  // namespace contct::session
+}  // namespace contct

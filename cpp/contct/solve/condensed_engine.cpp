@@ -5,7 +5,7 @@
 #include "contct/solve/factored_stiffness.hpp"
 #include "contct/solve/spring_engine.hpp"
 
-namespace contct::solve {
+namespace contct {
 namespace {
 
 constexpr double below_rounding = 1e-18;
@@ -357,4 +357,4 @@ std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& 
   return std::make_unique<condensed_engine>(s);
 }
 
-}  // namespace contct::solve
+}  // namespace contct

@@ -6,7 +6,7 @@
 #include "contct/solve/spring_engine.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::solve {
+namespace contct {
 namespace {
 
 mpi_job* job_of_this_process = nullptr;  // MPI has no more than one for a process
@@ -76,4 +76,4 @@ std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linea
   return std::make_unique<refactor_engine>(s);
 }
 
-}  // namespace contct::solve
+}  // namespace contct

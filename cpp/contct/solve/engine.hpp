@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/structure/structure.hpp"
+#include "contct/model/structure.hpp"
 
-namespace contct::solve {
+namespace contct {
 
 /// R*, the residual load: the share of a step's load increment that is still to be applied.
 struct residual_load {
@@ -74,4 +74,4 @@ void refuse_unknown_engine(std::string_view name);
 /// The names of all engines of this process.
 [[nodiscard]] std::vector<std::string> engine_names();
 
-}  // namespace contct::solve
+}  // namespace contct

@@ -6,7 +6,7 @@
 
 #include "contct/solve/mpi_job.hpp"
 
-namespace contct::solve {
+namespace contct {
 
 std::vector<double> residual(const stiffness_matrix& k, std::span<const spring_at> springs,
                              std::span<const double> b, std::span<const double> x) {
@@ -79,4 +79,4 @@ std::vector<std::vector<double>> factored_stiffness::columns_at_pairs(std::span<
   return columns;
 }
 
-}  // namespace contct::solve
+}  // namespace contct

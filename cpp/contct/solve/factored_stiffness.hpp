@@ -9,7 +9,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/solve/engine.hpp"
 
-namespace contct::solve {
+namespace contct {
 
 /// The springs of the pairs that are `closed` [pairs], by rows; none where the dof is fixed.
 [[nodiscard]] inline std::vector<spring_at> springs_of(const linear_structure& s,
@@ -109,7 +109,7 @@ class factored_stiffness {
   /// Solve K u = load, corrected with the residual in long double until that no longer helps: u has the
   /// digits that the stored matrix has, or 3 more than LAPACK alone where its condition takes more.
   void solve_refined(std::span<const double> load, std::span<double> u) {
-    contct::solve::solve_refined(
+    contct::solve_refined(
         structure_, products_, springs_, [this](std::span<double> b) { factor_.solve(b); }, load, u);
   }
 
@@ -130,4 +130,4 @@ class factored_stiffness {
   stiffness_factor factor_;
 };
 
-}  // namespace contct::solve
+}  // namespace contct

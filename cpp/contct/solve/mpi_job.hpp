@@ -6,7 +6,7 @@
 
 #include "contct/matrix/sparse_factor.hpp"
 
-namespace contct::solve {
+namespace contct {
 
 /// The job as one of its ranks sees it. Rank 0 runs the program and has the matrices; the others serve it,
 /// and keep their parts of the factors. Where a rank fails, the job ends with its message.
@@ -41,4 +41,4 @@ inline constexpr const char* join_symbol = "contct_petsc_join";
 /// `job` must live until the process ends, or until null takes its place.
 void set_joined_job(mpi_job* job);
 
-}  // namespace contct::solve
+}  // namespace contct

@@ -9,7 +9,7 @@
 
 #include "contct/solve/factored_stiffness.hpp"
 
-namespace contct::solve {
+namespace contct {
 
 /// What a check finds at the pairs: the largest response, and the largest correction to one.
 struct drift {
@@ -120,4 +120,4 @@ class spring_engine : public stiffness_engine {
 /// Is this a beam with pairs, stored as a band: one that can be condensed?
 [[nodiscard]] bool can_be_condensed(const linear_structure& s);
 
-}  // namespace contct::solve
+}  // namespace contct

@@ -6,7 +6,7 @@
 #include "contct/solve/factored_stiffness.hpp"
 #include "contct/solve/spring_engine.hpp"
 
-namespace contct::solve {
+namespace contct {
 namespace {
 
 // The least 1 - k c when a stiff spring opens: with less, too many of its digits have cancelled.
@@ -230,4 +230,4 @@ std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s,
   return std::make_unique<updated_engine>(s, how);
 }
 
-}  // namespace contct::solve
+}  // namespace contct

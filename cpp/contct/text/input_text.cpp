@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace contct::text {
+namespace contct {
 namespace {
 
 /// from_chars takes no plus sign.
@@ -104,4 +104,4 @@ void field_lines::expect(std::size_t fields, std::string_view allowed) const {
   if (fields_.size() != fields) refuse(field_words(here(), "a line"), allowed);
 }
 
-}  // namespace contct::text
+}  // namespace contct

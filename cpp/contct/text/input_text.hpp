@@ -13,7 +13,7 @@
 
 #include "contct/text/strings.hpp"
 
-namespace contct::text {
+namespace contct {
 
 /// What is wrong with a file, where, what was found, what is allowed. what() is the whole message:
 /// "pb.toml:12:3: contact[2].stiffness: found -5; allowed: a number greater than 0".
@@ -103,4 +103,4 @@ class field_lines : public text_lines {
   std::vector<std::string_view> fields_;
 };
 
-}  // namespace contct::text
+}  // namespace contct

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <limits>
 
-namespace contct::text {
+namespace contct {
 
 std::int64_t memory_limit() {
   const std::int64_t pages = sysconf(_SC_PHYS_PAGES);
@@ -26,4 +26,4 @@ std::string bytes_words(std::int64_t bytes) {
   return words.data();
 }
 
-}  // namespace contct::text
+}  // namespace contct

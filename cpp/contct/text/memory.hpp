@@ -4,9 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "contct/rooms.hpp"
-
-namespace contct::text {
+namespace contct {
 
 /// How many bytes a structure may take: three quarters of what the machine has.
 [[nodiscard]] std::int64_t memory_limit();
@@ -14,4 +12,4 @@ namespace contct::text {
 /// "1.5 GiB", "12 MiB".
 [[nodiscard]] std::string bytes_words(std::int64_t bytes);
 
-}  // namespace contct::text
+}  // namespace contct

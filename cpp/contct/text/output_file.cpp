@@ -14,7 +14,7 @@
 #include "contct/text/strings.hpp"
 #include "contct/text/terminal.hpp"
 
-namespace contct::text {
+namespace contct {
 namespace {
 
 int why_lost = 0;  // errno, when something first could not be printed
@@ -168,4 +168,4 @@ bool same_file(const std::string& a, const std::string& b) {
   return followed(a) == followed(b);
 }
 
-}  // namespace contct::text
+}  // namespace contct

@@ -7,9 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "contct/rooms.hpp"
-
-namespace contct::text {
+namespace contct {
 
 /// Blocks every signal to this thread but SIGKILL while this object lives, so that a file with a temporary
 /// name is not left behind.
@@ -77,4 +75,4 @@ void flush_standard_output();
 /// it exists or not; false for devices, pipes and terminals.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
-}  // namespace contct::text
+}  // namespace contct

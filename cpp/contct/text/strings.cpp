@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-namespace contct::text {
+namespace contct {
 namespace {
 
 /// The character of UTF-8 that a text begins with, and how many bytes it takes; 0 bytes where there is none.
@@ -176,4 +176,4 @@ std::string did_you_mean(std::string_view found, std::span<const std::string> kn
   return nearest.empty() ? "" : " (did you mean \"" + std::string(nearest) + "\"?)";
 }
 
-}  // namespace contct::text
+}  // namespace contct

@@ -7,9 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/rooms.hpp"
-
-namespace contct::text {
+namespace contct {
 
 /// `words` with `between` between each two of them. fmt::join does the same, and takes half a second to
 /// compile wherever it is used.
@@ -59,4 +57,4 @@ template <class Json>
 /// letters wrong. Empty where none is near.
 [[nodiscard]] std::string did_you_mean(std::string_view found, std::span<const std::string> known);
 
-}  // namespace contct::text
+}  // namespace contct

@@ -10,7 +10,7 @@
 
 #include "contct/text/strings.hpp"
 
-namespace contct::text {
+namespace contct {
 namespace {
 
 /// The value of an environment variable; empty when it is not set.
@@ -85,4 +85,4 @@ std::vector<std::string> wrap(const std::vector<std::string>& items, int width) 
   return lines;
 }
 
-}  // namespace contct::text
+}  // namespace contct

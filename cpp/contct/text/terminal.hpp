@@ -5,9 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/rooms.hpp"
-
-namespace contct::text {
+namespace contct {
 
 /// How to print to standard output.
 struct terminal {
@@ -31,4 +29,4 @@ enum class paint { good, bad, quiet, strong };
 /// word longer than a line has one of its own.
 [[nodiscard]] std::vector<std::string> wrap(const std::vector<std::string>& items, int width);
 
-}  // namespace contct::text
+}  // namespace contct

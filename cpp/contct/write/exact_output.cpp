@@ -9,7 +9,7 @@
 #include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -173,4 +173,4 @@ void write_exact_json(const exact_result& r, output_file& out) {
   document.finish(members);
 }
 
-}  // namespace contct::write
+}  // namespace contct

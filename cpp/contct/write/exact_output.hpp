@@ -9,7 +9,7 @@
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
 
-namespace contct::write {
+namespace contct {
 
 /// All that is written of an exact path. All must outlive it.
 struct exact_result {
@@ -26,4 +26,4 @@ struct exact_result {
 /// Every number is a string "p/q" or "p". The file appears.
 void write_exact_json(const exact_result& r, output_file& out);
 
-}  // namespace contct::write
+}  // namespace contct

@@ -12,7 +12,7 @@
 #include "contct/text/terminal.hpp"
 #include "contct/write/result_json.hpp"
 
-namespace contct::write {
+namespace contct {
 
 /// What an explanation is about.
 struct explained_kernels {
@@ -82,4 +82,4 @@ class explain_json {
   json_document document_;
 };
 
-}  // namespace contct::write
+}  // namespace contct

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "contct/numeric/rational.hpp"
+#include "contct/number/rational.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/explain_story.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -208,4 +208,4 @@ void exact_addition::put_pair(json& out, const explained_kernels& of, const expl
   if (const exact_call* const c = path_call()) out["exact_path"] = pair_answer_json(of, i, p, c->answer);
 }
 
-}  // namespace contct::write
+}  // namespace contct

@@ -7,7 +7,7 @@
 #include "contct/exact/path_1989.hpp"
 #include "contct/write/explain.hpp"
 
-namespace contct::write {
+namespace contct {
 
 /// The listing's answer, without rounding, to the numbers that a call was given, as they are to the bit. None
 /// where one of them is not finite.
@@ -54,4 +54,4 @@ class exact_addition {
   std::optional<listing_answer> call_;  // of the increment at hand
 };
 
-}  // namespace contct::write
+}  // namespace contct

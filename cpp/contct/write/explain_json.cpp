@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "contct/numeric/bits.hpp"
+#include "contct/number/bits.hpp"
 #include "contct/write/explain.hpp"
 #include "contct/write/explain_exact.hpp"
 #include "contct/write/explain_story.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 
 namespace {
 
@@ -128,4 +128,4 @@ void explain_json::finish(std::string_view status, const explained_path& path) {
   document_.finish({{"lockstep", compared}, {"status", status}});
 }
 
-}  // namespace contct::write
+}  // namespace contct

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 /// Nine digits, enough to compare by eye; the bits are given separately.
@@ -164,4 +164,4 @@ std::vector<sentence> toggle_story(const explained_call& c, const explained_pair
   return story;
 }
 
-}  // namespace contct::write
+}  // namespace contct

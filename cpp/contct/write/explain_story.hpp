@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "contct/path/path_observers.hpp"
-#include "contct/rooms.hpp"
 
-namespace contct::write {
+namespace contct {
 
 /// A sentence about a line of fortran/contct.f.
 struct sentence {
@@ -35,4 +34,4 @@ inline constexpr listing_line no_line{0, {}};
 /// Whether a pair was toggled, and why: the body of the DO 30 loop. The call had an event.
 [[nodiscard]] std::vector<sentence> toggle_story(const explained_call& c, const explained_pair& p);
 
-}  // namespace contct::write
+}  // namespace contct

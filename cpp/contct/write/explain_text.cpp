@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "contct/numeric/bits.hpp"
+#include "contct/number/bits.hpp"
 #include "contct/write/explain.hpp"
 #include "contct/write/explain_exact.hpp"
 #include "contct/write/explain_story.hpp"
 #include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 
 std::uint64_t ulps_apart(double first, double second, int real_bytes) {
   return real_bytes == 4 ? ulps_between(static_cast<float>(first), static_cast<float>(second))
@@ -248,4 +248,4 @@ std::string explain_text::finish() {
   return increments_ <= most_told_in_full ? in_full_ : summary_end(terminal_, increments_);
 }
 
-}  // namespace contct::write
+}  // namespace contct

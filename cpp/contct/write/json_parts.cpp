@@ -7,7 +7,7 @@
 #include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -161,4 +161,4 @@ json support_json(const model& m, const support& at) {
   return entry;
 }
 
-}  // namespace contct::write
+}  // namespace contct

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "contct/session/run_result.hpp"
 #include "contct/text/output_file.hpp"
-#include "contct/write/run_result.hpp"
 
-namespace contct::write {
+namespace contct {
 
 /// One HTML page that needs nothing else: it draws itself from the result in it. The parallel edition of the
 /// two kernels is in it, folded.
@@ -49,4 +49,4 @@ namespace contct::write {
 /// look ("closed", "open", "at its face"), w, gap, force.
 void write_csv(const run_result& r, int watched, output_file& increments, output_file* pairs);
 
-}  // namespace contct::write
+}  // namespace contct

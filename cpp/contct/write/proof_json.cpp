@@ -4,14 +4,14 @@
 #include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
 
 /// Sums of two doubles each.
-json sums(const std::vector<numeric::double_double>& all) {
-  return list_of(all, [](const numeric::double_double& x) -> json { return {x.hi, x.lo}; });
+json sums(const std::vector<double_double>& all) {
+  return list_of(all, [](const double_double& x) -> json { return {x.hi, x.lo}; });
 }
 
 /// Rows of L, each from its first entry in the band to its diagonal.
@@ -26,19 +26,19 @@ json rows_of(const Band& l, const Number& number) {
   return rows;
 }
 
-void put_stiffness(json& step, const certify::stiffness_proof& s) {
+void put_stiffness(json& step, const stiffness_proof& s) {
   step["scale"] = list_of(s.scale, [](double x) { return std::ilogb(x); });
   step["row_of"] = s.row_of;
   step["shift"] = s.shift;
   if (!s.long_factor) {
     step["L"] = rows_of(s.factor, [](double x) { return x; });
   } else {
-    step["L"] = rows_of(*s.long_factor, [](const numeric::double_double& x) { return x.hi; });
-    step["L_low"] = rows_of(*s.long_factor, [](const numeric::double_double& x) { return x.lo; });
+    step["L"] = rows_of(*s.long_factor, [](const double_double& x) { return x.hi; });
+    step["L_low"] = rows_of(*s.long_factor, [](const double_double& x) { return x.lo; });
   }
 }
 
-json step_json(const certify::step_proof& s) {
+json step_json(const step_proof& s) {
   json step = {{"force", s.numbers.pair_forces},
                {"reactions", s.numbers.reactions},
                {"elements", s.numbers.element_values}};
@@ -52,7 +52,7 @@ json step_json(const certify::step_proof& s) {
   return step;
 }
 
-std::string reason_without_proof(const std::optional<certify::certificate>& c) {
+std::string reason_without_proof(const std::optional<certificate>& c) {
   if (!c) return "the step did not reach its load";
   if (!c->proved) return c->problem;
   if (!c->unique) return "the structure balances, which this proof does not cover";
@@ -61,7 +61,7 @@ std::string reason_without_proof(const std::optional<certify::certificate>& c) {
 
 }  // namespace
 
-std::string proof_json(const problem& p, const certify::certifier& judged) {
+std::string proof_json(const problem& p, const certifier& judged) {
   json steps = json::array();
   for (std::size_t i = 0; i < judged.steps().size(); ++i) {
     const auto& c = judged.steps()[i];
@@ -78,4 +78,4 @@ std::string proof_json(const problem& p, const certify::certifier& judged) {
   return json_text(all) + "\n";
 }
 
-}  // namespace contct::write
+}  // namespace contct

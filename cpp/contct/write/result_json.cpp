@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "contct/write/path_states.hpp"
+#include "contct/session/path_states.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -279,4 +279,4 @@ void write_result(const run_result& r, output_file& out, result_parts parts) {
   result_writer(r, out, parts).write();
 }
 
-}  // namespace contct::write
+}  // namespace contct

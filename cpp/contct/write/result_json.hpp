@@ -9,11 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "contct/session/run.hpp"
+#include "contct/session/step_results.hpp"
 #include "contct/text/output_file.hpp"
-#include "contct/write/step_results.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 
 /// A list with what `entry` gives for each element. The JSON library is only needed where this is called.
 template <class Json = nlohmann::ordered_json, class Range, class Entry>
@@ -95,14 +96,7 @@ void put_place(nlohmann::ordered_json& entry, const model& m, int node);
 /// "contct-proof-2", of reference/proof-format.md. `judged` has kept its proofs of `p`.
 [[nodiscard]] std::string proof_json(const problem& p, const certifier& judged);
 
-/// What else than the ends of steps is written.
-enum class result_parts {
-  ends,
-  states,  ///< also the structure, states within steps, and all in words: what draws the run needs no more
-  report   ///< also the leader's calls and unit 26
-};
-
 /// Writes a whole result; the file appears.
 void write_result(const run_result& r, output_file& out, result_parts parts = result_parts::ends);
 
-}  // namespace contct::write
+}  // namespace contct

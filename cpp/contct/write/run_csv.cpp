@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "contct/session/path_states.hpp"
+#include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/path_states.hpp"
 #include "contct/write/pictures.hpp"
-#include "contct/write/step_results.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 
 std::string csv_field(std::string_view raw) {
   // Spreadsheets take a cell that begins so for a formula.
@@ -90,4 +90,4 @@ void write_csv(const run_result& r, int watched, output_file& increments, output
   if (pairs != nullptr) pairs->finish();
 }
 
-}  // namespace contct::write
+}  // namespace contct

@@ -7,7 +7,7 @@
 #include "contct/write/pictures.hpp"
 #include "contct/write/result_json.hpp"
 
-namespace contct::write {
+namespace contct {
 
 // Files of report/ and reference/parallel-edition.html, built in: embed.cmake writes them.
 extern const std::string_view report_html, report_css, result_js, picture_js, report_js,
@@ -56,4 +56,4 @@ std::string run_page(const run_result& r) {
   return page += rest;
 }
 
-}  // namespace contct::write
+}  // namespace contct

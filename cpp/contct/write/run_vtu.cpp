@@ -6,11 +6,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/pictures.hpp"
-#include "contct/write/step_results.hpp"
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_quad = 9;
@@ -259,4 +259,4 @@ std::string name_of_state(const std::string& stem, std::size_t number) {
   return fmt::format("{}.{:03}.vtu", stem, number);
 }
 
-}  // namespace contct::write
+}  // namespace contct

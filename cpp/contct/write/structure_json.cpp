@@ -2,7 +2,7 @@
 
 #include "contct/write/result_json.hpp"
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -79,4 +79,4 @@ json structure_json(const problem& p) {
   return out;
 }
 
-}  // namespace contct::write
+}  // namespace contct

@@ -9,11 +9,11 @@
 #include <set>
 #include <utility>
 
+#include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/step_results.hpp"
 #include "contct/write/words.hpp"
 
-namespace contct::write {
+namespace contct {
 
 std::string share_words(double x) {
   for (int digits = 8; digits > 1; --digits) {
@@ -294,4 +294,4 @@ run_table table_of(const run_result& r, const terminal& t, bool detail) {
   return table_printer(r, t, detail).print();
 }
 
-}  // namespace contct::write
+}  // namespace contct

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "contct/session/run_result.hpp"
 #include "contct/text/terminal.hpp"
-#include "contct/write/run_result.hpp"
 
-namespace contct::write {
+namespace contct {
 
 /// A share in at most nine columns, with as many digits as fit. What is less than 1 is never shown as 1,
 /// which means the whole load: "1-3e-09".
@@ -21,4 +21,4 @@ struct run_table {
 /// `detail`: every event, and all numbers of each step's end.
 [[nodiscard]] run_table table_of(const run_result& r, const terminal& t, bool detail);
 
-}  // namespace contct::write
+}  // namespace contct

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contct/kernel/registry.hpp"
 #include "contct/matrix/cholesky.hpp"
-#include "contct/outside/registry.hpp"
 #include "contct/text/strings.hpp"
 
-namespace contct::write {
+namespace contct {
 namespace {
 
 /// Correct digits at a relative error. Above ten they depend on the LAPACK in use.
@@ -180,14 +180,6 @@ std::string end_words(const problem& p, const path_end& end) {
   }
 }
 
-exit_status status_of(path_status status, bool kernels_agree) {
-  if (!kernels_agree) return exit_status::kernels_differ;
-  constexpr exit_status statuses[] = {exit_status::solved,          exit_status::mechanism,
-                                      exit_status::iteration_limit, exit_status::iteration_limit,
-                                      exit_status::bad_input,       exit_status::iteration_limit};
-  return statuses[static_cast<int>(status)];  // in the order of path_status
-}
-
 std::string passage_warning(const problem& p, std::span<const step_record> steps) {
   const load_path loads(p);
   std::optional<passage> worst;
@@ -247,4 +239,4 @@ std::vector<std::string> end_messages(const run_result& r) {
   return lines;
 }
 
-}  // namespace contct::write
+}  // namespace contct

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
+#include "contct/model/problem.hpp"
 #include "contct/path/path.hpp"
 #include "contct/path/path_observers.hpp"
-#include "contct/structure/problem.hpp"
-#include "contct/write/exit_status.hpp"
-#include "contct/write/step_results.hpp"
+#include "contct/session/exit_status.hpp"
+#include "contct/session/step_results.hpp"
 
-namespace contct::write {
+namespace contct {
 
 constexpr std::string_view surface_name(int surface) {
   return surface == face_above ? "above" : "below";
@@ -41,14 +41,6 @@ constexpr std::string_view state_name(int isep) {
 constexpr std::string_view look_name(pair_state look) {
   constexpr std::string_view names[] = {"open", "closed", "at its face"};
   return names[static_cast<std::size_t>(look)];
-}
-
-/// As results have it.
-constexpr std::string_view status_name(path_status status, bool kernels_agree = true) {
-  if (!kernels_agree) return "kernels-disagree";
-  if (status == path_status::solved) return "solved";
-  if (status == path_status::path_ended) return "path-ended";
-  return status == path_status::mechanism ? "mechanism" : "iteration-limit";
 }
 
 /// Why a path ended where it did.
@@ -81,16 +73,6 @@ constexpr std::string_view end_reason(path_status status) {
 /// it. Empty for a path that did.
 [[nodiscard]] std::string end_words(const problem& p, const path_end& end);
 
-/// What the program ends with after such a path.
-[[nodiscard]] exit_status status_of(path_status status, bool kernels_agree = true);
-
-/// "8 calls, 64 values compared, 0 mismatches", of what compares the calls of a path.
-template <class Comparing>
-[[nodiscard]] std::string counts_of(const Comparing& c) {
-  return fmt::format("{} calls, {} values compared, {} mismatches", c.calls(), c.compared().values,
-                     c.compared().mismatches);
-}
-
 /// A warning where too few digits of the end of a step are left to rely on; empty otherwise.
 [[nodiscard]] std::string digit_warning(std::span<const step_record> steps);
 
@@ -104,4 +86,4 @@ template <class Comparing>
 /// The same, why the path ended, and warnings.
 [[nodiscard]] std::vector<std::string> end_messages(const run_result& r);
 
-}  // namespace contct::write
+}  // namespace contct

@@ -46,7 +46,7 @@ class Kernel(NamedTuple):
     words: str
 
 
-_CPP = "_ZN6contct7kernels6contctI{}EEiRNS0_4callIT_EESt4spanINS0_5eventELm18446744073709551615EE"
+_CPP = "_ZN6contct6contctI{}EEiRNS0_4callIT_EESt4spanINS0_5eventELm18446744073709551615EE"
 KERNELS = [
     Kernel("contc8_", 64, interfaces.fortran, "contct.f, 8-byte REAL"),
     Kernel("contc4_", 32, interfaces.fortran, "contct.f, 4-byte REAL"),

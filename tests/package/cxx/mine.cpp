@@ -3,12 +3,11 @@
 #include <contct/compare/compare.hpp>
 #include <contct/kernel/call.hpp>
 #include <contct/kernel/contct.hpp>
-#include <contct/outside/registry.hpp>
+#include <contct/kernel/registry.hpp>
 #include <cstdio>
 #include <vector>
 
-using namespace contct::compare;
-using namespace contct::kernels;
+using namespace contct;
 
 namespace {
 
@@ -31,7 +30,7 @@ void call_the_template() {
   std::vector<double> s(2);
   std::vector<event> events(2);
   call<double> c{d, d_star, faces, s, 0, nodes, status, above, {1, 1}};
-  const int happened = contct::kernels::contct(c, std::span(events));
+  const int happened = contct::contct(c, std::span(events));
   check(happened == 1 && events[0] == event{0, change::make}, "the event");
   check(c.smin == 0.25, "SMIN");
   check(s == std::vector{0.25, 0.75}, "SS");
@@ -47,7 +46,7 @@ void call_every_kernel() {
     std::vector<double> s(1);
     call<double> c{d, d_star, faces, s, 0, nodes, status, below, {2, 3}};
     const auto kernel = make_kernel(name);
-    if (kernel->facts().rule != contct::kernels::contact_rule::listing) continue;
+    if (kernel->facts().rule != contct::contact_rule::listing) continue;
     kernel->answer(c);
     check(c.smin == 0.0625 && s[0] == c.smin && status[0] == separated, name.c_str());
     check(kernel->take_text().find("BREAKING CONTACT") != std::string::npos, "the text of unit 26");

@@ -1,11 +1,11 @@
 // A whole path from the installed rooms: PB1, a cantilever over a stop at its tip.
 #include <cmath>
-#include <contct/outside/registry.hpp>
+#include <contct/kernel/registry.hpp>
+#include <contct/model/problem.hpp>
 #include <contct/path/solve_problem.hpp>
-#include <contct/structure/problem.hpp>
 #include <cstdio>
 
-using namespace contct::path;
+using namespace contct;
 
 namespace {
 

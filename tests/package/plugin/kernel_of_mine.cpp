@@ -1,10 +1,10 @@
 // The installed C++ CONTCT as a plug-in: a library of everything that contct::cxx has, behind the ABI of
 // plugin.h.
-#include <contct/outside/plugin.h>
+#include <contct/kernel/plugin.h>
 
-#include <contct/outside/registry.hpp>
+#include <contct/kernel/registry.hpp>
 
-using namespace contct::outside;
+using namespace contct;
 
 int contct_kernel_abi() {
   return CONTCT_KERNEL_ABI;

@@ -1,5 +1,5 @@
 // Loads the plug-in as a host does, by its two names, and puts a call to it.
-#include <contct/outside/plugin.h>
+#include <contct/kernel/plugin.h>
 #include <dlfcn.h>
 
 #include <cstdio>

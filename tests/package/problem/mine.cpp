@@ -1,11 +1,10 @@
 // A problem file, read and followed by the installed rooms.
-#include <contct/outside/registry.hpp>
+#include <contct/kernel/registry.hpp>
 #include <contct/path/solve_problem.hpp>
 #include <contct/read/problem_file.hpp>
 #include <cstdio>
 
-using namespace contct::path;
-using namespace contct::read;
+using namespace contct;
 
 namespace {
 

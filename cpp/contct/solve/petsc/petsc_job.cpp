@@ -17,7 +17,7 @@
 
 #include "contct/solve/mpi_job.hpp"
 
-namespace contct::solve {
+namespace contct {
 namespace {
 
 static_assert(std::is_same_v<PetscInt, int> && std::is_same_v<PetscScalar, double>);
@@ -291,10 +291,9 @@ std::unique_ptr<sparse_factor> petsc_job::share(const sparse_columns& a) {
 }
 
 }  // namespace
-}  // namespace contct::solve
+}  // namespace contct
 
-extern "C" __attribute__((visibility("default"))) contct::solve::mpi_job* contct_petsc_join(
-    const char* version) {
+extern "C" __attribute__((visibility("default"))) contct::mpi_job* contct_petsc_join(const char* version) {
   if (std::string(version) != CONTCT_VERSION) return nullptr;
-  return new contct::solve::petsc_job();  // as long as the process
+  return new contct::petsc_job();  // as long as the process
 }

@@ -1,0 +1,296 @@
+#include "contct/kernel/child_kernel.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <stdio_ext.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "contct/kernel/trace.hpp"
+
+namespace contct {
+namespace {
+
+using clock = std::chrono::steady_clock;
+
+[[noreturn]] void fail_to_start(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+/// Close the parent's files but for the channel, drop its unprinted text, and reset its signal handlers: a
+/// crash of the child must end it. No core dumps.
+void detach_from_parent(int channel) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  __fpurge(stdout);
+  const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+  dup2(nothing, STDIN_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+  for (const int signal :
+       {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS})
+    (void)std::signal(signal, SIG_DFL);
+  const auto kept = static_cast<unsigned>(channel);
+  if (kept > 3) close_range(3, kept - 1, 0);
+  close_range(kept + 1, ~0U, 0);
+}
+
+/// Wait until the channel is ready for `events`. False when the deadline comes first.
+bool ready(int channel, short events, clock::time_point deadline) {
+  while (true) {
+    using namespace std::chrono;
+    const std::int64_t left = ceil<milliseconds>(deadline - clock::now()).count();
+    pollfd p{channel, events, 0};
+    const int found = poll(&p, 1, static_cast<int>(std::clamp<std::int64_t>(left, 0, 1'000'000'000)));
+    if (found > 0) return true;
+    if (found == 0 || errno != EINTR) return false;
+  }
+}
+
+/// What came of a message: sent or received; not before the deadline; the channel is closed.
+enum class sent { whole, late, gone };
+
+/// A child process and a channel to it. The child ends with this object, and with its parent.
+class child_process {
+ public:
+  /// Fork; the child runs `body`, which gets its end of the channel and must not return to the caller's code:
+  /// when it returns, the child ends. Nothing else that is open in the parent is open in the child; what
+  /// it prints goes to standard error.
+  explicit child_process(const std::function<void(int channel)>& body) {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+      fail_to_start("no channel to an external kernel");
+    pid_ = fork();
+    if (pid_ < 0) {
+      close(ends[0]);
+      close(ends[1]);
+      fail_to_start("no process for an external kernel");
+    }
+    if (pid_ == 0) {
+      detach_from_parent(ends[1]);
+      body(ends[1]);
+      _exit(0);
+    }
+    close(ends[1]);
+    channel_ = ends[0];
+  }
+
+  ~child_process() { (void)end(); }
+  child_process(const child_process&) = delete;
+  child_process& operator=(const child_process&) = delete;
+
+  [[nodiscard]] sent send(std::string_view message, clock::time_point deadline) const {
+    while (!message.empty()) {
+      if (!ready(channel_, POLLOUT, deadline)) return sent::late;
+      const ssize_t n = ::send(channel_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (n < 0 && (errno == EAGAIN || errno == EINTR)) continue;
+      if (n <= 0) return sent::gone;
+      message.remove_prefix(n);
+    }
+    return sent::whole;
+  }
+
+  /// Append what comes next, at least a byte, to `message`.
+  [[nodiscard]] sent receive(std::string& message, clock::time_point deadline) const {
+    char block[1 << 14];
+    while (true) {
+      if (!ready(channel_, POLLIN, deadline)) return sent::late;
+      const ssize_t n = recv(channel_, block, sizeof block, 0);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return sent::gone;
+      message.append(block, n);
+      return sent::whole;
+    }
+  }
+
+  /// End the child. "was ended by signal 11 (Segmentation fault)", "ended with status 2", or, when it had to
+  /// be stopped, `was_stopped`.
+  std::string end() {
+    if (pid_ < 0) return was_stopped;
+    if (channel_ >= 0) close(channel_);
+    channel_ = -1;
+    // A child that is ending has a moment to do so: its status says how.
+    int status = 0;
+    pid_t waited = 0;
+    for (int i = 0; i < 50 && (waited = waitpid(pid_, &status, WNOHANG)) == 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(i < 10 ? 1 : 4));
+    const pid_t child = std::exchange(pid_, -1);
+    if (waited == 0) {
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      return was_stopped;
+    }
+    if (WIFSIGNALED(status)) {
+      const int signal = WTERMSIG(status);
+      return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+    }
+    return "ended with status " + std::to_string(WEXITSTATUS(status));
+  }
+
+  static constexpr const char* was_stopped = "was stopped";
+
+ private:
+  pid_t pid_ = -1;
+  int channel_ = -1;
+};
+
+bool is_whole_answer(std::string_view text) {
+  return text == "end\n" || text.ends_with("\nend\n");
+}
+
+/// A kernel that answers in a child process: one call as trace text in, one answer out.
+class kernel_in_child final : public kernel {
+ public:
+  /// `body` is what the child does. It `loads` something first, and says `ready_word` or what is wrong; this
+  /// throws std::invalid_argument then.
+  kernel_in_child(kernel_facts facts, std::function<void(int channel)> body, bool loads,
+                  const outside_limits& limits)
+      : facts_(std::move(facts)), body_(std::move(body)), loads_(loads), limits_(limits) {
+    if (!loads_) return;
+    if (const std::string wrong = start(); !wrong.empty())
+      throw std::invalid_argument(facts_.name + ": " + wrong);
+  }
+  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
+  std::string take_text() override { return std::exchange(text_, {}); }
+
+  void answer(call<double>& c) override {
+    refuse_when_enough();
+    if (child_) refuse_stray_answer();
+    if (!child_) {
+      if (const std::string wrong = start(); !wrong.empty()) fail(wrong, wrong == too_slow);
+    }
+    const auto until = deadline();
+    asked_.clear();
+    append_inputs({c, c.isep, {}, ++calls_}, "", asked_);
+    // More than any answer takes: a kernel that never stops talking must not take all memory.
+    const std::size_t most_answer = (std::size_t{1} << 20) + 1024 * c.ss.size();
+    sent how = child_->send(asked_, until);
+    answered_.clear();
+    while (how == sent::whole && !is_whole_answer(answered_) && answered_.size() <= most_answer)
+      how = child_->receive(answered_, until);
+    if (how != sent::whole) fail_without_answer(how);
+    if (answered_.size() > most_answer) fail("answered more than " + std::to_string(most_answer) + " bytes");
+    read_answer(c);
+  }
+
+ private:
+  static constexpr const char* too_slow = "did not load within its time";
+
+  [[nodiscard]] clock::time_point deadline() const { return clock::now() + limits_.patience; }
+
+  /// Make the child. Returns what is wrong with what it loads.
+  std::string start() {
+    child_.emplace(body_);
+    if (!loads_) return "";
+    std::string word;
+    const sent how = child_->receive(word, deadline());
+    if (how == sent::whole && word == ready_word) return "";
+    const std::string words = child_->end();
+    child_.reset();
+    if (how == sent::whole) return word;
+    return how == sent::late ? too_slow : words + " while it was loaded";
+  }
+
+  /// Throws kernel_failure when the kernel has failed too often to be asked again.
+  void refuse_when_enough() const {
+    if (failures_ < limits_.most_failures && waits_ < limits_.most_waits) return;
+    throw kernel_failure("is not called again after " + std::to_string(failures_ + waits_) +
+                         " failures; the last: it " + last_);
+  }
+
+  /// End the child, and throw a failure, for which the caller had to wait or not.
+  [[noreturn]] void fail(const std::string& words, bool waited = false) {
+    child_.reset();
+    ++(waited ? waits_ : failures_);
+    last_ = words;
+    throw kernel_failure("it " + words);
+  }
+
+  /// End the child, and throw what kept a message from being sent or received whole.
+  [[noreturn]] void fail_without_answer(sent how) {
+    const std::string words = child_->end();
+    if (how == sent::late)
+      fail("did not answer within " + std::to_string(limits_.patience.count()) + " ms", true);
+    if (words == child_process::was_stopped) fail("closed its end of the pipe", true);  // and went on running
+    fail(words);
+  }
+
+  /// What comes before anything is asked would be taken for the answer.
+  void refuse_stray_answer() {
+    answered_.clear();
+    if (child_->receive(answered_, clock::now()) == sent::whole) fail("answered without being called");
+  }
+
+  void read_answer(call<double>& c) {
+    if (answered_.starts_with(fault_word))  // with a fresh child next: what else it did is not known
+      fail(answered_.substr(fault_word.size(), answered_.find('\n') - fault_word.size()));
+    out_.ss.resize(c.ss.size());
+    out_.isep.resize(c.ss.size());
+    try {
+      trace_reader reader(answered_, "its answer");
+      reader.read_answer(out_);
+      if (reader.line() != std::count(answered_.begin(), answered_.end(), '\n'))
+        throw input_error("its answer continues after \"end\"");
+    } catch (const input_error& e) {
+      fail(std::string("gave an invalid answer: ") + e.what());
+    }
+    c.smin = out_.smin;
+    std::copy(out_.ss.begin(), out_.ss.end(), c.ss.begin());
+    std::copy(out_.isep.begin(), out_.isep.end(), c.isep.begin());
+    text_ += out_.text;
+  }
+
+  kernel_facts facts_;
+  std::function<void(int channel)> body_;
+  bool loads_;
+  outside_limits limits_;
+  std::optional<child_process> child_;
+  int failures_ = 0;
+  int waits_ = 0;
+  std::string last_;
+  std::int64_t calls_ = 0;
+  std::string asked_, answered_, text_;
+  call_outputs out_;
+};
+
+/// The child becomes the command, with the channel as its standard input and output.
+void become(const std::string& command, int channel) {
+  dup2(channel, STDIN_FILENO);
+  dup2(channel, STDOUT_FILENO);
+  close(channel);
+  execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+  _exit(127);
+}
+
+}  // namespace
+
+std::unique_ptr<kernel> make_pipe(const std::string& command, const outside_limits& limits) {
+  return std::make_unique<kernel_in_child>(
+      facts_of_outside("pipe:" + command, "a command"), [command](int channel) { become(command, channel); },
+      false, limits);
+}
+
+std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limits& limits) {
+  return std::make_unique<kernel_in_child>(
+      facts_of_outside("plugin:" + path, "a shared library"),
+      [path](int channel) { host_plugin(path, channel); }, true, limits);
+}
+
+}  // namespace contct

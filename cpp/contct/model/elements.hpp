@@ -1,0 +1,285 @@
+// The elements of beams and plates in numbers of any kind: stiffness, loads, and what is read off them. Each
+// class has the same functions, from which equations.hpp and build assemble a structure.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "contct/model/element_formulas.hpp"
+#include "contct/model/line.hpp"
+
+namespace contct {
+
+/// What a load does on the shape functions of one element, and the magnitudes that this is summed from.
+template <class Number, std::size_t Dofs>
+struct element_work {
+  std::array<int, Dofs> dofs{};
+  std::array<Number, Dofs> force{};
+  std::array<double, Dofs> size{};
+};
+
+template <class Number>
+class beam_elements {
+ public:
+  /// `b` must outlive this object.
+  explicit beam_elements(const beam& b) : beam_(b), h_(line<Number>(b.x, b.runs).lengths()) {
+    for (std::size_t e = 0; e < b.EI.size(); ++e)  // most beams have one stiffness
+      EI_.push_back(e > 0 && b.EI[e] == b.EI[e - 1] ? EI_.back() : number_of<Number>(b.EI[e]));
+  }
+
+  [[nodiscard]] int count() const { return beam_.elements(); }
+  [[nodiscard]] const std::vector<Number>& lengths() const { return h_; }
+  [[nodiscard]] const Number& EI(int e) const { return EI_[e]; }
+  [[nodiscard]] static std::array<int, 4> dofs_of(int e) { return {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3}; }
+  /// Have two elements the same stiffness?
+  [[nodiscard]] bool are_alike(int e, int other) const {
+    return h_[e] == h_[other] && beam_.EI[e] == beam_.EI[other];
+  }
+  [[nodiscard]] std::array<std::array<Number, 4>, 4> stiffness(int e) const {
+    return formulas::beam_stiffness(EI(e), h_[e]);
+  }
+
+  /// Call visit(element, work) for every load on every element.
+  template <class Visit>
+  void for_each_work(const load& l, const Visit& visit) const {
+    if constexpr (std::is_same_v<Number, double>) {
+      for_each_loaded_element(l, count(), [&](int e, std::span<const double> polynomial) {
+        const auto force = formulas::beam_load_between(polynomial, beam_.x[e], h_[e]);
+        visit(e, element_work<double, 4>{dofs_of(e), force, {}});
+      });
+    } else {
+      for_each_polynomial<Number>(beam_, l, [&](int e, const load_on_element<Number>& on) {
+        element_work<Number, 4> work{dofs_of(e), formulas::beam_load<Number>(on.q, h_[e]), {}};
+        const double size = on.size * size_of(h_[e]);
+        for (std::size_t i = 0; i < 4; ++i) work.size[i] = size * (i % 2 == 0 ? 1.0 : size_of(h_[e]));
+        visit(e, work);
+      });
+    }
+  }
+
+  /// Of each element: shear at its left and right ends, moment there.
+  [[nodiscard]] std::vector<std::array<Number, 4>> end_forces(const load& l,
+                                                              std::span<const Number> u) const {
+    std::vector<std::array<Number, 4>> forces;
+    forces.reserve(h_.size());
+    for (int e = 0; e < count(); ++e)
+      forces.push_back(formulas::beam_end_forces<Number>(EI(e), h_[e], u.subspan(2 * e).template first<4>()));
+    for_each_work(l, [&](int e, const element_work<Number, 4>& work) {
+      forces[e][0] -= work.force[0];
+      forces[e][1] += work.force[2];
+      forces[e][2] += work.force[1];
+      forces[e][3] -= work.force[3];
+    });
+    return forces;
+  }
+
+  /// The same for each quantity of element_results, one element after the other.
+  [[nodiscard]] std::vector<Number> values(const load& l, std::span<const Number> u) const {
+    std::vector<Number> all;
+    for (const auto& of_element : end_forces(l, u))
+      all.insert(all.end(), of_element.begin(), of_element.end());
+    return all;
+  }
+
+  /// Add to `need` [dofs] what the elements beside each dof need there, beyond the loads on them.
+  void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
+    const auto forces = end_forces(l, u);
+    for (std::size_t e = 0; e < forces.size(); ++e) {
+      const auto& [left_shear, right_shear, left_moment, right_moment] = forces[e];
+      need[2 * e] += left_shear;
+      need[2 * e + 1] -= left_moment;
+      need[2 * e + 2] -= right_shear;
+      need[2 * e + 3] += right_moment;
+    }
+  }
+
+  /// The length that each node stands for.
+  [[nodiscard]] std::vector<Number> shares() const { return tributary_lengths<Number>(h_); }
+
+ private:
+  const beam& beam_;
+  std::vector<Number> h_, EI_;
+};
+
+template <class Number>
+class plate_elements {
+ public:
+  using vector = std::array<Number, 12>;
+
+  /// Half an element's width and height.
+  struct halves {
+    Number a, b;
+  };
+
+  /// `p` must outlive this object.
+  explicit plate_elements(const plate& p)
+      : plate_(p),
+        width_(line<Number>(p.x, p.x_runs).lengths()),
+        height_(line<Number>(p.y, p.y_runs).lengths()),
+        D_(stiffness_of<Number>(p)),
+        nu_(number_of<Number>(p.nu)) {}
+
+  [[nodiscard]] int count() const { return plate_.elements(); }
+  [[nodiscard]] const Number& D() const { return D_; }
+  [[nodiscard]] const Number& nu() const { return nu_; }
+  [[nodiscard]] std::array<int, 12> dofs_of(int e) const { return plate_.dofs_of(e); }
+  [[nodiscard]] halves halves_of(int e) const {
+    return {width_[e % (plate_.columns() - 1)] / 2, height_[e / (plate_.columns() - 1)] / 2};
+  }
+
+  [[nodiscard]] bool are_alike(int e, int other) const {
+    const halves own = halves_of(e);
+    const halves others = halves_of(other);
+    return own.a == others.a && own.b == others.b;
+  }
+  [[nodiscard]] std::array<vector, 12> stiffness(int e) const {
+    const halves own = halves_of(e);
+    return formulas::plate_stiffness(own.a, own.b, D_, nu_);
+  }
+
+  /// Work of a unit pressure on the shape functions.
+  [[nodiscard]] vector unit_pressure_on(int e) const {
+    const halves own = halves_of(e);
+    return formulas::plate_unit_load(own.a, own.b);
+  }
+
+  /// The pressure on an element, and the magnitudes that it is the sum of.
+  struct summed_pressure {
+    Number value{};
+    double size = 0.0;
+  };
+  /// On every element: all the distributed loads together.
+  [[nodiscard]] std::vector<summed_pressure> pressures(const load& l) const {
+    std::vector<summed_pressure> sums(count());
+    for (const distributed_load& d : l.distributed) {
+      const std::vector<Number> q = coefficients_of<Number>(d);
+      if (q.size() != 1) throw std::invalid_argument("the pressure on a plate's element is constant");
+      for_each_loaded_element(d, count(), [&](int e) {
+        sums[e].value += q[0];
+        sums[e].size += size_of(q[0]);
+      });
+    }
+    return sums;
+  }
+
+  /// Call visit(element, work) for every element, with all the loads on it together.
+  template <class Visit>
+  void for_each_work(const load& l, const Visit& visit) const {
+    if (l.distributed.empty()) return;
+    const std::vector<summed_pressure> pressure = pressures(l);
+    for (int e = 0; e < count(); ++e) {
+      const vector unit = unit_pressure_on(e);
+      element_work<Number, 12> work{dofs_of(e), {}, {}};
+      for (std::size_t i = 0; i < 12; ++i) {
+        work.force[i] = pressure[e].value * unit[i];
+        work.size[i] = pressure[e].size * size_of(unit[i]);
+      }
+      visit(e, work);
+    }
+  }
+
+  [[nodiscard]] vector displacement(int e, std::span<const Number> u) const {
+    vector own;
+    std::size_t next = 0;
+    for (const int dof : dofs_of(e)) own[next++] = u[dof];
+    return own;
+  }
+  /// What bends an element: see plate_deformation.
+  [[nodiscard]] vector deformation(int e, std::span<const Number> u) const {
+    const halves own = halves_of(e);
+    return formulas::plate_deformation(own.a, own.b, displacement(e, u));
+  }
+  /// What its nodes need to be held at `u`.
+  [[nodiscard]] vector forces(int e, std::span<const Number> u) const {
+    const halves own = halves_of(e);
+    return formulas::plate_forces(own.a, own.b, D_, nu_, displacement(e, u));
+  }
+  /// M_x, M_y and M_xy at its corners: see element_results.
+  [[nodiscard]] std::array<std::array<Number, 4>, 3> moments(int e, std::span<const Number> u) const {
+    const halves own = halves_of(e);
+    const auto at = formulas::curvatures_at_corners(own.a, own.b, deformation(e, u));
+    std::array<std::array<Number, 4>, 3> m{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      m[0][k] = D_ * (at[k].xx + nu_ * at[k].yy);
+      m[1][k] = D_ * (at[k].yy + nu_ * at[k].xx);
+      m[2][k] = D_ * (1 - nu_) * at[k].xy;
+    }
+    return m;
+  }
+
+  /// The moments of all elements, one after the other.
+  [[nodiscard]] std::vector<Number> values(const load& /*l*/, std::span<const Number> u) const {
+    std::vector<Number> all;
+    for (int e = 0; e < count(); ++e)
+      for (const auto& quantity : moments(e, u)) all.insert(all.end(), quantity.begin(), quantity.end());
+    return all;
+  }
+
+  /// Add to `need` [dofs] what the elements beside each dof need there, beyond the loads on them.
+  void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
+    const std::vector<summed_pressure> pressure = pressures(l);
+    for (int e = 0; e < count(); ++e) {
+      const std::array<int, 12> dofs = dofs_of(e);
+      const vector held = forces(e, u);
+      const vector unit = unit_pressure_on(e);
+      for (std::size_t i = 0; i < 12; ++i) {
+        need[dofs[i]] += held[i];
+        need[dofs[i]] -= pressure[e].value * unit[i];
+      }
+    }
+  }
+
+  /// The area that each node stands for: a quarter of each element beside it.
+  [[nodiscard]] std::vector<Number> shares() const {
+    std::vector<Number> areas;
+    areas.reserve(plate_.nodes());
+    const std::vector<Number> widths = tributary_lengths<Number>(width_);
+    for (const Number& height : tributary_lengths<Number>(height_))
+      for (const Number& width : widths) areas.push_back(width * height);
+    return areas;
+  }
+
+ private:
+  const plate& plate_;
+  std::vector<Number> width_, height_;  // of columns and rows of elements
+  Number D_, nu_;
+};
+
+/// A structure that another program has assembled has none, nor any lengths or areas.
+template <class Number>
+struct no_elements {
+  template <class Visit>
+  void for_each_work(const load& /*l*/, const Visit& /*visit*/) const {}
+  [[nodiscard]] static std::vector<Number> shares() { return {}; }
+  [[nodiscard]] static std::vector<Number> values(const load& /*l*/, std::span<const Number> /*u*/) {
+    return {};
+  }
+};
+
+template <class Number>
+[[nodiscard]] beam_elements<Number> elements_of(const beam& b) {
+  return beam_elements<Number>(b);
+}
+template <class Number>
+[[nodiscard]] plate_elements<Number> elements_of(const plate& p) {
+  return plate_elements<Number>(p);
+}
+template <class Number>
+[[nodiscard]] no_elements<Number> elements_of(const assembled& /*a*/) {
+  return {};
+}
+
+/// Call add(element, dofs, stiffness) for every element.
+template <class Elements, class Add>
+void for_each_stiffness(const Elements& elements, const Add& add) {
+  decltype(elements.stiffness(0)) own{};
+  for (int e = 0; e < elements.count(); ++e) {
+    if (e == 0 || !elements.are_alike(e, e - 1)) own = elements.stiffness(e);
+    add(e, elements.dofs_of(e), own);
+  }
+}
+
+}  // namespace contct

@@ -1,0 +1,180 @@
+// The equations of a problem: K, supports, pairs and loads in numbers of one kind. In pairs of doubles they
+// are what the certificate proves errors with, in rational numbers what the exact path solves.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "contct/model/elements.hpp"
+
+namespace contct {
+
+/// The entries of a row that may differ from 0, by column.
+template <class Number>
+class sparse_row {
+ public:
+  using entry = std::pair<int, Number>;
+
+  sparse_row() = default;
+  sparse_row(std::initializer_list<entry> entries) : entries_(entries) {}
+
+  /// The entry, which is 0 at first.
+  Number& operator[](int column) {
+    constexpr std::size_t of_a_beam = 6;  // most structures are beams, and have as many entries a row
+    if (entries_.empty()) entries_.reserve(of_a_beam);
+    const auto place = std::ranges::lower_bound(entries_, column, {}, &entry::first);
+    if (place != entries_.end() && place->first == column) return place->second;
+    return entries_.insert(place, {column, Number(0)})->second;
+  }
+  /// The entry; 0 where the row has none.
+  [[nodiscard]] Number at(int column) const {
+    const auto place = std::ranges::lower_bound(entries_, column, {}, &entry::first);
+    return place != entries_.end() && place->first == column ? place->second : Number(0);
+  }
+  [[nodiscard]] auto begin() const { return entries_.begin(); }
+  [[nodiscard]] auto end() const { return entries_.end(); }
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+
+ private:
+  std::vector<entry> entries_;
+};
+
+/// A symmetric matrix, all entries of each row.
+template <class Number>
+using sparse_rows = std::vector<sparse_row<Number>>;
+
+/// A candidate pair: n, its face c and its stiffness k.
+template <class Number>
+struct pair_in {
+  int dof = 0;
+  int surface = 0;  ///< n: face_above (+1) or face_below (-1)
+  Number face{}, stiffness{};
+  bool closed = false;  ///< in contact at the start
+};
+
+/// A permanent support.
+template <class Number>
+struct support_in {
+  int dof;
+  bool fixed;
+  Number spring;
+};
+
+/// What acts at the end of a step.
+template <class Number>
+struct loads_in {
+  std::vector<Number> force;       ///< [dofs] consistent loads
+  std::vector<double> size;        ///< [dofs] the sum of their parts' magnitudes; 0 of rational numbers
+  std::vector<Number> settlement;  ///< [dofs] what fixed dofs are moved to; 0 at all others
+};
+
+template <class Number>
+struct equations {
+  sparse_rows<Number> stiffness;  ///< with elastic supports, rows of fixed dofs too
+  std::vector<char> fixed;        ///< [dofs]
+  std::vector<support_in<Number>> supports;
+  std::vector<pair_in<Number>> pairs;
+  /// The loads that these are, all at once.
+  std::function<loads_in<Number>(const load&)> loads_of;
+
+  [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
+};
+
+template <class Number, class Kind, class Elements>
+void assemble(const Kind& /*kind*/, const Elements& elements, sparse_rows<Number>& k) {
+  for_each_stiffness(elements, [&k](int /*e*/, const auto& dofs, const auto& own) {
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      for (std::size_t j = 0; j < dofs.size(); ++j) k[dofs[i]][dofs[j]] += own[i][j];
+  });
+}
+
+template <class Number>
+void assemble(const assembled& a, const no_elements<Number>& /*none*/, sparse_rows<Number>& k) {
+  for (const matrix_entry& m : a.stiffness.entries) {
+    const auto value = number_of<Number>(m.value);
+    k[m.row][m.column] += value;
+    if (m.row != m.column) k[m.column][m.row] += value;
+  }
+}
+
+/// Elastic supports go into the stiffness.
+template <class Number>
+void put_on_supports(const problem& p, equations<Number>& e) {
+  const int per_node = dofs_per_node(p.geometry);
+  for (std::size_t dof = 0; dof < e.dofs(); ++dof) e.stiffness[dof][static_cast<int>(dof)] += Number(0);
+  for (const support& s : p.supports) {
+    const int dof = s.node * per_node + s.dof;
+    e.supports.push_back({dof, s.fixed, s.fixed ? Number(0) : number_of<Number>(s.spring)});
+    if (s.fixed) e.fixed[dof] = 1;
+    e.stiffness[dof][dof] += e.supports.back().spring;
+  }
+}
+
+/// The stiffness of a bed's pair is its modulus times the node's share of the structure. Where its faces are
+/// a polynomial, a pair is in contact where the face is 0, unless the file says otherwise.
+template <class Number, class Elements>
+void add_pairs(const problem& p, const Elements& elements, equations<Number>& e) {
+  for (const contact_pair& c : p.pairs)
+    e.pairs.push_back({c.node * dofs_per_node(p.geometry), c.surface, number_of<Number>(c.face),
+                       number_of<Number>(c.stiffness), c.closed});
+  if (p.beds.empty()) return;
+  const std::vector<Number> shares = elements.shares();
+  for (const bed& b : p.beds) {
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < b.share.size(); ++i) {
+      nodes.push_back(p.pairs[b.first_pair + i].node);
+      e.pairs[b.first_pair + i].stiffness = number_of<Number>(b.modulus) * shares[nodes.back()];
+    }
+    if (b.face.empty()) continue;
+    const auto faces = values_at<Number>(std::get<beam>(p.geometry.kind), b.face, nodes);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      e.pairs[b.first_pair + i].face = faces[i];
+      e.pairs[b.first_pair + i].closed = b.closed.value_or(faces[i] == Number(0));
+    }
+  }
+}
+
+template <class Number, class Elements>
+[[nodiscard]] loads_in<Number> loads_in_numbers(const load& l, const Elements& elements, std::size_t dofs,
+                                                int per_node) {
+  loads_in<Number> f{std::vector<Number>(dofs), std::vector<double>(dofs), std::vector<Number>(dofs)};
+  for (const auto& [dof, values] : point_loads_at(l, per_node)) {
+    f.force[dof] = sum_of<Number>(values);
+    f.size[dof] = size_of(f.force[dof]);
+  }
+  elements.for_each_work(l, [&](int /*e*/, const auto& work) {
+    for (std::size_t i = 0; i < work.dofs.size(); ++i) {
+      f.force[work.dofs[i]] += work.force[i];
+      f.size[work.dofs[i]] += work.size[i];
+    }
+  });
+  for (const prescribed_displacement& g : l.settlements)
+    f.settlement[g.node * per_node + g.dof] += number_of<Number>(g.value);
+  return f;
+}
+
+/// `p` must outlive them.
+template <class Number>
+[[nodiscard]] equations<Number> equations_of(const problem& p) {
+  equations<Number> e;
+  e.fixed.assign(dofs(p.geometry), 0);
+  e.stiffness.resize(e.fixed.size());
+  std::visit(
+      [&](const auto& geometry) {
+        const auto elements = elements_of<Number>(geometry);
+        assemble(geometry, elements, e.stiffness);
+        put_on_supports(p, e);
+        add_pairs(p, elements, e);
+        e.loads_of = [elements, n = e.dofs(), per_node = dofs_per_node(p.geometry)](const load& l) {
+          return loads_in_numbers<Number>(l, elements, n, per_node);
+        };
+      },
+      p.geometry.kind);
+  return e;
+}
+
+}  // namespace contct

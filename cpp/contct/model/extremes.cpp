@@ -1,0 +1,215 @@
+#include "contct/model/extremes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "contct/model/line.hpp"
+
+namespace contct {
+namespace {
+
+/// Polynomials, constant first.
+using poly = std::vector<double>;
+
+poly derivative(const poly& p) {
+  poly d;
+  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(static_cast<double>(i) * p[i]);
+  return d;
+}
+
+/// A zero of p between a and b, where it has different signs.
+double zero_between(const poly& p, double a, double b) {
+  const bool rises = polynomial_at(p, a) < 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = a + (b - a) / 2;
+    if (middle <= a || middle >= b) break;
+    (polynomial_at(p, middle) < 0.0) == rises ? a = middle : b = middle;
+  }
+  return a;
+}
+
+/// Where p changes its sign between 0 and 1, in order: at most once between neighbouring zeros of its
+/// derivative.
+std::vector<double> zeros_of(const poly& p) {
+  if (p.size() < 2) return {};
+  std::vector<double> borders = zeros_of(derivative(p));
+  borders.insert(borders.begin(), 0.0);
+  borders.push_back(1.0);
+  std::vector<double> zeros;
+  for (std::size_t i = 0; i + 1 < borders.size(); ++i)
+    if ((polynomial_at(p, borders[i]) < 0.0) != (polynomial_at(p, borders[i + 1]) < 0.0))
+      zeros.push_back(zero_between(p, borders[i], borders[i + 1]));
+  return zeros;
+}
+
+/// Values of one quantity. Values that differ by less than rounding may (mirror images, say) are equal: the
+/// first of them has the place.
+class extremes {
+ public:
+  extremes(std::string_view name, const placed_value& first)
+      : name_(name), least_{first, first.value}, most_{first, first.value} {}
+
+  /// `from`: an extreme at this x or beyond is v's neighbour, and gives its place to v.
+  void take(const placed_value& v, double from = std::numeric_limits<double>::infinity()) {
+    if (v.value < least_.shown.value) least_.follow(v, from);
+    if (v.value > most_.shown.value) most_.follow(v, from);
+  }
+
+  /// The line of a beam's element. Its ends, by `left_value` and `right_value`, are not computed from the
+  /// polynomial.
+  void take_element(const element_line& line, int e, const poly& p, double left_value, double right_value) {
+    take({left_value, line.left, 0.0, e}, line.left);
+    take({right_value, line.left + line.h, 0.0, e + 1}, line.left);
+    const poly hull = bernstein_of(p);
+    const auto [least, most] = std::ranges::minmax(hull);
+    if (least >= least_.shown.value && most <= most_.shown.value) return;
+    for (const double t : zeros_of(derivative(p)))
+      take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, line.left);
+  }
+
+  [[nodiscard]] value_range range() const { return {name_, least_.shown, most_.shown}; }
+
+ private:
+  struct extreme {
+    placed_value shown;
+    double at_place;  // which rounding may have made less extreme than the value shown
+
+    void follow(const placed_value& v, double from) {
+      const bool equal = std::abs(v.value - at_place) <= equal_values * std::abs(v.value);
+      shown.value = v.value;
+      if (equal && shown.x < from) return;
+      shown = v;
+      at_place = v.value;
+    }
+  };
+  static constexpr double equal_values = 1e-9;
+  std::string_view name_;
+  extreme least_, most_;
+};
+
+/// The deflection of a beam's node.
+double w_at(std::span<const double> u, std::size_t node) {
+  return u[beam::dofs_per_node * node];
+}
+
+std::vector<value_range> ranges(const beam& b, const load& l, std::span<const double> u,
+                                std::span<const int> /*deflecting*/, std::span<const double> element_values) {
+  const beam_lines lines(b, l, u, element_values);
+  const element_line first = lines.at(0);
+  const auto start = [&](double value) { return placed_value{value, b.x.front(), 0.0, 0}; };
+  extremes w("w", start(u[0]));
+  extremes moment("moment", start(first.moment.front()));
+  extremes shear("shear", start(first.shear.front()));
+  for (int e = 0; e < b.elements(); ++e) {
+    const element_line line = lines.at(e);
+    const auto shears = lines.ends().at(e, 0);
+    const auto moments = lines.ends().at(e, 1);
+    w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
+    moment.take_element(line, e, line.moment, moments[0], moments[1]);
+    shear.take_element(line, e, line.shear, shears[0], shears[1]);
+  }
+  return {w.range(), moment.range(), shear.range()};
+}
+
+std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<const double> u,
+                                std::span<const int> /*deflecting*/, std::span<const double> element_values) {
+  const auto at = [&](int node, double value) {
+    return placed_value{value, p.x[node % p.columns()], p.y[node / p.columns()], node};
+  };
+  std::vector<value_range> all;
+  extremes w("w", at(0, u[0]));
+  for (int node = 1; node < p.nodes(); ++node) w.take(at(node, u[std::size_t{plate::dofs_per_node} * node]));
+  all.push_back(w.range());
+  element_results moments = results_in_elements(model{p}, {}, u);
+  if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
+  for (std::size_t name = 0; name < moments.names.size(); ++name) {
+    extremes moment(moments.names[name], at(0, moments.at(0, name)[0]));
+    for (int e = 0; e < p.elements(); ++e)
+      for (std::size_t k = 0; k < 4; ++k) moment.take(at(p.corners_of(e)[k], moments.at(e, name)[k]));
+    all.push_back(moment.range());
+  }
+  return all;
+}
+
+std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::span<const double> u,
+                                std::span<const int> deflecting, std::span<const double> /*element_values*/) {
+  if (deflecting.empty()) return {};
+  const auto at = [&](int dof) { return placed_value{u[dof], 0.0, 0.0, dof}; };
+  extremes w("w", at(deflecting.front()));
+  for (const int dof : deflecting) w.take(at(dof));
+  return {w.range()};
+}
+
+}  // namespace
+
+std::vector<double> bernstein_of(std::span<const double> p) {
+  const std::size_t degree = p.size() - 1;
+  poly b(p.begin(), p.end());  // b_j = sum over i <= j of C(j, i) / C(degree, i) p_i
+  double choose = 1.0;
+  for (std::size_t i = 1; i <= degree; ++i) {
+    choose *= static_cast<double>(degree - i + 1) / static_cast<double>(i);
+    b[i] = p[i] / choose;
+  }
+  for (std::size_t round = 0; round < degree; ++round)
+    for (std::size_t j = degree; j > round; --j) b[j] += b[j - 1];
+  return b;
+}
+
+value_range deflections_between(const beam& b, const beam_lines& lines, std::span<const double> u, int first,
+                                int last) {
+  extremes w("w", {w_at(u, first), b.x[first], 0.0, first});
+  for (int e = first; e < last; ++e) {
+    const element_line line = lines.at(e);
+    w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
+  }
+  return w.range();
+}
+
+beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
+                       std::span<const double> element_values)
+    : beam_(b), u_(u), ends_(results_in_elements(model{b}, l, u)), loads_(b.elements()) {
+  if (!element_values.empty()) ends_.values.assign(element_values.begin(), element_values.end());
+  for (const auto& h : line<double_double>(b.x, b.runs).lengths()) h_.push_back(h.hi);
+  for_each_polynomial<double_double>(b, l, [&](int e, const auto& on) {
+    auto& sum = loads_[e];
+    sum.q.resize(std::max(sum.q.size(), on.q.size()));
+    for (std::size_t i = 0; i < on.q.size(); ++i) sum.q[i] += on.q[i];
+    sum.size += on.size;
+  });
+}
+
+element_line beam_lines::at(int e) const {
+  const double h = h_[e];
+  const double EI = beam_.EI[e];
+  poly q;
+  for (const double_double& of_power : loads_[e].q) q.push_back(of_power.hi);
+  const std::size_t size = q.size();
+  element_line line{beam_.x[e], h, poly(size + 4), {}, {}, {}, q, loads_[e].size};
+  line.shear.assign(size + 1, 0.0);
+  line.moment.assign(size + 2, 0.0);
+  line.shear[0] = ends_.at(e, 0)[0];
+  line.moment[0] = ends_.at(e, 1)[0];
+  line.moment[1] = line.shear[0] * h;
+  for (std::size_t j = 0; j < size; ++j) {  // dV/dx = q, dM/dx = V
+    const auto n = static_cast<double>(j);
+    line.shear[j + 1] = q[j] * h / (n + 1);
+    line.moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
+  }
+  line.w[0] = w_at(u_, e);
+  line.w[1] = u_[2 * e + 1] * h;
+  for (std::size_t i = 0; i < line.moment.size(); ++i) {  // EI w'' = M
+    const auto n = static_cast<double>(i);
+    line.w[i + 2] = line.moment[i] * h * h / EI / (n + 1) / (n + 2);
+  }
+  for (double d : derivative(line.w)) line.slope.push_back(d / h);
+  return line;
+}
+
+std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
+                                   std::span<const int> deflecting, std::span<const double> element_values) {
+  return std::visit([&](const auto& kind) { return ranges(kind, l, u, deflecting, element_values); }, m.kind);
+}
+
+}  // namespace contct

@@ -1,0 +1,74 @@
+// What an engineer reads off a whole structure: a beam's exact line between its nodes, and where each
+// quantity is largest and smallest.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "contct/model/element_formulas.hpp"
+#include "contct/model/problem.hpp"
+
+namespace contct {
+
+/// An element of a beam, exactly: the solution of EI w_xxxx = q with the displacements of its nodes. Each
+/// quantity is a polynomial in t = (x - left) / h, from 0 to 1, constant first (see polynomial_at).
+struct element_line {
+  double left = 0.0, h = 0.0;
+  std::vector<double> w, slope, moment, shear, load;
+  double load_size = 0.0;  ///< see load_on_element
+};
+
+/// The lines of all elements under displacement `u` [dofs] and load `l`.
+class beam_lines {
+ public:
+  /// `b` and `u` must outlive this object. `element_values`: those of the ends of elements, as
+  /// element_results has them, where they are known better than from `u`.
+  beam_lines(const beam& b, const load& l, std::span<const double> u,
+             std::span<const double> element_values = {});
+
+  /// Element `e`, from 0.
+  [[nodiscard]] element_line at(int e) const;
+  /// Shear and moment at the ends of the elements.
+  [[nodiscard]] const element_results& ends() const { return ends_; }
+
+ private:
+  const beam& beam_;
+  std::span<const double> u_;
+  element_results ends_;
+  std::vector<double> h_;                              // of each element
+  std::vector<load_on_element<double_double>> loads_;  // likewise; without coefficients: none
+};
+
+/// The coefficients of a polynomial in Bernstein's form: from t = 0 to 1 it is between the least and the
+/// largest of them.
+[[nodiscard]] std::vector<double> bernstein_of(std::span<const double> polynomial);
+
+/// A value, and where it is: its place along the structure, and its node (from 0) where it is at one.
+struct placed_value {
+  double value = 0.0;
+  double x = 0.0, y = 0.0;
+  int node = -1;
+};
+
+/// The least and the largest value of one quantity.
+struct value_range {
+  std::string_view name;
+  placed_value least, most;
+
+  /// The larger of the two by magnitude.
+  [[nodiscard]] const placed_value& largest() const { return -least.value > most.value ? least : most; }
+};
+
+/// The least and the largest deflection from node `first` to node `last` > `first`, between nodes too.
+[[nodiscard]] value_range deflections_between(const beam& b, const beam_lines& lines,
+                                              std::span<const double> u, int first, int last);
+
+/// Beams: "w", "moment" and "shear" over the whole length. Plates: "w" at nodes, "mx", "my" and "mxy" at the
+/// corners of elements. A matrix: the displacements of the dofs among `deflecting`, as "w". Of equal values
+/// (to 1e-9 of them), the first one's place. `element_values`: see beam_lines.
+[[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
+                                                 std::span<const int> deflecting,
+                                                 std::span<const double> element_values = {});
+
+}  // namespace contct

@@ -1,0 +1,138 @@
+#include "contct/model/line.hpp"
+
+#include <cmath>
+
+#include "contct/number/rational.hpp"
+
+namespace contct {
+
+namespace {
+
+/// The number of a kind that is nearest to an exact one.
+template <class Number>
+Number nearest(const rational& x) {
+  if constexpr (std::is_same_v<Number, double>) return contct::rounded(x);
+  if constexpr (std::is_same_v<Number, double_double>) return long_rounded(x);
+  if constexpr (std::is_same_v<Number, rational>) return x;
+}
+
+template <class Number>
+std::vector<Number> nearest(std::span<const rational> exactly) {
+  std::vector<Number> all;
+  all.reserve(exactly.size());
+  for (const rational& x : exactly) all.push_back(nearest<Number>(x));
+  return all;
+}
+
+/// A whole number that is a sum or difference of two such ones is a double, too.
+bool is_whole(double x) {
+  return x == std::trunc(x) && std::abs(x) < 0x1p52;
+}
+
+rational exact_sum_of(std::span<const double> all) {
+  rational sum;
+  for (const double x : all) sum += decimal_of(x);
+  return sum;
+}
+
+/// A polynomial at a point.
+rational value_at(std::span<const rational> polynomial, const rational& x) {
+  rational sum;
+  for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * x + polynomial[i];
+  return sum;
+}
+
+std::vector<rational> exact_coefficients(const distributed_load& d) {
+  std::vector<rational> sum(d.polynomial.size());
+  const auto add = [&sum](std::span<const double> part) {
+    for (std::size_t i = 0; i < part.size(); ++i) sum[i] += decimal_of(part[i]);
+  };
+  if (d.parts.empty()) add(d.polynomial);
+  for (const std::vector<double>& part : d.parts) add(part);
+  return sum;
+}
+
+template <class Number>
+load_on_element<Number> rounded_load(std::span<const rational> q) {
+  load_on_element<Number> on{nearest<Number>(q), 0.0};
+  for (const Number& coefficient : on.q) on.size += size_of(coefficient);
+  return on;
+}
+
+}  // namespace
+
+template <class Number>
+Number number_of(double x) {
+  return is_whole(x) ? Number(x) : nearest<Number>(decimal_of(x));
+}
+
+template <class Number>
+Number difference_of(double a, double b) {
+  return is_whole(a) && is_whole(b) ? Number(a - b) : nearest<Number>(decimal_of(a) - decimal_of(b));
+}
+
+template <class Number>
+Number sum_of(std::span<const double> all) {
+  return nearest<Number>(exact_sum_of(all));
+}
+
+template <>
+double sum_of(std::span<const double> all) {
+  if (all.size() > 1 && exact_sum_of(all) == 0) return 0.0;
+  double sum = 0.0;
+  for (const double x : all) sum += x;
+  return sum;
+}
+
+template <class Number>
+std::vector<Number> coefficients_of(const distributed_load& d) {
+  return nearest<Number>(exact_coefficients(d));
+}
+
+template <class Number>
+Number stiffness_of(const plate& p) {
+  if (p.E == 0) return number_of<Number>(p.D);
+  const rational nu = decimal_of(p.nu);
+  const rational t = decimal_of(p.thickness);
+  return nearest<Number>(decimal_of(p.E) * t * t * t / (12 * (1 - nu * nu)));
+}
+
+template <class Number>
+std::vector<Number> values_at(const beam& b, std::span<const double> polynomial, std::span<const int> nodes) {
+  const line<rational> x(b.x, b.runs);
+  const std::vector<rational> a = exact_coefficients({{polynomial.begin(), polynomial.end()}, {}});
+  std::vector<Number> values;
+  for (const int node : nodes) values.push_back(nearest<Number>(value_at(a, x.at(node))));
+  return values;
+}
+
+template <class Number>
+void for_each_polynomial(const beam& b, const load& l, const load_visitor<Number>& visit) {
+  const line<rational> x(b.x, b.runs);
+  for (const distributed_load& d : l.distributed) {
+    const std::vector<rational> a = exact_coefficients(d);
+    const load_on_element<Number> uniform = rounded_load<Number>(a);
+    for_each_loaded_element(d, b.elements(), [&](int e) {
+      if (a.size() == 1) return visit(e, uniform);
+      visit(e, rounded_load<Number>(formulas::in_element<rational>(a, x.at(e), x.length(e))));
+    });
+  }
+}
+
+template double_double number_of(double x);
+template rational number_of(double x);
+template double_double difference_of(double a, double b);
+template rational difference_of(double a, double b);
+template double_double sum_of(std::span<const double> all);
+template rational sum_of(std::span<const double> all);
+template std::vector<double_double> coefficients_of(const distributed_load& d);
+template std::vector<rational> coefficients_of(const distributed_load& d);
+template double_double stiffness_of(const plate& p);
+template rational stiffness_of(const plate& p);
+template std::vector<double> values_at(const beam&, std::span<const double>, std::span<const int>);
+template std::vector<double_double> values_at(const beam&, std::span<const double>, std::span<const int>);
+template std::vector<rational> values_at(const beam&, std::span<const double>, std::span<const int>);
+template void for_each_polynomial(const beam&, const load&, const load_visitor<double_double>&);
+template void for_each_polynomial(const beam&, const load&, const load_visitor<rational>&);
+
+}  // namespace contct

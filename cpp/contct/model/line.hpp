@@ -1,0 +1,146 @@
+// Numbers of a file, lines of nodes and polynomials along them, in numbers of any kind that knows + - * /:
+// doubles, pairs of doubles or rational ones.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "contct/model/element_formulas.hpp"
+#include "contct/model/problem.hpp"
+#include "contct/number/double_double.hpp"
+
+namespace contct {
+
+// What a number of a file means: the shortest decimal that reads as it. In doubles it is the number itself.
+// What follows from several of them is computed exactly and rounded once, in pairs of doubles, too: line.cpp
+// has it.
+
+template <class Number>
+[[nodiscard]] Number number_of(double x);
+
+/// a - b, however much of them cancels.
+template <class Number>
+[[nodiscard]] Number difference_of(double a, double b);
+
+/// The sum of such numbers; exactly 0 where their decimals cancel.
+template <class Number>
+[[nodiscard]] Number sum_of(std::span<const double> all);
+template <>
+[[nodiscard]] double sum_of(std::span<const double> all);
+
+/// The coefficients of a distributed load: the sums of its parts in the file, where it has several.
+template <class Number>
+[[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
+
+/// D of a plate, or E t^3 / 12 (1 - nu^2) where the file has these.
+template <class Number>
+[[nodiscard]] Number stiffness_of(const plate& p);
+
+/// The values of a polynomial in x at nodes of a beam: far from x = 0 its terms may cancel in every digit.
+template <class Number>
+[[nodiscard]] std::vector<Number> values_at(const beam& b, std::span<const double> polynomial,
+                                            std::span<const int> nodes);
+
+template <>
+[[nodiscard]] inline double number_of(double x) {
+  return x;
+}
+template <>
+[[nodiscard]] inline double difference_of(double a, double b) {
+  return a - b;
+}
+template <>
+[[nodiscard]] inline std::vector<double> coefficients_of(const distributed_load& d) {
+  return d.polynomial;
+}
+template <>
+[[nodiscard]] inline double stiffness_of(const plate& p) {
+  return p.D;
+}
+
+/// Visit every element, from 0, for every load that acts on it.
+template <class Number>
+using load_visitor = std::function<void(int element, const load_on_element<Number>&)>;
+
+/// Distributed loads on a beam, about its elements, in pairs of doubles and in rational numbers.
+template <class Number>
+void for_each_polynomial(const beam& b, const load& l, const load_visitor<Number>& visit);
+
+/// Equal elements from a point on.
+struct even_part {
+  std::size_t first;
+  double start;
+  even_run run;
+};
+
+/// The points of a line as the file has them: equal parts of its lengths where it gives lengths, otherwise
+/// number by number. In doubles they are where rounding has put them. A point is computed when it is asked
+/// for: a long beam has many, and few are needed in rational numbers.
+template <class Number>
+class line {
+ public:
+  line(std::span<const double> x, std::span<const even_run> runs) : x_(x.begin(), x.end()) {
+    if (std::is_same_v<Number, double>) return;
+    std::size_t first = 0;
+    double start = x.front();
+    for (const even_run& run : runs) {
+      parts_.push_back({first, start, run});
+      first += static_cast<std::size_t>(run.elements);
+      start = run.end;
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return x_.size(); }
+  [[nodiscard]] int intervals() const { return static_cast<int>(x_.size()) - 1; }
+
+  [[nodiscard]] Number at(std::size_t point) const {
+    if (parts_.empty()) return number_of<Number>(x_[point]);
+    const even_part& p = part_from(point);
+    const auto length = difference_of<Number>(p.run.end, p.start);
+    return number_of<Number>(p.start) + length * static_cast<int>(point - p.first) / p.run.elements;
+  }
+
+  /// From a point to the next one: not a difference of rounded points.
+  [[nodiscard]] Number length(std::size_t interval) const {
+    if (parts_.empty()) return difference_of<Number>(x_[interval + 1], x_[interval]);
+    return length_in(part_from(interval));
+  }
+
+  [[nodiscard]] std::vector<Number> lengths() const {
+    std::vector<Number> all;
+    all.reserve(intervals());
+    for (const even_part& p : parts_) all.resize(all.size() + p.run.elements, length_in(p));
+    for (int i = 0; parts_.empty() && i < intervals(); ++i) all.push_back(length(i));
+    return all;
+  }
+
+ private:
+  [[nodiscard]] static Number length_in(const even_part& p) {
+    return difference_of<Number>(p.run.end, p.start) / p.run.elements;
+  }
+  [[nodiscard]] const even_part& part_from(std::size_t point) const {
+    const auto is_before = [](std::size_t wanted, const even_part& p) { return wanted < p.first; };
+    return *(std::upper_bound(parts_.begin(), parts_.end(), point, is_before) - 1);
+  }
+
+  std::vector<double> x_;
+  std::vector<even_part> parts_;
+};
+
+/// The length that each point of a line stands for: half of each interval beside it.
+template <class Number>
+[[nodiscard]] std::vector<Number> tributary_lengths(std::span<const Number> intervals) {
+  std::vector<Number> lengths(intervals.size() + 1);
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const Number half = intervals[i] / 2;
+    lengths[i] += half;
+    lengths[i + 1] += half;
+  }
+  return lengths;
+}
+
+}  // namespace contct

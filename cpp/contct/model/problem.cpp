@@ -1,0 +1,132 @@
+#include "contct/model/problem.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "contct/model/elements.hpp"
+#include "contct/number/rational.hpp"
+
+namespace contct {
+namespace {
+
+/// What the elements beside each dof need there, beyond the loads on them.
+template <class Kind>
+std::vector<double> needs_of(const Kind& kind, const load& l, std::span<const double> u) {
+  std::vector<double> need(u.size());
+  elements_of<double>(kind).add_needs(l, u, need);
+  return need;
+}
+
+std::vector<double> needs_of(const assembled& a, const load& /*l*/, std::span<const double> u) {
+  const std::vector<long double> all = a.stiffness.times(u);
+  return {all.begin(), all.end()};
+}
+
+template <class Kind>
+linear_structure build_of_elements(const model& m, const Kind& kind, std::span<const support> supports,
+                                   std::vector<contact_pair> pairs) {
+  linear_structure s;
+  s.dofs_per_node = Kind::dofs_per_node;
+  s.stiffness = band_matrix(kind.dofs(), subdiagonals(m));
+  s.rows = rows_in_band(m);
+  for_each_stiffness(elements_of<double>(kind), [&s](int e, const auto& dofs, const auto& own) {
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        add_to_band(s.stiffness.band(), s.row_of(dofs[i]), s.row_of(dofs[j]), own[i][j], e);
+  });
+  s.rigid_rows = rigid_rows_of(kind);
+  s.rigid_motions = Kind::dofs_per_node;  // up, and a turn for each slope
+  s.truth = std::make_shared<rigid_truth>(kind);
+  put_on_supports(s, supports, std::move(pairs));
+  return s;
+}
+
+/// What element_results have, without values.
+element_results names_of_results(const beam& /*b*/) {
+  return {{"shear", "moment"}, 2, {}};
+}
+element_results names_of_results(const plate& /*p*/) {
+  return {{"mx", "my", "mxy"}, 4, {}};
+}
+element_results names_of_results(const assembled& /*a*/) {
+  return {};
+}
+
+template <class Kind>
+resultant sum_of_loads(const Kind& kind, const load& l) {
+  return rigid_truth(kind).resultant_of(l);
+}
+
+resultant sum_of_loads(const assembled& /*a*/, const load& l) {
+  rational sum;
+  for (const point_load& p : l.points) sum += decimal_of(p.value);
+  return {contct::rounded(sum), {}};
+}
+
+}  // namespace
+
+/// Nodes are numbered along the shorter side: the numbers of neighbours then lie closest to each other.
+std::vector<int> rows_in_band(const model& m) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) return a->rows;
+  const auto* const of_plate = std::get_if<plate>(&m.kind);
+  if (of_plate == nullptr || of_plate->columns() <= of_plate->rows()) return {};
+  const plate& p = *of_plate;
+  std::vector<int> rows;
+  rows.reserve(p.dofs());
+  for (int j = 0; j < p.rows(); ++j)
+    for (int i = 0; i < p.columns(); ++i)
+      for (int d = 0; d < 3; ++d) rows.push_back(3 * (i * p.rows() + j) + d);
+  return rows;
+}
+
+int subdiagonals(const model& m) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) return subdiagonals_of(a->stiffness, a->rows);
+  if (const auto* p = std::get_if<plate>(&m.kind)) return 3 * (std::min(p->columns(), p->rows()) + 1) + 2;
+  return 3;
+}
+
+linear_structure build(const model& m, std::span<const support> supports, std::vector<contact_pair> pairs) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) return build(*a, supports, std::move(pairs));
+  if (const auto* p = std::get_if<plate>(&m.kind))
+    return build_of_elements(m, *p, supports, std::move(pairs));
+  return build_of_elements(m, std::get<beam>(m.kind), supports, std::move(pairs));
+}
+
+void add_consistent_loads(const model& m, const load& l, std::span<double> f) {
+  add_point_loads(l, dofs_per_node(m), f);
+  const auto add = [&](const auto& elements) {
+    elements.for_each_work(l, [&](int /*e*/, const auto& work) {
+      for (std::size_t i = 0; i < work.dofs.size(); ++i) f[work.dofs[i]] += work.force[i];
+    });
+  };
+  std::visit([&](const auto& kind) { add(elements_of<double>(kind)); }, m.kind);
+}
+
+std::vector<double> tributary_shares(const model& m) {
+  if (const auto* a = std::get_if<assembled>(&m.kind))
+    throw std::invalid_argument(a->name + ": a matrix knows no lengths or areas");
+  return std::visit([](const auto& kind) { return elements_of<double>(kind).shares(); }, m.kind);
+}
+
+std::vector<double> reactions(const model& m, const load& l, std::span<const support> supports,
+                              std::span<const double> u) {
+  const std::vector<double> need = std::visit([&](const auto& kind) { return needs_of(kind, l, u); }, m.kind);
+  return reactions_of(supports, l, u, dofs_per_node(m), need);
+}
+
+element_results results_in_elements(const model& m, const load& l, std::span<const double> u) {
+  return std::visit(
+      [&](const auto& kind) {
+        element_results r = names_of_results(kind);
+        r.values = elements_of<double>(kind).values(l, u);
+        return r;
+      },
+      m.kind);
+}
+
+resultant resultant_of(const model& m, const load& l) {
+  return std::visit([&](const auto& kind) { return sum_of_loads(kind, l); }, m.kind);
+}
+
+}  // namespace contct

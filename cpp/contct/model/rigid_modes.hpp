@@ -1,0 +1,95 @@
+// Is the structure held? Decided by its rigid motions, not by a condition number. Where only its stiffness
+// matrix is known, they are found from that.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contct/matrix/stiffness_matrix.hpp"
+
+namespace contct {
+
+/// A body in space has six rigid motions.
+inline constexpr int most_rigid_motions = 6;
+
+/// What the rigid motions of a structure do at one dof: one number a motion, 0 for those it does not have. A
+/// beam has two motions (up by 1; a turn about the middle that lifts its end by 1), a plate three (up, along
+/// x, along y), a structure of which only the matrix is known up to six.
+/// u = q0 row[0] + q1 row[1] + ... at every dof is a rigid motion.
+using rigid_row = std::array<double, most_rigid_motions>;
+
+/// What a motion q, one number for each rigid motion, does where `row` belongs.
+[[nodiscard]] inline double along(const rigid_row& q, const rigid_row& row) {
+  return std::inner_product(q.begin(), q.end(), row.begin(), 0.0);
+}
+
+/// The largest magnitude in a row.
+[[nodiscard]] inline double largest_of(const rigid_row& row) {
+  double largest = 0.0;
+  for (const double entry : row) largest = std::max(largest, std::abs(entry));
+  return largest;
+}
+
+class rigid_truth;
+
+/// How many independent rigid motions the dofs that are held stop: the rank of their rows.
+/// The structure is a mechanism when this is less than the number of its rigid motions.
+class rigid_rank {
+ public:
+  /// `rows` of all dofs, which are known from a matrix and rounded: one is independent whose part beside the
+  /// others is larger than this share of it. They must outlive this object, as `truth` must.
+  rigid_rank(std::span<const rigid_row> rows, double independent) : rows_(rows), independent_(independent) {}
+  /// By rows that `truth` knows exactly.
+  explicit rigid_rank(const rigid_truth& truth) : truth_(&truth) {}
+
+  /// Count a dof as held.
+  void hold(int dof);
+
+  [[nodiscard]] int rank() const { return rank_; }
+
+  /// Held dofs that are independent of each other, and stop all that is stopped.
+  [[nodiscard]] std::span<const int> dofs() const { return {dofs_.data(), static_cast<std::size_t>(rank_)}; }
+
+  /// The part of a combination of motions that is still free; of rows of a matrix.
+  [[nodiscard]] rigid_row free_part(const rigid_row& motion) const;
+
+ private:
+  std::span<const rigid_row> rows_;
+  double independent_ = 0.0;
+  const rigid_truth* truth_ = nullptr;
+  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal, but for rounding; of rows of a matrix
+  std::array<int, most_rigid_motions> dofs_{};
+  int rank_ = 0;
+};
+
+/// With its diagonal scaled to 1, which removes the units, a stiffness matrix has eigenvalues between 0 and
+/// a few. One up to this size may count as 0, and its motion as free, where the matrix does not say better.
+inline constexpr double free_below = 1e-13;
+/// A matrix with one below minus this is refused as not positive semidefinite.
+inline constexpr double negative_beyond = 1e-10;
+
+struct free_motions {
+  int count = 0;
+  std::vector<rigid_row> rows;  ///< [rows of the matrix] what each motion does there
+  double rounding = 0.0;        ///< how far off these may be, relative
+};
+
+/// Find them in `k`, whose diagonal is positive. `known`: how many there are, where that is known; they must
+/// then be free to 1e-10. `doubt`: by how much u'K u is in doubt for u [rows]; a soft motion is stiffness,
+/// and not free, where there is less doubt than stiffness. Takes a factorisation, and up to three times that
+/// and some forty solves where the matrix is close to leaving something free; memory for K once more and a
+/// factor.
+///
+/// Throws std::invalid_argument when k has a negative eigenvalue, leaves more than six motions free, or
+/// fewer than `known`; the message calls it "the matrix".
+[[nodiscard]] free_motions find_free_motions(
+    const stiffness_matrix& k, std::optional<int> known,
+    const std::function<double(std::span<const double> u)>& doubt = nullptr);
+
+}  // namespace contct

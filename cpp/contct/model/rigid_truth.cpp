@@ -1,0 +1,335 @@
+#include "contct/model/rigid_truth.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "contct/model/line.hpp"
+#include "contct/number/rational.hpp"
+
+namespace contct {
+
+/// One for each motion: up, about the middle of x, about the middle of y.
+struct rigid_work::numbers {
+  std::array<rational, 3> all;
+};
+
+/// A line seen from its middle.
+template <class Number>
+class centred_line {
+ public:
+  centred_line(std::span<const double> x, std::span<const even_run> runs)
+      : points_(x, runs), first_(points_.at(0)), half_((points_.at(x.size() - 1) - first_) / 2) {}
+
+  [[nodiscard]] const line<Number>& points() const { return points_; }
+  [[nodiscard]] const Number& half() const { return half_; }
+  [[nodiscard]] Number middle() const { return first_ + half_; }
+  /// From -1 to 1 over the line.
+  [[nodiscard]] Number across(const Number& x) const { return (x - first_) / half_ - 1; }
+
+ private:
+  line<Number> points_;
+  Number first_, half_;
+};
+
+/// A line for each direction in which a structure extends. Its motions are up by 1, and turns about the
+/// middle that lift the end at the largest x, or y, by 1.
+template <class Number>
+struct rigid_shape {
+  using row = std::array<Number, 3>;
+
+  explicit rigid_shape(const beam& b) : along_x(b.x, b.runs) {}
+  explicit rigid_shape(const plate& p) : along_x(p.x, p.x_runs), along_y(std::in_place, p.y, p.y_runs) {}
+
+  centred_line<Number> along_x;
+  std::optional<centred_line<Number>> along_y;
+
+  [[nodiscard]] int dofs_per_node() const { return along_y ? plate::dofs_per_node : beam::dofs_per_node; }
+  [[nodiscard]] std::size_t column_of(int dof) const {
+    return (dof / dofs_per_node()) % along_x.points().size();
+  }
+  [[nodiscard]] std::size_t line_of(int dof) const {
+    return (dof / dofs_per_node()) / along_x.points().size();
+  }
+  /// 0: a deflection; otherwise the slope along x (1) or y (2).
+  [[nodiscard]] int kind_of(int dof) const { return dof % dofs_per_node(); }
+
+  [[nodiscard]] row row_of(int dof) const {
+    if (kind_of(dof) == 1) return {Number(0), 1 / along_x.half(), Number(0)};
+    if (kind_of(dof) == 2) return {Number(0), Number(0), 1 / along_y->half()};
+    const Number x = along_x.across(along_x.points().at(column_of(dof)));
+    return {Number(1), x, along_y ? along_y->across(along_y->points().at(line_of(dof))) : Number(0)};
+  }
+};
+
+namespace {
+
+template <class Kind>
+std::vector<rigid_row> rounded_rows_of(const Kind& kind) {
+  const rigid_shape<double> shape(kind);
+  std::vector<rigid_row> rows;
+  rows.reserve(kind.dofs());
+  for (int dof = 0; dof < kind.dofs(); ++dof) {
+    const auto [up, along_x, along_y] = shape.row_of(dof);
+    rows.push_back({up, along_x, along_y});
+  }
+  return rows;
+}
+
+using motion_numbers = rigid_shape<rational>::row;
+
+rational dot(const motion_numbers& a, const motion_numbers& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+void subtract(motion_numbers& from, const motion_numbers& part, const rational& share) {
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] -= share * part[i];
+}
+
+/// What is left of `row` beside all of `orthogonal`.
+motion_numbers rest_of(motion_numbers row, std::span<const motion_numbers> orthogonal) {
+  for (const motion_numbers& b : orthogonal) subtract(row, b, dot(row, b) / dot(b, b));
+  return row;
+}
+
+bool is_zero(const motion_numbers& row) {
+  return row[0] == 0 && row[1] == 0 && row[2] == 0;
+}
+
+/// Rows at right angles to each other that span what these do.
+std::vector<motion_numbers> orthogonal_of(std::span<const motion_numbers> rows) {
+  std::vector<motion_numbers> all;
+  for (const motion_numbers& row : rows)
+    if (motion_numbers rest = rest_of(row, all); !is_zero(rest)) all.push_back(std::move(rest));
+  return all;
+}
+
+/// Is the point nearest to `sum` that `parts` span a sum of them with shares of which none is negative? No
+/// where they are not independent.
+bool has_positive_shares(const motion_numbers& sum, std::span<const motion_numbers> parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::vector<motion_numbers> others(parts.begin(), parts.end());
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const motion_numbers own = rest_of(parts[i], orthogonal_of(others));
+    if (is_zero(own) || dot(sum, own) < 0) return false;
+  }
+  return true;
+}
+
+/// Those of at most four `parts` whose sum with shares of which none is negative comes nearest to `sum`.
+std::vector<motion_numbers> nearest_of(const motion_numbers& sum, std::span<const motion_numbers> parts) {
+  std::vector<motion_numbers> nearest;
+  rational least = dot(sum, sum);
+  for (unsigned chosen = 1; chosen < 1U << parts.size(); ++chosen) {
+    std::vector<motion_numbers> some;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if ((chosen >> i & 1U) != 0) some.push_back(parts[i]);
+    const motion_numbers rest = rest_of(sum, orthogonal_of(some));
+    if (const rational far = dot(rest, rest); far < least && has_positive_shares(sum, some)) {
+      nearest = some;
+      least = far;
+    }
+  }
+  return nearest;
+}
+
+/// Is `sum` a sum of `parts` with shares of which none is negative? At most three parts carry the point of
+/// their cone that is nearest to it. A part that leads nearer takes the place of one of these, or joins them:
+/// every choice is nearer than the last, so this ends.
+bool is_in_cone(const motion_numbers& sum, std::span<const motion_numbers> parts) {
+  std::vector<motion_numbers> carrying;
+  for (;;) {
+    const motion_numbers rest = rest_of(sum, orthogonal_of(carrying));
+    if (is_zero(rest)) return true;
+    const motion_numbers* leads_nearer = nullptr;
+    rational most = 0;
+    for (const motion_numbers& part : parts) {
+      if (rational gain = dot(part, rest); gain > most) {
+        most = std::move(gain);
+        leads_nearer = &part;
+      }
+    }
+    if (leads_nearer == nullptr) return false;
+    carrying.push_back(*leads_nearer);
+    carrying = nearest_of(sum, carrying);
+  }
+}
+
+/// sum of coefficients[i] (b^(i+1) - a^(i+1)) / (i+1) and the same of x times the polynomial.
+struct integrals {
+  rational plain, by_x;
+};
+integrals integrate(std::span<const rational> coefficients, const rational& a, const rational& b) {
+  integrals sum;
+  rational power_a = a;
+  rational power_b = b;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const int next = static_cast<int>(i) + 1;
+    sum.plain += coefficients[i] * (power_b - power_a) / next;
+    power_a *= a;
+    power_b *= b;
+    sum.by_x += coefficients[i] * (power_b - power_a) / (next + 1);
+  }
+  return sum;
+}
+
+/// Call visit(first, last) for each run of elements that follow each other, from 0.
+template <class Visit>
+void for_each_run(const std::vector<int>& elements, int all, const Visit& visit) {
+  if (elements.empty()) return visit(0, all - 1);
+  for (std::size_t i = 0; i < elements.size();) {
+    std::size_t j = i;
+    while (j + 1 < elements.size() && elements[j + 1] == elements[j] + 1) ++j;
+    visit(elements[i], elements[j]);
+    i = j + 1;
+  }
+}
+
+}  // namespace
+
+struct rigid_truth::shape : rigid_shape<rational> {
+  using rigid_shape<rational>::rigid_shape;
+
+  /// At right angles to each other, what the rows of these dofs span.
+  [[nodiscard]] std::vector<motion_numbers> orthogonal_rows(std::span<const int> dofs) const {
+    std::vector<motion_numbers> rows;
+    for (const int dof : dofs) rows.push_back(row_of(dof));
+    return orthogonal_of(rows);
+  }
+
+  /// is_independent, where that needs no arithmetic.
+  [[nodiscard]] std::optional<bool> seen_at_once(std::span<const int> held, int dof) const {
+    if (held.empty()) return true;
+    const auto same = [&](auto what) {
+      return std::ranges::all_of(held, [&](int other) { return what(other) == what(dof); });
+    };
+    const bool all_deflections = kind_of(dof) == 0 && same([this](int d) { return kind_of(d); });
+    if (kind_of(dof) != 0)
+      for (const int other : held)
+        if (kind_of(other) == kind_of(dof)) return false;
+    if (!all_deflections) return std::nullopt;
+    if (held.size() == 1) return held.front() != dof;
+    if (held.size() == 2 && (!along_y || same([this](int d) { return line_of(d); }) ||
+                             same([this](int d) { return column_of(d); })))
+      return false;
+    return std::nullopt;
+  }
+
+  void add_distributed(const distributed_load& d, motion_numbers& work) const {
+    const std::vector<rational> q = coefficients_of<rational>(d);
+    const int columns = along_x.points().intervals();
+    if (!along_y) {
+      for_each_run(d.elements, columns, [&](int first, int last) { add_strip(q, first, last, work); });
+      return;
+    }
+    if (d.elements.empty()) add_rectangle(q[0], 0, 0, columns, along_y->points().intervals(), work);
+    for (const int e : d.elements) add_rectangle(q[0], e % columns, e / columns, 1, 1, work);
+  }
+
+ private:
+  void add_strip(std::span<const rational> q, int first, int last, motion_numbers& work) const {
+    const integrals over = integrate(q, along_x.points().at(first), along_x.points().at(last + 1));
+    work[0] += over.plain;
+    work[1] += over.by_x / along_x.half() + over.plain * along_x.across(0);
+  }
+
+  /// A uniform pressure acts at the middle of the rectangle of so many elements beside and above that one.
+  void add_rectangle(const rational& pressure, int left, int below, int beside, int above,
+                     motion_numbers& work) const {
+    const auto ends = [](const centred_line<rational>& l, int first, int count) {
+      return std::pair(l.points().at(first), l.points().at(first + count));
+    };
+    const auto [x1, x2] = ends(along_x, left, beside);
+    const auto [y1, y2] = ends(*along_y, below, above);
+    const rational force = pressure * (x2 - x1) * (y2 - y1);
+    work[0] += force;
+    work[1] += force * along_x.across((x1 + x2) / 2);
+    work[2] += force * along_y->across((y1 + y2) / 2);
+  }
+};
+
+std::vector<rigid_row> rigid_rows_of(const beam& b) {
+  return rounded_rows_of(b);
+}
+std::vector<rigid_row> rigid_rows_of(const plate& p) {
+  return rounded_rows_of(p);
+}
+
+rigid_work rigid_work::less(const rigid_work& other) const {
+  if (!is_known() || !other.is_known()) return {};
+  auto difference = std::make_shared<numbers>(*exactly_);
+  subtract(difference->all, other.exactly_->all, 1);
+  return rigid_work(std::move(difference));
+}
+
+double free_motion::at(int dof) const {
+  const double rounded = along(parts_, rows_[dof]);
+  if (std::abs(rounded) >= still_ * largest_of(rows_[dof])) return rounded;
+  return truth_ ? contct::rounded(dot(exactly_->all, truth_->shape_->row_of(dof))) : 0.0;
+}
+
+rigid_truth::rigid_truth(const beam& b) : shape_(std::make_unique<shape>(b)) {}
+rigid_truth::rigid_truth(const plate& p) : shape_(std::make_unique<shape>(p)) {}
+rigid_truth::~rigid_truth() = default;
+
+bool rigid_truth::is_independent(std::span<const int> held, int dof) const {
+  if (const std::optional<bool> known = shape_->seen_at_once(held, dof)) return *known;
+  return !is_zero(rest_of(shape_->row_of(dof), shape_->orthogonal_rows(held)));
+}
+
+rigid_work rigid_truth::work_of(const load& l) const {
+  auto work = std::make_shared<rigid_work::numbers>();
+  for (const point_load& p : l.points)
+    subtract(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof), -decimal_of(p.value));
+  for (const distributed_load& d : l.distributed) shape_->add_distributed(d, work->all);
+  return rigid_work(std::move(work));
+}
+
+resultant rigid_truth::resultant_of(const load& l) const {
+  const motion_numbers work = work_of(l).exactly().all;
+  const auto about_origin = [&work](const centred_line<rational>& line, const rational& about_middle) {
+    return contct::rounded(about_middle * line.half() + work[0] * line.middle());
+  };
+  resultant r{contct::rounded(work[0]), {about_origin(shape_->along_x, work[1])}};
+  if (shape_->along_y) r.moments.push_back(about_origin(*shape_->along_y, work[2]));
+  return r;
+}
+
+bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> supported,
+                             std::span<const contact_pair> pairs) const {
+  std::vector<motion_numbers> stopped;
+  for (const int dof : supported) {
+    if (motion_numbers rest = rest_of(shape_->row_of(dof), stopped); !is_zero(rest))
+      stopped.push_back(std::move(rest));
+    if (stopped.size() == (shape_->along_y ? 3 : 2)) return true;
+  }
+  // What supports leave. A pair with a face above takes loads that push it up.
+  std::vector<motion_numbers> presses;
+  for (const contact_pair& p : pairs) {
+    motion_numbers& part = presses.emplace_back(shape_->row_of(p.node * shape_->dofs_per_node()));
+    for (rational& x : part) x *= p.surface;
+    part = rest_of(part, stopped);
+  }
+  return is_in_cone(rest_of(work.exactly().all, stopped), presses);
+}
+
+std::optional<free_motion> rigid_truth::driven_by(const rigid_work& work, std::span<const int> held,
+                                                  std::span<const rigid_row> rows) const {
+  motion_numbers steepest = rest_of(work.exactly().all, shape_->orthogonal_rows(held));
+  if (is_zero(steepest)) return std::nullopt;
+  rational largest;
+  for (const rational& part : steepest) largest = std::max(largest, rational(abs(part)));
+  rigid_row parts{};
+  for (std::size_t i = 0; i < steepest.size(); ++i) {
+    steepest[i] /= largest;
+    parts[i] = contct::rounded(steepest[i]);
+  }
+  constexpr double surely_moves = 1e-3;  // however far from the middle x = 0 is
+  free_motion motion(parts, rows, surely_moves, contct::rounded(dot(work.exactly().all, steepest)));
+  motion.exactly_ = std::make_shared<rigid_work::numbers>(rigid_work::numbers{std::move(steepest)});
+  motion.truth_ = shared_from_this();
+  return motion;
+}
+
+}  // namespace contct

@@ -1,0 +1,194 @@
+#include "contct/model/structure.hpp"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "contct/model/line.hpp"
+
+namespace contct {
+
+load mix(const load& before, const load& after, double fraction) {
+  if (fraction == 1.0) return after;
+  std::map<std::pair<int, int>, double> points;
+  std::map<std::vector<int>, std::vector<double>> distributed;
+  std::map<std::pair<int, int>, double> settlements;
+  for (const auto& [part, share] : {std::pair(&before, 1.0 - fraction), std::pair(&after, fraction)}) {
+    for (const point_load& p : part->points) points[{p.node, p.dof}] += share * p.value;
+    for (const distributed_load& d : part->distributed)
+      add_polynomial(distributed[d.elements], d.polynomial, share);
+    for (const prescribed_displacement& g : part->settlements)
+      settlements[{g.node, g.dof}] += share * g.value;
+  }
+  load sum;
+  for (const auto& [place, value] : points) sum.points.push_back({place.first, place.second, value});
+  for (const auto& [elements, polynomial] : distributed) sum.distributed.push_back({polynomial, elements});
+  for (const auto& [place, value] : settlements)
+    sum.settlements.push_back({place.first, place.second, value});
+  sum.name = after.name;
+  return sum;
+}
+
+void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
+  for (const auto& [dof, values] : point_loads_at(l, dofs_per_node)) f[dof] += sum_of<double>(values);
+}
+
+void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share) {
+  sum.resize(std::max(sum.size(), part.size()), 0.0);
+  for (std::size_t i = 0; i < part.size(); ++i) sum[i] += share * part[i];
+}
+
+std::vector<gauss_point> gauss_points(int n) {
+  std::vector<gauss_point> points;
+  for (int i = 0; i < n; ++i) {
+    // Newton from Tricomi's approximation of the i-th root of the Legendre polynomial P_n.
+    double z = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
+    double slope = 1.0;
+    for (int step = 0; step < 20; ++step) {
+      double p = 1.0;
+      double previous = 0.0;
+      for (int k = 1; k <= n; ++k) {
+        const double next = ((2 * k - 1) * z * p - (k - 1) * previous) / k;
+        previous = p;
+        p = next;
+      }
+      slope = n * (z * p - previous) / (z * z - 1);
+      const double correction = p / slope;
+      z -= correction;
+      if (std::abs(correction) < 1e-16) break;
+    }
+    points.push_back({(1 - z) / 2, 1 / ((1 - z * z) * slope * slope)});
+  }
+  return points;
+}
+
+std::vector<int> linear_structure::pairs_that_hold(rigid_rank& rank) const {
+  std::vector<int> holding;
+  for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i) {
+    const int before = rank.rank();
+    rank.hold(dof_of_pair(i));
+    if (rank.rank() > before) holding.push_back(static_cast<int>(i));
+  }
+  return holding;
+}
+
+std::optional<free_motion> linear_structure::driven_motion(const rigid_rank& held,
+                                                           std::span<const double> load,
+                                                           const rigid_work& work) const {
+  if (truth && work.is_known()) return truth->driven_by(work, held.dofs(), rigid_rows);
+  constexpr double rounding_of_work = 1e-12;
+  constexpr double rounding_of_motion = 1e-10;
+  rigid_row sum{};
+  rigid_row size{};
+  for (std::size_t dof = 0; dof < load.size(); ++dof) {
+    if (fixed[dof] != 0) continue;
+    for (std::size_t m = 0; m < sum.size(); ++m) {
+      sum[m] += load[dof] * rigid_rows[dof][m];
+      size[m] += std::abs(load[dof] * rigid_rows[dof][m]);
+    }
+  }
+  rigid_rank by_rows(rigid_rows, std::max(1e-12, rigid_rounding));
+  for (const int dof : held.dofs()) by_rows.hold(dof);
+  rigid_row motion = by_rows.free_part(sum);
+  const double driven = largest_of(motion);
+  if (!(driven > std::max(rounding_of_work, rigid_rounding) * largest_of(size))) return std::nullopt;
+  for (double& part : motion) part /= driven;
+  return free_motion(motion, rigid_rows, std::max(rounding_of_motion, rigid_rounding), along(motion, sum));
+}
+
+void add_to_band(band_matrix& k, int row, int column, double entry, int element) {
+  if (!std::isfinite(entry))
+    throw std::invalid_argument("the stiffness of element " + std::to_string(element + 1) +
+                                " is not a finite number");
+  k.add(row, column, entry);
+}
+
+namespace {
+
+/// A power of four near `stiffness`: its root, too, is exact.
+double power_of_four_near(double stiffness) {
+  constexpr int largest = 511;  // 4^512 is no double
+  if (!(stiffness > 0.0)) return 1.0;
+  return std::ldexp(1.0, 2 * std::min(largest, static_cast<int>(std::lround(std::log2(stiffness) / 2))));
+}
+
+/// Give fixed dofs rows of their own, and keep what settling ones do to the others.
+void fix(linear_structure& s) {
+  std::vector<double> pivots(s.fixed.size(), 0.0);
+  std::vector<char> settling_rows(s.settles.size(), 0);
+  std::vector<int> dof_of_row(s.fixed.size());
+  for (int dof = 0; dof < s.dofs(); ++dof) {
+    const int row = s.row_of(dof);
+    dof_of_row[row] = dof;
+    if (s.fixed[dof] == 0) continue;
+    const bool settles = !s.settles.empty() && s.settles[dof] != 0;
+    if (settles) settling_rows[row] = 1;
+    pivots[row] = settles ? power_of_four_near(s.stiffness.diagonal(row)) : 1.0;
+  }
+  if (!s.settles.empty())
+    for (const auto& [row, column, value] : s.stiffness.entries_in(settling_rows))
+      if (pivots[row] == 0.0) s.to_settling.push_back({dof_of_row[row], dof_of_row[column], value});
+  s.stiffness.fix(pivots);
+}
+
+}  // namespace
+
+void put_on_supports(linear_structure& s, std::span<const support> supports,
+                     std::vector<contact_pair> pairs) {
+  s.fixed.assign(s.dofs(), 0);
+  if (std::any_of(supports.begin(), supports.end(), [](const support& p) { return p.settles; }))
+    s.settles.assign(s.dofs(), 0);
+  for (const support& p : supports) {
+    const int dof = p.node * s.dofs_per_node + p.dof;
+    if (p.fixed) {
+      s.fixed[dof] = 1;
+      if (p.settles) s.settles[dof] = 1;
+    } else {
+      s.stiffness.add_to_diagonal(s.row_of(dof), p.spring);
+    }
+    s.supported_dofs.push_back(dof);
+  }
+  fix(s);
+  s.pairs = std::move(pairs);
+}
+
+void add_settlements(const linear_structure& s, const load& l, std::span<double> f) {
+  for (std::size_t dof = 0; dof < s.settles.size(); ++dof)
+    if (s.settles[dof] != 0) f[dof] = 0.0;
+  for (const prescribed_displacement& g : l.settlements) {
+    const std::size_t dof = g.node * s.dofs_per_node + g.dof;
+    if (s.settles.empty() || s.settles[dof] == 0)
+      throw std::logic_error("dof " + std::to_string(dof + 1) + " was not built to settle");
+    f[dof] = g.value;
+  }
+  for (const auto& [free, settling, value] : s.to_settling) f[free] -= value * f[settling];
+}
+
+std::vector<double> reactions_of(std::span<const support> supports, const load& l, std::span<const double> u,
+                                 int dofs_per_node, std::span<const double> need) {
+  std::vector<double> points(u.size(), 0.0);
+  add_point_loads(l, dofs_per_node, points);
+  std::vector<double> values;
+  for (const support& s : supports) {  // a dof may be fixed and on a spring: the fixed support holds that too
+    const int dof = s.node * dofs_per_node + s.dof;
+    if (!s.fixed) points[dof] -= s.spring * u[dof];
+  }
+  std::set<int> reacted;
+  for (const support& s : supports) {
+    const int dof = s.node * dofs_per_node + s.dof;
+    if (!s.fixed) {
+      values.push_back(-s.spring * u[dof]);
+    } else if (reacted.insert(dof).second) {
+      values.push_back(need[dof] - points[dof]);
+    } else {
+      values.push_back(0.0);
+    }
+  }
+  return values;
+}
+
+}  // namespace contct

@@ -1,0 +1,213 @@
+// A linear elastic structure with its supports and candidate contact pairs, as the path sees it, and its
+// loads.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contct/model/rigid_modes.hpp"
+#include "contct/model/rigid_truth.hpp"
+#include "contct/number/double_double.hpp"
+
+namespace contct {
+
+/// A force or moment at one dof of one node, work-conjugate to the dof.
+struct point_load {
+  int node;      ///< from 0
+  int dof;       ///< within the node, from 0
+  double value;  ///< positive as the dof
+};
+
+/// Force per length (beams), as a polynomial in x: a0 + a1 x + a2 x^2 + ...; positive up.
+struct distributed_load {
+  std::vector<double> polynomial;  ///< coefficients, constant first; at least one
+  std::vector<int> elements;       ///< from 0; empty means all
+  /// The polynomials of a file that add up to this one, for exact arithmetic; empty: it is one itself.
+  std::vector<std::vector<double>> parts = {};
+};
+
+/// What a support moves one dof of one node to.
+struct prescribed_displacement {
+  int node;      ///< from 0
+  int dof;       ///< within the node, from 0; a support fixes it
+  double value;  ///< positive as the dof
+};
+
+/// Everything that acts on the structure at one moment.
+struct load {
+  std::vector<point_load> points;
+  std::vector<distributed_load> distributed;
+  std::vector<prescribed_displacement> settlements = {};
+  std::string name = {};  ///< of the step that ends with it, for people; may be empty
+};
+
+/// The load at share `fraction` of the way from `before` to `after`, with equal places merged.
+/// Exactly `after` at 1.
+[[nodiscard]] load mix(const load& before, const load& after, double fraction);
+
+/// The point loads of `l` at each dof that has any, in the order of the file.
+[[nodiscard]] inline std::map<int, std::vector<double>> point_loads_at(const load& l, int dofs_per_node) {
+  std::map<int, std::vector<double>> at;
+  for (const point_load& p : l.points) at[p.node * dofs_per_node + p.dof].push_back(p.value);
+  return at;
+}
+
+/// Add the point loads of `l` to `f` [dofs]. Those at one dof that are 0 as decimals are no load: 0.1, 0.2
+/// and -0.3.
+void add_point_loads(const load& l, int dofs_per_node, std::span<double> f);
+
+/// sum += share * part, for polynomials from the constant on.
+void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share);
+
+/// The value of a polynomial at x; `coefficients` from the constant on.
+[[nodiscard]] inline double polynomial_at(std::span<const double> coefficients, double x) {
+  double sum = 0.0;
+  for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + coefficients[i];
+  return sum;
+}
+
+/// Call visit(element) for every element, from 0, that a distributed load acts on.
+template <class Visit>
+void for_each_loaded_element(const distributed_load& d, int elements, Visit visit) {
+  for (const int e : d.elements) visit(e);
+  for (int e = 0; d.elements.empty() && e < elements; ++e) visit(e);
+}
+/// Call visit(element, polynomial) for every element that one of the loads acts on.
+template <class Visit>
+void for_each_loaded_element(const load& l, int elements, Visit visit) {
+  for (const distributed_load& d : l.distributed)
+    for_each_loaded_element(d, elements, [&](int e) { visit(e, d.polynomial); });
+}
+
+/// Gauss-Legendre quadrature on [0, 1].
+struct gauss_point {
+  double t;       ///< place, between 0 and 1
+  double weight;  ///< the weights add up to 1
+};
+
+/// `n` points, exact for polynomials up to degree 2 n - 1. n >= 1.
+[[nodiscard]] std::vector<gauss_point> gauss_points(int n);
+
+/// A permanent support of one dof, working both ways.
+struct support {
+  int node = 0;          ///< from 0
+  int dof = 0;           ///< within the node, from 0
+  bool fixed = true;     ///< held in place; otherwise elastic
+  double spring = 0.0;   ///< stiffness of an elastic support
+  bool settles = false;  ///< a fixed one: steps may prescribe its displacement
+};
+
+/// A candidate contact pair: a one-sided spring between a node and a face.
+struct contact_pair {
+  int node;          ///< from 0
+  int surface;       ///< n: face_above (+1) or face_below (-1)
+  double face;       ///< c: the position of the face
+  double stiffness;  ///< k of its spring, positive
+  bool closed;       ///< in contact at the start
+};
+
+/// n (c - w): the distance of an open pair from its face at deflection w; 0 for a closed one.
+[[nodiscard]] inline double gap_of(const contact_pair& p, double w, bool closed) {
+  return closed ? 0.0 : p.surface * (p.face - w);
+}
+
+/// -n k (c - w): the contact force of a closed pair; 0 for an open one. Not clamped: tension is negative.
+[[nodiscard]] inline double force_of(const contact_pair& p, double w, bool closed) {
+  return closed ? -p.surface * p.stiffness * (p.face - w) : 0.0;
+}
+
+/// Any structure: dof d of node i is dof i * dofs_per_node + d, from 0.
+struct linear_structure {
+  int dofs_per_node = 0;
+  int deflection = 0;          ///< which dof of a node deflects, from 0 (INDOF - 1)
+  stiffness_matrix stiffness;  ///< with elastic supports; a fixed dof has a row of its own: see in_row
+  std::vector<char> fixed;     ///< [dofs] 1 where a support fixes the dof
+  std::vector<char> settles;   ///< [dofs] 1 where that prescribes a displacement; empty: nowhere
+  std::vector<matrix_entry>
+      to_settling;                  ///< K's entries at free dofs (rows) that settling ones (columns) move
+  std::vector<contact_pair> pairs;  ///< in the order of their numbers
+
+  std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
+
+  int rigid_motions = 0;              ///< 2 for a beam, 3 for a plate, up to 6 for other bodies
+  std::vector<rigid_row> rigid_rows;  ///< [dofs] what the rigid motions do there
+  std::vector<int> supported_dofs;    ///< those whose supports stop such motions
+  /// The motions without rounding, of beams and plates; null for others.
+  std::shared_ptr<const rigid_truth> truth;
+  /// How far off `rigid_rows` may be, relative to the largest: 0 where they are known by a formula, more
+  /// where they are found from the matrix.
+  double rigid_rounding = 0.0;
+
+  /// [dofs] 1 where a displacement is a deflection; empty: `deflection` of a node.
+  std::vector<char> lengths;
+
+  [[nodiscard]] int dofs() const { return stiffness.order(); }
+  /// The row of the stiffness matrix that belongs to a dof: plates are numbered along their shorter
+  /// side there, for the smaller bandwidth.
+  [[nodiscard]] int row_of(std::size_t dof) const { return rows.empty() ? static_cast<int>(dof) : rows[dof]; }
+  /// What K u = f has for f in the row of a dof: its load; at a fixed one only what makes u the displacement
+  /// that `load` prescribes there, or 0. The pivot of a settling dof is a power of four near the stiffness
+  /// that it has lost: rows stay of one size, and u comes out to the bit.
+  [[nodiscard]] double in_row(std::size_t dof, double load) const {
+    if (fixed[dof] == 0) return load;
+    return !settles.empty() && settles[dof] != 0 ? stiffness.diagonal(row_of(dof)) * load : 0.0;
+  }
+  [[nodiscard]] bool deflects(int dof) const {
+    return lengths.empty() ? dof % dofs_per_node == deflection : lengths[dof] != 0;
+  }
+  /// What stops rigid motions while no dof is held.
+  [[nodiscard]] rigid_rank nothing_held() const {
+    return truth ? rigid_rank(*truth) : rigid_rank(rigid_rows, std::max(1e-12, rigid_rounding));
+  }
+  /// The motions that the supports and those pairs stop, from 0, for which `closed(pair)` is true.
+  template <class Closed>
+  [[nodiscard]] rigid_rank held_by(Closed closed) const {
+    rigid_rank rank = nothing_held();
+    for (std::size_t i = 0; i < supported_dofs.size() && !is_held(rank); ++i) rank.hold(supported_dofs[i]);
+    for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i)
+      if (closed(i)) rank.hold(dof_of_pair(i));
+    return rank;
+  }
+  /// Are these all of its rigid motions?
+  [[nodiscard]] bool is_held(const rigid_rank& rank) const { return rank.rank() >= rigid_motions; }
+  /// The steepest of the rigid motions that `held` leaves free and the load drives; none where it does no
+  /// work on any. `work` decides where it is known, otherwise the rounded `load` [dofs].
+  [[nodiscard]] std::optional<free_motion> driven_motion(const rigid_rank& held, std::span<const double> load,
+                                                         const rigid_work& work) const;
+  /// Is there an equilibrium under a load of this work? Nothing where only rounding would decide.
+  [[nodiscard]] std::optional<bool> has_equilibrium(const rigid_work& work) const {
+    if (!truth || !work.is_known()) return std::nullopt;
+    return truth->is_carried(work, supported_dofs, pairs);
+  }
+  /// The first pairs that stop what `rank` leaves free; they are counted as held.
+  [[nodiscard]] std::vector<int> pairs_that_hold(rigid_rank& rank) const;
+  /// The dof, from 0, at which pair `i` (from 0) acts.
+  [[nodiscard]] int dof_of_pair(std::size_t i) const { return pairs[i].node * dofs_per_node + deflection; }
+};
+
+/// Put an assembled structure on its supports and give it its pairs: springs and fixed dofs go into
+/// the stiffness.
+void put_on_supports(linear_structure& s, std::span<const support> supports, std::vector<contact_pair> pairs);
+
+/// Complete a load vector [dofs], which has the loads of `l` by now: at settling dofs the displacements g
+/// that `l` prescribes, at free ones -K g. Throws std::logic_error where the support of a settlement was not
+/// built to settle.
+void add_settlements(const linear_structure& s, const load& l, std::span<double> f);
+
+/// Add an entry of an element's stiffness (elements from 0) to `k`. Throws std::invalid_argument, naming the
+/// element (from 1), when it is not a finite number.
+void add_to_band(band_matrix& k, int row, int column, double entry, int element);
+
+/// The force (or moment) on the structure by each support, in the order of `supports`: minus spring times
+/// displacement for an elastic one; for a fixed one, what the elements beside it need (`need` [dofs], beyond
+/// their own loads) beyond the point loads at its dof. A dof fixed twice gives its reaction to the first.
+[[nodiscard]] std::vector<double> reactions_of(std::span<const support> supports, const load& l,
+                                               std::span<const double> u, int dofs_per_node,
+                                               std::span<const double> need);
+
+}  // namespace contct

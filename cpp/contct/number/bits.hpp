@@ -1,0 +1,55 @@
+// Equality to the bit, and distance in units in the last place.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace contct {
+
+/// The unsigned integer as wide as `Real`.
+template <class Real>
+using bits_of = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+
+/// True when both have the same bits. NaN equals NaN, whatever its payload; -0.0 is not +0.0.
+template <class Real>
+[[nodiscard]] inline bool same_bits(Real a, Real b) {
+  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
+  return std::bit_cast<bits_of<Real>>(a) == std::bit_cast<bits_of<Real>>(b);
+}
+
+/// Place of a number on the line of all floating-point numbers: neighbours differ by one, and
+/// -0.0 is one below +0.0.
+template <class Real>
+[[nodiscard]] inline std::int64_t place_of(Real x) {
+  using bits = bits_of<Real>;
+  constexpr bits sign = bits{1} << (8 * sizeof(Real) - 1);
+  const bits b = std::bit_cast<bits>(x);
+  return (b & sign) != 0 ? -static_cast<std::int64_t>(b & ~sign) - 1 : static_cast<std::int64_t>(b);
+}
+
+/// How many representable numbers lie between a and b (0 when equal to the bit). The largest
+/// count there is, when just one of them is NaN.
+template <class Real>
+[[nodiscard]] inline std::uint64_t ulps_between(Real a, Real b) {
+  if (same_bits(a, b)) return 0;
+  if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<std::uint64_t>::max();
+  const std::int64_t p = place_of(a);
+  const std::int64_t q = place_of(b);
+  return p > q ? static_cast<std::uint64_t>(p) - static_cast<std::uint64_t>(q)
+               : static_cast<std::uint64_t>(q) - static_cast<std::uint64_t>(p);
+}
+
+/// The exact value as text, such as "0x1.8p+1", "-0x0p+0", "inf", "nan".
+[[nodiscard]] inline std::string hexfloat(double x) {
+  char text[40];
+  // printf, and not to_chars: %a writes the 0x that every language reads back.
+  const int length = std::snprintf(text, sizeof text, "%a", x);
+  return {text, static_cast<std::size_t>(length)};
+}
+
+}  // namespace contct

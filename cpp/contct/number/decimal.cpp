@@ -1,0 +1,116 @@
+#include "contct/number/decimal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "contct/text/strings.hpp"
+
+namespace contct {
+namespace {
+
+constexpr std::int64_t endless = std::int64_t{1} << 40;  // no exponent that a double has comes near it
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The digits at the front of `rest`, without the underscores between them, and `rest` what is behind.
+std::string take_digits(std::string_view& rest) {
+  std::string digits;
+  while (!rest.empty() && (is_digit(rest.front()) || rest.front() == '_')) {
+    if (rest.front() != '_') digits += rest.front();
+    rest.remove_prefix(1);
+  }
+  return digits;
+}
+
+/// Is there a sign at the front, which is taken off, and is it a minus?
+bool take_minus(std::string_view& rest) {
+  const bool minus = !rest.empty() && rest.front() == '-';
+  if (minus || (!rest.empty() && rest.front() == '+')) rest.remove_prefix(1);
+  return minus;
+}
+
+/// The exponent that is all of `rest`, saturated; nothing where it is none.
+std::optional<std::int64_t> exponent_in(std::string_view rest) {
+  if (rest.empty()) return 0;
+  if (std::string_view("eEdD").find(rest.front()) == std::string_view::npos) return std::nullopt;
+  rest.remove_prefix(1);
+  const bool minus = take_minus(rest);
+  const std::string digits = take_digits(rest);
+  if (digits.empty() || !rest.empty()) return std::nullopt;
+  std::int64_t exponent = 0;
+  for (const char c : digits) exponent = std::min(endless, exponent * 10 + (c - '0'));
+  return minus ? -exponent : exponent;
+}
+
+/// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing where it is no decimal: hexadecimal,
+/// infinite, empty.
+std::optional<decimal> decimal_in(std::string_view literal) {
+  decimal d;
+  d.negative = take_minus(literal);
+  d.digits = take_digits(literal);
+  std::size_t behind_point = 0;
+  if (!literal.empty() && literal.front() == '.') {
+    literal.remove_prefix(1);
+    const std::string fraction = take_digits(literal);
+    behind_point = fraction.size();
+    d.digits += fraction;
+  }
+  const std::optional<std::int64_t> exponent = exponent_in(literal);
+  if (d.digits.empty() || !exponent) return std::nullopt;
+  d.exponent = *exponent - static_cast<std::int64_t>(behind_point);
+  const std::size_t last = d.digits.find_last_not_of('0');
+  if (last == std::string::npos) return decimal{false, "0", 0};
+  d.exponent += static_cast<std::int64_t>(d.digits.size() - last - 1);
+  d.digits.erase(last + 1);
+  d.digits.erase(0, d.digits.find_first_not_of('0'));
+  return d;
+}
+
+}  // namespace
+
+std::optional<int> last_written_digit(std::string_view literal) {
+  (void)take_minus(literal);
+  const bool is_whole = !take_digits(literal).empty() && literal.empty();
+  if (is_whole) return std::nullopt;
+  std::size_t behind_point = 0;
+  if (!literal.empty() && literal.front() == '.') {
+    literal.remove_prefix(1);
+    behind_point = take_digits(literal).size();
+  }
+  const std::optional<std::int64_t> exponent = exponent_in(literal);
+  if (!exponent) return std::nullopt;
+  constexpr std::int64_t most = 1000;  // beyond any double
+  return static_cast<int>(std::clamp(*exponent, -most, most)) -
+         static_cast<int>(std::min<std::size_t>(behind_point, most));
+}
+
+decimal shortest_decimal(double x) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
+  return *decimal_in(std::string_view(text.data(), end.ptr - text.data()));
+}
+
+bool is_shortest(std::string_view literal, double x) {
+  // Of normal doubles, no two decimals of up to 15 digits read as the same one.
+  constexpr int always_kept = 15;
+  if (std::ranges::count_if(literal, is_digit) <= always_kept && std::isnormal(x)) return true;
+  const std::optional<decimal> written = decimal_in(literal);
+  return !written || *written == shortest_decimal(x);
+}
+
+std::string rounding_words(std::string_view literal, double x) {
+  // Without a format, a whole number beyond 2^53 would get all of its binary digits.
+  std::array<char, 32> shortest{};
+  char* const last = shortest.data() + shortest.size();
+  const auto end = std::abs(x) < 1e16
+                       ? std::to_chars(shortest.data(), last, x)
+                       : std::to_chars(shortest.data(), last, x, std::chars_format::scientific);
+  return "found " + printable(literal) + "; the shortest decimal of its double, " +
+         std::string(shortest.data(), end.ptr) + ", is used everywhere";
+}
+
+}  // namespace contct

@@ -1,0 +1,179 @@
+#include "contct/number/rational.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+
+#include "contct/number/decimal.hpp"
+
+namespace contct {
+namespace {
+
+integer power_of(unsigned base, unsigned exponent) {
+  return boost::multiprecision::pow(integer(base), exponent);
+}
+
+std::size_t length_in_bits(const integer& n) {
+  return n == 0 ? 0 : boost::multiprecision::msb(abs(n)) + 1;
+}
+
+/// 10^exponent.
+rational ten_to(int exponent) {
+  const integer power = power_of(10, static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? rational(integer(1), power) : rational(power);
+}
+
+/// 2^exponent.
+rational two_to(int exponent) {
+  const integer power = power_of(2, static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? rational(integer(1), power) : rational(power);
+}
+
+/// The exponent of the leading digit of x > 0: 10^e <= x < 10^(e + 1).
+int leading_exponent(const rational& x) {
+  const auto top = static_cast<double>(length_in_bits(numerator(x)));
+  const auto bottom = static_cast<double>(length_in_bits(denominator(x)));
+  int e = static_cast<int>(std::floor((top - bottom) * std::log10(2.0)));
+  while (ten_to(e) > x) --e;
+  while (ten_to(e + 1) <= x) ++e;
+  return e;
+}
+
+/// "123" with exponent -1 is 0.123: as a decimal where that is short, otherwise with an exponent.
+std::string decimal_words(std::string digits, int exponent) {
+  const int count = static_cast<int>(digits.size());
+  if (exponent < -5 || exponent > 20) {
+    if (count > 1) digits.insert(1, ".");
+    return digits + "e" + std::to_string(exponent);
+  }
+  if (exponent < 0) return "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+  if (count <= exponent + 1) return digits + std::string(static_cast<std::size_t>(exponent + 1 - count), '0');
+  return digits.insert(static_cast<std::size_t>(exponent) + 1, ".");
+}
+
+#ifdef CONTCT_HAS_GMP
+/// `got`, which malloc or realloc has returned.
+void* or_end(void* got) {
+  if (got != nullptr) return got;
+  if (const std::new_handler handler = std::get_new_handler(); handler != nullptr) handler();
+  std::abort();
+}
+
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): what GMP wants
+void* allocate(std::size_t bytes) {
+  return or_end(std::malloc(bytes));
+}
+
+void* reallocate(void* block, std::size_t /*before*/, std::size_t bytes) {
+  return or_end(std::realloc(block, bytes));
+}
+
+void release(void* block, std::size_t /*bytes*/) {
+  std::free(block);
+}
+// NOLINTEND(cppcoreguidelines-no-malloc)
+#endif
+
+}  // namespace
+
+void allocate_as_new_does() {
+#ifdef CONTCT_HAS_GMP
+  mp_set_memory_functions(allocate, reallocate, release);
+#endif
+}
+
+rational decimal_of(double x) {
+  const decimal d = shortest_decimal(x);
+  const integer digits((d.negative ? "-" : "") + d.digits);
+  const integer power = power_of(10, static_cast<unsigned>(std::abs(d.exponent)));
+  return d.exponent < 0 ? rational(digits, power) : rational(integer(digits * power));
+}
+
+rational binary_value(double x) {
+  if (!std::isfinite(x)) throw std::domain_error("an infinity, or what is no number, has no exact value");
+  int exponent = 0;
+  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+  exponent -= 53;
+  const integer power = power_of(2, static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? rational(integer(mantissa), power) : rational(integer(integer(mantissa) * power));
+}
+
+double rounded(const rational& x) {
+  // |x| = n 2^unit, with n < 2^53 rounded once: subnormal numbers have fewer bits. Boost's own conversion
+  // overflows where numerator and denominator do.
+  const integer top = abs(numerator(x));
+  const integer bottom = denominator(x);
+  constexpr int least_unit = DBL_MIN_EXP - DBL_MANT_DIG;
+  int unit = std::max(least_unit, static_cast<int>(length_in_bits(top)) -
+                                      static_cast<int>(length_in_bits(bottom)) - DBL_MANT_DIG);
+  const auto shifted = [](const integer& n, int bits) { return bits > 0 ? integer(n << bits) : n; };
+  const auto divide = [&](integer& n, integer& rest) {
+    boost::multiprecision::divide_qr(shifted(top, -unit), shifted(bottom, unit), n, rest);
+  };
+  integer n;
+  integer rest;
+  divide(n, rest);
+  if (length_in_bits(n) > std::size_t{DBL_MANT_DIG}) {
+    ++unit;
+    divide(n, rest);
+  }
+  const int beyond_half = integer(rest * 2).compare(shifted(bottom, unit));
+  if (beyond_half > 0 || (beyond_half == 0 && n % 2 != 0)) ++n;
+  const double size = std::ldexp(static_cast<double>(n.convert_to<std::uint64_t>()), unit);
+  return x < 0 ? -size : size;
+}
+
+double_double long_rounded(const rational& x) {
+  const double high = rounded(x);
+  return std::isfinite(high) ? double_double(high, rounded(x - binary_value(high))) : double_double(high);
+}
+
+double error_in_ulps(double x, const rational& exactly, int real_bytes) {
+  const int digits = real_bytes == 4 ? FLT_MANT_DIG : DBL_MANT_DIG;
+  int exponent = real_bytes == 4 ? FLT_MIN_EXP : DBL_MIN_EXP;  // 2^(exponent - 1) <= |exactly| < 2^exponent
+  if (exactly != 0) {
+    const rational size = abs(exactly);
+    int found = static_cast<int>(length_in_bits(numerator(size))) -
+                static_cast<int>(length_in_bits(denominator(size)));
+    if (size >= two_to(found)) ++found;
+    exponent = std::max(exponent, found);
+  }
+  return rounded((binary_value(x) - exactly) / two_to(exponent - digits));
+}
+
+std::string fraction_words(const rational& x) {
+  return denominator(x) == 1 ? numerator(x).str() : numerator(x).str() + "/" + denominator(x).str();
+}
+
+std::string short_words(const rational& x, int digits) {
+  constexpr double digits_of_bit = 0.30103;
+  const auto bits = static_cast<double>(length_in_bits(numerator(x)) + length_in_bits(denominator(x)));
+  if (bits * digits_of_bit <= digits + 2) {  // a digit more than that, and the fraction is too long
+    std::string words = fraction_words(x);
+    const auto counted = static_cast<int>(words.size()) - (x < 0 ? 1 : 0) - (denominator(x) == 1 ? 0 : 1);
+    if (counted <= digits) return words;
+  }
+  const rational size = abs(x);
+  int exponent = leading_exponent(size);
+  const rational scaled = size * ten_to(digits - 1 - exponent);
+  const rational raised = scaled + rational(1, 2);
+  std::string shown = integer(numerator(raised) / denominator(raised)).str();
+  if (static_cast<int>(shown.size()) > digits) {  // rounded up to a power of 10
+    shown.pop_back();
+    ++exponent;
+  }
+  const bool all = denominator(scaled) == 1;  // then zeros at the end say nothing
+  while (all && shown.size() > 1 && shown.back() == '0') shown.pop_back();
+  return (x < 0 ? "-" : "") + decimal_words(shown, exponent);
+}
+
+std::size_t length_in_bits(const rational& x) {
+  return std::max(length_in_bits(numerator(x)), length_in_bits(denominator(x)));
+}
+
+}  // namespace contct

@@ -1,0 +1,65 @@
+// Exact numbers, by GMP where it is found; decimals in and out.
+#pragma once
+
+#ifdef CONTCT_HAS_GMP
+#include <boost/multiprecision/gmp.hpp>
+#else
+#include <boost/multiprecision/cpp_int.hpp>
+#endif
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "contct/number/double_double.hpp"
+
+namespace contct {
+
+#ifdef CONTCT_HAS_GMP
+using integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+using rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
+#else
+using integer =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+using rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
+#endif
+
+/// A number that has become too long to go on with.
+struct too_long : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// From now on GMP, which otherwise aborts the process without memory, does then what new does: it calls the
+/// new handler, which must not return.
+void allocate_as_new_does();
+
+/// The shortest decimal that reads as `x`, which is finite: 0.1 is 1/10. This is what every number of a file
+/// means.
+[[nodiscard]] rational decimal_of(double x);
+
+/// The exact value of a double, bit for bit. Throws std::domain_error where `x` is not finite.
+[[nodiscard]] rational binary_value(double x);
+
+/// The nearest double, the even one of two that are equally near; infinite beyond their range.
+[[nodiscard]] double rounded(const rational& x);
+/// The nearest double, and the nearest one to what that leaves.
+[[nodiscard]] double_double long_rounded(const rational& x);
+
+/// x less what it should be, in units in the last place of the number `exactly` among those of `real_bytes`
+/// (4 or 8): within 0.5 either way, it is the nearest one. `x` is finite.
+[[nodiscard]] double error_in_ulps(double x, const rational& exactly, int real_bytes);
+
+/// "p/q" in lowest terms, or "p".
+[[nodiscard]] std::string fraction_words(const rational& x);
+
+/// The fraction where its numerator and denominator have at most `digits` digits together; otherwise `digits`
+/// significant digits, rounded half away from 0: "0.078947368421", "-1.25e-07". Zeros at the end are left out
+/// only where that is all of the number.
+[[nodiscard]] std::string short_words(const rational& x, int digits);
+
+/// Bits of the numerator or the denominator, whichever has more.
+[[nodiscard]] std::size_t length_in_bits(const rational& x);
+
+}  // namespace contct

@@ -1,0 +1,108 @@
+#include "contct/session/load_path.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contct {
+namespace {
+
+/// How much there is to write: a list of scattered elements counts by its length.
+std::size_t parts_of(const load& l) {
+  std::size_t parts = l.points.size() + l.settlements.size();
+  for (const distributed_load& d : l.distributed)
+    parts += d.elements.empty() || is_run(d.elements) ? 1 : d.elements.size();
+  return parts;
+}
+
+/// A load in words, with its one number apart.
+struct load_words {
+  std::string before;
+  double value;
+  std::string after{};
+};
+
+/// Of settlements alone: the only one, or the largest.
+load_words settlement_words(const model& m, const std::vector<prescribed_displacement>& all) {
+  const auto size = [](const prescribed_displacement& g) { return std::abs(g.value); };
+  const prescribed_displacement& g = *std::ranges::max_element(all, {}, size);
+  if (all.size() > 1) return {"settle ", g.value};
+  const std::string name =
+      std::holds_alternative<assembled>(m.kind) ? "" : fmt::format("{} ", dof_names(m)[g.dof]);
+  return {"settle " + name, g.value, " at " + place_words(m, g.node)};
+}
+
+load_words words_for(const model& m, const load& l, const resultant& r) {
+  const bool of_matrix = std::holds_alternative<assembled>(m.kind);
+  if (!l.settlements.empty() && l.points.empty() && l.distributed.empty())
+    return settlement_words(m, l.settlements);
+  if (!l.settlements.empty()) return {of_matrix ? "sum " : "force ", r.force};
+  if (l.points.size() == 1 && l.distributed.empty()) {
+    const point_load& p = l.points[0];
+    return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), p.value,
+            " at " + place_words(m, p.node)};
+  }
+  if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
+    return {"uniform ", l.distributed[0].polynomial[0]};
+  return {of_matrix ? "sum " : "force ", r.force};
+}
+
+/// x, or 0 where it is nothing but the rounding of numbers of this size.
+double without_rounding(double x, double size) {
+  return std::abs(x) <= 32 * std::numeric_limits<double>::epsilon() * size ? 0.0 : x;
+}
+
+double between(double a, double b, double share) {
+  return without_rounding(a + share * (b - a), std::max(std::abs(a), std::abs(b)));
+}
+
+}  // namespace
+
+bool is_run(const std::vector<int>& elements) {
+  return elements.back() - elements.front() + 1 == static_cast<int>(elements.size()) &&
+         std::is_sorted(elements.begin(), elements.end());
+}
+
+load_path::load_path(const problem& p) : problem_(p), totals_{resultant_of(p.geometry, {})}, parts_(1) {
+  for (const load& l : p.steps) {
+    totals_.push_back(resultant_of(p.geometry, l));
+    parts_.push_back(parts_of(l));
+  }
+}
+
+load load_path::at(int step, double fraction) const {
+  if (step == 0) return {};
+  return mix(step > 1 ? problem_.steps[step - 2] : load{}, problem_.steps[step - 1], fraction);
+}
+
+resultant load_path::resultant_at(int step, double fraction) const {
+  const resultant& a = totals_[step - 1];
+  const resultant& b = totals_[step];
+  resultant r{between(a.force, b.force, fraction), a.moments};
+  for (std::size_t i = 0; i < r.moments.size(); ++i)
+    r.moments[i] = between(a.moments[i], b.moments[i], fraction);
+  return r;
+}
+
+bool load_path::has_many_parts(int step) const {
+  constexpr std::size_t most = 32;
+  return std::max(parts_[step - 1], parts_[step]) > most;
+}
+
+std::string load_path::words_at(int step, double fraction, int width) const {
+  const auto words_of = [&](double share) {
+    const load l = has_many_parts(step) ? load{} : at(step, share);
+    return words_for(problem_.geometry, l, resultant_at(step, share));
+  };
+  load_words w = words_of(fraction);
+  w.value = without_rounding(w.value, std::max(std::abs(words_of(0.0).value), std::abs(words_of(1.0).value)));
+  const auto fits = [width](const std::string& text) { return static_cast<int>(text.size()) <= width; };
+  const std::string number = fmt::format("{:.6g}", w.value);
+  for (std::string text : {w.before + number + w.after, w.before + number, number})
+    if (fits(text)) return text;
+  return "";
+}
+
+}  // namespace contct

@@ -1,0 +1,44 @@
+// The loads of a problem along its path, as numbers and in a few words.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "contct/model/problem.hpp"
+
+namespace contct {
+
+/// The loads of a problem's steps, and what acts between them. Steps count from 1.
+class load_path {
+ public:
+  /// `p` must outlive this object.
+  explicit load_path(const problem& p);
+
+  /// Everything that acts at share `fraction` of step `step`; nothing in step 0, before the first.
+  [[nodiscard]] load at(int step, double fraction) const;
+  /// Its resultant, 0 where the sum is nothing but rounding; `step` is at least 1.
+  [[nodiscard]] resultant resultant_at(int step, double fraction) const;
+  /// The resultant's force, in step 0 too.
+  [[nodiscard]] double force_at(int step, double fraction) const {
+    return step == 0 ? 0.0 : resultant_at(step, fraction).force;
+  }
+
+  /// Has either end of the step more than 32 parts to list? Each element of a scattered list counts.
+  [[nodiscard]] bool has_many_parts(int step) const;
+
+  /// A few words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load; with
+  /// as many digits, six at most, as fit into `width` columns. Never cut: the number alone, or
+  /// nothing, where the words do not fit.
+  [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
+
+ private:
+  const problem& problem_;
+  std::vector<resultant> totals_;   // at the start, then at the end of each step
+  std::vector<std::size_t> parts_;  // how many things there are to write, likewise
+};
+
+/// Do these elements follow one another, each once?
+[[nodiscard]] bool is_run(const std::vector<int>& elements);
+
+}  // namespace contct

@@ -1,0 +1,109 @@
+#include "contct/session/path_states.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "contct/path/solve_problem.hpp"
+
+namespace contct {
+
+std::vector<path_moment> moments_of(const run_result& r) {
+  std::vector<path_moment> all;
+  int at = 0;
+  for (const step_record& s : r.record.steps) {
+    const bool ends_alone = s.end.number == 0;
+    for (const increment_record& i : s.increments)
+      all.push_back({&s, &i, !ends_alone && &i == &s.increments.back(), ++at});
+    if (ends_alone) all.push_back({&s, nullptr, true, at});
+  }
+  return all;
+}
+
+std::vector<path_moment> thinned(std::vector<path_moment> all, std::size_t most) {
+  int stride = 1;
+  int step_stride = 1;
+  while (all.size() > most && all.size() > 1) {
+    const auto ends = static_cast<std::size_t>(std::ranges::count(all, true, &path_moment::is_end));
+    (2 * ends > most ? step_stride : stride) *= 2;
+    std::vector<path_moment> kept;
+    for (const path_moment& m : all)
+      if (&m == &all.back() || (m.is_end ? m.step->end.step % step_stride : m.at % stride) == 0)
+        kept.push_back(m);
+    all.swap(kept);
+  }
+  return all;
+}
+
+path_states::path_states(const run_result& r)
+    : run_(r),
+      structure_(r.structure),
+      total_load_(loads_of(r.what, structure_)),
+      before_(structure_.dofs()),
+      after_(before_) {}
+
+structure_state path_states::at(const path_moment& m) {
+  if (m.is_end) return m.step->end;
+  const increment_record& i = *m.increment;
+  structure_state s{.step = i.step, .number = i.number, .fraction = i.fraction, .isep = i.isep};
+  s.displacement = shape_after(i);
+  for (std::size_t pair = 0; pair < i.d.size(); ++pair)
+    s.pair_forces.push_back(force_of(run_.what.pairs[pair], i.d[pair], s.closed(pair)));
+  return s;
+}
+
+void path_states::begin_step(int step) {
+  for (; step_ < step; ++step_) {
+    before_.swap(after_);
+    std::ranges::fill(after_, 0.0);
+    total_load_(step_ + 1, after_);
+  }
+}
+
+/// Do supports and all pairs together hold the structure? Then the factor is there.
+bool path_states::can_be_solved() {
+  if (stiffness_ || unsolvable_) return !unsolvable_;
+  unsolvable_ = !structure_.is_held(structure_.held_by([](std::size_t) { return true; }));
+  if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(structure_.pairs.size(), 1));
+  return !unsolvable_;
+}
+
+std::vector<double> path_states::shape_after(const increment_record& i) {
+  try {
+    if (!can_be_solved()) return {};
+  } catch (const no_factor&) {
+    unsolvable_ = true;
+    return {};
+  }
+  begin_step(i.step);
+  std::vector<double> load(before_.size());
+  for (std::size_t dof = 0; dof < load.size(); ++dof)
+    load[dof] = before_[dof] + i.fraction * (after_[dof] - before_[dof]);
+  std::vector<double> forces(i.d.size());
+  for (std::size_t p = 0; p < forces.size(); ++p) {
+    const contact_pair& at = structure_.pairs[p];
+    const double by_law = i.isep[p] == in_contact ? -at.stiffness * (i.d[p] - at.face) : 0.0;
+    forces[p] = (run_.end.by_1989_rule ? i.pair_force[p] : by_law) + at.stiffness * i.d[p];
+  }
+  std::vector<double> u = with_pair_forces(structure_, load, forces);
+  if (run_.refined_states) {
+    stiffness_->solve_refined(std::vector(u), u);
+  } else {
+    stiffness_->solve(u);
+  }
+  return u;
+}
+
+std::vector<structure_state> pictures_of(const run_result& r, std::size_t most, std::size_t most_numbers) {
+  constexpr std::size_t fewest = 4;
+  structure_state start;
+  start.displacement.resize(dofs(r.what.geometry));
+  for (const contact_pair& p : r.what.pairs) start.isep.push_back(p.closed ? in_contact : separated);
+  most = std::max(fewest, std::min(most, most_numbers / std::max<std::size_t>(start.displacement.size(), 1)));
+  std::vector<structure_state> all = {std::move(start)};
+  path_states states(r);
+  for (const path_moment& m : thinned(moments_of(r), most - 1))
+    if (structure_state s = states.at(m); !s.displacement.empty()) all.push_back(std::move(s));
+  return all;
+}
+
+}  // namespace contct

@@ -1,0 +1,202 @@
+#include "contct/session/step_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "contct/kernel/contct.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/session/path_states.hpp"
+
+namespace contct {
+namespace {
+
+/// Of numbers that differ by rounding, the first is the largest.
+constexpr double above_ties = 1 + 1e-9;
+
+}  // namespace
+
+double deflection_of(const problem& p, std::span<const double> u, int node) {
+  return u[static_cast<std::size_t>(node) * dofs_per_node(p.geometry)];
+}
+
+std::vector<int> deflecting_nodes(const problem& p) {
+  std::vector<char> is_length(nodes(p.geometry), 1);
+  const auto* a = std::get_if<assembled>(&p.geometry.kind);
+  if (a != nullptr && (a->places.known() || !p.pairs.empty())) {
+    for (std::size_t dof = 0; dof < is_length.size(); ++dof)
+      is_length[dof] = a->places.known() && a->places.dofs[dof].is_length() ? 1 : 0;
+    for (const contact_pair& pair : p.pairs) is_length[pair.node] = 1;
+  }
+  std::vector<int> list;
+  for (int node = 0; node < nodes(p.geometry); ++node)
+    if (is_length[node] != 0) list.push_back(node);
+  return list;
+}
+
+std::string place_name(const model& m, int node) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  return a != nullptr ? a->label_of(node) : std::to_string(node + 1);
+}
+
+place place_of_node(const model& m, int node) {
+  if (const auto* b = std::get_if<beam>(&m.kind)) return {b->x[node], 0.0};
+  const auto* p = std::get_if<plate>(&m.kind);
+  if (p == nullptr) return {static_cast<double>(node), 0.0};
+  return {p->x[node % p->columns()], p->y[node / p->columns()]};
+}
+
+std::optional<std::size_t> step_results::hardest_pair() const {
+  std::optional<std::size_t> hardest;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].force > (hardest ? above_ties * pairs[*hardest].force : 0.0)) hardest = i;
+  return hardest;
+}
+
+std::optional<std::size_t> step_results::hardest_support(const problem& p) const {
+  std::optional<std::size_t> hardest;
+  for (std::size_t i = 0; i < reactions.size(); ++i)
+    if (p.supports[i].dof == 0 &&
+        (!hardest || std::abs(reactions[i]) > above_ties * std::abs(reactions[*hardest])))
+      hardest = i;
+  return hardest;
+}
+
+pair_reading reading_of(const contact_pair& p, double w, bool closed) {
+  const pair_state look = std::abs(p.face - w) < constants<double>::epsgap ? pair_state::at_face
+                          : closed                                         ? pair_state::closed
+                                                                           : pair_state::open;
+  return {w, gap_of(p, w, closed), force_of(p, w, closed), look};
+}
+
+step_results results_of(const problem& p, const load& l, const structure_state& s) {
+  const std::vector<double>& u = s.displacement;
+  step_results r{{}, results_in_elements(p.geometry, l, u), {}, {}};
+  if (s.numbers) r.elements.values = s.numbers->element_values;
+  r.ranges = ranges_of(p.geometry, l, u, deflecting_nodes(p), r.elements.values);
+  r.reactions = s.numbers ? s.numbers->reactions : reactions(p, l, u, s.isep);
+  for (std::size_t i = 0; i < p.pairs.size(); ++i)
+    r.pairs.push_back(reading_of(p.pairs[i], deflection_of(p, u, p.pairs[i].node), s.closed(i)));
+  const std::vector<double>& known = s.numbers ? s.numbers->pair_forces : s.pair_forces;
+  for (std::size_t i = 0; i < known.size(); ++i) r.pairs[i].force = known[i];
+  return r;
+}
+
+std::vector<double> bed_pressure(const problem& p, const std::vector<pair_reading>& pairs) {
+  std::vector<double> at(nodes(p.geometry));
+  for (const bed& b : p.beds) {
+    for (std::size_t i = 0; i < b.share.size(); ++i) {
+      const std::size_t pair = b.first_pair + i;
+      if (b.share[i] > 0.0) at[p.pairs[pair].node] += pairs[pair].force / b.share[i];
+    }
+  }
+  return at;
+}
+
+std::optional<passage> deepest_passage(const problem& p, const load& l, std::span<const double> u) {
+  constexpr double worth_a_word = 1e-3;
+  const auto* const b = std::get_if<beam>(&p.geometry.kind);
+  if (b == nullptr) return {};
+  std::vector<std::size_t> order(p.pairs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t i) { return std::pair(p.pairs[i].surface, p.pairs[i].node); });
+  const beam_lines lines(*b, l, u);
+  const auto beyond = [&](const contact_pair& c, double w) { return c.surface * (w - c.face); };
+  passage worst;
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    const contact_pair& left = p.pairs[order[i]];
+    const contact_pair& right = p.pairs[order[i + 1]];
+    if (left.surface != right.surface || left.face != right.face || left.node == right.node) continue;
+    const value_range w = deflections_between(*b, lines, u, left.node, right.node);
+    const placed_value& outmost = left.surface == face_above ? w.most : w.least;
+    const double at_pairs = std::max(
+        {0.0, beyond(left, deflection_of(p, u, left.node)), beyond(right, deflection_of(p, u, right.node))});
+    const double depth = beyond(left, outmost.value) - at_pairs;
+    if (depth > worst.depth) worst = {depth, outmost.x, order[i], order[i + 1]};
+  }
+  double largest = 0.0;
+  for (int node = 0; node < b->nodes(); ++node)
+    largest = std::max(largest, std::abs(deflection_of(p, u, node)));
+  if (!(worst.depth > worth_a_word * largest)) return {};
+  return worst;
+}
+
+std::string_view ranges_are_at(const model& m) {
+  constexpr std::string_view places[] = {"the whole length", "nodes and corners of elements", "dofs"};
+  return places[m.kind.index()];
+}
+
+std::string place_words(const model& m, const placed_value& at) {
+  if (std::holds_alternative<assembled>(m.kind)) return place_words(m, at.node);
+  const std::string x = std::holds_alternative<plate>(m.kind) ? fmt::format("({:.6g}, {:.6g})", at.x, at.y)
+                                                              : fmt::format("x = {:.6g}", at.x);
+  return at.node < 0 ? x : fmt::format("{}, {}", place_words(m, at.node), x);
+}
+
+std::string unit_words(const problem& p, std::string_view quantity) {
+  if (p.units.length.empty() || std::holds_alternative<assembled>(p.geometry.kind)) return "";
+  const bool is_slope = quantity == "theta" || quantity == "wx" || quantity == "wy";
+  if (is_slope) return "";
+  if (quantity == "mx" || quantity == "my" || quantity == "mxy")
+    return on_one_line(fmt::format(" {0} {1}/{1}", p.units.force, p.units.length));
+  if (quantity == "w") return " " + p.units.length;
+  return " " + p.units.force + (quantity == "moment" ? " " + p.units.length : "");
+}
+
+namespace {
+
+/// Keep the smaller one, or the larger one, of what is known and what a state has.
+template <class Value>
+void take(envelope::range<Value>& known, const envelope::range<Value>& now, auto size_of) {
+  if (size_of(now.least.value) < size_of(known.least.value)) known.least = now.least;
+  if (size_of(now.most.value) > size_of(known.most.value)) known.most = now.most;
+}
+
+/// What a state has, as an envelope of it alone.
+envelope of_one_state(const problem& p, const load& l, const structure_state& s) {
+  const step_results r = results_of(p, l, s);
+  envelope e;
+  e.states = 1;
+  for (const value_range& v : r.ranges) {
+    e.names.push_back(v.name);
+    e.values.push_back({{v.least, s.step, s.number}, {v.most, s.step, s.number}});
+  }
+  for (const pair_reading& pair : r.pairs) e.pairs.push_back({std::max(0.0, pair.force), s.step, s.number});
+  for (const double value : r.reactions)
+    e.reactions.push_back({{value, s.step, s.number}, {value, s.step, s.number}});
+  return e;
+}
+
+void take(envelope& known, const envelope& now) {
+  if (known.states++ == 0) {
+    known = now;
+    return;
+  }
+  for (std::size_t i = 0; i < now.values.size(); ++i)
+    take(known.values[i], now.values[i], [](const placed_value& v) { return v.value; });
+  for (std::size_t i = 0; i < now.pairs.size(); ++i)
+    if (now.pairs[i].value > known.pairs[i].value) known.pairs[i] = now.pairs[i];
+  for (std::size_t i = 0; i < now.reactions.size(); ++i)
+    take(known.reactions[i], now.reactions[i], [](double v) { return v; });
+}
+
+}  // namespace
+
+envelope envelope_of(const run_result& r) {
+  const load_path loads(r.what);
+  path_states states(r);
+  envelope all;
+  for (const path_moment& m : moments_of(r)) {
+    structure_state s = states.at(m);
+    if (s.displacement.empty()) continue;
+    s.pair_forces.clear();  // all numbers of an envelope are those of the solved shape
+    take(all, of_one_state(r.what, loads.at(s.step, s.fraction), s));
+  }
+  return all;
+}
+
+}  // namespace contct

@@ -1,0 +1,110 @@
+// What an engineer reads off a state: extremes, reactions and contact forces; and off a whole path: its
+// envelope.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contct/model/extremes.hpp"
+#include "contct/session/load_path.hpp"
+#include "contct/session/run_result.hpp"
+
+namespace contct {
+
+/// The deflection of node `node`, from 0, under the displacement `u` [dofs].
+[[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
+
+/// The nodes whose displacement is a deflection: all of a beam and a plate. Of a matrix the dofs that are
+/// known to be lengths: those that meet faces, and those along an axis where places are known; all where
+/// there are neither.
+[[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
+
+/// A node's name in tables: its number, from 1, or its label where each dof is a node of its own.
+[[nodiscard]] std::string place_name(const model& m, int node);
+
+/// Where a node is: x along a beam; x and y on a plate.
+struct place {
+  double x = 0.0, y = 0.0;
+};
+[[nodiscard]] place place_of_node(const model& m, int node);
+
+/// What a picture tells apart: at its face are pairs whose gap the listing takes for zero (under EPSGAP),
+/// whatever their status: stationary ones, which carry no force worth the name.
+enum class pair_state { open, closed, at_face };
+
+/// How a pair stands, and its gap and force as results have them.
+struct pair_reading {
+  double w, gap, force;
+  pair_state look;
+};
+/// At deflection `w`.
+[[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
+
+/// Read off one state. Pairs, supports and nodes count from 0.
+struct step_results {
+  std::vector<value_range> ranges;  ///< see ranges_of
+  element_results elements;
+  std::vector<double> reactions;    ///< [supports]
+  std::vector<pair_reading> pairs;  ///< [pairs]
+
+  /// The pair that presses hardest; none where no pair presses.
+  [[nodiscard]] std::optional<std::size_t> hardest_pair() const;
+  /// The support with the largest force: moments on supports do not count.
+  [[nodiscard]] std::optional<std::size_t> hardest_support(const problem& p) const;
+};
+
+/// Of a state under load `l`.
+[[nodiscard]] step_results results_of(const problem& p, const load& l, const structure_state& s);
+
+/// What beds press on the structure by, at each node: force over tributary share [nodes].
+[[nodiscard]] std::vector<double> bed_pressure(const problem& p, const std::vector<pair_reading>& pairs);
+
+/// A beam that passes through a face between two neighbouring pairs that have it: contact there is not in the
+/// model.
+struct passage {
+  double depth = 0.0;                 ///< beyond the face, and beyond where the pairs themselves are
+  double x = 0.0;                     ///< where it is deepest
+  std::size_t first = 0, second = 0;  ///< the pairs, from 0
+};
+/// The deepest one in a state, where that is more than a thousandth of the largest deflection.
+[[nodiscard]] std::optional<passage> deepest_passage(const problem& p, const load& l,
+                                                     std::span<const double> u);
+
+/// Where ranges_of looks: "the whole length", "nodes and corners of elements" or "dofs".
+[[nodiscard]] std::string_view ranges_are_at(const model& m);
+
+/// A place in words: "node 9, x = 4", "x = 4.31", "node 9, (1, 0.5)" or "dof 185.3".
+[[nodiscard]] std::string place_words(const model& m, const placed_value& at);
+
+/// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", ..; empty where
+/// the problem names no units.
+[[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity);
+
+/// The least and largest of everything on a path: after its increments, as far as their states can be solved
+/// for, and at the ends of its steps.
+struct envelope {
+  /// A value, and the increment of a step, from 1, that had it; increment 0: the step ended without one.
+  template <class Value>
+  struct reached {
+    Value value;
+    int step = 0, increment = 0;
+  };
+  template <class Value>
+  struct range {
+    reached<Value> least, most;
+  };
+
+  int states = 0;
+  std::vector<std::string_view> names;      ///< of the quantities
+  std::vector<range<placed_value>> values;  ///< of each of them
+  std::vector<reached<double>> pairs;       ///< the largest force of each, or 0 [pairs]
+  std::vector<range<double>> reactions;     ///< [supports]
+};
+
+/// Of a run whose recorder keeps states.
+[[nodiscard]] envelope envelope_of(const run_result& r);
+
+}  // namespace contct

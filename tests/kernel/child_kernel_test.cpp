@@ -1,0 +1,98 @@
+// Commands that crash, hang or answer nonsense: the failure is reported, and the run goes on.
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "kernel/outside_calls.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A command that answers every call that nothing happens to its two pairs.
+const std::string well_behaved =
+    "while read -r line; do [ \"$line\" = ask ] && "
+    "printf 'smin 0x1p+0\\npair 1 ss 0x1p+0 isep 1\\npair 2 ss 0x1p+0 isep -1\\nend\\n'; done";
+
+std::string put_to_pipe(const std::string& command) {
+  return put(*make_pipe(command, short_patience()), behaves);
+}
+
+}  // namespace
+
+TEST_CASE("a command that answers is a kernel") {
+  const leftovers left;
+  {
+    const auto k = make_pipe(well_behaved, short_patience());
+    for (int i = 0; i < 3; ++i) CHECK(put(*k, behaves).empty());
+  }
+  left.check();
+}
+
+TEST_CASE("a second answer that comes late is not taken for the next call's") {
+  const leftovers left;
+  {
+    // The second answer comes after the first was read, and the next call is asked after it was written.
+    const scratch_folder folder;
+    const std::string go = folder.at("go");
+    const std::string said = folder.at("said");
+    REQUIRE(mkfifo(go.c_str(), 0600) == 0);
+    REQUIRE(mkfifo(said.c_str(), 0600) == 0);
+    const std::string twice = well_behaved.substr(0, well_behaved.rfind("; done")) + " && read -r word < '" +
+                              go + "' && echo stray && echo said > '" + said + "'; done";
+    const auto k = make_pipe(twice, short_patience());
+    CHECK(put(*k, behaves).empty());
+    std::ofstream(go) << "go\n";
+    std::string word;
+    std::ifstream(said) >> word;
+    CHECK(word == "said");
+    CHECK(put(*k, behaves) == "it answered without being called");
+    CHECK(put(*k, behaves).empty());
+  }
+  left.check();
+}
+
+TEST_CASE("a command that ends is reported, and the next call is asked of a fresh one") {
+  const leftovers left;
+  CHECK(put_to_pipe("exit 0") == "it ended with status 0");
+  CHECK(put_to_pipe("read -r line; exit 3") == "it ended with status 3");
+  CHECK_THAT(put_to_pipe("kill -SEGV $$"), Contains("ended by signal 11"));
+  CHECK(put_to_pipe("/no/such/command 2>/dev/null") == "it ended with status 127");
+  {
+    const scratch_folder folder;
+    const std::string seen = folder.at("seen");
+    const auto k = make_pipe("mkdir " + seen + " 2>/dev/null && exit 4; " + well_behaved, short_patience());
+    CHECK(put(*k, behaves) == "it ended with status 4");
+    CHECK(put(*k, behaves).empty());
+  }
+  left.check();
+}
+
+TEST_CASE("a command that does not answer, closes its pipe or never stops talking is given up") {
+  const leftovers left;
+  CHECK(put_to_pipe("exec cat >/dev/null") == "it did not answer within 500 ms");
+  CHECK(put_to_pipe("exec sleep 100") == "it did not answer within 500 ms");
+  CHECK(put_to_pipe("exec sleep 100 <&- >&-") == "it closed its end of the pipe");
+  CHECK_THAT(put_to_pipe("exec yes 2>/dev/null"), Contains("it answered more than 10") && Contains("bytes"));
+  CHECK(put_to_pipe("printf 'smin 0x1p+0\\n'; exec cat >/dev/null") == "it did not answer within 500 ms");
+  left.check();
+}
+
+TEST_CASE("nonsense from a command is refused with what was found and what is allowed") {
+  const auto answering = [](const std::string& text) {
+    return put_to_pipe("printf '" + text + "'; exec cat >/dev/null");
+  };
+  CHECK_THAT(answering("hello\\nend\\n"),
+             Contains("gave an invalid answer: its answer:1: found hello; allowed: \"smin X\""));
+  CHECK_THAT(answering("end\\n"), Contains("its answer:1: found end"));
+  CHECK_THAT(answering("smin 1\\nend\\n"),
+             Contains("its answer:2: found end; allowed: \"pair 1 ss X isep S\""));
+  CHECK_THAT(answering("smin 1\\npair 2 ss 1 isep 1\\npair 1 ss 1 isep 1\\nend\\n"),
+             Contains("its answer:2"));
+  CHECK_THAT(answering("smin 1\\npair 1 ss 1 isep 1.5\\npair 2 ss 1 isep 1\\nend\\n"), Contains("isep 1.5"));
+  CHECK_THAT(answering("smin 1\\npair 1 ss one isep 1\\npair 2 ss 1 isep 1\\nend\\n"), Contains("ss one"));
+  CHECK_THAT(answering("smin 1\\npair 1 ss 1 isep 1\\npair 2 ss 1 isep 1\\nend\\nsmin 1\\nend\\n"),
+             Contains("continues after \"end\""));
+  CHECK_THAT(answering("smin\\t1\\033[2J\\nend\\n"), Contains("found smin\\x091\\x1b[2J; allowed"));
+}

@@ -1,0 +1,59 @@
+// A function of this process as a kernel.
+#include "contct/kernel/own_kernel.hpp"
+
+#include "catch.hpp"
+#include "contct/kernel/call.hpp"
+
+using namespace contct;
+
+namespace {
+
+call_inputs<double> one_pair() {
+  return {{0.0, 0.0}, {-2.0, 0.0}, {-1.0}, {1}, {separated}, {face_below}, {1, 2}};
+}
+
+void halves(const double* /*dd*/, const double* /*dtest*/, const double* /*cc*/, double ss[], double* smin,
+            const int* /*id*/, int isep[], const int* /*isurf*/, int nc, int /*indof*/, int /*ndofpn*/,
+            int /*ndof*/) {
+  for (int i = 0; i < nc; ++i) ss[i] = 0.5;
+  *smin = 0.5;
+  isep[0] = in_contact;
+}
+
+void changes_its_input(const double dd[], const double dtest[], const double cc[], double ss[], double* smin,
+                       const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn,
+                       int ndof) {
+  halves(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof);
+  const_cast<double*>(dd)[1] = 3.0;  // NOLINT: what no kernel may do
+}
+
+}  // namespace
+
+TEST_CASE("a function is a kernel of the 1989 rule, without text") {
+  const auto k = make_function_kernel("halves", halves);
+  CHECK(k->facts().name == "halves");
+  CHECK(k->facts().language == "a function");
+  const call_inputs<double> in = one_pair();
+  call_outputs out;
+  call<double> c = out.prepare(in);
+  k->answer(c);
+  CHECK(c.smin == 0.5);
+  CHECK(out.isep[0] == in_contact);
+  CHECK(k->take_text().empty());
+}
+
+TEST_CASE("a function that changes its input fails, and neither its answer nor what it changed is taken") {
+  const auto k = make_function_kernel("changes", changes_its_input);
+  const call_inputs<double> in = one_pair();
+  call_outputs out;
+  call<double> c = out.prepare(in);
+  CHECK_THROWS_WITH(k->answer(c), "changes: changed its input DD");
+  CHECK(in.dd[1] == 0.0);
+  CHECK(c.smin == not_an_answer);
+}
+
+TEST_CASE("a function's name may not be another kernel's") {
+  for (const char* const name : {"cpp", "fortran", "", "a:b", "a,b"})
+    CHECK_THROWS_AS(refuse_name_of_function(name), std::invalid_argument);
+  CHECK_NOTHROW(refuse_name_of_function("mine"));
+}

@@ -1,0 +1,12 @@
+/* A plug-in written to an ABI that is none yet. */
+#include <contct/kernel/plugin.h>
+
+int contct_kernel_abi(void) {
+  return CONTCT_KERNEL_ABI + 1;
+}
+
+void contct_kernel(const double dd[], const double dtest[], const double cc[], double ss[], double* smin,
+                   const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof) {
+  (void)dd, (void)dtest, (void)cc, (void)ss, (void)smin, (void)id, (void)isep, (void)isurf;
+  (void)nc, (void)indof, (void)ndofpn, (void)ndof;
+}

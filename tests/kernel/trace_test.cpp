@@ -1,0 +1,445 @@
+// Calls as text: what is written is read back to the bit; what a trace may say, and that anything else is
+// refused with file and line, what was found and what is allowed.
+#include "contct/kernel/trace.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "catch.hpp"
+#include "contct/kernel/kernel.hpp"
+#include "contct/number/bits.hpp"
+#include "contct/text/input_text.hpp"
+
+using namespace contct;
+
+namespace {
+
+using limits = std::numeric_limits<double>;
+
+/// Numbers of every kind, both signs of each.
+std::vector<double> numbers() {
+  std::vector<double> all;
+  for (const double x : {0.0, 1.0, 0.1, 1.0 / 3.0, limits::min(), limits::max(), limits::denorm_min(),
+                         3 * limits::denorm_min(), std::nextafter(limits::min(), 0.0),
+                         std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0), 1e-10, 1e-20, .390625e-02,
+                         9007199254740993.0, limits::infinity(), limits::quiet_NaN()}) {
+    all.push_back(x);
+    all.push_back(-x);
+  }
+  // And bits as they come, of every exponent.
+  std::uint64_t bits = 1989;
+  for (int i = 0; i < 2000; ++i) {
+    bits = bits * 6364136223846793005U + 1442695040888963407U;
+    all.push_back(std::bit_cast<double>(bits));
+  }
+  return all;
+}
+
+/// A call with every number as a deflection, a response and a face, and an answer of the same.
+recorded_call call_with(const std::vector<double>& x) {
+  recorded_call c;
+  c.number = 1;
+  c.in.dof = {2, 3};
+  c.in.dd.assign(3 * x.size(), limits::quiet_NaN());
+  c.in.dtest = c.in.dd;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    c.in.id.push_back(static_cast<int>(i) + 1);
+    c.in.dd[3 * i + 1] = x[i];
+    c.in.dtest[3 * i + 1] = -x[i];
+    c.in.cc.push_back(x[x.size() - 1 - i]);
+    c.in.isep.push_back(i % 2 == 0 ? separated : -10'000);
+    c.in.isurf.push_back(i % 3 == 0 ? face_below : 10'000);
+    c.out.ss.push_back(x[i]);
+    c.out.isep.push_back(i % 2 == 0 ? in_contact : std::numeric_limits<int>::max());
+  }
+  c.out.smin = x[0];
+  return c;
+}
+
+std::string written(const recorded_call& c) {
+  std::string text;
+  append_header({}, text);
+  append_inputs(c.number, c.note, c.in, text);
+  append_answer(c.out.smin, c.out.ss, c.out.isep, c.out.text, text);
+  return text;
+}
+
+recorded_call read_back(const std::string& text) {
+  trace_reader reader(text, "a trace");
+  (void)reader.read_header();
+  recorded_call c;
+  REQUIRE(reader.next(c));
+  recorded_call none;
+  CHECK_FALSE(reader.next(none));
+  return c;
+}
+
+int differences(const std::vector<double>& a, const std::vector<double>& b) {
+  REQUIRE(a.size() == b.size());
+  int count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += same_bits(a[i], b[i]) ? 0 : 1;
+  return count;
+}
+
+const std::string good =
+    "contct-trace-1 2026-11-21\n"  // line 1
+    "about two pairs at two nodes\n"
+    "kernel fortran\n"
+    "real 8\n"
+    "rule listing\n"
+    "\n"
+    "call 1\n"  // line 7
+    "note the first\n"
+    "indof 1 ndofpn 2 dofs 4 nc 2\n"
+    "dof 1 dd 0x0p+0 dtest 0x1p+0\n"
+    "dof 3 dd 0x1p-1 dtest -0x1p+0\n"
+    "pair 1 id 1 isep 1 isurf 1 cc 0x1p-1\n"  // line 12
+    "pair 2 id 2 isep -1 isurf -1 cc 0x1p-2\n"
+    "ask\n"
+    "smin 0x1p-2\n"
+    "pair 1 ss 0x1p-1 isep 1\n"  // line 16
+    "pair 2 ss 0x1p-2 isep 1\n"
+    "|  ****** BREAKING CONTACT *******\n"
+    "end\n"
+    "\n"
+    "call 2\n"  // line 21
+    "indof 1 ndofpn 1 dofs 0 nc 0\n"
+    "ask\n"
+    "smin 0x1p+0\n"
+    "end\n";
+
+struct read_result {
+  int calls = 0;
+  std::string refused;  // the message, or empty
+};
+
+/// Read all there is. Anything but an input_error leaves this function, and the test fails.
+read_result read_all(const std::string& text) {
+  read_result r;
+  trace_reader reader(text, "bad.trace");
+  recorded_call c;
+  try {
+    (void)reader.read_header();
+    while (reader.next(c)) ++r.calls;
+  } catch (const input_error& e) {
+    r.refused = e.what();
+  }
+  return r;
+}
+
+/// The good trace with its first `from` replaced.
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = good;
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+struct attack {
+  std::string what;
+  std::string text;
+  int line;           // where it is refused; 0 where the text has none
+  std::string found;  // what the message must have
+};
+
+std::vector<attack> attacks() {
+  const std::string pair_1 = "pair 1 id 1 isep 1 isurf 1 cc 0x1p-1\n";
+  const std::string pair_2 = "pair 2 id 2 isep -1 isurf -1 cc 0x1p-2\n";
+  const std::string layout = "indof 1 ndofpn 2 dofs 4 nc 2";
+  const auto number = [](const std::string& word) { return with("dof 1 dd 0x0p+0", "dof 1 dd " + word); };
+  std::string crlf;
+  for (const char c : good) crlf += c == '\n' ? "\r\n" : std::string(1, c);
+  return {
+      {"nothing", "", 0, "the end of the text"},
+      {"an empty line", "\n", 1, "no trace"},
+      {"another format", with("trace-1", "trace-2"), 1, "contct-trace-2"},
+      {"another day", with("2026-11-21", "2026-11-22"), 1, "2026-11-22"},
+      {"binary",
+       std::string("\x7f"
+                   "ELF\0\1\2\xff",
+                   8) +
+           good,
+       1, "\\x7fELF\\x00\\x01\\x02"},
+      {"a byte order mark", "\xef\xbb\xbf" + good, 1, "no trace"},
+      {"CR LF", crlf, 1, "CR LF"},
+      {"CR LF in one line", with("ask\n", "ask\r\n"), 14, "ask\\x0d"},
+      {"CR alone", with("ask\n", "ask\r"), 14, "ask\\x0d"},
+      {"a header line that is none", with("rule listing", "author me"), 5, "author me"},
+      {"a precision that is none", with("real 8", "real 16"), 4, "real 16"},
+      {"a rule that is none", with("rule listing", "rule of thumb"), 5, "rule of thumb"},
+      {"a header line twice", with("rule listing", "real 4"), 5, "real 4"},
+      {"a header line without a value", with("kernel fortran", "kernel"), 3, "kernel"},
+      {"no line between header and calls", with("rule listing\n\n", "rule listing\n"), 6, "call 1"},
+      {"call 0", with("call 1", "call 0"), 7, "call 0"},
+      {"a call with a negative number", with("call 1", "call -1"), 7, "call -1"},
+      {"calls that do not rise", with("call 2", "call 1"), 21, "call 1"},
+      {"a call's number that overflows", with("call 2", "call 9223372036854775808"), 21,
+       "9223372036854775808"},
+      {"the last number there is", with("call 1", "call 9223372036854775807"), 7, "9223372036854775807"},
+      {"a call without a number", with("call 1", "call"), 7, "call"},
+      {"no call", with("call 1\n", ""), 7, "note the first"},
+      {"a note behind the layout", with("note the first\n" + layout + "\n", layout + "\nnote the first\n"), 9,
+       "note"},
+      {"two notes", with("note the first\n", "note a\nnote b\n"), 9, "note b"},
+      {"no layout", with(layout + "\n", ""), 9, "dof 1 dd"},
+      {"a layout in another order", with(layout, "ndofpn 2 indof 1 dofs 4 nc 2"), 9, "ndofpn 2"},
+      {"INDOF 0", with("indof 1", "indof 0"), 9, "indof 0"},
+      {"NDOFPN 0", with("ndofpn 2", "ndofpn 0"), 9, "ndofpn 0"},
+      {"a negative NC", with("nc 2", "nc -2"), 9, "nc -2"},
+      {"negative dofs", with("dofs 4", "dofs -4"), 9, "dofs -4"},
+      {"too many dofs", with("dofs 4", "dofs 10000001"), 9, "dofs 10000001"},
+      {"dofs that overflow", with("dofs 4", "dofs 99999999999999999999"), 9, "dofs 9999"},
+      {"a million pairs in a small file", with("nc 2", "nc 1000000"), 9, "nc 1000000"},
+      {"more pairs than allowed", with("nc 2", "nc 10000001"), 9, "nc 10000001"},
+      {"more pairs than lines", with("nc 2", "nc 3"), 14, "ask"},
+      {"fewer pairs than lines", with("nc 2", "nc 1"), 13, "pair 2 id 2"},
+      {"a dof's line missing", with("dof 3 dd 0x1p-1 dtest -0x1p+0\n", ""), 13, "no line \"dof 3 ...\""},
+      {"every dof's line missing", with("dof 1 dd 0x0p+0 dtest 0x1p+0\ndof 3 dd 0x1p-1 dtest -0x1p+0\n", ""),
+       12, "no line \"dof 1 ...\""},
+      {"a dof twice", with("dof 3 dd", "dof 1 dd"), 11, "dof 1 dd"},
+      {"dof 0", with("dof 1 dd", "dof 0 dd"), 10, "dof 0"},
+      {"a dof that is not there", with("dof 3 dd", "dof 5 dd"), 11, "dof 5"},
+      {"a dof behind the pairs", with("ask\n", "dof 2 dd 0 dtest 0\nask\n"), 14, "dof 2"},
+      {"DD without DTEST", with(" dtest 0x1p+0", ""), 10, "dof 1 dd 0x0p+0;"},
+      {"pairs in another order", with(pair_1 + pair_2, pair_2 + pair_1), 12, "pair 2"},
+      {"a pair twice", with(pair_2, pair_1), 13, "pair 1"},
+      {"node 0", with("id 1", "id 0"), 12, "id 0"},
+      {"a node that is not there", with("id 2", "id 3"), 13, "a pair at dof 5"},
+      {"a node whose dof overflows", with("ndofpn 2", "ndofpn 10000000"), 13, "a pair at dof 10000001"},
+      {"the farthest node", with("id 2", "id 10000000"), 13, "a pair at dof 19999999"},
+      {"a status that is a number and a half", with("isep -1", "isep -1.5"), 13, "isep -1.5"},
+      {"a status that is too large", with("isep -1", "isep -2147483648"), 13, "isep -2147483648"},
+      {"a status whose product with the side is", with("isep -1 isurf -1", "isep 65536 isurf 32768"), 13,
+       "isep 65536"},
+      {"a side that overflows", with("isurf -1", "isurf -99999999999999999999"), 13, "isurf -9999"},
+      {"a whole number with a plus", with("isep 1", "isep +1"), 12, "isep +1"},
+      {"a whole number with two signs", with("isep -1", "isep --1"), 13, "isep --1"},
+      {"a word too many", with("cc 0x1p-1\n", "cc 0x1p-1 0\n"), 12, "cc 0x1p-1 0"},
+      {"two blanks", with("dof 1 dd", "dof 1  dd"), 10, "dof 1  dd"},
+      {"a blank at the end", with("ask\n", "ask \n"), 14, "ask ;"},
+      {"a blank in front", with("ask\n", " ask\n"), 14, "found  ask"},
+      {"a tab for a blank", with("dof 1 dd", "dof 1\tdd"), 10, "dof 1\\x09dd"},
+      {"capitals", with("ask\n", "ASK\n"), 14, "ASK"},
+      {"a number with two signs", number("--1"), 10, "--1"},
+      {"a number with a plus", number("+1"), 10, "+1"},
+      {"a sign inside", number("0x-1p0"), 10, "0x-1p0"},
+      {"a sign alone", number("-"), 10, "dd - "},
+      {"0x alone", number("0x"), 10, "0x "},
+      {"0x without digits", number("0xp+1"), 10, "0xp+1"},
+      {"0x and inf", number("0xinf"), 10, "0xinf"},
+      {"0x and nan", number("-0xnan"), 10, "-0xnan"},
+      {"0x twice", number("0x0x1"), 10, "0x0x1"},
+      {"a capital X", number("0X1p0"), 10, "0X1p0"},
+      {"a decimal that overflows", number("1e999"), 10, "1e999"},
+      {"a decimal that is less than any", number("1e-999"), 10, "1e-999"},
+      {"a hexfloat that overflows", number("0x1p+1024"), 10, "0x1p+1024"},
+      {"an exponent that overflows", number("0x1p+99999999999"), 10, "0x1p+9999"},
+      {"FORTRAN's exponent", number("1D0"), 10, "1D0"},
+      {"a decimal comma", number("0,5"), 10, "0,5"},
+      {"a number and a letter", number("1x"), 10, "1x"},
+      {"no number", number("zero"), 10, "zero"},
+      {"a NUL in a number", number(std::string("1\0", 2)), 10, "1\\x00"},
+      {"a NUL for a line", with("ask\n", std::string("\0\n", 2)), 14, "\\x00"},
+      {"a NUL behind a word", with("ask\n", std::string("ask\0\n", 5)), 14, "ask\\x00"},
+      {"an escape sequence", with("ask\n", "\033[2J\n"), 14, "\\x1b[2J"},
+      {"no ask", with("ask\n", ""), 14, "smin"},
+      {"no smin", with("smin 0x1p-2\n", ""), 15, "pair 1 ss"},
+      {"an answer's pair missing", with("pair 2 ss 0x1p-2 isep 1\n", ""), 17, "|  ****"},
+      {"an answer's pairs in another order", with("pair 1 ss", "pair 2 ss"), 16, "pair 2 ss"},
+      {"an answer's pair too many",
+       with("pair 2 ss 0x1p-2 isep 1\n", "pair 2 ss 1 isep 1\npair 3 ss 1 isep 1\n"), 18, "pair 3"},
+      {"an answered status that overflows", with("ss 0x1p-1 isep 1", "ss 0x1p-1 isep 2147483648"), 16,
+       "2147483648"},
+      {"no end", with("BREAKING CONTACT *******\nend\n", "BREAKING CONTACT *******\n"), 19, "found ;"},
+      {"text behind end", with("end\n\n", "end\n|more\n"), 20, "|more"},
+      {"words behind end", good + "the end\n", 26, "the end"},
+      {"a second header", good + good, 26, "contct-trace-1"},
+      {"a long line", with("ask\n", std::string(8'000'000, 'x') + "\n"), 14, "xxxx"},
+      {"a long number", number(std::string(1'000'000, '9')), 10, "9999"},
+      {"a line without an end", good + std::string(8'000'000, ' '), 26, "found    "},
+  };
+}
+
+/// Is `message` one line of the form FILE:LINE: found ...; allowed: ...? An empty text has no line.
+bool well_formed(const std::string& message) {
+  const std::string file = "bad.trace";
+  const std::size_t found = message.find(": found ");
+  const std::size_t allowed = message.find("; allowed: ", found);
+  if (message.size() >= 700 || message.find('\n') != std::string::npos) return false;
+  if (!message.starts_with(file) || allowed == std::string::npos) return false;
+  const std::string line = message.substr(file.size(), found - file.size());
+  return line.empty() ||
+         (line[0] == ':' && line.size() > 1 && line.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
+/// What the reader makes of one number.
+double read_number(const std::string& word) {
+  const std::string text = "call 1\nindof 1 ndofpn 1 dofs 1 nc 1\ndof 1 dd " + word +
+                           " dtest 1\npair 1 id 1 isep 1 isurf 1 cc 1\nask\n";
+  trace_reader reader(text, "a call");
+  recorded_call c;
+  REQUIRE(reader.next_inputs(c));
+  return c.in.dd[0];
+}
+
+}  // namespace
+
+TEST_CASE("numbers of every kind come back from a trace to the bit") {
+  recorded_call c = call_with(numbers());
+  const recorded_call back = read_back(written(c));
+  CHECK(differences(c.in.dd, back.in.dd) == 0);
+  CHECK(differences(c.in.dtest, back.in.dtest) == 0);
+  CHECK(differences(c.in.cc, back.in.cc) == 0);
+  CHECK(differences(c.out.ss, back.out.ss) == 0);
+  CHECK(back.in.id == c.in.id);
+  CHECK(back.in.isep == c.in.isep);
+  CHECK(back.in.isurf == c.in.isurf);
+  CHECK(back.out.isep == c.out.isep);
+  CHECK(back.in.dof.indof == 2);
+  CHECK(back.in.dof.ndofpn == 3);
+  for (const double x : numbers()) {
+    c.out.smin = x;
+    CHECK(same_bits(read_back(written(c)).out.smin, x));
+    if (std::isnan(x)) break;  // the special ones have been
+  }
+}
+
+TEST_CASE("a dof that no pair looks at is nobody's: it is not written, and read as NaN") {
+  recorded_call c = call_with({1.0, 2.0});
+  c.in.dd[0] = 7.0;
+  const std::string text = written(c);
+  CHECK(text.find("dof 1 ") == std::string::npos);
+  const recorded_call back = read_back(text);
+  CHECK(std::isnan(back.in.dd[0]));
+  CHECK(back.in.dd[1] == 1.0);
+}
+
+TEST_CASE("notes and unit-26 text come back, whatever characters they have") {
+  recorded_call c = call_with({1.0});
+  c.note = "a note with \"quotes\", | bars |, end, \t tabs and \xc3\xa9";
+  c.out.text = "|bar\n\nend\n  call 2\n\t\x01\x7f\xff" + std::string(1, '\0') + "\ncarriage\r\n ask\n";
+  const recorded_call back = read_back(written(c));
+  CHECK(back.note == c.note);
+  CHECK(back.out.text == c.out.text);
+  c.note.clear();
+  c.out.text.clear();
+  CHECK(read_back(written(c)).note.empty());
+  CHECK(read_back(written(c)).out.text.empty());
+}
+
+TEST_CASE("a header comes back") {
+  const trace_header h{{"what it is for", "in two lines"},
+                       "fortran-r4",
+                       4,
+                       contact_rule::corrected,
+                       "c9f2",
+                       "GNU 12.2.0",
+                       "-O3 -ffp-contract=off",
+                       "none",
+                       "strict"};
+  std::string text;
+  append_header(h, text);
+  trace_reader reader(text, "a trace");
+  const trace_header back = reader.read_header();
+  CHECK(back.about == h.about);
+  CHECK(back.kernel == h.kernel);
+  CHECK(back.real_bytes == 4);
+  CHECK(back.rule == contact_rule::corrected);
+  CHECK(back.listing == h.listing);
+  CHECK(back.compiler == h.compiler);
+  CHECK(back.flags == h.flags);
+  CHECK(back.lapack == h.lapack);
+  CHECK(back.floating_point == h.floating_point);
+}
+
+TEST_CASE("a kernel's name of several lines stays one line of the header") {
+  trace_header h;
+  h.kernel = "pipe:while read x\ndo echo $x\ndone";
+  std::string text;
+  append_header(h, text);
+  trace_reader reader(text, "a trace");
+  CHECK(reader.read_header().kernel == "pipe:while read x do echo $x done");
+}
+
+TEST_CASE("a malformed trace is refused with file and line, what was found and what is allowed") {
+  const std::vector<attack> all = attacks();
+  CHECK(all.size() >= 90);
+  for (const attack& a : all) {
+    const read_result r = read_all(a.text);
+    INFO(a.what << ": " << r.refused);
+    CHECK(well_formed(r.refused));
+    CHECK_THAT(r.refused, Catch::Matchers::StartsWith(
+                              a.line == 0 ? "bad.trace: " : "bad.trace:" + std::to_string(a.line) + ": "));
+    CHECK_THAT(r.refused, Catch::Matchers::Contains(a.found));
+  }
+}
+
+TEST_CASE("a trace cut off anywhere is refused, unless what is left is whole") {
+  int whole = 0;
+  for (std::size_t length = 0; length <= good.size(); ++length) {
+    const read_result r = read_all(good.substr(0, length));
+    if (r.refused.empty()) {
+      ++whole;
+      // Between calls, or in the header, where no call is left to be replayed.
+      const bool behind_call_1 = length >= good.find("\n\ncall 2") && length <= good.find("call 2");
+      const bool behind_call_2 = length >= good.size() - 1;
+      CHECK(r.calls == (behind_call_2 ? 2 : behind_call_1 ? 1 : 0));
+      CHECK((r.calls > 0 || length <= good.find("call 1")));
+    } else {
+      CHECK(well_formed(r.refused));
+    }
+  }
+  CHECK(whole < static_cast<int>(good.find("call 1")) + 6);
+}
+
+TEST_CASE("what one call says of a dof is forgotten in the next") {
+  const std::string calls =
+      "call 1\nindof 1 ndofpn 1 dofs 3 nc 1\ndof 1 dd 1 dtest 1\ndof 3 dd 3 dtest 3\n"
+      "pair 1 id 1 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
+      "\ncall 2\nindof 1 ndofpn 1 dofs 2 nc 1\ndof 2 dd 2 dtest 2\n"
+      "pair 1 id 2 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
+      "\ncall 3\nindof 1 ndofpn 1 dofs 3 nc 0\nask\nsmin 1\nend\n";
+  trace_reader reader(calls, "a trace");
+  recorded_call c;
+  REQUIRE(reader.next(c));
+  CHECK(c.in.dd[2] == 3.0);
+  REQUIRE(reader.next(c));
+  CHECK(std::isnan(c.in.dd[0]));
+  CHECK(c.in.dd[1] == 2.0);
+  REQUIRE(reader.next(c));
+  for (const double d : c.in.dd) CHECK(std::isnan(d));
+  CHECK_FALSE(reader.next(c));
+}
+
+TEST_CASE("numbers may be written as a person writes them") {
+  CHECK(read_number("1") == 1.0);
+  CHECK(read_number("-0.1") == -0.1);
+  CHECK(read_number(".5") == 0.5);
+  CHECK(read_number("1e-10") == 1e-10);
+  CHECK(read_number("1E+3") == 1000.0);
+  CHECK(same_bits(read_number("-0"), -0.0));
+  CHECK(read_number("4.9406564584124654e-324") == std::numeric_limits<double>::denorm_min());
+  CHECK(read_number("0x1.8p+1") == 3.0);
+  CHECK(read_number("0x1.8000p1") == 3.0);
+  CHECK(read_number("0xc.0p-2") == 3.0);
+  CHECK(read_number("-inf") == -std::numeric_limits<double>::infinity());
+  CHECK(std::isnan(read_number("nan")));
+  CHECK(std::isnan(read_number("-nan")));
+}
+
+TEST_CASE("the reader counts the lines that it has read") {
+  trace_reader reader(good, "a trace");
+  CHECK(reader.line() == 0);
+  (void)reader.read_header();
+  CHECK(reader.line() == 6);
+  recorded_call c;
+  REQUIRE(reader.next_inputs(c));
+  CHECK(reader.line() == 14);
+  c.out.ss.resize(2);
+  c.out.isep.resize(2);
+  reader.read_answer(c.out);
+  CHECK(c.out.smin == 0.25);
+  CHECK(reader.line() == 19);
+}

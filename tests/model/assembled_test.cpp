@@ -1,0 +1,184 @@
+// A structure of which only the matrix is known: what it is, and which motions it leaves free.
+#include "catch.hpp"
+#include "contct/model/problem.hpp"
+#include "contct/model/rigid_modes.hpp"
+#include "support/matrices.hpp"
+
+using namespace contct;
+
+namespace {
+
+beam even_beam(int elements) {
+  beam b;
+  for (int i = 0; i <= elements; ++i) b.x.push_back(0.5 * i);
+  b.EI.assign(static_cast<std::size_t>(elements), 3e4);
+  return b;
+}
+
+plate small_plate() {
+  plate p;
+  p.x = {0, 0.5, 1.2, 2};
+  p.y = {0, 0.4, 1};
+  p.D = 7;
+  p.nu = 0.3;
+  return p;
+}
+
+/// The same structure by its matrix alone.
+linear_structure by_matrix(const linear_structure& s, std::span<const support> supports,
+                           std::vector<contact_pair> pairs) {
+  assembled a;
+  a.name = "K";
+  a.stiffness = entries_of(s);
+  return build(a, supports, std::move(pairs));
+}
+
+/// A pair at a dof of a matrix.
+contact_pair at_dof(int dof) {
+  return {dof, -1, 0.0, 1.0, true};
+}
+
+std::string refusal_of(const assembled& a, const std::vector<support>& supports) {
+  try {
+    (void)build(a, supports, {});
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+int rank_of(const linear_structure& s) {
+  return s.held_by([](std::size_t) { return true; }).rank();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the matrix of a free beam has two free motions, that of a free plate three, of a body in space six") {
+  for (const int elements : {1, 2, 7, 40, 200}) {
+    INFO(elements << " elements");
+    CHECK(by_matrix(build(even_beam(elements), {}, {}), {}, {}).rigid_motions == 2);
+  }
+  CHECK(by_matrix(build(small_plate(), {}, {}), {}, {}).rigid_motions == 3);
+  assembled body;
+  body.stiffness = braced(box_at(0), 1e5);
+  CHECK(build(body, {}, {}).rigid_motions == 6);
+}
+
+TEST_CASE("the motions found need no force and are straight: those that the beam knows of itself") {
+  const linear_structure known = build(even_beam(20), {}, {});
+  const linear_structure s = by_matrix(known, {}, {});
+  REQUIRE(s.rigid_motions == 2);
+  for (std::size_t motion = 0; motion < 2; ++motion) {
+    const auto w = [&](std::size_t node) { return s.rigid_rows[2 * node][motion]; };
+    const double slope = (w(20) - w(0)) / 10.0;
+    for (std::size_t node = 0; node <= 20; ++node) {
+      CHECK(w(node) == Approx(w(0) + slope * 0.5 * static_cast<double>(node)).margin(1e-9));
+      CHECK(s.rigid_rows[2 * node + 1][motion] == Approx(slope).margin(1e-9));
+    }
+  }
+  CHECK(s.rigid_rounding < 1e-7);
+}
+
+TEST_CASE("supports take free motions away: the matrix knows no others than those that are left") {
+  const linear_structure bare = build(even_beam(12), {}, {});
+  CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}}, {}).rigid_motions == 1);
+  CHECK(by_matrix(bare, std::vector<support>{{0, 0, false, 1e4}}, {}).rigid_motions == 1);
+  CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}, {1, 0, true}}, {}).rigid_motions == 0);
+  CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}, {1, 0, false, 3.0}}, {}).rigid_motions == 0);
+}
+
+TEST_CASE("pairs hold a free beam where they would hold it by its formula, and not where they would not") {
+  const linear_structure bare = build(even_beam(12), {}, {});
+  CHECK(rank_of(by_matrix(bare, {}, {at_dof(4)})) == 1);
+  CHECK(rank_of(by_matrix(bare, {}, {at_dof(4), at_dof(4)})) == 1);
+  CHECK(rank_of(by_matrix(bare, {}, {at_dof(4), at_dof(6)})) == 2);
+  CHECK(rank_of(by_matrix(bare, {}, {at_dof(5), at_dof(19)})) == 1);  // two rotations
+  CHECK(rank_of(by_matrix(bare, {}, {at_dof(5), at_dof(20)})) == 2);
+}
+
+TEST_CASE("a body in space: four vertical pairs stop three motions, and six well placed ones all") {
+  assembled body;
+  body.stiffness = braced(box_at(0), 1e5);
+  CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(11)})) == 3);
+  CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(0), at_dof(6), at_dof(1)})) == 6);
+}
+
+TEST_CASE("a dof that no free motion moves holds none: what is left there is rounding") {
+  assembled body;
+  body.stiffness = braced(box_at(0), 1e5);
+  std::vector<support> only_x_is_left;
+  for (const int dof : {2, 5, 8, 1, 4})
+    only_x_is_left.push_back({dof, 0, true});  // z at three corners, y at two
+  REQUIRE(build(body, only_x_is_left, {}).rigid_motions == 1);
+  for (const int dof : {7, 10, 14, 20, 23}) CHECK(rank_of(build(body, only_x_is_left, {at_dof(dof)})) == 0);
+  CHECK(rank_of(build(body, only_x_is_left, {at_dof(21)})) == 1);
+}
+
+TEST_CASE("a soft motion of a matrix is stiffness, unless its last digits are in doubt") {
+  const std::vector<support> clamp = {{0, 0, true}, {1, 0, true}};
+  CHECK(by_matrix(build(even_beam(1000), {}, {}), clamp, {}).rigid_motions == 0);
+  assembled longer;
+  longer.stiffness = entries_of(build(even_beam(2500), {}, {}));
+  CHECK(build(longer, clamp, {}).rigid_motions == 0);     // 1.3e-14, beside doubles' 1e-16
+  for (const matrix_entry& e : longer.stiffness.entries)  // to 14 digits
+    longer.stiffness.last_digits.push_back(
+        static_cast<std::int16_t>(std::floor(std::log10(std::abs(e.value))) - 13));
+  CHECK(build(longer, clamp, {}).rigid_motions > 0);
+  longer.free_motions = 0;
+  CHECK(build(longer, clamp, {}).rigid_motions == 0);
+}
+
+TEST_CASE("matrices that are no stiffness are refused by name, with what was found") {
+  using Catch::Matchers::Contains;
+  assembled a;
+  a.name = "K.mtx";
+  a.stiffness = {2, {{0, 0, 1.0}, {1, 0, 2.0}, {1, 1, 1.0}}};
+  CHECK_THAT(refusal_of(a, {}), Contains("K.mtx: the matrix is not positive semidefinite"));
+  a.stiffness = {2, {{0, 0, 1.0}}};
+  CHECK_THAT(refusal_of(a, {}), Contains("K.mtx: dof 2: found no stiffness and no support"));
+  CHECK(refusal_of(a, {{1, 0, true}}) == "accepted");
+  CHECK(refusal_of(a, {{1, 0, false, 2.0}}) == "accepted");
+  a.stiffness = braced(box_at(0), 1e5);
+  const sparse_matrix other = braced(box_at(5), 1e5);
+  for (const matrix_entry& e : other.entries)
+    a.stiffness.entries.push_back({e.row + 24, e.column + 24, e.value});
+  a.stiffness.order = 48;
+  CHECK_THAT(refusal_of(a, {}), Contains("has more than 6 rigid-body motions"));
+  a.stiffness = braced(box_at(0), 1e5);
+  a.free_motions = 7;
+  CHECK_THAT(refusal_of(a, {}), Contains("free_motions: found 7; allowed: the number of rigid-body motions "
+                                         "of the matrix on its supports, 6"));
+}
+
+TEST_CASE("the order of rows changes neither motions nor reactions") {
+  const std::vector<support> supports = {{0, 0, true}, {24, 0, false, 50.0}};
+  assembled a;
+  a.stiffness = entries_of(build(even_beam(12), {}, {}));
+  const linear_structure plain = build(a, supports, {at_dof(10)});
+  for (int i = 0; i < a.dofs(); ++i) a.rows.push_back((i * 7 + 3) % a.dofs());
+  const linear_structure mixed = build(a, supports, {at_dof(10)});
+  REQUIRE(mixed.rigid_motions == plain.rigid_motions);
+  CHECK(mixed.stiffness.band().subdiagonals() > plain.stiffness.band().subdiagonals());
+  for (int dof = 0; dof < a.dofs(); ++dof) {
+    CHECK(mixed.stiffness.band().at(mixed.row_of(dof), mixed.row_of(dof)) ==
+          plain.stiffness.band().at(dof, dof));
+  }
+  const linear_structure loose = build(a, {}, {});
+  REQUIRE(loose.rigid_motions == 2);
+  for (std::size_t motion = 0; motion < 2; ++motion) {
+    for (std::size_t dof = 2; dof < 24; dof += 2) {  // straight
+      const auto w = [&](std::size_t at) { return loose.rigid_rows[at][motion]; };
+      CHECK(w(dof - 2) - 2 * w(dof) + w(dof + 2) == Approx(0).margin(1e-9));
+      CHECK((w(dof) - w(dof - 2)) / 0.5 == Approx(w(dof + 1)).margin(1e-9));
+    }
+  }
+  std::vector<double> u(26, 0.0);
+  u[24] = -0.25;
+  load l;
+  l.points.push_back({0, 0, 3.0});
+  const std::vector<double> r = reactions(a, l, supports, u);
+  REQUIRE(r.size() == 2);
+  CHECK(r[0] == -3.0);  // nothing deforms near it: the load goes into the support
+  CHECK(r[1] == 12.5);
+}

@@ -1,0 +1,170 @@
+// Hermite beams against what every textbook has.
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "catch.hpp"
+#include "contct/matrix/cholesky.hpp"
+#include "contct/model/problem.hpp"
+#include "support/matrices.hpp"
+
+using namespace contct;
+
+namespace {
+
+beam even_beam(double length, int elements, double EI) {
+  beam b;
+  for (int i = 0; i <= elements; ++i) b.x.push_back(length * i / elements);
+  b.EI.assign(static_cast<std::size_t>(elements), EI);
+  return b;
+}
+
+std::vector<double> solve(const beam& b, const std::vector<support>& supports, const load& l) {
+  linear_structure s = build(b, supports, {});
+  std::vector<double> f(static_cast<std::size_t>(b.dofs()), 0.0);
+  add_consistent_loads(b, l, f);
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    if (s.fixed[i] != 0) f[i] = 0.0;
+  }
+  REQUIRE(factor(s.stiffness.band()));
+  solve_with(s.stiffness.band(), f);
+  return f;
+}
+
+const std::vector<support> clamped_left = {{0, 0, true}, {0, 1, true}};
+
+}  // namespace
+
+TEST_CASE("cantilever under a tip load: w = P L^3 / 3 EI, and linear moments") {
+  const beam b = even_beam(2.0, 4, 50.0);
+  const load l{{{4, 0, -3.0}}, {}};
+  const auto u = solve(b, clamped_left, l);
+  CHECK(u[8] == Approx(-3.0 * 8 / 150).epsilon(1e-13));
+  CHECK(u[9] == Approx(-3.0 * 4 / 100).epsilon(1e-13));
+  const element_results forces = results_in_elements(b, l, u);
+  CHECK(forces.at(0, 1)[0] == Approx(-6.0).epsilon(1e-12));  // hogging: negative
+  CHECK(forces.at(1, 1)[1] == Approx(-3.0).epsilon(1e-12));
+  for (std::size_t e = 0; e < forces.elements(); ++e)  // the support pushes up on what lies right of the cut
+    for (const double shear : forces.at(e, 0)) CHECK(shear == Approx(3.0).epsilon(1e-12));
+  const auto r = reactions(b, l, clamped_left, u);
+  CHECK(r[0] == Approx(3.0).epsilon(1e-12));
+  CHECK(r[1] == Approx(6.0).epsilon(1e-12));
+}
+
+TEST_CASE("simply supported beam under uniform load: exact at the nodes, M = q L^2 / 8 in the middle") {
+  const beam b = even_beam(10.0, 6, 7.0);
+  const std::vector<support> ends = {{0, 0, true}, {6, 0, true}};
+  const load l{{}, {{{-2.0}, {}}}};
+  const auto u = solve(b, ends, l);
+  CHECK(u[6] == Approx(-5.0 * 2 * 1e4 / (384 * 7)).epsilon(1e-12));
+  const element_results forces = results_in_elements(b, l, u);
+  CHECK(forces.at(2, 1)[1] == Approx(25.0).epsilon(1e-12));  // sagging: positive
+  CHECK(forces.at(3, 1)[0] == Approx(25.0).epsilon(1e-12));
+  CHECK(forces.at(0, 0)[0] == Approx(10.0).epsilon(1e-12));
+  CHECK(forces.at(5, 0)[1] == Approx(-10.0).epsilon(1e-12));
+  CHECK(forces.at(2, 0)[1] == Approx(0.0).margin(1e-11));
+  CHECK(forces.at(0, 1)[0] == Approx(0.0).margin(1e-11));
+  const auto r = reactions(b, l, ends, u);
+  CHECK(r[0] == Approx(10.0).epsilon(1e-12));
+  CHECK(r[1] == Approx(10.0).epsilon(1e-12));
+}
+
+TEST_CASE("stiffness may change from element to element") {
+  // Cantilever, root half twice as stiff: w = P/3 (L^3/EI2 + (1/EI1 - 1/EI2) (L/2)^3 7 ...), by unit loads.
+  beam b = even_beam(2.0, 2, 1.0);
+  b.EI = {2.0, 1.0};
+  const auto u = solve(b, clamped_left, {{{2, 0, 1.0}}, {}});
+  // Integral of (2 - x)^2 / EI from 0 to 2: (8 - 1) / 3 / 2 + 1 / 3.
+  CHECK(u[4] == Approx(7.0 / 6 + 1.0 / 3).epsilon(1e-13));
+}
+
+TEST_CASE("a polynomial load has its exact resultant and moment, on any mesh") {
+  beam b;
+  b.x = {0.0, 0.3, 1.0, 1.1, 2.0};
+  b.EI.assign(4, 1.0);
+  std::vector<double> f(10, 0.0);
+  add_consistent_loads(b, {{}, {{{20.0, -20.0, 5.0}, {}}}}, f);  // 5 (x - 2)^2, as in SSNL130
+  double force = 0.0;
+  double moment = 0.0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    force += f[2 * i];
+    moment += f[2 * i] * b.x[i] + f[2 * i + 1];
+  }
+  CHECK(force == Approx(40.0 / 3).epsilon(1e-14));
+  CHECK(moment == Approx(20.0 / 3).epsilon(1e-14));
+}
+
+TEST_CASE("a polynomial of degree 0 is a uniform load, and parts add up") {
+  const beam b = even_beam(3.0, 3, 1.0);
+  std::vector<double> whole(8, 0.0);
+  std::vector<double> parts(8, 0.0);
+  add_consistent_loads(b, {{}, {{{-1.0}, {}}}}, whole);
+  add_consistent_loads(b, {{}, {{{-1.0, 0.0}, {0, 1}}, {{-0.25}, {2}}, {{-0.75}, {2}}}}, parts);
+  for (std::size_t i = 0; i < 8; ++i) CHECK(parts[i] == Approx(whole[i]).margin(1e-15));
+}
+
+TEST_CASE("a rigid motion bends nothing, however large") {
+  const beam b = even_beam(10.0, 100, 1e4);
+  std::vector<double> u;
+  for (const double x : b.x) {
+    u.push_back(1000.0 + 3.0 * x);
+    u.push_back(3.0);
+  }
+  const element_results forces = results_in_elements(b, {}, u);
+  REQUIRE(forces.elements() == 100);
+  for (std::size_t e = 0; e < 100; ++e)
+    for (const double moment : forces.at(e, 1)) CHECK(std::abs(moment) < 1e-4);
+}
+
+TEST_CASE("elastic supports: a beam on two springs sinks by F / 2k, and each reacts with half") {
+  const beam b = even_beam(4.0, 2, 1e6);
+  const std::vector<support> springs = {{0, 0, false, 10.0}, {2, 0, false, 10.0}};
+  const load l{{{1, 0, -4.0}}, {}};
+  const auto u = solve(b, springs, l);
+  CHECK(u[0] == Approx(-0.2).epsilon(1e-9));
+  const auto r = reactions(b, l, springs, u);
+  CHECK(r[0] == Approx(2.0).epsilon(1e-9));
+  CHECK(r[1] == Approx(2.0).epsilon(1e-9));
+}
+
+TEST_CASE("a rotational spring at the root makes a clamp as stiff as itself") {
+  const beam b = even_beam(1.0, 1, 1.0);
+  const std::vector<support> soft = {{0, 0, true}, {0, 1, false, 2.0}};
+  const auto u = solve(b, soft, {{{1, 0, 1.0}}, {}});
+  CHECK(u[2] == Approx(1.0 / 3 + 1.0 / 2).epsilon(1e-13));
+}
+
+TEST_CASE("a stiffness beyond double precision is refused, with the element") {
+  beam b = even_beam(1e-150, 2, 1.0);
+  CHECK_THROWS_WITH(build(b, clamped_left, {}), Catch::Matchers::Contains("element 1"));
+}
+
+TEST_CASE("the two rigid motions of a beam, up and about its middle, are what rigid_rows says") {
+  beam b;
+  b.x = {2.0, 3.0, 5.0, 6.0};
+  b.EI.assign(3, 1.0);
+  const linear_structure s = build(b, {}, {});
+  CHECK(s.rigid_rows == std::vector<rigid_row>{{1, -1, 0},
+                                               {0, 0.5, 0},
+                                               {1, -0.5, 0},
+                                               {0, 0.5, 0},
+                                               {1, 0.5, 0},
+                                               {0, 0.5, 0},
+                                               {1, 1, 0},
+                                               {0, 0.5, 0}});
+  for (std::size_t motion = 0; motion < 2; ++motion) {
+    std::vector<double> u;
+    for (const rigid_row& row : s.rigid_rows) u.push_back(row[motion]);
+    for (const double force : product(s.stiffness.band(), u)) CHECK(force == Approx(0.0).margin(1e-14));
+  }
+}
+
+TEST_CASE("what holds the beam is told to the path: supports, springs and pairs") {
+  const beam b = even_beam(2.0, 2, 1.0);
+  const std::vector<support> one = {{0, 0, true}};
+  const linear_structure s = build(b, one, {{2, 1, 0.5, 1.0, false}});
+  CHECK(s.rigid_motions == 2);
+  CHECK(s.held_by([](std::size_t) { return false; }).rank() == 1);
+  CHECK(s.held_by([](std::size_t) { return true; }).rank() == 2);
+  CHECK(s.dof_of_pair(0) == 4);
+}

@@ -1,0 +1,108 @@
+// What numbers of a file mean, and faces and loads that are polynomials in x, where their terms cancel.
+#include "contct/model/line.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace contct;
+
+namespace {
+
+struct visited {
+  int element;
+  std::vector<double> q;
+  double size;
+};
+
+std::vector<visited> visits(const beam& b, const load& l) {
+  std::vector<visited> all;
+  contct::for_each_polynomial<double_double>(b, l, [&](int e, const auto& on) {
+    visited& v = all.emplace_back(visited{e, {}, on.size});
+    for (const auto& coefficient : on.q) v.q.push_back(coefficient.hi);
+  });
+  return all;
+}
+
+double_double decimal(double x) {
+  return contct::number_of<double_double>(x);
+}
+
+const std::vector<double> sixth_power = {1e18, -6e15, 1.5e13, -2e10, 1.5e7, -6000, 1};  // (x - 1000)^6
+
+}  // namespace
+
+TEST_CASE("the decimal 0.1 is one tenth, which its double is not") {
+  CHECK(decimal(0.1).hi == 0.1);
+  CHECK(decimal(0.1).lo != 0.0);
+  CHECK(std::abs((decimal(0.1) * 10 - 1.0).hi) <= 0x1p-100);
+  CHECK(std::abs((decimal(-2.5e-7) * 4e6 + 1.0).hi) <= 0x1p-100);
+  CHECK(std::abs((decimal(1.25e22) / 1e22 - 1.25).hi) <= 0x1p-100);
+  for (const double x : {0.0, -0.0, 3.0, -7.0, 0x1p52, 0.5, 0.25}) {
+    CHECK(decimal(x).hi == x);
+    CHECK(decimal(x).lo == 0.0);
+  }
+}
+
+TEST_CASE("a decimal at the ends of the range of doubles is no less than its double") {
+  for (const double x : {5e-324, -5e-324, 1e-310, 2.2250738585072014e-308, -1.2345678901234567e-300,
+                         1.2345678901234567e-293, 1.7976931348623157e308}) {
+    INFO(x);
+    CHECK(decimal(x).hi == x);
+    CHECK(std::abs(decimal(x).lo) <= std::abs(x) * 0x1p-53);
+    CHECK(contct::difference_of<double_double>(x, 1.0).hi == x - 1.0);
+  }
+}
+
+TEST_CASE("decimals are added up exactly before they are rounded: 0.1, 0.2 and -0.3 are nothing") {
+  const auto sum = [](const std::vector<double>& parts) { return contct::sum_of<double_double>(parts); };
+  CHECK(sum({}) == 0.0);
+  CHECK(sum({0.1, 0.2, -0.3}) == 0.0);
+  CHECK(sum({-0.3, 1e-20, 0.2, 0.1}) == decimal(1e-20));
+  CHECK(sum({1e300, 1e-300, -1e300}) == decimal(1e-300));
+  CHECK(contct::sum_of<double>(std::vector<double>{0.1, 0.2, -0.3}) == 0.0);
+}
+
+TEST_CASE("A polynomial face is rounded once, though its terms are 1e33 times as large") {
+  const beam b{{0.0, 1.1, 2.2}, {1e4, 1e4}};
+  const auto faces = contct::values_at<double_double>(b, std::vector<double>{-0.001, -1.21e30, 0.0, 1e30},
+                                                      std::vector<int>{1, 0});
+  REQUIRE(faces.size() == 2);
+  for (const auto& face : faces) {
+    CHECK(face.hi == -0.001);
+    CHECK(face == decimal(-0.001));
+  }
+}
+
+TEST_CASE("each point of a line stands for half of the intervals beside it") {
+  CHECK(contct::tributary_lengths<double>(std::vector<double>{2, 1}) == std::vector<double>{1, 1.5, 0.5});
+}
+
+TEST_CASE("Nodes that are equal parts of a length have faces at the exact parts") {
+  const beam thirds{{0.0, 1.0 / 3, 2.0 / 3, 1.0}, {1, 1, 1}, {{1.0, 3}}};
+  const auto faces =
+      contct::values_at<double_double>(thirds, std::vector<double>{-1.0, 3.0}, std::vector<int>{1, 2});
+  CHECK(faces[0] == 0.0);
+  CHECK(faces[1] == 1.0);
+}
+
+TEST_CASE("A load that is a sixth power about x = 1000 is t^6 on the element that begins there") {
+  const beam b{{1000.0, 1001.0, 1003.0}, {1, 1}};
+  const auto all = visits(b, {{}, {{sixth_power, {}}}});
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].q == std::vector<double>{0, 0, 0, 0, 0, 0, 1});
+  CHECK(all[1].q == std::vector<double>{1, 12, 60, 160, 240, 192, 64});  // (1 + 2 t)^6
+  CHECK(all[0].size == 1.0);
+  CHECK(all[1].element == 1);
+}
+
+TEST_CASE("Parts of a load add up exactly before they are shifted to an element") {
+  const beam b{{0.0, 1.0, 2.0}, {1, 1}};
+  const auto all = visits(b, {{}, {{{0.1 + 0.2 - 0.3}, {1}, {{0.1}, {0.2}, {-0.3}}}, {{4.0, 2.0}, {}}}});
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].element == 1);
+  CHECK(all[0].q == std::vector<double>{0.0});
+  CHECK(all[0].size == 0.0);
+  CHECK(all[2].q == std::vector<double>{6.0, 2.0});
+}

@@ -1,0 +1,94 @@
+// One set of verbs for beams and plates.
+#include "contct/model/problem.hpp"
+
+#include <string>
+
+#include "catch.hpp"
+
+using namespace contct;
+
+namespace {
+
+const beam two_spans{{0.0, 1.0, 3.0}, {2.0, 2.0}};
+const plate small{{1.0, 2.0, 4.0}, {0.0, 1.0}, 1.0, 0.3};
+
+std::vector<std::string> names_of(const model& m) {
+  const auto names = dof_names(m);
+  return {names.begin(), names.end()};
+}
+
+}  // namespace
+
+TEST_CASE("a model knows its sizes and the names of its dofs, whichever kind it is") {
+  const model b{two_spans};
+  CHECK(nodes(b) == 3);
+  CHECK(elements(b) == 2);
+  CHECK(dofs_per_node(b) == 2);
+  CHECK(dofs(b) == 6);
+  CHECK(names_of(b) == std::vector<std::string>{"w", "theta"});
+  CHECK(tributary_shares(b) == std::vector<double>{0.5, 1.5, 1.0});
+  const model p{small};
+  CHECK(nodes(p) == 6);
+  CHECK(elements(p) == 2);
+  CHECK(dofs_per_node(p) == 3);
+  CHECK(dofs(p) == 18);
+  CHECK(names_of(p) == std::vector<std::string>{"w", "wx", "wy"});
+  CHECK(tributary_shares(p) == std::vector<double>{0.25, 0.75, 0.5, 0.25, 0.75, 0.5});
+}
+
+TEST_CASE("a model is assembled as its kind is") {
+  const linear_structure b = build(model{two_spans}, {}, {{2, -1, 0.0, 1.0, true}});
+  CHECK(b.rigid_motions == 2);
+  CHECK(b.dof_of_pair(0) == 4);
+  const linear_structure p = build(model{small}, {}, {{2, -1, 0.0, 1.0, true}});
+  CHECK(p.rigid_motions == 3);
+  CHECK(p.dof_of_pair(0) == 6);
+  CHECK(p.dofs_per_node == 3);
+}
+
+TEST_CASE("the resultant of a load: its force, and a moment for each slope") {
+  const resultant b = resultant_of(model{two_spans}, {{{1, 0, -4.0}, {2, 1, 0.5}}, {{{-2.0}, {1}}}});
+  CHECK(b.force == Approx(-8.0));
+  REQUIRE(b.moments.size() == 1);
+  CHECK(b.moments[0] == Approx(-4.0 * 1 - 4.0 * 2 + 0.5));
+  // Element 2 covers x from 2 to 4, y from 0 to 1; node 4 is at (1, 1).
+  const resultant p =
+      resultant_of(model{small}, {{{3, 0, -4.0}, {0, 1, 0.5}, {0, 2, 0.25}}, {{{-1.0}, {1}}}});
+  CHECK(p.force == Approx(-6.0));
+  REQUIRE(p.moments.size() == 2);
+  CHECK(p.moments[0] == Approx(-4.0 * 1 - 2.0 * 3 + 0.5));
+  CHECK(p.moments[1] == Approx(-4.0 * 1 - 2.0 * 0.5 + 0.25));
+}
+
+TEST_CASE("the resultant is exact where powers of x or loads cancel") {
+  const load far{{}, {{{1e18, -6e15, 1.5e13, -2e10, 1.5e7, -6000, 1}, {}}}};  // (x - 1000)^6
+  const resultant r = resultant_of(model{beam{{1000, 1001, 1002}, {1, 1}}}, far);
+  CHECK(r.force == 128.0 / 7);
+  CHECK(r.moments[0] == 128.0 * 1000 / 7 + 32);
+  const load cancels{{{0, 0, 0.1}, {1, 0, 0.2}, {2, 0, -0.3}}, {}};
+  CHECK(resultant_of(model{two_spans}, cancels).force == 0.0);
+  CHECK(resultant_of(model{small}, cancels).force == 0.0);
+  assembled matrix;
+  matrix.stiffness.order = 3;
+  CHECK(resultant_of(model{matrix}, cancels).force == 0.0);
+}
+
+TEST_CASE(
+    "results in elements: shear and moment at two ends of a beam's, three moments at four corners of a "
+    "plate's") {
+  const element_results b = results_in_elements(model{two_spans}, {}, std::vector<double>(6));
+  CHECK(b.names == std::vector<std::string_view>{"shear", "moment"});
+  CHECK(b.places == 2);
+  CHECK(b.elements() == 2);
+  const element_results p = results_in_elements(model{small}, {}, std::vector<double>(18));
+  CHECK(p.names == std::vector<std::string_view>{"mx", "my", "mxy"});
+  CHECK(p.places == 4);
+  CHECK(p.elements() == 2);
+}
+
+TEST_CASE("reactions of a model are those of its kind") {
+  const std::vector<support> one = {{0, 1, false, 2.0}};
+  CHECK(reactions(model{two_spans}, {}, one, std::vector<double>{0, 3, 0, 3, 0, 3}) ==
+        std::vector<double>{-6.0});
+  CHECK(reactions(model{small}, {}, one, std::vector<double>(18, 0.5)) == std::vector<double>{-1.0});
+}

@@ -1,0 +1,69 @@
+// Loads along a path: what acts at a share of a step, its resultant, and its words.
+#include "contct/session/load_path.hpp"
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+#include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
+
+using namespace contct;
+
+TEST_CASE("an event's load is told in the words of the problem file") {
+  const problem p = parse_problem(good_problem, "pb.toml");
+  CHECK(load_path(p).words_at(1, 0.25, 24) == "w -15 at node 3");
+  const problem uniform =
+      parse_problem(with("point = [ { node = 3, w = -60.0 } ]", "uniform = -8"), "pb.toml");
+  CHECK(load_path(uniform).words_at(1, 0.5, 24) == "uniform -4");
+  const problem mixed = parse_problem(with("point = [", "uniform = -8\npoint = ["), "pb.toml");
+  // The number has six digits in every row; where there is no room, the place goes first, then the kind.
+  CHECK(load_path(p).words_at(1, 1.0 / 3, 24) == "w -20 at node 3");
+  CHECK(load_path(p).words_at(1, 0.123456, 20) == "w -7.40736 at node 3");
+  CHECK(load_path(p).words_at(1, 0.123456, 19) == "w -7.40736");
+  CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.40736");
+  CHECK(load_path(p).words_at(1, 0.123456, 3).empty());
+  CHECK(load_path(mixed).words_at(1, 1.0, 24) == "force -76");
+  // From -60 to 10 the load passes 0 at 6/7, where the sum is nothing but rounding.
+  problem passes = p;
+  passes.steps.push_back(p.steps[0]);
+  passes.steps[1].points[0].value = 10.0;
+  CHECK(load_path(passes).words_at(2, 6.0 / 7, 24) == "w 0 at node 3");
+  CHECK(load_path(passes).resultant_at(2, 6.0 / 7).force == 0.0);
+  CHECK(load_path(passes).words_at(2, 6.0 / 7 + 1e-12, 24) != "w 0 at node 3");
+}
+
+TEST_CASE("a plate's loads are told in its own words") {
+  const problem p = parse_problem(good_plate, "pb.toml");
+  CHECK(load_path(p).words_at(1, 1.0, 24) == "force -3");
+  const std::string mistake = "uniform = [ { value = -1.0 }, { value = -2.0, elements = \"2..2\" } ]\n";
+  const problem slope = parse_problem(
+      plate_with(mistake + "point = [ { node = 3, w = -1.0, wx = 0.25 }, { node = 6, wy = -0.5 } ]",
+                 "point = [ { node = 6, wy = -0.5 } ]"),
+      "pb.toml");
+  CHECK(load_path(slope).words_at(1, 0.5, 24) == "wy -0.25 at node 6");
+}
+
+TEST_CASE("between steps the load goes straight from one total to the next, from nothing at first") {
+  const problem p =
+      parse_problem(std::string(good_problem) + "[[step]]\npoint = [ { node = 3, w = 20.0 } ]\n", "pb.toml");
+  const load_path loads(p);
+  CHECK(loads.at(0, 1.0).points.empty());
+  CHECK(loads.at(1, 0.5).points[0].value == -30.0);
+  CHECK(loads.at(2, 0.25).points[0].value == -40.0);
+  CHECK(loads.resultant_at(2, 0.25).force == -40.0);
+  CHECK(loads.resultant_at(2, 0.25).moments == std::vector<double>{-80.0});
+  CHECK_FALSE(loads.has_many_parts(2));
+}
+
+TEST_CASE("elements are a run when they follow one another upwards") {
+  CHECK(is_run({4}));
+  CHECK(is_run({4, 5, 6}));
+  CHECK_FALSE(is_run({4, 6}));
+  CHECK_FALSE(is_run({6, 5, 4}));
+}
+
+TEST_CASE("the share of a load that rounding has left of it is told as none") {
+  const problem p = parse_problem(good_problem, "pb.toml");
+  const load_path loads(p);
+  CHECK(loads.words_at(1, 1e-18, 80) == loads.words_at(1, 0.0, 80));
+  CHECK(loads.words_at(1, 1e-3, 80) != loads.words_at(1, 0.0, 80));
+}

@@ -1,0 +1,166 @@
+#include "contct/session/step_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "catch.hpp"
+#include "contct/write/words.hpp"
+#include "read/bad_plates.hpp"
+#include "read/good_problem.hpp"
+#include "support/a_run.hpp"
+#include "support/structures.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// A simply supported beam of 12 lengths, EI = 1e4, with two stops at a third and two thirds.
+problem beam_over_stops(double face, double q) {
+  return parse_problem(
+      "[beam]\nlength = 12.0\nelements = 3\nEI = 1e4\n[[support]]\nnodes = [1, 4]\nfix = [\"w\"]\n" +
+          fmt::format("[[contact]]\nnode = 2\nsurface = \"below\"\nface = {0}\nstiffness = 1e9\n"
+                      "[[contact]]\nnode = 3\nsurface = \"below\"\nface = {0}\nstiffness = 1e9\n"
+                      "[[step]]\nuniform = {1}\n",
+                      face, q),
+      "stops.toml");
+}
+
+/// Where its path ends, with the numbers read off there.
+struct ended {
+  explicit ended(const problem& p) {
+    const a_run run(p, "corrected");
+    const structure_state& last = run.result.record.steps.back().end;
+    read = results_of(p, p.steps.back(), last);
+    through = deepest_passage(p, p.steps.back(), last.displacement);
+  }
+  step_results read;
+  std::optional<passage> through;
+};
+
+}  // namespace
+
+TEST_CASE("The hardest pair and support are those of the largest force, the first one where two are equal") {
+  const ended e(beam_over_stops(-0.001, -10.0));
+  REQUIRE(e.read.pairs.size() == 2);
+  CHECK(e.read.hardest_pair() == 0);  // both press with the same force but for rounding
+  CHECK(e.read.pairs[0].force == Approx(e.read.pairs[1].force).epsilon(1e-9));
+  CHECK(e.read.hardest_support(beam_over_stops(-0.001, -10.0)) == 0);
+  const ended free(beam_over_stops(-10.0, -10.0));
+  CHECK_FALSE(free.read.hardest_pair());
+}
+
+TEST_CASE("Forces, reactions and loads of a step's end balance, and its moments are the exact ones") {
+  const ended e(beam_over_stops(-0.001, -10.0));
+  double sum = -10.0 * 12;
+  for (const double r : e.read.reactions) sum += r;
+  for (const pair_reading& p : e.read.pairs) sum += p.force;
+  CHECK(sum == Approx(0.0).margin(1e-7));
+  const double edge = e.read.reactions[0];
+  const value_range& m = e.read.ranges.at(1);
+  CHECK(m.name == "moment");
+  CHECK(m.most.value == Approx(edge * edge / 2 / 10.0).epsilon(1e-9));  // where the shear is zero: x = R / q
+  CHECK(m.most.x == Approx(edge / 10.0).epsilon(1e-6));
+}
+
+TEST_CASE("A beam that sags through a face between two pairs is told, a flatter one is not") {
+  const ended soft(beam_over_stops(0.0, -500.0));
+  REQUIRE(soft.through);
+  CHECK(soft.through->first == 0);
+  CHECK(soft.through->second == 1);
+  CHECK(soft.through->x == Approx(6.0).epsilon(1e-6));
+  CHECK(soft.through->depth == Approx(500.0 * 256 / (1920 * 1e4)).epsilon(1e-3));  // q L^4 / (1920 EI)
+  CHECK_FALSE(ended(beam_over_stops(-10.0, -1.0)).through);
+  problem backwards = beam_over_stops(0.0, -500.0);  // named from the right to the left
+  std::ranges::reverse(backwards.pairs);
+  const ended same(backwards);
+  REQUIRE(same.through);
+  CHECK(same.through->x == soft.through->x);
+  CHECK(same.through->first == backwards.pairs.size() - 1);
+  problem other_face = beam_over_stops(0.0, -500.0);
+  other_face.pairs[1].face = -1e-9;
+  other_face.pairs[1].closed = false;
+  CHECK_FALSE(ended(other_face).through);
+}
+
+TEST_CASE("An envelope has the largest of each quantity over all increments, with the increment") {
+  const a_run run(loaded_and_freed, "corrected");
+  const envelope all = envelope_of(run.result);
+  const std::vector<structure_state> states = pictures_of(run.result);
+  CHECK(all.states == static_cast<int>(states.size()) - 1);  // all but the unloaded one
+  double least = 0.0;
+  double force = 0.0;
+  for (const structure_state& s : states) {
+    if (s.step == 0) continue;
+    least = std::min(least, s.displacement[4]);
+    force = std::max(force, results_of(run.what, {}, s).pairs[0].force);
+  }
+  CHECK(all.names.front() == "w");
+  const auto& w = all.values.front();
+  CHECK(w.least.value.value == least);
+  CHECK(w.least.step == 1);
+  CHECK(w.most.step == 2);
+  CHECK(all.pairs.at(0).value == Approx(force).epsilon(1e-12));
+  CHECK(all.pairs.at(0).step == 1);
+  REQUIRE(all.reactions.size() == 2);
+  CHECK(all.reactions[0].most.value > 0.0);
+  CHECK(all.reactions[0].least.value < 0.0);
+  CHECK(all.reactions[0].least.step == 2);
+}
+
+TEST_CASE("Places and units are in words: nodes with coordinates, places between nodes, labels") {
+  problem p = parse_problem(good_problem, "pb.toml");
+  CHECK(place_words(p.geometry, placed_value{1.0, 2.0, 0.0, 2}) == "node 3, x = 2");
+  CHECK(place_words(p.geometry, placed_value{1.0, 0.5, 0.0, -1}) == "x = 0.5");
+  CHECK(unit_words(p, "w").empty());
+  p.units = {"m", "kN"};
+  CHECK(unit_words(p, "w") == " m");
+  CHECK(unit_words(p, "moment") == " kN m");
+  CHECK(unit_words(p, "shear") == " kN");
+  CHECK(unit_words(p, "theta").empty());
+  CHECK(ranges_are_at(p.geometry) == "the whole length");
+  const problem plate = parse_problem(good_plate, "plate.toml");
+  CHECK(place_words(plate.geometry, placed_value{1.0, 1.0, 0.5, 2}) == "node 3, (1, 0.5)");
+  CHECK(ranges_are_at(plate.geometry) == "nodes and corners of elements");
+}
+
+TEST_CASE("the warning of a beam that sags through a face names both pairs, from 1, and the step") {
+  const a_run run(beam_over_stops(0.0, -500.0));
+  CHECK_THAT(passage_warning(run.what, run.result.record.steps),
+             Catch::Matchers::StartsWith("step 1: between pairs 1 and 2 the beam passes through"));
+}
+
+TEST_CASE("a pair is read at its deflection: gap or force, never both") {
+  const problem p = parse_problem(good_problem, "pb.toml");  // face -0.004, stiffness 5e4
+  const pair_reading open = reading_of(p.pairs[0], -0.001, false);
+  CHECK(open.gap == Approx(0.003));
+  CHECK(open.force == 0.0);
+  CHECK(open.look == pair_state::open);
+  const pair_reading closed = reading_of(p.pairs[0], -0.005, true);
+  CHECK(closed.gap == 0.0);
+  CHECK(closed.force == Approx(50.0));
+  CHECK(closed.look == pair_state::closed);
+  CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_state::at_face);
+}
+
+TEST_CASE("what deflects is what is known to be a length: a matrix's pairs, and what is along an axis") {
+  const problem placed = parse_problem(portal_frame(), "p.toml", reach::anywhere);
+  const std::vector<int> dofs = deflecting_nodes(placed);
+  CHECK(dofs.size() == 22);
+  CHECK(std::none_of(dofs.begin(), dofs.end(), [](int dof) { return dof % 3 == 2; }));
+  problem bare = parse_problem(frame_without_coordinates(), "p.toml", reach::anywhere);
+  CHECK(deflecting_nodes(bare) == std::vector<int>{16, 21});
+  bare.pairs.clear();
+  CHECK(deflecting_nodes(bare).size() == 33);
+}
+
+TEST_CASE("a plate's nodes go along x first, and w is the first of a node's dofs") {
+  const problem p = parse_problem(good_plate, "pb.toml");
+  CHECK(place_of_node(p.geometry, 4).x == 0.5);
+  CHECK(place_of_node(p.geometry, 4).y == 1.0);
+  CHECK(place_name(p.geometry, 4) == "5");
+  std::vector<double> u(18);
+  u[12] = 7.0;
+  CHECK(deflection_of(p, u, 4) == 7.0);
+}
