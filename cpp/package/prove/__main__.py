@@ -46,7 +46,7 @@ class Kernel(NamedTuple):
     words: str
 
 
-_CPP = "_ZN6contct6contctI{}EEiRNS0_4callIT_EESt4spanINS0_5eventELm18446744073709551615EE"
+_CPP = "_ZN6contct6contctI{}EEiRNS_4callIT_EESt4spanINS_5eventELm18446744073709551615EE"
 KERNELS = [
     Kernel("contc8_", 64, interfaces.fortran, "contct.f, 8-byte REAL"),
     Kernel("contc4_", 32, interfaces.fortran, "contct.f, 4-byte REAL"),
@@ -57,14 +57,17 @@ KERNELS = [
 
 
 def kernels_of(image: Image, symbol: str) -> list[Kernel]:
-    """The kernels of a file whose interfaces are known, or the one of that name, by default with plugin.h's interface."""
-    found = [k for k in KERNELS if k.symbol in ([symbol] if symbol else image.symbols)]
-    if symbol and image.symbol(symbol) and not found:
-        return [Kernel(symbol, 64, interfaces.plugin, symbol)]
-    if not found:
+    """The kernel of that name, by default with plugin.h's interface; else that of plugin.h; else the program's four, all of
+    them, so that one that is missing is noticed."""
+    if symbol:
+        return [k for k in KERNELS if k.symbol == symbol] or [Kernel(image.symbol(symbol).name, 64, interfaces.plugin, symbol)]
+    *ours, plugin = KERNELS
+    if plugin.symbol in image.symbols:
+        return [plugin]
+    if not any(k.symbol in image.symbols for k in ours):
         allowed = ", ".join(k.symbol for k in KERNELS)
         raise Undecided(f"{image.path}: found no kernel; allowed: a file with one of {allowed}, or --symbol")
-    return found
+    return ours
 
 
 def judge(path: str, kernel: Kernel) -> tuple[int, str]:
