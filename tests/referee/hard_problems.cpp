@@ -12,7 +12,6 @@
 namespace contct::referee {
 namespace {
 
-
 /// mantissa * 10^exponent, rounded once, from its decimal.
 double decimal(std::int64_t mantissa, int exponent) {
   return std::strtod(fmt::format("{}e{}", mantissa, exponent).c_str(), nullptr);

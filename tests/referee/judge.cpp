@@ -17,7 +17,6 @@
 namespace contct::referee {
 namespace {
 
-
 /// The kinds of numbers, in the order of the faults.
 enum class number_kind { deflection, slope, force, reaction };
 constexpr int number_kinds = 4;

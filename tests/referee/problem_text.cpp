@@ -8,7 +8,6 @@
 namespace contct::referee {
 namespace {
 
-
 /// As TOML has it: "-0" would be the whole number 0.
 std::string number_text(double x) {
   return x == 0.0 && std::signbit(x) ? "-0.0" : fmt::format("{}", x);
