@@ -71,7 +71,7 @@ files /tmp/before
 install ./libcontct-dev_*.deb
 come libcontct-dev 60
 count=0
-for program in c cxx path plugin problem; do
+for program in c cxx problem; do
   quietly sh tests/consume.sh /given/tests/$program /tmp/$program /usr
   rm -r /tmp/$program
   count=$((count + 1))
