@@ -1,4 +1,6 @@
 // contct_bench: the engines side by side, in one process, on one thread.
+#include "bench/bench.hpp"
+
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sched.h>
@@ -13,10 +15,6 @@
 #include <optional>
 #include <utility>
 
-#include "bench/kernels.hpp"
-#include "bench/measure.hpp"
-#include "bench/peers.hpp"
-#include "bench/problems.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/solve/spring_engine.hpp"
@@ -91,22 +89,15 @@ json bench_kernels(int rounds) {
     show(fmt::format("kernels: {} pairs", pairs));
     const bench::seconds_of_a_call t = bench::time_kernels(pairs, 5 * rounds);
     show("");
-    const double alone = t.fortran + t.text;
     fmt::print(
         "kernels alone, {:>7} pairs: FORTRAN {:>10.3f} us a call (and {:.2f} us for its line of text), C++ "
-        "{:>10.3f} us, x{:.2f}\n"
-        "      in lockstep {:>10.3f} us, x{:.2f} of FORTRAN with its text; on a path {:.3f} us, x{:.2f}\n",
-        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp, 1e6 * t.lockstep,
-        t.lockstep / alone, 1e6 * t.lockstep_on_path, t.lockstep_on_path / alone);
+        "{:>10.3f} us, x{:.2f}\n",
+        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp);
     rows.push_back({{"pairs", pairs},
                     {"fortran_us", 1e6 * t.fortran},
                     {"text_us", 1e6 * t.text},
                     {"cpp_us", 1e6 * t.cpp},
-                    {"ratio", t.fortran / t.cpp},
-                    {"lockstep_us", 1e6 * t.lockstep},
-                    {"lockstep_ratio", t.lockstep / alone},
-                    {"lockstep_on_path_us", 1e6 * t.lockstep_on_path},
-                    {"lockstep_on_path_ratio", t.lockstep_on_path / alone}});
+                    {"ratio", t.fortran / t.cpp}});
   }
   return rows;
 }
@@ -143,12 +134,10 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
       fmt::print("             certificate of the end {:.3f} ms; x{:.2f} of the path\n",
                  1e3 * r.certificate_seconds, r.certificate_seconds / r.seconds);
     (void)std::fflush(stdout);
-    const std::optional<double> entries = bench::entries_of_factor(s, engine);
     rows.push_back({{"problem", name},
                     {"engine", engine},
                     {"dofs", s.dofs()},
                     {"pairs", s.pairs.size()},
-                    {"factor_entries", entries ? json(*entries) : json()},
                     {"events", r.events.size()},
                     {"whole", r.whole},
                     {"ms_per_event", ms},
