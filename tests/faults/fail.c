@@ -1,7 +1,7 @@
 /* A library to preload: it makes one call of the system fail, for tests.
  *
  * - FAULT_CALL: its name: "write", "openat", ..
- * - FAULT_AT: the number of the call that fails, from 1 at the beginning of main; 0: none
+ * - FAULT_AT: the number of the call that fails, from 1 before main; 0: none
  * - FAULT_ERRNO: what it fails with
  * - FAULT_MORE: "1": all calls behind it fail too
  * - FAULT_SIGNAL: a signal that the process gets at that call, which does not fail then
@@ -10,9 +10,7 @@
  * The call is caught in the kernel (seccomp) and made again, or not, by the handler of SIGSYS: so calls
  * inside the C library are counted too. */
 #define _GNU_SOURCE
-#include <dlfcn.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -33,7 +31,6 @@ static volatile int armed = 0;
 static long at = 0;
 static long error_number = 0;
 static int more = 0;
-static const char* count_file = NULL;
 static volatile long calls = 0;
 
 static int signal_instead = 0;
@@ -126,51 +123,37 @@ void (*signal(int number, void (*handler)(int)))(int) {
   return sigaction(number, &action, &before) == 0 ? before.sa_handler : SIG_ERR;
 }
 
-/* The beginning and the end of main. */
+/* Before main and behind it; this library is the last to be made ready. */
 
-static int (*real_main)(int, char**, char**);
-
-static void write_count(void) {
-  armed = 0;
-  if (count_file == NULL) return;
-  char text[32];
-  const int length = snprintf(text, sizeof text, "%ld\n", calls);
-  const int file = open(count_file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return;
-  if (write(file, text, (size_t)length) != length) (void)close(file);
+static long number_in(const char* variable) {
+  const char* const text = getenv(variable);
+  return text != NULL ? atol(text) : 0;
 }
 
-static int counted_main(int argc, char** argv, char** environment) {
+__attribute__((constructor)) static void arm(void) {
   const char* const call = getenv("FAULT_CALL");
-  const char* text = getenv("FAULT_AT");
-  if (text != NULL) at = atol(text);
-  text = getenv("FAULT_ERRNO");
-  if (text != NULL) error_number = atol(text);
-  text = getenv("FAULT_SIGNAL");
-  if (text != NULL) signal_instead = atoi(text);
-  more = getenv("FAULT_MORE") != NULL;
-  count_file = getenv("FAULT_COUNT");
-  if (call == NULL) return real_main(argc, argv, environment);
   int number = -1;
+  if (call == NULL) return;
+  at = number_in("FAULT_AT");
+  error_number = number_in("FAULT_ERRNO");
+  signal_instead = (int)number_in("FAULT_SIGNAL");
+  more = getenv("FAULT_MORE") != NULL;
   for (size_t i = 0; i < sizeof known_calls / sizeof known_calls[0]; ++i)
     if (strcmp(call, known_calls[i].name) == 0) number = known_calls[i].number;
   if (number < 0 || catch_calls(number) != 0) {
     fprintf(stderr, "fail.c: %s cannot be caught here\n", call);
-    return 99;
+    _exit(99);
   }
   program = getpid();
-  atexit(write_count);
   armed = 1;
-  return real_main(argc, argv, environment);
 }
 
-int __libc_start_main(int (*program)(int, char**, char**), int argc, char** argv,
-                      int (*init)(int, char**, char**), void (*fini)(void), void (*rtld_fini)(void),
-                      void* stack_end) {
-  int (*const real)(int (*)(int, char**, char**), int, char**, int (*)(int, char**, char**), void (*)(void),
-                    void (*)(void), void*) =
-      (int (*)(int (*)(int, char**, char**), int, char**, int (*)(int, char**, char**), void (*)(void),
-               void (*)(void), void*))dlsym(RTLD_NEXT, "__libc_start_main");
-  real_main = program;
-  return real(counted_main, argc, argv, init, fini, rtld_fini, stack_end);
+__attribute__((destructor)) static void write_count(void) {
+  const char* const count_file = getenv("FAULT_COUNT");
+  armed = 0;
+  if (count_file == NULL || getpid() != program) return;
+  FILE* const file = fopen(count_file, "w");
+  if (file == NULL) return;
+  fprintf(file, "%ld\n", calls);
+  fclose(file);
 }
