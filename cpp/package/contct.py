@@ -345,7 +345,7 @@ _library = _load()
 
 
 def _answer_of(function: Any, *arguments: Any) -> dict[str, Any]:
-    """What a function of the library answers, whatever its exit status."""
+    """What a function of the library answers; its error raised, if it has one instead of a result."""
     text = function(*arguments)
     if not text:
         raise MemoryError("libcontct: memory does not suffice for an answer")
@@ -353,17 +353,11 @@ def _answer_of(function: Any, *arguments: Any) -> dict[str, Any]:
         answer: dict[str, Any] = json.loads(ctypes.string_at(text).decode(errors="replace"))
     finally:
         _library.contct_free(text)
+    if error := answer["error"]:
+        place = [error[key] for key in ("file", "line", "column")]
+        before = ":".join(str(part) for part in place if part is not None) + ": "
+        raise InputError(error["message"].removeprefix(before), *place)
     return answer
-
-
-def _result_of(answer: dict[str, Any]) -> dict[str, Any]:
-    """The answer, if it has a result; its error raised otherwise."""
-    error = answer["error"]
-    if error is None:
-        return answer
-    place = [error[key] for key in ("file", "line", "column")]
-    before = ":".join(str(part) for part in place if part is not None) + ": "
-    raise InputError(error["message"].removeprefix(before), *place)
 
 
 def _options(given: Mapping[str, Any]) -> bytes:
@@ -382,7 +376,7 @@ def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str
     given |= {"file": source.file, "folder": source.folder}
     given |= {"allow_outside": True} if source.allow_outside else {}
     try:
-        return _result_of(_answer_of(function, source.text, _options(given)))
+        return _answer_of(function, source.text, _options(given))
     except InputError as error:
         if error.line is not None and not source.on_disk and error.file == source.place:
             lines = source.text.decode(errors="replace").split("\n")
@@ -633,8 +627,8 @@ def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, ise
     d_star, nodes = _argument("dtest", dtest, True, ndof), _argument("id", id, False, nc)
     status, sides = _argument("isep", isep, False, nc), _argument("isurf", isurf, False, nc)
     ss, smin = (ctypes.c_double * nc)(), ctypes.c_double()
-    answer = _result_of(_answer_of(_library.contct_call, kernel.encode(), d, d_star, cc, ss, ctypes.byref(smin), nodes, status,
-                                   sides, nc, indof, ndofpn, ndof))
+    answer = _answer_of(_library.contct_call, kernel.encode(), d, d_star, cc, ss, ctypes.byref(smin), nodes, status, sides, nc, indof,
+                        ndofpn, ndof)
     return Call(_numbers(ss), smin.value, _numbers(status), answer["result"]["text"])
 
 
@@ -684,10 +678,11 @@ def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 
 
     options = {"calls": calls, "problems": problems, "seed": seed, "leader": leader,
                "name": name or getattr(function, "__name__", "function")}
-    answer = _answer_of(_library.contct_judge, _kernel_function(asked), _options(options))
-    if raised:
-        raise raised[0]
-    return Judgement(_result_of(answer))
+    try:
+        return Judgement(_answer_of(_library.contct_judge, _kernel_function(asked), _options(options)))
+    finally:
+        if raised:
+            raise raised[0]
 
 
 def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None) -> Record:
@@ -714,4 +709,4 @@ def prove(library: Union[str, os.PathLike[str]], symbol: str = "") -> dict[str, 
 
 def about() -> Record:
     """`version`, `listing_sha256`, `floating_point`, `lapack`, `kernels` with precision, rule and compiler, `engines`."""
-    return Record(_result_of(_answer_of(_library.contct_about))["result"])
+    return Record(_answer_of(_library.contct_about)["result"])

@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sched.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -51,10 +50,6 @@ std::string core_type() {
   return name != nullptr ? name() : "no choice of its own";
 }
 
-void show(const std::string& words) {
-  if (isatty(STDERR_FILENO) != 0) (void)std::fputs(("\r\033[K" + words).c_str(), stderr);
-}
-
 /// The median run of several; the first one's certificate.
 bench::run_of_engine measured(const options& o, const contct::app::problem& p,
                               const contct::app::linear_structure& s, const std::string& engine, int events) {
@@ -86,9 +81,7 @@ int events_of_refactor(const options& o, const std::string& problem) {
 json bench_kernels(int rounds) {
   json rows = json::array();
   for (const std::size_t pairs : std::to_array<std::size_t>({10, 100, 1000, 10'000, 100'000, 1'000'000})) {
-    show(fmt::format("kernels: {} pairs", pairs));
     const bench::seconds_of_a_call t = bench::time_kernels(pairs, 5 * rounds);
-    show("");
     fmt::print(
         "kernels alone, {:>7} pairs: FORTRAN {:>10.3f} us a call (and {:.2f} us for its line of text), C++ "
         "{:>10.3f} us, x{:.2f}\n",
@@ -103,7 +96,6 @@ json bench_kernels(int rounds) {
 }
 
 void bench_problem(const options& o, const std::string& name, json& rows) {
-  show(name + ": building");
   const contct::app::problem p = bench::make_problem(name);
   const contct::app::linear_structure s = contct::app::structure_of(p);
   const double solve_ms = 1e3 * bench::seconds_of_a_solve(s);
@@ -112,10 +104,8 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
              s.stiffness.band().subdiagonals(), s.pairs.size(), solve_ms);
   for (const std::string& engine : o.engines) {
     if (engine == "condensed" && !contct::app::can_be_condensed(s)) continue;
-    show(name + ": " + engine);
     const bench::run_of_engine r =
         measured(o, p, s, engine, engine == "refactor" ? events_of_refactor(o, name) : o.events);
-    show("");
     if (engine == "refactor") reference = r;
     const double ms = ms_per_event(r);
     const bench::difference d = reference ? bench::difference_of(*reference, r) : bench::difference{};
@@ -158,11 +148,9 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
 
 /// What only the ends of the steps cost, in factorisations.
 json bench_final_states(const std::string& name) {
-  show(name + ": final states");
   const contct::app::problem p = bench::make_problem(name);
   const contct::app::linear_structure s = contct::app::structure_of(p);
   const bench::final_states f = bench::time_final_states(p, s);
-  show("");
   const double ratio = f.seconds / f.factorisations / f.seconds_of_a_factor;
   fmt::print("  final states {:.1f} ms: {} factorisations of {:.2f} ms each, x{:.2f} of these alone\n",
              1e3 * f.seconds, f.factorisations, 1e3 * f.seconds_of_a_factor, ratio);
@@ -175,11 +163,9 @@ json bench_final_states(const std::string& name) {
 
 /// CHOLMOD alone, where it was found, on a problem of one load step.
 void bench_peers(const options& o, const std::string& name, json& rows) {
-  show(name + ": CHOLMOD");
   const contct::app::problem p = bench::make_problem(name);
   if (p.steps.size() > 1) return;
   for (const bench::peer_answer& a : bench::time_cholmod(p, contct::app::structure_of(p), o.rounds)) {
-    show("");
     fmt::print("  CHOLMOD alone, {}: {:.1f} ms, {:.1f} digits, {} wrong statuses\n", a.method,
                1e3 * a.seconds, a.digits, a.wrong_statuses);
     rows.push_back({{"problem", name},
