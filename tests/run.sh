@@ -83,7 +83,7 @@ build release
 if [ "$full" = yes ]; then
   echo "== 20,000 random problems and their certificates against the exact path"
   build/release/tests/contct_referee 20000 2026
-  echo "== calls of the system and allocations fail"
+  echo "== calls of the system fail"
   python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
     build/release/tests/plugins/libvariant_reassociated.so --more
   echo "== mutants of both kernels"

@@ -310,14 +310,6 @@ class Inputs(NamedTuple):
         """[pairs] The dof of each pair, as an index of dd and dtest, from 0: NDOF - 1 of line 29."""
         return [(node - 1) * self.ndofpn + self.indof - 1 for node in self.id]
 
-    @property
-    def _words(self) -> str:
-        shown = list(zip(self.dofs, self.cc, self.isep, self.isurf))[:8]
-        lines = [f"in a call of {_count(len(self.id), 'pair')}:"]
-        for i, (dof, c, isep, isurf) in enumerate(shown, 1):
-            lines.append(f"pair {i}: d {self.dd[dof]!r}, d* {self.dtest[dof]!r}, c {c!r}, isep {isep}, isurf {isurf}")
-        return "\n  ".join(lines + (["..."] if len(self.id) > len(shown) else []))
-
 
 # The library
 
@@ -329,28 +321,21 @@ def _load() -> ctypes.CDLL:
     name = (beside + [os.environ.get("CONTCT_LIBRARY") or ctypes.util.find_library("contct") or "libcontct.so.0"])[0]
     try:
         library = ctypes.CDLL(name)
-    except OSError as error:
+        found = library.contct_serve_version()
+    except (OSError, AttributeError) as error:
         raise ImportError(
             f"contct.py: {error}. The library was looked for beside {Path(__file__).resolve()}, under the name in "
             "$CONTCT_LIBRARY, and where the system looks. Build it (sh cpp/run.sh) and say where it is: "
             "CONTCT_LIBRARY=.../build/release/libcontct.so") from error
-    try:
-        found = library.contct_serve_version()
-    except AttributeError as error:
-        raise ImportError(f"contct.py: {name} is not the CONTCT library: found no contct_serve_version") from error
     if found != _INTERFACE:
         raise ImportError(f"contct.py: {name} has interface {found}; allowed: {_INTERFACE}. Module and library must come "
                           "from one version of CONTCT")
-    of_problem = (ctypes.c_char_p, ctypes.c_char_p)
-    arguments: dict[str, Sequence[Any]] = {
-        "contct_about": (), "contct_run": of_problem, "contct_check": of_problem, "contct_exact": of_problem,
-        "contct_explain": of_problem, "contct_certify": of_problem, "contct_replay": of_problem,
-        "contct_judge": (_kernel_function, ctypes.c_char_p),
-        "contct_call": (ctypes.c_char_p, _doubles, _doubles, _doubles, _doubles, _doubles, _ints, _ints, _ints,
-                        ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.c_int)}
-    for function, types in arguments.items():
-        library_function = getattr(library, function)
-        library_function.argtypes = types
+    counts = (ctypes.c_int,) * 4
+    arguments: dict[str, Sequence[Any]] = {"about": (), "judge": (_kernel_function, ctypes.c_char_p),
+                                           "call": (ctypes.c_char_p, *(_doubles,) * 5, *(_ints,) * 3, *counts)}
+    for function in ("about", "call", "certify", "check", "exact", "explain", "judge", "replay", "run"):
+        library_function = getattr(library, f"contct_{function}")
+        library_function.argtypes = arguments.get(function, (ctypes.c_char_p, ctypes.c_char_p))
         library_function.restype = ctypes.c_void_p  # not c_char_p: the text has to be freed
     library.contct_free.argtypes, library.contct_free.restype = (ctypes.c_void_p,), None
     return library
@@ -360,7 +345,7 @@ _library = _load()
 
 
 def _answer_of(function: Any, *arguments: Any) -> dict[str, Any]:
-    """What a function of the library answers, whatever its exit status."""
+    """What a function of the library answers; its error raised, if it has one instead of a result."""
     text = function(*arguments)
     if not text:
         raise MemoryError("libcontct: memory does not suffice for an answer")
@@ -368,17 +353,11 @@ def _answer_of(function: Any, *arguments: Any) -> dict[str, Any]:
         answer: dict[str, Any] = json.loads(ctypes.string_at(text).decode(errors="replace"))
     finally:
         _library.contct_free(text)
+    if error := answer["error"]:
+        place = [error[key] for key in ("file", "line", "column")]
+        before = ":".join(str(part) for part in place if part is not None) + ": "
+        raise InputError(error["message"].removeprefix(before), *place)
     return answer
-
-
-def _result_of(answer: dict[str, Any]) -> dict[str, Any]:
-    """The answer, if it has a result; its error raised otherwise."""
-    error = answer["error"]
-    if error is None:
-        return answer
-    place = [error[key] for key in ("file", "line", "column")]
-    before = ":".join(str(part) for part in place if part is not None) + ": "
-    raise InputError(error["message"].removeprefix(before), *place)
 
 
 def _options(given: Mapping[str, Any]) -> bytes:
@@ -397,7 +376,7 @@ def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str
     given |= {"file": source.file, "folder": source.folder}
     given |= {"allow_outside": True} if source.allow_outside else {}
     try:
-        return _result_of(_answer_of(function, source.text, _options(given)))
+        return _answer_of(function, source.text, _options(given))
     except InputError as error:
         if error.line is not None and not source.on_disk and error.file == source.place:
             lines = source.text.decode(errors="replace").split("\n")
@@ -611,36 +590,18 @@ def _finite(number: Any, state: int, dof: int) -> float:
 # Kernels
 
 
-def _from_numpy(name: str, values: Any, real: bool) -> Any:
-    """The array itself if it has the type that a kernel takes, else one that has."""
-    if values.ndim != 1 or values.dtype.kind not in ("iuf" if real else "iu"):
-        raise InputError(f"{name}: found an array of {_count(values.ndim, 'dimension')} and type {values.dtype}; allowed: one "
-                         f"dimension of {'numbers' if real else 'whole numbers'}")
-    if not real and values.size and not -2**31 <= int(values.min()) <= int(values.max()) < 2**31:
-        raise InputError(f"{name}: found {int(values.min())} to {int(values.max())}; allowed: whole numbers of 32 bits")
-    return _numpy.ascontiguousarray(values, dtype=_numpy.float64 if real else _numpy.intc)
-
-
 def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = None) -> Any:
-    """An array argument: an array.array or a NumPy array of the type that a kernel takes."""
-    if _numpy and isinstance(values, _numpy.ndarray):
-        owner = _from_numpy(name, values, real)
-    else:
-        try:
-            owner = array.array("d" if real else "i", values)
-        except OverflowError as error:
-            raise InputError(f"{name}: {error}; allowed: whole numbers of 32 bits") from error
-        except TypeError as error:
-            allowed = f"a list or an array of {'numbers' if real else 'whole numbers'}"
-            raise TypeError(f"{name}: {error}; allowed: {allowed}") from error
+    """An array argument, of the type that a kernel takes."""
+    try:
+        owner = array.array("d" if real else "i", values)
+    except OverflowError as error:
+        raise InputError(f"{name}: {error}; allowed: whole numbers of 32 bits") from error
+    except TypeError as error:
+        raise TypeError(f"{name}: {error}; allowed: a list or an array of {'numbers' if real else 'whole numbers'}") from error
     if length is not None and len(owner) != length:
         raise InputError(f"{name}: found {_count(len(owner), 'value')}; allowed: {length}")
-    return owner
-
-
-def _at(owner: Any, kind: Any) -> Any:
-    """The pointer to an argument, which must outlive it."""
-    return ctypes.cast(owner.buffer_info()[0] if isinstance(owner, array.array) else owner.ctypes.data, kind)
+    kind: Any = ctypes.c_double if real else ctypes.c_int
+    return (kind * len(owner)).from_buffer(owner)
 
 
 def _numbers(values: Any) -> Any:
@@ -659,55 +620,30 @@ def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, ise
     isurf      the side of each pair's face: +1 above, -1 below
     indof, ndofpn  the members of COMMON /DOF/: which dof of a node deflects, from 1; dofs of a node
 
-    NumPy arrays of float64 and of C's int are passed as they are, without a copy. Raises InputError if lengths differ, or
-    if an id leads outside dd, or a product isep * isurf out of 32 bits.
+    Raises InputError if lengths differ, or if an id leads outside dd, or a product isep * isurf out of 32 bits.
     """
     d, cc = _argument("dd", dd, True), _argument("cc", cc, True)
     ndof, nc = len(d), len(cc)
     d_star, nodes = _argument("dtest", dtest, True, ndof), _argument("id", id, False, nc)
-    before, sides = _argument("isep", isep, False, nc), _argument("isurf", isurf, False, nc)
-    ss, smin, status = (ctypes.c_double * nc)(), ctypes.c_double(), (ctypes.c_int * nc).from_buffer_copy(before)
-    answer = _result_of(_answer_of(_library.contct_call, kernel.encode(), _at(d, _doubles), _at(d_star, _doubles),
-                                   _at(cc, _doubles), ss, ctypes.byref(smin), _at(nodes, _ints), status, _at(sides, _ints), nc,
-                                   indof, ndofpn, ndof))
+    status, sides = _argument("isep", isep, False, nc), _argument("isurf", isurf, False, nc)
+    ss, smin = (ctypes.c_double * nc)(), ctypes.c_double()
+    answer = _answer_of(_library.contct_call, kernel.encode(), d, d_star, cc, ss, ctypes.byref(smin), nodes, status, sides, nc, indof,
+                        ndofpn, ndof)
     return Call(_numbers(ss), smin.value, _numbers(status), answer["result"]["text"])
 
 
-class _PythonKernel:
-    """A Python function as contct_kernel of contct/kernel/plugin.h. The first exception ends it, and is kept."""
-
-    def __init__(self, function: Callable[[Inputs], tuple[Any, float, Any]]) -> None:
-        self.function = function
-        self.raised: Optional[BaseException] = None
-
-    def __call__(self, dd: Any, dtest: Any, cc: Any, ss: Any, smin: Any, id: Any, isep: Any, isurf: Any, nc: int, indof: int,
-                 ndofpn: int, ndof: int) -> None:
-        smin[0] = float("nan")
-        if self.raised is not None:  # the judge still asks; nothing counts any more
-            return
-        def inputs() -> Inputs:  # a slice of a pointer is a list
-            return Inputs(dd[:ndof], dtest[:ndof], cc[:nc], id[:nc], isep[:nc], isurf[:nc], indof, ndofpn)
-
-        try:
-            self._write(self.function(inputs()), ss, smin, isep, nc)
-        except BaseException as error:  # no exception may pass through the library
-            error.add_note(inputs()._words)  # its own may be changed
-            self.raised = error
-
-    @staticmethod
-    def _write(answer: Any, ss: Any, smin: Any, isep: Any, nc: int) -> None:
-        try:
-            s, least, status = answer
-            s, least, status = [float(x) for x in s], float(least), [int(x) for x in status]
-        except (TypeError, ValueError) as error:
-            raise TypeError(f"a kernel: found {answer!r}; allowed: (ss, smin, isep)") from error
-        if len(s) != nc or len(status) != nc:
-            raise InputError(f"a kernel: found {len(s)} values of ss and {len(status)} of isep; allowed: {nc} of each")
-        if any(not -2**31 <= x < 2**31 for x in status):
-            raise InputError(f"a kernel: found isep {status}; allowed: whole numbers of 32 bits")
-        smin[0] = least
-        for i in range(nc):
-            ss[i], isep[i] = s[i], status[i]
+def _write(answer: Any, ss: Any, smin: Any, isep: Any, nc: int) -> None:
+    """What a function answered, where the library reads it."""
+    try:
+        s, least, status = answer
+        s, least, status = array.array("d", s), float(least), array.array("i", (int(x) for x in status))
+    except (TypeError, ValueError, OverflowError) as error:
+        raise TypeError(f"a kernel: found {answer!r}; allowed: (ss, smin, isep), isep of 32 bits") from error
+    if len(s) != nc or len(status) != nc:
+        raise InputError(f"a kernel: found {len(s)} values of ss and {len(status)} of isep; allowed: {nc} of each")
+    smin[0] = least
+    for i in range(nc):
+        ss[i], isep[i] = s[i], status[i]
 
 
 def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 20000, problems: int = 40, seed: int = 1989,
@@ -723,14 +659,30 @@ def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 
 
     An exception in the function, KeyboardInterrupt too, ends the judgement and is raised after it, with the call as a note.
     """
-    kernel = _PythonKernel(function)
-    pointer = _kernel_function(kernel)
+    raised: list[BaseException] = []
+
+    def asked(dd: Any, dtest: Any, cc: Any, ss: Any, smin: Any, id: Any, isep: Any, isurf: Any, nc: int, indof: int,
+              ndofpn: int, ndof: int) -> None:
+        smin[0] = float("nan")
+        if raised:  # the library still asks; nothing counts any more
+            return
+        def inputs() -> Inputs:  # a slice of a pointer is a list
+            return Inputs(dd[:ndof], dtest[:ndof], cc[:nc], id[:nc], isep[:nc], isurf[:nc], indof, ndofpn)
+
+        try:
+            _write(function(inputs()), ss, smin, isep, nc)
+        except BaseException as error:  # no exception may pass through the library
+            words = repr(inputs())
+            error.add_note(f"in a call of {_count(nc, 'pair')}: {words if len(words) <= 500 else words[:496] + ' ...'}")
+            raised.append(error)
+
     options = {"calls": calls, "problems": problems, "seed": seed, "leader": leader,
                "name": name or getattr(function, "__name__", "function")}
-    answer = _answer_of(_library.contct_judge, pointer, _options(options))
-    if kernel.raised is not None:
-        raise kernel.raised
-    return Judgement(_result_of(answer))
+    try:
+        return Judgement(_answer_of(_library.contct_judge, _kernel_function(asked), _options(options)))
+    finally:
+        if raised:
+            raise raised[0]
 
 
 def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None) -> Record:
@@ -757,4 +709,4 @@ def prove(library: Union[str, os.PathLike[str]], symbol: str = "") -> dict[str, 
 
 def about() -> Record:
     """`version`, `listing_sha256`, `floating_point`, `lapack`, `kernels` with precision, rule and compiler, `engines`."""
-    return Record(_result_of(_answer_of(_library.contct_about))["result"])
+    return Record(_answer_of(_library.contct_about)["result"])

@@ -1,8 +1,9 @@
 // contct_bench: the engines side by side, in one process, on one thread.
+#include "bench/bench.hpp"
+
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sched.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,10 +14,6 @@
 #include <optional>
 #include <utility>
 
-#include "bench/kernels.hpp"
-#include "bench/measure.hpp"
-#include "bench/peers.hpp"
-#include "bench/problems.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/solve/spring_engine.hpp"
@@ -53,10 +50,6 @@ std::string core_type() {
   return name != nullptr ? name() : "no choice of its own";
 }
 
-void show(const std::string& words) {
-  if (isatty(STDERR_FILENO) != 0) (void)std::fputs(("\r\033[K" + words).c_str(), stderr);
-}
-
 /// The median run of several; the first one's certificate.
 bench::run_of_engine measured(const options& o, const contct::problem& p, const contct::linear_structure& s,
                               const std::string& engine, int events) {
@@ -88,31 +81,21 @@ int events_of_refactor(const options& o, const std::string& problem) {
 json bench_kernels(int rounds) {
   json rows = json::array();
   for (const std::size_t pairs : std::to_array<std::size_t>({10, 100, 1000, 10'000, 100'000, 1'000'000})) {
-    show(fmt::format("kernels: {} pairs", pairs));
     const bench::seconds_of_a_call t = bench::time_kernels(pairs, 5 * rounds);
-    show("");
-    const double alone = t.fortran + t.text;
     fmt::print(
         "kernels alone, {:>7} pairs: FORTRAN {:>10.3f} us a call (and {:.2f} us for its line of text), C++ "
-        "{:>10.3f} us, x{:.2f}\n"
-        "      in lockstep {:>10.3f} us, x{:.2f} of FORTRAN with its text; on a path {:.3f} us, x{:.2f}\n",
-        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp, 1e6 * t.lockstep,
-        t.lockstep / alone, 1e6 * t.lockstep_on_path, t.lockstep_on_path / alone);
+        "{:>10.3f} us, x{:.2f}\n",
+        pairs, 1e6 * t.fortran, 1e6 * t.text, 1e6 * t.cpp, t.fortran / t.cpp);
     rows.push_back({{"pairs", pairs},
                     {"fortran_us", 1e6 * t.fortran},
                     {"text_us", 1e6 * t.text},
                     {"cpp_us", 1e6 * t.cpp},
-                    {"ratio", t.fortran / t.cpp},
-                    {"lockstep_us", 1e6 * t.lockstep},
-                    {"lockstep_ratio", t.lockstep / alone},
-                    {"lockstep_on_path_us", 1e6 * t.lockstep_on_path},
-                    {"lockstep_on_path_ratio", t.lockstep_on_path / alone}});
+                    {"ratio", t.fortran / t.cpp}});
   }
   return rows;
 }
 
 void bench_problem(const options& o, const std::string& name, json& rows) {
-  show(name + ": building");
   const contct::problem p = bench::make_problem(name);
   const contct::linear_structure s = contct::structure_of(p);
   const double solve_ms = 1e3 * bench::seconds_of_a_solve(s);
@@ -121,10 +104,8 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
              s.stiffness.band().subdiagonals(), s.pairs.size(), solve_ms);
   for (const std::string& engine : o.engines) {
     if (engine == "condensed" && !contct::can_be_condensed(s)) continue;
-    show(name + ": " + engine);
     const bench::run_of_engine r =
         measured(o, p, s, engine, engine == "refactor" ? events_of_refactor(o, name) : o.events);
-    show("");
     if (engine == "refactor") reference = r;
     const double ms = ms_per_event(r);
     const bench::difference d = reference ? bench::difference_of(*reference, r) : bench::difference{};
@@ -143,12 +124,10 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
       fmt::print("             certificate of the end {:.3f} ms; x{:.2f} of the path\n",
                  1e3 * r.certificate_seconds, r.certificate_seconds / r.seconds);
     (void)std::fflush(stdout);
-    const std::optional<double> entries = bench::entries_of_factor(s, engine);
     rows.push_back({{"problem", name},
                     {"engine", engine},
                     {"dofs", s.dofs()},
                     {"pairs", s.pairs.size()},
-                    {"factor_entries", entries ? json(*entries) : json()},
                     {"events", r.events.size()},
                     {"whole", r.whole},
                     {"ms_per_event", ms},
@@ -169,11 +148,9 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
 
 /// What only the ends of the steps cost, in factorisations.
 json bench_final_states(const std::string& name) {
-  show(name + ": final states");
   const contct::problem p = bench::make_problem(name);
   const contct::linear_structure s = contct::structure_of(p);
   const bench::final_states f = bench::time_final_states(p, s);
-  show("");
   const double ratio = f.seconds / f.factorisations / f.seconds_of_a_factor;
   fmt::print("  final states {:.1f} ms: {} factorisations of {:.2f} ms each, x{:.2f} of these alone\n",
              1e3 * f.seconds, f.factorisations, 1e3 * f.seconds_of_a_factor, ratio);
@@ -186,11 +163,9 @@ json bench_final_states(const std::string& name) {
 
 /// CHOLMOD alone, where it was found, on a problem of one load step.
 void bench_peers(const options& o, const std::string& name, json& rows) {
-  show(name + ": CHOLMOD");
   const contct::problem p = bench::make_problem(name);
   if (p.steps.size() > 1) return;
   for (const bench::peer_answer& a : bench::time_cholmod(p, contct::structure_of(p), o.rounds)) {
-    show("");
     fmt::print("  CHOLMOD alone, {}: {:.1f} ms, {:.1f} digits, {} wrong statuses\n", a.method,
                1e3 * a.seconds, a.digits, a.wrong_statuses);
     rows.push_back({{"problem", name},

@@ -1,5 +1,3 @@
-#include "bench/measure.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "bench/cpu_clock.hpp"
+#include "bench/bench.hpp"
 #include "contct/certify/certificate.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/matrix/cholesky.hpp"
@@ -122,15 +120,6 @@ final_states time_final_states(const contct::problem& p, const contct::linear_st
   if (!factor.factor(springs)) throw std::runtime_error("the stiffness has no factor");
   f.seconds_of_a_factor = seconds_since(again);
   return f;
-}
-
-std::optional<double> entries_of_factor(const contct::linear_structure& s, const std::string& engine) {
-  const contct::band_matrix& k = s.stiffness.band();
-  if (engine == "condensed") return std::nullopt;
-  if (engine == "refactor" || contct::quickest_factor(s) == contct::factored_by::storage)
-    return static_cast<double>(s.dofs()) * (k.subdiagonals() + 1);
-  const auto factor = contct::sparse_factor::make(columns_of(k));
-  return static_cast<double>(factor->bytes()) / sizeof(double);
 }
 
 double seconds_of_a_solve(const contct::linear_structure& s) {

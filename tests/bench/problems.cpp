@@ -1,11 +1,10 @@
-#include "bench/problems.hpp"
-
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
 
+#include "bench/bench.hpp"
 #include "contct/read/problem_file.hpp"
 
 namespace bench {

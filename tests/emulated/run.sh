@@ -91,18 +91,6 @@ for processor in $processors; do
   replays=$(grep -c ': equal to the bit; ' "$log")
   values=$(sed -n 's/.*: equal to the bit; .* \([0-9]*\) values compared, 0 mismatches$/\1/p' "$log" | awk '{n += $1} END {print n}')
   if [ "$replays" -lt $((2 * $#)) ]; then fail "only $replays replays of $# traces: $said"; continue; fi
-  # The same with a fault: this processor has an instruction that the probe must notice.
-  if [ "$processor" = aarch64 ]; then
-    launcher="sh;$PWD/tests/probe/slack.sh;-ffp-contract=fast"
-    if ! build "$folder-contracting" "$processor" "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" \
-      "-DCMAKE_Fortran_COMPILER_LAUNCHER=$launcher"; then fail "it does not build with contraction"; continue; fi
-    replay "$folder-contracting" "$processor" "$@"
-    if ! grep -q '^- floating point: .*contracted' "$report"; then
-      fail "contraction, put in to be noticed, is not"
-      continue
-    fi
-    said="$said; contraction, put in to be noticed, was"
-  fi
   verdict "passed: $# traces, four kernels, $values values compared, 0 mismatches; floating point strict; $said"
   passed=$((passed + 1))
 done

@@ -1,21 +1,16 @@
-/* A library to preload: it makes one call of the program fail, for tests.
+/* A library to preload: it makes one call of the system fail, for tests.
  *
- * - FAULT_CALL: "new", which is operator new; or the name of a system call: "write", "openat", ..
- * - FAULT_AT: the number of the call that fails, from 1 at the beginning of main; 0: none
- * - FAULT_ERRNO: what the system call fails with: 28 (ENOSPC) where nothing is said
+ * - FAULT_CALL: its name: "write", "openat", ..
+ * - FAULT_AT: the number of the call that fails, from 1 before main; 0: none
+ * - FAULT_ERRNO: what it fails with
  * - FAULT_MORE: "1": all calls behind it fail too
  * - FAULT_SIGNAL: a signal that the process gets at that call, which does not fail then
- * - FAULT_EVERY: K: every K-th allocation fails, each in a process of its own that is forked there and must
- * end with exit status 2: any other ends the test with status 98
  * - FAULT_COUNT: a file to which the number of calls is written at the end
  *
- * A system call is caught in the kernel (seccomp) and made again, or not, by the handler of SIGSYS: so calls
+ * The call is caught in the kernel (seccomp) and made again, or not, by the handler of SIGSYS: so calls
  * inside the C library are counted too. */
 #define _GNU_SOURCE
-#include <dlfcn.h>
 #include <errno.h>
-#include <fcntl.h>
-#include <limits.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -27,7 +22,6 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
-#include <sys/wait.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -35,9 +29,8 @@ static const unsigned long let_pass = 0x636f6e74; /* as the sixth argument, whic
 
 static volatile int armed = 0;
 static long at = 0;
-static long error_number = ENOSPC;
+static long error_number = 0;
 static int more = 0;
-static const char* count_file = NULL;
 static volatile long calls = 0;
 
 static int signal_instead = 0;
@@ -53,62 +46,15 @@ static int must_fail(void) {
   return 0;
 }
 
-/* Memory. */
-
-static int memory_fails = 0;
-static long every = 0;
-
-/* In a child of its own the allocation fails. */
-static int fails_in_child(void) {
-  int status = 0;
-  const pid_t child = fork();
-  if (child < 0) _exit(97);
-  if (child == 0) {
-    memory_fails = 0;
-    return 1;
-  }
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 2) _exit(98);
-  return 0;
-}
-
-/* operator new(std::size_t): without memory it calls the new handler, as the library's own does. */
-void* _Znwm(size_t bytes) {
-  if (armed && memory_fails && ++calls % every == 0 && fails_in_child()) {
-    void (*(*const handler)(void))(void) =
-        (void (*(*)(void))(void))dlsym(RTLD_DEFAULT, "_ZSt15get_new_handlerv");
-    handler()();
-    abort();
-  }
-  void* const block = malloc(bytes > 0 ? bytes : 1);
-  if (block == NULL) abort();
-  return block;
-}
-
-/* System calls. */
-
 static const struct {
   const char* name;
   int number;
 } known_calls[] = {
-    {"write", SYS_write},         {"read", SYS_read},         {"openat", SYS_openat},
-    {"close", SYS_close},         {"linkat", SYS_linkat},     {"fsync", SYS_fsync},
-    {"pread", SYS_pread64},       {"fcntl", SYS_fcntl},       {"readlinkat", SYS_readlinkat},
-    {"lseek", SYS_lseek},         {"fchmod", SYS_fchmod},     {"mkdirat", SYS_mkdirat},
-    {"renameat2", SYS_renameat2}, {"unlinkat", SYS_unlinkat},
-#ifdef SYS_rename /* older architectures have these, which glibc calls there */
-    {"rename", SYS_rename},       {"unlink", SYS_unlink},     {"mkdir", SYS_mkdir},
-    {"readlink", SYS_readlink},
-#endif
+    {"write", SYS_write},   {"read", SYS_read},     {"openat", SYS_openat}, {"close", SYS_close},
+    {"fsync", SYS_fsync},   {"pread", SYS_pread64}, {"fcntl", SYS_fcntl},   {"lseek", SYS_lseek},
+    {"fchmod", SYS_fchmod}, {"rename", SYS_rename}, {"mkdir", SYS_mkdir},
 };
 
-#if defined(__x86_64__)
-#define ARCHITECTURE AUDIT_ARCH_X86_64
-#elif defined(__aarch64__)
-#define ARCHITECTURE AUDIT_ARCH_AARCH64
-#endif
-
-#ifdef ARCHITECTURE
 static long make(int number, const unsigned long a[5]) {
   const long answer = syscall(number, a[0], a[1], a[2], a[3], a[4], let_pass);
   return answer < 0 ? -errno : answer;
@@ -130,19 +76,11 @@ static void caught(int signal_number, siginfo_t* info, void* context) {
   (void)signal_number;
   const int before = errno;
   ucontext_t* const u = context;
-#if defined(__x86_64__)
   greg_t* const r = u->uc_mcontext.gregs;
   const unsigned long a[5] = {(unsigned long)r[REG_RDI], (unsigned long)r[REG_RSI], (unsigned long)r[REG_RDX],
                               (unsigned long)r[REG_R10], (unsigned long)r[REG_R8]};
   r[REG_RAX] =
       armed && !is_on_no_disk(info->si_syscall, a) && must_fail() ? -error_number : make(info->si_syscall, a);
-#else
-  unsigned long long* const r = u->uc_mcontext.regs;
-  const unsigned long a[5] = {r[0], r[1], r[2], r[3], r[4]};
-  r[0] = (unsigned long long)(armed && !is_on_no_disk(info->si_syscall, a) && must_fail()
-                                  ? -error_number
-                                  : make(info->si_syscall, a));
-#endif
   errno = before;
 }
 
@@ -153,7 +91,7 @@ static int catch_calls(int number) {
   action.sa_flags = SA_SIGINFO | SA_NODEFER;
   if (sigaction(SIGSYS, &action, NULL) != 0) return -1;
   struct sock_filter filter[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, arch)),
-                                 BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 0, 5),
+                                 BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, AUDIT_ARCH_X86_64, 0, 5),
                                  BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
                                  BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (unsigned)number, 0, 3),
                                  BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, args[5])),
@@ -164,13 +102,6 @@ static int catch_calls(int number) {
   if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return -1;
   return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
 }
-#else
-static int catch_calls(int number) {
-  (void)number;
-  return -1;
-}
-#endif
-
 /* Where SIGSYS is blocked, a call that is caught would end the process. */
 int pthread_sigmask(int how, const sigset_t* set, sigset_t* before) {
   sigset_t without;
@@ -192,54 +123,37 @@ void (*signal(int number, void (*handler)(int)))(int) {
   return sigaction(number, &action, &before) == 0 ? before.sa_handler : SIG_ERR;
 }
 
-/* The beginning and the end of main. */
+/* Before main and behind it; this library is the last to be made ready. */
 
-static int (*real_main)(int, char**, char**);
-
-static void write_count(void) {
-  armed = 0;
-  if (count_file == NULL) return;
-  char text[32];
-  const int length = snprintf(text, sizeof text, "%ld\n", calls);
-  const int file = open(count_file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return;
-  if (write(file, text, (size_t)length) != length) (void)close(file);
+static long number_in(const char* variable) {
+  const char* const text = getenv(variable);
+  return text != NULL ? atol(text) : 0;
 }
 
-static int counted_main(int argc, char** argv, char** environment) {
+__attribute__((constructor)) static void arm(void) {
   const char* const call = getenv("FAULT_CALL");
-  const char* text = getenv("FAULT_AT");
-  if (text != NULL) at = atol(text);
-  text = getenv("FAULT_ERRNO");
-  if (text != NULL) error_number = atol(text);
-  text = getenv("FAULT_SIGNAL");
-  if (text != NULL) signal_instead = atoi(text);
-  more = getenv("FAULT_MORE") != NULL;
-  count_file = getenv("FAULT_COUNT");
-  if (call == NULL) return real_main(argc, argv, environment);
-  memory_fails = strcmp(call, "new") == 0;
-  text = getenv("FAULT_EVERY");
-  every = text != NULL ? atol(text) : LONG_MAX;
   int number = -1;
+  if (call == NULL) return;
+  at = number_in("FAULT_AT");
+  error_number = number_in("FAULT_ERRNO");
+  signal_instead = (int)number_in("FAULT_SIGNAL");
+  more = getenv("FAULT_MORE") != NULL;
   for (size_t i = 0; i < sizeof known_calls / sizeof known_calls[0]; ++i)
     if (strcmp(call, known_calls[i].name) == 0) number = known_calls[i].number;
-  if (!memory_fails && (number < 0 || catch_calls(number) != 0)) {
+  if (number < 0 || catch_calls(number) != 0) {
     fprintf(stderr, "fail.c: %s cannot be caught here\n", call);
-    return 99;
+    _exit(99);
   }
   program = getpid();
-  atexit(write_count);
   armed = 1;
-  return real_main(argc, argv, environment);
 }
 
-int __libc_start_main(int (*program)(int, char**, char**), int argc, char** argv,
-                      int (*init)(int, char**, char**), void (*fini)(void), void (*rtld_fini)(void),
-                      void* stack_end) {
-  int (*const real)(int (*)(int, char**, char**), int, char**, int (*)(int, char**, char**), void (*)(void),
-                    void (*)(void), void*) =
-      (int (*)(int (*)(int, char**, char**), int, char**, int (*)(int, char**, char**), void (*)(void),
-               void (*)(void), void*))dlsym(RTLD_NEXT, "__libc_start_main");
-  real_main = program;
-  return real(counted_main, argc, argv, init, fini, rtld_fini, stack_end);
+__attribute__((destructor)) static void write_count(void) {
+  const char* const count_file = getenv("FAULT_COUNT");
+  armed = 0;
+  if (count_file == NULL || getpid() != program) return;
+  FILE* const file = fopen(count_file, "w");
+  if (file == NULL) return;
+  fprintf(file, "%ld\n", calls);
+  fclose(file);
 }

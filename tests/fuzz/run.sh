@@ -2,14 +2,21 @@
 # Feeds every reader with inputs that libFuzzer makes up, under AddressSanitizer and
 # UndefinedBehaviorSanitizer: sh tests/fuzz/run.sh [SECONDS] [NAME]...
 # SECONDS: for each fuzzer, 60 unless given; NAME: of tests/fuzz/targets.txt, all unless given.
-# Inputs are kept in build/fuzz-corpus; CONTCT_CORPUS in the environment names another folder.
+# Inputs are kept in build/fuzz-corpus; CONTCT_CORPUS in the environment names another folder. What is found stays beside them.
 # Exit 0: nothing found; 1: an input that is not handled, takes 10 s or 2.5 GiB, or a fuzzer with too few runs; 2: usage;
 # 77: skipped, clang or libFuzzer cannot be had.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . cpp/install.sh
 
-need "to fuzz" clang python3 || true
+case ${1-} in
+  [0-9]*) seconds=$1; shift ;;
+  *) seconds=60 ;;
+esac
+for name in "$@"; do
+  grep -q "^$name " tests/fuzz/targets.txt || { echo "fuzzers: found $name; allowed: those of tests/fuzz/targets.txt" >&2; exit 2; }
+done
+need "to fuzz" clang || true
 empty='extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }'
 if ! echo "$empty" | clang++ -x c++ -fsanitize=fuzzer,address,undefined - -o /dev/null 2>/dev/null; then
   echo "fuzzers: SKIPPED: clang++ with libFuzzer is not found and cannot be installed"
@@ -18,11 +25,43 @@ fi
 need_core || exit 1
 need_program || exit 1
 
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-if ! { cmake --preset fuzz && cmake --build --preset fuzz; } >"$log" 2>&1; then
-  tail -n 30 "$log"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+if ! { cmake --preset fuzz && cmake --build --preset fuzz; } >"$work/log" 2>&1; then
+  tail -n 30 "$work/log"
   echo "fuzzers: they do not build" >&2
   exit 1
 fi
-python3 tests/fuzz/fuzzers.py build/fuzz/tests/fuzz "${CONTCT_CORPUS:-build/fuzz-corpus}" "$@"
+corpora=${CONTCT_CORPUS:-build/fuzz-corpus}
+export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=malloc_context_size=6
+
+# fuzz NAME LONGEST LEAST SEED|OPTION..: libFuzzer would cut a seed in two that is longer than an input may be.
+fuzz() {
+  name=$1 longest=$2 least=$(($3 * seconds / 60))
+  shift 3
+  seeds=$work/$name
+  mkdir -p "$corpora/$name" "$seeds"
+  options=""
+  for word in "$@" tests/fuzz/seeds/"$name"/*; do
+    case $word in
+      -*) options="$options $word" ;;
+      *) [ ! -f "$word" ] || [ "$(wc -c <"$word")" -gt "$longest" ] || cp "$word" "$seeds" ;;
+    esac
+  done
+  # shellcheck disable=SC2086 # options are words
+  "build/fuzz/tests/fuzz/${name}_fuzz" "-max_total_time=$seconds" "-max_len=$longest" -print_final_stats=1 "-artifact_prefix=$corpora/$name-" \
+    -dict=tests/fuzz/numbers.dict -timeout=10 -rss_limit_mb=2560 $options "$corpora/$name" "$seeds" >/dev/null 2>"$work/said" ||
+    { grep -v '^#' "$work/said" | tail -n 60; echo "$name: found an input that is not handled; it is beside $corpora/$name"; return 1; }
+  runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$work/said")
+  echo "$name: $runs runs in $seconds s, nothing found; at least $least"
+  [ "${runs:-0}" -ge "$least" ]
+}
+
+wrong=0
+while read -r name limits; do
+  case $name in '#'* | '') continue ;; esac
+  case " ${*:-$name} " in *" $name "*) ;; *) continue ;; esac
+  # shellcheck disable=SC2086 # words
+  fuzz "$name" $limits || wrong=1
+done <tests/fuzz/targets.txt
+exit $wrong

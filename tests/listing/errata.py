@@ -18,10 +18,6 @@ from edits import edited  # noqa: E402
 
 FORTRAN, CMAKE, ROOT = sys.argv[1], sys.argv[2], Path(sys.argv[3])
 LISTING = (ROOT / "fortran/contct.f").read_text()
-KEYS = {"number", "title", "ocr", "compiled", "class", "confidence", "evidence", "undo"}
-KEYS_OF_UNDO = {"name", "replace", "compile", "expect", "call", "field"}
-CLASSES = {"syntax", "semantics", "standard", "cosmetic"}
-CONFIDENCES = {"certain", "likely", "ambiguous"}
 OUTCOMES = {"does-not-compile", "aborts-under-bounds-check", "dies", "other-numbers", "other-text", "source-only"}
 LEAST_ERRATA, LEAST_UNDOS, LEAST_CALLS = 22, 80, 50
 
@@ -89,7 +85,6 @@ def check_undos(erratum, untouched):
     undone = []
     for undo in erratum["undo"]:
         where = f"erratum {erratum['number']}, undo {undo['name']}"
-        assert undo.keys() <= KEYS_OF_UNDO and undo["expect"] in OUTCOMES, f"{where}: {undo}"
         options = tuple(undo.get("compile", ()))
         if options not in untouched:
             untouched[options] = try_out(LISTING, options)
@@ -136,8 +131,6 @@ def main():
     outcomes = Counter()
     for number, erratum in enumerate(errata, 1):
         where = f"erratum {number}"
-        assert erratum.keys() == KEYS and erratum["number"] == number, f"{where}: {erratum}"
-        assert erratum["class"] in CLASSES and erratum["confidence"] in CONFIDENCES, f"{where}: {erratum}"
         undone = check_undos(erratum, untouched)
         expected = [undo["expect"] for undo in erratum["undo"]]
         assert erratum["class"] == "cosmetic" or set(expected) != {"source-only"}, f"{where} hides from everything but the checksum"

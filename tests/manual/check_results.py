@@ -8,15 +8,14 @@ write with --json is documented, key by key. PLUGIN is a kernel that differs fro
 """
 import json
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from documented import first_difference, objects, same, seen_keys
+from documented import first_difference, objects, result_of, same, seen_keys, validator
 from manual import blocks
-from schema import validator
 
+JSON = ["--quiet", "--json", "result.json"]
 LEAST_KEYS, LEAST_PLAIN = 78, 120
 BEAM = """
 [beam]
@@ -35,15 +34,6 @@ uniform = -1.0
 FREE = BEAM % (2.0, 2, 2.0) + "[[step]]\nuniform = 1.0\n"
 # More than 50,000 dofs: no exact path.
 LONG = BEAM % (30000.0, 30000, 1.0) + '[[support]]\nnode = 1\nfix = ["w", "theta"]\n'
-
-
-def result_of(program, folder, arguments, status):
-    """What --json writes; the command ends with this exit status."""
-    line = [program, *map(str, arguments), *(["--quiet"] if "--rounds" not in arguments else []), "--json", "result.json"]
-    finished = subprocess.run(line, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
-    if finished.returncode != status:
-        raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
-    return json.loads((folder / "result.json").read_text(), parse_constant=lambda name: f"no JSON: {name}")
 
 
 def doctored_reference(root, folder):
@@ -71,7 +61,7 @@ def with_schema(program, root, plugin, folder):
         raise ValueError(f"check-results.md and check-results.schema.json: {difference}")
     check, seen, written = validator(schema, {"result.schema.json": results}), set(), []
     for name, arguments, status in of_schema(program, root, plugin, folder):
-        result = result_of(program, folder, arguments, status)
+        result = result_of([program, *arguments, *JSON], folder, status)
         of = schema["$defs"][name]
         if fault := check.fault(result) or check.fault(result, of):
             raise ValueError(f"{arguments}: {fault}: {check.fault(result, of)}")
@@ -138,7 +128,8 @@ def plainly(program, root, plugin, bench, folder):
         text, found = (root / "reference" / page).read_text(), set()
         for arguments in lines:
             status = 4 if "free.toml" in arguments else 1 if str(arguments[-1]).startswith("fortran,plugin") else 0
-            keys_in(result_of(bench if page == "speed.md" else program, folder, arguments, status), found)
+            line = [bench, *arguments, *JSON[1:]] if page == "speed.md" else [program, *arguments, *JSON]
+            keys_in(result_of(line, folder, status), found)
         documented = documented_keys(text)
         named = set(re.findall(r"`(\w+)`", text))
         if difference := plain_difference(documented, named, found):

@@ -1,15 +1,44 @@
 """The comparison of a manual with a JSON Schema, and of results with both.
 
-The manual has a table of keys for each object of the schema, below a heading that is the object's title. Its cells say of which
-type a key is, and when it is absent or null.
+The manual has a table of keys for each object of the schema, below a heading that is the object's title. Its cells say when a key
+is absent or null.
 """
+import json
 import math
-import re
+import subprocess
 
-from manual import anchor, key_tables
+import jsonschema
 
-WORDS = {"object": "object", "array": "list", "string": "text", "boolean": "boolean", "number": "number",
-         "integer": "whole number"}
+from manual import key_tables
+
+
+class validator:
+    """`others`: the schemas of other files that this one refers to, by the files' names."""
+    def __init__(self, schema, others=None):
+        store = {f"file:///{file}": other for file, other in (others or {}).items()}
+        resolver = jsonschema.RefResolver("file:///", schema, store=store)
+        self.known = jsonschema.Draft202012Validator(schema, resolver=resolver)
+
+    def fault(self, value, schema=None):
+        """In words with its place; None where it is as the schema, or a part of it, says."""
+        wrong = next((self.known if schema is None else self.known.evolve(schema=schema)).iter_errors(value), None)
+        return wrong and f"{wrong.json_path}: {wrong.message[:300]}"
+
+
+def written_by(line, folder, status, file):
+    """What a command writes into a file; the command ends with this exit status."""
+    finished = subprocess.run([str(word) for word in line], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if finished.returncode != status:
+        raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
+    return (folder / file).read_text()
+
+
+def result_of(line, folder, status):
+    return parsed(written_by(line, folder, status, "result.json"))
+
+
+def parsed(text):
+    return json.loads(text, parse_constant=lambda name: f"no JSON: {name}")
 
 
 def objects(schema):
@@ -24,30 +53,19 @@ def target(schema, wanted):
     return schema["$defs"][names[0]] if names else None
 
 
-def types(schema, wanted):
-    """The types of a key's value: {"object", "null"}."""
-    if "$ref" in wanted:
-        return {"object"}
-    if "anyOf" in wanted:
-        return set().union(*(types(schema, choice) for choice in wanted["anyOf"]))
-    return {wanted["type"]} if isinstance(wanted["type"], str) else set(wanted["type"])
+def is_null(wanted):
+    """Can a key's value be null?"""
+    return any(map(is_null, wanted.get("anyOf", []))) or "null" in wanted.get("type", "")
 
 
-def cell_fault(schema, of, row):
+def cell_fault(of, row):
     """What a row of the manual says of a key that the schema does not, in words; None where they agree."""
     key = row["key"].strip("`")
     wanted = of["properties"][key]
-    there = types(schema, wanted)
     if ("absent" in row["absent or null"]) != (key not in of["required"]):
         return "when it is absent"
-    if ("null" in row["absent or null"]) != ("null" in there):
+    if ("null" in row["absent or null"]) != is_null(wanted):
         return "when it is null"
-    named = {kind for kind in WORDS if any(part.strip().startswith(WORDS[kind]) for part in row["type"].split(" or "))}
-    if named != there - {"null"}:
-        return "its type"
-    to, link = target(schema, wanted), re.search(r"\(#([\w-]+)\)", row["type"])
-    if (to is not None or link is not None) and (not to or not link or link.group(1) != anchor(to["title"])):
-        return "the object that it is"
     return None
 
 
@@ -62,7 +80,7 @@ def first_difference(text, schema):
         if different := tables.keys(title) ^ set(of["properties"]):
             return f"{title}: a key that only one of the two has: {min(different)}"
         for row in tables.rows[title]:
-            if wrong := cell_fault(schema, of, row):
+            if wrong := cell_fault(of, row):
                 return f"{title}: {row['key']}: {wrong}"
     return None
 

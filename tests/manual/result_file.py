@@ -10,14 +10,12 @@ reference/result-file.md documents that schema. PLUGIN is a kernel that differs 
 """
 import json
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from documented import first_difference, objects, same, seen_keys
+from documented import first_difference, objects, parsed, result_of, same, seen_keys, validator, written_by
 from manual import blocks
-from schema import validator
 
 
 # No reference problem's path is given up.
@@ -102,19 +100,15 @@ def runs(root, plugin):
         yield root / f"reference/{part}.toml", ["--html", "page.html"], 0
 
 
-def result_of(program, folder, problem, options, status):
-    """The result of a run that ends with this exit status."""
-    (folder / "own.toml").write_text(problem if isinstance(problem, str) else "")
-    name = "own.toml" if isinstance(problem, str) else problem
-    line = [program, "run", name, "--quiet", "--json", "result.json", *options]
-    finished = subprocess.run(line, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
-    if finished.returncode != status:
-        raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
-    text = (folder / "result.json").read_text()
-    if "--html" in options:  # the page has the result, and more
-        page = (folder / "page.html").read_text()
-        text = page.split('id="data">')[1].split("</script>")[0]
-    return json.loads(text, parse_constant=lambda name: f"no JSON: {name}")
+def result_of_run(program, folder, problem, options, status):
+    """The result of a run that ends with this exit status; of a page, the one that is embedded in it."""
+    if isinstance(problem, str):
+        (folder / "own.toml").write_text(problem)
+        problem = "own.toml"
+    line = [program, "run", problem, "--quiet", "--json", "result.json", *options]
+    if "--html" in options:
+        return parsed(written_by(line, folder, status, "page.html").split('id="data">')[1].split("</script>")[0])
+    return result_of(line, folder, status)
 
 
 def main(program, root, plugin):
@@ -126,7 +120,7 @@ def main(program, root, plugin):
     check, seen, count, ended = validator(schema), set(), 0, set()
     with tempfile.TemporaryDirectory() as folder:
         for problem, options, status in runs(root, Path(plugin).resolve()):
-            result = result_of(program, Path(folder), problem, options, status)
+            result = result_of_run(program, Path(folder), problem, options, status)
             if fault := check.fault(result):
                 return f"{problem} {options}: {fault}"
             if without := [step["step"] for step in result["steps"] if "displacement" not in step]:
@@ -135,7 +129,7 @@ def main(program, root, plugin):
             ended.add((status, result["status"]))
             seen_keys(schema, result, schema, seen)
         shown = blocks(text)
-        example = result_of(program, Path(folder), shown[0].text, [], 0)
+        example = result_of_run(program, Path(folder), shown[0].text, [], 0)
         if not same(json.loads(shown[1].text), example):
             return f"line {shown[1].line}: the example is not what the program writes:\n{json.dumps(example)}"
     keys = {(title, key) for title, of in objects(schema).items() for key in of["properties"]}

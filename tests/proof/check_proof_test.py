@@ -2,15 +2,49 @@
 
 Without `all`, plates of 16 x 16 elements and more are left out, which take most of the time.
 """
+import contextlib
 import copy
+import io
+import json
 import re
+import shutil
+import subprocess
 import sys
 import tempfile
 import tomllib
 import unittest.mock
 from pathlib import Path
 
-from proofs import check_proof, end, fail, proof_of, reference, verdict
+program, reference = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(reference), str(Path(__file__).resolve().parents[1] / "manual")]
+import check_proof  # noqa: E402
+from problem_file import examples  # noqa: E402
+
+failed = 0
+
+
+def fail(words):
+    global failed
+    failed += 1
+    print(f"FAILED: {words}")
+
+
+def proof_of(problem, folder, *options):
+    """The proof of a run, parsed; None where the run has no end."""
+    proof = Path(folder) / "proof.json"
+    ended = subprocess.run([program, "run", problem, "--quiet", "--proof", proof, *options], capture_output=True, text=True)
+    return json.loads(proof.read_text()) if ended.returncode in (0, 3) else None
+
+
+def verdict(problem, proof, folder):
+    """What the checker ends with, and what it says."""
+    file = Path(folder) / "checked.json"
+    file.write_text(json.dumps(proof))
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        code = check_proof.main(str(problem), str(file))
+    return code, said.getvalue()
 
 
 def scaled(path, factor):
@@ -161,6 +195,28 @@ def check_reference(folder):
     print(f"{accepted} proofs of {len(files)} problems, with {proved} steps, {certified} certified, are accepted")
 
 
+def check_forms(folder):
+    """The examples of the manual have every key of its tables: a form that the checker reads otherwise fails here."""
+    page, texts = (reference / "problem-file.md").read_text(), []
+    for file in [*(reference / "structures").iterdir(), *(reference / "structures/calculix").iterdir()]:
+        if file.is_file():
+            shutil.copy(file, folder)
+    problem = Path(folder) / "example.toml"
+    for line, text, message in examples(page):
+        if message is None and "[calculix]" not in text:
+            problem.write_text(text)
+            code, said = verdict(problem, proof_of(problem, folder, "--kernels", "corrected"), folder)
+            texts.append(text)
+            if code != 0:
+                fail(f"problem-file.md, line {line}: {code}: {said}")
+    page = page[:page.index("## `[calculix]`")] + page[page.index("## `[[support]]`"):]
+    keys = set(re.findall(r"(?m)^\| `(\w+)` \|", page)) - {"calculix"}
+    missing = [key for key in sorted(keys) if not re.search(rf"\b{key}\b", "".join(texts))]
+    if missing or len(keys) < 40 or len(texts) < 17:
+        fail(f"of {len(keys)} keys of the manual {missing} are in none of its {len(texts)} examples")
+    print(f"{len(texts)} examples with {len(keys)} keys are read as the program reads them")
+
+
 def check_faults(folder):
     problem = reference / "problems/pb07-three-gap-supports.toml"
     proof = proof_of(problem, folder, "--kernels", "corrected")
@@ -232,4 +288,6 @@ with tempfile.TemporaryDirectory() as scratch:
     check_reference(scratch)
     check_faults(scratch)
     check_semidefinite(scratch)
-end()
+    check_forms(scratch)
+print("FAILED" if failed else "passed")
+sys.exit(1 if failed else 0)

@@ -6,13 +6,17 @@ from pathlib import Path
 
 import pytest
 
-if os.environ.get("CONTCT_TEST_NUMPY") == "hidden":
+NUMPY = os.environ["CONTCT_TEST_NUMPY"]
+if NUMPY == "hidden":
     sys.modules["numpy"] = None  # import numpy raises ImportError
 
 ROOT = Path(__file__).resolve().parents[2]
 PROBLEMS = ROOT / "reference/problems"
 sys.path.insert(0, os.environ["CONTCT_BUILD"])  # contct.py and libcontct.so
 sys.path.append(str(ROOT / "tests/course"))  # page.py
+import contct  # noqa: E402
+
+assert (contct._numpy is not None) == (NUMPY == "there"), f"NumPy: found {contct._numpy}; allowed: {NUMPY}"
 
 
 @pytest.fixture
@@ -27,10 +31,4 @@ def ask():
 @pytest.fixture
 def beam():
     """PB1 as a dict: a cantilever over a stop, four steps."""
-    import contct
     return contct.read(PROBLEMS / "pb01-cantilever-tip-stop.toml")
-
-
-def pytest_report_header():
-    import contct
-    return f"contct.py: {contct.__file__}, NumPy: {contct._numpy and contct._numpy.__version__}"

@@ -1,28 +1,24 @@
-"""reference/python.md: every example runs and prints what the page shows, and the page names every function."""
-import re
+"""reference/python.md and the course's notebook: every example runs and prints what is shown."""
+import ast
+import contextlib
+import io
+import json
 
-import contct
 import pytest
-from blocks import blocks_of, printed
 from conftest import ROOT
-from page import difference, wildcards
-
-PAGE = ROOT / "reference/python.md"
+from page import FENCE, difference, wildcards
 
 
-def first_difference(text, most_wild):
-    """The first example that does not print what is shown, in words; None where all do. Raises where it shows too little."""
-    names, compared, wild = {}, 0, 0
-    for code, line, shown in blocks_of(text):
-        found = printed(code, line, names, "python.md").splitlines()
-        assert shown is not None or not found, f"line {line}: found output, and no text block behind the example"
-        wrong = difference(shown.splitlines(), found) if shown is not None else None
-        if wrong:
-            return f"line {line}: {wrong}"
-        compared += len(found)
-        wild += wildcards(shown.splitlines()) if shown else 0
-    assert compared >= 50 and wild <= most_wild
-    return None
+def printed(code, names, title, line=1):
+    """What Python code prints, and the repr of its last expression, or None; it changes `names`."""
+    tree = ast.parse("\n" * (line - 1) + code)
+    last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+    out, value = io.StringIO(), None
+    with contextlib.redirect_stdout(out):
+        exec(compile(tree, title, "exec"), names)
+        if last is not None:
+            value = eval(compile(ast.Expression(last.value), title, "eval"), names)
+    return out.getvalue(), None if value is None else repr(value)
 
 
 @pytest.fixture
@@ -32,23 +28,27 @@ def folder(tmp_path, monkeypatch):
 
 
 def test_every_example_prints_what_the_page_shows(folder):
-    text = PAGE.read_text()
-    assert len(list(blocks_of(text))) >= 14
-    assert first_difference(text, 1) is None
+    """Blocks fenced as `python`, one after the other; a `text` block behind one is what it prints."""
+    text = (ROOT / "reference/python.md").read_text()
+    blocks, names, compared, wild = list(FENCE.finditer(text)), {}, 0, 0
+    for block, following in zip(blocks, [*blocks[1:], None]):
+        if block[1] != "python":
+            continue
+        line = text.count("\n", 0, block.start()) + 2
+        behind = following and following[1] == "text" and not text[block.end():following.start()].strip()
+        shown = following[2].splitlines() if behind else []
+        found = [row.rstrip() for row in printed(block[2], names, "python.md", line)[0].rstrip().splitlines()]
+        assert difference(shown, found) is None, f"line {line}"
+        compared, wild = compared + len(found), wild + wildcards(shown)
+    assert compared >= 50 and wild <= 1
 
 
-def test_the_page_has_an_example_of_every_function():
-    code = "".join(code for code, _, _ in blocks_of(PAGE.read_text()))
-    functions = [name for name in contct.__all__ if name[0].islower()]
-    assert len(functions) == 12
-    missing = [name for name in functions if not re.search(rf"contct\.{name}\b", code)]
-    # one is in the block for the shell, the other proves a kernel in machine code, which is for tests/prove
-    assert missing == ["about", "prove"] and all(f"contct.{name}(" in PAGE.read_text() for name in missing)
-
-
-def test_every_public_name_is_documented():
-    names = [getattr(contct, name) for name in contct.__all__]
-    names += [value for kind in names if isinstance(kind, type) for key, value in vars(kind).items()
-              if not key.startswith("_") and (callable(value) or isinstance(value, property)) and key not in ("index", "count")]
-    assert len(names) >= 30
-    assert [name for name in names if not (name.__doc__ or "").strip()] == []
+def test_the_notebooks_stored_outputs_are_what_its_cells_print():
+    names, compared = {"__name__": "__main__"}, 0
+    for cell in json.loads((ROOT / "reference/course/sweep.ipynb").read_text())["cells"]:
+        if cell["cell_type"] == "code":
+            stored = [("".join(out.get("text", "")), "".join(out.get("data", {}).get("text/plain", ""))) for out in cell["outputs"]]
+            out, value = printed("".join(cell["source"]), names, "sweep.ipynb")
+            assert ("".join(text for text, _ in stored), "".join(plain for _, plain in stored) or None) == (out, value)
+            compared += len(stored)
+    assert compared >= 7

@@ -8,15 +8,7 @@ import contct
 import pytest
 from conftest import PROBLEMS
 
-SMALL = sorted(path for path in PROBLEMS.rglob("*.toml") if "n16" not in path.name and "n24" not in path.name
-               and "n20" not in path.name and "n40" not in path.name and "n12" not in path.name)
-
-
-def test_there_are_problems():
-    assert len(SMALL) >= 35
-
-
-@pytest.mark.parametrize("path", SMALL, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(PROBLEMS.glob("p*-n4.toml")) + sorted(PROBLEMS.glob("pb0*.toml")), ids=lambda path: path.stem)
 def test_a_run_has_the_bits_of_the_programs_json(path, ask):
     exit, out, _ = ask("run", path, "--quiet", "--json", "-")
     expected = json.loads(out)
@@ -29,19 +21,7 @@ def test_a_run_has_the_bits_of_the_programs_json(path, ask):
     assert contct.run(path.read_text()) == found
 
 
-def test_a_run_has_states_within_steps_where_they_are_asked_for():
-    path = PROBLEMS / "pb07-three-gap-supports.toml"
-    plain, found = contct.run(path), contct.run(path, states=True)
-    assert "structure" not in plain and len(found.structure.nodes) == len(found.steps[0].w)
-    step = found.steps[2]
-    assert [p.state for p in step.pairs] == [p.state for p in plain.steps[2].pairs]
-    within = [i for i in step.increments if "displacement" in i]
-    assert len(within) == len(step.increments) - 1  # the step has the state after the last one
-    assert len(within[0].displacement) == len(step.displacement) and within[0].pairs[1].state == "contact"
-
-
-@pytest.mark.parametrize("name", ["pb01-cantilever-tip-stop", "pb07-three-gap-supports", "divergences/near-tie"])
-@pytest.mark.parametrize("rule", ["corrected", "1989"])
+@pytest.mark.parametrize("name, rule", [("pb01-cantilever-tip-stop", "corrected"), ("divergences/near-tie", "1989")])
 def test_an_exact_path_has_the_numbers_of_the_programs_json(name, rule, ask):
     path = PROBLEMS / f"{name}.toml"
     _, out, _ = ask("exact", path, "--rule", rule, "--json", "-", "--kernels", "fortran")
@@ -90,12 +70,6 @@ def test_arrays_are_numpys_where_it_is_there_and_lists_otherwise(beam):
         assert all(type(x) is list for x in (step.w, step.displacement, step.elements[0].moment))
     assert list(step.w) == step.to_dict()["w"] and len(step.w) == 3
     assert step.extremes.w.min.value == min(step.w)  # here "w" is an object
-
-
-def test_to_dict_is_a_copy(beam):
-    found = contct.run(beam)
-    found.to_dict()["steps"].clear()
-    assert len(found.steps) == len(found.to_dict()["steps"]) == 4
 
 
 def test_results_can_be_pickled(beam):
@@ -154,12 +128,6 @@ def test_options_of_a_run(beam, ask):
         found = contct.run(path, **options)
         assert (found.exit, found.to_dict()) == (exit, json.loads(out)), options
     assert exit == 5 and found.status == "iteration-limit" and not found.certified
-
-
-def test_what_check_finds(beam, tmp_path):
-    found = contct.check(beam)
-    assert (found.kind, found.nodes, found.dofs, found.elements, found.pairs, found.steps) == ("beam", 3, 6, 2, 1, [""] * 4)
-    assert contct.check(PROBLEMS / "pp01a-simply-supported-plate-n4.toml").kind == "plate"
 
 
 def test_states_from_elsewhere_are_certified(beam):

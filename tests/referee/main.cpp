@@ -1,18 +1,17 @@
 // The exact path as referee of the corrected rule and its certificate:
 //     contct_referee COUNT SEED [--jobs N]
-//     contct_referee --only NUMBER SEED
+//     contct_referee 0 SEED --only NUMBER
 //     contct_referee --file PROBLEM.toml
 // Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails where
-// something is wrong that must not be, more than is known, or too little was compared. --only prints one
-// problem as a file and all that is wrong with it, --file does the latter for a problem file.
+// something is wrong that must not be, more than is known, or too little was compared. --only and --file
+// print all that is wrong with one problem.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -24,57 +23,17 @@
 #include "contct/read/problem_file.hpp"
 #include "referee/hard_problems.hpp"
 #include "referee/judge.hpp"
-#include "referee/problem_text.hpp"
 
 using namespace contct::referee;
 
 namespace {
 
 struct options {
-  std::uint64_t count = 0, seed = 0;
+  std::uint64_t count = 300, seed = 2026;
   std::optional<std::uint64_t> only = {};
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string problem_file = {};
 };
-
-[[noreturn]] void refuse(std::string_view found) {
-  fmt::print(
-      stderr,
-      "contct_referee: found {}; allowed: COUNT SEED [--jobs N], or --only NUMBER SEED, or --file PROBLEM\n",
-      found);
-  std::exit(2);
-}
-
-std::uint64_t number_in(std::string_view text) {
-  std::uint64_t n = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-  if (error != std::errc{} || end != text.data() + text.size()) refuse(text);
-  return n;
-}
-
-options options_of(int argc, char** argv) {
-  options o;
-  std::vector<std::uint64_t> numbers;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view a = argv[i];
-    const auto value = [&] { return ++i < argc ? std::string_view(argv[i]) : (refuse(a), a); };
-    if (a == "--file") {
-      o.problem_file = value();
-    } else if (a == "--jobs") {
-      o.jobs = std::max(1, static_cast<int>(number_in(value())));
-    } else if (a == "--only") {
-      o.only = number_in(value());
-    } else {
-      numbers.push_back(number_in(a));
-    }
-  }
-  if (!o.problem_file.empty()) return o;
-  if (numbers.size() != (o.only ? 1U : 2U)) refuse(fmt::format("{} numbers", numbers.size()));
-  o.seed = numbers.back();
-  if (!o.only) o.count = numbers.front();
-  if (!o.only && o.count == 0) refuse("no problems");
-  return o;
-}
 
 struct drawn_problem {
   std::string kind;
@@ -242,7 +201,7 @@ void print_counts(const options& o, const all_counts& c) {
   for (int f = 0; f < faults; ++f) fmt::print("{:>11}", name_of(static_cast<fault>(f)));
   fmt::print("\n");
   for (const auto& [kind, of_kind] : c.by_kind) fmt::print("{}", of_kind.row(kind));
-  fmt::print("{}\nThe worst of each (--only NUMBER SEED shows it):\n", c.all.row("all"));
+  fmt::print("{}\nThe worst of each (0 SEED --only NUMBER shows it):\n", c.all.row("all"));
   for (const auto& w : c.worst)
     if (w)
       fmt::print("{:<11}{:>9.2e}  problem {}, {}, {}: {}\n", name_of(w->what.what), w->what.amount, w->number,
@@ -277,20 +236,21 @@ int judge_one(const drawn_problem& p) {
   return 0;
 }
 
-int judge_drawn(const drawn_problem& p) {
-  const problem_text text = text_of(p.problem);
-  fmt::print("{}", text.toml);
-  if (!text.matrix.empty()) fmt::print("\nK.mtx:\n{}", text.matrix);
-  return judge_one(p);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
+  options o;
+  CLI::App program("The exact path as referee of the corrected rule and its certificate.", "contct_referee");
+  program.add_option("count", o.count, "How many problems");
+  program.add_option("seed", o.seed, "Of the random problems");
+  program.add_option("--jobs", o.jobs, "Threads")->check(CLI::PositiveNumber);
+  program.add_option("--only", o.only,
+                     "Only the problem of this number, from 0, and all that is wrong with it");
+  program.add_option("--file", o.problem_file, "The same for a problem file");
+  CLI11_PARSE(program, argc, argv);
   try {
-    const options o = options_of(argc, argv);
     if (!o.problem_file.empty()) return judge_one({o.problem_file, contct::read_problem(o.problem_file)});
-    return o.only ? judge_drawn(draw(o.seed, *o.only)) : judge_all(o);
+    return o.only ? judge_one(draw(o.seed, *o.only)) : judge_all(o);
   } catch (const std::exception& e) {
     fmt::print(stderr, "contct_referee: {}\n", e.what());
     return 2;

@@ -41,19 +41,13 @@ const std::vector<stated_problem>& stated_problems() {
   constexpr auto solved = path_status::solved;
   constexpr auto mechanism = path_status::mechanism;
   static const std::vector<stated_problem> all = {
-      {"stiff-pair-force", solved, {force(1, 1, "57.9381")}, 44, {}},
       {"stiff-pair-state",
        solved,
        {force(2, 1, "0.0000999600"), deflection(3, 3, "0")},
        108,
        {{other_events, 2}}},
-      {"dropped-from-a-height", solved, {force(1, 1, "650"), force(1, 2, "350")}, 30, {}},
-      {"small-after-large", solved, {force(2, 1, "0"), force(2, 2, "1/2"), force(2, 3, "1/2")}, 104, {}},
-      {"cancelling-loads", solved, {force(1, 1, "1"), force(1, 2, "1")}, 36, {}},
       {"fine-mesh", solved, {force(2, 1, "0.000275072"), force(2, 2, "0")}, 2096, {}},
-      {"soft-mode", solved, {deflection(1, 1, "2.00000"), deflection(1, 2, "1.00000")}, 9, {}},
       {"tipping", mechanism, {}, 0, {}},
-      {"nearly-tipping", solved, {force(1, 1, "1.00000"), force(1, 2, "1e-8")}, 20, {{exactly, 1}}},
       {"lost-path", solved, {force(1, 1, "1"), force(1, 2, "1")}, 24, {}},
       {"refused", mechanism, {}, 0, {}},
       {"nearly-in-line", solved, {force(1, 5, "3.32518"), force(1, 7, "0.666371")}, 136, {{exactly, 2}}},
@@ -113,5 +107,5 @@ TEST_CASE("problems that were certified wrong have their exact numbers, and no m
     }
     ++checked;
   }
-  CHECK(checked == 18);
+  CHECK(checked == 12);
 }

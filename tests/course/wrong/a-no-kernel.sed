@@ -1,2 +1,0 @@
-# Exercise (a), answered wrongly: a name that nothing declares.
-s/< epsmul) isep/< epsmal) isep/
