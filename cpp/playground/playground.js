@@ -67,47 +67,6 @@ function change(values) {
   if (edits.length > 0) recompute();
 }
 
-/** A slider a number: it goes from a tenth to ten times, or over the nodes. */
-function showNumbers() {
-  const holder = byId("numbers");
-  const keys = model.numbers.map((n) => n.key).join();
-  const most = 80;
-  const listed = model.numbers.slice(0, most);
-  if (holder.dataset.keys === keys) {
-    listed.forEach((n, i) => {
-      const [slider, field] = [holder.children[3 * i + 1], holder.children[3 * i + 2]];
-      if (document.activeElement !== slider) setSlider(slider, n);
-      if (document.activeElement !== field) field.value = literal(n);
-    });
-    return;
-  }
-  holder.dataset.keys = keys;
-  holder.replaceChildren(...listed.flatMap((n, i) => {
-    const slider = element("input", { type: "range", min: "-100", max: "100", step: "1", id: `number-${i}`, "aria-label": n.key });
-    const field = element("input", { type: "text", inputmode: "decimal", "aria-label": `${n.key}, typed`, value: literal(n) });
-    setSlider(slider, n);
-    slider.addEventListener("input", () => change({ [n.key]: slid(slider) }));
-    slider.addEventListener("change", () => { const now = numberOf(n.key); if (now) setSlider(slider, now); });
-    field.addEventListener("change", () => change({ [n.key]: field.value.trim() }));
-    return [element("label", { for: `number-${i}` }, n.key), slider, field];
-  }));
-}
-
-const literal = (n) => { const [from, to] = spanOf(n); return editor.value.slice(from, to); };
-
-/** Sliders begin in the middle, at the number as it is. Counts go in steps of 1; what is 0 goes from -1 to 1. */
-function setSlider(slider, n) {
-  slider.dataset.middle = String(n.value);
-  slider.dataset.whole = n.whole && /node|elements|nx|ny/.test(n.key) ? "yes" : "";
-  slider.value = "0";
-  slider.setAttribute("aria-valuetext", literal(n));
-}
-function slid(slider) {
-  const [middle, at] = [Number(slider.dataset.middle), Number(slider.value)];
-  if (slider.dataset.whole) return Math.max(1, middle + Math.round(at / 5));
-  return middle === 0 ? at / 100 : middle * 10 ** (at / 100);
-}
-
 // ---- recomputing ----
 
 /** Mark a number that is dragged, or what is wrong, behind the text. */
@@ -149,7 +108,6 @@ function recompute({ asked = false, state = current } = {}) {
   if (checked.error) return complain(checked.error);
   model = checked.result;
   mark(0, 0, "");
-  showNumbers();
   if (!asked && model.dofs * model.steps.length > patient) return waitForButton();
   const answer = askPath("run", { states: true });
   if (answer.error) return complain(answer.error);
@@ -190,7 +148,7 @@ function handle(attributes, words, begin) {
   made.addEventListener("pointerdown", (event) => {
     event.preventDefault();
     dragging = { to: begin(), x: event.clientX, y: event.clientY };
-    heldRange = [beam.low, beam.high];
+    held = { times: scene.times, size: scene.size, most: scene.most, box: scene.box };
   });
   made.addEventListener("keydown", (event) => {
     const step = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
@@ -215,25 +173,23 @@ addEventListener("pointermove", (event) => {
 });
 for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => {
   if (!dragging) return;
-  dragging = heldRange = null;
+  dragging = held = null;
   load(result, current);
 });
 
-/** Of a beam; what else there is has its sliders. */
+/** Of a beam all; of a plate the faces. */
 function addHandles(f) {
-  if (!beam) return;
   const root = byId("picture").firstChild;
   addUniformHandle(root, Math.max(1, f.step));
-  for (const p of pointLoadsOf(Math.max(1, f.step))) root.append(loadHandle(f, p));
+  if (isBeam()) for (const p of pointLoadsOf(Math.max(1, f.step))) root.append(loadHandle(f, p));
   f.pairs.forEach((p, i) => addFaceHandle(root, p, i));
 }
 
 function addFaceHandle(root, p, i) {
-  const { X, Y, pixels, top, bottom } = beamScale;
-  const half = Math.max(7, Math.min(22, (X(beam.to) - X(beam.from)) / (places.pairs.length + 1) * 0.4));
-  const [x, y] = [X(p.x), Math.max(top, Math.min(bottom, Y(p.face)))];
+  const [half, pixels, known] = [Math.max(7, page.on.half + 6), page.on.pixels(p), model.pair_list[p.pair - 1]];
+  if (pixels === 0) return;
+  const [x, y] = page.spot(projected(faceAt(p, Math.min(1, page.on.limit / Math.abs(pixels * p.face || 1)) * scene.times)));
   if (i === chosen) root.append(svg("circle", { cx: x, cy: y, r: half + 5, class: "chosen" }));
-  const known = model.pair_list[p.pair - 1];
   const made = handle({ x: x - half - 2, y: y - 10, width: 2 * half + 4, height: 20 }, `face of pair ${p.pair} at ${rough(p.face)}, ${looks[p.look]}`, () => {
     const from = known.face;
     return (dx, dy) => {
@@ -256,16 +212,17 @@ function pointLoadsOf(step) {
 }
 
 function loadHandle(f, p) {
-  const { X, Y } = beamScale;
-  const x = p.x ? p.x.value : beam.xs[p.node.value - 1] ?? beam.from;
+  const { X, Y, ends } = page;
+  const xs = structure.nodes.map((n) => n.x);
+  const x = p.x ? p.x.value : xs[p.node.value - 1] ?? ends[0];
   const y = Y(deflectionAt(f, x));
   return handle({ x: X(x) - 12, y: p.w.value < 0 ? y - 60 : y + 8, width: 24, height: 52, class: "handle across" },
     `load of step ${p.step}: ${rough(p.w.value)} at x = ${rough(x)}`, () => {
-      const [from, length] = [p.w.value, (beam.to - beam.from) / (X(beam.to) - X(beam.from))];
+      const [from, length] = [p.w.value, (ends[1] - ends[0]) / (X(ends[1]) - X(ends[0]))];
       return (dx, dy) => {
         const to = x + dx * length;
-        const node = beam.xs.reduce((best, at, i) => (Math.abs(at - to) < Math.abs(beam.xs[best] - to) ? i : best), 0);
-        change({ [p.w.key]: from - (dy / 60) * (Math.abs(from) || 1), ...(p.node ? { [p.node.key]: node + 1 } : { [p.x.key]: beam.xs[node] }) });
+        const node = xs.reduce((best, at, i) => (Math.abs(at - to) < Math.abs(xs[best] - to) ? i : best), 0);
+        change({ [p.w.key]: from - (dy / 60) * (Math.abs(from) || 1), ...(p.node ? { [p.node.key]: node + 1 } : { [p.x.key]: xs[node] }) });
       };
     });
 }
@@ -273,7 +230,7 @@ function loadHandle(f, p) {
 function addUniformHandle(root, step) {
   const uniform = numberOf(`step[${step}].uniform`);
   if (!uniform) return;
-  const right = beamScale.X(beam.to);
+  const right = page.width - 30;
   root.append(label(right - 8, 17, `uniform ${rough(uniform.value)}`, { "text-anchor": "end", class: "value" }),
     handle({ x: right - 150, y: 2, width: 150, height: 22 }, `uniform load of step ${step}: ${rough(uniform.value)}`, () => {
       const from = uniform.value;

@@ -11,11 +11,11 @@ function element(name, attributes = {}, ...children) {
   return e;
 }
 
-// The result, and what read() makes of it: pairs and supports with their places, and all states of the path.
+// The result, and what read() makes of it: dofs, pairs and supports with their places, and all states of the path.
 let result, structure, places, frames, increments, ofMatrix;
 
-// How many of each node's dofs stand one after the other; a matrix has one dof a node.
-const dofsPerNode = { beam: 2, plate: 3, matrix: 1 };
+// What stands at each node, with its direction: 1 to 3 along x, y and z, 4 to 6 about them. The picture of a beam has w along y.
+const dofsOfNode = { beam: { w: 2, theta: 6 }, plate: { w: 3, wx: 5, wy: 4 } };
 
 function read(given) {
   result = given;
@@ -26,25 +26,29 @@ function read(given) {
   increments = result.steps.flatMap((s) => s.increments.map((i) => ({ ...i, step: s.step, number: i.increment })));
 }
 
-// The name of a node, or of a dof where each dof is a node of its own.
+// The name of a node, or of a dof where each dof has a name.
 const nameOf = (entry) => entry.node ?? entry.dof;
 
-// Pairs and supports with their places; supports once a node, with the numbers of their reactions.
+function dofsOf() {
+  if (ofMatrix) return structure.dofs.map((d) => ({ name: d.dof, at: (d.at ?? 0) - 1, direction: d.direction ?? 0 }));
+  const own = Object.entries(dofsOfNode[structure.kind]);
+  return structure.nodes.flatMap((n, at) => own.map(([dof, direction]) => ({ name: n.node, dof, at, direction })));
+}
+
+// `at` is the number of the node, from 0; -1 where it has no place. `u` is the number of the dof.
 function placesOf() {
-  const numbers = new Map((structure.dofs || structure.nodes).map((d, i) => [nameOf(d), i]));
-  const placed = (entry) => {
-    const number = numbers.get(ofMatrix ? entry.dof : entry.node);
-    const { x = 0, y = 0 } = structure.dofs ? {} : structure.nodes[number];
-    const { at = null, direction = 0 } = structure.dofs ? structure.dofs[number] : {};
-    return { name: nameOf(entry), u: number * dofsPerNode[structure.kind], x, y, at: at === null ? null : at - 1, direction };
+  const dofs = dofsOf();
+  const numbers = new Map(dofs.map((d, u) => [ofMatrix ? d.name : `${d.name} ${d.dof}`, u]));
+  const locate = (entry, dof) => {
+    const u = numbers.get(ofMatrix ? entry.dof : `${entry.node} ${dof}`);
+    const { x = null, y = null } = structure.nodes[dofs[u].at] || {};
+    return { ...entry, ...dofs[u], u, x, y };
   };
-  const supports = new Map();
-  structure.supports.forEach((s, i) => {
-    const place = placed(s);
-    if (!supports.has(place.u)) supports.set(place.u, { ...place, dofs: [] });
-    supports.get(place.u).dofs.push([s.dof, s.spring, i]);
-  });
-  return { pairs: structure.pairs.map((p) => ({ ...p, ...placed(p), side: p.surface === "above" ? 1 : -1 })), supports: [...supports.values()] };
+  return {
+    dofs, locate,
+    pairs: structure.pairs.map((p) => ({ ...locate(p, "w"), side: p.surface === "above" ? 1 : -1 })),
+    supports: structure.supports.map((s, number) => ({ ...locate(s, s.dof), number })),
+  };
 }
 
 // Whether a step ends where its increment number `n`, from 0, does: the state is the step's then.
@@ -63,7 +67,7 @@ function framesOf() {
     }),
   });
   const begun = {
-    displacement: new Array((structure.dofs || structure.nodes).length * dofsPerNode[structure.kind]).fill(0),
+    displacement: places.dofs.map(() => 0),
     pairs: places.pairs.map((p) => ({ state: p.state, gap: p.state === "contact" ? 0 : p.side * p.face, force: 0 })),
     reactions: structure.supports.map(() => ({ value: 0 })), extremes: {},
     elements: (structure.EI || []).map(() => ({ moment: [0, 0], shear: [0, 0] })),
@@ -81,16 +85,8 @@ function framesOf() {
   return found;
 }
 
-// The number of the element that has x, from 0.
-function elementAt(x) {
-  let [low, high] = [0, structure.nodes.length - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (structure.nodes[middle].x <= x) low = middle;
-    else high = middle;
-  }
-  return low;
-}
+// The number of the element of a beam that has x, from 0.
+const elementAt = (x) => Math.max(0, Math.min(structure.nodes.length - 2, structure.nodes.findLastIndex((n) => n.x <= x)));
 
 const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
 
@@ -114,16 +110,10 @@ function forceAt(f, name, [e, a]) {
   return a === 0 ? v0 : a === 1 ? v1 : (6 * a * (1 - a) * (m1 - m0)) / h + v0 * (1 - 4 * a + 3 * a * a) + v1 * (3 * a * a - 2 * a);
 }
 
-// The force on the structure by a support; null where it only holds a slope.
-function reactionAt(f, s) {
-  const held = s.dofs.filter(([dof]) => dof === "w" || ofMatrix);
-  return held.length === 0 ? null : held.reduce((sum, [, , i]) => sum + f.reactions[i], 0);
-}
-
-// Concentrated loads of a state: at which node or dof, in which direction, and how much.
+// Concentrated loads of a state: at which dof, and how much.
 const pointsOf = (f) => (f.load.point || []).map((p) => {
-  const name = Object.keys(p).find((key) => key !== "node" && key !== "dof");
-  return { name: nameOf(p), dof: name, value: p[name] };
+  const dof = Object.keys(p).find((key) => key !== "node" && key !== "dof");
+  return { ...places.locate(p, dof), value: p[dof] };
 });
 
 // "all", "2..9", or a list.
