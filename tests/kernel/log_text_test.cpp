@@ -45,6 +45,7 @@ TEST_CASE("the text of no event") {
   const auto [f, cpp] = texts(3.0, 1.0, 1);
   CHECK(f == "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n");
   CHECK(cpp == f);
+  CHECK(texts(3.0F, 1.0F, 1) == std::pair(f, f));
 }
 
 TEST_CASE("I3 overflows to asterisks above 999") {

@@ -26,6 +26,8 @@ ORDER = ["rax", "rcx", "rdx", "rbx", "rsp", "rbp", "rsi", "rdi"] + [f"r{k}" for 
 PAGE, DATA = 4096, 8192  # the state's place, and that of the memory which instructions address
 FLAG_BITS = [0, 2, 6, 7, 11]  # carry, parity, zero, sign, overflow
 draw = random.Random(1989)
+decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
+decoder.detail = True
 
 
 class Processor:
@@ -69,7 +71,7 @@ class Concrete:
 
     def store(self, s: State, address: z3.BitVecRef, value: z3.BitVecRef) -> None:
         at, size = self.at(address), value.size() // 8
-        self.data[at : at + size] = number(value).to_bytes(size, "little")
+        self.data[at : at + size] = constant(value).as_long().to_bytes(size, "little")
 
     def in_image(self, address: int) -> z3.BitVecRef:
         return z3.BitVecVal(address, 64)
@@ -80,21 +82,16 @@ class Concrete:
 SCALAR = {"add": 0x58, "mul": 0x59, "sub": 0x5C, "div": 0x5E}
 
 
-def number(value: z3.BitVecRef) -> int:
-    """A value in which the unknown functions stand for what the processor's scalar instructions do: that is their meaning."""
-    value = z3.simplify(value)
-    if z3.is_bv_value(value):
-        return value.as_long()
-    if value.decl().kind() == z3.Z3_OP_UNINTERPRETED and value.num_args():
-        return applied(value.decl().name(), value.size(), [(number(a), a.size()) for a in value.children()])
-    return number(value.decl()(*(z3.BitVecVal(number(a), a.size()) if z3.is_bv(a) else truth(a) for a in value.children())))
-
-
-def truth(claim: z3.BoolRef) -> z3.BoolRef:
-    claim = z3.simplify(claim)
-    if z3.is_true(claim) or z3.is_false(claim):
-        return claim
-    return truth(claim.decl()(*(z3.BitVecVal(number(a), a.size()) if z3.is_bv(a) else truth(a) for a in claim.children())))
+def constant(term: z3.ExprRef) -> z3.ExprRef:
+    """A term's value, in which the unknown functions stand for what the processor's scalar instructions do: that is their
+    meaning."""
+    term = z3.simplify(term)
+    if z3.is_bv_value(term) or z3.is_true(term) or z3.is_false(term):
+        return term
+    known = [constant(child) for child in term.children()]
+    if term.decl().kind() != z3.Z3_OP_UNINTERPRETED:
+        return constant(term.decl()(*known))
+    return z3.BitVecVal(applied(term.decl().name(), term.size(), [(k.as_long(), k.size()) for k in known]), term.size())
 
 
 def applied(name: str, width: int, arguments: list[tuple[int, int]]) -> int:
@@ -155,8 +152,6 @@ def conditions(flags: int) -> dict[str, bool]:
 
 def interpreted(code: bytes, state: bytes, address: int, act) -> tuple[list[int], bytes, dict[str, bool]]:
     """Registers and vectors afterwards, the memory, and what is known of conditions."""
-    decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
-    decoder.detail = True
     ins = next(decoder.disasm(code, address, 1))
     s, machine = State(address), Concrete(state[DATA - PAGE :])
     held = struct.unpack_from("<16QQ8x32Q", state)
@@ -166,8 +161,8 @@ def interpreted(code: bytes, state: bytes, address: int, act) -> tuple[list[int]
         s.write(f"xmm{k // 2}", k % 2 * 8, z3.BitVecVal(held[17 + k], 64))
     s.flags = lambda: {name: z3.BoolVal(is_so) for name, is_so in conditions(held[16]).items()}
     act(x86.Operands(machine, s, ins))
-    values = [number(s.register(name)) for name in [*ORDER, *(f"xmm{k}" for k in range(16))]]
-    return values, bytes(machine.data), {name: z3.is_true(truth(claim)) for name, claim in s.flags().items()}
+    values = [constant(s.register(name)).as_long() for name in [*ORDER, *(f"xmm{k}" for k in range(16))]]
+    return values, bytes(machine.data), {name: z3.is_true(constant(claim)) for name, claim in s.flags().items()}
 
 
 def natively(code: bytes, state: bytes) -> tuple[list[int], bytes, dict[str, bool]]:
@@ -190,16 +185,16 @@ def wrong(mnemonic: str):
     neighbour = {"add": "sub", "sub": "add", "and": "or", "or": "and", "xor": "or", "cmp": "test", "test": "cmp", "movzx": "movsx",
                  "movsx": "movzx", "subsd": "addsd", "divsd": "mulsd", "mulsd": "divsd", "subss": "addss", "divss": "mulss",
                  "mulss": "divss", "minsd": "maxsd", "minss": "maxss", "sete": "setne", "setne": "sete"}  # fmt: skip
-    other = neighbour.get(mnemonic)
-    if other is None:
-        return lambda o: None
-
-    return x86.ACTIONS[other]
+    other = neighbour.get(mnemonic, "sete" if mnemonic.startswith("set") else "")
+    return x86.ACTIONS.get(other, lambda o: None)
 
 
-def jump(suffix: str):
-    """A jump's condition, as setcc of the same one shows it."""
-    return lambda o: o.s.set_register("al", z3.If(o.condition(suffix), z3.BitVecVal(1, 8), z3.BitVecVal(0, 8)))
+def setting(jump: capstone.CsInsn) -> capstone.CsInsn:
+    """The setcc that reads the same condition as a jump: both numbers end in the condition's own."""
+    number = jump.opcode[1 if jump.opcode[0] == 0x0F else 0] & 0x0F
+    ins = next(decoder.disasm(bytes([0x0F, 0x90 | number, 0xC0]), 0))
+    assert ins.mnemonic[3:] == jump.mnemonic[1:], f"{ins.mnemonic} for {jump.mnemonic}"
+    return ins
 
 
 for name in ("add", "mul"):
@@ -212,8 +207,6 @@ for name in ("add", "mul"):
                 assert both[0] == both[1], f"{name} of {a:#x} and {known:#x} depends on their order"
 
 image = Image(build / "contct")
-decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
-decoder.detail = True
 forms: dict[str, capstone.CsInsn] = {}
 for kernel in KERNELS[:4]:
     for ins in decoder.disasm(image.code_of(kernel.symbol), image.symbol(kernel.symbol).address):
@@ -221,14 +214,10 @@ for kernel in KERNELS[:4]:
 compared, unnoticed, mnemonics = 0, [], set()
 for form, ins in forms.items():
     mnemonic = ins.mnemonic
-    if mnemonic in ("jmp", "call", "ret") or mnemonic == "nop":
+    if mnemonic in ("jmp", "call", "ret", "nop"):
         continue
-    meant, otherwise = x86.ACTIONS.get(mnemonic), wrong(mnemonic)
-    if mnemonic.startswith("j"):
-        codes = {"o": 0, "no": 1, "b": 2, "ae": 3, "e": 4, "ne": 5, "be": 6, "a": 7, "s": 8, "ns": 9, "p": 10, "np": 11, "l": 12,
-                 "ge": 13, "le": 14, "g": 15}  # fmt: skip
-        meant, otherwise = jump(mnemonic[1:]), jump({"p": "np", "e": "ne"}.get(mnemonic[1:], "e"))
-        ins = next(decoder.disasm(bytes([0x0F, 0x90 + codes[mnemonic[1:]], 0xC0]), 0))
+    ins = setting(ins) if mnemonic.startswith("j") else ins
+    meant, otherwise = x86.ACTIONS[ins.mnemonic], wrong(ins.mnemonic)
     for _ in range(STATES):
         assert agrees(ins, meant), f"{ins.mnemonic} {ins.op_str}: the interpreter is not the processor"
         compared += 1
