@@ -105,20 +105,3 @@ TEST_CASE("an exact path that is not followed says why") {
   more.put_increment(out, of, i);
   CHECK(out["exact_path"]["stopped"] == "too many dofs");
 }
-
-TEST_CASE("pairs that the exact answer toggles together are named in a list that ends with \"and\"") {
-  const problem p = parse_problem(two_pairs, "pb.toml");
-  const explained_kernels of{p, {"fortran"}, 8, 0};
-  const auto words_of = [&](std::size_t pairs) {
-    explained_call call = one_pair(-0.5, 0.0, -1.0, 0.5);
-    call.pairs.resize(pairs, call.pairs.front());
-    for (std::size_t i = 0; i < pairs; ++i) call.pairs[i].pair = static_cast<int>(i);
-    exact_addition more(nullptr);
-    const explained_increment i{{1, 1, 0.5, 0.5, {}}, 0.0, call, nullptr, {}, false};
-    more.begin(i);
-    return more.of_smin(of, i).at(0).words;
-  };
-  CHECK_THAT(words_of(1), Contains("Exactly, pair 1 is toggled"));
-  CHECK_THAT(words_of(2), Contains("Exactly, pairs 1 and 2 are toggled"));
-  CHECK_THAT(words_of(3), Contains("Exactly, pairs 1, 2 and 3 are toggled"));
-}

@@ -97,16 +97,6 @@ TEST_CASE(
   CHECK(other["problem"] == "tension");
 }
 
-TEST_CASE("a load is written with its resultant, its nodes and elements from 1") {
-  const problem p = parse_problem(
-      with("point = [ {", "uniform = [ { value = -2, elements = [2] } ]\npoint = [ {"), "pb.toml");
-  const nlohmann::json load = load_json(p.geometry, load_path(p), 1, 0.5);
-  CHECK(load["force"] == -31.0);
-  CHECK(load["moment"] == -61.5);
-  CHECK(load["uniform"] == nlohmann::json::parse(R"([{"value": -1.0, "elements": "2..2"}])"));
-  CHECK(load["point"] == nlohmann::json::parse(R"([{"node": 3, "w": -30.0}])"));
-}
-
 TEST_CASE("the result has the format's fields, with the numbers of PB1's second step") {
   const auto r = result_of(good_problem);
   CHECK(r["format"] == "contct-result-1");
