@@ -10,7 +10,7 @@
 #include "contct/path/solve_problem.hpp"
 #include "contct/serve/listing_kernels.hpp"
 #include "contct/text/input_text.hpp"
-#include "contct/write/explain_exact.hpp"
+#include "contct/write/explain.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {

@@ -60,10 +60,3 @@ TEST_CASE("elements are a run when they follow one another upwards") {
   CHECK_FALSE(is_run({4, 6}));
   CHECK_FALSE(is_run({6, 5, 4}));
 }
-
-TEST_CASE("the share of a load that rounding has left of it is told as none") {
-  const problem p = parse_problem(good_problem, "pb.toml");
-  const load_path loads(p);
-  CHECK(loads.words_at(1, 1e-18, 80) == loads.words_at(1, 0.0, 80));
-  CHECK(loads.words_at(1, 1e-3, 80) != loads.words_at(1, 0.0, 80));
-}

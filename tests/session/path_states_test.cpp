@@ -109,18 +109,3 @@ TEST_CASE("what never moved has two states: the start, and the same as its end")
   CHECK(states.back().number == 0);
   CHECK(states.back().displacement == states.front().displacement);
 }
-
-TEST_CASE("a state for a picture alone has the digits of one solve, and a step's end still is the path's") {
-  a_run r(two_stops({-10.0, -0.3}), "cpp");
-  const std::vector<structure_state> refined = pictures_of(r.result);
-  r.result.refined_states = false;
-  const std::vector<structure_state> quick = pictures_of(r.result);
-  REQUIRE(refined.size() == quick.size());
-  int others = 0;
-  for (std::size_t i = 0; i < refined.size(); ++i) {
-    CHECK(largest_difference(refined[i].displacement, quick[i].displacement) < 1e-11);
-    others += refined[i].displacement == quick[i].displacement ? 0 : 1;
-  }
-  CHECK(others > 0);  // states are refined unless it is said
-  CHECK(quick.back().displacement == r.result.record.steps.back().end.displacement);
-}

@@ -7,15 +7,35 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "contct/exact/exact_problem.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/path/path_observers.hpp"
+#include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
-#include "support/scratch_folder.hpp"
-#include "write/explained_run.hpp"
 
 using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
 namespace {
+
+/// FORTRAN with C++ beside it; `sink` is given each increment, after `first`, where there is one, has seen
+/// it. Returns the path, which has the totals.
+explained_path explain_run(const problem& p, explained_path::sink sink, observer* first = nullptr) {
+  const auto leader = make_kernel("fortran");
+  explained_path path(leader->facts(), make_kernel("cpp"), {}, std::move(sink));
+  std::vector<observer*> watching = {&path};
+  if (first != nullptr) watching.insert(watching.begin(), first);
+  follow(p, structure_of(p), "refactor", *leader, watching);
+  return path;
+}
+
+/// A stop that is touched at a quarter of the load, and a clamped node over a face that it never leaves.
+const char* const two_pairs =
+    "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+    "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n"
+    "[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
+    "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
 
 /// The lines of the listing that a story cites; 0 where a sentence has none.
 std::vector<int> lines_of(const nlohmann::json& story) {
@@ -43,14 +63,34 @@ std::string two_pairs_and(int steps) {
   return toml;
 }
 
-nlohmann::json explained_json(const std::string& text, int pair = 0) {
+/// `exactly`: with the exact numbers, whose path is followed beside.
+nlohmann::json explained_json(const std::string& text, int pair = 0, bool exactly = false) {
   const problem p = parse_problem(text, "pb.toml");
-  const scratch_folder folder;
-  output_file out(folder.at("x.json"));
+  const exact_problem same = exact_problem_of(p);
+  exact_companion beside(same);
+  exact_addition more(&beside);
+  std::string written;
+  output_file out(&written);
   explain_json json({p, {"fortran", "cpp"}, 8, pair}, out);
-  const explained_path path = explain_run(p, [&](const explained_increment& i) { json.write(i); });
-  json.finish("solved", path);
-  return nlohmann::json::parse(folder.read("x.json"));
+  const auto write = [&](const explained_increment& i) {
+    more.begin(i);
+    json.write(i, exactly ? &more : nullptr);
+  };
+  json.finish("solved", explain_run(p, write, &beside));
+  return nlohmann::json::parse(written);
+}
+
+/// A call with one open pair above a face below it.
+explained_call one_pair(double c, double d, double d_star, double s) {
+  explained_call call;
+  explained_pair p;
+  p.c = c;
+  p.d = d;
+  p.d_star = d_star;
+  p.s = s;
+  p.way = way_to_s::moving;
+  call.pairs = {p};
+  return call;
 }
 
 }  // namespace
@@ -113,11 +153,6 @@ TEST_CASE("the bits of s are shown where they are asked for") {
              Contains("s: fortran 0x1p+0, cpp equal to the bit"));
 }
 
-TEST_CASE("statements of the listing are shown where there is room for them") {
-  CHECK_THAT(explained_text(0, 120), Contains("GAP = CC(I) - DD(NDOF)"));
-  CHECK_THAT(explained_text(0, 119), !Contains("GAP = CC(I)"));
-}
-
 TEST_CASE("each increment has its numbers, the winner and every pair with the reasons") {
   const nlohmann::json j = explained_json(two_pairs);
   CHECK(j["format"] == "contct-explain-1");
@@ -129,6 +164,7 @@ TEST_CASE("each increment has its numbers, the winner and every pair with the re
   CHECK(first["load"]["force"].get<double>() == Approx(-0.75));
   CHECK(first["winner"]["pair"] == 1);
   CHECK_FALSE(first.contains("apart"));
+  for (const char* key : {"if", "outcome", "ulps"}) CHECK(first["narrowest"].contains(key));
   REQUIRE(first["pairs"].size() == 2);
   const nlohmann::json& stop = first["pairs"][0];
   CHECK(stop["before"] == "separated");
@@ -175,36 +211,12 @@ TEST_CASE("an event exactly at the full load is none for the listing, and the ex
   CHECK_THAT(explained_text(0, 100), !Contains("Exactly at the full load"));
 }
 
-TEST_CASE("a pair that leaves its face is told as a break, with the listing's line") {
-  const std::string up = std::string(two_pairs) + "[[step]]\npoint = [ { node = 2, w = 3 } ]\n";
-  CHECK_THAT(explained_text(0, 100, up),
-             Contains("ISEP is not 1: it was in contact.") && Contains("ISEP = 1: separated. Break."));
-  const nlohmann::json calls = explained_json(up)["increments"];
-  bool breaks = false;
-  for (const auto& call : calls)
-    for (const auto& sentence : call["pairs"][0]["story"])
-      breaks = breaks || (sentence["words"] == "ISEP = 1: separated. Break." && sentence.contains("line") &&
-                          sentence.contains("statement"));
-  CHECK(breaks);
-}
-
-TEST_CASE("a sentence that no line of the listing says has no line in JSON") {
-  const nlohmann::json call = explained_json(two_pairs)["increments"][0];
-  const nlohmann::json& runner_up = call["story"][1];
-  CHECK(runner_up["words"] == "No other pair has an event ahead of it.");
-  CHECK_FALSE(runner_up.contains("line"));
-  CHECK_FALSE(runner_up.contains("statement"));
-  CHECK(call["narrowest"].contains("ulps"));
-  CHECK(call["narrowest"].contains("outcome"));
-  CHECK(call["narrowest"]["if"].is_string());
-}
-
 TEST_CASE(
     "where the second kernel differs, its value stands under its own name, and a line of unit 26 in full") {
   const problem p = parse_problem(two_pairs, "pb.toml");
   const auto told = [&](const mismatch& apart) {
-    const scratch_folder folder;
-    output_file out(folder.at("x.json"));
+    std::string written;
+    output_file out(&written);
     explain_json json({p, {"fortran", "cpp"}, 8, 0}, out);
     std::string text;
     explained_path path = explain_run(p, [&](explained_increment i) {
@@ -213,7 +225,7 @@ TEST_CASE(
       text += explain_text({p, {"fortran", "cpp"}, 8, 0}, {100, false}).add(i);
     });
     json.finish("solved", path);
-    return std::pair(text, nlohmann::json::parse(folder.read("x.json"))["increments"][0]["apart"]);
+    return std::pair(text, nlohmann::json::parse(written)["increments"][0]["apart"]);
   };
   const auto [of_text, text_apart] = told({"text", 3, "one", "two", 0});
   CHECK_THAT(of_text, Contains(R"(Unit 26, line 3: fortran wrote "one", cpp wrote "two")"));
@@ -222,4 +234,60 @@ TEST_CASE(
   CHECK_THAT(of_smin, !Contains("Unit 26, line"));
   CHECK(smin_apart ==
         nlohmann::json({{"field", "SMIN"}, {"index", 0}, {"fortran", "0x1p-2"}, {"cpp", "0x1p-1"}}));
+}
+
+TEST_CASE("the exact answer is that of the doubles of the call, bit for bit") {
+  const std::optional<listing_answer> a = answer_of(one_pair(-0.1, 0.0, -0.3, 0.1 / 0.3));
+  REQUIRE(a.has_value());
+  CHECK(a->s[0] == binary_value(0.1) / binary_value(0.3));
+  CHECK(a->s[0] != rational(1, 3));
+  CHECK(a->toggled == std::vector<int>{0});
+}
+
+TEST_CASE("a call with a number that is not finite has no exact answer") {
+  for (const double x : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    CHECK_FALSE(answer_of(one_pair(x, 0.0, -0.3, 0.5)).has_value());
+    CHECK_FALSE(answer_of(one_pair(-0.1, x, -0.3, 0.5)).has_value());
+    CHECK_FALSE(answer_of(one_pair(-0.1, 0.0, x, 0.5)).has_value());
+  }
+}
+
+TEST_CASE("increments and pairs have their exact numbers, and the errors of both kernels") {
+  const nlohmann::json j = explained_json(two_pairs, 0, true);
+  REQUIRE(j["increments"].size() == 2);
+  const auto& first = j["increments"][0];
+  CHECK(first["exact_path"]["smin"] == "1/4");
+  CHECK(first["exact_path"]["fraction"] == "1/4");
+  CHECK(first["exact_path"]["winners"] == nlohmann::json({1}));
+  CHECK(first["exact_path"]["toggled"] == nlohmann::json({1}));
+  CHECK_FALSE(first["exact_path"].contains("parted"));
+  CHECK(first["exact"]["toggled"] == nlohmann::json({1}));
+  const auto& stop = first["pairs"][0];
+  CHECK(stop["exact_path"]["s"] == "1/4");
+  CHECK(stop["exact_path"]["kind"] == "advancing");
+  for (const char* kernel : {"fortran", "cpp"}) {
+    CHECK(std::abs(stop["exact"]["ulps_off"][kernel].get<double>()) <= 0.5);  // one division, of exact parts
+    CHECK(first["exact"]["ulps_off"][kernel] == stop["exact"]["ulps_off"][kernel]);
+  }
+  CHECK(first["pairs"][1]["exact"]["kind"] == "no response");
+  CHECK(first["pairs"][1]["exact_path"]["s"] == "1");
+  CHECK(j["increments"][1]["exact"]["winners"].empty());
+}
+
+TEST_CASE("an exact path that is not followed says why") {
+  const problem p = parse_problem(two_pairs, "pb.toml");
+  const explained_kernels of{p, {"fortran"}, 8, 0};
+  exact_addition more(nullptr, "too many dofs");
+  const explained_call call = one_pair(-0.1, 0.0, -0.3, std::nan(""));
+  const explained_increment i{{1, 1, 1.0, 1.0, {}}, 0.0, call, nullptr, {}, false};
+  more.begin(i);
+  CHECK_THAT(more.of_end(of, i)[0].words, Contains("is not followed: too many dofs"));
+  CHECK(more.of_s(of, i, call.pairs[0]).size() == 1);
+  CHECK_THAT(more.of_s(of, i, call.pairs[0])[0].words, Contains("; fortran nan."));
+  nlohmann::ordered_json out;
+  more.put_pair(out, of, i, call.pairs[0]);
+  CHECK(out["exact"]["ulps_off"]["fortran"].is_null());
+  CHECK(out["exact_path"].is_null());
+  more.put_increment(out, of, i);
+  CHECK(out["exact_path"]["stopped"] == "too many dofs");
 }

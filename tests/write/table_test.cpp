@@ -9,7 +9,6 @@
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
-#include "support/scratch_folder.hpp"
 #include "support/structures.hpp"
 
 using namespace contct;
@@ -169,18 +168,6 @@ TEST_CASE("tables of structures from elsewhere name dofs by their labels, with c
     write_csv(a_run(text, "cpp").result, 0, to, &of_pairs);
     CHECK_THAT(pairs, Contains("\r\n1,1,1,6.y,below,contact,") && Contains("\r\n3,3,2,8.x,above,separated,"));
   }
-}
-
-TEST_CASE("labels that are no plain words are quoted fields in tables") {
-  const scratch_folder folder;
-  const std::string matrix =
-      folder.write("odd.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
-  const std::string dofs = folder.write("odd.dof", "<b>,\"&.x\n");
-  const a_run r("[matrix]\nstiffness = \"" + matrix + "\"\ndofs = \"" + dofs +
-                "\"\n[[contact]]\ndof = '<b>,\"&.x'\nsurface = "
-                "\"below\"\nface = 0\nstiffness = 1\n[[step]]\n"
-                "point = [ { dof = '<b>,\"&.x', value = -1 } ]\n");
-  CHECK(csv_field(place_name(r.what.geometry, 0)) == "\"<b>,\"\"&.x\"");
 }
 
 namespace {

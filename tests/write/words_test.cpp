@@ -11,16 +11,6 @@
 using namespace contct;
 using Catch::Matchers::Contains;
 
-TEST_CASE("sides, events and states have the words of a problem file") {
-  CHECK(surface_name(face_below) == "below");
-  CHECK(surface_name(face_above) == "above");
-  CHECK(change_name(change::make) == "make");
-  CHECK(change_name(change::break_) == "break");
-  CHECK(state_name(in_contact) == "contact");
-  CHECK(state_name(separated) == "separated");
-  CHECK(look_name(pair_state::at_face) == "at its face");
-}
-
 TEST_CASE("a path that stops short of its load has one of three statuses, and a reason of its own") {
   CHECK(status_name(path_status::solved) == "solved");
   CHECK(status_name(path_status::mechanism) == "mechanism");
@@ -31,15 +21,6 @@ TEST_CASE("a path that stops short of its load has one of three statuses, and a 
   CHECK(end_reason(path_status::cycle) == "cycle");
   CHECK(end_reason(path_status::not_factored) == "not factored");
   CHECK(end_reason(path_status::path_ended) == "path ended");
-}
-
-TEST_CASE("a step is certified, not certified, or without a certificate") {
-  certificate c;
-  c.certified = true;
-  CHECK(certificate_mark(c) == "certified");
-  c.certified = false;
-  CHECK(certificate_mark(c) == "NOT certified");
-  CHECK(certificate_mark({}) == "no certificate");
 }
 
 TEST_CASE("a certified run says how many steps are, and names no complaint") {
@@ -56,13 +37,6 @@ TEST_CASE("a path that ended before its full load is not certified as a whole, w
   REQUIRE(items.size() == 2);
   CHECK_THAT(items[0], Contains("the run is NOT certified"));
   CHECK(items[1] == "step 1 is certified");
-}
-
-TEST_CASE("the remedy for what the 1989 rule does wrong is a command, and other rules have none") {
-  CHECK_THAT(remedy_words({"fortran", "cpp"}, "a/b.toml"),
-             Contains("contct run a/b.toml --kernels corrected"));
-  CHECK(remedy_words({"corrected"}, "a/b.toml").empty());
-  CHECK(remedy_words({}, "a/b.toml").empty());
 }
 
 TEST_CASE("where the 1989 rule leaves a pair that pulls, the complaint has the pair and the amount") {
@@ -87,6 +61,7 @@ TEST_CASE("of a state with locked-in forces the summary names the step, the comp
   CHECK_THAT(complaints[0],
              Contains("; in increment ") && Contains(" contact ") && Contains(" from its face"));
   CHECK(first.distance > 0.0);
+  CHECK_THAT(complaints_of(r.result).back(), Contains("contct run ") && Contains(" --kernels corrected"));
 }
 
 TEST_CASE("the digits that are proved of a run are those of its worst step") {

@@ -48,7 +48,6 @@ served_request read_run_request(const char* options) {
     throw std::invalid_argument(
         "options: found final_only with log or trace; allowed: a path, which calls kernels");
   wanted.pictures = wanted.states;
-  wanted.refined_states = wanted.page || wanted.envelope;
   return wanted;
 }
 

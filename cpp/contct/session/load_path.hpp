@@ -19,10 +19,6 @@ class load_path {
   [[nodiscard]] load at(int step, double fraction) const;
   /// Its resultant, 0 where the sum is nothing but rounding; `step` is at least 1.
   [[nodiscard]] resultant resultant_at(int step, double fraction) const;
-  /// The resultant's force, in step 0 too.
-  [[nodiscard]] double force_at(int step, double fraction) const {
-    return step == 0 ? 0.0 : resultant_at(step, fraction).force;
-  }
 
   /// Has either end of the step more than 32 parts to list? Each element of a scattered list counts.
   [[nodiscard]] bool has_many_parts(int step) const;

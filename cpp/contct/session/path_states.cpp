@@ -85,11 +85,7 @@ std::vector<double> path_states::shape_after(const increment_record& i) {
     forces[p] = (run_.end.by_1989_rule ? i.pair_force[p] : by_law) + at.stiffness * i.d[p];
   }
   std::vector<double> u = with_pair_forces(structure_, load, forces);
-  if (run_.refined_states) {
-    stiffness_->solve_refined(std::vector(u), u);
-  } else {
-    stiffness_->solve(u);
-  }
+  stiffness_->solve_refined(std::vector(u), u);
   return u;
 }
 

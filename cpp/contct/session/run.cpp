@@ -36,7 +36,6 @@ run::run(const problem& p, const linear_structure& s, run_request request)
                   "floating point: " + describe(probe_floating_point())};
   result.date = wanted.date;
   result.envelope = wanted.envelope;
-  result.refined_states = wanted.refined_states;
   if (wanted.kernels.empty()) return;
   leader_ = make_kernel(wanted.kernels.front());
   leader_facts_ = leader_->facts();

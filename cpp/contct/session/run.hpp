@@ -21,11 +21,10 @@ struct run_request {
   std::string engine = {};  ///< empty: what suits the leader
   bool free_run = false;    ///< each kernel follows a path of its own, see follow_alone
   bool envelope = false;
-  bool pictures = false;       ///< states are kept, also where no output here needs them
-  bool refined_states = true;  ///< see run_result
-  int max_increments = 0;      ///< in a step; 0: the default limit
-  int watched = 0;             ///< the node of the table, from 0
-  std::string date = {};       ///< of the page; may be empty
+  bool pictures = false;   ///< states are kept, also where no output here needs them
+  int max_increments = 0;  ///< in a step; 0: the default limit
+  int watched = 0;         ///< the node of the table, from 0
+  std::string date = {};   ///< of the page; may be empty
 };
 
 /// What else than the ends of steps is written.

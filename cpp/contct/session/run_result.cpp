@@ -9,6 +9,9 @@
 
 namespace contct {
 
+namespace {
+
+/// The end of a step as the path tells it.
 structure_state state_of(const step_state& s) {
   structure_state end{.step = s.step,
                       .fraction = s.fraction,
@@ -17,6 +20,8 @@ structure_state state_of(const step_state& s) {
   if (s.numbers != nullptr) end.numbers = *s.numbers;
   return end;
 }
+
+}  // namespace
 
 void run_recorder::called(const answered_call& c) {
   smin_ = c.c.smin;

@@ -34,9 +34,6 @@ struct structure_state {
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
 };
 
-/// The end of a step as the path tells it.
-[[nodiscard]] structure_state state_of(const step_state& s);
-
 /// One increment of the path, and the last call before it.
 struct increment_record {
   int step, number;
@@ -132,7 +129,6 @@ struct run_result {
   std::vector<std::string> facts;  ///< version, listing, floating point
   std::string date;                ///< of the run, in UTC; may be empty
   bool envelope = false;           ///< it was asked for
-  bool refined_states = true;      ///< false: states within steps have the digits of one solve
 
   /// As results have it: "solved", "kernels-disagree", ..
   [[nodiscard]] std::string_view status() const;

@@ -1,5 +1,3 @@
-#include "contct/write/explain_exact.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,7 +5,7 @@
 
 #include "contct/number/rational.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/explain_story.hpp"
+#include "contct/write/explain.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {

@@ -1,9 +1,9 @@
-#include "contct/write/explain_story.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
+
+#include "contct/write/explain.hpp"
 
 namespace contct {
 namespace {

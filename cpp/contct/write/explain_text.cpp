@@ -6,8 +6,6 @@
 
 #include "contct/number/bits.hpp"
 #include "contct/write/explain.hpp"
-#include "contct/write/explain_exact.hpp"
-#include "contct/write/explain_story.hpp"
 #include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 

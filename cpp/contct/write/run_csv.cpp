@@ -42,7 +42,8 @@ std::string csv_row(const run_result& r, const load_path& loads, const path_mome
   const double fraction = i == nullptr ? m.step->end.fraction : i->fraction;
   const bool is_compared = i != nullptr && i->smin && r.compared;
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", step, i == nullptr ? 0 : i->number,
-                     kind, i == nullptr ? "" : number(i->s), fraction, loads.force_at(step, fraction),
+                     kind, i == nullptr ? "" : number(i->s), fraction,
+                     loads.resultant_at(step, fraction).force,
                      csv_field(i == nullptr ? "" : event_names(i->events)), count(pair_state::closed),
                      count(pair_state::open), count(pair_state::at_face), i == nullptr ? "" : number(i->smin),
                      !is_compared ? ""

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -85,27 +84,6 @@ std::vector<double> points_of(const problem& p) {
   return at;
 }
 
-/// The dof, from 0, of a node along each axis and about it; -1 where it has none.
-struct dofs_of_node {
-  std::array<int, 3> along{-1, -1, -1};
-  std::array<int, 3> about{-1, -1, -1};
-
-  [[nodiscard]] bool operator==(const dofs_of_node&) const = default;
-};
-
-/// Of each node.
-std::vector<dofs_of_node> dofs_of_nodes(const placed_nodes& places) {
-  std::vector<dofs_of_node> list(places.nodes.size());
-  for (std::size_t dof = 0; dof < places.dofs.size(); ++dof) {
-    const placed_dof& at = places.dofs[dof];
-    if (at.node < 0) continue;
-    dofs_of_node& of = list[at.node];
-    const int axis = (at.direction - 1) % 3;
-    (at.is_length() ? of.along : of.about)[axis] = static_cast<int>(dof);
-  }
-  return list;
-}
-
 /// The reaction at each dof; 0 where nothing holds it.
 std::vector<double> reactions_at_dofs(const read_state& r) {
   std::vector<double> at(r.state.displacement.size());
@@ -122,21 +100,20 @@ struct point_arrays {
   std::string arrays;
 };
 
-/// Displacements and reactions, and rotations where there are any.
+/// Displacements and reactions, and rotations where there are any: 0 along an axis where a node has no dof.
 point_arrays mesh_point_data(const placed_nodes& places, const read_state& r) {
   const std::vector<double> reacting = reactions_at_dofs(r);
-  std::vector<double> displacement;
-  std::vector<double> rotation;
-  std::vector<double> reaction;
+  std::vector<double> displacement(3 * places.nodes.size());
+  std::vector<double> rotation(displacement.size());
+  std::vector<double> reaction(displacement.size());
   bool turns = false;
-  const auto put = [](std::vector<double>& list, const std::array<int, 3>& dofs, const auto& numbers) {
-    for (const int dof : dofs) list.push_back(dof < 0 ? 0.0 : numbers[dof]);
-  };
-  for (const dofs_of_node& of : dofs_of_nodes(places)) {
-    put(displacement, of.along, r.state.displacement);
-    put(rotation, of.about, r.state.displacement);
-    put(reaction, of.along, reacting);
-    turns = turns || of.about != dofs_of_node{}.about;
+  for (std::size_t dof = 0; dof < places.dofs.size(); ++dof) {
+    const placed_dof& at = places.dofs[dof];
+    if (at.node < 0) continue;
+    const int slot = 3 * at.node + (at.direction - 1) % 3;
+    turns = turns || !at.is_length();
+    (at.is_length() ? displacement : rotation)[slot] = r.state.displacement[dof];
+    if (at.is_length()) reaction[slot] = reacting[dof];
   }
   return {R"( Vectors="displacement")", data_array("displacement", 3, displacement) +
                                             (turns ? data_array("rotation", 3, rotation) : "") +

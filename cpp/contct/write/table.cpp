@@ -259,7 +259,7 @@ void table_printer::print_end(const step_record& s, const std::optional<certific
   const int width = terminal_.width - static_cast<int>(label.size());
   std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.end.isep.size())};
   if (judged) items.push_back(digits_words(*judged));
-  items.push_back(certificate_mark(judged));
+  items.emplace_back(!judged ? "no certificate" : judged->certified ? "certified" : "NOT certified");
   if (const std::string& name = problem_.steps[s.end.step - 1].name; !name.empty())
     items.insert(items.begin(), on_one_line(name));
   if (s.from_exact_path)

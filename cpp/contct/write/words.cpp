@@ -55,11 +55,6 @@ std::string pair_words(const problem& p, std::size_t pair) {
                      surface_name(at.surface));
 }
 
-std::string certificate_mark(const std::optional<certificate>& c) {
-  if (!c) return "no certificate";
-  return c->certified ? "certified" : "NOT certified";
-}
-
 std::string digits_words(const certificate& c) {
   constexpr int enough = 10;
   const int digits = digits_of(c);
@@ -108,11 +103,6 @@ std::vector<std::string> certificate_complaints(const run_result& r) {
     ++step;
   }
   return lines;
-}
-
-std::string remedy_words(const std::vector<std::string>& kernels, const std::string& file) {
-  if (kernels.empty() || facts_of_kernel(kernels.front()).rule != contact_rule::listing) return "";
-  return fmt::format("the corrected rule has no such errors: contct run {} --kernels corrected", file);
 }
 
 namespace {
@@ -224,8 +214,10 @@ std::vector<std::string> complaints_of(const run_result& r) {
   // Where not even bounds are proved, the other rule may prove none either.
   const bool is_bounded =
       std::ranges::all_of(r.judged.steps(), [](const auto& c) { return !c || c->proved; });
-  const std::string remedy = remedy_words(r.kernels, r.file);
-  if (!lines.empty() && is_bounded && !remedy.empty()) lines.push_back(remedy);
+  if (!lines.empty() && is_bounded && !r.kernels.empty() &&
+      facts_of_kernel(r.kernels.front()).rule == contact_rule::listing)
+    lines.push_back(
+        fmt::format("the corrected rule has no such errors: contct run {} --kernels corrected", r.file));
   return lines;
 }
 

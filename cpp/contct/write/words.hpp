@@ -50,9 +50,6 @@ constexpr std::string_view end_reason(path_status status) {
   return reasons[static_cast<std::size_t>(status)];
 }
 
-/// A few words for a step: "certified", "NOT certified", or "no certificate".
-[[nodiscard]] std::string certificate_mark(const std::optional<certificate>& c);
-
 /// "7 digits" of every number of a state, as proved; "10+ digits" where there are more, which depend on the
 /// LAPACK in use.
 [[nodiscard]] std::string digits_words(const certificate& c);
@@ -65,10 +62,6 @@ constexpr std::string_view end_reason(path_status status) {
 /// increment toggled which pair away from its face before.
 [[nodiscard]] std::vector<std::string> certificate_complaints(const run_result& r);
 
-/// What to do about them: the command that follows the problem in `file` by the corrected rule. Empty where
-/// the first of `kernels`, which leads, has another rule than the listing's.
-[[nodiscard]] std::string remedy_words(const std::vector<std::string>& kernels, const std::string& file);
-
 /// Why a path did not reach its end: step, share of its load, and the pairs that had to do with
 /// it. Empty for a path that did.
 [[nodiscard]] std::string end_words(const problem& p, const path_end& end);
@@ -80,7 +73,8 @@ constexpr std::string_view end_reason(path_status status) {
 /// where it does not.
 [[nodiscard]] std::string passage_warning(const problem& p, std::span<const step_record> steps);
 
-/// What is wrong with the ends of steps, and what to do about it.
+/// What is wrong with the ends of steps, and where the listing's rule leads the command that follows the
+/// problem by the corrected one.
 [[nodiscard]] std::vector<std::string> complaints_of(const run_result& r);
 
 /// The same, why the path ended, and warnings.
