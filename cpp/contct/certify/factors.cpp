@@ -157,16 +157,6 @@ double row_sums::largest() const {
   return most * (1 + 0x1p-30);
 }
 
-/// The magnitudes of a product of two rows add up to at most 1.1: their squares are the diagonal's.
-double largest_row_of_error(const long_band& a, const long_band& l, double rounding) {
-  const int b = a.subdiagonals();
-  const double of_entry = 2.0 * (b + 4) * 0x1p-98 + rounding;
-  row_sums sums(a.order(), (2 * b + 1) * of_entry);
-  for (int i = 0; i < a.order(); ++i)
-    for (int j = a.first(i); j <= i; ++j) sums.add(i, j, (a.at(i, j) - product(l, i, j, j + 1)).hi);
-  return sums.largest();
-}
-
 double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
   column_differences product(a, l);
   row_sums sums(l.order(), 0.0);
