@@ -271,7 +271,7 @@ TEST_CASE(
   REQUIRE(listing.ends.size() == 2);
   CHECK(listing.ends[1].bounds.unloaded);
   CHECK(listing.ends[1].bounds.unique);
-  CHECK(*listing.ends[1].bounds.error[quantity::w] == std::abs(listing.ends[1].displacement[4]));
+  CHECK(*listing.ends[1].bounds.error[quantity::w] == Approx(std::abs(listing.ends[1].displacement[4])));
 
   const problem lying = parse_problem(
       "[beam]\nlength = 1\nelements = 1\nEI = 1e4\n[[bed]]\nmodulus = 10\nface = 0\n[[step]]\nuniform = 0\n",
@@ -315,7 +315,7 @@ TEST_CASE(
                                              : quantity::moment;
     CAPTURE(where);
     CHECK(*error[q] >= 0.25);
-    CHECK(*error[q] <= (where < 4 ? 0.25 : 0.75));  // inside its element the line follows it
+    CHECK(*error[q] <= (where < 4 ? 0.25 : 0.75) * (1 + 1e-8));  // inside its element the line follows it
     for (const quantity other : {quantity::force, quantity::reaction, quantity::shear, quantity::moment})
       if (other != q && (where < 4 || other == quantity::force || other == quantity::reaction))
         CHECK(*error[other] == 0.0);
