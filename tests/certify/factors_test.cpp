@@ -157,18 +157,3 @@ TEST_CASE("an entry that is no number is never passed over") {
   l.values[l.starts[4]] = std::nan("");
   CHECK(std::isinf(largest_row_of_error(a, l)));
 }
-
-TEST_CASE("a matrix in another order has its entries in the lower triangle again") {
-  const sparse_columns a = columns_of(random_band(9, 3, 7));
-  const std::vector<int> places = {8, 0, 7, 1, 6, 2, 5, 3, 4};
-  const sparse_columns moved = reordered(a, places);
-  CHECK(moved.values.size() == a.values.size());
-  const auto entry = [](const sparse_columns& m, int i, int j) {
-    const auto [row, column] = std::pair(std::max(i, j), std::min(i, j));
-    for (int at = m.starts[column]; at < m.starts[column + 1]; ++at)
-      if (m.rows[at] == row) return m.values[at];
-    return 0.0;
-  };
-  for (int i = 0; i < 9; ++i)
-    for (int j = 0; j <= i; ++j) CHECK(entry(moved, places[i], places[j]) == entry(a, i, j));
-}

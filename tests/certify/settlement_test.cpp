@@ -9,6 +9,7 @@
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "support/beams.hpp"
+#include "support/matrices.hpp"
 
 using namespace contct;
 
@@ -156,14 +157,7 @@ TEST_CASE("Loads and settlements of a plate and of a matrix add up") {
 
   const linear_structure s = build(p.geometry, {}, {});
   assembled a;
-  a.stiffness.order = s.dofs();
-  for (int row = 0; row < s.dofs(); ++row)
-    for (int column = 0; column <= row; ++column) {
-      const int i = std::max(s.row_of(row), s.row_of(column));
-      const int k = std::min(s.row_of(row), s.row_of(column));
-      if (i - k <= s.stiffness.band().subdiagonals() && s.stiffness.band().at(i, k) != 0.0)
-        a.stiffness.entries.push_back({row, column, s.stiffness.band().at(i, k)});
-    }
+  a.stiffness = entries_of(s);
   a.rows = s.rows;
   for (const bool as_band : {true, false}) {
     if (!as_band && !sparse_factor::available()) continue;

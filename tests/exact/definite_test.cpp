@@ -1,9 +1,8 @@
 // Semidefinite, or shown not to be.
-#include "contct/exact/definite.hpp"
-
 #include <random>
 
 #include "catch.hpp"
+#include "contct/exact/exact_means.hpp"
 
 using namespace contct;
 using contct::assembled;

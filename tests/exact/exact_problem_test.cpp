@@ -85,25 +85,6 @@ TEST_CASE("element_size makes equal parts between the coordinates that the file 
   CHECK(e.stiffness[10].at(11) == -6 / (rational(3, 20) * rational(3, 20)));
 }
 
-TEST_CASE("a plate's D comes from E, nu and thickness without rounding") {
-  const std::string rest = "size = [1, 1]\nelements = [1, 1]\nnu = 0.3\n";
-  const rational D =
-      rational(1, 10) * rational(7, 10) * rational(7, 10) * rational(7, 10) / (12 * rational(91, 100));
-  const exact_problem from_parts = of("[plate]\nE = 0.1\nthickness = 0.7\n" + rest + unloaded);
-  const exact_problem unit = of("[plate]\nD = 1\n" + rest + unloaded);
-  CHECK(from_parts.stiffness[0].at(0) == D * unit.stiffness[0].at(0));
-}
-
-TEST_CASE("parts of a load on the same elements add up as decimals") {
-  const exact_problem e = of("[beam]\nx = [0, 1]\nEI = 1\n" + clamped +
-                             "[[step]]\nuniform = [ { value = 0.1 }, { value = 0.2 }, "
-                             "{ polynomial = [-0.3, 0.6] }, { polynomial = [0, -0.5, 1] } ]\n");
-  const exact_problem one =
-      of("[beam]\nx = [0, 1]\nEI = 1\n" + clamped + "[[step]]\nuniform = [ { polynomial = [0, 0.1, 1] } ]\n");
-  for (std::size_t dof = 0; dof < 4; ++dof) CHECK(e.steps[0].force[dof] == one.steps[0].force[dof]);
-  CHECK(e.steps[0].force[2] != 0);
-}
-
 TEST_CASE("a bed's polynomial face is exact, and so is whether it is at 0") {
   const std::string bed = clamped + "[[bed]]\nmodulus = 1\n";
   const exact_problem e = of("[beam]\nx = [0, 0.1, 1]\nEI = 1\n" + bed +

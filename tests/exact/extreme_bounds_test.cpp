@@ -5,53 +5,21 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
-#include "contct/exact/exact_problem.hpp"
 #include "contct/exact/path.hpp"
-#include "contct/model/element_formulas.hpp"
 #include "contct/model/extremes.hpp"
 #include "contct/number/random.hpp"
 #include "contct/read/problem_file.hpp"
 #include "support/beams.hpp"
+#include "support/exact_lines.hpp"
 
 using namespace contct;
-namespace formulas = contct::formulas;
 
 namespace {
-
-rational value_at(const rational_vector& p, const rational& t) {
-  rational sum;
-  for (std::size_t i = p.size(); i-- > 0;) sum = sum * t + p[i];
-  return sum;
-}
 
 rational_vector derivative_of(const rational_vector& p) {
   rational_vector d;
   for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<int>(i));
   return d;
-}
-
-/// w, moment and shear of an element in t, from 0 to 1.
-std::array<rational_vector, 3> exact_line(const beam& b, const load& l, int e, const rational_vector& u) {
-  const auto at = static_cast<std::size_t>(e);
-  const rational left = decimal_of(b.x[at]);
-  const rational h = decimal_of(b.x[at + 1]) - left;
-  const rational EI = decimal_of(b.EI[at]);
-  rational_vector coefficients;
-  for (const double a : l.distributed.front().polynomial) coefficients.push_back(decimal_of(a));
-  const rational_vector q = formulas::in_element<rational>(coefficients, left, h);
-  const auto k = formulas::beam_stiffness(EI, h);
-  const auto work = formulas::beam_load<rational>(q, h);
-  rational force[2] = {-work[0], -work[1]};
-  for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t j = 0; j < 4; ++j) force[i] += k[i][j] * u[2 * at + j];
-  rational_vector shear = {force[0]};
-  for (std::size_t j = 0; j < q.size(); ++j) shear.emplace_back(q[j] * h / static_cast<int>(j + 1));
-  rational_vector moment = {-force[1]};
-  for (std::size_t j = 0; j < shear.size(); ++j) moment.emplace_back(shear[j] * h / static_cast<int>(j + 1));
-  rational_vector w = {u[2 * at], u[2 * at + 1] * h};
-  for (std::size_t j = 0; j < moment.size(); ++j)
-    w.emplace_back(moment[j] * h * h / EI / static_cast<int>((j + 1) * (j + 2)));
-  return {w, moment, shear};
 }
 
 struct range {

@@ -62,7 +62,7 @@ TEST_CASE(
       "\"above\"\n"
       "face = 0.1\nstiffness = 1.1e9\n[[bed]]\nmodulus = 0.3\nface = -0.2\n[[step]]\nuniform = -0.7\n"
       "point = [ { node = 2, w = -0.1, theta = 0.2 }, { node = 2, w = 0.3 } ]\n"
-      "[[step]]\nuniform = [ { polynomial = [0.1, -0.3, 0.7], elements = [2, 3] } ]\n"
+      "[[step]]\nuniform = [ { polynomial = [0.1, -0.3, 0.7], elements = [2, 3] }, { value = 0.3 } ]\n"
       "settlement = [ { node = 1, w = -0.01 } ]\n",
       "b.toml");
   CHECK(compare(p) > 100);
@@ -126,25 +126,6 @@ TEST_CASE(
       CHECK(std::abs(v[4 * e + 1].value.hi) == Approx(v[4 * e + 1].energy * root).epsilon(1e-12));
       CHECK(std::abs(v[4 * e + 2].value.hi) <= v[4 * e + 2].energy * root);
       CHECK(std::abs(v[4 * e + 3].value.hi) <= v[4 * e + 3].energy * root);
-    }
-  }
-}
-
-TEST_CASE("two even loads on elements of one length act with their own sizes, in either order") {
-  for (const double second : {-1.0, 3.0}) {
-    problem p =
-        parse_problem("[beam]\nx = [0.0, 2.0, 4.0, 6.0]\nEI = 1.0\n[[step]]\nuniform = -4.0\n", "b.toml");
-    p.steps[0].distributed.push_back({{second}, {0, 1, 2}});
-    const long_system t = long_system_of(p);
-    const long_loads l = t.loads(1);
-    double sum = 0.0;
-    for (std::size_t node = 0; node < 4; ++node) sum += l.force[2 * node].hi;
-    CHECK(sum == Approx(6 * (second - 4.0)).epsilon(1e-14));
-    const std::vector<element_value> v =
-        t.element_values(1, long_vector(8));  // all fixed: q h / 2, q h^2 / 12
-    for (std::size_t e = 0; e < 3; ++e) {
-      CHECK(std::abs(v[4 * e].value.hi) == Approx(std::abs(second - 4.0)).epsilon(1e-14));
-      CHECK(std::abs(v[4 * e + 2].value.hi) == Approx(std::abs(second - 4.0) / 3).epsilon(1e-14));
     }
   }
 }

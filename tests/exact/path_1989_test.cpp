@@ -131,12 +131,6 @@ TEST_CASE("a pair within EPSMUL of the first is made before it touches, and its 
   CHECK(abs(path.steps[0].displacement[2] + rational(3, 2)) < ten_to_minus(19));
 }
 
-TEST_CASE("a pair 1/256 behind the first is not made with it") {
-  const exact_path path = listed(one_span + stop(2, "-1", "3") + stop(2, "-1.00390625", "6") +
-                                 "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
-  CHECK(path.steps[0].increments[0].events.size() == 1);
-}
-
 TEST_CASE("a stationary pair takes DELTA of the residual load with it") {
   const exact_path path =
       listed(one_span + stop(2, "0", "3") + "[[step]]\npoint = [ { node = 2, w = 6 } ]\n");

@@ -120,31 +120,28 @@ bool certain_contacts::last_digits_decide() const {
   return !(std::ranges::max(rows) * (1 + summation_slack) < mu_);
 }
 
-bool certain_contacts::find(std::span<const double_double> u, const long_residual& r, contact_set& b) {
+/// Why they are not found, in words.
+std::string certain_contacts::search(std::span<const double_double> u, const long_residual& r, bool balanced,
+                                     contact_set& b) {
   b.closed = pressed(u);
   for (int tries = 0; tries < 3; ++tries) {
-    if (!proves(b.closed)) {
-      b.not_proved = "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
-      return false;
-    }
-    if (last_digits_decide()) {
-      b.not_proved =
-          "half a unit in the last digits that the matrix is written with decides whether it is held: "
-          "`free_motions` says how many motions it leaves free";
-      return false;
-    }
+    if (!proves(balanced ? holding(u, b.closed) : b.closed))
+      return "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
+    if (!balanced && last_digits_decide())
+      return "half a unit in the last digits that the matrix is written with decides whether it is held: "
+             "`free_motions` says how many motions it leaves free";
     const std::optional<double> rho = norm_of(r);
-    if (!rho) {
-      b.not_proved = "the numbers are too large or too small";
-      return false;
-    }
-    if (!erase_doubtful(u, *rho, b.closed)) {
-      b.rho = *rho;
-      return true;
-    }
+    if (!rho) return "the numbers are too large or too small";
+    if (erase_doubtful(u, *rho, b.closed)) continue;
+    b.rho = *rho;
+    return "";
   }
-  b.not_proved = "which pairs are in contact is not certain";
-  return false;
+  return "which pairs are in contact is not certain";
+}
+
+bool certain_contacts::find(std::span<const double_double> u, const long_residual& r, contact_set& b) {
+  b.not_proved = search(u, r, false, b);
+  return b.not_proved.empty();
 }
 
 double certain_contacts::reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const {
@@ -170,22 +167,12 @@ bool certain_contacts::erase_doubtful(std::span<const double_double> u, double r
 
 bool certain_contacts::find_balanced(int step, std::span<const double_double> u, const long_residual& r,
                                      contact_set& b) {
-  if (!structure_.truth) return false;
-  b.closed = pressed(u);
-  for (int tries = 0; tries < 3; ++tries) {
-    if (!proves(holding(u, b.closed))) return false;
-    const std::optional<double> rho = norm_of(r);
-    if (!rho) return false;
-    if (erase_doubtful(u, *rho, b.closed)) continue;
-    b.rho = *rho;
-    b.unique = false;
-    if (!stands_free(step, u, b)) break;
-    b.not_proved.clear();
-    return true;
-  }
-  b.rho = std::numeric_limits<double>::infinity();
-  b.unique = true;
-  return false;
+  contact_set balanced;
+  balanced.unique = false;
+  if (!structure_.truth || !search(u, r, true, balanced).empty() || !stands_free(step, u, balanced))
+    return false;
+  b = std::move(balanced);
+  return true;
 }
 
 /// No work on what A leaves free, and no pair that this moves can be in contact.

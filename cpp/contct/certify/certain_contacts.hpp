@@ -53,6 +53,8 @@ class certain_contacts {
   [[nodiscard]] const long_vector& z() const { return z_; }
 
  private:
+  [[nodiscard]] std::string search(std::span<const double_double> u, const long_residual& r, bool balanced,
+                                   contact_set& b);
   [[nodiscard]] rigid_rank held_by(const std::vector<int>& closed) const;
   /// Can half a unit in the last digits of a matrix, that does not say how many motions it leaves free, make
   /// K_A indefinite?

@@ -53,16 +53,6 @@ bool can_be_proved(const linear_structure& s) {
   return bytes * s.dofs() * width <= memory_limit();
 }
 
-/// The pairs in contact, and where these and the supports leave a motion free, separated ones that would stop
-/// it: at rest, their springs take no force.
-std::vector<char> holding(const linear_structure& s, std::span<const int> isep) {
-  std::vector<char> held;
-  for (const int status : isep) held.push_back(status == in_contact ? 1 : 0);
-  rigid_rank rank = s.held_by([&](std::size_t i) { return held[i] != 0; });
-  for (const int pair : s.pairs_that_hold(rank)) held[pair] = 1;
-  return held;
-}
-
 bool is_finite(std::span<const double> x) {
   return std::ranges::all_of(x, [](double part) { return std::isfinite(part); });
 }
@@ -362,10 +352,7 @@ path_end certifier::find_final_states(std::span<observer* const> observers) {
     end.step = step;
     end.work.factors = reference_->factorisations();
     if (!found.state) return {status_without(answer.how, found), step, 0.0, {}, end.work};
-    const full_load_state& s = *found.state;
-    const double rcond = reference_->reciprocal_condition(holding(structure_, s.isep));
-    end.work.factors = reference_->factorisations();
-    for (observer* o : observers) o->step_ended(told(s, step, rcond));
+    for (observer* o : observers) o->step_ended(told(*found.state, step, reference_->reciprocal_condition()));
   }
   return end;
 }

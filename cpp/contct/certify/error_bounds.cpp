@@ -270,13 +270,12 @@ void error_prover::bound_forces(const reported_state& told, error_bounds& b) con
 
 /// Each pair's status, and its gap, which is 0 for a pair in contact; the bounds on gaps only where
 /// displacements have bounds.
-void error_prover::bound_pairs(const reported_state& told, std::span<const double_double> u,
-                               error_bounds& b) const {
+void error_prover::bound_pairs(const reported_state& told, error_bounds& b) const {
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     const bool is_closed = told.isep[i] == in_contact;
     const double told_gap = gap_of(problem_.pairs[i], told.displacement[system_.pairs[i].dof], is_closed);
-    const double_double gap = -system_.depth(i, u);
-    const double reach = contacts_.reach_of_pair(i, u, b.rho);
+    const double_double gap = -system_.depth(i, state_.u);
+    const double reach = contacts_.reach_of_pair(i, state_.u, b.rho);
     const bool is_wrong =
         is_closed ? gap.hi * (1 - summation_slack) > reach : -gap.hi * (1 - summation_slack) > reach;
     if (is_wrong && !b.wrong_status) b.wrong_status = i;
@@ -312,52 +311,45 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
 }
 
 /// All forces are 0 then, and where the supports hold the structure all displacements. Where they do not, it
-/// may stand, unbent, wherever no pair is beyond its face.
-error_bounds error_prover::bound_unloaded(const reported_state& told) {
-  error_bounds b;
+/// may stand, unbent, wherever no pair is beyond its face. False, with the reason, where it may be bent.
+bool error_prover::rests(const reported_state& told, error_bounds& b) {
+  const long_vector at_rest(system_.dofs());
+  state_ = {told.step,
+            false,
+            at_rest,
+            system_.residual(at_rest, loads_),
+            system_.element_values(told.step, at_rest),
+            {}};
   b.unloaded = true;
   b.unique = contacts_.proves({});
   b.rho = 0.0;
-  const long_vector at_rest(system_.dofs());
-  const auto take = [&b](quantity q, double value) { b.error.take(q, std::abs(value)); };
-  for (std::size_t dof = 0; dof < system_.dofs() && b.unique; ++dof)
-    take(system_.deflects[dof] != 0 ? quantity::w : quantity::slope, told.displacement[dof]);
-  if (b.unique) bound_pairs(told, at_rest, b);
-  const end_numbers& n = told.numbers;
-  if (!b.unique && n.element_values.empty()) {
-    b.not_proved =
-        "only contact holds the structure, and a structure given by its matrix has no moments to prove that "
-        "it is not bent";
-  } else {
-    for (const double force : n.pair_forces) take(quantity::force, force);
-    for (std::size_t i = 0; i < n.reactions.size(); ++i) take(kind_of(problem_.supports[i]), n.reactions[i]);
-    const std::vector<element_value> kinds = system_.element_values(told.step, at_rest);
-    for (std::size_t i = 0; i < n.element_values.size(); ++i) take(kind_of(kinds[i]), n.element_values[i]);
-  }
-  widen_by_extremes(problem_, told, b);
-  const std::optional<double> largest_gap = b.size[quantity::gap];
-  b.size = b.error;
-  b.size[quantity::gap] = largest_gap;
-  if (b.not_proved.empty()) keep(told, at_rest, {}, b);
-  return b;
+  if (b.unique || !told.numbers.element_values.empty()) return true;
+  b.not_proved =
+      "only contact holds the structure, and a structure given by its matrix has no moments to prove that "
+      "it is not bent";
+  return false;
 }
 
-void error_prover::keep(const reported_state& told, const long_vector& u, const long_vector& z,
-                        error_bounds& b) const {
+void error_prover::keep(const reported_state& told, error_bounds& b) const {
   const std::optional<stiffness_proof>& of_stiffness = contacts_.stiffness().proof();
   if (!keeps_proof_ || (b.unique && !of_stiffness)) return;  // a sparse factor is not kept
   b.proof = std::make_shared<step_proof>(step_proof{{told.displacement.begin(), told.displacement.end()},
                                                     {told.isep.begin(), told.isep.end()},
                                                     told.numbers,
-                                                    u,
+                                                    state_.u,
                                                     b.closed,
-                                                    z,
+                                                    b.unloaded ? long_vector() : contacts_.z(),
                                                     of_stiffness});
 }
 
 /// A and rho of the state, or the reason why there are none.
-bool error_prover::find_contacts(const long_loads& l, contact_set& b) {
+bool error_prover::find_contacts(const reported_state& told, const long_loads& l, contact_set& b) {
   bool found = true;
+  if (!is_refined(told.step, told.displacement)) {
+    state_ = {told.step, false, long_displacement(told.step, told.displacement, l), {}, {}, {}};
+    state_.values = system_.element_values(told.step, state_.u);
+  }
+  if (!state_.refined || closely_) state_.left = residual_of(state_.u, l);
   if (state_.contacts && !closely_) {
     b = *state_.contacts;
   } else {
@@ -385,16 +377,11 @@ error_bounds error_prover::bound(const reported_state& told) {
         "2e-308";
     return b;
   }
-  if (system_.is_unloaded(l)) return bound_unloaded(told);
-  if (!is_refined(told.step, told.displacement)) {
-    state_ = {told.step, false, long_displacement(told.step, told.displacement, l), {}, {}, {}};
-    state_.values = system_.element_values(told.step, state_.u);
-  }
-  if (!state_.refined || closely_) state_.left = residual_of(state_.u, l);
-  if (!find_contacts(l, b)) return b;
+  b.unloaded = system_.is_unloaded(l);
+  if (!(b.unloaded ? rests(told, b) : find_contacts(told, l, b))) return b;
   measure(l, b);
   if (b.unique) bound_displacements(told, b);
-  bound_pairs(told, state_.u, b);
+  if (b.unique || !b.unloaded) bound_pairs(told, b);
   bound_forces(told, b);
   const std::vector<support_force> forces = support_forces();
   for (std::size_t i = 0; i < forces.size(); ++i)
@@ -405,7 +392,7 @@ error_bounds error_prover::bound(const reported_state& told) {
     take(b, kind_of(v), told.numbers.element_values[i], v.value, v.noise(), v.energy * b.rho);
   }
   widen_by_extremes(problem_, told, b);
-  if (b.unique) keep(told, state_.u, contacts_.z(), b);  // of a balanced one the checker knows nothing
+  if (b.unique || b.unloaded) keep(told, b);  // of a balanced one the checker knows nothing
   return b;
 }
 

@@ -134,13 +134,13 @@ class error_prover {
 
   [[nodiscard]] bool is_semidefinite();
   void measure(const long_loads& l, error_bounds& b) const;
-  [[nodiscard]] error_bounds bound_unloaded(const reported_state& told);
-  [[nodiscard]] bool find_contacts(const long_loads& l, contact_set& b);
+  [[nodiscard]] bool rests(const reported_state& told, error_bounds& b);
+  [[nodiscard]] bool find_contacts(const reported_state& told, const long_loads& l, contact_set& b);
   void bound_displacements(const reported_state& told, error_bounds& b) const;
-  void bound_pairs(const reported_state& told, std::span<const double_double> u, error_bounds& b) const;
+  void bound_pairs(const reported_state& told, error_bounds& b) const;
   void bound_forces(const reported_state& told, error_bounds& b) const;
   [[nodiscard]] std::vector<support_force> support_forces() const;
-  void keep(const reported_state& told, const long_vector& u, const long_vector& z, error_bounds& b) const;
+  void keep(const reported_state& told, error_bounds& b) const;
 
   const problem& problem_;
   const long_system system_;

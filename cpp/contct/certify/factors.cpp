@@ -31,71 +31,6 @@ void solve_upper(const long_band& l, std::span<double_double> x, int rows) {
   }
 }
 
-/// One column of A - L L' after the other, from the first; each in an array of all rows.
-class column_differences {
- public:
-  column_differences(const sparse_columns& a, const sparse_columns& l)
-      : a_(a),
-        l_(l),
-        next_(l.starts.begin(), l.starts.end() - 1),
-        first_with_(l.order(), none),
-        after_(l.order(), none),
-        difference_(l.order(), 0.0),
-        is_listed_(l.order(), 0) {}
-
-  /// The rows of column i that are not 0; columns come in their order.
-  const std::vector<int>& take(int i) {
-    listed_.clear();
-    for (int at = a_.starts[i]; at < a_.starts[i + 1]; ++at) add(a_.rows[at], a_.values[at]);
-    int with_i = std::exchange(first_with_[i], none);
-    subtract_column(i, i);
-    while (with_i != none) {
-      const int column = with_i;
-      with_i = after_[column];
-      subtract_column(column, i);
-    }
-    return listed_;
-  }
-  /// Of the column taken last; it is 0 from then on.
-  [[nodiscard]] double difference(int row) {
-    is_listed_[row] = 0;
-    return std::exchange(difference_[row], 0.0);
-  }
-  /// The most products that any difference is made of, so far.
-  [[nodiscard]] int most_terms() const { return most_terms_; }
-
- private:
-  static constexpr int none = -1;
-
-  void add(int row, double value) {
-    if (is_listed_[row] == 0) listed_.push_back(row);
-    is_listed_[row] = 1;
-    difference_[row] += value;
-  }
-
-  /// L_ik times column k, from row i on. The column is met again at its next row.
-  void subtract_column(int k, int i) {
-    const int at = next_[k];
-    for (int below = at; below < l_.starts[k + 1]; ++below)
-      add(l_.rows[below], -l_.values[at] * l_.values[below]);
-    if (at + 1 < l_.starts[k + 1]) {
-      next_[k] = at + 1;
-      after_[k] = std::exchange(first_with_[l_.rows[at + 1]], k);
-    }
-    terms_ = k == i ? 1 : terms_ + 1;
-    most_terms_ = std::max(most_terms_, terms_);
-  }
-
-  const sparse_columns& a_;
-  const sparse_columns& l_;
-  std::vector<int> next_;                // the entry of each column of L that is next
-  std::vector<int> first_with_, after_;  // lists of columns by the row of that entry
-  std::vector<double> difference_;       // [rows]
-  std::vector<char> is_listed_;
-  std::vector<int> listed_;
-  int terms_ = 0, most_terms_ = 0;
-};
-
 /// Row sums of |A| + |L| |L'|.
 row_sums magnitudes(const sparse_columns& a, const sparse_columns& l) {
   row_sums sums(l.order(), 0.0);
@@ -157,24 +92,35 @@ double row_sums::largest() const {
   return most * (1 + 0x1p-30);
 }
 
-/// The magnitudes of a product of two rows add up to at most 1.1: their squares are the diagonal's.
-double largest_row_of_error(const long_band& a, const long_band& l, double rounding) {
-  const int b = a.subdiagonals();
-  const double of_entry = 2.0 * (b + 4) * 0x1p-98 + rounding;
-  row_sums sums(a.order(), (2 * b + 1) * of_entry);
-  for (int i = 0; i < a.order(); ++i)
-    for (int j = a.first(i); j <= i; ++j) sums.add(i, j, (a.at(i, j) - product(l, i, j, j + 1)).hi);
-  return sums.largest();
-}
-
 double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
-  column_differences product(a, l);
-  row_sums sums(l.order(), 0.0);
-  for (int column = 0; column < l.order(); ++column)
-    for (const int row : product.take(column)) sums.add(row, column, product.difference(row));
+  const int n = l.order();
+  row_sums sums(n, 0.0);
+  std::vector<int> next(l.starts.begin(), l.starts.end() - 1);  // the entry of each column of L that is next
+  std::vector<std::vector<int>> with(n);                        // columns of L by the row of that entry
+  std::vector<double> difference(n, 0.0);                       // a column of A - L L'
+  std::vector<int> rows;                                        // that are not 0 in it
+  const auto add = [&](int row, double value) {
+    if (difference[row] == 0.0) rows.push_back(row);
+    difference[row] += value;
+  };
+  std::size_t most_terms = 0;
+  for (int column = 0; column < n; ++column) {
+    for (int at = a.starts[column]; at < a.starts[column + 1]; ++at) add(a.rows[at], a.values[at]);
+    std::vector<int> factors = std::exchange(with[column], {});
+    factors.push_back(column);
+    most_terms = std::max(most_terms, factors.size());
+    for (const int k : factors) {
+      const int at = next[k]++;
+      for (int below = at; below < l.starts[k + 1]; ++below)
+        add(l.rows[below], -l.values[at] * l.values[below]);
+      if (next[k] < l.starts[k + 1]) with[l.rows[next[k]]].push_back(k);
+    }
+    for (const int row : rows) sums.add(row, column, std::exchange(difference[row], 0.0));
+    rows.clear();
+  }
   const row_sums sizes = magnitudes(a, l);
-  for (int row = 0; row < l.order(); ++row)
-    sums.add(row, row, (product.most_terms() + 3) * half_ulp * sizes.of(row));
+  for (int row = 0; row < n; ++row)
+    sums.add(row, row, static_cast<double>(most_terms + 3) * half_ulp * sizes.of(row));
   return sums.largest() + 0x1p-900;  // of underflow
 }
 

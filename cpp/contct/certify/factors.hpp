@@ -2,8 +2,10 @@
 // factors are from what they were made of.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "contct/matrix/stiffness_matrix.hpp"
@@ -26,6 +28,15 @@ void solve_with(const long_band& l, std::span<double_double> x);
 /// Where `factor` returned false: x with x' A x <= 0 but for rounding. Otherwise 0.
 [[nodiscard]] std::vector<double_double> suspect_in(const long_band& failed);
 
+/// A product of entries, exact where 32 digits are asked of doubles.
+template <class Number, class Entry>
+[[nodiscard]] Number product_in(const Entry& x, const Entry& y) {
+  if constexpr (std::is_same_v<Number, Entry>)
+    return x * y;
+  else
+    return exact_product(x, y);
+}
+
 /// Sums of magnitudes in the rows of a symmetric matrix of which one triangle is told.
 class row_sums {
  public:
@@ -43,8 +54,28 @@ class row_sums {
 };
 
 /// An upper bound on the largest row sum of |A - L L'|, so on its norm, where the entries of A, at most 1,
-/// are off by at most `rounding`.
-[[nodiscard]] double largest_row_of_error(const long_band& a, const long_band& l, double rounding);
+/// are off by at most `rounding`. Sums are of A's kind of number. A column of L is one piece of memory, so
+/// one after the other is taken off. The magnitudes of a product of two rows add up to at most 1.1: their
+/// squares are the diagonal's.
+template <class Number, class Entry>
+[[nodiscard]] double largest_row_of_error(band_of_numbers<Number> a, const band_of_numbers<Entry>& l,
+                                          double rounding) {
+  constexpr double unit = std::is_same_v<Number, double> ? 0x1p-52 : 0x1p-98;
+  const int n = a.order();
+  const int b = a.subdiagonals();
+  for (int k = 0; k < n; ++k) {
+    const int end = std::min(k + b + 1, n);
+    const Entry* const column = &l.at(k, k);
+    for (int i = k; i < end; ++i) {
+      Number* const rest = &a.at(i, i);
+      for (int j = i; j < end; ++j) rest[j - i] -= product_in<Number>(column[i - k], column[j - k]);
+    }
+  }
+  row_sums sums(n, (2 * b + 1) * (2.0 * (b + 4) * unit + rounding));
+  for (int i = 0; i < n; ++i)
+    for (int j = a.first(i); j <= i; ++j) sums.add(i, j, double_double(a.at(i, j)).hi);
+  return sums.largest();
+}
 
 /// The same of a symmetric A and a lower triangle L by columns, both in the same order. Rounding of the sums
 /// is in the bound.

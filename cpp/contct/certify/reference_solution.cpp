@@ -59,14 +59,9 @@ class reference_solver::search {
     return answer;
   }
 
-  double reciprocal_condition(std::span<const char> closed) {
-    const std::vector<spring_at> springs = springs_of(structure_, closed);
-    if (!in_factor_ || !std::equal(closed.begin(), closed.end(), in_factor_->begin(), in_factor_->end())) {
-      ++factorisations_;
-      in_factor_.reset();
-      if (!factor_.factor(springs)) return 0.0;
-    }
-    return contct::reciprocal_condition(stiffness_, stiffness_.diagonal_with(springs),
+  double reciprocal_condition() {
+    if (!in_factor_) return 0.0;
+    return contct::reciprocal_condition(stiffness_, stiffness_.diagonal_with(*in_factor_),
                                         [this](std::span<double> b) { factor_.solve(b); });
   }
 
@@ -164,13 +159,18 @@ class reference_solver::search {
   }
 
   bool factor() {
-    if (holding_.empty() && in_factor_ == set_) return true;
     std::vector<spring_at> springs = springs_of(structure_, set_);
     for (const holding_spring& h : holding_) springs.push_back({static_cast<int>(h.row), h.stiffness});
+    const auto same = [](const spring_at& a, const spring_at& b) {
+      return a.row == b.row && a.stiffness == b.stiffness;
+    };
+    if (in_factor_ &&
+        std::equal(springs.begin(), springs.end(), in_factor_->begin(), in_factor_->end(), same))
+      return true;
     ++factorisations_;
-    const bool done = factor_.factor(springs);
-    in_factor_ = done && holding_.empty() ? std::optional(set_) : std::nullopt;
-    return done;
+    in_factor_.reset();
+    if (factor_.factor(springs)) in_factor_ = std::move(springs);
+    return in_factor_.has_value();
   }
 
   /// r = load - K u - the springs of the pressed pairs.
@@ -315,8 +315,8 @@ class reference_solver::search {
   numbers u_;                            // the last answer [rows]
   pair_set set_;                         // and its pressed pairs
   stiffness_factor factor_;
-  std::optional<pair_set> in_factor_;  // the pairs whose springs it has, where it has no others
-  std::vector<double> scale_;          // square roots of K's diagonal [rows]
+  std::optional<std::vector<spring_at>> in_factor_;  // its springs; none where it failed
+  std::vector<double> scale_;                        // square roots of K's diagonal [rows]
   int factorisations_ = 0;
 };
 
@@ -327,8 +327,8 @@ reference_answer reference_solver::solve(std::span<const double> load, const rig
   return search_->solve(load, work);
 }
 
-double reference_solver::reciprocal_condition(std::span<const char> closed) {
-  return search_->reciprocal_condition(closed);
+double reference_solver::reciprocal_condition() {
+  return search_->reciprocal_condition();
 }
 
 int reference_solver::factorisations() const {

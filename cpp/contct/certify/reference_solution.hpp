@@ -56,9 +56,9 @@ class reference_solver {
   /// structure where that leads nowhere. `work` of this load decides, where it is known, what is driven.
   [[nodiscard]] reference_answer solve(std::span<const double> load, const rigid_work& work = {});
 
-  /// Reciprocal condition of K with the springs of the pairs that are `closed` [pairs], its diagonal scaled
-  /// to 1; by the last factor where it is of these.
-  [[nodiscard]] double reciprocal_condition(std::span<const char> closed);
+  /// Reciprocal condition, its diagonal scaled to 1, of the matrix that the last answer was solved with: K
+  /// and the springs that hold it. 0 where it has no factor.
+  [[nodiscard]] double reciprocal_condition();
 
   /// How many there have been so far.
   [[nodiscard]] int factorisations() const;

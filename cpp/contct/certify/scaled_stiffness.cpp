@@ -19,47 +19,6 @@ double root_scale(double x) {
   return std::ldexp(1.0, -((exponent + (exponent > 0 ? 1 : 0)) / 2));
 }
 
-/// The rows of L: row i has its columns i - b to i. The last b + 1 rows are kept.
-class last_rows {
- public:
-  explicit last_rows(const band_matrix& l)
-      : l_(l), width_(l.subdiagonals() + 1), kept_(std::size_t{1} * width_ * width_, 0.0) {}
-
-  /// Rows come in their order.
-  void read(int i) {
-    const int b = width_ - 1;
-    double* const row = &kept_[place(i)];
-    for (int column = l_.first(i); column <= i; ++column) row[column - i + b] = l_.at(i, column);
-  }
-  /// From `column` on.
-  [[nodiscard]] const double* at(int i, int column) const {
-    return &kept_[place(i) + (column - i + width_ - 1)];
-  }
-
- private:
-  [[nodiscard]] std::size_t place(int i) const { return std::size_t{1} * (i % width_) * width_; }
-  const band_matrix& l_;
-  int width_;
-  std::vector<double> kept_;
-};
-
-/// In doubles: four sums, so that they can go on beside each other. Off by at most (count + 3) 2^-53 of the
-/// sum of magnitudes.
-double_double quick_product(const double* x, const double* y, int count) {
-  double sum[4] = {0.0, 0.0, 0.0, 0.0};
-  int k = 0;
-  for (; k + 4 <= count; k += 4)
-    for (int lane = 0; lane < 4; ++lane) sum[lane] += x[k + lane] * y[k + lane];
-  for (; k < count; ++k) sum[0] += x[k] * y[k];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-double_double long_product(const double* x, const double* y, int count) {
-  double_double sum;
-  for (int k = 0; k < count; ++k) sum += exact_product(x[k], y[k]);
-  return sum;
-}
-
 std::vector<double> diagonal_of(const sparse_columns& a) {
   std::vector<double> diagonal(a.order());
   for (int row = 0; row < a.order(); ++row) diagonal[row] = a.diagonal(row);
@@ -203,48 +162,16 @@ double scaled_stiffness::least_estimate() const {
   return std::min(estimate, 1.0);
 }
 
-/// An upper bound on the largest row sum of |S K_A S - shift I - L L'|, so on its norm.
-double scaled_stiffness::largest_row_of_error(const band_matrix& factor, double shift) const {
-  const int n = factor.order();
-  const int b = factor.subdiagonals();
-  last_rows l(factor);
-  const bool narrow = b <= 16;
-  // Of a product of two rows, whose magnitudes add up to at most 1.1 (their squares are the diagonal's), and
-  // of an entry of K_A.
-  const double rounding = 2.0 * (narrow ? (b + 4) * 0x1p-98 : (b + 4) * 0x1p-52) + long_rounding;
-  row_sums sums(n, (2 * b + 1) * rounding);
-  std::vector<double_double> row(b + 1);
-  for (int i = 0; i < n; ++i) {
-    l.read(i);
-    std::fill(row.begin(), row.end(), 0.0);
-    each_in_row(dof_at_[i], shift, [&](int j, const double_double& x) { row[j - i + b] = x; });
-    const int first = factor.first(i);
-    for (int j = first; j <= i; ++j) {
-      const int count = j - first + 1;
-      const double* const of_i = l.at(i, first);
-      const double* const of_j = l.at(j, first);
-      const double_double product =
-          narrow ? long_product(of_i, of_j, count) : quick_product(of_i, of_j, count);
-      sums.add(i, j, (row[j - i + b] - product).hi);
-    }
-  }
-  return sums.largest();
-}
-
+/// The products of a narrow band are summed in 32 digits, which leaves more of the shift.
+template <class Number>
 std::optional<double> scaled_stiffness::error_of_band(double shift) {
-  band_matrix l = band<double>(shift);
+  constexpr int narrow = 16;
+  band_of_numbers<Number> l = band<Number>(shift);
   if (!contct::factor(l)) return std::nullopt;
-  const double error = largest_row_of_error(l, shift);
-  if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l), {}};
-  return error;
-}
-
-std::optional<double> scaled_stiffness::error_of_long_band(double shift) {
-  const long_band a = band<double_double>(shift);
-  long_band l = a;
-  if (!contct::factor(l)) return std::nullopt;
-  const double error = contct::largest_row_of_error(a, l, long_rounding);
-  if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, {}, std::move(l)};
+  const double error = *subdiagonals_ <= narrow  // NOLINT(bugprone-branch-clone): in 32 digits both are one
+                           ? largest_row_of_error(band<double_double>(shift), l, long_rounding)
+                           : largest_row_of_error(band<Number>(shift), l, long_rounding);
+  if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l)};
   return error;
 }
 
@@ -255,7 +182,7 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double
   for (const auto& row : system_.stiffness) most = std::max(most, row.size());
   const double rounding = static_cast<double>(most) * (0x1p-53 + long_rounding);
-  return contct::largest_row_of_error(reordered(a, l->places()), l->lower()) + rounding;
+  return largest_row_of_error(reordered(a, l->places()), l->lower()) + rounding;
 }
 
 double scaled_stiffness::least_eigenvalue() {
@@ -268,8 +195,8 @@ double scaled_stiffness::proved_below_estimate() {
   for (int tries = 0; tries < 3; ++tries) {
     const double shift = std::ldexp(highest, -4 * tries);
     if (!(shift > 0.0)) break;
-    const std::optional<double> error = long_           ? error_of_long_band(shift)
-                                        : subdiagonals_ ? error_of_band(shift)
+    const std::optional<double> error = long_           ? error_of_band<double_double>(shift)
+                                        : subdiagonals_ ? error_of_band<double>(shift)
                                                         : error_of_columns(shift);
     if (!error) continue;
     const double mu = (shift - *error) * (1 - 0x1p-50);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "contct/certify/factors.hpp"
@@ -20,8 +21,7 @@ struct stiffness_proof {
   std::vector<double> scale;  ///< S [dofs], powers of two
   std::vector<int> row_of;    ///< the row of each dof in L [dofs], from 0
   double shift = 0.0;
-  band_matrix factor;                    ///< L
-  std::optional<long_band> long_factor;  ///< in place of it, where doubles are too short for L
+  std::variant<band_matrix, long_band> factor;  ///< L, in 32 digits where doubles are too short for it
 };
 
 /// S K_A S, with powers of two in S such that the diagonal is between 1/8 and 1. Rows
@@ -72,10 +72,9 @@ class scaled_stiffness {
   [[nodiscard]] double proved_below_estimate();
   [[nodiscard]] double least_estimate() const;
   /// How far L L' is from S K_A S - shift I, in norm; nothing where there is no factor.
+  template <class Number>
   [[nodiscard]] std::optional<double> error_of_band(double shift);
-  [[nodiscard]] std::optional<double> error_of_long_band(double shift);
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
-  [[nodiscard]] double largest_row_of_error(const band_matrix& factor, double shift) const;
 
   const long_system& system_;
   std::vector<int> row_of_, dof_at_;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
-#include "contct/exact/definite.hpp"
+#include "contct/certify/scaled_stiffness.hpp"
 #include "contct/exact/path.hpp"
 
 namespace contct {
@@ -37,6 +38,15 @@ full_load_state state_of(const exact_step_end& end) {
   for (const rational& u : end.displacement) s.displacement.push_back(contct::rounded(u));
   for (const char closed : end.closed) s.isep.push_back(closed != 0 ? in_contact : separated);
   return s;
+}
+
+/// None where K does no negative work on the displacement.
+std::optional<negative_work> work_on(const std::vector<double>& motion, const exact_problem& p) {
+  negative_work w;
+  for (const double x : motion) w.motion.push_back(binary_value(x));
+  for (std::size_t dof = 0; dof < p.dofs(); ++dof)
+    for (const auto& [column, k] : p.stiffness[dof]) w.work += w.motion[dof] * k * w.motion[column];
+  return w.work < 0 ? std::optional(std::move(w)) : std::nullopt;
 }
 
 /// The problem is converted, and its exact path followed, when that is first asked for.
@@ -92,6 +102,17 @@ class problem_beside final : public exact_means {
 };
 
 }  // namespace
+
+definiteness definiteness_of(const problem& p, const exact_problem& exactly) {
+  lifted_solver pivots(exactly.stiffness, exactly.fixed, exactly.place);
+  pivots.factor({});
+  long_system on_pivots = long_system_of(p);
+  for (std::size_t dof = 0; dof < exactly.dofs(); ++dof)
+    if (!pivots.has_pivot(dof)) on_pivots.fixed[dof] = 1;
+  scaled_stiffness k(on_pivots, exactly.place, subdiagonals(exactly));
+  if (k.factor({}) && k.least_eigenvalue() > 0.0) return {true};
+  return {false, work_on(k.suspect(), exactly)};
+}
 
 std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;

@@ -1,4 +1,5 @@
-// What rational numbers decide beside a path in doubles.
+// What rational numbers decide beside a path in doubles; and whether the stiffness matrix of somebody else is
+// positive semidefinite.
 #pragma once
 
 #include <memory>
@@ -18,6 +19,24 @@ inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
 
 /// The problem in rational numbers, where it is as small as that.
 [[nodiscard]] std::optional<exact_problem> small_exact_problem_of(const problem& p);
+
+/// A displacement on which the matrix does negative work: no structure has such a matrix.
+struct negative_work {
+  rational_vector motion;  ///< [dofs], 0 at fixed ones
+  rational work;           ///< motion' K motion
+};
+
+/// At most one of the two; neither where 32 digits do not decide it.
+struct definiteness {
+  bool semidefinite = false;  ///< on the dofs that are not fixed, for certain
+  std::optional<negative_work> shown = {};
+};
+
+/// The dofs that free motions of K move are found modulo a prime, and the motions confirmed exactly. K is
+/// semidefinite where it is definite on the others, which the bound on its least eigenvalue proves. Where its
+/// factor fails, that shows a displacement, of which an exact sum decides. Throws std::runtime_error as
+/// lifted_solver::factor does.
+[[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
 /// Beside a path in doubles: nothing of a larger problem. `p` must outlive what is returned.
 [[nodiscard]] std::unique_ptr<exact_means> exact_means_of(const problem& p);

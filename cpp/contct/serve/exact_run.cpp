@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/exact/definite.hpp"
 #include "contct/exact/exact_means.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"

@@ -30,12 +30,10 @@ void put_stiffness(json& step, const stiffness_proof& s) {
   step["scale"] = list_of(s.scale, [](double x) { return std::ilogb(x); });
   step["row_of"] = s.row_of;
   step["shift"] = s.shift;
-  if (!s.long_factor) {
-    step["L"] = rows_of(s.factor, [](double x) { return x; });
-  } else {
-    step["L"] = rows_of(*s.long_factor, [](const double_double& x) { return x.hi; });
-    step["L_low"] = rows_of(*s.long_factor, [](const double_double& x) { return x.lo; });
-  }
+  std::visit([&](const auto& l) { step["L"] = rows_of(l, [](const double_double& x) { return x.hi; }); },
+             s.factor);
+  if (const auto* const l = std::get_if<long_band>(&s.factor))
+    step["L_low"] = rows_of(*l, [](const double_double& x) { return x.lo; });
 }
 
 json step_json(const step_proof& s) {

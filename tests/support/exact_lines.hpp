@@ -1,0 +1,52 @@
+// Deflection, moment and shear along a beam's elements, in rational numbers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "contct/exact/exact_problem.hpp"
+#include "contct/model/element_formulas.hpp"
+
+namespace contct {
+
+inline rational value_at(const rational_vector& p, const rational& t) {
+  rational sum;
+  for (std::size_t i = p.size(); i-- > 0;) sum = sum * t + p[i];
+  return sum;
+}
+
+/// What acts on an element, a polynomial in the length from its left end.
+inline rational_vector exact_load(const load& l, int e, const rational& left, const rational& h) {
+  rational_vector sum(1);
+  for (const distributed_load& d : l.distributed) {
+    if (!d.elements.empty() && std::ranges::find(d.elements, e) == d.elements.end()) continue;
+    sum.resize(std::max(sum.size(), d.polynomial.size()));
+    for (std::size_t i = 0; i < d.polynomial.size(); ++i) sum[i] += decimal_of(d.polynomial[i]);
+  }
+  return formulas::in_element<rational>(sum, left, h);
+}
+
+/// w, moment and shear of an element in t, from 0 to 1, under the displacements u.
+inline std::array<rational_vector, 3> exact_line(const beam& b, const load& l, int e,
+                                                 const rational_vector& u) {
+  const std::size_t at = std::size_t{1} * e;
+  const rational left = decimal_of(b.x[at]);
+  const rational h = decimal_of(b.x[at + 1]) - left;
+  const rational EI = decimal_of(b.EI[at]);
+  const rational_vector q = exact_load(l, e, left, h);
+  const auto k = formulas::beam_stiffness(EI, h);
+  const auto work = formulas::beam_load<rational>(q, h);
+  rational force[2] = {-work[0], -work[1]};
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 4; ++j) force[i] += k[i][j] * u[2 * at + j];
+  rational_vector shear = {force[0]};
+  for (std::size_t j = 0; j < q.size(); ++j) shear.emplace_back(q[j] * h / static_cast<int>(j + 1));
+  rational_vector moment = {-force[1]};
+  for (std::size_t j = 0; j < shear.size(); ++j) moment.emplace_back(shear[j] * h / static_cast<int>(j + 1));
+  rational_vector w = {u[2 * at], u[2 * at + 1] * h};
+  for (std::size_t j = 0; j < moment.size(); ++j)
+    w.emplace_back(moment[j] * h * h / EI / static_cast<int>((j + 1) * (j + 2)));
+  return {w, moment, shear};
+}
+
+}  // namespace contct
