@@ -3,7 +3,6 @@
 #include "catch.hpp"
 #include "contct/kernel/call.hpp"
 #include "read/bad_inputs.hpp"
-#include "read/bad_places.hpp"
 #include "read/good_problem.hpp"
 
 using namespace contct;
@@ -36,8 +35,7 @@ TEST_CASE("the good problem is accepted") {
 }
 
 TEST_CASE("every kind of bad input is refused with its place, the key, what was found and what is allowed") {
-  auto kinds = bad_inputs();
-  for (const auto& more : {bad_plates(), bad_places()}) kinds.insert(kinds.end(), more.begin(), more.end());
+  const auto kinds = bad_inputs();
   REQUIRE(kinds.size() >= 120);
   for (const bad_input& kind : kinds) {
     const std::string message = message_of_text(kind.text);
