@@ -33,18 +33,23 @@ class faulty_kernel final : public kernel {
   std::string text_;
 };
 
-/// PB1 led by FORTRAN, with one follower.
-lockstep_on_path in_lockstep_with(std::unique_ptr<kernel> follower) {
+/// PB1 led by FORTRAN, with these followers.
+template <class... Followers>
+lockstep_on_path in_lockstep_with(Followers... followers) {
   const auto leader = make_kernel("fortran");
-  std::vector<std::unique_ptr<kernel>> followers;
-  followers.push_back(std::move(follower));
-  lockstep_on_path compared(leader->facts(), std::move(followers));
+  std::vector<std::unique_ptr<kernel>> all;
+  (all.push_back(std::move(followers)), ...);
+  lockstep_on_path compared(leader->facts(), std::move(all));
   cantilever_over_a_stop().run(*leader, {&compared});
   return compared;
 }
 
+std::unique_ptr<kernel> faulty(std::function<void(call<double>&, std::string&)> fault) {
+  return std::make_unique<faulty_kernel>(std::move(fault));
+}
+
 lockstep_on_path with_fault(std::function<void(call<double>&, std::string&)> fault) {
-  return in_lockstep_with(std::make_unique<faulty_kernel>(std::move(fault)));
+  return in_lockstep_with(faulty(std::move(fault)));
 }
 
 }  // namespace
@@ -94,16 +99,8 @@ TEST_CASE("the last call is equal only when no follower's answer to it differs")
   CHECK_FALSE(with_fault([](call<double>&, std::string& text) { text += "?"; }).last_call_equal());
   // Among several followers one is enough, in whatever place.
   for (const int place : {0, 1}) {
-    const auto leader = make_kernel("fortran");
-    std::vector<std::unique_ptr<kernel>> followers;
-    for (const int at : {0, 1}) {
-      if (at == place)
-        followers.push_back(std::make_unique<faulty_kernel>(fault));
-      else
-        followers.push_back(make_kernel("cpp"));
-    }
-    lockstep_on_path compared(leader->facts(), std::move(followers));
-    cantilever_over_a_stop().run(*leader, {&compared});
+    const lockstep_on_path compared = place == 0 ? in_lockstep_with(faulty(fault), make_kernel("cpp"))
+                                                 : in_lockstep_with(make_kernel("cpp"), faulty(fault));
     CHECK_FALSE(compared.last_call_equal());
     CHECK(compared.last_answers()[place].mismatches == 1);
     CHECK(compared.last_answers()[1 - place].mismatches == 0);
@@ -140,18 +137,14 @@ TEST_CASE("a follower that goes wrong does not lead the path astray") {
 }
 
 TEST_CASE("of several followers the mismatch of the earliest call is told, whichever of them comes first") {
-  const auto wrong_from = [](int call, double by) -> std::unique_ptr<kernel> {
-    return std::make_unique<faulty_kernel>([call, by, n = 0](call_of_double& c, std::string&) mutable {
+  const auto wrong_from = [](int call, double by) {
+    return faulty([call, by, n = 0](call_of_double& c, std::string&) mutable {
       if (++n >= call) c.smin += by;
     });
   };
   for (const bool early_first : {true, false}) {
-    const auto leader = make_kernel("fortran");
-    std::vector<std::unique_ptr<kernel>> followers;
-    followers.push_back(wrong_from(early_first ? 2 : 4, early_first ? 0.25 : 0.5));
-    followers.push_back(wrong_from(early_first ? 4 : 2, early_first ? 0.5 : 0.25));
-    lockstep_on_path compared(leader->facts(), std::move(followers));
-    cantilever_over_a_stop().run(*leader, {&compared});
+    const lockstep_on_path compared = early_first ? in_lockstep_with(wrong_from(2, 0.25), wrong_from(4, 0.5))
+                                                  : in_lockstep_with(wrong_from(4, 0.5), wrong_from(2, 0.25));
     REQUIRE(compared.first());
     CHECK(compared.first()->call == 2);
   }

@@ -21,15 +21,6 @@ std::string put_to_pipe(const std::string& command) {
 
 }  // namespace
 
-TEST_CASE("a command that answers is a kernel") {
-  const leftovers left;
-  {
-    const auto k = make_pipe(well_behaved, short_patience());
-    for (int i = 0; i < 3; ++i) CHECK(put(*k, behaves).empty());
-  }
-  left.check();
-}
-
 TEST_CASE("a second answer that comes late is not taken for the next call's") {
   const leftovers left;
   {
@@ -72,7 +63,6 @@ TEST_CASE("a command that ends is reported, and the next call is asked of a fres
 TEST_CASE("a command that does not answer, closes its pipe or never stops talking is given up") {
   const leftovers left;
   CHECK(put_to_pipe("exec cat >/dev/null") == "it did not answer within 500 ms");
-  CHECK(put_to_pipe("exec sleep 100") == "it did not answer within 500 ms");
   CHECK(put_to_pipe("exec sleep 100 <&- >&-") == "it closed its end of the pipe");
   CHECK_THAT(put_to_pipe("exec yes 2>/dev/null"), Contains("it answered more than 10") && Contains("bytes"));
   CHECK(put_to_pipe("printf 'smin 0x1p+0\\n'; exec cat >/dev/null") == "it did not answer within 500 ms");
@@ -85,13 +75,10 @@ TEST_CASE("nonsense from a command is refused with what was found and what is al
   };
   CHECK_THAT(answering("hello\\nend\\n"),
              Contains("gave an invalid answer: its answer:1: found hello; allowed: \"smin X\""));
-  CHECK_THAT(answering("end\\n"), Contains("its answer:1: found end"));
   CHECK_THAT(answering("smin 1\\nend\\n"),
              Contains("its answer:2: found end; allowed: \"pair 1 ss X isep S\""));
   CHECK_THAT(answering("smin 1\\npair 2 ss 1 isep 1\\npair 1 ss 1 isep 1\\nend\\n"),
              Contains("its answer:2"));
-  CHECK_THAT(answering("smin 1\\npair 1 ss 1 isep 1.5\\npair 2 ss 1 isep 1\\nend\\n"), Contains("isep 1.5"));
-  CHECK_THAT(answering("smin 1\\npair 1 ss one isep 1\\npair 2 ss 1 isep 1\\nend\\n"), Contains("ss one"));
   CHECK_THAT(answering("smin 1\\npair 1 ss 1 isep 1\\npair 2 ss 1 isep 1\\nend\\nsmin 1\\nend\\n"),
              Contains("continues after \"end\""));
   CHECK_THAT(answering("smin\\t1\\033[2J\\nend\\n"), Contains("found smin\\x091\\x1b[2J; allowed"));

@@ -1,10 +1,27 @@
+// What every kernel is and answers, and kernels by name: built in, plug-ins and commands.
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "catch.hpp"
 #include "contct/kernel/registry.hpp"
+#include "contct/lab/random_calls.hpp"
+#include "contct/number/bits.hpp"
 #include "support/one_pair.hpp"
 
 using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+bool same(const call_outputs& a, const call_outputs& b) {
+  return same_bits(a.smin, b.smin) && a.isep == b.isep && a.text == b.text &&
+         std::equal(a.ss.begin(), a.ss.end(), b.ss.begin(), b.ss.end(),
+                    [](double x, double y) { return same_bits(x, y); });
+}
+
+}  // namespace
 
 TEST_CASE("every kernel built in can be made, and says what it is") {
   const auto names = kernel_names();
@@ -52,4 +69,45 @@ TEST_CASE("a single-precision kernel sees the doubles rounded and gives its numb
 TEST_CASE("messages call the rule of the listing the 1989 rule") {
   CHECK(rule_words(contact_rule::listing) == "the 1989 rule");
   CHECK(rule_words(contact_rule::corrected) == "the corrected rule");
+}
+
+TEST_CASE("every kernel gives the same bits when it is asked again, in another order") {
+  constexpr int calls = 2000;
+  std::vector<call_inputs<double>> inputs;
+  random_calls<double> source(7);
+  for (int i = 0; i < calls; ++i) inputs.push_back(source.random(i));
+  for (const std::string& name : kernel_names()) {
+    INFO(name);
+    const auto k = make_kernel(name);
+    std::vector<call_outputs> first;
+    for (int i = 0; i < calls; ++i) first.push_back(answer_of(*k, inputs[i]));
+    int events = 0;
+    for (int i = calls - 1; i >= 0; --i) {
+      REQUIRE(same(answer_of(*k, inputs[i]), first[i]));
+      REQUIRE(same(answer_of(*k, inputs[i]), first[i]));
+      events += first[i].isep != inputs[i].isep ? 1 : 0;
+    }
+    CHECK(events > calls / 10);
+  }
+}
+
+TEST_CASE("the prefix of a name says which kind of kernel it is, before any is made") {
+  const kernel_facts plugin = facts_of_kernel("plugin:./no-such.so");
+  CHECK(plugin.name == "plugin:./no-such.so");
+  const kernel_facts pipe = facts_of_kernel("pipe:no-such-command");
+  CHECK(pipe.name == "pipe:no-such-command");
+  for (const kernel_facts& facts : {plugin, pipe}) {
+    CHECK(facts.real_bytes == 8);
+    CHECK(facts.rule == contact_rule::listing);
+    CHECK_FALSE(facts.has_text);
+    CHECK_FALSE(facts.text_by_meaning);
+  }
+  CHECK(facts_of_kernel("fortran").has_text);
+}
+
+TEST_CASE("a prefix alone, and a name that is nearly one, are refused with the names that there are") {
+  for (const char* name : {"plugin:", "pipe:", "plugin", ""})
+    CHECK_THROWS_AS(make_kernel(name), std::invalid_argument);
+  CHECK_THROWS_WITH(facts_of_kernel("fortan"), Contains("no kernel is named \"fortan\"") &&
+                                                   Contains("fortran") && Contains("pipe:COMMAND"));
 }

@@ -84,19 +84,14 @@ TEST_CASE("a number must have its exact one, a decimal or a fraction in lowest t
   }
 }
 
-TEST_CASE("what is computed lies as near to the exact number as is allowed") {
-  const expected_number e = third();
+TEST_CASE("what is computed lies as near to the exact number as is allowed, and the table's value too") {
+  expected_number e = third();
   CHECK(exact_disagreement(e, 1.0 / 3 + 1e-9, 1e-8).empty());
   CHECK_THAT(exact_disagreement(e, 1.0 / 3 + 1e-7, 1e-8), Contains("exactly 1/3; allowed: 1e-08 apart"));
   CHECK_THAT(exact_disagreement(e, std::nan(""), 1e-8), Contains("computed nan"));
   // Without a certificate's measure, the table's tolerance holds.
   CHECK(exact_disagreement(e, 0.333334, 0.0).empty());
   CHECK_THAT(exact_disagreement(e, 0.33334, 0.0), Contains("allowed: 3e-06 apart"));
-}
-
-TEST_CASE("a value of the table is within its tolerance of the exact number") {
-  expected_number e = third();
-  CHECK(exact_disagreement(e, 1.0 / 3, 1e-8).empty());
   e.value = 0.333;
   CHECK_THAT(exact_disagreement(e, 1.0 / 3, 1e-8), Contains("exactly 1/3; allowed: 1e-05 of 0.333"));
 }
@@ -169,7 +164,8 @@ TEST_CASE("a difference is relative to the size of the expected value, and absol
   CHECK(n.difference() == 1e-3);
 }
 
-TEST_CASE("verifying a problem judges each number on FORTRAN's path and on the corrected one") {
+TEST_CASE(
+    "verifying judges each number on both paths, and by the exact one as closely as they are certified") {
   const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
   expected_number tip;
   tip.step = 2;
@@ -181,36 +177,22 @@ TEST_CASE("verifying a problem judges each number on FORTRAN's path and on the c
   wrong.value *= 1 + 1e-8;
   expected_number differs = wrong;  // what FORTRAN gives is right, what the corrected kernel gives is not
   differs.faithful = tip.value;
-  const verified_case c = verify_case({"a file", {tip, wrong, differs}}, p);
+  expected_number exact = tip;
+  exact.exact = "-26/5375";
+  expected_number wrongly_exact = exact;
+  wrongly_exact.tolerance = 1.0;  // so that the certificate alone is close
+  wrongly_exact.exact = "-27/5375";
+  const verified_case c = verify_case({"a file", {tip, wrong, differs, exact, wrongly_exact}}, p);
   CHECK(c.failure.empty());
   CHECK(c.calls > 0);
   CHECK(c.mismatches == 0);
-  REQUIRE(c.numbers.size() == 3);
-  CHECK(c.numbers[0].passed);
+  REQUIRE(c.numbers.size() == 5);
   CHECK(c.numbers[0].certified);
   CHECK(c.numbers[0].exact_comparisons == 0);
-  CHECK_FALSE(c.numbers[1].passed);
-  CHECK_FALSE(c.numbers[2].passed);
-}
-
-TEST_CASE("verifying a problem compares both paths with the exact number, as closely as they are certified") {
-  const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
-  expected_number tip;
-  tip.step = 2;
-  tip.quantity = "w";
-  tip.node = 3;
-  tip.value = -0.00483720930;
-  tip.exact = "-26/5375";
-  tip.tolerance = 2e-9;
-  expected_number wrong = tip;
-  wrong.tolerance = 1.0;  // so that the certificate alone is close
-  wrong.exact = "-27/5375";
-  const verified_case c = verify_case({"a file", {tip, wrong}}, p);
-  REQUIRE(c.numbers.size() == 2);
-  CHECK(c.numbers[0].passed);
-  CHECK(c.numbers[0].exact_comparisons == 2);
-  CHECK_FALSE(c.numbers[1].passed);
-  CHECK_THAT(c.numbers[1].apart, Contains("exactly -27/5375; allowed: "));
+  CHECK(c.numbers[3].exact_comparisons == 2);
+  for (const int right : {0, 3}) CHECK(c.numbers[right].passed);
+  for (const int not_right : {1, 2, 4}) CHECK_FALSE(c.numbers[not_right].passed);
+  CHECK_THAT(c.numbers[4].apart, Contains("exactly -27/5375; allowed: "));
 }
 
 TEST_CASE("extremes are named by bound and quantity, and one that the structure does not have is not there") {

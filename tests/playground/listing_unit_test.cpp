@@ -1,7 +1,14 @@
+#include <algorithm>
 #include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "catch.hpp"
-#include "compare/other_compiler.hpp"
+#include "contct/compare/compare.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/lab/random_calls.hpp"
+#include "support/one_pair.hpp"
 #include "support/scratch_folder.hpp"
 
 // cpp/playground/listing_unit.c with f2c's translation of the listing: tests/playground/CMakeLists.txt

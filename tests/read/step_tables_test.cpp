@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
-#include "read/bad_places.hpp"
+#include "read/bad_inputs.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace contct;

@@ -193,18 +193,9 @@ const call_inputs<double>& call_source::at(std::uint64_t number) {
   const bool random = number % 2 == 1;
   if (real_bytes_ == 8) return random ? r8_.random(number) : r8_.adversarial(number);
   const call_inputs<float>& narrow = random ? r4_.random(number) : r4_.adversarial(number);
-  wide_.dd.resize(narrow.dd.size());
-  wide_.dtest.resize(narrow.dtest.size());
-  for (std::size_t i = 0; i < narrow.pairs(); ++i) {
-    const std::size_t dof = narrow.dof_of_pair(i);
-    wide_.dd[dof] = narrow.dd[dof];
-    wide_.dtest[dof] = narrow.dtest[dof];
-  }
-  wide_.cc.assign(narrow.cc.begin(), narrow.cc.end());
-  wide_.id = narrow.id;
-  wide_.isep = narrow.isep;
-  wide_.isurf = narrow.isurf;
-  wide_.dof = narrow.dof;
+  const auto widened = [](const std::vector<float>& x) { return std::vector<double>(x.begin(), x.end()); };
+  wide_ = {widened(narrow.dd), widened(narrow.dtest), widened(narrow.cc), narrow.id,
+           narrow.isep,        narrow.isurf,          narrow.dof};
   return wide_;
 }
 

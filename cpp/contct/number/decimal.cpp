@@ -46,46 +46,49 @@ std::optional<std::int64_t> exponent_in(std::string_view rest) {
   return minus ? -exponent : exponent;
 }
 
+/// A literal as it is written.
+struct written_decimal {
+  bool negative, is_whole;
+  std::string digits;
+  std::int64_t last;  // the power of ten of the last digit
+};
+
 /// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing where it is no decimal: hexadecimal,
 /// infinite, empty.
-std::optional<decimal> decimal_in(std::string_view literal) {
-  decimal d;
-  d.negative = take_minus(literal);
-  d.digits = take_digits(literal);
+std::optional<written_decimal> written_in(std::string_view literal) {
+  written_decimal w{take_minus(literal), false, take_digits(literal), 0};
+  w.is_whole = literal.empty();
   std::size_t behind_point = 0;
   if (!literal.empty() && literal.front() == '.') {
     literal.remove_prefix(1);
     const std::string fraction = take_digits(literal);
     behind_point = fraction.size();
-    d.digits += fraction;
+    w.digits += fraction;
   }
   const std::optional<std::int64_t> exponent = exponent_in(literal);
-  if (d.digits.empty() || !exponent) return std::nullopt;
-  d.exponent = *exponent - static_cast<std::int64_t>(behind_point);
-  const std::size_t last = d.digits.find_last_not_of('0');
+  if (w.digits.empty() || !exponent) return std::nullopt;
+  w.last = *exponent - static_cast<std::int64_t>(behind_point);
+  return w;
+}
+
+/// The same as a number.
+std::optional<decimal> decimal_in(std::string_view literal) {
+  const std::optional<written_decimal> w = written_in(literal);
+  if (!w) return std::nullopt;
+  const std::size_t last = w->digits.find_last_not_of('0');
   if (last == std::string::npos) return decimal{false, "0", 0};
-  d.exponent += static_cast<std::int64_t>(d.digits.size() - last - 1);
-  d.digits.erase(last + 1);
-  d.digits.erase(0, d.digits.find_first_not_of('0'));
-  return d;
+  const std::size_t first = w->digits.find_first_not_of('0');
+  return decimal{w->negative, w->digits.substr(first, last + 1 - first),
+                 w->last + static_cast<std::int64_t>(w->digits.size() - last - 1)};
 }
 
 }  // namespace
 
 std::optional<int> last_written_digit(std::string_view literal) {
-  (void)take_minus(literal);
-  const bool is_whole = !take_digits(literal).empty() && literal.empty();
-  if (is_whole) return std::nullopt;
-  std::size_t behind_point = 0;
-  if (!literal.empty() && literal.front() == '.') {
-    literal.remove_prefix(1);
-    behind_point = take_digits(literal).size();
-  }
-  const std::optional<std::int64_t> exponent = exponent_in(literal);
-  if (!exponent) return std::nullopt;
+  const std::optional<written_decimal> w = written_in(literal);
+  if (!w || w->is_whole) return std::nullopt;
   constexpr std::int64_t most = 1000;  // beyond any double
-  return static_cast<int>(std::clamp(*exponent, -most, most)) -
-         static_cast<int>(std::min<std::size_t>(behind_point, most));
+  return static_cast<int>(std::clamp(w->last, -most, most));
 }
 
 decimal shortest_decimal(double x) {

@@ -14,24 +14,13 @@
 namespace contct {
 namespace {
 
-integer power_of(unsigned base, unsigned exponent) {
-  return boost::multiprecision::pow(integer(base), exponent);
+rational power_of(unsigned base, int exponent) {
+  const integer power = boost::multiprecision::pow(integer(base), static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? rational(integer(1), power) : rational(power);
 }
 
 std::size_t length_in_bits(const integer& n) {
   return n == 0 ? 0 : boost::multiprecision::msb(abs(n)) + 1;
-}
-
-/// 10^exponent.
-rational ten_to(int exponent) {
-  const integer power = power_of(10, static_cast<unsigned>(std::abs(exponent)));
-  return exponent < 0 ? rational(integer(1), power) : rational(power);
-}
-
-/// 2^exponent.
-rational two_to(int exponent) {
-  const integer power = power_of(2, static_cast<unsigned>(std::abs(exponent)));
-  return exponent < 0 ? rational(integer(1), power) : rational(power);
 }
 
 /// The exponent of the leading digit of x > 0: 10^e <= x < 10^(e + 1).
@@ -39,8 +28,8 @@ int leading_exponent(const rational& x) {
   const auto top = static_cast<double>(length_in_bits(numerator(x)));
   const auto bottom = static_cast<double>(length_in_bits(denominator(x)));
   int e = static_cast<int>(std::floor((top - bottom) * std::log10(2.0)));
-  while (ten_to(e) > x) --e;
-  while (ten_to(e + 1) <= x) ++e;
+  while (power_of(10, e) > x) --e;
+  while (power_of(10, e + 1) <= x) ++e;
   return e;
 }
 
@@ -89,18 +78,14 @@ void allocate_as_new_does() {
 
 rational decimal_of(double x) {
   const decimal d = shortest_decimal(x);
-  const integer digits((d.negative ? "-" : "") + d.digits);
-  const integer power = power_of(10, static_cast<unsigned>(std::abs(d.exponent)));
-  return d.exponent < 0 ? rational(digits, power) : rational(integer(digits * power));
+  return rational(integer((d.negative ? "-" : "") + d.digits)) * power_of(10, static_cast<int>(d.exponent));
 }
 
 rational binary_value(double x) {
   if (!std::isfinite(x)) throw std::domain_error("an infinity, or what is no number, has no exact value");
   int exponent = 0;
   const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
-  exponent -= 53;
-  const integer power = power_of(2, static_cast<unsigned>(std::abs(exponent)));
-  return exponent < 0 ? rational(integer(mantissa), power) : rational(integer(integer(mantissa) * power));
+  return rational(integer(mantissa)) * power_of(2, exponent - 53);
 }
 
 double rounded(const rational& x) {
@@ -140,10 +125,10 @@ double error_in_ulps(double x, const rational& exactly, int real_bytes) {
     const rational size = abs(exactly);
     int found = static_cast<int>(length_in_bits(numerator(size))) -
                 static_cast<int>(length_in_bits(denominator(size)));
-    if (size >= two_to(found)) ++found;
+    if (size >= power_of(2, found)) ++found;
     exponent = std::max(exponent, found);
   }
-  return rounded((binary_value(x) - exactly) / two_to(exponent - digits));
+  return rounded((binary_value(x) - exactly) / power_of(2, exponent - digits));
 }
 
 std::string fraction_words(const rational& x) {
@@ -160,7 +145,7 @@ std::string short_words(const rational& x, int digits) {
   }
   const rational size = abs(x);
   int exponent = leading_exponent(size);
-  const rational scaled = size * ten_to(digits - 1 - exponent);
+  const rational scaled = size * power_of(10, digits - 1 - exponent);
   const rational raised = scaled + rational(1, 2);
   std::string shown = integer(numerator(raised) / denominator(raised)).str();
   if (static_cast<int>(shown.size()) > digits) {  // rounded up to a power of 10
