@@ -123,9 +123,7 @@ exit_status run_command(const new_options& options) {
   const char* const text = problem_of(options.shape);
   const std::string file = options.file.empty() ? options.shape + ".toml" : options.file;
   if (file != "-") refuse_taken(file);
-  output_file out(file);
-  out.write(text);
-  out.finish();
+  write_file(file, text);
   if (file != "-") print_text(fmt::format("{} is written; next: contct run {}\n", file, file));
   return exit_status::solved;
 }

@@ -1,8 +1,7 @@
 // contct exact: the path in rational arithmetic, and how many digits of each kernel are right.
 #include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
-#include "contct/path/solve_problem.hpp"
-#include "contct/serve/exact_run.hpp"
+#include "contct/session/exact_run.hpp"
 #include "contct/write/exact_output.hpp"
 
 namespace contct {
@@ -11,25 +10,18 @@ exit_status run_command(const exact_options& options) {
   for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
   const std::vector<output_option> outputs = {{"--json", options.json}};
   const problem p = read_with_progress(options.file, outputs, options.allow_outside, options.quiet);
-  const exact_problem exactly = exactly_read(p, options.file);
   const output_files files(outputs);
   progress path_shown(static_cast<std::int64_t>(p.steps.size()), "steps", options.quiet);
   const exact_progress tell = [&](int step, int increment, const rational& fraction) {
     path_shown.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", step,
                                p.steps.size(), increment, 100.0 * rounded(fraction)));
   };
-  const exact_path path = follow_exactly(exactly, options.rule, options.file, tell);
+  path_progress kernels_shown(p.steps.size(), options.quiet);
+  const exact_run run = run_exactly(p, {options.file, options.rule, options.kernels}, tell, &kernels_shown);
   path_shown.erase();
-
-  std::vector<kernel_digits> kernels;
-  if (!options.kernels.empty()) {
-    const linear_structure structure = build_with_progress(p, options.quiet);
-    path_progress shown(p.steps.size(), options.quiet);
-    for (const std::string& name : options.kernels)
-      kernels.push_back(digits_of_kernel(name, p, structure, path, &shown));
-    shown.line.erase();
-  }
-  const exact_result result{p, exactly, path, kernels};
+  kernels_shown.line.erase();
+  const exact_path& path = run.path;
+  const exact_result result{p, run.exactly, path, run.kernels};
   if (!options.quiet && !takes_standard_output(outputs))
     print_text(exact_text(result, options.digits, look_at_terminal()));
   flush_standard_output();

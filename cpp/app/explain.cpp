@@ -6,9 +6,7 @@
 #include "app/problem_runs.hpp"
 #include "contct/exact/exact_problem.hpp"
 #include "contct/kernel/registry.hpp"
-#include "contct/path/path_observers.hpp"
-#include "contct/path/solve_problem.hpp"
-#include "contct/serve/listing_kernels.hpp"
+#include "contct/session/explained_run.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/write/explain.hpp"
 #include "contct/write/words.hpp"
@@ -59,13 +57,12 @@ exit_status nothing_told(const explain_options& o, const increments_wanted& want
   return wanted.step > 0 || wanted.increment > 0 ? exit_status::bad_input : status_of(end.status);
 }
 
-void print_comparison(const std::vector<std::string>& kernels, const explained_path& told) {
-  const bool equal = told.compared().mismatches == 0;
+void print_comparison(const std::vector<std::string>& kernels, const explained_run& run) {
   print_text("\n");
-  print_wrapped(look_at_terminal(), equal ? paint::good : paint::bad,
+  print_wrapped(look_at_terminal(), run.equal() ? paint::good : paint::bad,
                 {fmt::format("{} and {} {} to the bit in the whole run", kernels[0], kernels[1],
-                             equal ? "are equal" : "are NOT equal"),
-                 counts_of(told)});
+                             run.equal() ? "are equal" : "are NOT equal"),
+                 counts_of(run.told)});
 }
 
 /// The exact path, for as far as it is wanted, and what is told of it.
@@ -101,8 +98,8 @@ exit_status run_command(const explain_options& options) {
   refuse_beyond("--pair", options.pair, p.pairs.size(), "pair");
   refuse_beyond("--step", wanted.step > 0 ? wanted.step : options.step, p.steps.size(), "step");
   const output_files files(outputs);
-  const std::unique_ptr<kernel> leader = make_kernel(options.kernels[0]);
-  const explained_kernels of{p, options.kernels, leader->facts().real_bytes, options.pair.value_or(0)};
+  const explained_kernels of{p, options.kernels, facts_of_kernel(options.kernels[0]).real_bytes,
+                             options.pair.value_or(0)};
   std::optional<explain_text> text;
   std::optional<explain_json> json;
   const bool chosen = options.all || wanted.step > 0 || wanted.increment > 0;
@@ -111,7 +108,7 @@ exit_status run_command(const explain_options& options) {
   if (output_file* const file = files["--json"]) json.emplace(of, *file);
   std::optional<exact_explanation> exactly;
   path_progress shown(p.steps.size(), options.quiet);
-  explained_path told(leader->facts(), second_kernel(options.kernels), wanted, [&](const auto& i) {
+  explained_run run(options.kernels, wanted, [&](const auto& i) {
     if (exactly) exactly->told->begin(i);
     const exact_addition* const more = exactly ? &*exactly->told : nullptr;
     shown.line.erase();
@@ -120,21 +117,20 @@ exit_status run_command(const explain_options& options) {
   });
   const linear_structure structure = build_with_progress(p, options.quiet);
   if (options.exact) exactly.emplace(p, wanted);
-  std::vector<observer*> watching = {&told, &shown};
-  if (exactly && exactly->path) watching.insert(watching.begin(), &*exactly->path);
-  const path_end end = follow(p, structure, chosen_engine(options.engine, structure), *leader, watching);
+  exact_companion* const beside = exactly && exactly->path ? &*exactly->path : nullptr;
+  const path_end end = run.follow(p, structure, options.engine, beside, &shown);
   shown.line.erase();
+  const explained_path& told = run.told;
 
   const bool anything = end.status != path_status::not_factored && told.explained() > 0;
   if (anything && text) print_text(text->finish());
-  if (anything && text && options.kernels.size() > 1) print_comparison(options.kernels, told);
+  if (anything && text && options.kernels.size() > 1) print_comparison(options.kernels, run);
   if (anything) flush_standard_output();
   if (anything && told.first()) complain_of(words_of(*told.first()));
   if (end.status != path_status::solved) complain("{}: {}", whole_line(options.file), end_words(p, end));
   if (!anything) return nothing_told(options, wanted, end, told);
-  const bool equal = told.compared().mismatches == 0;
-  if (json) json->finish(status_name(end.status, equal), told);
-  return status_of(end.status, equal);
+  if (json) json->finish(status_name(end.status, run.equal()), told);
+  return status_of(end.status, run.equal());
 }
 
 }  // namespace contct

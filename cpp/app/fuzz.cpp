@@ -31,12 +31,6 @@ std::string command_of(const fuzz_request& r) {
                      joined(r.kernels, ","), r.calls, r.problems, r.seed, r.shard, r.shards);
 }
 
-void write_file(const std::string& name, const std::string& text) {
-  output_file file(name);
-  file.write(text);
-  file.finish();
-}
-
 fuzz_run fuzzed(const fuzz_request& request, bool quiet) {
   std::optional<progress> shown;
   const char* shown_what = nullptr;

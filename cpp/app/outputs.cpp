@@ -188,6 +188,12 @@ bool takes_standard_output(const std::vector<output_option>& outputs) {
   return std::ranges::find(outputs, "-", &output_option::path) != outputs.end();
 }
 
+void write_file(const std::string& name, std::string_view text) {
+  output_file file(name);
+  file.write(text);
+  file.finish();
+}
+
 output_files::output_files(const std::vector<output_option>& outputs) {
   for (const output_option& o : outputs)
     if (!o.path.empty() && !o.opens_later) files_[o.name] = std::make_unique<output_file>(o.path);

@@ -108,6 +108,9 @@ inline constexpr const char* named_by_problem = "the problem's stiffness, loads,
 /// Is one of them "-"? Then nothing else is printed.
 [[nodiscard]] bool takes_standard_output(const std::vector<output_option>& outputs);
 
+/// All of a file at once. Throws as output_file does.
+void write_file(const std::string& name, std::string_view text);
+
 /// The files of a command, open before any work is done.
 class output_files {
  public:

@@ -10,6 +10,7 @@
 #include "contct/write/words.hpp"
 
 namespace contct {
+
 std::vector<std::string> engine_choices() {
   std::vector<std::string> names = engine_names();
   names.insert(names.begin(), "auto");
@@ -22,10 +23,6 @@ void refuse_engine_option(const std::string& name) {
   if (std::ranges::find(names, name) != names.end()) return;
   throw std::invalid_argument(fmt::format("--engine: no engine is named \"{}\"{}; allowed: {}", name,
                                           did_you_mean(name, names), joined(names, ", ")));
-}
-
-std::string chosen_engine(const std::string& name, const linear_structure& s) {
-  return name == "auto" ? std::string(quickest_engine(s)) : name;
 }
 
 problem read_with_progress(const std::string& file, const std::vector<output_option>& outputs,

@@ -22,9 +22,6 @@ namespace contct {
 /// Throws std::invalid_argument for what --engine does not take.
 void refuse_engine_option(const std::string& name);
 
-/// The engine that --engine names; for auto the quickest one.
-[[nodiscard]] std::string chosen_engine(const std::string& name, const linear_structure& s);
-
 /// Read a problem and print its warnings. Throws as read_problem does, and as refuse_shared_outputs where one
 /// of `outputs` would replace the problem or a file that it names.
 [[nodiscard]] problem read_with_progress(const std::string& file, const std::vector<output_option>& outputs,

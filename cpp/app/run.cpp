@@ -6,13 +6,14 @@
 #include <optional>
 #include <stdexcept>
 
-#include "app/grid_files.hpp"
 #include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/session/path_states.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
+#include "contct/write/pictures.hpp"
 #include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 
@@ -22,11 +23,29 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* csv_pairs = "--csv (its pairs)";
+constexpr const char* vtu_collection = "--vtu (its collection)";
+constexpr const char* vtu_increments = "--vtu (its increments)";
+
+/// A file in the folder of `file`: its name without the extension, and `end`.
+std::string beside(const std::string& file, const std::string& end) {
+  const fs::path path(file);
+  return (path.parent_path() / (path.stem().string() + end)).string();
+}
 
 /// "out.pairs.csv" beside "out.csv"; none beside standard output.
 std::string pairs_table(const std::string& csv) {
   if (csv.empty() || csv == "-") return "";
   return beside(csv, ".pairs" + fs::path(csv).extension().string());
+}
+
+/// Every file of --vtu. Throws std::invalid_argument for a name that cannot be a grid's.
+void add_grid_files(const std::string& vtu, std::vector<output_option>& all) {
+  if (fs::path(vtu).extension() != ".vtu")
+    throw std::invalid_argument(fmt::format("--vtu: found \"{}\"; allowed: a file that ends in .vtu", vtu));
+  all.push_back({"--vtu", vtu});
+  all.push_back({vtu_collection, beside(vtu, ".pvd")});
+  for (std::size_t i = 0; i < most_pictures; ++i)
+    all.push_back({vtu_increments, beside(vtu, name_of_state("", i)), true});
 }
 
 /// Every file that these options may write. Throws std::invalid_argument for names that cannot be theirs.
@@ -37,6 +56,24 @@ std::vector<output_option> outputs_of(const run_options& o) {
                                     {"--proof", o.proof}};
   if (!vtu.empty()) add_grid_files(vtu, all);
   return with_reports(std::move(all), o.report);
+}
+
+/// For --vtu: throws std::invalid_argument where a structure given by its matrix has no coordinates, and
+/// warns of pairs that get no cell.
+void check_grid_coordinates(const problem& p) {
+  const auto* a = std::get_if<assembled>(&p.geometry.kind);
+  if (a == nullptr) return;
+  if (!a->places.known())
+    throw std::invalid_argument(fmt::format(
+        "--vtu: found a structure given by its matrix, {}, without coordinates; allowed: one with "
+        "coordinates, by coordinates = \"FILE\" in [matrix] or CalculiX's mesh, JOB.inp beside its matrix or "
+        "mesh = \"FILE\" in [calculix]. --csv and --json have all its numbers, by label",
+        a->name));
+  const auto lost =
+      std::ranges::count_if(p.pairs, [a](const contact_pair& c) { return a->places.dofs[c.node].node < 0; });
+  if (lost > 0)
+    complain("warning: --vtu: {} of {} pairs {} no cell: the places of their dofs are not known", lost,
+             p.pairs.size(), lost == 1 ? "has" : "have");
 }
 
 void refuse_bad_options(const run_options& o) {
@@ -236,6 +273,15 @@ check_report check_report_of(const shown_run& o) {
   }
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - o.setup.started).count();
   return r;
+}
+
+/// The collection last: whoever sees it finds all that it names.
+void write_grids(const output_files& files, const std::string& vtu, const run_result& r) {
+  const std::vector<structure_state> states = pictures_of(r);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    write_file(beside(vtu, name_of_state("", i)), vtu_of_state(r.what, states[i]));
+  files.write("--vtu", vtu_of_state(r.what, states.back()));
+  files.write(vtu_collection, pvd_of_states(fs::path(vtu).stem().string(), states.size()));
 }
 
 /// Complete and name all files.

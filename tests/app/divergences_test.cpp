@@ -11,7 +11,6 @@
 #include "catch.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 using json = nlohmann::json;
 
 namespace {
@@ -125,22 +124,6 @@ TEST_CASE("way 4: an event exactly at full load is left to the next step, and on
     CHECK(result["steps"][1]["increments"][0]["fraction"].get<double>() < 1e-9);
     CHECK(exact(result, 1));
   }
-}
-
-TEST_CASE("way 5: a problem file whose state its faces contradict is refused") {
-  const scratch_folder dir;
-  const std::string beam =
-      "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\n"
-      "surface = \"below\"\nstiffness = 1\n";
-  const std::string step = "[[step]]\nuniform = -1\n";
-  dir.write("inside.toml", beam + "face = 0.1\n" + step);
-  dir.write("closed.toml", beam + "face = -0.1\nstate = \"contact\"\n" + step);
-  dir.write("sound.toml", beam + "face = -0.1\n" + step);
-  CHECK(contct_program(dir.path(), {"run", "inside.toml"}).exit == 2);
-  CHECK(contct_program(dir.path(), {"run", "closed.toml"}).exit == 2);
-  CHECK(contct_program(dir.path(), {"run", "sound.toml"}).exit == 0);
-  CHECK_THAT(section("5. "), Contains("inconsistent-start.trace"));
-  CHECK(std::filesystem::exists(root / "reference/traces/inconsistent-start.trace"));
 }
 
 TEST_CASE("way 6: an event near full load toggles a pair that has none") {

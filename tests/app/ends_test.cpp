@@ -54,17 +54,6 @@ nlohmann::json result_in(const scratch_folder& dir) {
 
 }  // namespace
 
-TEST_CASE("a beam that turns about its one pair for ever: the state reached, and no kernel is advised") {
-  const scratch_folder dir;
-  const finished f = run_of(over_one_pair(3), {"--kernels", "corrected", "--json", "out.json"}, dir);
-  CHECK(f.exit == 4);
-  CHECK_THAT(f.err, Contains("no equilibrium") && Contains("Add a support") && !Contains("--kernels"));
-  const auto step = result_in(dir)["steps"][0];
-  CHECK(step["w"][1] == -0.5);
-  CHECK(step["pairs"][0]["state"] == "contact");
-  CHECK(step["pairs"][0]["force"] == 0.0);
-}
-
 TEST_CASE("a beam that balances on its one pair makes contact once, in the table too") {
   const scratch_folder dir;
   const finished f = run_of(over_one_pair(2), {"--kernels", "corrected", "--json", "out.json"}, dir);

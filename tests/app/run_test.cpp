@@ -6,7 +6,6 @@
 
 #include "app/process.hpp"
 #include "catch.hpp"
-#include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 
 using namespace contct;
@@ -59,28 +58,16 @@ TEST_CASE("the table fits its terminal, from 40 columns to 160") {
   dir.write("busy.toml", busy + "[[step]]\nuniform = -1e-6\n[[step]]\nuniform = 1e-6\n");
   dir.write("pb.toml", good_problem);
   const std::string pb7 = std::string(CONTCT_ROOT) + "/reference/problems/pb07-three-gap-supports.toml";
-  for (const char* columns : {"40", "59", "60", "63", "80", "120", "160"}) {
+  for (const char* columns : {"40", "60", "80", "120", "160"}) {
     for (const std::string& file : {std::string("pb.toml"), std::string("busy.toml"), pb7}) {
-      for (const char* kernels : {"cpp", "fortran,cpp", "fortran-r4,cpp-r4"}) {
-        const finished f = contct_program(dir.path(), {"run", file, "--kernels", kernels},
-                                          {"", {{"COLUMNS", columns}}, false});
-        INFO(columns << " columns\n" << f.out << f.err);
-        CHECK(f.exit == 0);
-        CHECK(longest_line(f.out) <= std::stoul(columns));
-        CHECK_THAT(f.out, Contains("make 1: node"));
-        CHECK(f.out.find(" \n") == std::string::npos);
-      }
+      const finished f = contct_program(dir.path(), {"run", file}, {"", {{"COLUMNS", columns}}, false});
+      INFO(columns << " columns\n" << f.out << f.err);
+      CHECK(f.exit == 0);
+      CHECK(longest_line(f.out) <= std::stoul(columns));
+      CHECK_THAT(f.out, Contains("make 1: node"));
+      CHECK(f.out.find(" \n") == std::string::npos);
     }
   }
-}
-
-TEST_CASE("what lets go as soon as a load begins has one row, and a row each on request") {
-  const std::string footing = std::string(CONTCT_ROOT) + "/reference/problems/pb11b-strip-footing-n40.toml";
-  const finished f = contct_program(root, {"run", footing});
-  CHECK_THAT(f.out, Contains("16 pairs break at first") && !Contains("break 41"));
-  const finished detailed = contct_program(root, {"run", footing, "--detail"});
-  CHECK_THAT(detailed.out, Contains("break 41: node 41 below") && !Contains("pairs break"));
-  CHECK_THAT(detailed.out, Contains("25 of 41 in contact") && Contains("      40  shear"));
 }
 
 TEST_CASE("a table follows the node that it was given, by number or by x, and refuses others") {
@@ -98,20 +85,6 @@ TEST_CASE("a table follows the node that it was given, by number or by x, and re
                Contains("--node: found") && Contains("a node from 1 to 3, or x = .. of one, from 0 to 2"));
   }
   CHECK(dir.files() == std::vector<std::string>{"pb.toml"});
-}
-
-TEST_CASE("a beam that passes through a face between its pairs is warned of, with the remedy") {
-  const scratch_folder dir;
-  dir.write(
-      "sags.toml",
-      "[beam]\nlength = 12\nelements = 3\nEI = 1e4\n[[support]]\nnodes = [1, 4]\nfix = [\"w\"]\n"
-      "[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e9\n"
-      "[[contact]]\nnode = 3\nsurface = \"below\"\nface = 0\nstiffness = 1e9\n[[step]]\nuniform = -500\n");
-  const finished f = contct_program(dir.path(), {"run", "sags.toml"});
-  CHECK(f.exit == 0);
-  CHECK_THAT(f.err,
-             Contains("warning: step 1: between pairs 1 and 2 the beam passes through the face at 0") &&
-                 Contains("x = 6") && Contains("element_size"));
 }
 
 TEST_CASE("on a narrow terminal an increment's events stand on lines of their own") {
@@ -181,23 +154,6 @@ TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose
   CHECK(result["steps"][0]["fraction"].get<double>() < 1e-9);
 }
 
-TEST_CASE("a run that ends in a mechanism is nowhere called certified, though its first step is") {
-  const scratch_folder dir;
-  const std::string text = freed;
-  const std::string first = "[[step]]\npoint = [ { node = 3, w = -4 } ]\n";
-  dir.write("freed.toml", std::string(text).insert(text.find("[[step]]"), first));
-  const finished f =
-      contct_program(dir.path(), {"run", "freed.toml", "--kernels", "corrected", "--json", "out.json"});
-  INFO(f.out << f.err);
-  CHECK(f.exit == 4);
-  CHECK_THAT(f.out, Contains("the run is NOT certified") && Contains("step 1 is certified"));
-  CHECK_THAT(f.out, !Contains("final state is certified"));
-  CHECK_THAT(f.out, Contains("break 1") && Contains("1 of 2 in contact; "));  // and not 2, after that break
-  const auto result = nlohmann::json::parse(dir.read("out.json"));
-  CHECK(result.at("certified") == false);
-  CHECK(result.at("steps").at(0).at("certificate").at("exact") == true);
-}
-
 TEST_CASE("the limit of increments: exit 5, with a result that says so") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
@@ -263,47 +219,6 @@ TEST_CASE("contct kernels and --version name the listing's checksum and the floa
   const std::string checksum = version.out.substr(version.out.find("sha256") + 7, 64);
   CHECK(checksum.find_first_not_of("0123456789abcdef") == std::string::npos);
   CHECK_THAT(kernels.out, Contains(checksum));
-}
-
-TEST_CASE("a plate that loses its hold is a mechanism: exit 4") {
-  const scratch_folder dir;
-  dir.write("freed.toml",
-            "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n[[contact]]\nnode = 1\nsurface = "
-            "\"below\"\nface = 0\nstiffness = 10\n[[contact]]\nnode = 3\nsurface = \"below\"\nface = 0\n"
-            "stiffness = 10\n[[contact]]\nnode = 8\nsurface = \"below\"\nface = 0\nstiffness = 10\n"
-            "[[step]]\nuniform = -1\n[[step]]\nuniform = 1\n");
-  const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
-  INFO(f.out << f.err);
-  CHECK(f.exit == 4);
-  CHECK_THAT(f.err, Contains("step 2") && Contains("mechanism"));
-  const auto result = nlohmann::json::parse(dir.read("out.json"));
-  CHECK(result["steps"][0]["pairs"][2]["force"].get<double>() == Approx(0.5).epsilon(1e-9));
-  CHECK(result["steps"][1]["fraction"].get<double>() == Approx(0.5).epsilon(1e-9));  // nothing left to press
-  // Three pairs in a line never held it.
-  std::string line = "[plate]\nsize = [1, 1]\nelements = [2, 2]\nD = 1\nnu = 0.3\n";
-  for (const char* node : {"1", "5", "9"})
-    line += std::string("[[contact]]\nnode = ") + node + "\nsurface = \"below\"\nface = 0\nstiffness = 10\n";
-  dir.write("line.toml", line + "[[step]]\nuniform = -1\n");
-  CHECK(contct_program(dir.path(), {"run", "line.toml"}).exit == 5);
-}
-
-TEST_CASE("a free beam above its bed: the 1989 rule has no start, the corrected one lets it fall") {
-  const scratch_folder dir;
-  dir.write("drop.toml",
-            "[beam]\nlength = 2.0\nelements = 8\nEI = 10.0\n[[bed]]\nmodulus = 1000.0\nface = -0.01\n"
-            "[[step]]\nuniform = -5.0\n");
-  const finished listing = contct_program(dir.path(), {"run", "drop.toml"});
-  CHECK(listing.exit == 5);
-  CHECK_THAT(listing.out, Contains("no certificate"));
-  CHECK_THAT(listing.err, Contains("--kernels corrected"));
-  const finished corrected = contct_program(
-      dir.path(), {"run", "drop.toml", "--kernels", "corrected", "--strict", "--json", "d.json"});
-  CHECK(corrected.exit == 0);
-  CHECK_THAT(corrected.out, Contains("9 pairs make at first") && Contains("the final state is certified"));
-  const auto r = nlohmann::json::parse(dir.read("d.json"));
-  CHECK(r["lockstep"].is_null());
-  CHECK(r["steps"][0]["increments"][0]["snap"] == true);
-  CHECK(r["steps"][0]["certificate"]["exact"] == true);
 }
 
 TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that was too early is named") {

@@ -1,17 +1,17 @@
 // contct_check, contct_exact and contct_explain: what else can be asked of a problem.
 #include <fmt/format.h>
 
+#include <mutex>
 #include <stdexcept>
 
-#include "contct/certify/certificate.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/toml_reader.hpp"
 #include "contct/read/written_numbers.hpp"
 #include "contct/serve/answer.hpp"
-#include "contct/serve/exact_run.hpp"
-#include "contct/serve/listing_kernels.hpp"
 #include "contct/serve/serve.h"
+#include "contct/session/exact_run.hpp"
+#include "contct/session/explained_run.hpp"
 #include "contct/write/exact_output.hpp"
 #include "contct/write/explain.hpp"
 #include "contct/write/words.hpp"
@@ -73,23 +73,18 @@ void check(const char* text, const char* options, served_answer& a) {
 
 void follow_exact_path(const char* text, const char* options, served_answer& a) {
   const request r(options, {"file", "folder", "allow_outside", "rule", "kernels"});
-  const std::string rule = r.text("rule", "corrected");
-  if (rule != "corrected" && rule != "1989")
-    throw std::invalid_argument(fmt::format("options: rule: found \"{}\"; allowed: corrected, 1989", rule));
-  const std::vector<std::string> names = r.texts("kernels", {});
-  for (const std::string& name : names) (void)facts_of_kernel(name);
+  const exact_request wanted{r.file(), r.text("rule", "corrected"), r.texts("kernels", {})};
+  if (wanted.rule != "corrected" && wanted.rule != "1989")
+    throw std::invalid_argument(
+        fmt::format("options: rule: found \"{}\"; allowed: corrected, 1989", wanted.rule));
+  for (const std::string& name : wanted.kernels) (void)facts_of_kernel(name);
   const problem p = read_problem_text(text, r.file(), r.allowed(), a);
-  const exact_problem exactly = exactly_read(p, r.file());
-  const exact_path path = follow_exactly(exactly, rule, r.file());
-  std::vector<kernel_digits> kernels;
-  if (!names.empty()) {
-    const std::scoped_lock mine(turn());
-    const linear_structure s = structure_of(p);
-    for (const std::string& name : names) kernels.push_back(digits_of_kernel(name, p, s, path));
-  }
+  std::unique_lock mine(turn(), std::defer_lock);
+  if (!wanted.kernels.empty()) mine.lock();
+  const exact_run run = run_exactly(p, wanted);
   output_file out(&a.result);
-  write_exact_json({p, exactly, path, kernels}, out);
-  a.exit = status_of(path.status);
+  write_exact_json({p, run.exactly, run.path, run.kernels}, out);
+  a.exit = status_of(run.path.status);
 }
 
 void explain_path(const char* text, const char* options, served_answer& a) {
@@ -102,22 +97,19 @@ void explain_path(const char* text, const char* options, served_answer& a) {
   const increments_wanted wanted{r.whole("step", 0, 1, static_cast<int>(p.steps.size())),
                                  r.whole("increment", 0, 1, most_increments)};
   const std::scoped_lock mine(turn());
-  const std::unique_ptr<kernel> leader = make_kernel(names.front());
   output_file out(&a.result);
-  explain_json written({p, names, leader->facts().real_bytes, 0}, out);
-  explained_path told(leader->facts(), second_kernel(names), wanted,
-                      [&](const auto& i) { written.write(i); });
+  explain_json written({p, names, facts_of_kernel(names.front()).real_bytes, 0}, out);
+  explained_run run(names, wanted, [&](const auto& i) { written.write(i); });
   const linear_structure s = structure_of(p);
-  const path_end end = follow(p, s, engine_for(leader->facts(), engine, s), *leader, {&told});
-  if (end.status == path_status::not_factored || told.explained() == 0)
+  const path_end end = run.follow(p, s, engine);
+  if (end.status == path_status::not_factored || run.told.explained() == 0)
     throw std::invalid_argument(
         end.status == path_status::solved
             ? fmt::format("{}: no increment is explained: the path has no such one", r.file())
             : r.file() + ": " + end_words(p, end));
-  const bool equal = told.compared().mismatches == 0;
-  written.finish(status_name(end.status, equal), told);
+  written.finish(status_name(end.status, run.equal()), run.told);
   if (end.status != path_status::solved) a.messages.push_back(r.file() + ": " + end_words(p, end));
-  a.exit = status_of(end.status, equal);
+  a.exit = status_of(end.status, run.equal());
 }
 
 }  // namespace

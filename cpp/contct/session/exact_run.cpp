@@ -1,4 +1,4 @@
-#include "contct/serve/exact_run.hpp"
+#include "contct/session/exact_run.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include "contct/exact/exact_means.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/write/words.hpp"
 
 namespace contct {
 namespace {
@@ -63,8 +62,7 @@ bool corrected_path_ends_by(std::size_t step, const exact_problem& p) {
   return path.status == path_status::mechanism && path.steps.size() <= step;
 }
 
-}  // namespace
-
+/// The problem in rational numbers.
 exact_problem exactly_read(const problem& p, const std::string& file) {
   refuse_too_many_dofs(p, file);
   exact_problem e = [&] {
@@ -78,6 +76,7 @@ exact_problem exactly_read(const problem& p, const std::string& file) {
   return e;
 }
 
+/// Its path by `rule`.
 exact_path follow_exactly(const exact_problem& p, const std::string& rule, const std::string& file,
                           const exact_progress& tell) {
   try {
@@ -108,6 +107,19 @@ kernel_digits digits_of_kernel(const std::string& name, const problem& p, const 
   certifier judged(p, s, exact_means_of(p));
   const path_end end = follow(p, s, engine_for(leader->facts(), "", s), *leader, all, {0, judged.ends()});
   return counter.result(name, end.status, rounding[leader->facts().real_bytes == 4 ? 1 : 0]);
+}
+
+}  // namespace
+
+exact_run run_exactly(const problem& p, const exact_request& wanted, const exact_progress& tell,
+                      observer* shown) {
+  exact_run run{exactly_read(p, wanted.file), {}, {}};
+  run.path = follow_exactly(run.exactly, wanted.rule, wanted.file, tell);
+  if (wanted.kernels.empty()) return run;
+  const linear_structure structure = structure_of(p);
+  for (const std::string& name : wanted.kernels)
+    run.kernels.push_back(digits_of_kernel(name, p, structure, run.path, shown));
+  return run;
 }
 
 }  // namespace contct

@@ -1,0 +1,56 @@
+#include "contct/session/explained_run.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "contct/compare/compare.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+
+namespace contct {
+namespace {
+
+/// Null where there is none.
+std::unique_ptr<kernel> second_kernel(const std::vector<std::string>& names) {
+  if (names.size() < 2) return nullptr;
+  refuse_unequal(facts_of_kernel(names[0]), facts_of_kernel(names[1]));
+  return make_kernel(names[1]);
+}
+
+}  // namespace
+
+void refuse_other_rules(const std::vector<std::string>& kernels) {
+  for (const std::string& name : kernels) {
+    if (facts_of_kernel(name).rule != contact_rule::listing)
+      throw std::invalid_argument(
+          fmt::format("--kernels: \"{}\" has another rule, which is not in the listing; allowed: kernels "
+                      "with the 1989 rule. reference/corrected-rule.md describes the other; contct run "
+                      "--free-run --kernels {},fortran compares the two",
+                      name, name));
+  }
+  if (kernels[0].find(':') != std::string::npos)
+    throw std::invalid_argument(
+        fmt::format("--kernels: \"{}\" is an external kernel and cannot lead; allowed: a built-in kernel "
+                    "first and this one second: --kernels fortran,{}",
+                    kernels[0], kernels[0]));
+  if (kernels.size() > 2)
+    throw std::invalid_argument(
+        fmt::format("--kernels: found {}; allowed: one or two, the first one leads", kernels.size()));
+  if (kernels.size() == 2 && kernels[0] == kernels[1])
+    throw std::invalid_argument("--kernels: \"" + kernels[0] + "\" is named twice");
+}
+
+explained_run::explained_run(const std::vector<std::string>& kernels, increments_wanted wanted,
+                             explained_path::sink to)
+    : leader(make_kernel(kernels[0])), told(leader->facts(), second_kernel(kernels), wanted, std::move(to)) {}
+
+path_end explained_run::follow(const problem& p, const linear_structure& s, const std::string& engine,
+                               observer* before, observer* behind) {
+  std::vector<observer*> watching = {before, &told, behind};
+  std::erase(watching, nullptr);
+  return contct::follow(p, s, engine_for(leader->facts(), engine, s), *leader, watching);
+}
+
+}  // namespace contct
