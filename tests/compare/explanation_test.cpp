@@ -61,10 +61,10 @@ TEST_CASE("near full load the mark of a pair without any event lies within EPSMU
                                                          {0.0, -1.0, 0.0, in_contact, face_below}}));
   CHECK(e.winner == 0);
   CHECK(e.next == -1);  // a mark is no candidate
-  CHECK(e.pairs[1].way == way_to_s::no_response);
+  CHECK(e.pairs[1].way == listing_branch::no_response);
   CHECK(e.pairs[1].why == why_toggled::by_mark);
   CHECK(e.pairs[1].distance == 1.0);
-  CHECK(e.pairs[2].way == way_to_s::stationary);
+  CHECK(e.pairs[2].way == listing_branch::stationary);
   CHECK(e.pairs[2].why == why_toggled::by_mark);
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("a stationary pair wins by its check variable, and no pair is near it"
   const explained_call e = explained(
       small_call<double>({{0.0, 2.0, 0.0, in_contact, face_below}, {0.0, 1.0, 0.5, separated, face_above}}));
   CHECK(e.winner == 0);
-  CHECK(e.pairs[0].way == way_to_s::stationary_event);
+  CHECK(e.pairs[0].way == listing_branch::stationary_event);
   CHECK(e.pairs[0].s_chk == 0.5);  // (-1) (-1) / 2
   CHECK(e.pairs[0].s == 0.5 * 1e-20);
   CHECK(e.next == 1);
@@ -157,7 +157,7 @@ TEST_CASE(
     CHECK(e.pairs[0].gap == (bytes == 8 ? 0.4 - 0.1 : static_cast<double>(0.4F - 0.1F)));
     CHECK(e.pairs[1].gap < 0.0);
     const explained_pair& quiet = e.pairs[2];
-    CHECK(quiet.way == way_to_s::no_response);
+    CHECK(quiet.way == listing_branch::no_response);
     CHECK(quiet.gap == 1.0);
     CHECK(quiet.s_chk == 0.0);
     CHECK(quiet.at(branch::no_response).reached);

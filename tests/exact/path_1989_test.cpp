@@ -84,8 +84,8 @@ TEST_CASE("each way to an s gives the exact one") {
   };
   const listing_answer a = answer_exactly(pairs);
   CHECK(a.s == rational_vector{1, rational(1, 7), 3 * ten_to_minus(20), 1});
-  CHECK(a.way == std::vector{way_to_s::no_response, way_to_s::moving, way_to_s::stationary_event,
-                             way_to_s::stationary});
+  CHECK(a.way == std::vector{listing_branch::no_response, listing_branch::moving,
+                             listing_branch::stationary_event, listing_branch::stationary});
   CHECK(a.s_min == 3 * ten_to_minus(20));
   CHECK(a.toggled == std::vector<int>{2});
   CHECK(a.winners() == std::vector<int>{2});
@@ -94,7 +94,7 @@ TEST_CASE("each way to an s gives the exact one") {
 TEST_CASE("a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is no event") {
   const std::vector<listing_pair> pairs = {open_pair(-ten_to_minus(10), 0, -ten_to_minus(10))};
   const listing_answer a = answer_exactly(pairs);
-  CHECK(a.way[0] == way_to_s::moving);
+  CHECK(a.way[0] == listing_branch::moving);
   CHECK(a.s_min == 1);
   CHECK(a.toggled.empty());
   CHECK(a.winners().empty());

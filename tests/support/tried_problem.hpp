@@ -1,4 +1,4 @@
-// A random problem that is tried, and what is counted of its path; names of face layouts and verdicts.
+// A random problem that is tried, and what is counted of its path; names of face layouts.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,6 @@ inline std::string_view name_of(face_layout f) {
   return names[static_cast<int>(f)];
 }
 
-inline constexpr int verdicts = 5;
 
 inline std::string_view name_of(verdict v) {
   constexpr std::string_view names[] = {"certified", "no equilibrium", "wrong", "false mechanism", "no end"};

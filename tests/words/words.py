@@ -4,8 +4,6 @@ import re
 import sys
 from pathlib import Path
 
-ROOMS = ("app", "contct/certify", "contct/compare", "contct/exact", "contct/lab", "contct/outside", "contct/path", "contct/read",
-         "contct/solve", "contct/structure", "contct/text", "contct/trace", "contct/write", "contct/write/report", "package")
 LITERAL = re.compile(r'"""(.*?)"""|"((?:\\.|[^"\\\n])*)"|`((?:\\.|[^`\\])*)`', re.DOTALL)
 
 
@@ -22,7 +20,8 @@ def texts_of(file):
 
 
 def files_of(root):
-    found = [file for room in ROOMS for file in (root / "cpp" / room).iterdir() if file.suffix in (".cpp", ".hpp", ".js", ".html", ".py")]
+    rooms = [root / "cpp" / room for room in ("app", "contct", "package")]
+    found = [file for room in rooms for file in room.rglob("*") if file.suffix in (".cpp", ".hpp", ".js", ".html", ".py")]
     pages = [file for file in (root / "reference").rglob("*") if file.suffix in (".md", ".ipynb")]
     return sorted([root / "README.md", root / "reference/verification.toml", *found, *pages])
 

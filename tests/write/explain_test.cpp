@@ -88,7 +88,7 @@ explained_call one_pair(double c, double d, double d_star, double s) {
   p.d = d;
   p.d_star = d_star;
   p.s = s;
-  p.way = way_to_s::moving;
+  p.way = listing_branch::moving;
   call.pairs = {p};
   return call;
 }

@@ -26,10 +26,10 @@ explained_pair start_of(const call<Real>& c, std::span<const int> isep_before, s
   return p;
 }
 
-way_to_s way_of(const explained_pair& p) {
-  if (p.at(branch::no_response).outcome) return way_to_s::no_response;
-  if (!p.at(branch::stationary).outcome) return way_to_s::moving;
-  return p.at(branch::check_positive).outcome ? way_to_s::stationary_event : way_to_s::stationary;
+listing_branch way_of(const explained_pair& p) {
+  if (p.at(branch::no_response).outcome) return listing_branch::no_response;
+  if (!p.at(branch::stationary).outcome) return listing_branch::moving;
+  return p.at(branch::check_positive).outcome ? listing_branch::stationary_event : listing_branch::stationary;
 }
 
 /// Every decision in its pair, with the numbers that only decisions show.
@@ -61,7 +61,7 @@ why_toggled reason(const explained_pair& p, int winner, double rounding) {
   if (!p.at(branch::within_epsmul).outcome) return why_toggled::not_toggled;
   if (p.pair == winner) return why_toggled::winner;
   if (!p.is_candidate()) return why_toggled::by_mark;
-  if (p.way == way_to_s::stationary_event) return why_toggled::same_moment;
+  if (p.way == listing_branch::stationary_event) return why_toggled::same_moment;
   return p.distance > rounding ? why_toggled::too_early : why_toggled::same_moment;
 }
 

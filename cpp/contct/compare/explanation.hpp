@@ -71,7 +71,7 @@ struct explained_pair {
   double gap = 0.0;    ///< GAP, c - D: eq. 5 without its n
   double s_chk = 0.0;  ///< SSCHK, where it was computed
   double s = 0.0;
-  way_to_s way = way_to_s::no_response;
+  listing_branch way = listing_branch::no_response;
   double smin_before = 1.0;  ///< what s was compared with, where it was positive
   double diff = 0.0;         ///< DIFF, where there was an event
   why_toggled why = why_toggled::not_toggled;
@@ -83,7 +83,7 @@ struct explained_pair {
   [[nodiscard]] bool took_the_lead() const { return at(branch::s_is_smallest).outcome; }
   /// Has it an event under the listing's rule? The mark for "no event" is none, however it compares.
   [[nodiscard]] bool is_candidate() const {
-    return (way == way_to_s::moving || way == way_to_s::stationary_event) && s > 0.0;
+    return (way == listing_branch::moving || way == listing_branch::stationary_event) && s > 0.0;
   }
 };
 

@@ -21,15 +21,15 @@ const rational& epsmul() {
 }
 
 /// DO 10: s of one pair, and the branch that gave it.
-std::pair<rational, way_to_s> scale_factor(const listing_pair& p) {
+std::pair<rational, listing_branch> scale_factor(const listing_pair& p) {
   const rational gap = p.c - p.d;
-  if (p.d_star == 0) return {1, way_to_s::no_response};
+  if (p.d_star == 0) return {1, listing_branch::no_response};
   if (abs(gap) < epsgap()) {
     const rational s_chk = (p.closed ? -p.surface : p.surface) / p.d_star;
-    if (s_chk > 0) return {s_chk * delta(), way_to_s::stationary_event};
-    return {1, way_to_s::stationary};
+    if (s_chk > 0) return {s_chk * delta(), listing_branch::stationary_event};
+    return {1, listing_branch::stationary};
   }
-  return {gap / p.d_star, way_to_s::moving};
+  return {gap / p.d_star, listing_branch::moving};
 }
 
 }  // namespace

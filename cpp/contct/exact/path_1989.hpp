@@ -24,10 +24,10 @@ struct listing_pair {
 
 /// What CONTCT answers.
 struct listing_answer {
-  rational_vector s;          ///< SS [pairs]
-  std::vector<way_to_s> way;  ///< how each pair came to its s [pairs]
-  rational s_min = 1;         ///< SMIN
-  std::vector<int> toggled;   ///< pairs from 0, in their order
+  rational_vector s;                ///< SS [pairs]
+  std::vector<listing_branch> way;  ///< how each pair came to its s [pairs]
+  rational s_min = 1;               ///< SMIN
+  std::vector<int> toggled;         ///< pairs from 0, in their order
 
   /// Pairs, from 0, that have their event exactly at SMIN.
   [[nodiscard]] std::vector<int> winners() const;

@@ -40,7 +40,7 @@ struct event {
 };
 
 /// Which branch of the listing's DO 10 loop gave a pair its s.
-enum class way_to_s {
+enum class listing_branch {
   no_response,       ///< d* = 0: s is 1, the mark for "no event"
   stationary,        ///< at its face, and the load keeps it as it is: s is 1, the same mark
   stationary_event,  ///< at its face, and the load changes it: eq. 12

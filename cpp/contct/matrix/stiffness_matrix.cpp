@@ -62,7 +62,8 @@ void subtract(const Stored& k, std::span<const Real> x, std::span<long double> r
 }  // namespace
 
 double sparse_matrix::doubt(std::span<const double> x) const {
-  constexpr double of_sums = 4 * std::numeric_limits<double>::epsilon() / 2;  // of what elements add up to
+  constexpr double summation_slack =
+      4 * std::numeric_limits<double>::epsilon() / 2;  // of what elements add up to
   std::vector<double> root(order);
   for (const matrix_entry& e : entries)
     if (e.row == e.column) root[e.row] = std::sqrt(std::abs(e.value));
@@ -70,7 +71,7 @@ double sparse_matrix::doubt(std::span<const double> x) const {
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const matrix_entry& e = entries[i];
     const double both = (e.row == e.column ? 1.0 : 2.0) * std::abs(x[e.row]) * std::abs(x[e.column]);
-    sum += both * (half_unit(i) + of_sums * root[e.row] * root[e.column]);
+    sum += both * (half_unit(i) + summation_slack * root[e.row] * root[e.column]);
   }
   return sum;
 }

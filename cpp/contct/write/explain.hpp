@@ -36,7 +36,7 @@ struct sentence {
 inline constexpr listing_line no_line{0, {}};
 
 /// "advancing", "receding", "stationary" or "no response".
-[[nodiscard]] std::string_view kind_name(way_to_s way, bool is_separated);
+[[nodiscard]] std::string_view kind_name(listing_branch way, bool is_separated);
 [[nodiscard]] inline std::string_view kind_name(const explained_pair& p) {
   return kind_name(p.way, p.isep_before == separated);
 }

@@ -26,7 +26,7 @@ bool is_separated(const explained_pair& p) {
 /// What the load does to a pair at its face, from the sign of SSCHK.
 sentence check_of_sign(const explained_pair& p) {
   const bool open = is_separated(p);
-  if (p.way == way_to_s::stationary_event)
+  if (p.way == listing_branch::stationary_event)
     return {
         listing::if_check_positive,
         fmt::format("SSCHK > 0: the load {}. s = SSCHK * DELTA = {}, so small that it wins over every "
@@ -93,9 +93,9 @@ std::string reason_for_toggle(const explained_pair& p) {
 
 }  // namespace
 
-std::string_view kind_name(way_to_s way, bool is_separated) {
-  if (way == way_to_s::no_response) return "no response";
-  if (way != way_to_s::moving) return "stationary";
+std::string_view kind_name(listing_branch way, bool is_separated) {
+  if (way == listing_branch::no_response) return "no response";
+  if (way != listing_branch::moving) return "stationary";
   return is_separated ? "advancing" : "receding";
 }
 
@@ -110,12 +110,12 @@ std::vector<sentence> scale_factor_story(const explained_pair& p) {
                      "(5)"};
   const sentence responds{listing::if_no_response,
                           fmt::format("d* = {}, not 0: the pair responds.", number(p.d_star))};
-  if (p.way == way_to_s::no_response)
+  if (p.way == listing_branch::no_response)
     return {gap,
             {listing::if_no_response, "d* = 0: the pair does not respond to the residual load."},
             {listing::no_response, "s = 1: the mark for \"no event\"."},
             competition(p)};
-  if (p.way == way_to_s::moving)
+  if (p.way == listing_branch::moving)
     return {gap,
             responds,
             {listing::if_stationary, "|GAP| is not less than EPSGAP = 1E-10: not stationary."},
