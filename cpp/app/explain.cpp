@@ -1,4 +1,6 @@
 // contct explain: what the listing did in each increment of a run, for each pair, and why.
+#include "contct/write/explain.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -8,7 +10,6 @@
 #include "contct/kernel/registry.hpp"
 #include "contct/session/explained_run.hpp"
 #include "contct/text/input_text.hpp"
-#include "contct/write/explain.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {

@@ -15,7 +15,6 @@ inline std::string_view name_of(face_layout f) {
   return names[static_cast<int>(f)];
 }
 
-
 inline std::string_view name_of(verdict v) {
   constexpr std::string_view names[] = {"certified", "no equilibrium", "wrong", "false mechanism", "no end"};
   return names[static_cast<int>(v)];
