@@ -52,10 +52,10 @@ TEST_CASE(
     CHECK(answers.values > 1'000'000);
     CHECK(answers.mismatches == 0);
     CHECK(lines > calls);
-    CHECK(text.values == 2 * calls);
+    CHECK(text.values == std::int64_t{2} * calls);
     CHECK(text.mismatches == 0);
     // Every call writes a number, and libf2c drops its zero.
-    CHECK(different_bytes == (name == "f2c" ? 2 * calls : 0));
+    CHECK(different_bytes == (name == "f2c" ? std::int64_t{2} * calls : 0));
     CHECK_FALSE(std::filesystem::exists("fort.26"));
   }
 }

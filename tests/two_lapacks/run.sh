@@ -84,7 +84,7 @@ case $other in *OpenBLAS*) ;; *) fail "the other is not OpenBLAS" ;; esac
 # Solves differ in their last digits. Had no path got other numbers, one LAPACK would have served both.
 [ $different -gt 0 ] || fail "every call's numbers are the same under both: it was one LAPACK"
 
-for room in compare structure path certify lab; do
+for room in compare model path certify lab; do
   said=$(under openblas "$build/tests/contct_${room}_tests" 2>&1)
   [ $? = 0 ] || { fail "contct_${room}_tests fails under OpenBLAS"; echo "$said" | tail -n 40; }
   echo "   contct_${room}_tests under OpenBLAS: $(echo "$said" | grep -a 'assertion' | tail -n 1)"

@@ -168,9 +168,11 @@ std::optional<double> scaled_stiffness::error_of_band(double shift) {
   constexpr int narrow = 16;
   band_of_numbers<Number> l = band<Number>(shift);
   if (!contct::factor(l)) return std::nullopt;
-  const double error = *subdiagonals_ <= narrow  // NOLINT(bugprone-branch-clone): in 32 digits both are one
+  // NOLINTBEGIN(bugprone-branch-clone): in 32 digits both are one
+  const double error = *subdiagonals_ <= narrow
                            ? largest_row_of_error(band<double_double>(shift), l, long_rounding)
                            : largest_row_of_error(band<Number>(shift), l, long_rounding);
+  // NOLINTEND(bugprone-branch-clone)
   if (keeps_proof_) proof_ = stiffness_proof{scale_, row_of_, shift, std::move(l)};
   return error;
 }
