@@ -7,8 +7,13 @@
 # What is mounted is mounted in a namespace of this script's own, and is gone when it ends, however it ends.
 set -u
 if [ "${CONTCT_NAMESPACE:-}" != own ] && [ "$(id -u)" = 0 ]; then
-  unshare --mount true 2>/dev/null || { echo "Debian packages: SKIPPED: mounts of our own are not allowed"; exit 77; }
-  CONTCT_NAMESPACE=own exec unshare --mount --propagation private sh "$0" "$@"
+  # In a chroot, whose root is not a mount, nothing can be made private; what is mounted is unmounted at the end anyway.
+  for propagation in private unchanged; do
+    ! unshare --mount --propagation $propagation true 2>/dev/null ||
+      CONTCT_NAMESPACE=own exec unshare --mount --propagation $propagation sh "$0" "$@"
+  done
+  echo "Debian packages: SKIPPED: mounts of our own are not allowed"
+  exit 77
 fi
 [ $# = 0 ] || given=$(cd "$1" && pwd) || exit 1
 here=$(cd "$(dirname "$0")" && pwd)
