@@ -1,7 +1,6 @@
 // contct exact: the path in rational arithmetic, and how many digits of each kernel are right.
 #include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
-#include "contct/session/exact_run.hpp"
 #include "contct/write/exact_output.hpp"
 
 namespace contct {
@@ -21,11 +20,10 @@ exit_status run_command(const exact_options& options) {
   path_shown.erase();
   kernels_shown.line.erase();
   const exact_path& path = run.path;
-  const exact_result result{p, run.exactly, path, run.kernels};
   if (!options.quiet && !takes_standard_output(outputs))
-    print_text(exact_text(result, options.digits, look_at_terminal()));
+    print_text(exact_text(run, options.digits, look_at_terminal()));
   flush_standard_output();
-  if (output_file* const file = files["--json"]) write_exact_json(result, *file);
+  if (output_file* const file = files["--json"]) write_exact_json(run, *file);
   if (path.status != path_status::solved)
     complain("{}: step {}, at share {} of its load: {}", whole_line(options.file), path.steps.size(),
              short_words(path.steps.back().fraction, options.digits),

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "contct/read/matrix_files.hpp"
-#include "contct/read/matrix_places.hpp"
 #include "fuzz/fuzz.hpp"
 
 namespace {

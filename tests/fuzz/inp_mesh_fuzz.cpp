@@ -2,7 +2,7 @@
 #include <cmath>
 #include <set>
 
-#include "contct/read/matrix_places.hpp"
+#include "contct/read/matrix_files.hpp"
 #include "fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

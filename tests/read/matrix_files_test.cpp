@@ -211,22 +211,6 @@ TEST_CASE("every mistake in a list of labels is refused with its line, what was 
       of_labels);
 }
 
-TEST_CASE("labels are found by their text, or by their number where there are none") {
-  assembled a;
-  a.stiffness.order = 12;
-  const dof_index by_number(a);
-  CHECK(by_number.find("12") == 11);
-  for (const char* no : {"0", "13", "-1", "1.0", "01", "+1", " 1", "", "99999999999999", "x"}) {
-    INFO(no);
-    CHECK_FALSE(by_number.find(no).has_value());
-  }
-  a.labels = {"5.1", "5.10"};
-  const dof_index by_label(a);
-  CHECK(by_label.find("5.10") == 1);
-  CHECK_FALSE(by_label.find("1").has_value());
-  CHECK_THAT(by_label.allowed(), Catch::Matchers::Contains("\"5.1\""));
-}
-
 TEST_CASE("a file of matrices or vectors draws one warning for all numbers that doubles do not have") {
   std::vector<std::string> warnings;
   const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";

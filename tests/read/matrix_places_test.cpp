@@ -1,6 +1,4 @@
 // Where a matrix's dofs are: files of coordinates, labels, the edges between nodes, and CalculiX's input.
-#include "contct/read/matrix_places.hpp"
-
 #include <fmt/format.h>
 
 #include "catch.hpp"

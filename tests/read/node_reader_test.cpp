@@ -1,6 +1,8 @@
 // Which nodes a table names: by numbers, coordinates, grid points and labels.
 #include "contct/read/node_reader.hpp"
 
+#include <fmt/format.h>
+
 #include "catch.hpp"
 #include "read/refusals.hpp"
 
@@ -57,6 +59,15 @@ TEST_CASE("a matrix's dofs: a label, or several, each once") {
   CHECK(nodes_in(m, "dofs = [\"top\", \"1.1\"]") == std::vector<int>{2, 0});
   CHECK_THAT(refusal(m, "dofs = [\"top\", \"top\"]"), Contains("dofs[2]: found dof top, a second time"));
   CHECK_THAT(refusal(m, "dof = \"1.3\""), Contains("dof: found \"1.3\"; allowed: a label of"));
+  CHECK_THAT(refusal(m, "dof = \"1\""), Contains("such as \"1.1\""));
+}
+
+TEST_CASE("a matrix without labels has its dofs' numbers, each in one spelling") {
+  assembled a;
+  a.stiffness.order = 12;
+  CHECK(nodes_in({a}, "dof = \"12\"") == std::vector<int>{11});
+  for (const char* no : {"0", "13", "-1", "1.0", "01", "+1", " 1", "", "99999999999999", "x"})
+    CHECK_THAT(refusal({a}, fmt::format("dof = \"{}\"", no)), Contains("a label, \"1\" to \"12\""));
 }
 
 TEST_CASE("nodes are named in one way, and what is missing is said with all ways") {

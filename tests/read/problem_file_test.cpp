@@ -88,19 +88,6 @@ TEST_CASE("contacts come before beds, both in file order") {
   CHECK(p.pairs[2].node == 1);
 }
 
-TEST_CASE("loads: uniform parts, polynomials and points add up in one step") {
-  const problem p =
-      parse_problem(with("point = [ { node = 3, w = -60.0 } ]",
-                         "uniform = [ { value = -3, elements = [2] }, { polynomial = [1, 2, 3] } ]\n"
-                         "point = [ { node = 2, theta = 1.5, w = -1 }, { node = 2, w = -2 } ]"),
-                    "pb.toml");
-  const load& l = p.steps[0];
-  REQUIRE(l.distributed.size() == 2);
-  CHECK(l.distributed[0].elements == std::vector<int>{1});
-  CHECK(l.distributed[1].polynomial == std::vector<double>{1, 2, 3});
-  CHECK(l.points.size() == 3);
-}
-
 TEST_CASE("loads on the same elements are one load, their sum, and a list of all elements is all") {
   const problem p = parse_problem(
       with("point = [ { node = 3, w = -60.0 } ]",
@@ -173,9 +160,7 @@ TEST_CASE("an even plate by its size, D as it is, springs on every dof, nu at bo
   CHECK(message_of_text(plate_with("0.3", "0")) == "accepted");
 }
 
-TEST_CASE(
-    "a plate's bed is a pair at every free node, modulus times tributary area, and limiting it moves no "
-    "share") {
+TEST_CASE("a plate's bed is a pair at every free node, modulus times tributary area") {
   const std::string head =
       "[plate]\nx = [0, 1, 3]\ny = [0, 2]\nD = 1\nnu = 0\n[[support]]\nnode = 4\nfix = [\"w\"]\n"
       "[[support]]\nnode = 5\nfix = [\"wx\", \"wy\"]\n";
@@ -185,10 +170,6 @@ TEST_CASE(
   const std::vector<double> expected = {2, 6, 4, 6, 4};
   for (std::size_t i = 0; i < 5; ++i) CHECK(whole.pairs[i].stiffness == expected[i]);
   CHECK(whole.pairs[3].node == 4);
-  const problem part =
-      parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\nnodes = [6]\n" + tail, "pb.toml");
-  REQUIRE(part.pairs.size() == 1);
-  CHECK(part.pairs[0].stiffness == 4.0);
 }
 
 TEST_CASE("a polynomial face below is accepted though its terms cancel in doubles to a value above 0") {

@@ -20,7 +20,7 @@ struct followed_exactly {
   explicit followed_exactly(const problem& p)
       : what(p), exactly(exact_problem_of(p)), path(follow_corrected_path(exactly)) {}
 
-  [[nodiscard]] exact_result result() const { return {what, exactly, path, kernels}; }
+  [[nodiscard]] exact_run result() const { return {what, exactly, path, kernels}; }
   [[nodiscard]] exact_json document() const {
     const scratch_folder dir;
     const std::string file = (dir.path() / "exact.json").string();

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "contct/number/decimal.hpp"
@@ -123,18 +124,16 @@ void refuse_repeated(std::span<const read_entry> entries, std::string_view file)
               "each place once: sum what belongs together");
 }
 
-void refuse_negative(std::span<const read_entry> entries, std::string_view file) {
-  for (const read_entry& e : entries)
-    if (e.row == e.column && e.value < 0)
+/// Refuse a negative diagonal, and an entry in a row or column that has 0 on its diagonal.
+void refuse_indefinite(std::span<const read_entry> entries, int order, std::string_view file) {
+  std::vector<char> stiff(order, 0);
+  for (const read_entry& e : entries) {
+    if (e.row != e.column) continue;
+    if (e.value < 0)
       refuse_line(file, e.line, fmt::format("{:g} on the diagonal of row {}", e.value, e.row + 1),
                   "0 or more: a stiffness matrix is positive semidefinite");
-}
-
-/// Refuse an entry in a row or column that has 0 on its diagonal.
-void refuse_bare(std::span<const read_entry> entries, int order, std::string_view file) {
-  std::vector<char> stiff(order, 0);
-  for (const read_entry& e : entries)
-    if (e.row == e.column && e.value != 0) stiff[e.row] = 1;
+    stiff[e.row] = e.value != 0 ? 1 : 0;
+  }
   for (const read_entry& e : entries) {
     const int bare = stiff[e.row] == 0 ? e.row : e.column;
     if (e.value == 0 || stiff[bare] != 0) continue;
@@ -185,8 +184,7 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
                 "an entry on the diagonal of every row");
   std::ranges::sort(entries, {}, [](const read_entry& e) { return std::tuple(e.column, e.row, e.line); });
   refuse_repeated(entries, file);
-  refuse_negative(entries, file);
-  refuse_bare(entries, order, file);
+  refuse_indefinite(entries, order, file);
   sparse_matrix matrix{order, {}, last_digits_of(entries)};
   for (const read_entry& e : entries)
     if (e.value != 0) matrix.entries.push_back({e.row, e.column, e.value});
@@ -300,27 +298,6 @@ std::vector<std::string> parse_labels(std::string_view text, std::string_view fi
   }
   if (labels.empty()) refuse_line(file, 0, "no label", "one label a line");
   return labels;
-}
-
-dof_index::dof_index(const assembled& a) : structure_(a) {
-  for (const std::string& label : a.labels) dofs_.emplace(label, static_cast<int>(dofs_.size()));
-}
-
-std::optional<int> dof_index::find(std::string_view label) const {
-  if (!structure_.labels.empty()) {
-    const auto at = dofs_.find(label);
-    return at == dofs_.end() ? std::nullopt : std::optional(at->second);
-  }
-  const auto number = number_in<int>(label);
-  // "01" and "+1" are no labels: a dof has one name.
-  if (!number || *number < 1 || *number > structure_.dofs() || label.front() == '0') return std::nullopt;
-  return *number - 1;
-}
-
-std::string dof_index::allowed() const {
-  if (structure_.labels.empty()) return fmt::format(R"(a label, "1" to "{}")", structure_.dofs());
-  return fmt::format("a label of {}, such as {}", structure_.labels_from,
-                     in_quotes(structure_.labels.front()));
 }
 
 std::vector<placed_node> parse_coordinates(std::string_view text, std::string_view file) {

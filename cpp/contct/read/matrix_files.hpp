@@ -1,12 +1,10 @@
-// Files that hold a stiffness matrix or a load vector, Matrix Market's and what CalculiX writes; and those
-// that hold the labels of its dofs, and where these are.
+// Files that hold a stiffness matrix or a load vector, Matrix Market's and what CalculiX writes; those that
+// hold the labels of its dofs; and, for pictures, those that say where these are.
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "contct/model/problem.hpp"
@@ -38,25 +36,20 @@ inline constexpr std::size_t largest_matrix_file = 16384;
 /// One label a line, in the matrix's order: any text without blanks, each once. Throws input_error.
 [[nodiscard]] std::vector<std::string> parse_labels(std::string_view text, std::string_view file);
 
-/// Finds dofs by their labels.
-class dof_index {
- public:
-  /// `a` must outlive this object.
-  explicit dof_index(const assembled& a);
-
-  /// The dof, from 0, or nothing.
-  [[nodiscard]] std::optional<int> find(std::string_view label) const;
-
-  /// What labels there are, for messages.
-  [[nodiscard]] std::string allowed() const;
-
- private:
-  const assembled& structure_;
-  std::unordered_map<std::string_view, int> dofs_;  // empty where the labels are the dofs' numbers
-};
-
 /// "name x y" or "name x y z" a line, all lines alike, each name once; a field that begins with # and what
 /// follows it are a comment. Without z it is 0. Throws input_error.
 [[nodiscard]] std::vector<placed_node> parse_coordinates(std::string_view text, std::string_view file);
+
+/// Places by a file of coordinates (see parse_coordinates): each dof's node is found by its label,
+/// "NAME.DIRECTION", and nodes that the matrix couples have an edge where these are few, as in frames. No
+/// nodes where no label has one; `said` says what is not drawn. Throws input_error.
+[[nodiscard]] placed_nodes places_by_coordinates(std::string_view text, std::string_view file,
+                                                 const assembled& a);
+
+/// The same by *NODE and *ELEMENT in an input file of CalculiX: nodes by their numbers, with the edges of the
+/// types C3D4, C3D6, C3D8, C3D10, C3D15 and C3D20, with letters behind them (C3D8I), which go through midside
+/// nodes; nodes without dof and edge are left out. Keywords and types in any case. Elements of other types
+/// have no edges, *INCLUDE is not followed, and all else is ignored. Linear in the text, but for sorting.
+[[nodiscard]] placed_nodes places_by_mesh(std::string_view text, std::string_view file, const assembled& a);
 
 }  // namespace contct

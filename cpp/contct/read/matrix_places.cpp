@@ -1,5 +1,3 @@
-#include "contct/read/matrix_places.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -178,15 +176,6 @@ const solid* solid_of(std::string_view type) {
   return nullptr;
 }
 
-/// The elements of one *ELEMENT.
-struct solid_block {
-  const solid* type;
-  std::vector<int> nodes;           // the numbers, of one element after the other
-  std::vector<std::int64_t> lines;  // where each element begins
-
-  [[nodiscard]] bool has_whole_elements() const { return nodes.size() % type->nodes() == 0; }
-};
-
 /// Reads an input file line by line. Nodes may stand behind the elements that name them.
 class inp_reader {
  public:
@@ -201,17 +190,23 @@ class inp_reader {
       } else if (holds_ == data::nodes) {
         read_node();
       } else if (holds_ == data::solids) {
-        read_solid(solids_.back());
+        read_solid();
       } else if (holds_ == data::others) {
         if (!std::exchange(continues_, line_.back() == ',')) ++others_[type_];
       }
     }
     end_block();
-    return {std::move(nodes_), edges_of(sides_of_all()), {}, left_out()};
+    return {std::move(nodes_), edges_of(indexed_sides()), {}, left_out()};
   }
 
  private:
   enum class data { ignored, nodes, solids, others };
+
+  /// From node to node, by their numbers.
+  struct side {
+    int from, to;
+    std::int64_t line_of_element;
+  };
 
   /// To the next line that is neither blank nor a comment.
   bool next_line() {
@@ -236,9 +231,8 @@ class inp_reader {
     const std::size_t from = at + parameter.size();
     type_ = at == std::string::npos ? "" : line.substr(from, line.find(',', from) - from);
     if (type_.empty()) lines_.refuse("*ELEMENT without TYPE", "*ELEMENT, TYPE=..., as C3D8");
-    const solid* const known = solid_of(type_);
-    holds_ = known != nullptr ? data::solids : data::others;
-    if (known != nullptr) solids_.push_back({known, {}, {}});
+    solid_ = solid_of(type_);
+    holds_ = solid_ != nullptr ? data::solids : data::others;
     continues_ = false;
   }
 
@@ -258,58 +252,55 @@ class inp_reader {
   }
 
   /// An element's nodes may stand on several lines; its type says how many there are.
-  void read_solid(solid_block& block) {
+  void read_solid() {
     const std::vector<std::string_view> fields = fields_of(line_);
-    const std::size_t first = block.has_whole_elements() ? 1 : 0;
-    if (first == 1) {
-      (void)lines_.whole(fields[0], 1, any_number, "the element's number");
-      block.lines.resize(block.nodes.size() / block.type->nodes());
-      block.lines.push_back(lines_.line());
+    std::size_t i = 0;
+    if (element_.empty()) {
+      (void)lines_.whole(fields[i++], 1, any_number, "the element's number");
+      line_of_element_ = lines_.line();
     }
-    for (std::size_t i = first; i < fields.size(); ++i) {
-      if (i > first && block.has_whole_elements())
-        lines_.refuse(field_words(line_, "a line"), fmt::format("{} nodes for an element of type {}",
-                                                                block.type->nodes(), block.type->type));
-      block.nodes.push_back(lines_.whole(fields[i], 1, any_number, "a node's number"));
+    for (; i < fields.size(); ++i) {
+      if (element_.size() == solid_->nodes())
+        lines_.refuse(field_words(line_, "a line"),
+                      fmt::format("{} nodes for an element of type {}", solid_->nodes(), solid_->type));
+      element_.push_back(lines_.whole(fields[i], 1, any_number, "a node's number"));
     }
+    if (element_.size() == solid_->nodes()) end_element();
+  }
+
+  void end_element() {
+    for (std::size_t k = 0; k < solid_->edges.size(); ++k) {
+      const int from = element_[solid_->edges[k].first];
+      const int to = element_[solid_->edges[k].second];
+      const int middle = solid_->midside_nodes ? element_[solid_->corners + k] : to;
+      sides_.push_back({from, middle, line_of_element_});
+      sides_.push_back({middle, to, line_of_element_});
+    }
+    element_.clear();
   }
 
   void end_block() const {
-    if (holds_ != data::solids || solids_.back().has_whole_elements()) return;
-    const solid& type = *solids_.back().type;
-    refuse_line(lines_.file(), solids_.back().lines.back(),
-                fmt::format("an element with {} nodes", solids_.back().nodes.size() % type.nodes()),
-                fmt::format("{} nodes for type {}", type.nodes(), type.type));
+    if (!element_.empty())
+      refuse_line(lines_.file(), line_of_element_, fmt::format("an element with {} nodes", element_.size()),
+                  fmt::format("{} nodes for type {}", solid_->nodes(), solid_->type));
   }
 
-  /// The index of the i-th node of element `e` of the block.
-  [[nodiscard]] int index_in(const solid_block& block, std::size_t e, std::size_t i) const {
-    const int number = block.nodes[e * block.type->nodes() + i];
+  [[nodiscard]] int index_of(int number, std::int64_t line_of_element) const {
     const auto at = index_.find(number);
     if (at == index_.end())
       refuse_line(
-          lines_.file(), block.lines[e], fmt::format("node {} in an element", number),
+          lines_.file(), line_of_element, fmt::format("node {} in an element", number),
           includes_ ? "nodes that *NODE has in this file: *INCLUDE is not followed" : "nodes that *NODE has");
     return at->second;
   }
 
   /// From node to node along the edges of all solids.
-  [[nodiscard]] std::vector<std::pair<int, int>> sides_of_all() const {
+  [[nodiscard]] std::vector<std::pair<int, int>> indexed_sides() const {
     std::vector<std::pair<int, int>> sides;
-    const auto append = [&sides](int from, int to) {
+    for (const side& s : sides_) {
+      const int from = index_of(s.from, s.line_of_element);
+      const int to = index_of(s.to, s.line_of_element);
       if (from != to) sides.emplace_back(std::min(from, to), std::max(from, to));
-    };
-    for (const solid_block& block : solids_) {
-      const solid& type = *block.type;
-      for (std::size_t e = 0; e * type.nodes() < block.nodes.size(); ++e) {
-        for (std::size_t k = 0; k < type.edges.size(); ++k) {
-          const int from = index_in(block, e, type.edges[k].first);
-          const int to = index_in(block, e, type.edges[k].second);
-          const int middle = type.midside_nodes ? index_in(block, e, type.corners + k) : to;
-          append(from, middle);
-          append(middle, to);
-        }
-      }
     }
     return sides;
   }
@@ -335,7 +326,10 @@ class inp_reader {
   bool continues_ = false;  // the line before, of an element of another type: it ends with a comma
   std::vector<placed_node> nodes_;
   std::unordered_map<int, int> index_;  // of nodes, by number
-  std::vector<solid_block> solids_;
+  const solid* solid_ = nullptr;        // null: the elements are no known solids
+  std::vector<int> element_;            // the nodes, by number, of the one that is not complete yet
+  std::int64_t line_of_element_ = 0;
+  std::vector<side> sides_;
   std::map<std::string, int> others_;  // how many of each type whose edges are not known
   bool includes_ = false;
 };

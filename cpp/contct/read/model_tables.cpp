@@ -10,7 +10,6 @@
 
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/read/matrix_files.hpp"
-#include "contct/read/matrix_places.hpp"
 #include "contct/read/mesh.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/memory.hpp"
@@ -117,14 +116,6 @@ void check_size(const toml_value& t, std::int64_t along_x, std::int64_t along_y)
                          static_cast<double>(most_band_entries) / gigabyte));
 }
 
-std::vector<int> read_counts(const toml_value& t) {
-  const char* const allowed = "two whole numbers: elements along x, along y";
-  std::vector<int> counts;
-  for (const toml_value& count : t["elements"].entries(allowed, 2, 2))
-    counts.push_back(count.integer(1, most_elements));
-  return counts;
-}
-
 void read_grid(const toml_value& t, plate& p) {
   if (t.has("x") || t.has("y")) {
     t.refuse_beside({"size", "elements"}, "x or y", "either x and y, or size and elements");
@@ -135,10 +126,12 @@ void read_grid(const toml_value& t, plate& p) {
   }
   const std::vector<double> size = t["size"].reals(positive_real, 2);
   if (size.size() != 2) t["size"].refuse("two numbers: along x, along y");
-  const std::vector<int> counts = read_counts(t);
-  check_size(t, counts[0], counts[1]);
-  mesh_line along_x = even_line(size[0], counts[0]);
-  mesh_line along_y = even_line(size[1], counts[1]);
+  const auto counts = t["elements"].entries("two whole numbers: elements along x, along y", 2, 2);
+  const int columns = counts[0].integer(1, most_elements);
+  const int rows = counts[1].integer(1, most_elements);
+  check_size(t, columns, rows);
+  mesh_line along_x = even_line(size[0], columns);
+  mesh_line along_y = even_line(size[1], rows);
   p.x = std::move(along_x.x);
   p.y = std::move(along_y.x);
   p.x_runs = std::move(along_x.runs);

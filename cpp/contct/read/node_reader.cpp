@@ -29,9 +29,11 @@ int grid_point(const plate& p, const toml_value& named) {
 
 }  // namespace
 
-node_reader::node_reader(const model& m) : structure_(m) {
-  if (const auto* a = std::get_if<assembled>(&m.kind)) index_.emplace(*a);
-  if (index_) keys_ = {"dof", "dofs"};
+node_reader::node_reader(const model& m) : structure_(m), matrix_(std::get_if<assembled>(&m.kind)) {
+  if (on_matrix()) {
+    for (const std::string& label : matrix_->labels) dofs_.emplace(label, static_cast<int>(dofs_.size()));
+    keys_ = {"dof", "dofs"};
+  }
   if (std::holds_alternative<beam>(m.kind)) keys_ = {"node", "nodes", "x"};
   if (std::holds_alternative<plate>(m.kind)) keys_ = {"node", "nodes", "at"};
   for (const char* name : contct::dof_names(m)) dof_names_.emplace_back(name);
@@ -55,9 +57,23 @@ std::string_view node_reader::key_in(const toml_value& t) const {
 int node_reader::node_at(const toml_value& named) const {
   if (const auto* b = std::get_if<beam>(&structure_.kind)) return nodes_along(b->x).index_of(named);
   if (const auto* p = std::get_if<plate>(&structure_.kind)) return grid_point(*p, named);
-  const std::optional<int> dof = index_->find(named.text(index_->allowed()));
-  if (!dof) named.refuse(index_->allowed());
-  return *dof;
+  return dof_at(named);
+}
+
+std::string node_reader::labels_allowed() const {
+  const assembled& a = *matrix_;
+  return a.labels.empty()
+             ? fmt::format(R"(a label, "1" to "{}")", a.dofs())
+             : fmt::format("a label of {}, such as {}", a.labels_from, in_quotes(a.labels.front()));
+}
+
+int node_reader::dof_at(const toml_value& named) const {
+  const std::string label = named.text(labels_allowed());
+  if (const auto at = dofs_.find(label); at != dofs_.end()) return at->second;
+  // "01" and "+1" are no labels: a dof has one name.
+  const int number = label.starts_with('0') ? 0 : number_in<int>(label).value_or(0);
+  if (!dofs_.empty() || number < 1 || number > matrix_->dofs()) named.refuse(labels_allowed());
+  return number - 1;
 }
 
 std::vector<int> node_reader::read(const toml_value& t) const {
@@ -67,7 +83,7 @@ std::vector<int> node_reader::read(const toml_value& t) const {
   if (key == "nodes") return named.numbers(count);
   const std::string allowed =
       on_matrix()
-          ? index_->allowed()
+          ? labels_allowed()
           : fmt::format("a whole number from 1 to {}, or {} or {} in its place", count, keys_[1], keys_[2]);
   const toml::array* const point = named.required(allowed).as_array();
   if (key == "node") return {named.integer(1, count) - 1};

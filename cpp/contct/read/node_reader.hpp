@@ -2,12 +2,12 @@
 // matrix.
 #pragma once
 
-#include <optional>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "contct/model/problem.hpp"
-#include "contct/read/matrix_files.hpp"
 #include "contct/read/toml_reader.hpp"
 
 namespace contct {
@@ -28,7 +28,7 @@ class node_reader {
   [[nodiscard]] std::vector<int> read(const toml_value& t) const;
 
   [[nodiscard]] const model& structure() const { return structure_; }
-  [[nodiscard]] bool on_matrix() const { return index_.has_value(); }
+  [[nodiscard]] bool on_matrix() const { return matrix_ != nullptr; }
 
   /// The dofs of a node that stand as keys in a table, from 0; refuses a table with none.
   [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
@@ -39,11 +39,14 @@ class node_reader {
  private:
   [[nodiscard]] std::string_view key_in(const toml_value& t) const;
   [[nodiscard]] int node_at(const toml_value& named) const;
+  [[nodiscard]] int dof_at(const toml_value& named) const;
+  [[nodiscard]] std::string labels_allowed() const;
 
   const model& structure_;
-  std::optional<dof_index> index_;           // where the structure is a matrix
-  std::vector<std::string_view> keys_;       // that for a single node first
-  std::vector<std::string_view> dof_names_;  // of a node
+  const assembled* matrix_;                         // null: the structure is none
+  std::unordered_map<std::string_view, int> dofs_;  // of a matrix, by label; empty where these are numbers
+  std::vector<std::string_view> keys_;              // that for a single node first
+  std::vector<std::string_view> dof_names_;         // of a node
 };
 
 }  // namespace contct

@@ -59,8 +59,7 @@ class problem_reader {
     for (const toml_value& t : top_["support"].optional_tables()) read_support(t);
     for (const toml_value& t : top_["contact"].optional_tables()) read_contact(t);
     for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
-    const step_reader steps(*nodes_, problem_.supports, files_, problem_.warnings);
-    for (const toml_value& t : top_["step"].tables()) problem_.steps.push_back(steps.read(t));
+    problem_.steps = read_steps(top_, *nodes_, problem_.supports, files_, problem_.warnings);
     problem_.files = files_.all();
     return std::move(problem_);
   }

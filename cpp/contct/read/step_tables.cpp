@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "contct/read/model_tables.hpp"
+#include "contct/read/matrix_files.hpp"
 
 namespace contct {
 namespace {
@@ -23,140 +23,155 @@ void refuse_endless_sums(const toml_value& t, const model& m, const load& l) {
     t.refuse("loads whose sum or moment is not finite", "loads within the range of double precision");
 }
 
+/// Reads one step after the other.
+class step_reader {
+ public:
+  step_reader(const node_reader& nodes, const std::vector<support>& supports, const named_files& files,
+              std::vector<std::string>& warnings)
+      : nodes_(nodes), files_(files), warnings_(warnings), held_(dofs(nodes.structure()), hold::none) {
+    for (const support& s : supports) {
+      hold& here = held_[s.node * nodes_.dof_names().size() + s.dof];
+      here = std::max(here, s.fixed ? hold::fixed : hold::spring);
+    }
+  }
+
+  [[nodiscard]] load read(const toml_value& t) const {
+    const bool on_matrix = nodes_.on_matrix();
+    const char* const whole = on_matrix ? "load" : "uniform";  // what acts on all of the structure
+    t.allow_only({"name", whole, "point", "settlement"});
+    if (!t.has(whole) && !t.has("point") && !t.has("settlement"))
+      t.refuse("a step without loads and settlements",
+               fmt::format("at least one of {}, point and settlement; {} takes all load off", whole,
+                           on_matrix ? "a load of 0 at any dof" : "uniform = 0"));
+    load l;
+    if (t.has("name")) l.name = t["name"].text();
+    if (t.has("load")) read_vector(t, l);
+    if (t.has("uniform")) read_uniform(t, l);
+    for (const toml_value& p : t["point"].optional_tables())
+      for (const point_load& at : values_in(p, "a point load")) l.points.push_back(at);
+    read_settlements(t, l);
+    refuse_endless_sums(t, nodes_.structure(), l);
+    return l;
+  }
+
+ private:
+  enum class hold : char { none, spring, fixed };
+
+  void read_vector(const toml_value& t, load& l) const {
+    const std::string path = files_.path_of(t["load"]);
+    std::vector<std::string> rounded;
+    const std::vector<double> values =
+        parse_vector(read_input(path, "Matrix Market file", largest_matrix_file), path,
+                     nodes(nodes_.structure()), &rounded);
+    for (std::size_t dof = 0; dof < values.size(); ++dof) {
+      if (values[dof] != 0.0) l.points.push_back({static_cast<int>(dof), 0, values[dof]});
+    }
+    for (std::string& w : rounded)  // other steps may have the same file
+      if (std::ranges::find(warnings_, w) == warnings_.end()) warnings_.push_back(std::move(w));
+  }
+
+  void read_uniform(const toml_value& t, load& l) const {
+    const toml_value uniform = t["uniform"];
+    if (uniform.required("").is_number()) {
+      l.distributed.push_back({{uniform.real(any_real)}, {}});
+      return;
+    }
+    if (!uniform.is_array()) uniform.refuse("a number, or an array of tables");
+    // Parts on the same elements become one: thousands on "all" would each be a pass over the beam.
+    std::map<std::vector<int>, std::size_t> place;
+    for (const toml_value& table : uniform.tables()) {
+      distributed_load part = read_distributed(table);
+      const auto [at, is_new] = place.try_emplace(part.elements, l.distributed.size());
+      if (is_new) {
+        part.parts = {part.polynomial};
+        l.distributed.push_back(std::move(part));
+      } else {
+        distributed_load& sum = l.distributed[at->second];
+        add_polynomial(sum.polynomial, part.polynomial, 1.0);
+        sum.parts.push_back(std::move(part.polynomial));
+      }
+    }
+  }
+
+  [[nodiscard]] distributed_load read_distributed(const toml_value& t) const {
+    t.allow_only({"value", "polynomial", "elements"});
+    if (t.has("value") == t.has("polynomial"))
+      t.refuse("both or neither of value and polynomial", "one of them");
+    distributed_load d;
+    d.polynomial = t.has("value") ? std::vector<double>{t["value"].real(any_real)}
+                                  : read_polynomial(t, nodes_.structure(),
+                                                    "value: only a beam's load may be a polynomial");
+    const int all = elements(nodes_.structure());
+    if (t.has("elements")) d.elements = t["elements"].numbers(all);
+    if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // each once: all of them
+    return d;
+  }
+
+  /// The values of a table that names nodes and their dofs, dof by dof.
+  [[nodiscard]] std::vector<point_load> values_in(const toml_value& t, std::string_view what) const {
+    const auto& names = nodes_.dof_names();
+    t.allow_only(nodes_.keys_with(names));
+    const std::vector<int> at = nodes_.read(t);
+    std::vector<point_load> values;
+    for (const int dof : nodes_.dofs_in(t, fmt::format("{} without {}", what, fmt::join(names, " or ")))) {
+      const double value = t[names[dof]].real(any_real);
+      for (const int node : at) values.push_back({node, dof, value});
+    }
+    return values;
+  }
+
+  /// A spring's foot does not move: what its support would do is not a displacement of the structure.
+  void refuse_unfixed(const toml_value& t, int node, int dof) const {
+    const std::string_view name = nodes_.dof_names()[dof];
+    const hold here = held_[node * nodes_.dof_names().size() + dof];
+    if (here == hold::fixed) return;
+    const std::string what = nodes_.on_matrix() ? "which" : fmt::format("whose {}", name);
+    t[name].refuse(
+        fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
+                    here == hold::spring ? "is on a spring, so that its displacement is part of the answer"
+                                         : "no support holds, so that loads decide where it goes"),
+        "a dof that a [[support]] fixes, by fix");
+  }
+
+  void read_settlements(const toml_value& t, load& l) const {
+    std::set<std::pair<int, int>> moved;
+    for (const toml_value& s : t["settlement"].optional_tables()) {
+      for (const auto& [node, dof, value] : values_in(s, "a settlement")) {
+        refuse_unfixed(s, node, dof);
+        if (!moved.insert({node, dof}).second)
+          s[nodes_.dof_names()[dof]].refuse(
+              place_words(nodes_.structure(), node) + ", a second time in this step",
+              "each dof once: a settlement is its whole displacement");
+        l.settlements.push_back({node, dof, value});
+      }
+    }
+  }
+
+  const node_reader& nodes_;
+  const named_files& files_;
+  std::vector<std::string>& warnings_;
+  std::vector<hold> held_;  // [dofs] by supports
+};
+
 }  // namespace
 
 std::vector<double> read_polynomial(const toml_value& t, const model& m, std::string_view elsewhere) {
   const toml_value polynomial = t["polynomial"];
   if (!std::holds_alternative<beam>(m.kind)) polynomial.refuse(elsewhere);
+  constexpr std::size_t most_coefficients = 21;
   std::vector<double> coefficients = polynomial.reals(any_real, 1);
   if (coefficients.size() > most_coefficients)
     polynomial.refuse(fmt::format("at most {} coefficients", most_coefficients));
   return coefficients;
 }
 
-step_reader::step_reader(const node_reader& nodes, const std::vector<support>& supports, named_files files,
-                         std::vector<std::string>& warnings)
-    : nodes_(nodes),
-      files_(std::move(files)),
-      warnings_(warnings),
-      held_(dofs(nodes.structure()), hold::none) {
-  for (const support& s : supports) {
-    hold& here = held_[s.node * nodes_.dof_names().size() + s.dof];
-    here = std::max(here, s.fixed ? hold::fixed : hold::spring);
-  }
-}
-
-load step_reader::read(const toml_value& t) const {
-  const bool on_matrix = nodes_.on_matrix();
-  const char* const whole = on_matrix ? "load" : "uniform";  // what acts on all of the structure
-  t.allow_only({"name", whole, "point", "settlement"});
-  if (!t.has(whole) && !t.has("point") && !t.has("settlement"))
-    t.refuse("a step without loads and settlements",
-             fmt::format("at least one of {}, point and settlement; {} takes all load off", whole,
-                         on_matrix ? "a load of 0 at any dof" : "uniform = 0"));
-  load l;
-  if (t.has("name")) l.name = t["name"].text();
-  if (t.has("load")) read_vector(t, l);
-  if (t.has("uniform")) read_uniform(t, l);
-  if (t.has("point")) read_points(t, l);
-  if (t.has("settlement")) read_settlements(t, l);
-  refuse_endless_sums(t, nodes_.structure(), l);
-  return l;
-}
-
-void step_reader::read_vector(const toml_value& t, load& l) const {
-  const std::string path = files_.path_of(t["load"]);
-  std::vector<std::string> rounded;
-  const std::vector<double> values = parse_vector(read_input(path, "Matrix Market file", largest_matrix_file),
-                                                  path, nodes(nodes_.structure()), &rounded);
-  for (std::size_t dof = 0; dof < values.size(); ++dof) {
-    if (values[dof] != 0.0) l.points.push_back({static_cast<int>(dof), 0, values[dof]});
-  }
-  for (std::string& w : rounded)  // other steps may have the same file
-    if (std::ranges::find(warnings_, w) == warnings_.end()) warnings_.push_back(std::move(w));
-}
-
-void step_reader::read_uniform(const toml_value& t, load& l) const {
-  const toml_value uniform = t["uniform"];
-  if (uniform.required("").is_number()) {
-    l.distributed.push_back({{uniform.real(any_real)}, {}});
-    return;
-  }
-  if (!uniform.is_array()) uniform.refuse("a number, or an array of tables");
-  // Parts on the same elements become one: thousands on "all" would each be a pass over the beam.
-  std::map<std::vector<int>, std::size_t> place;
-  for (const toml_value& table : uniform.tables()) {
-    distributed_load part = read_distributed(table);
-    const auto [at, is_new] = place.try_emplace(part.elements, l.distributed.size());
-    if (is_new) {
-      part.parts = {part.polynomial};
-      l.distributed.push_back(std::move(part));
-    } else {
-      distributed_load& sum = l.distributed[at->second];
-      add_polynomial(sum.polynomial, part.polynomial, 1.0);
-      sum.parts.push_back(std::move(part.polynomial));
-    }
-  }
-}
-
-distributed_load step_reader::read_distributed(const toml_value& t) const {
-  t.allow_only({"value", "polynomial", "elements"});
-  if (t.has("value") == t.has("polynomial"))
-    t.refuse("both or neither of value and polynomial", "one of them");
-  distributed_load d;
-  d.polynomial = t.has("value") ? std::vector<double>{t["value"].real(any_real)}
-                                : read_polynomial(t, nodes_.structure(),
-                                                  "value: only a beam's load may be a polynomial");
-  const int all = elements(nodes_.structure());
-  if (t.has("elements")) d.elements = t["elements"].numbers(all);
-  if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // each once: all of them
-  return d;
-}
-
-void step_reader::read_points(const toml_value& t, load& l) const {
-  const auto& names = nodes_.dof_names();
-  for (const toml_value& p : t["point"].tables()) {
-    p.allow_only(nodes_.keys_with(names));
-    const std::vector<int> at = nodes_.read(p);
-    for (const int dof :
-         nodes_.dofs_in(p, fmt::format("a point load without {}", fmt::join(names, " or ")))) {
-      const double value = p[names[dof]].real(any_real);
-      for (const int node : at) l.points.push_back({node, dof, value});
-    }
-  }
-}
-
-/// A spring's foot does not move: what its support would do is not a displacement of the structure.
-void step_reader::refuse_unfixed(const toml_value& t, int node, int dof) const {
-  const std::string_view name = nodes_.dof_names()[dof];
-  const hold here = held_[node * nodes_.dof_names().size() + dof];
-  if (here == hold::fixed) return;
-  const std::string what = nodes_.on_matrix() ? "which" : fmt::format("whose {}", name);
-  t[name].refuse(
-      fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
-                  here == hold::spring ? "is on a spring, so that its displacement is part of the answer"
-                                       : "no support holds, so that loads decide where it goes"),
-      "a dof that a [[support]] fixes, by fix");
-}
-
-void step_reader::read_settlements(const toml_value& t, load& l) const {
-  const auto& names = nodes_.dof_names();
-  std::set<std::pair<int, int>> moved;
-  for (const toml_value& s : t["settlement"].tables()) {
-    s.allow_only(nodes_.keys_with(names));
-    const std::vector<int> at = nodes_.read(s);
-    for (const int dof :
-         nodes_.dofs_in(s, fmt::format("a settlement without {}", fmt::join(names, " or ")))) {
-      const double value = s[names[dof]].real(any_real);
-      for (const int node : at) {
-        refuse_unfixed(s, node, dof);
-        if (!moved.insert({node, dof}).second)
-          s[names[dof]].refuse(place_words(nodes_.structure(), node) + ", a second time in this step",
-                               "each dof once: a settlement is its whole displacement");
-        l.settlements.push_back({node, dof, value});
-      }
-    }
-  }
+std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
+                             const std::vector<support>& supports, const named_files& files,
+                             std::vector<std::string>& warnings) {
+  const step_reader reader(nodes, supports, files, warnings);
+  std::vector<load> steps;
+  for (const toml_value& t : top["step"].tables()) steps.push_back(reader.read(t));
+  return steps;
 }
 
 }  // namespace contct

@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "contct/read/problem_file.hpp"
-#include "contct/solve/engine.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/strings.hpp"
 
@@ -25,34 +24,22 @@ std::string as_json(const std::string& text) {
   return json_text(json(text));
 }
 
-/// Where a message says that it belongs: "pb.toml:12:3: ..", or without the column.
-struct message_place {
-  std::string_view file;
-  int line = 0, column = 0;
-};
-
-std::optional<message_place> place_in(std::string_view message) {
-  const auto number_at = [&](std::size_t from, std::size_t& end) {
-    end = message.find_first_not_of("0123456789", from);
-    if (end == std::string_view::npos || end == from || message[end] != ':') return 0;
+/// The error, with the place that its message begins with, if any: "pb.toml:12:3: ..", or without the column.
+std::string error_json(std::string_view message) {
+  json error = {{"message", message}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}};
+  const auto number_at = [message](std::size_t from) {  // 0 where none stands there with a colon behind it
+    const std::size_t end = message.find_first_not_of("0123456789", from);
+    if (end == std::string_view::npos || message[end] != ':') return 0;
     return number_in<int>(message.substr(from, end - from)).value_or(0);
   };
   for (std::size_t colon = message.find(':'); colon != std::string_view::npos;
        colon = message.find(':', colon + 1)) {
-    std::size_t end = 0;
-    std::size_t behind = 0;
-    const int line = number_at(colon + 1, end);
-    if (line > 0) return message_place{message.substr(0, colon), line, number_at(end + 1, behind)};
-  }
-  return {};
-}
-
-std::string error_json(const std::string& message) {
-  json error = {{"message", message}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}};
-  if (const auto at = place_in(message)) {
-    error["file"] = at->file;
-    error["line"] = at->line;
-    if (at->column > 0) error["column"] = at->column;
+    const int line = number_at(colon + 1);
+    if (line == 0) continue;
+    error["file"] = message.substr(0, colon);
+    error["line"] = line;
+    if (const int column = number_at(message.find(':', colon + 1) + 1); column > 0) error["column"] = column;
+    break;
   }
   return json_text(error);
 }
@@ -103,55 +90,56 @@ request::request(const char* text, std::initializer_list<std::string_view> known
 }
 
 void request::refuse(std::string_view name, std::string_view allowed) const {
-  throw std::invalid_argument(fmt::format("options: {}: found {}; allowed: {}", name,
-                                          json_text(options_[std::string(name)]), allowed));
+  throw std::invalid_argument(
+      fmt::format("options: {}: found {}; allowed: {}", name, json_text(*find(name)), allowed));
+}
+
+const nlohmann::json* request::find(std::string_view name) const {
+  const auto at = options_.find(std::string(name));
+  return at == options_.end() ? nullptr : &*at;
 }
 
 bool request::flag(std::string_view name) const {
-  if (!has(name)) return false;
-  const auto& value = options_[std::string(name)];
-  if (!value.is_boolean()) refuse(name, "true or false");
-  return value.get<bool>();
+  const nlohmann::json* const value = find(name);
+  if (value != nullptr && !value->is_boolean()) refuse(name, "true or false");
+  return value != nullptr && value->get<bool>();
 }
 
 std::string request::text(std::string_view name, std::string_view otherwise) const {
-  if (!has(name)) return std::string(otherwise);
-  const auto& value = options_[std::string(name)];
-  if (!value.is_string()) refuse(name, "text");
-  return value.get<std::string>();
+  const nlohmann::json* const value = find(name);
+  if (value != nullptr && !value->is_string()) refuse(name, "text");
+  return value == nullptr ? std::string(otherwise) : value->get<std::string>();
 }
 
 std::vector<std::string> request::texts(std::string_view name, std::vector<std::string> otherwise) const {
-  if (!has(name)) return otherwise;
-  const auto& value = options_[std::string(name)];
+  const nlohmann::json* const value = find(name);
+  if (value == nullptr) return otherwise;
   const auto is_text = [](const auto& entry) { return entry.is_string(); };
-  if (!value.is_array() || value.empty() || !std::all_of(value.begin(), value.end(), is_text))
+  if (!value->is_array() || value->empty() || !std::all_of(value->begin(), value->end(), is_text))
     refuse(name, "a list of texts, at least one");
-  return value.get<std::vector<std::string>>();
+  return value->get<std::vector<std::string>>();
 }
 
 int request::whole(std::string_view name, int otherwise, int least, int most) const {
-  if (!has(name)) return otherwise;
-  const auto& value = options_[std::string(name)];
-  if (value.is_number_integer()) {
-    const auto number = value.get<std::int64_t>();
-    if (number >= least && number <= most) return static_cast<int>(number);
-  }
-  refuse(name, fmt::format("a whole number from {} to {}", least, most));
+  const nlohmann::json* const value = find(name);
+  if (value == nullptr) return otherwise;
+  const auto number = value->is_number_integer() ? value->get<std::int64_t>() : std::int64_t{least} - 1;
+  if (number < least || number > most) refuse(name, fmt::format("a whole number from {} to {}", least, most));
+  return static_cast<int>(number);
 }
 
 std::vector<std::vector<double>> request::lists(std::string_view name) const {
-  if (!has(name)) return {};
-  const auto& value = options_[std::string(name)];
+  const nlohmann::json* const value = find(name);
+  if (value == nullptr) return {};
   const auto is_number = [](const auto& entry) {
     return entry.is_number() && std::isfinite(entry.template get<double>());
   };
   const auto is_list = [&](const auto& entry) {
     return entry.is_array() && std::all_of(entry.begin(), entry.end(), is_number);
   };
-  if (!value.is_array() || !std::all_of(value.begin(), value.end(), is_list))
+  if (!value->is_array() || !std::all_of(value->begin(), value->end(), is_list))
     refuse(name, "a list of lists of finite numbers");
-  return value.get<std::vector<std::vector<double>>>();
+  return value->get<std::vector<std::vector<double>>>();
 }
 
 std::string request::file() const {
@@ -160,19 +148,12 @@ std::string request::file() const {
   return folder.empty() || name.starts_with('/') ? name : folder + "/" + name;
 }
 
-problem read_problem_text(const char* text, const std::string& file, reach allowed, served_answer& a) {
+problem request::problem_in(const char* text, served_answer& a) const {
   if (text == nullptr)
     throw std::invalid_argument("problem: found null; allowed: the text of a problem file");
-  problem p = parse_problem(text, file, allowed);
+  problem p = parse_problem(text, file(), flag("allow_outside") ? reach::anywhere : reach::own_folder);
   for (const std::string& w : p.warnings) a.messages.push_back("warning: " + w);
   return p;
-}
-
-void refuse_unknown_engine(const std::string& name) {
-  const std::vector<std::string> names = engine_names();
-  if (name.empty() || name == "auto" || std::ranges::find(names, name) != names.end()) return;
-  throw std::invalid_argument(
-      fmt::format("options: engine: found \"{}\"; allowed: auto, {}", name, fmt::join(names, ", ")));
 }
 
 std::recursive_mutex& turn() {

@@ -1,19 +1,32 @@
 // What the functions of serve.h take and return: options as a JSON object, an answer as another.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <initializer_list>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "contct/model/problem.hpp"
-#include "contct/read/named_files.hpp"
 #include "contct/session/exit_status.hpp"
 
 namespace contct {
+
+/// The answer to one request, while it is found.
+struct served_answer {
+  exit_status exit = exit_status::solved;
+  std::vector<std::string> messages;
+  std::string result;                                     ///< JSON as text; empty: null
+  std::deque<std::pair<std::string, std::string>> texts;  ///< what else was asked for, by its key
+
+  void tell(const std::vector<std::string>& lines) {
+    messages.insert(messages.end(), lines.begin(), lines.end());
+  }
+};
 
 /// The options of one request. All refusals are std::invalid_argument: "options: kernels: found 3; allowed:
 /// ..".
@@ -34,30 +47,17 @@ class request {
   /// The problem's name for messages: "file" in "folder".
   [[nodiscard]] std::string file() const;
 
-  /// "allow_outside": where files may be that the problem names.
-  [[nodiscard]] reach allowed() const { return flag("allow_outside") ? reach::anywhere : reach::own_folder; }
+  /// The problem in a text, where the options say what it is called and which files it may name; its warnings
+  /// become messages. Throws as parse_problem does.
+  [[nodiscard]] problem problem_in(const char* text, served_answer& a) const;
 
  private:
+  /// An option's value; null where it is not there.
+  [[nodiscard]] const nlohmann::json* find(std::string_view name) const;
   [[noreturn]] void refuse(std::string_view name, std::string_view allowed) const;
 
   nlohmann::json options_ = nlohmann::json::object();
 };
-
-/// The answer to one request, while it is found.
-struct served_answer {
-  exit_status exit = exit_status::solved;
-  std::vector<std::string> messages;
-  std::string result;                                      ///< JSON as text; empty: null
-  std::vector<std::pair<std::string, std::string>> texts;  ///< what else was asked for, by its key
-};
-
-/// The problem in a text; its warnings become messages. Throws as parse_problem does. `file`, its name,
-/// and `allowed` are the request's.
-[[nodiscard]] problem read_problem_text(const char* text, const std::string& file, reach allowed,
-                                        served_answer& a);
-
-/// Throws std::invalid_argument for what is no engine's name, nor "auto", nor empty.
-void refuse_unknown_engine(const std::string& name);
 
 /// Whoever has kernels made waits for this: unit 26 belongs to the whole process. Recursive, so that a kernel
 /// of the caller's which asks for another one is refused and does not hang.

@@ -26,8 +26,7 @@ void judge(contct_kernel_function* procedure, const char* options, served_answer
     return name == wanted.kernels[1] ? make_function_kernel(wanted.kernels[1], procedure) : make_kernel(name);
   });
   const std::string missed = floors_missed(run.result);
-  for (const fuzz_follower& f : run.result.followers)
-    a.messages.insert(a.messages.end(), f.mismatch_reports.begin(), f.mismatch_reports.end());
+  for (const fuzz_follower& f : run.result.followers) a.tell(f.mismatch_reports);
   if (!missed.empty()) a.messages.push_back(missed);
   a.result = fuzz_json(run.result);
   a.exit = run.result.compared().mismatches > 0 ? exit_status::kernels_differ

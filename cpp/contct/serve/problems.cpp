@@ -1,25 +1,98 @@
-// contct_check, contct_exact and contct_explain: what else can be asked of a problem.
+// contct_run, contct_check, contct_exact, contct_explain and contct_certify: what can be asked of a problem.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
+#include "contct/certify/certificate.hpp"
+#include "contct/exact/exact_means.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/toml_reader.hpp"
 #include "contct/read/written_numbers.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
-#include "contct/session/exact_run.hpp"
 #include "contct/session/explained_run.hpp"
+#include "contct/session/run.hpp"
+#include "contct/solve/engine.hpp"
 #include "contct/write/exact_output.hpp"
 #include "contct/write/explain.hpp"
+#include "contct/write/outputs.hpp"
+#include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
+
+/// Throws std::invalid_argument for what is no engine's name, nor "auto", nor empty.
+void refuse_unknown_engine(const std::string& name) {
+  const std::vector<std::string> names = engine_names();
+  if (name.empty() || name == "auto" || std::ranges::find(names, name) != names.end()) return;
+  throw std::invalid_argument(
+      fmt::format("options: engine: found \"{}\"; allowed: auto, {}", name, fmt::join(names, ", ")));
+}
+
+/// What is written beside the result where the option of this name asks for it.
+constexpr std::pair<const char*, output_file * run_outputs::*> further_outputs[] = {
+    {"page", &run_outputs::page},
+    {"log", &run_outputs::log},
+    {"trace", &run_outputs::trace},
+    {"proof", &run_outputs::proof}};
+
+run_request read_run_request(const request& r) {
+  // One by one: g++ 12 destroys the members of an aggregate twice where a later one throws.
+  run_request wanted;
+  wanted.file = r.file();
+  wanted.kernels = r.texts("kernels", {"fortran", "cpp"});
+  wanted.engine = r.text("engine", "");
+  wanted.envelope = r.flag("envelope");
+  wanted.max_increments = r.whole("max_increments", 0, 0, most_increments);
+  wanted.pictures = r.flag("states");
+  refuse_unknown_engine(wanted.engine);
+  for (const std::string& name : wanted.kernels) {
+    if (std::ranges::count(wanted.kernels, name) > 1)
+      throw std::invalid_argument(fmt::format("options: kernels: \"{}\" is named twice", name));
+    (void)facts_of_kernel(name);
+  }
+  if (!r.flag("final_only")) return wanted;
+  wanted.kernels.clear();
+  if (r.flag("log") || r.flag("trace"))
+    throw std::invalid_argument(
+        "options: found final_only with log or trace; allowed: a path, which calls kernels");
+  if (r.flag("page") || wanted.pictures || wanted.envelope)
+    throw std::invalid_argument(
+        "options: found final_only with page, states or envelope; allowed: these with a path");
+  return wanted;
+}
+
+void run_path(const char* text, const char* options, served_answer& a) {
+  const request r(options, {"file", "folder", "allow_outside", "kernels", "engine", "final_only", "envelope",
+                            "max_increments", "page", "log", "trace", "proof", "states"});
+  const run_request wanted = read_run_request(r);
+  output_file result(&a.result);
+  run_outputs to{&result, wanted.pictures ? result_parts::states : result_parts::ends};
+  std::deque<output_file> files;
+  for (const auto& [name, file] : further_outputs)
+    if (r.flag(name)) to.*file = &files.emplace_back(&a.texts.emplace_back(name, "").second);
+  const problem p = r.problem_in(text, a);
+  const std::scoped_lock mine(turn());
+  const linear_structure structure = structure_of(p);
+  run run(p, structure, wanted);
+  run.go(to);
+  if (status_of(run.result.end.status) == exit_status::bad_input)
+    throw std::invalid_argument(wanted.file + ": " + end_words(p, run.result.end));
+  write_outputs(run);
+  a.exit = run.exit();
+  if (run.result.compared && run.result.compared->first()) a.tell(words_of(*run.result.compared->first()));
+  a.tell(end_messages(run.result));
+}
 
 /// Every number of the file with its place, every node, and what the pairs' numbers are called there.
 void put_places(json& out, const problem& p, const char* text, const std::string& file) {
@@ -54,7 +127,7 @@ void put_places(json& out, const problem& p, const char* text, const std::string
 
 void check(const char* text, const char* options, served_answer& a) {
   const request r(options, {"file", "folder", "allow_outside", "places"});
-  const problem p = read_problem_text(text, r.file(), r.allowed(), a);
+  const problem p = r.problem_in(text, a);
   json out = {{"title", p.title},
               {"kind", std::holds_alternative<beam>(p.geometry.kind)    ? "beam"
                        : std::holds_alternative<plate>(p.geometry.kind) ? "plate"
@@ -78,12 +151,12 @@ void follow_exact_path(const char* text, const char* options, served_answer& a) 
     throw std::invalid_argument(
         fmt::format("options: rule: found \"{}\"; allowed: corrected, 1989", wanted.rule));
   for (const std::string& name : wanted.kernels) (void)facts_of_kernel(name);
-  const problem p = read_problem_text(text, r.file(), r.allowed(), a);
+  const problem p = r.problem_in(text, a);
   std::unique_lock mine(turn(), std::defer_lock);
   if (!wanted.kernels.empty()) mine.lock();
   const exact_run run = run_exactly(p, wanted);
   output_file out(&a.result);
-  write_exact_json({p, run.exactly, run.path, run.kernels}, out);
+  write_exact_json(run, out);
   a.exit = status_of(run.path.status);
 }
 
@@ -93,7 +166,7 @@ void explain_path(const char* text, const char* options, served_answer& a) {
   const std::string engine = r.text("engine", "refactor");
   refuse_unknown_engine(engine);
   refuse_other_rules(names);
-  const problem p = read_problem_text(text, r.file(), r.allowed(), a);
+  const problem p = r.problem_in(text, a);
   const increments_wanted wanted{r.whole("step", 0, 1, static_cast<int>(p.steps.size())),
                                  r.whole("increment", 0, 1, most_increments)};
   const std::scoped_lock mine(turn());
@@ -112,11 +185,92 @@ void explain_path(const char* text, const char* options, served_answer& a) {
   a.exit = status_of(end.status, run.equal());
 }
 
+/// The states of a request, each with its pairs' statuses.
+struct given_states {
+  std::vector<std::vector<double>> displacement;  // [states][dofs]
+  std::vector<std::vector<int>> isep;             // [states][pairs]
+};
+
+/// Where no list says so, a pair is closed whose face the state touches or enters.
+std::vector<int> statuses_at(const problem& p, const linear_structure& s,
+                             std::span<const double> displacement) {
+  std::vector<int> isep(p.pairs.size(), separated);
+  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
+    const contact_pair& at = p.pairs[i];
+    const double w = displacement[static_cast<std::size_t>(at.node) * s.dofs_per_node];
+    if (at.surface * (w - at.face) >= 0) isep[i] = in_contact;
+  }
+  return isep;
+}
+
+std::vector<int> statuses_in(const problem& p, const std::vector<double>& closed) {
+  std::vector<int> isep(p.pairs.size(), separated);
+  for (const double number : closed) {
+    // Compared before it is converted: a double beyond the integers has no integer to convert to.
+    if (!(number >= 1 && number <= static_cast<double>(p.pairs.size())) || std::floor(number) != number)
+      throw std::invalid_argument(
+          fmt::format("options: closed: found {}; allowed: pairs from 1 to {}", number, p.pairs.size()));
+    isep[static_cast<std::size_t>(number) - 1] = in_contact;
+  }
+  return isep;
+}
+
+given_states read_states(const request& r, const problem& p, const linear_structure& s) {
+  given_states states{r.lists("displacement"), {}};
+  const std::vector<std::vector<double>> closed = r.lists("closed");
+  const std::size_t count = states.displacement.size();
+  if (count == 0 || count > p.steps.size())
+    throw std::invalid_argument(
+        fmt::format("options: displacement: found {} states; allowed: one for each of the first "
+                    "steps, from 1 to {}",
+                    count, p.steps.size()));
+  if (r.has("closed") && closed.size() != count)
+    throw std::invalid_argument(fmt::format(
+        "options: closed: found {} lists; allowed: {}, one for each state", closed.size(), count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<double>& u = states.displacement[i];
+    if (std::ssize(u) != dofs(p.geometry))
+      throw std::invalid_argument(
+          fmt::format("options: displacement: found {} numbers; allowed: {}, one for each dof", u.size(),
+                      dofs(p.geometry)));
+    states.isep.push_back(closed.empty() ? statuses_at(p, s, u) : statuses_in(p, closed[i]));
+  }
+  return states;
+}
+
+void certify_states(const char* text, const char* options, served_answer& a) {
+  const request asked(options, {"file", "folder", "allow_outside", "displacement", "closed"});
+  const problem p = asked.problem_in(text, a);
+  const linear_structure s = structure_of(p);
+  const given_states states = read_states(asked, p, s);
+  run_result r(p, s, exact_means_of(p));
+  r.engine = "given";
+  for (std::size_t i = 0; i < states.displacement.size(); ++i) {
+    const std::unique_ptr<stiffness_engine> factored = make_engine("refactor", s);
+    for (std::size_t pair = 0; pair < p.pairs.size(); ++pair)
+      if ((states.isep[i][pair] == in_contact) != p.pairs[pair].closed)
+        factored->switch_spring(static_cast<int>(pair), states.isep[i][pair] == in_contact);
+    r.end.step = static_cast<int>(i) + 1;
+    const step_state given{r.end.step, 1.0, states.displacement[i], states.isep[i],
+                           factored->reciprocal_condition()};
+    r.judged.step_ended(given);
+    r.record.step_ended(given);
+  }
+  output_file out(&a.result);
+  write_result(r, out);
+  a.tell(certificate_complaints(r));
+  a.exit = r.judged.all_certified() ? exit_status::solved : exit_status::uncertified;
+}
+
 }  // namespace
 }  // namespace contct
 
 using contct::answered;
 using contct::served_answer;
+
+char* contct_run(const char* text, const char* options) {
+  return answered([&](served_answer& a) { contct::run_path(text, options, a); });
+}
 
 char* contct_check(const char* text, const char* options) {
   return answered([&](served_answer& a) { contct::check(text, options, a); });
@@ -128,4 +282,8 @@ char* contct_exact(const char* text, const char* options) {
 
 char* contct_explain(const char* text, const char* options) {
   return answered([&](served_answer& a) { contct::explain_path(text, options, a); });
+}
+
+char* contct_certify(const char* text, const char* options) {
+  return answered([&](served_answer& a) { contct::certify_states(text, options, a); });
 }

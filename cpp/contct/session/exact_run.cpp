@@ -24,6 +24,18 @@ void refuse_too_many_dofs(const problem& p, const std::string& file) {
                     file, dofs(p.geometry), most_exact_dofs));
 }
 
+/// What `find` returns; what is wrong with its numbers is thrown with this name before it.
+template <class Find>
+auto naming(const std::string& name, const Find& find) {
+  try {
+    return find();
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(fmt::format("{}: {}", name, e.what()));
+  } catch (const std::runtime_error& e) {
+    throw std::invalid_argument(fmt::format("{}: {}", name, e.what()));
+  }
+}
+
 /// A matrix from elsewhere may be none of a structure, which the path's equations do not show. Those of beams
 /// and plates are sums of elements, each of which is semidefinite.
 void refuse_indefinite(const assembled& a, const problem& of, const exact_problem& p) {
@@ -33,13 +45,7 @@ void refuse_indefinite(const assembled& a, const problem& of, const exact_proble
           fmt::format("{}: dof {}: found no stiffness and no support; allowed: a positive entry on the "
                       "diagonal, or a support",
                       a.name, a.label_of(static_cast<int>(dof))));
-  const definiteness found = [&] {
-    try {
-      return definiteness_of(of, p);
-    } catch (const std::runtime_error& e) {
-      throw std::invalid_argument(fmt::format("{}: {}", a.name, e.what()));
-    }
-  }();
+  const definiteness found = naming(a.name, [&] { return definiteness_of(of, p); });
   if (found.semidefinite) return;
   if (!found.shown)
     throw std::invalid_argument(
@@ -65,13 +71,7 @@ bool corrected_path_ends_by(std::size_t step, const exact_problem& p) {
 /// The problem in rational numbers.
 exact_problem exactly_read(const problem& p, const std::string& file) {
   refuse_too_many_dofs(p, file);
-  exact_problem e = [&] {
-    try {
-      return exact_problem_of(p);
-    } catch (const std::invalid_argument& wrong) {
-      throw std::invalid_argument(fmt::format("{}: {}", file, wrong.what()));
-    }
-  }();
+  exact_problem e = naming(file, [&] { return exact_problem_of(p); });
   if (const auto* const a = std::get_if<assembled>(&p.geometry.kind)) refuse_indefinite(*a, p, e);
   return e;
 }
@@ -113,7 +113,7 @@ kernel_digits digits_of_kernel(const std::string& name, const problem& p, const 
 
 exact_run run_exactly(const problem& p, const exact_request& wanted, const exact_progress& tell,
                       observer* shown) {
-  exact_run run{exactly_read(p, wanted.file), {}, {}};
+  exact_run run{p, exactly_read(p, wanted.file), {}, {}};
   run.path = follow_exactly(run.exactly, wanted.rule, wanted.file, tell);
   if (wanted.kernels.empty()) return run;
   const linear_structure structure = structure_of(p);

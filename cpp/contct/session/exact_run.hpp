@@ -19,7 +19,9 @@ struct exact_request {
   std::vector<std::string> kernels = {};  ///< compared with it, each in free run
 };
 
+/// All that is written of an exact path. The problem must outlive it.
 struct exact_run {
+  const problem& what;
   exact_problem exactly;
   exact_path path;
   std::vector<kernel_digits> kernels;  ///< as `wanted` names them

@@ -45,8 +45,7 @@ json kernel_json(const kernel_digits& k) {
 /// Prints one path.
 class exact_printer {
  public:
-  exact_printer(const exact_result& r, int digits, const terminal& t)
-      : r_(r), digits_(digits), terminal_(t) {}
+  exact_printer(const exact_run& r, int digits, const terminal& t) : r_(r), digits_(digits), terminal_(t) {}
 
   std::string text() {
     for (const std::string& line : wrap({on_one_line(r_.what.title)}, terminal_.width))
@@ -129,7 +128,7 @@ class exact_printer {
   }
 
   static constexpr std::size_t most_rows = 24;
-  const exact_result& r_;
+  const exact_run& r_;
   int digits_;
   const terminal& terminal_;
   std::string out_;
@@ -137,11 +136,11 @@ class exact_printer {
 
 }  // namespace
 
-std::string exact_text(const exact_result& r, int digits, const terminal& t) {
+std::string exact_text(const exact_run& r, int digits, const terminal& t) {
   return exact_printer(r, digits, t).text();
 }
 
-void write_exact_json(const exact_result& r, output_file& out) {
+void write_exact_json(const exact_run& r, output_file& out) {
   json_document document(
       out, {{"format", "contct-exact-1"}, {"title", r.what.title}, {"status", status_name(r.path.status)}},
       "steps");
