@@ -1,7 +1,7 @@
 """check_proof.py PROBLEM.toml PROOF.json: verify what `contct run PROBLEM.toml --proof PROOF.json` wrote.
 
 Every bound on an error, every pair's state and every verdict is verified in rational arithmetic, from the decimals of the problem
-file, without the program: certificate.md has the mathematics, proof-format.md the format. Exit 0: every step of the problem is there,
+file, without the program: certificate-proof.md has the mathematics, proof-format.md the format. Exit 0: every step of the problem is there,
 its bounds hold and its verdict follows from them; 1: something is false, missing or cannot be read; 2: nothing is false, but a step
 has no bounds, or a state that they contradict and that is not certified.
 """
@@ -57,7 +57,7 @@ def claims_of(p, own, u, needed, deep, rho2, reach):
 
 
 def sizes_of(p, f, settled, told, largest):
-    """The size of each kind of number, and what may be off besides, absolutely (certificate.md, "Sizes").
+    """The size of each kind of number, and what may be off besides, absolutely (certificate-proof.md, "Sizes").
 
     `told`: the largest number of each kind; `largest`: sizes on the path so far, which count where nothing acts.
     """

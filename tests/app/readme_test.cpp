@@ -56,7 +56,7 @@ TEST_CASE("the README's beam can be run") {
 }
 
 TEST_CASE("the program is cited as it names itself") {
-  const std::string cited = between(page("reference/citing.md"), "@software{contct,", "```");
+  const std::string cited = between(readme(), "@software{contct,", "```");
   const finished f = contct_program(root, {"--version"});
   const std::string version = between(f.out, "contct ", "\n");
   const std::string checksum = between(f.out + "\n", "listing sha256 ", "\n");

@@ -58,9 +58,8 @@ def is_null(wanted):
     return any(map(is_null, wanted.get("anyOf", []))) or "null" in wanted.get("type", "")
 
 
-def cell_fault(of, row):
+def cell_fault(of, key, row):
     """What a row of the manual says of a key that the schema does not, in words; None where they agree."""
-    key = row["key"].strip("`")
     wanted = of["properties"][key]
     if ("absent" in row["absent or null"]) != (key not in of["required"]):
         return "when it is absent"
@@ -72,16 +71,17 @@ def cell_fault(of, row):
 def first_difference(text, schema):
     """The first difference between the manual and the schema, in words; None where there is none."""
     tables, known = key_tables(text), objects(schema)
-    if set(tables.rows) != set(known):
-        return f"an object that only one of the two has: {min(set(tables.rows) ^ set(known))}"
+    if different := (set(tables.rows) ^ set(known)) - tables.shared():
+        return f"an object that only one of the two has: {min(different)}"
     for title, of in known.items():
         if of.get("additionalProperties") is not False:
             return f"{title}: the schema allows other keys"
-        if different := tables.keys(title) ^ set(of["properties"]):
+        rows = tables.keys(title)
+        if different := set(rows) ^ set(of["properties"]):
             return f"{title}: a key that only one of the two has: {min(different)}"
-        for row in tables.rows[title]:
-            if wrong := cell_fault(of, row):
-                return f"{title}: {row['key']}: {wrong}"
+        for key, row in rows.items():
+            if wrong := cell_fault(of, key, row):
+                return f"{title}: {key}: {wrong}"
     return None
 
 

@@ -1,7 +1,7 @@
 """Reads a manual page in Markdown: its sections, its tables of keys and its code blocks.
 
-A table of keys is one whose first column is called "key". A cell of that column has one key in backticks, or a link such as
-[place](#places) to the section whose keys are meant. The column "structure", where there is one, says where a key belongs.
+A table of keys is one whose first column is called "key". A cell of that column has keys in backticks, of which the row says the same, or a
+link such as [place](#places) to the section whose keys are meant. The column "structure", where there is one, says where a key belongs.
 """
 import re
 from dataclasses import dataclass
@@ -35,7 +35,8 @@ def rows(body):
         elif header[0] == "key" and set(cells[0]) != {"-"}:
             if len(cells) != len(header):
                 raise ValueError(f"found {len(cells)} cells, allowed: {len(header)}: {line}")
-            found.append(dict(zip(header, cells)))
+            keys = re.findall(r"`[^`]+`", cells[0]) or cells[:1]
+            found += [dict(zip(header, [key, *cells[1:]])) for key in keys]
     return found
 
 
@@ -47,19 +48,25 @@ class key_tables:
         self.rows = {heading: found for heading, found in self.rows.items() if found}
         self.by_anchor = {anchor(heading): heading for heading in self.rows}
 
+    def linked(self, row):
+        """The heading of the section whose keys a row means; None where the row is of a key."""
+        link = re.fullmatch(r"\[\w+\]\(#([\w-]+)\)", row["key"])
+        if not link and row["key"][0] != "`":
+            raise ValueError(f"found {row['key']}, allowed: keys in backticks, or a link to a section")
+        return link and self.by_anchor[link.group(1)]
+
+    def shared(self):
+        """The headings of sections whose keys other sections mean."""
+        return {self.linked(row) for found in self.rows.values() for row in found} - {None}
+
     def keys(self, heading, structure=None):
-        """The keys under a heading, as a set; those of one structure where it is named."""
-        found = set()
+        """{key: its row} under a heading; those of one structure where it is named."""
+        found = {}
         for row in self.rows[heading]:
             if structure and row.get("structure") and structure not in row["structure"].split(", "):
                 continue
-            key, link = re.fullmatch(r"`([^`]+)`", row["key"]), re.fullmatch(r"\[\w+\]\(#([\w-]+)\)", row["key"])
-            if not key and not link:
-                raise ValueError(f"{heading}: found {row['key']}, allowed: a key in backticks, or a link to a section")
-            if key:
-                found.add(key.group(1))
-            else:
-                found |= self.keys(self.by_anchor[link.group(1)], structure)
+            other = self.linked(row)
+            found |= self.keys(other, structure) if other else {row["key"].strip("`"): row}
         return found
 
 

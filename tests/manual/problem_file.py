@@ -94,7 +94,7 @@ def first_difference(text, accepted):
     for (heading, structure), keys in accepted.items():
         if heading not in tables.rows:
             return f"{heading}: found no table of keys"
-        documented = tables.keys(heading, structure)
+        documented = set(tables.keys(heading, structure))
         where = f"{heading}{f' of a {structure}' if structure else ''}"
         if keys - documented:
             return f"{where}: accepted, not documented: {min(keys - documented)}"

@@ -12,7 +12,7 @@ namespace contct {
 /// state.
 inline constexpr double certified_share = 1e-6;
 
-/// Knows how large the numbers of a path have been (reference/certificate.md, "Sizes").
+/// Knows how large the numbers of a path have been (reference/certificate-proof.md, "Sizes").
 class allowed_errors {
  public:
   /// What each kind of number of the state that `b` is about may be off by; none for kinds without a bound.

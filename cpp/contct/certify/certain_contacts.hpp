@@ -1,5 +1,5 @@
 // Which pairs are certainly in contact, and how far a state can be from the equilibrium in the norm of their
-// stiffness (reference/certificate.md).
+// stiffness (reference/certificate-proof.md).
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// How far a state can be from the equilibrium, proved from the state alone (reference/certificate.md).
+// How far a state can be from the equilibrium, proved from the state alone (reference/certificate-proof.md).
 #pragma once
 
 #include <array>
@@ -39,8 +39,7 @@ struct reported_state {
 /// The numbers that a run gives for the end of a step.
 [[nodiscard]] reported_state reported_state_at(const problem& p, const step_state& s);
 
-/// What a check of a step's bounds needs beside the problem file (reference/certificate.md, "Checked by
-/// others").
+/// What a check of a step's bounds needs beside the problem file (reference/proof-format.md).
 struct step_proof {
   // As handed out:
   std::vector<double> displacement;  ///< [dofs]

@@ -39,7 +39,7 @@ struct long_residual {
 struct element_value {
   double_double value;
   double size = 0.0;    ///< the sum of the magnitudes that make it
-  double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate.md
+  double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate-proof.md
   bool moment = true;   ///< otherwise a shear
 
   /// How far rounding can put it off: a coordinate, a length or a modulus comes in at most ten times, each

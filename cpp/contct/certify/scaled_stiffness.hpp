@@ -1,5 +1,5 @@
 // K_A, the stiffness with the springs of some pairs: its factor, in doubles or where these are too short in
-// 32 digits, and a proof of its least eigenvalue (reference/certificate.md).
+// 32 digits, and a proof of its least eigenvalue (reference/certificate-proof.md).
 #pragma once
 
 #include <cmath>
