@@ -59,9 +59,7 @@ struct explain_options : problem_options {
   std::string engine = "refactor";
   std::string increment;  ///< "3", or "2.3" with its step
   std::optional<int> step, pair;
-  bool exact = false;  ///< with the exact numbers
-  bool all = false;    ///< every increment of a long run
-  bool hex = false;    ///< with the bits of s and SMIN
+  bool all = false;  ///< every increment of a long run
   std::string json;
   bool quiet = false;
 };

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "app/problem_runs.hpp"
-#include "contct/exact/exact_problem.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/session/explained_run.hpp"
 #include "contct/text/input_text.hpp"
@@ -66,28 +65,6 @@ void print_comparison(const std::vector<std::string>& kernels, const explained_r
                  counts_of(run.told)});
 }
 
-/// The exact path, for as far as it is wanted, and what is told of it.
-class exact_explanation {
- public:
-  exact_explanation(const problem& p, const increments_wanted& wanted) {
-    if (dofs(p.geometry) > most_exact_dofs) {
-      told.emplace(nullptr, fmt::format("found {} dofs; allowed: at most {} in exact arithmetic",
-                                        dofs(p.geometry), most_exact_dofs));
-      return;
-    }
-    problem_.emplace(exact_problem_of(p));
-    path.emplace(*problem_,
-                 wanted.step == 0 ? std::optional<path_place>() : path_place{wanted.step, wanted.increment});
-    told.emplace(&*path);
-  }
-
-  std::optional<exact_companion> path;
-  std::optional<exact_addition> told;
-
- private:
-  std::optional<exact_problem> problem_;
-};
-
 }  // namespace
 
 exit_status run_command(const explain_options& options) {
@@ -104,22 +81,16 @@ exit_status run_command(const explain_options& options) {
   std::optional<explain_text> text;
   std::optional<explain_json> json;
   const bool chosen = options.all || wanted.step > 0 || wanted.increment > 0;
-  if (!options.quiet && !takes_standard_output(outputs))
-    text.emplace(of, look_at_terminal(), explain_detail{chosen, options.hex});
+  if (!options.quiet && !takes_standard_output(outputs)) text.emplace(of, look_at_terminal(), chosen);
   if (output_file* const file = files["--json"]) json.emplace(of, *file);
-  std::optional<exact_explanation> exactly;
   path_progress shown(p.steps.size(), options.quiet);
   explained_run run(options.kernels, wanted, [&](const auto& i) {
-    if (exactly) exactly->told->begin(i);
-    const exact_addition* const more = exactly ? &*exactly->told : nullptr;
     shown.line.erase();
-    if (text) print_text(text->add(i, more));
-    if (json) json->write(i, more);
+    if (text) print_text(text->add(i));
+    if (json) json->write(i);
   });
   const linear_structure structure = build_with_progress(p, options.quiet);
-  if (options.exact) exactly.emplace(p, wanted);
-  exact_companion* const beside = exactly && exactly->path ? &*exactly->path : nullptr;
-  const path_end end = run.follow(p, structure, options.engine, beside, &shown);
+  const path_end end = run.follow(p, structure, options.engine, &shown);
   shown.line.erase();
   const explained_path& told = run.told;
 

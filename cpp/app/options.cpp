@@ -34,8 +34,7 @@ constexpr example all_examples[] = {
     {"contct check beam.toml", "a summary of a problem, without solving it"},
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
-    {"contct explain beam.toml --all --hex", "every increment of a long run, with the bits of s"},
-    {"contct explain beam.toml --exact --increment 1.1", "how far its numbers are from the exact ones"},
+    {"contct explain beam.toml --all", "every increment of a long run"},
     {"contct explain beam.toml --quiet --json why.json", "the same as JSON"},
     {"contct exact beam.toml", "the path in rational numbers, without rounding"},
     {"contct exact beam.toml --kernels fortran,corrected", "how many of their digits are right"},
@@ -237,12 +236,8 @@ void declare_explain(option_parser& p, CLI::App* c) {
   c->add_flag("--all", o.all,
               "Explain every increment; otherwise a run of more than 20 has one line for each, unless "
               "--increment or --step chooses some");
-  c->add_flag("--hex", o.hex, "Add the bits of s and SMIN, as hexadecimal numbers");
   add_kernels(c, "--kernels", o.kernels, "The kernels to compare, the first one leads")
       ->capture_default_str();
-  c->add_flag("--exact", o.exact,
-              "Add the exact s, from the numbers of each call and on the exact path of the 1989 rule, and "
-              "the error of each kernel's s in ULP");
   c->add_option("--engine", o.engine, "How the stiffness equations are solved")->capture_default_str();
   add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");
   add_quiet(c, o.quiet);

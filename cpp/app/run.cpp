@@ -13,7 +13,6 @@
 #include "contct/session/path_states.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
-#include "contct/write/pictures.hpp"
 #include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 

@@ -113,7 +113,6 @@ function recompute({ asked = false, state = current } = {}) {
   if (answer.error) return complain(answer.error);
   tell(answer.messages);
   byId("right").classList.remove("stale");
-  stopPlaying();
   busy = true;
   load(answer.result, state);
   busy = false;

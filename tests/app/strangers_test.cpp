@@ -54,7 +54,7 @@ std::vector<words> questions(const std::string& file) {
                             {"run", file, "--node", hostile_bytes},
                             {"run", file, "--json", hostile_bytes + "/x"},
                             {"explain", file, "--all"},
-                            {"explain", file, "--exact", "--increment", "1.1"},
+                            {"explain", file, "--increment", "1.1"},
                             {"explain", file, "--quiet", "--json", "-"},
                             {"exact", file, "--kernels", "fortran"},
                             {"exact", file, "--quiet", "--json", "-"},

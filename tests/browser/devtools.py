@@ -98,11 +98,9 @@ class Browser:
                     raise RuntimeError(f"{method}: {answer['error']}")
                 return answer["result"]
 
-    def open(self, path, width=1180, height=900, dark=False, calm=False):
+    def open(self, path, width=1180, height=900, dark=False):
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self.send("Emulation.setEmulatedMedia", features=[
-            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
-            {"name": "prefers-reduced-motion", "value": "reduce" if calm else "no-preference"}])
+        self.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
         self.send("Page.navigate", url="file://" + os.path.abspath(path))
         while self.receive(120).get("method") != "Page.loadEventFired":
             pass
@@ -114,11 +112,24 @@ class Browser:
             raise RuntimeError(f"{script}: {json.dumps(result['exceptionDetails'])[:400]}")
         return result["result"].get("value")
 
-    def press(self, key, code=None, text=None):
+    def enter(self, field, value, event="input"):
+        """Give a field of the page a value, as a person does who types, moves or chooses it."""
+        self.value(f"(() => {{ const e = document.getElementById('{field}'); e.value = {json.dumps(value)};"
+                   f" e.dispatchEvent(new Event('{event}')); }})()")
+
+    def wait_for(self, script, seconds=60):
+        """Until a script comes to something true."""
+        end = time.monotonic() + seconds
+        while not self.value(script):
+            if time.monotonic() > end:
+                raise TimeoutError(f"{script} does not become true: {self.errors[:2]}")
+            time.sleep(0.05)
+
+    def press(self, key, text=None):
         for kind in ("keyDown", "keyUp"):
             more = {"text": text} if text and kind == "keyDown" else {}
-            codes = {"ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35, "Tab": 9, "Enter": 13, " ": 32}
-            self.send("Input.dispatchKeyEvent", type=kind, key=key, code=code or key,
+            codes = {"ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35, "Tab": 9, "Enter": 13}
+            self.send("Input.dispatchKeyEvent", type=kind, key=key, code=key,
                       windowsVirtualKeyCode=codes.get(key, 0), **more)
 
     def picture(self, path, whole=True):

@@ -1,4 +1,4 @@
-// The listing's decisions where arithmetic is exact: one call, a path, and that path beside a kernel's.
+// The listing's decisions where arithmetic is exact: one call, and a path.
 #include "contct/exact/path_1989.hpp"
 
 #include <algorithm>
@@ -6,13 +6,10 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/kernel/registry.hpp"
-#include "contct/path/solve_problem.hpp"
+#include "contct/exact/path.hpp"
 #include "contct/read/problem_file.hpp"
 
 using namespace contct;
-using contct::make_kernel;
-using contct::observer;
 using contct::parse_problem;
 using contct::read_problem;
 
@@ -37,41 +34,6 @@ std::string stop(int node, const std::string& face, const std::string& k) {
          "\nstiffness = " + k + "\n";
 }
 
-/// What was beside each increment.
-struct beside_log final : observer {
-  explicit beside_log(const exact_companion& b) : beside(b) {}
-  void incremented(const contct::increment& i) override {
-    const exact_call* const c = beside.call();
-    calls.push_back(c == nullptr ? "-" : std::to_string(c->step) + "." + std::to_string(c->increment));
-    if (c != nullptr && beside.parted() == std::nullopt) {
-      CHECK(c->step == i.step);
-      CHECK(c->increment == i.number);
-      CHECK(rounded(c->led_to.fraction) == Approx(i.fraction));
-      ++compared;
-    }
-  }
-  const exact_companion& beside;
-  std::vector<std::string> calls;
-  int compared = 0;
-};
-
-struct path_beside {
-  std::vector<std::string> calls;
-  int compared;
-  std::optional<path_place> parted;
-  std::string stopped;
-};
-
-path_beside follow_beside(const std::string& file, const char* kernel, std::optional<path_place> last = {}) {
-  const auto p = read_problem(std::string(CONTCT_REFERENCE "/problems/") + file);
-  const exact_problem exactly = exact_problem_of(p);
-  exact_companion beside(exactly, last);
-  beside_log log(beside);
-  const auto leader = make_kernel(kernel);
-  (void)contct::follow(p, contct::structure_of(p), "refactor", *leader, {&beside, &log});
-  return {log.calls, log.compared, beside.parted(), beside.stopped()};
-}
-
 }  // namespace
 
 TEST_CASE("each way to an s gives the exact one") {
@@ -84,20 +46,16 @@ TEST_CASE("each way to an s gives the exact one") {
   };
   const listing_answer a = answer_exactly(pairs);
   CHECK(a.s == rational_vector{1, rational(1, 7), 3 * ten_to_minus(20), 1});
-  CHECK(a.way == std::vector{listing_branch::no_response, listing_branch::moving,
-                             listing_branch::stationary_event, listing_branch::stationary});
   CHECK(a.s_min == 3 * ten_to_minus(20));
   CHECK(a.toggled == std::vector<int>{2});
-  CHECK(a.winners() == std::vector<int>{2});
 }
 
 TEST_CASE("a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is no event") {
   const std::vector<listing_pair> pairs = {open_pair(-ten_to_minus(10), 0, -ten_to_minus(10))};
   const listing_answer a = answer_exactly(pairs);
-  CHECK(a.way[0] == listing_branch::moving);
+  CHECK(a.s[0] == 1);
   CHECK(a.s_min == 1);
   CHECK(a.toggled.empty());
-  CHECK(a.winners().empty());
 }
 
 TEST_CASE("whatever is within EPSMUL is toggled, but only a tie wins together") {
@@ -107,7 +65,9 @@ TEST_CASE("whatever is within EPSMUL is toggled, but only a tie wins together") 
       open_pair(rational(-1, 2) - rational(1, 512), 0, -1),   // exactly 1/256 later
   };
   const listing_answer a = answer_exactly(pairs);
-  CHECK(a.winners() == std::vector<int>{0, 1});
+  CHECK(a.s[0] == a.s_min);
+  CHECK(a.s[1] == a.s_min);
+  CHECK(a.s[2] > a.s_min);
   CHECK(a.toggled == std::vector<int>{0, 1, 2});
 }
 
@@ -185,51 +145,4 @@ TEST_CASE("a structure that no closed pair holds is a mechanism for the 1989 dri
                                  "[[step]]\nuniform = -1\n");
   CHECK(path.status == contct::path_status::mechanism);
   CHECK(path.steps[0].fraction == 0);
-}
-
-TEST_CASE("an exact call stands beside each call of PB7, in both precisions") {
-  for (const char* kernel : {"fortran", "fortran-r4"}) {
-    const path_beside f = follow_beside("pb07-three-gap-supports.toml", kernel);
-    CHECK(f.calls == std::vector<std::string>{"1.1", "2.1", "2.2", "3.1", "3.2", "4.1", "4.2", "4.3"});
-    CHECK(f.compared == 8);
-    CHECK_FALSE(f.parted.has_value());
-    CHECK(f.stopped.empty());
-  }
-}
-
-TEST_CASE("the paths part where single precision decides otherwise, and no call is compared behind") {
-  const path_beside f = follow_beside("divergences/single-precision.toml", "fortran-r4");
-  REQUIRE(f.parted.has_value());
-  CHECK(f.parted->step == 2);
-  CHECK(f.parted->increment == 1);
-  CHECK(f.calls == std::vector<std::string>{"1.1", "1.2", "2.1", "-"});
-  CHECK(f.stopped.empty());
-}
-
-TEST_CASE("nothing is computed behind the last place wanted") {
-  const auto calls = [](path_place last) {
-    return follow_beside("pb07-three-gap-supports.toml", "cpp", last).calls;
-  };
-  CHECK(calls({2, 1}) == std::vector<std::string>{"1.1", "2.1", "-", "-", "-", "-", "-", "-"});
-  CHECK(calls({2, 0}) == std::vector<std::string>{"1.1", "2.1", "2.2", "-", "-", "-", "-", "-"});
-}
-
-TEST_CASE("an exact path that ends before the kernel's says why") {
-  // A kernel that answers "no event" goes on where the exact path has become a mechanism.
-  const auto p = read_problem(CONTCT_REFERENCE "/problems/divergences/standstill.toml");
-  const exact_problem exactly = exact_problem_of(p);
-  exact_companion beside(exactly);
-  const contct::event first[] = {{0, contct::change::make}};
-  path_1989 walk(exactly);
-  int number = 0;
-  while (walk.next()) {
-    beside.incremented({1, ++number, 0.5, 0.5, walk.call().led_to.events});
-    CHECK_FALSE(beside.parted().has_value());
-  }
-  REQUIRE(walk.status() == contct::path_status::mechanism);
-  beside.incremented({1, number + 1, 0.5, 0.5, first});
-  CHECK(beside.call() == nullptr);
-  CHECK(beside.stopped() == "it ends before: the structure has become a mechanism");
-  REQUIRE(beside.parted().has_value());
-  CHECK(beside.parted()->increment == number + 1);
 }

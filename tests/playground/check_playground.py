@@ -1,5 +1,5 @@
 """The playground, a page in a browser without a window: what its WebAssembly computes is what the program computes, and it
-answers to typing, dragging, keys, links and playing as people use them.
+answers to typing, dragging, keys and links as people use them.
 usage: python3 check_playground.py WORK PROGRAM PAGE    (pictures of what was looked at go to WORK)"""
 import glob
 import json
@@ -33,11 +33,7 @@ def answer_of(name, *texts):
 
 
 def ready():
-    end = time.monotonic() + 60
-    while value("document.body.dataset.ready") != "yes":
-        if time.monotonic() > end:
-            raise TimeoutError(f"the page is not ready: {browser.errors[:2]}")
-        time.sleep(0.05)
+    browser.wait_for("document.body.dataset.ready === 'yes'")
 
 
 # ---- two results ----
@@ -170,13 +166,11 @@ def text():
 
 
 def type_text(words):
-    value(f"(() => {{ const t = document.getElementById('text'); t.value = {json.dumps(words)};"
-          " t.dispatchEvent(new Event('input')); })()")
+    browser.enter("text", words)
 
 
 def choose(menu, name):
-    value(f"(() => {{ const m = document.getElementById('{menu}'); m.value = {json.dumps(name)};"
-          " m.dispatchEvent(new Event('change')); })()")
+    browser.enter(menu, name, "change")
 
 
 def center(script):
@@ -237,8 +231,7 @@ def dragging():
     check(number("step[4].uniform") < uniform, "a load that is pulled down is larger")
 
     choose("menu", "pb01-cantilever-tip-stop")
-    value("document.getElementById('slider').value = document.getElementById('slider').max;"
-          "document.getElementById('slider').dispatchEvent(new Event('input'))")
+    browser.enter("slider", value("document.getElementById('slider').max"))
     node = number("step[4].point[1].node")  # the load of the last step, since the last state is shown
     drag(handle("load of step 4"), -330, 0, steps=12)
     check(number("step[4].point[1].node") < node, "a point load can be dragged to another node")
@@ -282,11 +275,6 @@ def story():
     check(sorted(set(told)) == marked and len(marked) >= 6, f"the lines that ran are marked: {marked}")
     listing = (root / "fortran/contct.f").read_text().splitlines()
     check(value("[...document.querySelectorAll('#listing li')].map(l => l.textContent)") == listing, "the listing is contct.f")
-    value("document.querySelectorAll('#events button')[0].click(); document.getElementById('play').click()")
-    end = time.monotonic() + 30
-    while value("document.getElementById('play').getAttribute('aria-pressed')") == "true" and time.monotonic() < end:
-        time.sleep(0.2)
-    check(value("document.getElementById('slider').value === document.getElementById('slider').max"), "played to the end")
 
 
 def links():
@@ -311,9 +299,7 @@ def report():
     """Behind a pause the playground has what the page of --html has."""
     choose("kernels", "fortran,cpp")
     choose("menu", "pb07-three-gap-supports")
-    end = time.monotonic() + 30
-    while value("(result.calls || []).length") == 0 and time.monotonic() < end:
-        time.sleep(0.1)
+    browser.wait_for("(result.calls || []).length > 0", 30)
     rows = lambda table: value(f"document.querySelectorAll('#{table} tbody tr').length")
     check(rows("comparison") == value("result.lockstep.calls"), "every call of the kernels has its row")
     check(rows("ends") >= 4 and rows("certificate") == 4, "the ends of steps have their tables, and certificates")

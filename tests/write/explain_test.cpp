@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
-#include "contct/exact/exact_problem.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/path/path_observers.hpp"
 #include "contct/path/solve_problem.hpp"
@@ -44,16 +43,15 @@ std::vector<int> lines_of(const nlohmann::json& story) {
   return lines;
 }
 
-std::string explained_text(const problem& p, int pair, int width, explain_detail detail = {}) {
-  explain_text text({p, {"fortran", "cpp"}, 8, pair}, {width, false}, detail);
-  std::string all;
-  explain_run(p, [&](const explained_increment& i) { all += text.add(i); });
-  return all + text.finish();
+std::string explained_text(const problem& p, int pair, int width, bool all = true) {
+  explain_text text({p, {"fortran", "cpp"}, 8, pair}, {width, false}, all);
+  std::string told;
+  explain_run(p, [&](const explained_increment& i) { told += text.add(i); });
+  return told + text.finish();
 }
 
-std::string explained_text(int pair, int width, const std::string& toml = two_pairs,
-                           explain_detail detail = {}) {
-  return explained_text(parse_problem(toml, "pb.toml"), pair, width, detail);
+std::string explained_text(int pair, int width, const std::string& toml = two_pairs, bool all = true) {
+  return explained_text(parse_problem(toml, "pb.toml"), pair, width, all);
 }
 
 /// `steps` load steps more, each without an event: an increment each.
@@ -63,34 +61,13 @@ std::string two_pairs_and(int steps) {
   return toml;
 }
 
-/// `exactly`: with the exact numbers, whose path is followed beside.
-nlohmann::json explained_json(const std::string& text, int pair = 0, bool exactly = false) {
+nlohmann::json explained_json(const std::string& text, int pair = 0) {
   const problem p = parse_problem(text, "pb.toml");
-  const exact_problem same = exact_problem_of(p);
-  exact_companion beside(same);
-  exact_addition more(&beside);
   std::string written;
   output_file out(&written);
   explain_json json({p, {"fortran", "cpp"}, 8, pair}, out);
-  const auto write = [&](const explained_increment& i) {
-    more.begin(i);
-    json.write(i, exactly ? &more : nullptr);
-  };
-  json.finish("solved", explain_run(p, write, &beside));
+  json.finish("solved", explain_run(p, [&](const explained_increment& i) { json.write(i); }));
   return nlohmann::json::parse(written);
-}
-
-/// A call with one open pair above a face below it.
-explained_call one_pair(double c, double d, double d_star, double s) {
-  explained_call call;
-  explained_pair p;
-  p.c = c;
-  p.d = d;
-  p.d_star = d_star;
-  p.s = s;
-  p.way = listing_branch::moving;
-  call.pairs = {p};
-  return call;
 }
 
 }  // namespace
@@ -114,21 +91,18 @@ TEST_CASE("two numbers are equal to the bit, so many ULP apart, or one is no num
   const problem p = parse_problem(two_pairs, "pb.toml");
   const explained_kernels of{p, {"a", "b"}, 8, 0};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(side_by_side_words(of, 0.25, 0.25, true) == "a 0x1p-2, b equal to the bit");
-  CHECK_THAT(side_by_side_words(of, 0.25, next, true), Contains(": 1 ULP apart"));
-  CHECK_THAT(side_by_side_words(of, 0.25, nan, true), Contains("one is NaN"));
-  CHECK(side_by_side_words(of, 0.25, 0.25, false) == "a and b are equal to the bit");
-  CHECK(side_by_side_words(of, 0.25, next, false) == "a and b are 1 ULP apart");
-  CHECK(side_by_side_words(of, 0.25, nan, false) == "a and b are different: one is NaN");
+  CHECK(side_by_side_words(of, 0.25, 0.25) == "a and b are equal to the bit");
+  CHECK(side_by_side_words(of, 0.25, next) == "a and b are 1 ULP apart");
+  CHECK(side_by_side_words(of, 0.25, nan) == "a and b are different: one is NaN");
   CHECK(ulps_apart(0.25, next, 8) == 1);
   CHECK(ulps_apart(0.25, std::nextafter(0.25F, 1.0F), 4) == 1);
 }
 
 TEST_CASE("more than twenty increments are a line each, unless all are wanted") {
-  const std::string few = explained_text(0, 80, two_pairs_and(18), {false, false});
+  const std::string few = explained_text(0, 80, two_pairs_and(18), false);
   CHECK(few == explained_text(0, 80, two_pairs_and(18)));
   CHECK_THAT(few, Contains("Step 19, increment 1\n"));
-  const std::string many = explained_text(0, 80, two_pairs_and(19), {false, false});
+  const std::string many = explained_text(0, 80, two_pairs_and(19), false);
   CHECK_THAT(
       many,
       StartsWith("  incr  share      events\n   1.1  0.25       make 1\n   1.2  1          no event\n") &&
@@ -143,14 +117,9 @@ TEST_CASE("a summary has the title once, names what is toggled too early, and co
   const std::string stop = "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n";
   for (int i = 0; i < 13; ++i) toml += stop;
   toml += "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.2501\nstiffness = 1\n";
-  const std::string text = explained_text(0, 60, toml, {false, false});
+  const std::string text = explained_text(0, 60, toml, false);
   CHECK_THAT(text, StartsWith("Stops\n  incr  share      events\n   1.1  0.25       make 1, make 3"));
   CHECK_THAT(text, Contains("\n                   make 7") && Contains("make 13, 3 more; too early: 16\n"));
-}
-
-TEST_CASE("the bits of s are shown where they are asked for") {
-  CHECK_THAT(explained_text(0, 80, two_pairs, {true, true}),
-             Contains("s: fortran 0x1p+0, cpp equal to the bit"));
 }
 
 TEST_CASE("each increment has its numbers, the winner and every pair with the reasons") {
@@ -234,60 +203,4 @@ TEST_CASE(
   CHECK_THAT(of_smin, !Contains("Unit 26, line"));
   CHECK(smin_apart ==
         nlohmann::json({{"field", "SMIN"}, {"index", 0}, {"fortran", "0x1p-2"}, {"cpp", "0x1p-1"}}));
-}
-
-TEST_CASE("the exact answer is that of the doubles of the call, bit for bit") {
-  const std::optional<listing_answer> a = answer_of(one_pair(-0.1, 0.0, -0.3, 0.1 / 0.3));
-  REQUIRE(a.has_value());
-  CHECK(a->s[0] == binary_value(0.1) / binary_value(0.3));
-  CHECK(a->s[0] != rational(1, 3));
-  CHECK(a->toggled == std::vector<int>{0});
-}
-
-TEST_CASE("a call with a number that is not finite has no exact answer") {
-  for (const double x : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-    CHECK_FALSE(answer_of(one_pair(x, 0.0, -0.3, 0.5)).has_value());
-    CHECK_FALSE(answer_of(one_pair(-0.1, x, -0.3, 0.5)).has_value());
-    CHECK_FALSE(answer_of(one_pair(-0.1, 0.0, x, 0.5)).has_value());
-  }
-}
-
-TEST_CASE("increments and pairs have their exact numbers, and the errors of both kernels") {
-  const nlohmann::json j = explained_json(two_pairs, 0, true);
-  REQUIRE(j["increments"].size() == 2);
-  const auto& first = j["increments"][0];
-  CHECK(first["exact_path"]["smin"] == "1/4");
-  CHECK(first["exact_path"]["fraction"] == "1/4");
-  CHECK(first["exact_path"]["winners"] == nlohmann::json({1}));
-  CHECK(first["exact_path"]["toggled"] == nlohmann::json({1}));
-  CHECK_FALSE(first["exact_path"].contains("parted"));
-  CHECK(first["exact"]["toggled"] == nlohmann::json({1}));
-  const auto& stop = first["pairs"][0];
-  CHECK(stop["exact_path"]["s"] == "1/4");
-  CHECK(stop["exact_path"]["kind"] == "advancing");
-  for (const char* kernel : {"fortran", "cpp"}) {
-    CHECK(std::abs(stop["exact"]["ulps_off"][kernel].get<double>()) <= 0.5);  // one division, of exact parts
-    CHECK(first["exact"]["ulps_off"][kernel] == stop["exact"]["ulps_off"][kernel]);
-  }
-  CHECK(first["pairs"][1]["exact"]["kind"] == "no response");
-  CHECK(first["pairs"][1]["exact_path"]["s"] == "1");
-  CHECK(j["increments"][1]["exact"]["winners"].empty());
-}
-
-TEST_CASE("an exact path that is not followed says why") {
-  const problem p = parse_problem(two_pairs, "pb.toml");
-  const explained_kernels of{p, {"fortran"}, 8, 0};
-  exact_addition more(nullptr, "too many dofs");
-  const explained_call call = one_pair(-0.1, 0.0, -0.3, std::nan(""));
-  const explained_increment i{{1, 1, 1.0, 1.0, {}}, 0.0, call, nullptr, {}, false};
-  more.begin(i);
-  CHECK_THAT(more.of_end(of, i)[0].words, Contains("is not followed: too many dofs"));
-  CHECK(more.of_s(of, i, call.pairs[0]).size() == 1);
-  CHECK_THAT(more.of_s(of, i, call.pairs[0])[0].words, Contains("; fortran nan."));
-  nlohmann::ordered_json out;
-  more.put_pair(out, of, i, call.pairs[0]);
-  CHECK(out["exact"]["ulps_off"]["fortran"].is_null());
-  CHECK(out["exact_path"].is_null());
-  more.put_increment(out, of, i);
-  CHECK(out["exact_path"]["stopped"] == "too many dofs");
 }

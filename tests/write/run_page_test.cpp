@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
-#include "contct/write/pictures.hpp"
+#include "contct/write/outputs.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 #include "contct/session/step_results.hpp"
-#include "contct/write/pictures.hpp"
+#include "contct/write/outputs.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "catch.hpp"
-#include "contct/write/pictures.hpp"
+#include "contct/write/outputs.hpp"
 #include "contct/write/words.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"

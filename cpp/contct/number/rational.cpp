@@ -118,19 +118,6 @@ double_double long_rounded(const rational& x) {
   return std::isfinite(high) ? double_double(high, rounded(x - binary_value(high))) : double_double(high);
 }
 
-double error_in_ulps(double x, const rational& exactly, int real_bytes) {
-  const int digits = real_bytes == 4 ? FLT_MANT_DIG : DBL_MANT_DIG;
-  int exponent = real_bytes == 4 ? FLT_MIN_EXP : DBL_MIN_EXP;  // 2^(exponent - 1) <= |exactly| < 2^exponent
-  if (exactly != 0) {
-    const rational size = abs(exactly);
-    int found = static_cast<int>(length_in_bits(numerator(size))) -
-                static_cast<int>(length_in_bits(denominator(size)));
-    if (size >= power_of(2, found)) ++found;
-    exponent = std::max(exponent, found);
-  }
-  return rounded((binary_value(x) - exactly) / power_of(2, exponent - digits));
-}
-
 std::string fraction_words(const rational& x) {
   return denominator(x) == 1 ? numerator(x).str() : numerator(x).str() + "/" + denominator(x).str();
 }

@@ -47,10 +47,6 @@ void allocate_as_new_does();
 /// The nearest double, and the nearest one to what that leaves.
 [[nodiscard]] double_double long_rounded(const rational& x);
 
-/// x less what it should be, in units in the last place of the number `exactly` among those of `real_bytes`
-/// (4 or 8): within 0.5 either way, it is the nearest one. `x` is finite.
-[[nodiscard]] double error_in_ulps(double x, const rational& exactly, int real_bytes);
-
 /// "p/q" in lowest terms, or "p".
 [[nodiscard]] std::string fraction_words(const rational& x);
 

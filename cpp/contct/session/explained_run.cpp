@@ -47,8 +47,8 @@ explained_run::explained_run(const std::vector<std::string>& kernels, increments
     : leader(make_kernel(kernels[0])), told(leader->facts(), second_kernel(kernels), wanted, std::move(to)) {}
 
 path_end explained_run::follow(const problem& p, const linear_structure& s, const std::string& engine,
-                               observer* before, observer* behind) {
-  std::vector<observer*> watching = {before, &told, behind};
+                               observer* shown) {
+  std::vector<observer*> watching = {&told, shown};
   std::erase(watching, nullptr);
   return contct::follow(p, s, engine_for(leader->facts(), engine, s), *leader, watching);
 }

@@ -22,10 +22,9 @@ struct explained_run {
   /// std::invalid_argument where the second cannot be compared with the first, and as make_kernel does.
   explained_run(const std::vector<std::string>& kernels, increments_wanted wanted, explained_path::sink to);
 
-  /// Follow the leader's path; `engine` may be empty or "auto". `before` and `behind` watch it too, and may
-  /// be null.
+  /// Follow the leader's path; `engine` may be empty or "auto". `shown` watches it too, and may be null.
   path_end follow(const problem& p, const linear_structure& s, const std::string& engine,
-                  observer* before = nullptr, observer* behind = nullptr);
+                  observer* shown = nullptr);
 
   [[nodiscard]] bool equal() const { return told.compared().mismatches == 0; }
 

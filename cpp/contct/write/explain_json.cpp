@@ -42,8 +42,7 @@ json both_json(const explained_kernels& of, double first, const double* second) 
   return out;
 }
 
-json pair_json(const explained_kernels& of, const explained_increment& i, const exact_addition* more,
-               const explained_pair& p) {
+json pair_json(const explained_kernels& of, const explained_increment& i, const explained_pair& p) {
   json out = {{"pair", p.pair + 1}};
   put_place(out, of.what.geometry, p.node - 1);
   out.update({{"surface", surface_name(p.surface)},
@@ -62,7 +61,6 @@ json pair_json(const explained_kernels& of, const explained_increment& i, const 
   out["branches"] = branches_json(p);
   out["bits"] = both_json(of, p.s, i.other == nullptr ? nullptr : &i.other->ss[p.pair]);
   if (i.other != nullptr) out["isep"] = {{of.names[0], p.isep_after}, {of.names[1], i.other->isep[p.pair]}};
-  if (more != nullptr) more->put_pair(out, of, i, p);
   std::vector<sentence> story = scale_factor_story(p);
   if (i.call.winner >= 0) std::ranges::move(toggle_story(i.call, p), std::back_inserter(story));
   out["story"] = story_json(story);
@@ -95,7 +93,7 @@ explain_json::explain_json(explained_kernels of, output_file& out)
                  {"real_bytes", of_.real_bytes}},
                 "increments") {}
 
-void explain_json::write(const explained_increment& i, const exact_addition* more) {
+void explain_json::write(const explained_increment& i) {
   json out = {{"step", i.what.step},
               {"increment", i.what.number},
               {"fraction_before", i.fraction_before},
@@ -112,11 +110,10 @@ void explain_json::write(const explained_increment& i, const exact_addition* mor
                     {"index", i.apart->index},
                     {of_.names[0], i.apart->leader},
                     {of_.names[1], i.apart->follower}};
-  if (more != nullptr) more->put_increment(out, of_, i);
   out["pairs"] = nullptr;
   const bool all = of_.pair == 0;
   document_.add(out, {{"pairs", all ? i.call.pairs.size() : 1, [&](std::size_t k) {
-                         return pair_json(of_, i, more, i.call.pairs[all ? k : of_.pair - 1]);
+                         return pair_json(of_, i, i.call.pairs[all ? k : of_.pair - 1]);
                        }}});
 }
 

@@ -16,14 +16,11 @@ std::uint64_t ulps_apart(double first, double second, int real_bytes) {
                          : ulps_between(first, second);
 }
 
-std::string side_by_side_words(const explained_kernels& of, double first, double second, bool hex) {
-  const std::string words = hex ? fmt::format("{} {}, {} ", of.names[0], hexfloat(first), of.names[1])
-                                : fmt::format("{} and {} are ", of.names[0], of.names[1]);
+std::string side_by_side_words(const explained_kernels& of, double first, double second) {
+  const std::string words = fmt::format("{} and {} are ", of.names[0], of.names[1]);
   if (same_bits(first, second)) return words + "equal to the bit";
-  const std::string apart = std::isnan(first) != std::isnan(second)
-                                ? (hex ? "one is NaN" : "different: one is NaN")
-                                : fmt::format("{} ULP apart", ulps_apart(first, second, of.real_bytes));
-  return words + (hex ? fmt::format("{}: {}", hexfloat(second), apart) : apart);
+  if (std::isnan(first) != std::isnan(second)) return words + "different: one is NaN";
+  return words + fmt::format("{} ULP apart", ulps_apart(first, second, of.real_bytes));
 }
 
 namespace {
@@ -31,9 +28,8 @@ namespace {
 /// The text of one increment.
 class increment_printer {
  public:
-  increment_printer(const explained_kernels& of, const terminal& t, bool hex, const explained_increment& i,
-                    const exact_addition* more)
-      : of_(of), terminal_(t), hex_(hex), i_(i), more_(more) {}
+  increment_printer(const explained_kernels& of, const terminal& t, const explained_increment& i)
+      : of_(of), terminal_(t), i_(i) {}
 
   std::string text(bool first) {
     if (first && !of_.what.title.empty()) say(paint::strong, on_one_line(of_.what.title));
@@ -86,12 +82,8 @@ class increment_printer {
   }
 
   void say_side_by_side(std::string_view what, double first, double second) {
-    const std::string words = side_by_side_words(of_, first, second, hex_);
+    const std::string words = side_by_side_words(of_, first, second);
     say({no_line, fmt::format("{}: {}", what, words)}, words.find("equal to the bit") == std::string::npos);
-  }
-
-  void say(const std::vector<added_remark>& remarks) {
-    for (const added_remark& r : remarks) say({no_line, r.words}, r.loud);
   }
 
   void print_load() {
@@ -109,7 +101,6 @@ class increment_printer {
                                    p.isep_before == separated ? "separated" : "in contact", kind_name(p)));
     for (const sentence& t : scale_factor_story(p)) say(t);
     if (i_.other != nullptr) say_side_by_side("s", p.s, i_.other->ss[p.pair]);
-    if (more_ != nullptr) say(more_->of_s(of_, i_, p));
   }
 
   void print_winner() {
@@ -117,7 +108,6 @@ class increment_printer {
     say(paint::strong, "The smallest s");
     for (const sentence& t : winner_story(i_.call)) say(t);
     if (i_.other != nullptr) say_side_by_side("SMIN", i_.call.smin, i_.other->smin);
-    if (more_ != nullptr) say(more_->of_smin(of_, i_));
     if (!i_.call.narrowest) return;
     constexpr std::uint64_t close = 1'000'000;
     say({no_line, i_.call.narrowest->ulps <= close
@@ -154,9 +144,6 @@ class increment_printer {
                                     "(10). The share of the step is now {}.",
                                     share_words(i_.what.s), share_words(i_.what.fraction)));
     }
-    if (more_ != nullptr) {
-      for (const added_remark& r : more_->of_end(of_, i_)) say(r.loud ? paint::bad : paint::quiet, r.words);
-    }
     if (i_.apart && i_.other == nullptr)
       say(paint::bad, fmt::format("{} gave no answer: {}", of_.names[1], i_.apart->follower));
     if (i_.apart && i_.apart->field == "text")
@@ -166,9 +153,7 @@ class increment_printer {
 
   const explained_kernels& of_;
   const terminal& terminal_;
-  bool hex_;
   const explained_increment& i_;
-  const exact_addition* more_;
   std::string out_;
 };
 
@@ -225,15 +210,15 @@ std::string summary_end(const terminal& t, std::size_t increments) {
 
 }  // namespace
 
-explain_text::explain_text(explained_kernels of, const terminal& t, explain_detail detail)
-    : of_(std::move(of)), terminal_(t), detail_(detail), summary_(summary_head(t, of_.what.title)) {}
+explain_text::explain_text(explained_kernels of, const terminal& t, bool all)
+    : of_(std::move(of)), terminal_(t), all_(all), summary_(summary_head(t, of_.what.title)) {}
 
-std::string explain_text::add(const explained_increment& i, const exact_addition* more) {
+std::string explain_text::add(const explained_increment& i) {
   ++increments_;
-  const bool in_full = detail_.all || increments_ <= most_told_in_full;
+  const bool in_full = all_ || increments_ <= most_told_in_full;
   std::string text;
-  if (in_full) text = increment_printer(of_, terminal_, detail_.hex, i, more).text(increments_ == 1);
-  if (detail_.all) return text;
+  if (in_full) text = increment_printer(of_, terminal_, i).text(increments_ == 1);
+  if (all_) return text;
   in_full_ += text;
   summary_ += summary_line(terminal_, i);
   if (in_full) return "";
@@ -242,7 +227,7 @@ std::string explain_text::add(const explained_increment& i, const exact_addition
 }
 
 std::string explain_text::finish() {
-  if (detail_.all || increments_ == 0) return "";
+  if (all_ || increments_ == 0) return "";
   return increments_ <= most_told_in_full ? in_full_ : summary_end(terminal_, increments_);
 }
 

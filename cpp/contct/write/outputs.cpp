@@ -1,11 +1,61 @@
 #include "contct/write/outputs.hpp"
 
-#include <string>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 
-#include "contct/write/pictures.hpp"
+#include "contct/text/strings.hpp"
 #include "contct/write/result_json.hpp"
 
 namespace contct {
+
+// Files of report/ and reference/parallel-edition.html, built in: embed.cmake writes them.
+extern const std::string_view report_html, report_css, result_js, picture_js, report_js,
+    parallel_edition_html;
+
+namespace {
+
+/// The result as text of an HTML script element, where only "<" can begin anything: whatever its strings
+/// hold, none of it is markup.
+std::string script_text(const run_result& r) {
+  std::string text;
+  output_file out(&text);
+  write_result(r, out, result_parts::report);
+  std::string safe;
+  for (const char c : text) safe += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
+  return safe;
+}
+
+/// The one section of the parallel edition, whose file is a page of its own.
+std::string_view edition_section() {
+  constexpr std::string_view last = "</section>\n";
+  const std::size_t from = parallel_edition_html.find("<section");
+  return parallel_edition_html.substr(from, parallel_edition_html.rfind(last) + last.size() - from);
+}
+
+}  // namespace
+
+/// The template's places are filled from its beginning to its end, so what is filled in is not looked at.
+std::string run_page(const run_result& r) {
+  const std::string title = markup_text(title_of(r.what, r.file));
+  const std::pair<std::string_view, std::string> fillings[] = {
+      {"{{title}}", title},
+      {"{{style}}", std::string(report_css)},
+      {"{{heading}}", title},
+      {"{{edition}}", std::string(edition_section())},
+      {"{{data}}", script_text(r)},
+      {"{{script}}", std::string(result_js).append(picture_js).append(report_js)}};
+  std::string_view rest = report_html;
+  std::string page;
+  for (const auto& [place, text] : fillings) {
+    const std::size_t at = rest.find(place);
+    if (at == std::string_view::npos) throw std::logic_error("report.html has no " + std::string(place));
+    page.append(rest.substr(0, at)).append(text);
+    rest.remove_prefix(at + place.size());
+  }
+  return page += rest;
+}
 
 void write_outputs(const run& r) {
   const run_outputs& to = r.to;

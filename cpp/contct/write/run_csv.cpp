@@ -6,7 +6,7 @@
 #include "contct/session/path_states.hpp"
 #include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/pictures.hpp"
+#include "contct/write/outputs.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {

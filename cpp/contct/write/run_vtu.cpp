@@ -7,7 +7,7 @@
 
 #include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/pictures.hpp"
+#include "contct/write/outputs.hpp"
 
 namespace contct {
 namespace {

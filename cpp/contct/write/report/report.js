@@ -117,7 +117,7 @@ function showEvents() {
     const name = `${i.step}.${i.number}`;
     if (!stops.has(name)) return name;
     const button = element("button", { type: "button", "aria-label": `Show increment ${name}` }, name);
-    button.addEventListener("click", () => { stopPlaying(); show(stops.get(name)); });
+    button.addEventListener("click", () => show(stops.get(name)));
     return button;
   };
   const rows = increments.map((i, n) => [n < 1200 ? nameOfIncrement(i) : "", i.fraction, i.snap ? "snap" : i.s, minus(i.load.words), allEventWords(i.events) || "–"]);
@@ -325,18 +325,16 @@ function showLegend() {
   byId("picture-words").textContent = pictureWords[scene ? structure.kind : "none"];
 }
 
-// What can be chosen of the picture: a plate's quantity, a direction of view.
-function offer(id, options, chosen) {
-  byId(`${id}-label`).hidden = byId(id).hidden = options.length === 0;
-  byId(id).replaceChildren(...options.map(([value, words]) => element("option", { value }, words)));
-  byId(id).value = chosen;
+// Of a plate the quantity that is shown can be chosen.
+function offerFields() {
+  byId("field-label").hidden = byId("field").hidden = fields.length === 0;
+  byId("field").replaceChildren(...fields.map(({ name, words }) => element("option", { value: name }, words)));
+  byId("field").value = field && field.name;
 }
 
 // ---- where we are ----
 
 let current = 0;
-let timer = 0;
-const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
 // What else is done when a state was drawn: the playground has handles on the picture.
 let afterDrawing = () => {};
@@ -359,31 +357,12 @@ function show(n) {
   markCurrentRow(f);
 }
 
-function playingIs(on) {
-  byId("play").setAttribute("aria-pressed", String(on));
-  byId("play").textContent = on ? "Pause" : "Play";
-}
-
-function stopPlaying() {
-  clearInterval(timer);
-  timer = 0;
-  playingIs(false);
-}
-
-function startPlaying() {
-  playingIs(true);
-  if (current === frames.length - 1) show(0);
-  timer = setInterval(() => (current < frames.length - 1 ? show(current + 1) : stopPlaying()), calm.matches ? 1600 : 1100);
-}
-
 function listen() {
-  const go = (id, event, to) => byId(id).addEventListener(event, () => { stopPlaying(); show(to()); });
+  const go = (id, event, to) => byId(id).addEventListener(event, () => show(to()));
   go("slider", "input", () => Number(byId("slider").value));
   go("back", "click", () => current - 1);
   go("next", "click", () => current + 1);
-  byId("play").addEventListener("click", () => (timer ? stopPlaying() : startPlaying()));
   byId("field").addEventListener("change", (e) => { field = fields.find((f) => f.name === e.target.value); draw(); });
-  byId("view").addEventListener("change", (e) => { view = Number(e.target.value); Object.assign(scene, frameScene()); draw(); });
   let width = innerWidth;
   addEventListener("resize", () => {
     if (innerWidth === width || !result) return;
@@ -391,7 +370,7 @@ function listen() {
     show(current);
   });
   // On paper there is the final state.
-  addEventListener("beforeprint", () => { stopPlaying(); printing = true; show(frames.length - 1); });
+  addEventListener("beforeprint", () => { printing = true; show(frames.length - 1); });
   addEventListener("afterprint", () => { printing = false; show(current); });
 }
 
@@ -405,8 +384,7 @@ function load(given, state = null) {
   prepareChart();
   showHead();
   showLegend();
-  offer("field", fields.map((f) => [f.name, f.words]), field && field.name);
-  offer("view", scene && !isBeam() ? views.map((v, i) => [String(i), v.words]) : [], String(view));
+  offerFields();
   showEvents();
   byId("slider").max = String(frames.length - 1);
   show(state ?? mostMoved());
