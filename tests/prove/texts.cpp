@@ -1,4 +1,4 @@
-// texts STEP [FIRST LAST]: every STEP-th 4-byte SMIN below 1 has the same text from gfortran's FORMAT and in
+// texts STEP: every STEP-th 4-byte SMIN below 1 has the same text from gfortran's FORMAT and in
 // C++. SMIN is above 0 and at most 1, which is proved; 1 itself is written by FORMAT 20.
 #include <array>
 #include <bit>
@@ -20,10 +20,6 @@ constexpr std::size_t width = 11;
 using lines = std::array<char, batch * width>;
 
 extern "C" void texts_(const float* smin, const int* n, char* texts, std::size_t length);
-
-std::uint32_t number(const char* text) {
-  return static_cast<std::uint32_t>(std::strtoul(text, nullptr, 0));
-}
 
 /// How many of some values have different texts.
 int differences(std::span<const float> values) {
@@ -53,13 +49,12 @@ int differences(std::span<const float> values) {
 }  // namespace
 
 int main(int count, char** words) {
-  const std::uint64_t step = count > 1 ? number(words[1]) : 1;
-  const std::uint64_t first = count > 3 ? number(words[2]) : 1;
-  const std::uint64_t last = count > 3 ? number(words[3]) : std::bit_cast<std::uint32_t>(1.0F) - 1;
+  const std::uint64_t step = count > 1 ? std::strtoul(words[1], nullptr, 10) : 1;
+  const std::uint64_t last = std::bit_cast<std::uint32_t>(1.0F) - 1;
   std::uint64_t compared = 0;
   int different = 0;
   static std::array<float, batch> values;
-  for (std::uint64_t bits = first; bits <= last;) {
+  for (std::uint64_t bits = 1; bits <= last;) {
     std::size_t n = 0;
     for (; n < batch && bits <= last; bits += step)
       values[n++] = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
