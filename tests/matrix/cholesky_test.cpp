@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/model/problem.hpp"
+#include "support/beams.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct;
@@ -19,11 +19,8 @@ namespace {
 
 /// A simply supported beam of `n` elements of length h.
 linear_structure simple_span(int n, double h) {
-  beam b;
-  for (int i = 0; i <= n; ++i) b.x.push_back(h * i);
-  b.EI.assign(static_cast<std::size_t>(n), 1.0);
   const std::vector<support> ends = {{0, 0, true}, {n, 0, true}};
-  return build(b, ends, {});
+  return build(even_beam(n * h, n, 1.0), ends, {});
 }
 
 double rcond_of(const linear_structure& s) {
@@ -59,19 +56,12 @@ TEST_CASE("the condition is LAPACK's own estimate, dpbcon's") {
     const linear_structure s = simple_span(n, 1.0);
     const double ours = rcond_of(s);
     // dpbcon on the same scaled matrix.
-    band_matrix a = s.stiffness.band();
+    stiffness_matrix scaled = s.stiffness;
     std::vector<double> d;
-    for (int j = 0; j < a.order(); ++j) d.push_back(1.0 / std::sqrt(a.at(j, j)));
-    double norm = 0.0;
-    std::vector<double> sums(d.size());
-    for (int j = 0; j < a.order(); ++j) {
-      for (int i = j; i <= std::min(j + 3, a.order() - 1); ++i) {
-        const double entry = a.at(i, j) *= d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(j)];
-        sums[static_cast<std::size_t>(j)] += std::abs(entry);
-        if (i != j) sums[static_cast<std::size_t>(i)] += std::abs(entry);
-      }
-    }
-    for (const double sum : sums) norm = std::max(norm, sum);
+    for (const double entry : scaled.diagonal_with({})) d.push_back(1.0 / std::sqrt(entry));
+    const double norm = scaled.one_norm(scaled.diagonal_with({}), d);
+    scaled.scale(d);
+    band_matrix& a = scaled.band();
     REQUIRE(factor(a));
     const int order = a.order();
     const int kd = 3;

@@ -4,32 +4,12 @@
 #include <stdexcept>
 
 #include "catch.hpp"
-#include "contct/matrix/cholesky.hpp"
-#include "contct/model/problem.hpp"
+#include "support/beams.hpp"
 #include "support/matrices.hpp"
 
 using namespace contct;
 
 namespace {
-
-beam even_beam(double length, int elements, double EI) {
-  beam b;
-  for (int i = 0; i <= elements; ++i) b.x.push_back(length * i / elements);
-  b.EI.assign(static_cast<std::size_t>(elements), EI);
-  return b;
-}
-
-std::vector<double> solve(const beam& b, const std::vector<support>& supports, const load& l) {
-  linear_structure s = build(b, supports, {});
-  std::vector<double> f(static_cast<std::size_t>(b.dofs()), 0.0);
-  add_consistent_loads(b, l, f);
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    if (s.fixed[i] != 0) f[i] = 0.0;
-  }
-  REQUIRE(factor(s.stiffness.band()));
-  solve_with(s.stiffness.band(), f);
-  return f;
-}
 
 const std::vector<support> clamped_left = {{0, 0, true}, {0, 1, true}};
 
@@ -38,7 +18,7 @@ const std::vector<support> clamped_left = {{0, 0, true}, {0, 1, true}};
 TEST_CASE("cantilever under a tip load: w = P L^3 / 3 EI, and linear moments") {
   const beam b = even_beam(2.0, 4, 50.0);
   const load l{{{4, 0, -3.0}}, {}};
-  const auto u = solve(b, clamped_left, l);
+  const auto u = displaced(b, clamped_left, l);
   CHECK(u[8] == Approx(-3.0 * 8 / 150).epsilon(1e-13));
   CHECK(u[9] == Approx(-3.0 * 4 / 100).epsilon(1e-13));
   const element_results forces = results_in_elements(b, l, u);
@@ -55,7 +35,7 @@ TEST_CASE("simply supported beam under uniform load: exact at the nodes, M = q L
   const beam b = even_beam(10.0, 6, 7.0);
   const std::vector<support> ends = {{0, 0, true}, {6, 0, true}};
   const load l{{}, {{{-2.0}, {}}}};
-  const auto u = solve(b, ends, l);
+  const auto u = displaced(b, ends, l);
   CHECK(u[6] == Approx(-5.0 * 2 * 1e4 / (384 * 7)).epsilon(1e-12));
   const element_results forces = results_in_elements(b, l, u);
   CHECK(forces.at(2, 1)[1] == Approx(25.0).epsilon(1e-12));  // sagging: positive
@@ -73,7 +53,7 @@ TEST_CASE("stiffness may change from element to element") {
   // Cantilever, root half twice as stiff: w = P/3 (L^3/EI2 + (1/EI1 - 1/EI2) (L/2)^3 7 ...), by unit loads.
   beam b = even_beam(2.0, 2, 1.0);
   b.EI = {2.0, 1.0};
-  const auto u = solve(b, clamped_left, {{{2, 0, 1.0}}, {}});
+  const auto u = displaced(b, clamped_left, {{{2, 0, 1.0}}, {}});
   // Integral of (2 - x)^2 / EI from 0 to 2: (8 - 1) / 3 / 2 + 1 / 3.
   CHECK(u[4] == Approx(7.0 / 6 + 1.0 / 3).epsilon(1e-13));
 }
@@ -120,7 +100,7 @@ TEST_CASE("elastic supports: a beam on two springs sinks by F / 2k, and each rea
   const beam b = even_beam(4.0, 2, 1e6);
   const std::vector<support> springs = {{0, 0, false, 10.0}, {2, 0, false, 10.0}};
   const load l{{{1, 0, -4.0}}, {}};
-  const auto u = solve(b, springs, l);
+  const auto u = displaced(b, springs, l);
   CHECK(u[0] == Approx(-0.2).epsilon(1e-9));
   const auto r = reactions(b, l, springs, u);
   CHECK(r[0] == Approx(2.0).epsilon(1e-9));
@@ -130,7 +110,7 @@ TEST_CASE("elastic supports: a beam on two springs sinks by F / 2k, and each rea
 TEST_CASE("a rotational spring at the root makes a clamp as stiff as itself") {
   const beam b = even_beam(1.0, 1, 1.0);
   const std::vector<support> soft = {{0, 0, true}, {0, 1, false, 2.0}};
-  const auto u = solve(b, soft, {{{1, 0, 1.0}}, {}});
+  const auto u = displaced(b, soft, {{{1, 0, 1.0}}, {}});
   CHECK(u[2] == Approx(1.0 / 3 + 1.0 / 2).epsilon(1e-13));
 }
 

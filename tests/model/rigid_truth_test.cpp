@@ -33,6 +33,17 @@ std::optional<free_motion> driven_by_rounded(const model& m, const linear_struct
   return s.driven_motion(s.nothing_held(), f, {});
 }
 
+/// Exactly and from rounded loads the motion that is driven is the same, within rounding.
+void agree(const model& m, const load& l) {
+  const linear_structure s = build(m, {}, {});
+  const auto exactly = driven(s, l);
+  const auto rounded = driven_by_rounded(m, s, l);
+  REQUIRE(exactly.has_value());
+  REQUIRE(rounded.has_value());
+  for (int dof = 0; dof < s.dofs(); ++dof)
+    CHECK(exactly->at(dof) == Approx(rounded->at(dof)).epsilon(1e-13).margin(1e-15));
+}
+
 using numbers = std::array<int, 3>;
 
 int determinant(const numbers& a, const numbers& b, const numbers& c) {
@@ -80,16 +91,9 @@ TEST_CASE("a load over a support turns the beam about it only with a moment, how
 }
 
 TEST_CASE("the motion is the steepest one, and its parts are those of the rounded loads") {
-  const model m{beam_at({0, 1, 3, 4})};
-  const linear_structure s = build(m, {}, {});
   load l = points({{0, 0, 3.0}, {2, 1, -0.5}});
   l.distributed = {{{1.0, -0.25, 0.125}, {}}, {{2.0}, {0, 2}}, {{-1.0, 1.0}, {1, 2}}};
-  const auto exactly = driven(s, l);
-  const auto rounded = driven_by_rounded(m, s, l);
-  REQUIRE(exactly.has_value());
-  REQUIRE(rounded.has_value());
-  for (int dof = 0; dof < s.dofs(); ++dof)
-    CHECK(exactly->at(dof) == Approx(rounded->at(dof)).epsilon(1e-13).margin(1e-15));
+  agree(beam_at({0, 1, 3, 4}), l);
 }
 
 TEST_CASE("what a plate's pressures and forces do on its motions is summed exactly, rectangle by rectangle") {
@@ -97,18 +101,10 @@ TEST_CASE("what a plate's pressures and forces do on its motions is summed exact
   p.x = {0, 0.7, 1.3, 2.9};
   p.y = {-1, 0.1, 0.35};
   p.D = 1.0;
-  const model m{p};
-  const linear_structure s = build(m, {}, {});
   load l = points({{5, 0, 0.25}, {2, 1, 0.5}, {7, 2, -0.125}});
   l.distributed = {{{0.3}, {}}, {{-0.2}, {1, 2, 3, 5}}};
-  const auto exactly = driven(s, l);
-  const auto rounded = driven_by_rounded(m, s, l);
-  REQUIRE(exactly.has_value());
-  REQUIRE(rounded.has_value());
-  for (int dof = 0; dof < s.dofs(); ++dof)
-    CHECK(exactly->at(dof) == Approx(rounded->at(dof)).epsilon(1e-13).margin(1e-15));
-  l.points = {
-      {0, 0, 1.0}};  // of a uniform pressure on it all, less the same as a force at the middle: nothing
+  agree(p, l);
+  // Of a uniform pressure on it all, less the same as a force at the middle: nothing.
   p.x = {0, 0.3, 0.6};
   p.y = {0, 0.7, 1.4};
   const linear_structure even = build(p, {}, {});

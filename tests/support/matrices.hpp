@@ -5,8 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "contct/matrix/stiffness_matrix.hpp"
-#include "contct/model/structure.hpp"
+#include "catch.hpp"
+#include "contct/matrix/cholesky.hpp"
+#include "contct/model/problem.hpp"
 #include "contct/number/random.hpp"
 
 namespace contct {
@@ -37,6 +38,19 @@ inline std::vector<double> product(const band_matrix& a, const std::vector<doubl
     }
   }
   return y;
+}
+
+/// The displacements of a beam or plate on supports alone.
+inline std::vector<double> displaced(const model& m, const std::vector<support>& supports, const load& l) {
+  linear_structure s = build(m, supports, {});
+  std::vector<double> f(s.dofs());
+  add_consistent_loads(m, l, f);
+  std::vector<double> x(f.size());
+  for (int dof = 0; dof < s.dofs(); ++dof) x[s.row_of(dof)] = s.fixed[dof] != 0 ? 0.0 : f[dof];
+  REQUIRE(factor(s.stiffness.band()));
+  solve_with(s.stiffness.band(), x);
+  for (int dof = 0; dof < s.dofs(); ++dof) f[dof] = x[s.row_of(dof)];
+  return f;
 }
 
 /// Points in space with a spring between any two of them: three dofs a point.

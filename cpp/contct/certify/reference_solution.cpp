@@ -294,7 +294,7 @@ class reference_solver::search {
         // Where an equilibrium exists, rounding has put a pair on the wrong side.
         if (nothing_stops(p)) return end(exists_ == true ? outcome::not_found : outcome::none_seen, false);
       }
-      const long double alpha = driven ? best_step(p, -driven->work(), 0.0L) : best_step(p);
+      const long double alpha = driven ? best_step(p, -driven->work, 0.0L) : best_step(p);
       if (!std::isfinite(alpha)) return end(why_endless(p), false);
       for (std::size_t i = 0; i < p.size(); ++i) u_[i] += alpha * p[i];
       set_ = pressed_at(u_, 0.0L);

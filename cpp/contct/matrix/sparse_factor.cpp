@@ -44,24 +44,6 @@ T* made(T* by_cholmod) {
   return by_cholmod;
 }
 
-/// CHOLMOD's view of a matrix by columns; nothing is copied.
-cholmod_sparse view_of(std::size_t rows, std::size_t columns, int* starts, int* row_numbers, double* values,
-                       std::size_t entries) {
-  cholmod_sparse view{};
-  view.nrow = rows;
-  view.ncol = columns;
-  view.nzmax = entries;
-  view.p = starts;
-  view.i = row_numbers;
-  view.x = values;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
-}
-
 /// CHOLMOD's settings and working space. Never copied: only `cholmod` has one, which cannot be copied.
 struct workspace : cholmod_common {
   workspace() : cholmod_common{} { cholmod_start(this); }
@@ -186,10 +168,19 @@ class cholmod final : public sparse_factor {
     for (const int order : orders) work_.method[work_.nmethods++].ordering = order;
   }
 
+  /// CHOLMOD's view of A; nothing is copied.
   [[nodiscard]] cholmod_sparse view_of_a() {
-    const std::size_t n = a_.order();
-    cholmod_sparse view = view_of(n, n, a_.starts.data(), a_.rows.data(), a_.values.data(), a_.values.size());
+    cholmod_sparse view{};
+    view.nrow = view.ncol = a_.order();
+    view.nzmax = a_.values.size();
+    view.p = a_.starts.data();
+    view.i = a_.rows.data();
+    view.x = a_.values.data();
     view.stype = -1;  // symmetric, the lower triangle
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = view.packed = 1;
     return view;
   }
 

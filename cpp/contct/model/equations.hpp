@@ -2,50 +2,17 @@
 // are what the certificate proves errors with, in rational numbers what the exact path solves.
 #pragma once
 
-#include <algorithm>
+#include <boost/container/flat_map.hpp>
 #include <functional>
-#include <initializer_list>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "contct/model/elements.hpp"
 
 namespace contct {
 
-/// The entries of a row that may differ from 0, by column.
+/// A symmetric matrix: of each row the entries that may differ from 0, by column.
 template <class Number>
-class sparse_row {
- public:
-  using entry = std::pair<int, Number>;
-
-  sparse_row() = default;
-  sparse_row(std::initializer_list<entry> entries) : entries_(entries) {}
-
-  /// The entry, which is 0 at first.
-  Number& operator[](int column) {
-    constexpr std::size_t of_a_beam = 6;  // most structures are beams, and have as many entries a row
-    if (entries_.empty()) entries_.reserve(of_a_beam);
-    const auto place = std::ranges::lower_bound(entries_, column, {}, &entry::first);
-    if (place != entries_.end() && place->first == column) return place->second;
-    return entries_.insert(place, {column, Number(0)})->second;
-  }
-  /// The entry; 0 where the row has none.
-  [[nodiscard]] Number at(int column) const {
-    const auto place = std::ranges::lower_bound(entries_, column, {}, &entry::first);
-    return place != entries_.end() && place->first == column ? place->second : Number(0);
-  }
-  [[nodiscard]] auto begin() const { return entries_.begin(); }
-  [[nodiscard]] auto end() const { return entries_.end(); }
-  [[nodiscard]] std::size_t size() const { return entries_.size(); }
-
- private:
-  std::vector<entry> entries_;
-};
-
-/// A symmetric matrix, all entries of each row.
-template <class Number>
-using sparse_rows = std::vector<sparse_row<Number>>;
+using sparse_rows = std::vector<boost::container::flat_map<int, Number>>;
 
 /// A candidate pair: n, its face c and its stiffness k.
 template <class Number>

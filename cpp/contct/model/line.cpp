@@ -63,12 +63,13 @@ load_on_element<Number> rounded_load(std::span<const rational> q) {
 
 template <class Number>
 Number number_of(double x) {
-  return is_whole(x) ? Number(x) : nearest<Number>(decimal_of(x));
+  return std::is_same_v<Number, double> || is_whole(x) ? Number(x) : nearest<Number>(decimal_of(x));
 }
 
 template <class Number>
 Number difference_of(double a, double b) {
-  return is_whole(a) && is_whole(b) ? Number(a - b) : nearest<Number>(decimal_of(a) - decimal_of(b));
+  if (std::is_same_v<Number, double> || (is_whole(a) && is_whole(b))) return Number(a - b);
+  return nearest<Number>(decimal_of(a) - decimal_of(b));
 }
 
 template <class Number>
@@ -86,12 +87,13 @@ double sum_of(std::span<const double> all) {
 
 template <class Number>
 std::vector<Number> coefficients_of(const distributed_load& d) {
+  if constexpr (std::is_same_v<Number, double>) return d.polynomial;
   return nearest<Number>(exact_coefficients(d));
 }
 
 template <class Number>
 Number stiffness_of(const plate& p) {
-  if (p.E == 0) return number_of<Number>(p.D);
+  if (p.E == 0 || std::is_same_v<Number, double>) return number_of<Number>(p.D);
   const rational nu = decimal_of(p.nu);
   const rational t = decimal_of(p.thickness);
   return nearest<Number>(decimal_of(p.E) * t * t * t / (12 * (1 - nu * nu)));
@@ -119,14 +121,18 @@ void for_each_polynomial(const beam& b, const load& l, const load_visitor<Number
   }
 }
 
+template double number_of(double x);
 template double_double number_of(double x);
 template rational number_of(double x);
+template double difference_of(double a, double b);
 template double_double difference_of(double a, double b);
 template rational difference_of(double a, double b);
 template double_double sum_of(std::span<const double> all);
 template rational sum_of(std::span<const double> all);
+template std::vector<double> coefficients_of(const distributed_load& d);
 template std::vector<double_double> coefficients_of(const distributed_load& d);
 template std::vector<rational> coefficients_of(const distributed_load& d);
+template double stiffness_of(const plate& p);
 template double_double stiffness_of(const plate& p);
 template rational stiffness_of(const plate& p);
 template std::vector<double> values_at(const beam&, std::span<const double>, std::span<const int>);

@@ -45,23 +45,6 @@ template <class Number>
 [[nodiscard]] std::vector<Number> values_at(const beam& b, std::span<const double> polynomial,
                                             std::span<const int> nodes);
 
-template <>
-[[nodiscard]] inline double number_of(double x) {
-  return x;
-}
-template <>
-[[nodiscard]] inline double difference_of(double a, double b) {
-  return a - b;
-}
-template <>
-[[nodiscard]] inline std::vector<double> coefficients_of(const distributed_load& d) {
-  return d.polynomial;
-}
-template <>
-[[nodiscard]] inline double stiffness_of(const plate& p) {
-  return p.D;
-}
-
 /// Visit every element, from 0, for every load that acts on it.
 template <class Number>
 using load_visitor = std::function<void(int element, const load_on_element<Number>&)>;

@@ -1,6 +1,8 @@
 #include "contct/model/problem.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +11,10 @@
 
 namespace contct {
 namespace {
+
+void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
+  for (const auto& [dof, values] : point_loads_at(l, dofs_per_node)) f[dof] += sum_of<double>(values);
+}
 
 /// What the elements beside each dof need there, beyond the loads on them.
 template <class Kind>
@@ -23,9 +29,17 @@ std::vector<double> needs_of(const assembled& a, const load& /*l*/, std::span<co
   return {all.begin(), all.end()};
 }
 
+/// Add an entry of an element's stiffness to `k`.
+void add_to_band(band_matrix& k, int row, int column, double entry, int element) {
+  if (!std::isfinite(entry))
+    throw std::invalid_argument("the stiffness of element " + std::to_string(element + 1) +
+                                " is not a finite number");
+  k.add(row, column, entry);
+}
+
 template <class Kind>
-linear_structure build_of_elements(const model& m, const Kind& kind, std::span<const support> supports,
-                                   std::vector<contact_pair> pairs) {
+linear_structure build_kind(const model& m, const Kind& kind, std::span<const support> supports,
+                            std::vector<contact_pair> pairs) {
   linear_structure s;
   s.dofs_per_node = Kind::dofs_per_node;
   s.stiffness = band_matrix(kind.dofs(), subdiagonals(m));
@@ -39,6 +53,54 @@ linear_structure build_of_elements(const model& m, const Kind& kind, std::span<c
   s.rigid_motions = Kind::dofs_per_node;  // up, and a turn for each slope
   s.truth = std::make_shared<rigid_truth>(kind);
   put_on_supports(s, supports, std::move(pairs));
+  return s;
+}
+
+void refuse_without_stiffness(const assembled& a, const linear_structure& s) {
+  for (int dof = 0; dof < s.dofs(); ++dof) {
+    const int row = s.row_of(dof);
+    if (s.stiffness.diagonal(row) > 0.0) continue;
+    throw std::invalid_argument(a.name + ": dof " + a.label_of(dof) +
+                                ": found no stiffness and no support; allowed: a positive entry on the "
+                                "diagonal, or a support");
+  }
+}
+
+linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<const support> supports,
+                            std::vector<contact_pair> pairs) {
+  linear_structure s;
+  s.dofs_per_node = assembled::dofs_per_node;
+  if (a.as_band) {
+    s.rows = a.rows;
+    s.stiffness = band_of(a.stiffness, a.rows);
+  } else {
+    s.stiffness = columns_of(a.stiffness);
+  }
+  s.rigid_rows.assign(a.dofs(), rigid_row{});
+  put_on_supports(s, supports, std::move(pairs));
+  refuse_without_stiffness(a, s);
+
+  // These are the motions that the supports leave free: the supports hold none of them.
+  free_motions motions;
+  try {
+    motions = find_free_motions(s.stiffness, a.free_motions, [&](std::span<const double> in_rows) {
+      std::vector<double> u(in_rows.size());
+      for (std::size_t dof = 0; dof < u.size(); ++dof)
+        u[dof] = s.fixed[dof] != 0 ? 0.0 : in_rows[s.row_of(dof)];
+      return a.stiffness.doubt(u);
+    });
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(a.name + ": " + e.what());
+  }
+  s.rigid_motions = motions.count;
+  s.rigid_rounding = motions.rounding;
+  s.supported_dofs.clear();
+  for (std::size_t dof = 0; dof < s.fixed.size(); ++dof)
+    if (s.fixed[dof] == 0) s.rigid_rows[dof] = motions.rows[s.row_of(dof)];
+  // A matrix does not say which of its dofs are lengths. Those of pairs are; without pairs, all count as
+  // such.
+  s.lengths.assign(a.dofs(), s.pairs.empty() ? 1 : 0);
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) s.lengths[s.dof_of_pair(i)] = 1;
   return s;
 }
 
@@ -87,20 +149,16 @@ int subdiagonals(const model& m) {
 }
 
 linear_structure build(const model& m, std::span<const support> supports, std::vector<contact_pair> pairs) {
-  if (const auto* a = std::get_if<assembled>(&m.kind)) return build(*a, supports, std::move(pairs));
-  if (const auto* p = std::get_if<plate>(&m.kind))
-    return build_of_elements(m, *p, supports, std::move(pairs));
-  return build_of_elements(m, std::get<beam>(m.kind), supports, std::move(pairs));
+  return std::visit([&](const auto& kind) { return build_kind(m, kind, supports, std::move(pairs)); },
+                    m.kind);
 }
 
 void add_consistent_loads(const model& m, const load& l, std::span<double> f) {
   add_point_loads(l, dofs_per_node(m), f);
-  const auto add = [&](const auto& elements) {
-    elements.for_each_work(l, [&](int /*e*/, const auto& work) {
-      for (std::size_t i = 0; i < work.dofs.size(); ++i) f[work.dofs[i]] += work.force[i];
-    });
+  const auto add = [&f](int /*e*/, const auto& work) {
+    for (std::size_t i = 0; i < work.dofs.size(); ++i) f[work.dofs[i]] += work.force[i];
   };
-  std::visit([&](const auto& kind) { add(elements_of<double>(kind)); }, m.kind);
+  std::visit([&](const auto& kind) { elements_of<double>(kind).for_each_work(l, add); }, m.kind);
 }
 
 std::vector<double> tributary_shares(const model& m) {
@@ -111,8 +169,23 @@ std::vector<double> tributary_shares(const model& m) {
 
 std::vector<double> reactions(const model& m, const load& l, std::span<const support> supports,
                               std::span<const double> u) {
+  const int per_node = dofs_per_node(m);
   const std::vector<double> need = std::visit([&](const auto& kind) { return needs_of(kind, l, u); }, m.kind);
-  return reactions_of(supports, l, u, dofs_per_node(m), need);
+  std::vector<double> points(u.size(), 0.0);
+  add_point_loads(l, per_node, points);
+  for (const support& s : supports)  // a dof may be fixed and on a spring: the fixed support holds that too
+    if (!s.fixed) points[s.node * per_node + s.dof] -= s.spring * u[s.node * per_node + s.dof];
+  std::vector<double> values;
+  std::set<int> reacted;
+  for (const support& s : supports) {
+    const int dof = s.node * per_node + s.dof;
+    if (!s.fixed) {
+      values.push_back(-s.spring * u[dof]);
+    } else {
+      values.push_back(reacted.insert(dof).second ? need[dof] - points[dof] : 0.0);
+    }
+  }
+  return values;
 }
 
 element_results results_in_elements(const model& m, const load& l, std::span<const double> u) {

@@ -194,18 +194,19 @@ struct model {
 /// find_free_motions does.
 [[nodiscard]] linear_structure build(const model& m, std::span<const support> supports,
                                      std::vector<contact_pair> pairs);
-[[nodiscard]] linear_structure build(const assembled& a, std::span<const support> supports,
-                                     std::vector<contact_pair> pairs);
 
-/// Add the consistent load vector of `l` to `f` [dofs]. Loads on a matrix are forces at dofs. Throws
-/// std::invalid_argument for a distributed load on a plate that is not constant.
+/// Add the consistent load vector of `l` to `f` [dofs]. Loads on a matrix are forces at dofs. Point loads at
+/// one dof that are 0 as decimals are no load: 0.1, 0.2 and -0.3. Throws std::invalid_argument for a
+/// distributed load on a plate that is not constant.
 void add_consistent_loads(const model& m, const load& l, std::span<double> f);
 
 /// The length or area of the structure that each node stands for [nodes]: of a plate, a quarter of each
 /// element beside it. Throws std::invalid_argument for a matrix, which has no lengths or areas.
 [[nodiscard]] std::vector<double> tributary_shares(const model& m);
 
-/// The force (or moment) on the structure by each support, in their order: see reactions_of.
+/// The force (or moment) on the structure by each support, in their order: minus spring times displacement
+/// for an elastic one; for a fixed one, what the elements beside it need, beyond their own loads, beyond the
+/// point loads at its dof. A dof fixed twice gives its reaction to the first.
 [[nodiscard]] std::vector<double> reactions(const model& m, const load& l, std::span<const support> supports,
                                             std::span<const double> u);
 

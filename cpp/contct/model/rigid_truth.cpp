@@ -65,18 +65,6 @@ struct rigid_shape {
 
 namespace {
 
-template <class Kind>
-std::vector<rigid_row> rounded_rows_of(const Kind& kind) {
-  const rigid_shape<double> shape(kind);
-  std::vector<rigid_row> rows;
-  rows.reserve(kind.dofs());
-  for (int dof = 0; dof < kind.dofs(); ++dof) {
-    const auto [up, along_x, along_y] = shape.row_of(dof);
-    rows.push_back({up, along_x, along_y});
-  }
-  return rows;
-}
-
 using motion_numbers = rigid_shape<rational>::row;
 
 rational dot(const motion_numbers& a, const motion_numbers& b) {
@@ -249,12 +237,19 @@ struct rigid_truth::shape : rigid_shape<rational> {
   }
 };
 
-std::vector<rigid_row> rigid_rows_of(const beam& b) {
-  return rounded_rows_of(b);
+template <class Kind>
+std::vector<rigid_row> rigid_rows_of(const Kind& kind) {
+  const rigid_shape<double> shape(kind);
+  std::vector<rigid_row> rows;
+  rows.reserve(kind.dofs());
+  for (int dof = 0; dof < kind.dofs(); ++dof) {
+    const auto [up, along_x, along_y] = shape.row_of(dof);
+    rows.push_back({up, along_x, along_y});
+  }
+  return rows;
 }
-std::vector<rigid_row> rigid_rows_of(const plate& p) {
-  return rounded_rows_of(p);
-}
+template std::vector<rigid_row> rigid_rows_of(const beam& b);
+template std::vector<rigid_row> rigid_rows_of(const plate& p);
 
 rigid_work rigid_work::less(const rigid_work& other) const {
   if (!is_known() || !other.is_known()) return {};
@@ -263,15 +258,8 @@ rigid_work rigid_work::less(const rigid_work& other) const {
   return rigid_work(std::move(difference));
 }
 
-double free_motion::at(int dof) const {
-  const double rounded = along(parts_, rows_[dof]);
-  if (std::abs(rounded) >= still_ * largest_of(rows_[dof])) return rounded;
-  return truth_ ? contct::rounded(dot(exactly_->all, truth_->shape_->row_of(dof))) : 0.0;
-}
-
-rigid_truth::rigid_truth(const beam& b) : shape_(std::make_unique<shape>(b)) {}
-rigid_truth::rigid_truth(const plate& p) : shape_(std::make_unique<shape>(p)) {}
-rigid_truth::~rigid_truth() = default;
+rigid_truth::rigid_truth(const beam& b) : shape_(std::make_shared<shape>(b)) {}
+rigid_truth::rigid_truth(const plate& p) : shape_(std::make_shared<shape>(p)) {}
 
 bool rigid_truth::is_independent(std::span<const int> held, int dof) const {
   if (const std::optional<bool> known = shape_->seen_at_once(held, dof)) return *known;
@@ -325,11 +313,14 @@ std::optional<free_motion> rigid_truth::driven_by(const rigid_work& work, std::s
     steepest[i] /= largest;
     parts[i] = contct::rounded(steepest[i]);
   }
-  constexpr double surely_moves = 1e-3;  // however far from the middle x = 0 is
-  free_motion motion(parts, rows, surely_moves, contct::rounded(dot(work.exactly().all, steepest)));
-  motion.exactly_ = std::make_shared<rigid_work::numbers>(rigid_work::numbers{std::move(steepest)});
-  motion.truth_ = shared_from_this();
-  return motion;
+  const double done = contct::rounded(dot(work.exactly().all, steepest));
+  return free_motion{[parts, rows, steepest, shape = shape_](int dof) {
+                       constexpr double surely_moves = 1e-3;  // however far from the middle x = 0 is
+                       const double moved = along(parts, rows[dof]);
+                       if (std::abs(moved) >= surely_moves * largest_of(rows[dof])) return moved;
+                       return contct::rounded(dot(steepest, shape->row_of(dof)));
+                     },
+                     done};
 }
 
 }  // namespace contct

@@ -3,12 +3,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
-
-#include "contct/model/line.hpp"
 
 namespace contct {
 
@@ -31,10 +28,6 @@ load mix(const load& before, const load& after, double fraction) {
     sum.settlements.push_back({place.first, place.second, value});
   sum.name = after.name;
   return sum;
-}
-
-void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
-  for (const auto& [dof, values] : point_loads_at(l, dofs_per_node)) f[dof] += sum_of<double>(values);
 }
 
 void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share) {
@@ -97,14 +90,12 @@ std::optional<free_motion> linear_structure::driven_motion(const rigid_rank& hel
   const double driven = largest_of(motion);
   if (!(driven > std::max(rounding_of_work, rigid_rounding) * largest_of(size))) return std::nullopt;
   for (double& part : motion) part /= driven;
-  return free_motion(motion, rigid_rows, std::max(rounding_of_motion, rigid_rounding), along(motion, sum));
-}
-
-void add_to_band(band_matrix& k, int row, int column, double entry, int element) {
-  if (!std::isfinite(entry))
-    throw std::invalid_argument("the stiffness of element " + std::to_string(element + 1) +
-                                " is not a finite number");
-  k.add(row, column, entry);
+  const double still = std::max(rounding_of_motion, rigid_rounding);
+  return free_motion{[motion, still, rows = std::span(rigid_rows)](int dof) {
+                       const double moved = along(motion, rows[dof]);
+                       return std::abs(moved) >= still * largest_of(rows[dof]) ? moved : 0.0;
+                     },
+                     along(motion, sum)};
 }
 
 namespace {
@@ -166,29 +157,6 @@ void add_settlements(const linear_structure& s, const load& l, std::span<double>
     f[dof] = g.value;
   }
   for (const auto& [free, settling, value] : s.to_settling) f[free] -= value * f[settling];
-}
-
-std::vector<double> reactions_of(std::span<const support> supports, const load& l, std::span<const double> u,
-                                 int dofs_per_node, std::span<const double> need) {
-  std::vector<double> points(u.size(), 0.0);
-  add_point_loads(l, dofs_per_node, points);
-  std::vector<double> values;
-  for (const support& s : supports) {  // a dof may be fixed and on a spring: the fixed support holds that too
-    const int dof = s.node * dofs_per_node + s.dof;
-    if (!s.fixed) points[dof] -= s.spring * u[dof];
-  }
-  std::set<int> reacted;
-  for (const support& s : supports) {
-    const int dof = s.node * dofs_per_node + s.dof;
-    if (!s.fixed) {
-      values.push_back(-s.spring * u[dof]);
-    } else if (reacted.insert(dof).second) {
-      values.push_back(need[dof] - points[dof]);
-    } else {
-      values.push_back(0.0);
-    }
-  }
-  return values;
 }
 
 }  // namespace contct

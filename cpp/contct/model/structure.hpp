@@ -57,10 +57,6 @@ struct load {
   return at;
 }
 
-/// Add the point loads of `l` to `f` [dofs]. Those at one dof that are 0 as decimals are no load: 0.1, 0.2
-/// and -0.3.
-void add_point_loads(const load& l, int dofs_per_node, std::span<double> f);
-
 /// sum += share * part, for polynomials from the constant on.
 void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share);
 
@@ -198,16 +194,5 @@ void put_on_supports(linear_structure& s, std::span<const support> supports, std
 /// that `l` prescribes, at free ones -K g. Throws std::logic_error where the support of a settlement was not
 /// built to settle.
 void add_settlements(const linear_structure& s, const load& l, std::span<double> f);
-
-/// Add an entry of an element's stiffness (elements from 0) to `k`. Throws std::invalid_argument, naming the
-/// element (from 1), when it is not a finite number.
-void add_to_band(band_matrix& k, int row, int column, double entry, int element);
-
-/// The force (or moment) on the structure by each support, in the order of `supports`: minus spring times
-/// displacement for an elastic one; for a fixed one, what the elements beside it need (`need` [dofs], beyond
-/// their own loads) beyond the point loads at its dof. A dof fixed twice gives its reaction to the first.
-[[nodiscard]] std::vector<double> reactions_of(std::span<const support> supports, const load& l,
-                                               std::span<const double> u, int dofs_per_node,
-                                               std::span<const double> need);
 
 }  // namespace contct
