@@ -22,13 +22,12 @@ struct explained_pb1 {
   std::vector<told> increments;
   explained_path path;
 
-  explicit explained_pb1(const char* second, increments_wanted wanted = {})
-      : path(facts_of_kernel("fortran"), second == nullptr ? nullptr : make_kernel(second), wanted,
-             [this](const explained_increment& i) {
-               increments.push_back({i.what.step, i.what.number, i.fraction_before, i.call.smin,
-                                     i.other == nullptr ? std::nan("") : i.other->smin, i.call.winner,
-                                     i.apart.has_value()});
-             }) {
+  explicit explained_pb1(const std::vector<std::string>& second, increments_wanted wanted = {})
+      : path(facts_of_kernel("fortran"), second, wanted, [this](const explained_increment& i) {
+          increments.push_back({i.what.step, i.what.number, i.fraction_before, i.call.smin,
+                                i.other == nullptr ? std::nan("") : i.other->smin, i.call.winner,
+                                i.apart.has_value()});
+        }) {
     cantilever_over_a_stop().run("fortran", {&path});
   }
 };
@@ -46,7 +45,7 @@ void call_with(observer& o, double d, double d_star, double c, double smin, int 
 }  // namespace
 
 TEST_CASE("every increment of PB1 is explained, with the second kernel's answer") {
-  const explained_pb1 all("cpp");
+  const explained_pb1 all({"cpp"});
   REQUIRE(all.increments.size() == 6);
   CHECK(all.path.calls() == 6);
   CHECK(all.path.explained() == 6);
@@ -65,7 +64,7 @@ TEST_CASE("every increment of PB1 is explained, with the second kernel's answer"
 }
 
 TEST_CASE("one increment can be wanted, and a kernel can be alone") {
-  const explained_pb1 one(nullptr, {2, 2});
+  const explained_pb1 one({}, {2, 2});
   REQUIRE(one.increments.size() == 1);
   CHECK(one.increments[0].step == 2);
   CHECK(one.increments[0].number == 2);
@@ -73,7 +72,7 @@ TEST_CASE("one increment can be wanted, and a kernel can be alone") {
   CHECK(std::isnan(one.increments[0].other_smin));
   CHECK(one.path.compared().values == 0);
   CHECK(one.path.calls() == 6);
-  CHECK_THROWS_AS(explained_pb1("corrected"), std::invalid_argument);
+  CHECK_THROWS_AS(explained_pb1({"corrected"}), std::invalid_argument);
 }
 
 TEST_CASE(

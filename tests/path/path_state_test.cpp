@@ -13,7 +13,7 @@ using namespace contct;
 TEST_CASE("a loop of any length is found, whatever runs into it") {
   for (int lead : {0, 1, 5, 17}) {
     for (int loop : {1, 2, 3, 7, 20}) {
-      cycle_detector watch(1);
+      cycle_detector watch;
       int increments = 0;
       bool found = false;
       while (!found && increments < 1000) {
@@ -29,14 +29,14 @@ TEST_CASE("a loop of any length is found, whatever runs into it") {
 }
 
 TEST_CASE("the same statuses after some movement are no loop") {
-  cycle_detector watch(1);
+  cycle_detector watch;
   for (int i = 0; i < 100; ++i) CHECK_FALSE(watch.repeats(true, std::vector<int>{1}, {}));
   CHECK_FALSE(watch.repeats(false, std::vector<int>{1}, {}));
   CHECK(watch.repeats(false, std::vector<int>{1}, {}));
 }
 
 TEST_CASE("pairs that toggled once are not restless, old toggles are forgotten") {
-  cycle_detector watch(3);
+  cycle_detector watch;
   const std::vector<int> status = {1, 1, 1};
   const std::vector<event> both = {{0, change::make}, {1, change::make}};
   const std::vector<event> first = {{0, change::break_}};

@@ -53,16 +53,6 @@ TEST_CASE("a pair on a fixed dof changes nothing") {
   for (std::size_t i = 0; i < 4; ++i) CHECK(with.steps[i].u == without.steps[i].u);
 }
 
-TEST_CASE("observers do not change the path") {
-  recorder one;
-  recorder other;
-  cantilever_over_a_stop().run("fortran", {&one, &other});
-  recorder alone;
-  cantilever_over_a_stop().run("fortran", {&alone});
-  CHECK(alone.steps.back().u == one.steps.back().u);
-  CHECK(one.increments.size() == other.increments.size());
-}
-
 TEST_CASE("the state told at a step's end is in equilibrium") {
   beam_problem p = free_beam_on_springs(6.0, 24, 1.0, 4.0);
   p.steps = {{{{10, 0, -1.0}}, {}}, {{{12, 0, -2.0}, {20, 0, -0.2}}, {}}};

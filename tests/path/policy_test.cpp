@@ -166,11 +166,14 @@ TEST_CASE("the listing's rule gets none of this: the path of a beam above its st
     recorder r;
     const path_end end = beam_above_stops().run(name, {&r}, limits);
     CHECK(end.status == path_status::path_ended);
+    CHECK(end.has_equilibrium == true);
     CHECK(end.fraction == 0.0);
+    CHECK(end.pairs.empty());
     CHECK(r.increments.empty());
     CHECK_FALSE(asked);
     REQUIRE(r.steps.size() == 1);
     CHECK_FALSE(r.steps[0].from_fallback);
+    CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
   }
 }
 
@@ -357,15 +360,8 @@ TEST_CASE("a lost path goes on from the equilibrium that was found without it") 
   // The first step is endless, and then all goes by the corrected rule. Both pairs press after the first
   // step, and let go in the second.
   bool is_found = false;
-  made_kernel k([&is_found, calls = 0](call<double>& c) mutable {
-    if (is_found) {
-      contct_corrected(c);
-      return;
-    }
-    c.smin = 0.0;
-    const std::size_t i = calls++ % 2 == 0 ? 0 : 1;
-    c.isep[i] = -c.isep[i];
-  });
+  made_kernel never = endless();
+  made_kernel k([&](call<double>& c) { is_found ? contct_corrected(c) : never.answer(c); });
   beam_problem p = cantilever_on_two();
   p.steps = {tip_load(2, -60), tip_load(2, 20)};
   recorder sound;
@@ -387,19 +383,7 @@ TEST_CASE("a lost path goes on from the equilibrium that was found without it") 
   CHECK(r.steps[1].isep == sound.steps[1].isep);
   for (std::size_t dof = 0; dof < 6; ++dof)
     CHECK(r.steps[1].u[dof] == Approx(sound.steps[1].u[dof]).epsilon(1e-12).margin(1e-18));
-  // The second step's events come at the same loads.
-  const auto fractions_of_second = [](const recorder& seen) {
-    std::vector<double> fractions;
-    for (const auto& i : seen.increments) {
-      if (i.step == 2) fractions.push_back(i.fraction);
-    }
-    return fractions;
-  };
-  const std::vector<double> expected = fractions_of_second(sound);
-  const std::vector<double> found = fractions_of_second(r);
-  REQUIRE(expected.size() == 3);
-  REQUIRE(found.size() == expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(found[i] == Approx(expected[i]).epsilon(1e-10));
+  CHECK(r.increments.back().number == 3);  // two events, and the rest of the load
 }
 
 TEST_CASE("an early limit and a lost factor are lost paths too, and a certain mechanism is not") {
@@ -436,8 +420,7 @@ TEST_CASE(
   const linear_structure s = p.structure();
   const auto engine = make_engine("refactor", s);
   path_state now(s, *engine, {}, false);
-  cycle_detector cycles(3);
-  const auto policy = make_policy(now, k, cycles);
+  const auto policy = make_policy(now, k);
   CHECK(quick_answers_at_rest(3) == 32);
   for (int i = 0; i < 32; ++i) {
     CHECK(policy->decide() == 0.0);

@@ -81,7 +81,7 @@ TEST_CASE("springs closed at the start are wanted, and applied with the first fa
 
 namespace {
 
-constexpr drift_monitor::limits limits = {8, 32, 1e-2, 1e-3};
+constexpr int first_check = 8;
 
 /// Responses until a check is due.
 int responses_until_due(drift_monitor& m) {
@@ -98,26 +98,26 @@ drift of(double correction) {
 
 }  // namespace
 
-TEST_CASE("the interval doubles while the drift is negligible, up to the longest") {
-  drift_monitor m(limits);
-  for (const int interval : {8, 16, 32, 32}) {
+TEST_CASE("the interval doubles while the drift is negligible, up to 16 times the first") {
+  drift_monitor m(first_check);
+  for (const int interval : {8, 16, 32, 64, 128, 128}) {
     CHECK(responses_until_due(m) == interval);
-    CHECK(m.accepts(of(1e-4)));
+    CHECK(m.accepts(of(1e-12)));
   }
 }
 
 TEST_CASE("the interval halves when the drift is too large, down to four, and stays in between") {
-  drift_monitor m(limits);
+  drift_monitor m(first_check);
   for (const int interval : {8, 4, 4}) {
     CHECK(responses_until_due(m) == interval);
-    CHECK_FALSE(m.accepts(of(0.5)));
+    CHECK_FALSE(m.accepts(of(5e-11)));
   }
-  CHECK(m.accepts(of(5e-3)));
+  CHECK(m.accepts(of(5e-12)));
   CHECK(responses_until_due(m) == 4);
 }
 
 TEST_CASE("a check can be asked for, and an interval begun again") {
-  drift_monitor m(limits);
+  drift_monitor m(first_check);
   m.check_next();
   CHECK(m.is_due());
   m.start_interval();
@@ -126,10 +126,10 @@ TEST_CASE("a check can be asked for, and an interval begun again") {
 
 TEST_CASE("drift is relative to the largest response, whichever pair has it") {
   drift d;
-  CHECK(drift_monitor(limits).accepts(d));
+  CHECK(drift_monitor(first_check).accepts(d));
   d.include(-4.0, 0.0);
-  d.include(2.0, -0.04);
-  CHECK(drift_monitor(limits).accepts(d));
-  d.include(2.0, -0.05);
-  CHECK_FALSE(drift_monitor(limits).accepts(d));
+  d.include(2.0, -4e-11);
+  CHECK(drift_monitor(first_check).accepts(d));
+  d.include(2.0, -5e-11);
+  CHECK_FALSE(drift_monitor(first_check).accepts(d));
 }

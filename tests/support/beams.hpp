@@ -29,7 +29,7 @@ struct beam_problem {
   }
 
   path_end run(kernel& k, std::vector<observer*> observers, const path_limits& limits = {}) const {
-    return follow_steps(geometry, structure(), steps, "refactor", k, observers, limits);
+    return follow(as_problem(), structure(), "refactor", k, observers, limits);
   }
 
   path_end run(const std::string& kernel_name, std::vector<observer*> observers,

@@ -43,9 +43,8 @@ inline followed follow(const random_problem& p, bool proved = true) {
   certifier certifies(p, s);
   followed f;
   f.stride = static_cast<std::size_t>(s.dofs_per_node);
-  observer* const observers[] = {&f.seen, &certifies};
   const path_limits limits{0, proved ? certifies.ends() : nullptr};
-  f.end = follow_steps(p.geometry, s, p.steps, "refactor", *make_kernel("corrected"), observers, limits);
+  f.end = follow(p, s, "refactor", *make_kernel("corrected"), {&f.seen, &certifies}, limits);
   f.certificates = certifies.steps();
   return f;
 }

@@ -22,7 +22,8 @@ namespace {
 /// it. Returns the path, which has the totals.
 explained_path explain_run(const problem& p, explained_path::sink sink, observer* first = nullptr) {
   const auto leader = make_kernel("fortran");
-  explained_path path(leader->facts(), make_kernel("cpp"), {}, std::move(sink));
+  const std::string second[] = {"cpp"};
+  explained_path path(leader->facts(), second, {}, std::move(sink));
   std::vector<observer*> watching = {&path};
   if (first != nullptr) watching.insert(watching.begin(), first);
   follow(p, structure_of(p), "refactor", *leader, watching);

@@ -20,9 +20,8 @@ class path {
       : increments_allowed_(increments_allowed(limits, s.pairs.size())),
         by_1989_rule_(leader.facts().rule == contact_rule::listing),
         now_(s, engine, observers, by_1989_rule_),
-        cycles_(s.pairs.size()),
         ends_(limits.ends),
-        policy_(make_policy(now_, leader, cycles_)) {}
+        policy_(make_policy(now_, leader)) {}
 
   path_end follow_step(int step, const load_history& total_load) {
     path_end end;
@@ -40,7 +39,6 @@ class path {
   /// The paper's loop.
   path_end loop(int step, const load_history& total_load) {
     now_.begin_step(step, total_load);  // R* = the step's total load less the previous one's
-    cycles_.reset();
     policy_->begin_step();
     for (int number = 1; number <= increments_allowed_; ++number) {
       const response w_star = policy_->respond();  // K w* = R*, with the springs of the pairs now in contact
@@ -53,10 +51,10 @@ class path {
       if (!policy_->goes_on()) return ended(path_status::mechanism, now_.opened());
       now_.switch_springs();  // of the pairs that the kernel toggled
       if (*s_min == 1.0) return ended(path_status::solved);
-      if (cycles_.repeats(moved, now_.status, now_.events))
-        return ended(path_status::cycle, cycles_.restless_pairs());
+      if (now_.cycles.repeats(moved, now_.status, now_.events))
+        return ended(path_status::cycle, now_.cycles.restless_pairs());
     }
-    return ended(path_status::iteration_limit, cycles_.restless_pairs());
+    return ended(path_status::iteration_limit, now_.cycles.restless_pairs());
   }
 
   [[nodiscard]] path_end ended(path_status status, std::vector<int> pairs = {}) const {
@@ -67,7 +65,8 @@ class path {
   /// to: without force, their springs still hold it.
   path_end set_free() {
     for (const int pair : now_.last_opened) now_.status[pair] = in_contact;
-    now_.adopt_statuses();
+    now_.find_events();
+    now_.switch_springs();
     return ended(path_status::mechanism, now_.last_opened);
   }
 
@@ -140,7 +139,6 @@ class path {
   int increments_allowed_;
   bool by_1989_rule_;
   path_state now_;
-  cycle_detector cycles_;
   end_finder ends_;
   std::unique_ptr<path_policy> policy_;
 };

@@ -5,16 +5,6 @@
 #include <iterator>
 
 namespace contct {
-namespace {
-
-/// The kernel, if there is one.
-std::vector<std::unique_ptr<kernel>> list_of(std::unique_ptr<kernel> k) {
-  std::vector<std::unique_ptr<kernel>> list;
-  if (k) list.push_back(std::move(k));
-  return list;
-}
-
-}  // namespace
 
 void early_toggles::called(const answered_call& c) {
   distances_.assign(c.isep_before.size(), 0.0);
@@ -46,12 +36,9 @@ void trace_recorder::called(const answered_call& c) {
   to_(text_);
 }
 
-explained_path::explained_path(const kernel_facts& leader, std::unique_ptr<kernel> second,
+explained_path::explained_path(const kernel_facts& leader, std::span<const std::string> second,
                                increments_wanted wanted, sink to)
-    : real_bytes_(leader.real_bytes),
-      compared_(leader, list_of(std::move(second))),
-      wanted_(wanted),
-      to_(std::move(to)) {}
+    : real_bytes_(leader.real_bytes), compared_(leader, second), wanted_(wanted), to_(std::move(to)) {}
 
 void explained_path::called(const answered_call& c) {
   if (number_++ == 0) ++steps_;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -84,8 +84,9 @@ struct explained_increment {
 class explained_path final : public observer {
  public:
   using sink = std::function<void(const explained_increment&)>;
-  /// `second` may be null. Throws std::invalid_argument when it differs in precision or rule.
-  explained_path(const kernel_facts& leader, std::unique_ptr<kernel> second, increments_wanted wanted,
+  /// `second`: one kernel by name, or none. Throws std::invalid_argument when it differs in precision or
+  /// rule.
+  explained_path(const kernel_facts& leader, std::span<const std::string> second, increments_wanted wanted,
                  sink to);
 
   void called(const answered_call& c) override;

@@ -1,14 +1,14 @@
-// Where a path stands, in the paper's words, and whether it goes in cycles.
+// Where a path is, in the paper's words, and whether it goes in cycles.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -19,6 +19,54 @@
 #include "contct/solve/engine.hpp"
 
 namespace contct {
+
+/// Watches statuses while nothing moves. The path is deterministic: when a set of statuses returns while D
+/// and R* are the same to the last bit, the same toggles follow for ever. Brent's method finds this with one
+/// saved set.
+class cycle_detector {
+ public:
+  /// A new step begins.
+  void reset() {
+    saved_.clear();
+    recent_.clear();
+  }
+
+  /// Tell of one increment: whether D or R* moved, the statuses after it, and its events.
+  /// Returns true when these statuses came before and nothing has moved since.
+  bool repeats(bool moved, std::span<const int> status, std::span<const event> events) {
+    recent_.emplace_back(events.begin(), events.end());
+    if (recent_.size() > remembered_increments) recent_.pop_front();
+    if (moved) {
+      saved_.clear();
+      return false;
+    }
+    if (std::ranges::equal(status, saved_)) return !saved_.empty();
+    if (saved_.empty() || ++steps_since_saved_ == next_save_) {
+      next_save_ = saved_.empty() ? 1 : 2 * next_save_;
+      steps_since_saved_ = 0;
+      saved_.assign(status.begin(), status.end());
+    }
+    return false;
+  }
+
+  /// Pairs, from 0, that toggled more than once in the last increments (at most 200 of them).
+  [[nodiscard]] std::vector<int> restless_pairs() const {
+    std::map<int, int> toggles;
+    for (const std::vector<event>& events : recent_)
+      for (const event& e : events) ++toggles[e.pair];
+    std::vector<int> pairs;
+    for (const auto& [pair, times] : toggles)
+      if (times > 1) pairs.push_back(pair);
+    return pairs;
+  }
+
+ private:
+  static constexpr std::size_t remembered_increments = 200;
+  std::vector<int> saved_;
+  long steps_since_saved_ = 0;
+  long next_save_ = 1;
+  std::deque<std::vector<event>> recent_;
+};
 
 /// R*, D, d*, and all that belongs to the pairs. Pairs and dofs count from 0, but for ID.
 struct path_state {
@@ -45,11 +93,7 @@ struct path_state {
       surface.push_back(p.surface);
       status.push_back(p.closed ? in_contact : separated);
     }
-    std::unordered_map<std::size_t, std::size_t> first_at;
-    for (std::size_t i = 0; i < pairs(); ++i) {
-      at_dof.push_back(structure.dof_of_pair(i));
-      first_there.push_back(first_at.emplace(at_dof[i], i).first->second);
-    }
+    for (std::size_t i = 0; i < pairs(); ++i) at_dof.push_back(structure.dof_of_pair(i));
     if (as_listed) {
       dd_.resize(structure.dofs());
       dtest_.resize(dd_.size());
@@ -61,24 +105,24 @@ struct path_state {
 
   const linear_structure& structure;
   stiffness_engine& engine;
-  int step = 0;                          ///< from 1
-  std::vector<double> total;             ///< load at the end of the step [dofs]
-  std::vector<double> increment;         ///< total less the previous step's [dofs]
-  residual_load residual{};              ///< R*
-  std::vector<double> shape;             ///< where steps ended and rigid-body motions led to [dofs]
-  std::vector<double> d;                 ///< D where each pair acts [pairs]
-  std::vector<double> d_star;            ///< d* there [pairs]
-  std::vector<double> c;                 ///< faces [pairs]
-  std::vector<double> s;                 ///< scale factors of the last call [pairs]
-  std::vector<int> id;                   ///< ID, from 1 [pairs]
-  std::vector<int> surface;              ///< ISURF [pairs]
-  std::vector<int> status;               ///< ISEP [pairs]
-  std::vector<int> sprung;               ///< status of each pair in the engine's stiffness [pairs]
-  std::vector<double> pair_force;        ///< force on the structure that each spring has gathered [pairs]
-  std::vector<std::size_t> at_dof;       ///< dof of each pair [pairs]
-  std::vector<std::size_t> first_there;  ///< the first pair at the same dof [pairs]
-  std::vector<event> events;             ///< of the last call
-  std::vector<int> last_opened;          ///< pairs opened by the step's last increment that opened any
+  int step = 0;                     ///< from 1
+  std::vector<double> total;        ///< load at the end of the step [dofs]
+  std::vector<double> increment;    ///< total less the previous step's [dofs]
+  residual_load residual{};         ///< R*
+  std::vector<double> shape;        ///< where steps ended and rigid-body motions led to [dofs]
+  std::vector<double> d;            ///< D where each pair acts [pairs]
+  std::vector<double> d_star;       ///< d* there [pairs]
+  std::vector<double> c;            ///< faces [pairs]
+  std::vector<double> s;            ///< scale factors of the last call [pairs]
+  std::vector<int> id;              ///< ID, from 1 [pairs]
+  std::vector<int> surface;         ///< ISURF [pairs]
+  std::vector<int> status;          ///< ISEP [pairs]
+  std::vector<int> sprung;          ///< status of each pair in the engine's stiffness [pairs]
+  std::vector<double> pair_force;   ///< force on the structure that each spring has gathered [pairs]
+  std::vector<std::size_t> at_dof;  ///< dof of each pair [pairs]
+  std::vector<event> events;        ///< by which `status` differs from `sprung`
+  std::vector<int> last_opened;     ///< pairs opened by the step's last increment that opened any
+  cycle_detector cycles;
 
   [[nodiscard]] std::size_t pairs() const { return status.size(); }
 
@@ -94,6 +138,7 @@ struct path_state {
     for (std::size_t i = 0; i < total.size(); ++i) increment[i] += total[i];
     residual = {increment, 1.0, residual.version + 1};
     last_opened.clear();
+    cycles.reset();
     loads_ = &total_load;
   }
 
@@ -143,17 +188,12 @@ struct path_state {
     return arguments.smin;
   }
 
-  /// Toggle this pair, and no other, whatever the last call said.
-  void toggle_alone(int pair) {
-    status = sprung;
-    status[pair] = -status[pair];
-    find_events();
-  }
-
-  /// Undo the toggles of the last call.
-  void take_back_toggles() {
-    status = sprung;
+  /// The events of statuses that something else than the kernel has set.
+  void find_events() {
     events.clear();
+    for (std::size_t i = 0; i < pairs(); ++i)
+      if (status[i] != sprung[i])
+        events.push_back({static_cast<int>(i), status[i] == in_contact ? change::make : change::break_});
   }
 
   /// D <- D + s_min d*. False when nothing moved to the last bit and no load was applied.
@@ -167,17 +207,10 @@ struct path_state {
     return moved;
   }
 
-  /// Switch the springs of the pairs that the last call toggled.
+  /// Switch the springs of the pairs whose events these are.
   void switch_springs() {
     for (const event& e : events) engine.switch_spring(e.pair, e.what == change::make);
     if (std::vector<int> pairs = opened(); !pairs.empty()) last_opened = std::move(pairs);
-    sprung = status;
-  }
-
-  /// Switch every spring that is not as its pair's status says.
-  void adopt_statuses() {
-    for (std::size_t i = 0; i < pairs(); ++i)
-      if (status[i] != sprung[i]) engine.switch_spring(static_cast<int>(i), status[i] == in_contact);
     sprung = status;
   }
 
@@ -185,7 +218,8 @@ struct path_state {
   void put_at(std::span<const double> u, std::span<const int> isep) {
     for (std::size_t i = 0; i < pairs(); ++i) d[i] = u[at_dof[i]];
     status.assign(isep.begin(), isep.end());
-    adopt_statuses();
+    find_events();
+    switch_springs();
   }
 
   /// The rigid-body motions that supports and pairs in contact stop, and whether these are all.
@@ -195,7 +229,7 @@ struct path_state {
   }
   [[nodiscard]] bool held() const { return structure.is_held(held_by()); }
 
-  /// The pairs that the last call opened.
+  /// The pairs that these events open.
   [[nodiscard]] std::vector<int> opened() const {
     std::vector<int> open;
     for (const event& e : events)
@@ -238,69 +272,11 @@ struct path_state {
   }
 
  private:
-  void find_events() {
-    events.clear();
-    for (std::size_t i = 0; i < pairs(); ++i)
-      if (status[i] != sprung[i])
-        events.push_back({static_cast<int>(i), status[i] == in_contact ? change::make : change::break_});
-  }
-
   const load_history* loads_ = nullptr;
   std::span<observer* const> observers_;
   std::int64_t calls_ = 0;
   bool as_listed_;
   std::vector<double> dd_, dtest_;  // D and d* over the structure, where the kernel is called so [dofs]
-};
-
-/// Watches statuses while nothing moves. The path is deterministic: when a set of statuses returns while D
-/// and R* are the same to the last bit, the same toggles follow for ever. Brent's method finds this with one
-/// saved set.
-class cycle_detector {
- public:
-  explicit cycle_detector(std::size_t pairs) : pairs_(pairs) {}
-
-  /// A new step begins.
-  void reset() {
-    saved_.clear();
-    recent_.clear();
-  }
-
-  /// Tell of one increment: whether D or R* moved, the statuses after it, and its events.
-  /// Returns true when these statuses came before and nothing has moved since.
-  bool repeats(bool moved, std::span<const int> status, std::span<const event> events) {
-    recent_.emplace_back(events.begin(), events.end());
-    if (recent_.size() > remembered_increments) recent_.pop_front();
-    if (moved) {
-      saved_.clear();
-      return false;
-    }
-    if (std::ranges::equal(status, saved_)) return !saved_.empty();
-    if (saved_.empty() || ++steps_since_saved_ == next_save_) {
-      next_save_ = saved_.empty() ? 1 : 2 * next_save_;
-      steps_since_saved_ = 0;
-      saved_.assign(status.begin(), status.end());
-    }
-    return false;
-  }
-
-  /// Pairs, from 0, that toggled more than once in the last increments (at most 200 of them).
-  [[nodiscard]] std::vector<int> restless_pairs() const {
-    std::vector<int> toggles(pairs_);
-    std::vector<int> pairs;
-    for (const std::vector<event>& events : recent_)
-      for (const event& e : events)
-        if (++toggles[e.pair] == 2) pairs.push_back(e.pair);
-    std::ranges::sort(pairs);
-    return pairs;
-  }
-
- private:
-  static constexpr std::size_t remembered_increments = 200;
-  std::size_t pairs_;
-  std::vector<int> saved_;
-  long steps_since_saved_ = 0;
-  long next_save_ = 1;
-  std::deque<std::vector<event>> recent_;
 };
 
 }  // namespace contct

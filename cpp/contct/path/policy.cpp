@@ -59,6 +59,26 @@ bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   return true;
 }
 
+/// Springs of separated pairs that hold a structure for a solve. They are out again when it has been solved,
+/// and when it could not be.
+class holding_springs {
+ public:
+  holding_springs(stiffness_engine& engine, std::vector<int> separated_pairs)
+      : pairs(std::move(separated_pairs)), engine_(engine) {
+    for (const int pair : pairs) engine_.switch_spring(pair, true);
+  }
+  ~holding_springs() {
+    for (const int pair : pairs) engine_.switch_spring(pair, false);
+  }
+  holding_springs(const holding_springs&) = delete;
+  holding_springs& operator=(const holding_springs&) = delete;
+
+  const std::vector<int> pairs;
+
+ private:
+  stiffness_engine& engine_;
+};
+
 /// The policy of the corrected rule: what no kernel can decide from one call (reference/corrected-rule.md).
 ///
 /// Rigid motions that the load drives are followed to the next face at constant load; those that it does not
@@ -66,8 +86,7 @@ bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
 /// contact until the load advances, and after many answers without progress the pair of least index toggles.
 class corrected_policy final : public path_policy {
  public:
-  corrected_policy(path_state& now, kernel& leader, cycle_detector& cycles)
-      : path_policy(now, leader), cycles_(cycles) {}
+  using path_policy::path_policy;
 
   void begin_step() override {
     kept_in_contact_.clear();
@@ -77,9 +96,9 @@ class corrected_policy final : public path_policy {
   response respond() override {
     rigid_ = !now_.held() && rigid_snap(now_, motion_);
     if (rigid_) return response::rigid;
-    if (!add_holding_springs()) return response::none;
+    const auto springs = hold();
+    if (!springs) return response::none;
     now_.engine.respond(now_.residual, now_.d_star);
-    remove_holding_springs();
     return response::elastic;
   }
 
@@ -91,7 +110,7 @@ class corrected_policy final : public path_policy {
     if (rigid_ && s_min == 1.0) return std::nullopt;
     // Only the last pairs that hold the structure open too early; any other event is followed.
     if (s_min < 1.0 && !now_.held() && opens_at_full_load(s_min)) s_min = leave_undone();
-    if (keep_in_contact_if_toggled_again(s_min)) cycles_.reset();
+    if (keep_in_contact_if_toggled_again(s_min)) now_.cycles.reset();
     if (rigid_) now_.move_shape(s_min, motion_);
     return s_min;
   }
@@ -99,24 +118,22 @@ class corrected_policy final : public path_policy {
   [[nodiscard]] bool goes_on() const override { return true; }
 
   bool displace(std::span<double> u) override {
-    if (!add_holding_springs()) return false;
+    const auto springs = hold();
+    if (!springs) return false;
     std::vector<double> load = now_.applied_load();
-    for (const int pair : holding_)  // no force where the pair is
+    for (const int pair : springs->pairs)  // no force where the pair is
       load[now_.at_dof[pair]] += now_.structure.pairs[pair].stiffness * now_.d[pair];
     now_.engine.recover(load, now_.spring_forces(), u);
-    remove_holding_springs();
     return true;
   }
 
   [[nodiscard]] double reciprocal_condition() override {
-    add_holding_springs();
-    double rcond = 0.0;
+    const auto springs = hold();
     try {
-      rcond = now_.engine.reciprocal_condition();
+      return now_.engine.reciprocal_condition();
     } catch (const no_factor&) {  // the state is known all the same: it was found without the path
+      return 0.0;
     }
-    remove_holding_springs();
-    return rcond;
   }
 
  private:
@@ -124,7 +141,10 @@ class corrected_policy final : public path_policy {
   /// circle, which the least index never does (Murty 1974).
   void toggle_first_at_rest() {
     const auto first = std::ranges::find(now_.s, 0.0);
-    if (first != now_.s.end()) now_.toggle_alone(static_cast<int>(first - now_.s.begin()));
+    if (first == now_.s.end()) return;
+    now_.status = now_.sprung;
+    now_.status[first - now_.s.begin()] *= -1;
+    now_.find_events();
   }
 
   /// Do the last pairs that hold the structure open exactly at full load, but for rounding? The load of the
@@ -137,21 +157,13 @@ class corrected_policy final : public path_policy {
   }
 
   /// Where supports and pairs in contact leave rigid motions free that the load does not drive, springs of
-  /// separated pairs hold the structure for a solve, each at rest where its pair is. False when even these do
+  /// separated pairs hold the structure for a solve, each at rest where its pair is. Null when even these do
   /// not hold it.
-  bool add_holding_springs() {
-    remove_holding_springs();
+  [[nodiscard]] std::unique_ptr<holding_springs> hold() {
     rigid_rank rank = now_.held_by();
-    std::vector<int> holding = now_.structure.pairs_that_hold(rank);
-    if (!now_.structure.is_held(rank)) return false;
-    holding_ = std::move(holding);
-    for (const int pair : holding_) now_.engine.switch_spring(pair, true);
-    return true;
-  }
-
-  void remove_holding_springs() {
-    for (const int pair : holding_) now_.engine.switch_spring(pair, false);
-    holding_.clear();
+    std::vector<int> pairs = now_.structure.pairs_that_hold(rank);
+    if (!now_.structure.is_held(rank)) return nullptr;
+    return std::make_unique<holding_springs>(now_.engine, std::move(pairs));
   }
 
   /// In exact arithmetic d* keeps its sign when its pair is toggled at its face, d' = d / (1 + k F): a pair
@@ -167,7 +179,7 @@ class corrected_policy final : public path_policy {
     kept_in_contact_.push_back(pair);
     last_toggled_at_rest_ = -1;
     now_.status[pair] = in_contact;
-    if (now_.sprung[pair] == in_contact) now_.events.clear();
+    now_.find_events();
     return true;
   }
 
@@ -175,26 +187,25 @@ class corrected_policy final : public path_policy {
   [[nodiscard]] std::span<const double> d_test() {
     if (kept_in_contact_.empty()) return now_.d_star;
     d_test_ = now_.d_star;
-    for (const int pair : kept_in_contact_) d_test_[now_.first_there[pair]] = 0.0;
-    for (std::size_t i = 0; i < d_test_.size(); ++i) d_test_[i] = d_test_[now_.first_there[i]];
+    for (const int pair : kept_in_contact_)  // and for every other that acts there
+      for (std::size_t i = 0; i < d_test_.size(); ++i)
+        if (now_.at_dof[i] == now_.at_dof[pair]) d_test_[i] = 0.0;
     return d_test_;
   }
 
-  cycle_detector& cycles_;
   bool rigid_ = false;                // the last response
   std::vector<double> motion_;        // that response, where it is rigid [dofs]
   int answers_at_rest_ = 0;           // in a row, with SMIN = 0
   int last_toggled_at_rest_ = -1;     // the pair that the last answer without progress toggled
   std::vector<int> kept_in_contact_;  // pairs that are not asked until the load advances
-  std::vector<int> holding_;          // separated pairs whose springs hold the structure for a solve
   std::vector<double> d_test_;        // d* with 0 for the pairs kept in contact [pairs]
 };
 
 }  // namespace
 
-std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader, cycle_detector& cycles) {
+std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader) {
   if (leader.facts().rule == contact_rule::listing) return std::make_unique<path_policy>(now, leader);
-  return std::make_unique<corrected_policy>(now, leader, cycles);
+  return std::make_unique<corrected_policy>(now, leader);
 }
 
 }  // namespace contct

@@ -62,7 +62,8 @@ class path_policy {
   /// Undo the kernel's toggles and apply all of R*: as the listing does with an event exactly at s = 1.
   /// Returns this s.
   double leave_undone() {
-    now_.take_back_toggles();
+    now_.status = now_.sprung;
+    now_.find_events();
     return 1.0;
   }
 
@@ -71,8 +72,7 @@ class path_policy {
 };
 
 /// The 1989 driver's policy for a leader whose rule is the listing's, otherwise that of the corrected rule.
-/// All must outlive it.
-[[nodiscard]] std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader,
-                                                       cycle_detector& cycles);
+/// Both must outlive it.
+[[nodiscard]] std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader);
 
 }  // namespace contct

@@ -1,4 +1,4 @@
-// The path of a structure under load steps that are data, and of a whole problem.
+// The path of a problem.
 #pragma once
 
 #include <memory>
@@ -15,30 +15,6 @@
 
 namespace contct {
 
-/// Load steps given by their totals, on `s`, which was built from `geometry`. All must outlive what is
-/// returned. add_consistent_loads must know the geometry.
-template <class Geometry>
-load_history loads_of(const Geometry& geometry, std::span<const load> steps, const linear_structure& s) {
-  const auto total = [&geometry, steps, &s](int step, std::span<double> f) {
-    add_consistent_loads(geometry, steps[step - 1], f);
-    add_settlements(s, steps[step - 1], f);
-  };
-  const auto work = [steps, truth = s.truth](int step) {
-    return truth ? truth->work_of(steps[step - 1]) : rigid_work();
-  };
-  return {total, work};
-}
-
-/// Follow the path of `s` through these steps on an engine of its own.
-template <class Geometry>
-path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::span<const load> steps,
-                      std::string_view engine, kernel& leader, std::span<observer* const> observers,
-                      const path_limits& limits = {}) {
-  const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
-  return follow_path(s, static_cast<int>(steps.size()), loads_of(geometry, steps, s), *solves, leader,
-                     observers, limits);
-}
-
 /// The structure that a problem describes; the supports that its steps move are built to settle.
 [[nodiscard]] inline linear_structure structure_of(const problem& p) {
   std::vector<support> supports = p.supports;
@@ -51,7 +27,14 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
 
 /// The loads of a problem's steps. `p` and its structure must outlive them.
 [[nodiscard]] inline load_history loads_of(const problem& p, const linear_structure& s) {
-  return loads_of(p.geometry, p.steps, s);
+  const auto total = [&p, &s](int step, std::span<double> f) {
+    add_consistent_loads(p.geometry, p.steps[step - 1], f);
+    add_settlements(s, p.steps[step - 1], f);
+  };
+  const auto work = [&p, truth = s.truth](int step) {
+    return truth ? truth->work_of(p.steps[step - 1]) : rigid_work();
+  };
+  return {total, work};
 }
 
 /// The engine of a path that a kernel leads: the one that was asked for, by name or as "auto", the quickest;
@@ -63,10 +46,11 @@ path_end follow_steps(const Geometry& geometry, const linear_structure& s, std::
   return asked.empty() || asked == "auto" ? std::string(quickest_engine(s)) : asked;
 }
 
-/// Follow a problem's path on an engine by name. `s` is its structure.
+/// Follow a problem's path on an engine of its own, by name. `s` is its structure.
 inline path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
                        const std::vector<observer*>& observers, const path_limits& limits = {}) {
-  return follow_steps(p.geometry, s, p.steps, engine, leader, observers, limits);
+  const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
+  return follow_path(s, static_cast<int>(p.steps.size()), loads_of(p, s), *solves, leader, observers, limits);
 }
 
 /// The force (or moment) on the structure by each support of `p`, in their order, under displacement `u`

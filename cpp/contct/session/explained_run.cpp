@@ -2,25 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <span>
 #include <stdexcept>
 #include <utility>
 
-#include "contct/compare/compare.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 
 namespace contct {
-namespace {
-
-/// Null where there is none.
-std::unique_ptr<kernel> second_kernel(const std::vector<std::string>& names) {
-  if (names.size() < 2) return nullptr;
-  refuse_unequal(facts_of_kernel(names[0]), facts_of_kernel(names[1]));
-  return make_kernel(names[1]);
-}
-
-}  // namespace
-
 void refuse_other_rules(const std::vector<std::string>& kernels) {
   for (const std::string& name : kernels) {
     if (facts_of_kernel(name).rule != contact_rule::listing)
@@ -44,7 +33,8 @@ void refuse_other_rules(const std::vector<std::string>& kernels) {
 
 explained_run::explained_run(const std::vector<std::string>& kernels, increments_wanted wanted,
                              explained_path::sink to)
-    : leader(make_kernel(kernels[0])), told(leader->facts(), second_kernel(kernels), wanted, std::move(to)) {}
+    : leader(make_kernel(kernels[0])),
+      told(leader->facts(), std::span(kernels).subspan(1), wanted, std::move(to)) {}
 
 path_end explained_run::follow(const problem& p, const linear_structure& s, const std::string& engine,
                                observer* shown) {

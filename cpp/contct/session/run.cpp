@@ -72,21 +72,16 @@ path_end run::follow_leader(std::vector<observer*>& all) {
     all.push_back(&trace_.emplace(header_of_trace(result, leader_facts_),
                                   [this](std::string_view text) { to.trace->write(text); }));
   if (wanted.free_run) all.push_back(&own_path_.emplace());
-  return follow_with(result.engine, *leader_, all, result.judged);
-}
-
-path_end run::follow_with(const std::string& engine_name, kernel& leader, const std::vector<observer*>& all,
-                          certifier& judge) const {
-  return follow(result.what, result.structure, engine_name, leader, all,
-                {wanted.max_increments, judge.ends()});
+  return follow(result.what, result.structure, result.engine, *leader_, all,
+                {wanted.max_increments, result.judged.ends()});
 }
 
 const compared_path& run::follow_alone(const std::string& name) {
   path_record own;
   certifier judge(result.what, result.structure, exact_means_of(result.what));
   const kernel_facts facts = facts_of_kernel(name);
-  own.end = follow_with(engine_for(facts, wanted.engine, result.structure), *make_kernel(name),
-                        {&judge, &own}, judge);
+  own.end = follow(result.what, result.structure, engine_for(facts, wanted.engine, result.structure),
+                   *make_kernel(name), {&judge, &own}, {wanted.max_increments, judge.ends()});
   const free_run_difference d =
       compare_paths(*own_path_, own, free_run_bound(leader_facts_, facts), result.structure.dofs_per_node);
   result.free_runs.push_back({name, d, judge.all_certified(),

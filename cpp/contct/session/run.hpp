@@ -68,8 +68,6 @@ class run {
 
  private:
   path_end follow_leader(std::vector<observer*>& all);
-  path_end follow_with(const std::string& engine_name, kernel& leader, const std::vector<observer*>& all,
-                       certifier& judge) const;
 
   /// Writes what the leader writes to unit 26.
   struct log_writer final : observer {

@@ -13,39 +13,42 @@ constexpr double below_rounding = 1e-18;
 // by it.
 constexpr double stiff = 100.0;
 
-/// A 2 x 2 matrix or a vector over a node's two dofs, w and theta.
+/// A vector over a node's two dofs, w and theta, and a matrix over them by its columns.
 struct node_vector {
   double w = 0.0, theta = 0.0;
+  bool operator==(const node_vector&) const = default;
 };
 struct node_matrix {
-  double ww = 0.0, wt = 0.0, tw = 0.0, tt = 0.0;
+  node_vector w, theta;
   bool operator==(const node_matrix&) const = default;
 };
 
-node_matrix operator-(const node_matrix& a, const node_matrix& b) {
-  return {a.ww - b.ww, a.wt - b.wt, a.tw - b.tw, a.tt - b.tt};
-}
-node_matrix operator+(const node_matrix& a, const node_matrix& b) {
-  return {a.ww + b.ww, a.wt + b.wt, a.tw + b.tw, a.tt + b.tt};
-}
-node_matrix operator*(const node_matrix& a, const node_matrix& b) {
-  return {a.ww * b.ww + a.wt * b.tw, a.ww * b.wt + a.wt * b.tt, a.tw * b.ww + a.tt * b.tw,
-          a.tw * b.wt + a.tt * b.tt};
-}
-node_vector operator*(const node_matrix& a, const node_vector& v) {
-  return {a.ww * v.w + a.wt * v.theta, a.tw * v.w + a.tt * v.theta};
-}
 node_vector operator+(const node_vector& a, const node_vector& b) {
   return {a.w + b.w, a.theta + b.theta};
 }
 node_vector operator-(const node_vector& a, const node_vector& b) {
   return {a.w - b.w, a.theta - b.theta};
 }
-node_matrix transposed(const node_matrix& a) {
-  return {a.ww, a.tw, a.wt, a.tt};
+node_vector operator-(const node_vector& a) {
+  return {-a.w, -a.theta};
 }
-node_matrix negative(const node_matrix& a) {
-  return {-a.ww, -a.wt, -a.tw, -a.tt};
+node_vector operator*(const node_matrix& a, const node_vector& v) {
+  return {a.w.w * v.w + a.theta.w * v.theta, a.w.theta * v.w + a.theta.theta * v.theta};
+}
+node_matrix operator+(const node_matrix& a, const node_matrix& b) {
+  return {a.w + b.w, a.theta + b.theta};
+}
+node_matrix operator-(const node_matrix& a, const node_matrix& b) {
+  return {a.w - b.w, a.theta - b.theta};
+}
+node_matrix operator-(const node_matrix& a) {
+  return {-a.w, -a.theta};
+}
+node_matrix operator*(const node_matrix& a, const node_matrix& b) {
+  return {a * b.w, a * b.theta};
+}
+node_matrix transposed(const node_matrix& a) {
+  return {{a.w.w, a.theta.w}, {a.w.theta, a.theta.theta}};
 }
 
 [[noreturn, gnu::noinline]] void refuse_pivot() {
@@ -54,28 +57,26 @@ node_matrix negative(const node_matrix& a) {
       "precision");
 }
 
-/// A^-1 B for a symmetric positive definite A. Throws no_factor where A is not.
+/// A^-1 v for a symmetric positive definite A. Throws no_factor where A is not.
+[[gnu::always_inline]] inline node_vector solved(const node_matrix& a, const node_vector& v) {
+  const double ratio = a.w.theta / a.w.w;
+  const double pivot = a.theta.theta - ratio * a.theta.w;
+  if (!(a.w.w > 0.0) || !(pivot > 0.0)) refuse_pivot();
+  const double theta = (v.theta - ratio * v.w) / pivot;
+  return {(v.w - a.theta.w * theta) / a.w.w, theta};
+}
 [[gnu::always_inline]] inline node_matrix solved(const node_matrix& a, const node_matrix& b) {
-  const double ratio = a.tw / a.ww;
-  const double pivot = a.tt - ratio * a.wt;
-  if (!(a.ww > 0.0) || !(pivot > 0.0)) refuse_pivot();
-  const double tw = (b.tw - ratio * b.ww) / pivot;
-  const double tt = (b.tt - ratio * b.wt) / pivot;
-  return {(b.ww - a.wt * tw) / a.ww, (b.wt - a.wt * tt) / a.ww, tw, tt};
+  return {solved(a, b.w), solved(a, b.theta)};
 }
 bool is_definite(const node_matrix& a) {
-  return a.ww > 0.0 && a.tt - a.tw / a.ww * a.wt > 0.0;
-}
-node_vector solved(const node_matrix& a, const node_vector& v) {
-  const node_matrix m = solved(a, node_matrix{v.w, 0.0, v.theta, 0.0});
-  return {m.ww, m.tw};
+  return a.w.w > 0.0 && a.theta.theta - a.w.theta / a.w.w * a.theta.w > 0.0;
 }
 
 node_matrix block(const band_matrix& k, int row_node, int column_node) {
   const auto entry = [&k](int row, int column) { return k.at(std::max(row, column), std::min(row, column)); };
   const int r = 2 * row_node;
   const int c = 2 * column_node;
-  return {entry(r, c), entry(r, c + 1), entry(r + 1, c), entry(r + 1, c + 1)};
+  return {{entry(r, c), entry(r + 1, c)}, {entry(r, c + 1), entry(r + 1, c + 1)}};
 }
 
 /// For structures whose nodes form a chain, with two dofs each. The nodes without pairs are eliminated once,
@@ -145,7 +146,7 @@ class condensed_engine final : public spring_engine {
       if (node + 1 == k.order() / 2) return;
       const node_matrix next = block(k, node, node + 1);
       const node_matrix by_pivot = solved(pivot, next);
-      to_left = negative(to_left * by_pivot);
+      to_left = -(to_left * by_pivot);
       const node_matrix less = transposed(next) * by_pivot;
       if (node + 1 < right_node) {
         pivot = block(k, node + 1, node + 1) - less;
@@ -166,12 +167,12 @@ class condensed_engine final : public spring_engine {
     without_springs_.clear();
     for (const int node : kept_) {
       d_.push_back(block(structure_.stiffness.band(), node, node));
-      reach_.push_back(std::sqrt(d_.back().tt / d_.back().ww));
+      reach_.push_back(std::sqrt(d_.back().theta.theta / d_.back().w.w));
     }
     eliminate_between(-1, kept_.front(), 0);
     for (std::size_t i = 0; i + 1 < n; ++i) eliminate_between(kept_[i], kept_[i + 1], i);
     eliminate_between(kept_.back(), structure_.stiffness.order() / 2, n - 1);
-    for (const node_matrix& d : d_) without_springs_.push_back(d.ww);
+    for (const node_matrix& d : d_) without_springs_.push_back(d.w.w);
     apply_all();
     for (std::size_t at = 0; at < n; ++at) add_springs(at);
     left_.assign(n, {});
@@ -184,37 +185,31 @@ class condensed_engine final : public spring_engine {
   /// Those of the pairs now in contact; summed anew, since what a stiff spring rounds away does not come back
   /// when it is subtracted.
   void add_springs(std::size_t at) {
-    d_[at].ww = without_springs_[at];
+    d_[at].w.w = without_springs_[at];
     for (const int pair : pairs_at_[at])
-      if (applied_[pair] != 0) d_[at].ww += spring_[pair];
+      if (applied_[pair] != 0) d_[at].w.w += spring_[pair];
   }
 
-  /// L_i, and how a column goes on from i + 1 to i.
-  void step_right(std::size_t i) {
+  /// L_i, and how a column goes on from i + 1 to i. True where L_i is another than before.
+  bool step_right(std::size_t i) {
+    const node_matrix before = left_[i];
     left_[i] = i == 0 ? d_[0] : d_[i] + transposed(e_[i - 1]) * go_left_[i - 1];
-    if (i + 1 < d_.size()) go_left_[i] = negative(solved(left_[i], e_[i]));
+    if (i + 1 < d_.size()) go_left_[i] = -solved(left_[i], e_[i]);
+    return before != left_[i];
   }
 
-  /// R_i, and how a column goes on from i - 1 to i.
-  void step_left(std::size_t i) {
+  /// R_i, and how a column goes on from i - 1 to i. True where R_i is another than before.
+  bool step_left(std::size_t i) {
+    const node_matrix before = right_[i];
     right_[i] = i + 1 == d_.size() ? d_[i] : d_[i] + e_[i] * go_right_[i + 1];
-    if (i > 0) go_right_[i] = negative(solved(right_[i], transposed(e_[i - 1])));
+    if (i > 0) go_right_[i] = -solved(right_[i], transposed(e_[i - 1]));
+    return before != right_[i];
   }
 
   /// After a change of D_at: the sweeps from there on, as far as they give something else than before.
   /// Neither needs the other, and each is a chain of divisions that wait for each other: side by side they
   /// take little longer than one.
   void sweep_from(std::size_t at) {
-    const auto changes_right = [this](std::size_t i) {
-      const node_matrix before = left_[i];
-      step_right(i);
-      return before != left_[i];
-    };
-    const auto changes_left = [this](std::size_t i) {
-      const node_matrix before = right_[i];
-      step_left(i);
-      return before != right_[i];
-    };
     step_right(at);
     step_left(at);
     std::size_t right = at + 1;  // the next of each sweep; `left` is one more
@@ -223,11 +218,11 @@ class condensed_engine final : public spring_engine {
     bool goes_right = right < n;
     bool goes_left = left > 0;
     while (goes_right && goes_left) {
-      goes_right = changes_right(right) && ++right < n;
-      goes_left = changes_left(left - 1) && --left > 0;
+      goes_right = step_right(right) && ++right < n;
+      goes_left = step_left(left - 1) && --left > 0;
     }
-    while (goes_right) goes_right = changes_right(right) && ++right < n;
-    while (goes_left) goes_left = changes_left(left - 1) && --left > 0;
+    while (goes_right) goes_right = step_right(right) && ++right < n;
+    while (goes_left) goes_left = step_left(left - 1) && --left > 0;
   }
 
   /// x -= factor c, where c is the column of the inverse at place `at`, whose own entry is `peak`, from there
@@ -297,7 +292,7 @@ class condensed_engine final : public spring_engine {
       load_[i] = {};
     }
     residual_of_response();
-    for (std::size_t i = 0; i < kept_.size(); ++i) load_[i] = {-column_[i].w, -column_[i].theta};
+    for (std::size_t i = 0; i < kept_.size(); ++i) load_[i] = -column_[i];
     response_to_ = residual.version;
     drift_.start_interval();
   }
@@ -343,7 +338,7 @@ class condensed_engine final : public spring_engine {
   std::vector<node_vector> x_, load_;
   std::vector<node_vector> column_;  // the residual, and what it corrects
   std::uint64_t response_to_ = 0;
-  drift_monitor drift_{{32, 512, 1e-11, 1e-11 / 4}};
+  drift_monitor drift_{32};
 };
 
 }  // namespace

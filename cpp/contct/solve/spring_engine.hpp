@@ -26,15 +26,9 @@ struct drift {
 /// it is negligible.
 class drift_monitor {
  public:
-  struct limits {
-    int first_check;    ///< responses until the first check, and between the next
-    int longest;        ///< the most responses between two checks
-    double allowed;     ///< correction relative to the response
-    double negligible;  ///< the same; less than `allowed`
-  };
-
-  explicit drift_monitor(const limits& l)
-      : limits_(l), until_check_(l.first_check), check_every_(l.first_check) {}
+  /// `first_check`: responses until the first check, and at first between two; 16 times as many at most.
+  explicit drift_monitor(int first_check)
+      : longest_(16 * first_check), until_check_(first_check), check_every_(first_check) {}
 
   /// Count a response. True when it is to be checked.
   [[nodiscard]] bool is_due() { return --until_check_ <= 0; }
@@ -43,17 +37,17 @@ class drift_monitor {
 
   /// False when the drift is more than is allowed.
   [[nodiscard]] bool accepts(const drift& found) {
-    const bool good = found.correction <= limits_.allowed * found.size;
+    const bool good = found.correction <= allowed * found.size;
     if (!good) check_every_ = std::max(check_every_ / 2, shortest);
-    if (found.correction < limits_.negligible * found.size)
-      check_every_ = std::min(2 * check_every_, limits_.longest);
+    if (found.correction < allowed / 4 * found.size) check_every_ = std::min(2 * check_every_, longest_);
     start_interval();
     return good;
   }
 
  private:
   static constexpr int shortest = 4;
-  limits limits_;
+  static constexpr double allowed = 1e-11;  // correction relative to the response: 1e-8 of D is promised
+  int longest_;
   int until_check_;
   int check_every_;
 };
@@ -94,8 +88,6 @@ class spring_engine : public stiffness_engine {
     switched_.clear();
     return true;
   }
-
-  [[nodiscard]] double stiffness_of(int pair) const { return structure_.pairs[pair].stiffness; }
 
   /// Solve for every dof by the factor, which has the wanted springs.
   void solve_for_all(std::span<const double> load, std::span<const double> pair_forces, std::span<double> u) {

@@ -65,23 +65,25 @@ class inverse_columns {
     return c;
   }
 
-  /// K becomes K + sigma_k e e^T; `c` is the pair's column. Returns g.
-  double take_in(int pair, double sigma_k, std::vector<double> c) {
+  /// K becomes K + sigma_k e e^T; `c` is the pair's column. Corrects the response at the pairs, too.
+  void take_in(int pair, double sigma_k, std::vector<double> c, std::span<double> response) {
     const double g = sigma_k / (1.0 + sigma_k * c[pair]);
     toggles_.push_back({pair, sigma_k, g, std::move(c)});
-    return g;
+    subtract(toggles_.back(), response);
   }
 
   /// K0^-1 b becomes K^-1 b, at the pairs [pairs].
   void correct(std::span<double> at_pairs) const {
-    for (const toggle& t : toggles_) {
-      const double factor = t.weight * at_pairs[t.pair];
-      const double* const c = t.column.data();
-      for (std::size_t i = 0; i < pairs_; ++i) at_pairs[i] -= factor * c[i];
-    }
+    for (const toggle& t : toggles_) subtract(t, at_pairs);
   }
 
  private:
+  static void subtract(const toggle& t, std::span<double> at_pairs) {
+    const double factor = t.weight * at_pairs[t.pair];
+    const double* const c = t.column.data();
+    for (std::size_t i = 0; i < at_pairs.size(); ++i) at_pairs[i] -= factor * c[i];
+  }
+
   /// The pair, and as many others as fill a block: those with the least scale factors whose columns are not
   /// yet solved for. Only the pair itself while fewer than half of such columns are used.
   [[nodiscard]] std::vector<int> likely_next(int pair, std::span<const double> last_s) const {
@@ -188,13 +190,11 @@ class updated_engine final : public spring_engine {
   /// Update the response by the toggle of one pair. False when that takes a new factor.
   [[nodiscard]] bool update(int pair, std::span<const double> last_s) {
     if (columns_.toggles().size() >= most_toggles_) return false;
-    const double sigma_k = applied_[pair] != 0 ? stiffness_of(pair) : -stiffness_of(pair);
+    const double k = structure_.pairs[pair].stiffness;
+    const double sigma_k = applied_[pair] != 0 ? k : -k;
     std::vector<double> column = columns_.column(pair, last_s);
     if (!(1.0 + sigma_k * column[pair] > least_denominator)) return false;
-    const double g = columns_.take_in(pair, sigma_k, std::move(column));
-    const double factor = g * response_[pair];
-    const std::vector<double>& c = columns_.toggles().back().column;
-    for (std::size_t i = 0; i < response_.size(); ++i) response_[i] -= factor * c[i];
+    columns_.take_in(pair, sigma_k, std::move(column), response_);
     ++counts_.updates;
     return true;
   }
@@ -217,11 +217,11 @@ class updated_engine final : public spring_engine {
 
   inverse_columns columns_;
   bool has_factor_ = false;
-  std::size_t most_toggles_;                          // between factors
-  std::vector<double> response_;                      // to the whole increment [pairs]
-  std::uint64_t response_to_ = 0;                     // which increment
-  std::vector<double> work_;                          // [dofs]
-  drift_monitor drift_{{16, 256, 1e-11, 1e-11 / 4}};  // 1e-8 of D is promised
+  std::size_t most_toggles_;       // between factors
+  std::vector<double> response_;   // to the whole increment [pairs]
+  std::uint64_t response_to_ = 0;  // which increment
+  std::vector<double> work_;       // [dofs]
+  drift_monitor drift_{16};
 };
 
 }  // namespace
