@@ -72,7 +72,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
 }  // namespace
 
 exit_status run_command(const check_options& options) {
-  const problem p = read_with_progress(options.file, {}, options.allow_outside, options.quiet);
+  const problem p = read_with_warnings(options, {});
   if (!options.quiet) {
     const terminal screen = look_at_terminal();
     for (const auto& [what, words] : facts_of(p)) {

@@ -1,16 +1,26 @@
-// The commands that need few lines: new and kernels.
+// The commands that need few lines: new, kernels, exact and prove.
 #include "app/commands.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/text/strings.hpp"
+#include "contct/write/exact_output.hpp"
 
 namespace contct {
 namespace {
+
+namespace fs = std::filesystem;
 
 // Problems to start from, with every key explained.
 
@@ -110,10 +120,24 @@ const char* problem_of(const std::string& shape) {
 /// A name that is taken, if only by a link that leads nowhere, is never written to.
 void refuse_taken(const std::string& file) {
   std::error_code ignored;
-  const auto kind = std::filesystem::symlink_status(file, ignored).type();
-  if (kind == std::filesystem::file_type::not_found || kind == std::filesystem::file_type::none) return;
+  const auto kind = fs::symlink_status(file, ignored).type();
+  if (kind == fs::file_type::not_found || kind == fs::file_type::none) return;
   throw std::invalid_argument("FILE: found " + file +
                               ", which exists already; allowed: a new name, or - for standard output");
+}
+
+constexpr const char* python =
+    "/usr/bin/python3";  // the one that Debian's packages of Capstone and Z3 are for
+
+/// The folder of the Python package: in the build tree that of the program, else where contct.py is
+/// installed.
+fs::path folder_of_prover(const fs::path& program) {
+  for (const char* from_here : {".", CONTCT_INSTALLED_PYTHON, "../lib/python3/dist-packages"}) {
+    fs::path folder = (program.parent_path() / from_here).lexically_normal();
+    if (fs::exists(folder / "contct_prove")) return folder;
+  }
+  throw std::runtime_error("the prover is not installed: found no contct_prove beside " + program.string() +
+                           "; it comes with contct.py, in the package python3-contct");
 }
 
 }  // namespace
@@ -142,6 +166,51 @@ exit_status run_command(const kernels_options& /*options*/) {
   print_text(fmt::format("listing sha256 {}\nfloating point: {}\n", CONTCT_LISTING_SHA256,
                          describe(probe_floating_point())));
   return exit_status::solved;
+}
+
+/// The path in rational arithmetic, and how many digits of each kernel are right.
+exit_status run_command(const exact_options& options) {
+  for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
+  const std::vector<output_option> outputs = {{"--json", options.json}};
+  const problem p = read_with_warnings(options, outputs);
+  const output_files files(outputs);
+  progress path_shown(static_cast<std::int64_t>(p.steps.size()), "steps", options.quiet);
+  const exact_progress tell = [&](int step, int increment, const rational& fraction) {
+    path_shown.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", step,
+                               p.steps.size(), increment, 100.0 * rounded(fraction)));
+  };
+  path_progress kernels_shown(p.steps.size(), options.quiet);
+  const exact_run run = run_exactly(p, {options.file, options.rule, options.kernels}, tell, &kernels_shown);
+  path_shown.erase();
+  kernels_shown.line.erase();
+  const exact_path& path = run.path;
+  if (!options.quiet && !takes_standard_output(outputs))
+    print_text(exact_text(run, options.digits, look_at_terminal()));
+  flush_standard_output();
+  if (output_file* const file = files["--json"]) write_exact_json(run, *file);
+  if (path.status != path_status::solved)
+    complain("{}: step {}, at share {} of its load: {}", whole_line(options.file), path.steps.size(),
+             short_words(path.steps.back().fraction, options.digits),
+             path.status == path_status::mechanism ? "no equilibrium"
+             : path.status == path_status::path_ended
+                 ? "the path of the 1989 rule ended: nothing held the structure"
+                 : "the limit of increments is reached");
+  return status_of(path.status);
+}
+
+/// The prover is a Python package, which stands beside contct.py.
+exit_status run_command(const prove_options& options) {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const std::string folder = folder_of_prover(program);
+  const std::string library = options.library.empty() ? program.string() : options.library;
+  std::array<std::string, 7> words = {python, "-P",   "-m", "contct_prove", "--symbol=" + options.symbol,
+                                      "--",   library};
+  std::array<char*, words.size() + 1> arguments{};
+  std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
+  flush_standard_output();
+  (void)setenv("PYTHONPATH", folder.c_str(), 1);
+  execv(python, arguments.data());
+  throw std::system_error(errno, std::generic_category(), std::string("cannot run ") + python);
 }
 
 }  // namespace contct

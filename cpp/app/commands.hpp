@@ -23,11 +23,6 @@ struct report_options {
   std::string junit, markdown;
 };
 
-/// What `contct run` draws and tabulates.
-struct picture_options {
-  std::string html, csv, vtu;
-};
-
 /// What every command with a problem has.
 struct problem_options {
   std::string file = {};
@@ -37,9 +32,8 @@ struct problem_options {
 struct run_options : problem_options {
   std::vector<std::string> kernels = {"fortran", "cpp"};  ///< the first leads
   std::string engine;                                     ///< empty: what suits the leader
-  std::string json, log, trace, proof;
+  std::string json, log, trace, proof, html, csv, vtu;
   report_options report;
-  picture_options pictures;
   bool free_run = false;
   bool final_only = false;
   bool strict = false;

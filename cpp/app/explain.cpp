@@ -7,6 +7,7 @@
 
 #include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
+#include "contct/path/solve_problem.hpp"
 #include "contct/session/explained_run.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/write/words.hpp"
@@ -72,7 +73,7 @@ exit_status run_command(const explain_options& options) {
   refuse_engine_option(options.engine);
   refuse_other_rules(options.kernels);
   const std::vector<output_option> outputs = {{"--json", options.json}};
-  const problem p = read_with_progress(options.file, outputs, options.allow_outside, options.quiet);
+  const problem p = read_with_warnings(options, outputs);
   refuse_beyond("--pair", options.pair, p.pairs.size(), "pair");
   refuse_beyond("--step", wanted.step > 0 ? wanted.step : options.step, p.steps.size(), "step");
   const output_files files(outputs);
@@ -89,7 +90,7 @@ exit_status run_command(const explain_options& options) {
     if (text) print_text(text->add(i));
     if (json) json->write(i);
   });
-  const linear_structure structure = build_with_progress(p, options.quiet);
+  const linear_structure structure = structure_of(p);
   const path_end end = run.follow(p, structure, options.engine, &shown);
   shown.line.erase();
   const explained_path& told = run.told;

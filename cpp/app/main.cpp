@@ -1,18 +1,88 @@
 // The contct program.
+#include <dlfcn.h>
+
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <system_error>
+#include <vector>
 
-#include "app/job.hpp"
 #include "app/outputs.hpp"
 #include "app/problem_runs.hpp"
 #include "contct/number/rational.hpp"
+#include "contct/solve/mpi_job.hpp"
 
 namespace contct {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* how_to_get_it =
+    ". It is built with the program where PETSc with MUMPS and MPI are found; on Debian: apt-get install "
+    "libpetsc-real-dev, then configure and build again";
+
+bool asks_for_petsc(const std::vector<std::string>& arguments) {
+  const auto end = std::find(arguments.begin(), arguments.end(), "--");
+  for (auto a = arguments.begin(); a != end; ++a)
+    if (*a == "--engine=petsc" || (*a == "--engine" && a + 1 != end && a[1] == "petsc")) return true;
+  return false;
+}
+
+/// Beside the program, or where it is installed.
+std::string file_of_module() {
+  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+  const std::string beside = (here / "contct_petsc.so").string();
+  const std::string installed = (here / CONTCT_INSTALLED_MODULES / "contct_petsc.so").lexically_normal();
+  for (const std::string& file : {beside, installed})
+    if (fs::exists(file)) return file;
+  throw std::runtime_error("engine petsc: found no module " + beside + " or " + installed + how_to_get_it);
+}
+
+mpi_job& join_job() {
+  const std::string file = file_of_module();
+  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (module == nullptr) {
+    const char* const why = dlerror();  // NOLINT(concurrency-mt-unsafe): no other thread loads anything
+    throw std::runtime_error("engine petsc: " + file + " cannot be loaded: " + why + how_to_get_it);
+  }
+  // NOLINTNEXTLINE(*-reinterpret-cast): dlsym has untyped addresses
+  const auto join = reinterpret_cast<join_function*>(dlsym(module, join_symbol));
+  mpi_job* const job = join != nullptr ? join(CONTCT_VERSION) : nullptr;
+  if (job == nullptr)
+    throw std::runtime_error("engine petsc: " + file +
+                             ": found a module of another version; allowed: that of the program");
+  return *job;
+}
+
+/// Join the MPI job of --engine petsc where the command line asks for it, through the module contct_petsc.so.
+/// This is looked at before anything is parsed: rank 0 alone parses, reads, talks and writes. False on the
+/// other ranks, when they have served it. Throws std::runtime_error where there is no module, where what it
+/// needs cannot be loaded, and where it was made for another version.
+bool runs_the_program(const std::vector<std::string>& arguments) {
+  if (!asks_for_petsc(arguments)) return true;
+  mpi_job& job = join_job();
+  if (job.rank() != 0) {
+    job.serve();
+    return false;
+  }
+  set_joined_job(&job);
+  // mpirun gives rank 0 a terminal of its own, whatever it writes to itself.
+  (void)setenv("NO_COLOR", "1", 0);  // NOLINT(concurrency-mt-unsafe): there is no other thread yet
+  return true;
+}
+
+/// Let the other ranks go, where there are any. The last thing that rank 0 does.
+void leave_job() noexcept {
+  mpi_job* const job = joined_job();
+  set_joined_job(nullptr);
+  if (job != nullptr) job->leave();
+}
 
 /// Nothing where the command line has no meaning, which is said.
 std::optional<command_options> asked_by(int argc, char** argv) {

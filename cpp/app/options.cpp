@@ -170,7 +170,7 @@ void declare_replay(option_parser& p, CLI::App* c) {
   add_reports(c, o.report);
 }
 
-void declare_pictures(CLI::App* c, picture_options& o) {
+void declare_pictures(CLI::App* c, run_options& o) {
   add_file(c, "--html", o.html,
            "Write a report of the run as one HTML page to this file (- is standard output): the structure "
            "increment by increment, its events, the comparison of the kernels, the certificate. A "
@@ -215,7 +215,7 @@ void declare_run(option_parser& p, CLI::App* c) {
       ->check(CLI::Range(1, most_increments));
   add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
   add_file(c, "--trace", o.trace, "Write every call of the leader, inputs and answers, to this file");
-  declare_pictures(c, o.pictures);
+  declare_pictures(c, o);
   add_reports(c, o.report);
   add_file(c, "--log", o.log, "Write the leader's unit 26 to this file");
   add_file(c, "--proof", o.proof,
@@ -342,32 +342,15 @@ constexpr command all_commands[] = {
      [](option_parser& p, CLI::App* c) { p.options_for<kernels_options>(c); }},
 };
 
-/// It stays where it is made: the callbacks of its commands refer to it. With `only` it has that one command:
-/// the options of all take longer to declare than most paths to follow.
-std::unique_ptr<option_parser> contct_parser(std::vector<std::string> engines, std::string_view only = "") {
-  auto made = std::make_unique<option_parser>(
-      "contct", "CONTCT: the 1989 contact subroutine in FORTRAN and C++, compared bit for bit.");
-  made->engines = std::move(engines);
-  made->program.require_subcommand(1);
-  for (const auto& [name, text, declare] : all_commands)
-    if (only.empty() || only == name) declare(*made, made->program.add_subcommand(name, text));
-  add_examples(made->program);
-  return made;
-}
-
 }  // namespace
 
 command_options parse_contct(int argc, const char* const* argv, const std::vector<std::string>& engines) {
-  const bool is_named = argc > 1 && std::ranges::any_of(all_commands, [&](const command& c) {
-                          return std::string_view(argv[1]) == c.name;
-                        });
-  if (is_named) {
-    try {
-      return contct_parser(engines, argv[1])->parse(argc, argv);
-    } catch (const std::invalid_argument&) {  // the message may name other commands
-    }
-  }
-  return contct_parser(engines)->parse(argc, argv);
+  option_parser p("contct", "CONTCT: the 1989 contact subroutine in FORTRAN and C++, compared bit for bit.");
+  p.engines = engines;
+  p.program.require_subcommand(1);
+  for (const auto& [name, text, declare] : all_commands) declare(p, p.program.add_subcommand(name, text));
+  add_examples(p.program);
+  return p.parse(argc, argv);
 }
 
 command_options parse_contct_replay(int argc, const char* const* argv) {

@@ -4,10 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <condition_variable>
 #include <cstdlib>
 #include <ctime>
-#include <mutex>
 #include <stdexcept>
 
 #include "contct/number/probe.hpp"
@@ -54,11 +52,6 @@ double wait_before_progress() {
     throw std::invalid_argument(
         fmt::format("CONTCT_PROGRESS_AFTER: found \"{}\"; allowed: seconds, 0 or more", said));
   return *seconds;
-}
-
-/// Does anybody wait at a terminal?
-bool waits_at_terminal(bool quiet) {
-  return !quiet && isatty(STDERR_FILENO) != 0;
 }
 
 /// Write over the line at which the cursor is.
@@ -217,7 +210,7 @@ void output_files::write(const check_report& report) const {
 }
 
 progress::progress(std::int64_t all, std::string what, bool quiet)
-    : wanted_(waits_at_terminal(quiet)),
+    : wanted_(!quiet && isatty(STDERR_FILENO) != 0),
       after_(wait_before_progress()),
       between_(std::min(0.2, after_.count())),
       all_(all),
@@ -242,28 +235,6 @@ void progress::say(std::string_view words) {
 
 void progress::erase() {
   if (std::exchange(shown_, false)) put_line("");
-}
-
-std::jthread shown_activity(const std::string& activity, bool quiet) {
-  const double after = wait_before_progress();
-  if (!waits_at_terminal(quiet)) return {};
-  return std::jthread([activity, after](const std::stop_token& over) {
-    using seconds = std::chrono::duration<double>;
-    const auto begun = std::chrono::steady_clock::now();
-    const auto draw = [&activity](seconds s) { put_line(fmt::format("{}, {:.0f} s", activity, s.count())); };
-    bool shown = after <= 0.0;
-    if (shown) draw(seconds(0.0));
-    std::mutex guard;
-    std::unique_lock lock(guard);
-    std::condition_variable_any ended;
-    seconds next(shown ? 1.0 : after);
-    while (!ended.wait_for(lock, over, next, [&over] { return over.stop_requested(); })) {
-      draw(std::chrono::steady_clock::now() - begun);
-      shown = true;
-      next = seconds(1.0);
-    }
-    if (shown) put_line("");
-  });
 }
 
 }  // namespace contct

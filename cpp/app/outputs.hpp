@@ -9,7 +9,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -158,9 +157,5 @@ class progress {
   std::string what_;
   clock::time_point begun_ = clock::now(), last_ = begun_;
 };
-
-/// As long as the thread lives, the terminal shows what the program is doing and for how long: "reading
-/// model.toml, 3 s". Nothing else may be printed meanwhile, and no process forked.
-[[nodiscard]] std::jthread shown_activity(const std::string& activity, bool quiet);
 
 }  // namespace contct

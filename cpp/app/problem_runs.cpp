@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "contct/matrix/cholesky.hpp"
-#include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
@@ -25,23 +24,14 @@ void refuse_engine_option(const std::string& name) {
                                           did_you_mean(name, names), joined(names, ", ")));
 }
 
-problem read_with_progress(const std::string& file, const std::vector<output_option>& outputs,
-                           bool allow_outside, bool quiet) {
-  std::vector<output_option> inputs = {{"the problem", file}};
+problem read_with_warnings(const problem_options& options, const std::vector<output_option>& outputs) {
+  std::vector<output_option> inputs = {{"the problem", options.file}};
   refuse_shared_outputs(outputs, inputs);
-  problem p = [&] {
-    const std::jthread here = shown_activity(file == "-" ? "reading the problem" : "reading " + file, quiet);
-    return read_problem(file, allow_outside ? reach::anywhere : reach::own_folder);
-  }();
+  problem p = read_problem(options.file, options.allow_outside ? reach::anywhere : reach::own_folder);
   for (const std::string& named : p.files) inputs.push_back({named_by_problem, named});
   refuse_shared_outputs(outputs, inputs);
   for (const std::string& w : p.warnings) complain("warning: {}", whole_line(w));
   return p;
-}
-
-linear_structure build_with_progress(const problem& p, bool quiet) {
-  const std::jthread here = shown_activity("building the structure", quiet);
-  return structure_of(p);
 }
 
 path_progress::path_progress(std::size_t steps, bool quiet)

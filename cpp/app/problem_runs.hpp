@@ -24,11 +24,8 @@ void refuse_engine_option(const std::string& name);
 
 /// Read a problem and print its warnings. Throws as read_problem does, and as refuse_shared_outputs where one
 /// of `outputs` would replace the problem or a file that it names.
-[[nodiscard]] problem read_with_progress(const std::string& file, const std::vector<output_option>& outputs,
-                                         bool allow_outside, bool quiet);
-
-/// The structure of a problem. Throws as structure_of does.
-[[nodiscard]] linear_structure build_with_progress(const problem& p, bool quiet);
+[[nodiscard]] problem read_with_warnings(const problem_options& options,
+                                         const std::vector<output_option>& outputs);
 
 /// Observes a path and shows the step and the increment that it has reached. Whoever prints meanwhile erases
 /// the line first.

@@ -49,11 +49,10 @@ void add_grid_files(const std::string& vtu, std::vector<output_option>& all) {
 
 /// Every file that these options may write. Throws std::invalid_argument for names that cannot be theirs.
 std::vector<output_option> outputs_of(const run_options& o) {
-  const auto& [html, csv, vtu] = o.pictures;
   std::vector<output_option> all = {{"--json", o.json},  {"--log", o.log}, {"--trace", o.trace},
-                                    {"--html", html},    {"--csv", csv},   {csv_pairs, pairs_table(csv)},
+                                    {"--html", o.html},  {"--csv", o.csv}, {csv_pairs, pairs_table(o.csv)},
                                     {"--proof", o.proof}};
-  if (!vtu.empty()) add_grid_files(vtu, all);
+  if (!o.vtu.empty()) add_grid_files(o.vtu, all);
   return with_reports(std::move(all), o.report);
 }
 
@@ -137,23 +136,22 @@ int node_that_deflects_most(const run_setup& setup) {
 run_setup set_up(const run_options& o) {
   run_setup setup{o};
   refuse_bad_options(o);
-  setup.what = read_with_progress(o.file, setup.outputs, o.allow_outside, o.report.quiet);
-  if (!o.pictures.vtu.empty()) check_grid_coordinates(setup.what);
-  setup.structure = build_with_progress(setup.what, o.report.quiet);
+  setup.what = read_with_warnings(o, setup.outputs);
+  if (!o.vtu.empty()) check_grid_coordinates(setup.what);
+  setup.structure = structure_of(setup.what);
   return setup;
 }
 
 run_request request_of(const run_setup& setup) {
   const run_options& o = setup.options;
-  const picture_options& pictures = o.pictures;
   run_request r{.file = o.file, .engine = o.engine, .free_run = o.free_run, .envelope = o.envelope};
   if (!o.final_only) r.kernels = o.kernels;
-  r.pictures = !pictures.vtu.empty();
+  r.pictures = !o.vtu.empty();
   r.max_increments = o.max_increments;
   r.date = setup.date;
   if (!o.watched.empty()) {
     r.watched = node_named(setup.what.geometry, o.watched);
-  } else if (!pictures.csv.empty()) {
+  } else if (!o.csv.empty()) {
     r.watched = node_that_deflects_most(setup);
   }
   return r;
@@ -286,7 +284,7 @@ void write_grids(const output_files& files, const std::string& vtu, const run_re
 /// Complete and name all files.
 void write_files(shown_run& o) {
   write_outputs(o.run);
-  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.pictures.vtu, o.run.result);
+  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.vtu, o.run.result);
   o.files.write(check_report_of(o));
 }
 

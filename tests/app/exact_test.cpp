@@ -122,15 +122,6 @@ TEST_CASE("a matrix that is nearly singular is solved, and one that is barely in
   CHECK(with("1").exit == 4);  // semidefinite, and the load drives the free motion
 }
 
-TEST_CASE("a dof of a matrix without stiffness or support is refused") {
-  const scratch_folder dir;
-  dir.write("k.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1\n2 2 0\n");
-  dir.write("p.toml", "[matrix]\nstiffness = \"k.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n");
-  const finished f = contct_program(dir.path(), {"exact", "p.toml"});
-  CHECK(f.exit == 2);
-  CHECK_THAT(f.err, Contains("k.mtx: dof 2: found no stiffness and no support"));
-}
-
 TEST_CASE("kernels are measured with settlements, several steps, two-sided pairs and pairs at fixed dofs") {
   const finished f = exactly(
       "[beam]\nx = [0, 1, 2, 3]\nEI = 0.333333333333333333333\n"

@@ -39,18 +39,13 @@ TEST_CASE("fortran and cpp are equal to the bit, and the run says how much it co
     CHECK(j.at("values_compared") > 500'000);
     CHECK(j.at("mismatches") == 0);
     CHECK(j.at("seed") == 1989);
+    CHECK(j.at("asked").at("calls") == 30000);
+    CHECK(j.at("shard").at("of") == 1);
     CHECK(j.at("branches").size() == 16);
     for (const auto& [name, count] : j.at("branches").items()) CHECK(count > 1000);
     for (const char* kind : {"make", "break", "stationary"}) CHECK(j.at("events").at(kind) > 1000);
     CHECK_THAT(dir.read("f.xml"), Contains("failures=\"0\""));
   }
-}
-
-TEST_CASE("a right kernel in C, called as a plug-in, is CONTCT") {
-  const scratch_folder dir;
-  const finished f = fuzz(dir, {"--kernels", "fortran," + variant("right"), "--calls", "20000"});
-  INFO(f.out << f.err);
-  CHECK(f.exit == 0);
 }
 
 TEST_CASE("the printed line runs the same once more") {

@@ -54,8 +54,8 @@ TEST_CASE("a bare contct run compares FORTRAN with C++ and writes no file") {
   CHECK(o.json.empty());
   CHECK(o.log.empty());
   CHECK(o.trace.empty());
-  CHECK(o.pictures.html.empty());
-  CHECK(o.pictures.vtu.empty());
+  CHECK(o.html.empty());
+  CHECK(o.vtu.empty());
   CHECK_FALSE((o.free_run || o.final_only || o.strict || o.report.quiet));
   CHECK(o.max_increments == 0);
 }
@@ -69,7 +69,7 @@ TEST_CASE("the options of contct run arrive where they belong, in any order") {
        "auto",    "--free-run"});
   CHECK(o.kernels == words{"cpp", "corrected"});
   CHECK(o.file == "beam.toml");
-  CHECK(words{o.pictures.csv, o.pictures.vtu, o.pictures.html} == words{"c", "v.vtu", "h"});
+  CHECK(words{o.csv, o.vtu, o.html} == words{"c", "v.vtu", "h"});
   CHECK(words{o.json, o.log, o.trace, o.report.junit, o.report.markdown} == words{"j", "l", "t", "u", "m"});
   CHECK((o.strict && o.free_run && o.report.quiet));
   CHECK(o.engine == "auto");

@@ -42,34 +42,32 @@ const check_report two_of_three{
 TEST_CASE("no output of any command replaces a file that the problem names, under any name or link") {
   const scratch_folder dir;
   fs::copy(root / "reference/structures", dir.path(), fs::copy_options::recursive);
-  const std::vector<words> outputs = {{"run", "--json"},  {"run", "--html"},     {"run", "--csv"},
-                                      {"run", "--log"},   {"run", "--trace"},    {"run", "--proof"},
-                                      {"run", "--junit"}, {"run", "--markdown"}, {"explain", "--json"},
-                                      {"exact", "--json"}};
+  fs::create_hard_link(dir.path() / "frame.mtx", dir.path() / "hard");
+  const std::string before = dir.read("frame.mtx");
   int refused = 0;
-  for (const auto& [problem, named] :
-       {std::pair("frame.toml", words{"frame.mtx", "frame.dof", "frame.xyz", "wind.mtx"}),
-        {"calculix/console.toml",
-         words{"calculix/console.sti", "calculix/console.dof", "calculix/console.inp"}}}) {
-    for (const std::string& file : named) {
-      const std::string before = dir.read(file);
-      fs::create_hard_link(dir.path() / file, dir.path() / "hard");
-      fs::create_symlink(file, dir.path() / "soft");
-      for (const std::string& name : {std::string("hard"), std::string("soft")}) {
-        for (const words& output : outputs) {
-          INFO(output[0] << " " << output[1] << " " << name);
-          CHECK_THAT(refusal(dir, {output[0], problem, output[1], name}),
-                     Contains(output[1] + " " + name + ": found the file of the problem's stiffness, loads"));
-          ++refused;
-        }
-        CHECK(dir.read(file) == before);
-      }
-      CHECK(fs::hard_link_count(dir.path() / file) == 2);
-      fs::remove(dir.path() / "hard");
-      fs::remove(dir.path() / "soft");
-    }
-  }
-  CHECK(refused == 7 * 2 * 10);
+  const auto refuse = [&](const words& output, const std::string& problem, const std::string& name) {
+    INFO(output[0] << " " << output[1] << " " << name);
+    CHECK_THAT(refusal(dir, {output[0], problem, output[1], name}),
+               Contains(output[1] + " " + name + ": found the file of the problem's stiffness, loads"));
+    ++refused;
+  };
+  for (const words& output : {words{"run", "--json"},
+                              {"run", "--html"},
+                              {"run", "--csv"},
+                              {"run", "--log"},
+                              {"run", "--trace"},
+                              {"run", "--proof"},
+                              {"run", "--junit"},
+                              {"run", "--markdown"},
+                              {"explain", "--json"},
+                              {"exact", "--json"}})
+    refuse(output, "frame.toml", "hard");
+  for (const char* file : {"frame.mtx", "frame.dof", "frame.xyz", "wind.mtx"})
+    refuse({"run", "--json"}, "frame.toml", file);
+  for (const char* file : {"calculix/console.sti", "calculix/console.dof", "calculix/console.inp"})
+    refuse({"run", "--json"}, "calculix/console.toml", file);
+  CHECK(refused == 17);
+  CHECK(dir.read("frame.mtx") == before);
 }
 
 TEST_CASE("the table of pairs beside --csv does not replace a file that the problem names") {

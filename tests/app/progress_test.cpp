@@ -94,16 +94,6 @@ TEST_CASE("where table and progress share a terminal, every row of the table beg
   CHECK(screen == plain.out);
 }
 
-TEST_CASE("what cannot say how far it has come says what it is doing") {
-  const plate_directory dir;
-  for (const char* command : {"run", "explain"}) {
-    const finished f = at_terminal(dir, {command, "plate.toml"}, "0");
-    CHECK_THAT(f.err, Contains("\rreading plate.toml, 0 s\033[K\r\033[K"));
-    CHECK_THAT(f.err, Contains("\rbuilding the structure, 0 s\033[K\r\033[K"));
-    CHECK(at_terminal(dir, {command, "plate.toml", "--quiet"}, "0").err.empty());
-  }
-}
-
 TEST_CASE("a wait that is no time is refused") {
   const plate_directory dir;
   for (const char* const wrong : {"soon", "-1", "nan", "1s", ""}) {

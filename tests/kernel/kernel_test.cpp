@@ -66,11 +66,6 @@ TEST_CASE("a single-precision kernel sees the doubles rounded and gives its numb
   }
 }
 
-TEST_CASE("messages call the rule of the listing the 1989 rule") {
-  CHECK(rule_words(contact_rule::listing) == "the 1989 rule");
-  CHECK(rule_words(contact_rule::corrected) == "the corrected rule");
-}
-
 TEST_CASE("every kernel gives the same bits when it is asked again, in another order") {
   constexpr int calls = 2000;
   std::vector<call_inputs<double>> inputs;

@@ -17,7 +17,7 @@
 
 namespace contct {
 
-inline constexpr double behaves = 0, crashes = 1, aborts = 2, exits_0 = 3, exits_3 = 4, hangs = 5, talks = 6;
+inline constexpr double behaves = 0, crashes = 1, exits_0 = 3, exits_3 = 4, hangs = 5, talks = 6;
 
 inline outside_limits short_patience() {
   outside_limits limits;

@@ -72,23 +72,6 @@ class caught_stream {
 
 }  // namespace
 
-TEST_CASE("a plug-in that ends its process is reported, and the next call is asked of a fresh one") {
-  const leftovers left;
-  {
-    const auto k = make_plugin(plugin("misbehaves"), short_patience());
-    const std::vector<std::pair<double, std::string>> ends = {{crashes, "it was ended by signal 11"},
-                                                              {aborts, "it was ended by signal 6"},
-                                                              {exits_0, "it ended with status 0"},
-                                                              {exits_3, "it ended with status 3"}};
-    for (const auto& [fault, words] : ends) {
-      CHECK(put(*k, behaves).empty());
-      CHECK_THAT(put(*k, fault), Contains(words));
-    }
-    CHECK(put(*k, behaves).empty());
-  }
-  left.check();
-}
-
 TEST_CASE("a plug-in that hangs is stopped three times, and then not started again") {
   const leftovers left;
   {

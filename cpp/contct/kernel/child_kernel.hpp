@@ -5,7 +5,6 @@
 #include <chrono>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "contct/kernel/kernel.hpp"
 
@@ -26,13 +25,5 @@ struct outside_limits {
 /// "pipe:COMMAND", run by the shell.
 [[nodiscard]] std::unique_ptr<kernel> make_pipe(const std::string& command,
                                                 const outside_limits& limits = {});
-
-/// What the child of a plug-in does: load the library, say `ready_word` or what is wrong with it, and answer
-/// calls until its end of the channel is closed.
-void host_plugin(const std::string& path, int channel);
-inline constexpr std::string_view ready_word = "ready";
-
-/// An answer that begins with this says in its first line what the kernel did that it must not.
-inline constexpr std::string_view fault_word = "fault ";
 
 }  // namespace contct

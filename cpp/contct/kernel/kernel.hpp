@@ -3,8 +3,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -72,14 +70,8 @@ class kernel {
   virtual std::string take_text() = 0;
 };
 
-/// "fortran", "fortran-r4", "cpp", "cpp-r4" or "corrected"; "flang" and "f2c" where built. Null when none has
-/// that name.
-[[nodiscard]] std::unique_ptr<kernel> make_built_in(std::string_view name);
-
-/// What the kernel of that name is, without making it: of the FORTRAN ones there is one at a time.
-[[nodiscard]] std::optional<kernel_facts> facts_of_built_in(std::string_view name);
-
-/// The names of all built-in kernels.
+/// The names of all built-in kernels: "fortran", "fortran-r4", "cpp", "cpp-r4" and "corrected"; "flang" and
+/// "f2c" where built.
 [[nodiscard]] std::vector<std::string> kernel_names();
 
 }  // namespace contct

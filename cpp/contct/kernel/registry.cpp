@@ -1,14 +1,146 @@
 #include "contct/kernel/registry.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "contct/kernel/child_kernel.hpp"
+#include "contct/kernel/contct.hpp"
+#include "contct/kernel/corrected.hpp"
+#include "contct/kernel/fortran.hpp"
+#include "contct/kernel/log_text.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {
+
+extern template int contct(call<float>& c, std::span<event> events) noexcept;  // in contct.cpp
+extern template int contct(call<double>& c, std::span<event> events) noexcept;
+
 namespace {
+
+const char* const cxx_compiler = CONTCT_CXX_COMPILER;    // NOLINT: set by CMake
+const char* const cxx_flags = CONTCT_CXX_FLAGS;          // NOLINT: set by CMake
+const char* const fortran_flags = CONTCT_FORTRAN_FLAGS;  // NOLINT: set by CMake
+
+/// A kernel with the text that it gathers in `text_`, if any.
+class built_in : public kernel {
+ public:
+  explicit built_in(kernel_facts facts) : facts_(std::move(facts)) {}
+  [[nodiscard]] const kernel_facts& facts() const final { return facts_; }
+  std::string take_text() override { return std::exchange(text_, {}); }
+
+ protected:
+  std::string text_;
+
+ private:
+  kernel_facts facts_;
+};
+
+/// The corrected rule. It writes no text.
+class corrected_kernel final : public built_in {
+ public:
+  using built_in::built_in;
+  void answer(call<double>& c) override { contct_corrected(c); }
+};
+
+/// A call put to what answers in 4-byte numbers, behind a double-precision boundary.
+template <class Answer>
+void answer_narrow(call<double>& c, Answer answer) {
+  as_float_call(c, [&](call<float>& narrow) {
+    answer(narrow);
+    std::copy(narrow.ss.begin(), narrow.ss.end(), c.ss.begin());
+    c.smin = narrow.smin;
+  });
+}
+
+/// C++ CONTCT, with its text.
+class cpp_kernel final : public built_in {
+ public:
+  using built_in::built_in;
+  void answer(call<double>& c) override {
+    if (facts().real_bytes == 8) return answer_in_precision(c);
+    answer_narrow(c, [this](call<float>& narrow) { answer_in_precision(narrow); });
+  }
+
+ private:
+  template <class Real>
+  void answer_in_precision(call<Real>& c) {
+    if (events_.size() < c.cc.size()) events_.resize(c.cc.size());
+    const int happened = contct(c, std::span<event>(events_));
+    append_log_text(c, std::span<const event>(events_.data(), happened), text_);
+  }
+
+  std::vector<event> events_;
+};
+
+/// The 1989 code by one compiler, with the unit 26 of that one's library kept while this kernel lives.
+class fortran_kernel final : public built_in {
+ public:
+  fortran_kernel(const kernel_facts& facts, fortran::compiled_listing& by)
+      : built_in(facts), listing_(by), log_(by) {}
+  void answer(call<double>& c) override {
+    if (facts().real_bytes == 8) return fortran::contct(c, listing_);
+    answer_narrow(c, [](call<float>& narrow) { fortran::contct(narrow); });
+  }
+  std::string take_text() override { return log_.take(); }
+
+ private:
+  const fortran::compiled_listing& listing_;
+  fortran::unit_26 log_;
+};
+
+struct entry {
+  kernel_facts facts;
+  std::function<std::unique_ptr<kernel>(const kernel_facts&)> make;
+};
+
+entry compiled_by(fortran::compiled_listing& by) {
+  return {
+      {by.kernel, 8, contact_rule::listing, "FORTRAN 77", by.compiler, by.flags, true, by.text_by_meaning},
+      [&by](const kernel_facts& f) { return std::make_unique<fortran_kernel>(f, by); }};
+}
+
+entry as_printed() {
+  entry e = compiled_by(fortran::gfortran);
+  e.facts.name = "fortran-r4";
+  e.facts.real_bytes = 4;
+  e.facts.flags = fortran_flags;
+  return e;
+}
+
+template <class Kernel>
+entry in_cpp(const char* name, int real_bytes, contact_rule rule, bool has_text) {
+  return {{name, real_bytes, rule, "C++20", cxx_compiler, cxx_flags, has_text},
+          [](const kernel_facts& f) { return std::make_unique<Kernel>(f); }};
+}
+
+const std::vector<entry>& known_kernels() {
+  static const std::vector<entry> known = {
+      compiled_by(fortran::gfortran),
+      as_printed(),
+      in_cpp<cpp_kernel>("cpp", 8, contact_rule::listing, true),
+      in_cpp<cpp_kernel>("cpp-r4", 4, contact_rule::listing, true),
+      in_cpp<corrected_kernel>("corrected", 8, contact_rule::corrected, false),
+#ifdef CONTCT_FLANG_COMPILER
+      compiled_by(fortran::flang),
+#endif
+#ifdef CONTCT_F2C_COMPILER
+      compiled_by(fortran::f2c),
+#endif
+  };
+  return known;
+}
+
+/// Throws std::invalid_argument, naming what there is, when none has that name.
+const entry& built_in_named(std::string_view name) {
+  for (const entry& e : known_kernels())
+    if (name == e.facts.name) return e;
+  const std::vector<std::string> known = kernel_names();
+  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"" + did_you_mean(name, known) +
+                              "; there are: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
+}
 
 /// What follows "plugin:" or "pipe:" in a name; nothing when it begins with something else.
 std::optional<std::string> after(std::string_view prefix, std::string_view name) {
@@ -16,28 +148,25 @@ std::optional<std::string> after(std::string_view prefix, std::string_view name)
   return std::string(name.substr(prefix.size()));
 }
 
-[[noreturn]] void refuse_unknown(std::string_view name) {
-  const std::vector<std::string> known = kernel_names();
-  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"" + did_you_mean(name, known) +
-                              "; there are: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
-}
-
 }  // namespace
 
 std::unique_ptr<kernel> make_kernel(std::string_view name) {
   if (const auto path = after("plugin:", name)) return make_plugin(*path);
   if (const auto command = after("pipe:", name)) return make_pipe(*command);
-  std::unique_ptr<kernel> made = make_built_in(name);
-  if (!made) refuse_unknown(name);
-  return made;
+  const entry& e = built_in_named(name);
+  return e.make(e.facts);
 }
 
 kernel_facts facts_of_kernel(std::string_view name) {
   if (after("plugin:", name)) return facts_of_outside(std::string(name), "a shared library");
   if (after("pipe:", name)) return facts_of_outside(std::string(name), "a command");
-  const std::optional<kernel_facts> facts = facts_of_built_in(name);
-  if (!facts) refuse_unknown(name);
-  return *facts;
+  return built_in_named(name).facts;
+}
+
+std::vector<std::string> kernel_names() {
+  std::vector<std::string> names;
+  for (const entry& e : known_kernels()) names.push_back(e.facts.name);
+  return names;
 }
 
 }  // namespace contct

@@ -34,8 +34,6 @@ void contct_kernel(const double dd[], const double dtest[], const double cc[], d
     case 1:
       raise(SIGSEGV);
       break;
-    case 2:
-      abort();
     case 3:
       exit(0);
     case 4:
