@@ -378,26 +378,6 @@ TEST_CASE("a state that a path reached and nothing proves is replaced by the ref
   CHECK(end.state->numbers.has_value());
 }
 
-TEST_CASE("a state of the reference solution's own is still judged by its balance") {
-  const problem stop = cantilever_over_a_stop().as_problem();
-  const linear_structure s = structure_of(stop);
-  certifier judged(stop, s);
-  std::vector<double> u(s.dofs());
-  u[4] = -0.01;  // no equilibrium under any of the loads
-  const std::vector<int> status = {in_contact};
-  judged.step_ended({.step = 2,
-                     .fraction = 1.0,
-                     .displacement = u,
-                     .isep = status,
-                     .rcond = 1e-3,
-                     .from_fallback = true,
-                     .from_reference = true});
-  REQUIRE(judged.steps().size() == 1);
-  CHECK_FALSE(judged.steps()[0]->independent);
-  CHECK_FALSE(judged.steps()[0]->certified);
-  CHECK(judged.steps()[0]->equilibrium > 0.01);
-}
-
 TEST_CASE("unloaded, what only lies on its faces may stand anywhere above them, and not below") {
   problem p;
   p.geometry.kind = beam{{0.0, 1.0}, {1e4}};

@@ -4,46 +4,18 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/certify/certificate.hpp"
-#include "contct/exact/exact_means.hpp"
 #include "contct/exact/path.hpp"
-#include "contct/kernel/registry.hpp"
 #include "contct/number/random.hpp"
-#include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
+#include "support/judged_run.hpp"
 
 using namespace contct;
 
 namespace {
 
-/// The ends of a path, as they were told, with their certificates.
-struct judged_run final : observer {
-  judged_run(problem given, const std::string& kernel)
-      : what(std::move(given)), structure(structure_of(what)), judged(what, structure, exact_means_of(what)) {
-    const auto leader = make_kernel(kernel);
-    end = follow(what, structure, "refactor", *leader, {&judged, this}, {0, judged.ends()});
-  }
-  judged_run(const std::string& text, const std::string& kernel)
-      : judged_run(parse_problem(text, "p.toml"), kernel) {}
-
-  void step_ended(const step_state& s) override {
-    numbers.push_back(reported_state_at(what, s).numbers);
-    displacements.emplace_back(s.displacement.begin(), s.displacement.end());
-    statuses.emplace_back(s.isep.begin(), s.isep.end());
-  }
-
-  [[nodiscard]] const certificate& of_step(std::size_t step) const {
-    return judged.steps().at(step - 1).value();
-  }
-
-  problem what;
-  linear_structure structure;
-  certifier judged;
-  path_end end;
-  std::vector<end_numbers> numbers;
-  std::vector<std::vector<double>> displacements;
-  std::vector<std::vector<int>> statuses;
-};
+judged_run judged(const std::string& text, const std::string& kernel) {
+  return {parse_problem(text, "p.toml"), kernel};
+}
 
 double error_of(double told, const rational& truly) {
   return std::abs(contct::rounded(binary_value(told) - truly));
@@ -128,7 +100,7 @@ TEST_CASE(
   for (const std::string kernel : {"fortran", "corrected"}) {
     int certified = 0;
     for (std::uint64_t number = 0; number < 500; ++number) {
-      const judged_run r(settling_beam(number), kernel);
+      const judged_run r = judged(settling_beam(number), kernel);
       const exact_path truly = follow_corrected_path(exact_problem_of(r.what));
       for (std::size_t step = 1; step <= r.judged.steps().size(); ++step) {
         const std::optional<certificate>& c = r.judged.steps()[step - 1];
@@ -150,11 +122,11 @@ TEST_CASE(
       "[beam]\nlength = 2.0\nelement_size = 1.0\nEI = 1.0e7\n[[support]]\nx = 0.0\nfix = [\"w\", \"theta\"]\n"
       "[[contact]]\nx = 0.001\nsurface = \"below\"\nface = -0.1\nstiffness = 1.0e6\n"
       "[[step]]\nuniform = -100.0\nsettlement = [ { x = 0.0, w = -0.02 } ]\n";
-  const judged_run faithful(text, "fortran");
+  const judged_run faithful = judged(text, "fortran");
   CHECK(std::abs(faithful.numbers.at(0).reactions[0] - 200.0) > 1e-3);
   CHECK_FALSE(faithful.of_step(1).certified);
   CHECK(digits_of(faithful.of_step(1)) < 6);
-  const judged_run corrected(text, "corrected");
+  const judged_run corrected = judged(text, "corrected");
   CHECK(corrected.numbers.at(0).reactions[0] == Approx(200.0).epsilon(1e-15));
   CHECK(corrected.of_step(1).certified);
 }
@@ -167,7 +139,7 @@ TEST_CASE(
       "[[contact]]\nnode = 1\nsurface = \"above\"\nface = 0.0009\nstiffness = 1e-6\n"
       "[[contact]]\nnode = 3\nsurface = \"above\"\nface = 0.0\nstiffness = 1e10\n"
       "[[step]]\npoint = [ { node = 2, w = -0.1 } ]\n[[step]]\nuniform = 0.0\n";
-  const judged_run r(text, "fortran");
+  const judged_run r = judged(text, "fortran");
   REQUIRE(r.end.status == path_status::solved);
   REQUIRE(r.statuses.at(1)[0] == in_contact);
   CHECK_FALSE(r.of_step(2).certified);
@@ -219,7 +191,7 @@ TEST_CASE(
         "]"}) {
     for (const std::string kernel : {"fortran", "corrected"}) {
       INFO(kernel << ": " << loads);
-      const judged_run r(beam + loads + "\n", kernel);
+      const judged_run r = judged(beam + loads + "\n", kernel);
       for (const double u : r.displacements.at(0)) CHECK(u == 0.0);
       CHECK(r.of_step(1).certified);
       CHECK(digits_of(r.of_step(1)) == 15);
@@ -230,7 +202,7 @@ TEST_CASE(
 TEST_CASE("Below the normal range of doubles nothing is certified, and the reason is told") {
   for (const std::string numbers :
        {"x = [0.0, 1.0e-40, 2.0e-40]\nEI = 1.5e-322", "x = [0.0, 1e-100, 2e-100]\nEI = 1e-90"}) {
-    const judged_run r(
+    const judged_run r = judged(
         "[beam]\n" + numbers +
             "\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 3\nsurface = \"below\"\n"
             "face = -1.0e-42\nstiffness = 1.0e-203\n[[step]]\npoint = [ { node = 3, w = -4.0e-244 } ]\n",

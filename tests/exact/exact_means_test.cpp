@@ -4,63 +4,38 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "contct/certify/certificate.hpp"
 #include "contct/exact/path.hpp"
-#include "contct/kernel/registry.hpp"
-#include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
+#include "support/judged_run.hpp"
 
 using namespace contct;
 using contct::double_double;
 
 namespace {
 
-struct kept_path final : observer {
-  void step_ended(const step_state& s) override {
-    exactly.push_back(s.from_exact_path ? 1 : 0);
-    reference.push_back(s.from_reference ? 1 : 0);
-    isep.assign(s.isep.begin(), s.isep.end());
-  }
-
-  std::vector<char> exactly, reference;
-  std::vector<int> isep;
-};
-
-struct run {
-  explicit run(const std::string& name, bool with_exact_path = true)
-      : what(contct::read_problem(CONTCT_REFEREE_PROBLEMS "/" + name + ".toml")),
-        structure(structure_of(what)),
-        judged(what, structure, with_exact_path ? exact_means_of(what) : nullptr) {
-    const auto leader = contct::make_kernel("corrected");
-    end = follow(what, structure, "refactor", *leader, {&path, &judged}, {0, judged.ends()});
-  }
-
-  problem what;
-  linear_structure structure;
-  certifier judged;
-  kept_path path;
-  path_end end;
-};
+problem referee_problem(const std::string& name) {
+  return read_problem(CONTCT_REFEREE_PROBLEMS "/" + name + ".toml");
+}
 
 }  // namespace
 
 TEST_CASE("a drop onto stiff pairs is lost in doubles, and ends at its exact forces all the same") {
-  const run r("dropped-onto-stiff-pairs");
+  const judged_run r(referee_problem("dropped-onto-stiff-pairs"), "corrected");
   CHECK(r.end.status == path_status::solved);
-  CHECK(r.path.exactly == std::vector<char>{0, 1});
-  CHECK(r.path.reference == std::vector<char>{0, 0});
+  CHECK(r.exactly == std::vector<char>{0, 1});
+  CHECK(r.reference == std::vector<char>{0, 0});
   CHECK(r.judged.all_certified());
-  CHECK(r.path.isep == std::vector<int>{in_contact, separated, separated, separated, in_contact});
+  CHECK(r.statuses.back() == std::vector<int>{in_contact, separated, separated, separated, in_contact});
 
-  const run without("dropped-onto-stiff-pairs", false);
-  CHECK(without.path.exactly == std::vector<char>{0, 0});
-  CHECK(without.path.reference == std::vector<char>{0, 1});
+  const judged_run without(referee_problem("dropped-onto-stiff-pairs"), "corrected", false);
+  CHECK(without.exactly == std::vector<char>{0, 0});
+  CHECK(without.reference == std::vector<char>{0, 1});
 }
 
 TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact path's end") {
-  const run r("graded-mesh");
+  const judged_run r(referee_problem("graded-mesh"), "corrected");
   CHECK(r.end.status == path_status::solved);
-  CHECK(r.path.exactly.front() == 1);
+  CHECK(r.exactly.front() == 1);
   CHECK(r.judged.all_certified());
 
   const exact_path path = follow_corrected_path(exact_problem_of(r.what));
@@ -75,8 +50,8 @@ TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact
 }
 
 TEST_CASE("what only rounding could tell from a mechanism is followed to its end, and a mechanism is told") {
-  CHECK(run("held-by-a-hair").end.status == path_status::solved);
-  problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/held-by-a-hair.toml");
+  problem p = referee_problem("held-by-a-hair");
+  CHECK(judged_run(p, "corrected").end.status == path_status::solved);
   p.steps[0].points[1].value = -4e-17;  // it tips the other way
   p.steps[0].points[0].value = 0.032;
   const found_end end = exact_means_of(p)->end_of(1);
@@ -85,7 +60,7 @@ TEST_CASE("what only rounding could tell from a mechanism is followed to its end
 }
 
 TEST_CASE("no step behind the end of an exact path is known, nor any of a problem that is too large") {
-  const problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
+  const problem p = referee_problem("graded-mesh");
   CHECK_FALSE(exact_means_of(p)->end_of(3).exists);
 
   problem large = p;
@@ -94,12 +69,11 @@ TEST_CASE("no step behind the end of an exact path is known, nor any of a proble
   long_beam.EI.assign(long_beam.x.size() - 1, 1.0);
   large.geometry.kind = long_beam;
   CHECK_FALSE(exact_means_of(large)->end_of(1).exists);
-  CHECK_FALSE(small_exact_problem_of(large));
 }
 
 TEST_CASE(
     "at the exact end of a step nothing is left but the rounding of u, and at a fixed dof the reaction") {
-  const problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/graded-mesh.toml");
+  const problem p = referee_problem("graded-mesh");
   const exact_path path = follow_corrected_path(exact_problem_of(p));
   const auto exactly = exact_means_of(p);
   int checked = 0;
@@ -119,7 +93,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a face that it is on") {
-  const problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
+  const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);
   const rational face = decimal_of(-7.6e-12);
   const rational h = decimal_of(8e-11);
@@ -137,7 +111,7 @@ TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a fac
 }
 
 TEST_CASE("a residual beyond doubles is infinite, and there is none of displacements that are no numbers") {
-  const problem p = contct::read_problem(CONTCT_REFEREE_PROBLEMS "/stiff-pair-at-its-face.toml");
+  const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);
   std::vector<double_double> u(6, 0.0);
   u[4] = 1e300;

@@ -4,13 +4,12 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "contct/certify/certificate.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/model/extremes.hpp"
 #include "contct/number/random.hpp"
 #include "contct/read/problem_file.hpp"
-#include "support/beams.hpp"
 #include "support/exact_lines.hpp"
+#include "support/judged_run.hpp"
 
 using namespace contct;
 
@@ -50,17 +49,6 @@ void take_extremes(const rational_vector& p, range& known) {
   }
 }
 
-/// The end of the one step.
-struct end_keeper final : observer {
-  explicit end_keeper(const problem& p) : what(p) {}
-  void step_ended(const step_state& s) override {
-    const reported_state h = reported_state_at(what, s);
-    printed = contct::ranges_of(what.geometry, what.steps[0], s.displacement, {}, h.numbers.element_values);
-  }
-  const problem& what;
-  std::vector<contct::value_range> printed;
-};
-
 struct outcome {
   certificate proof;
   std::vector<contct::value_range> printed;
@@ -68,11 +56,10 @@ struct outcome {
 };
 
 outcome outcome_of(const problem& p) {
-  const linear_structure s = structure_of(p);
-  certifier proves(p, s);
-  end_keeper keeps(p);
-  (void)follow(p, s, "refactor", *make_kernel("corrected"), {&proves, &keeps}, {0, proves.ends()});
-  outcome o{proves.steps().at(0).value(), keeps.printed, {}};
+  const judged_run r(p, "corrected", false);
+  outcome o{r.of_step(1),
+            ranges_of(p.geometry, p.steps[0], r.displacements.at(0), {}, r.numbers.at(0).element_values),
+            {}};
   const rational_vector u = follow_corrected_path(exact_problem_of(p)).steps.back().displacement;
   const beam& b = std::get<beam>(p.geometry.kind);
   for (int e = 0; e < b.elements(); ++e) {

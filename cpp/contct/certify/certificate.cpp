@@ -180,9 +180,9 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
   c.displacement_error = c.shape_error = 0.0;
   c.unique = answer.unique;
   measure_state(s, load, c);
-  c.no_equilibrium = answer.how == outcome::no_equilibrium;
+  const bool no_equilibrium = answer.how == outcome::no_equilibrium;
   const std::string of_proof = std::exchange(c.problem, "");
-  if (c.no_equilibrium) {
+  if (no_equilibrium) {
     c.problem =
         "there is no equilibrium: no support and no face stops a rigid-body motion on which the load does "
         "work";
@@ -203,7 +203,7 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
                                 c.displacement_error * largest_length() >
                                     c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
   const bool of_bounds = c.proved && !of_proof.empty();
-  if (c.problem.empty() || (of_bounds && !c.no_equilibrium && reference_is_off)) c.problem = of_proof;
+  if (c.problem.empty() || (of_bounds && !no_equilibrium && reference_is_off)) c.problem = of_proof;
   c.certified = c.problem.empty();
 }
 

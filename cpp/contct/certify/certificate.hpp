@@ -39,12 +39,11 @@ struct certificate {
   /// False: the state is the reference solution's own, so that comparing the two shows nothing. What is left
   /// then is equilibrium, penetration and tension.
   bool independent = true;
-  bool unique = true;           ///< false: other displacements are as good, so these have no bound
-  bool no_equilibrium = false;  ///< there is none at all
-  bool proved = false;          ///< there are bounds: the three that follow
-  by_quantity error;            ///< on the errors of all numbers of a kind, absolute
-  by_quantity allowed;          ///< what these may reach
-  double worst_share = 0.0;     ///< the worst of them, as a share of the size of its kind
+  bool unique = true;        ///< false: other displacements are as good, so these have no bound
+  bool proved = false;       ///< there are bounds: the three that follow
+  by_quantity error;         ///< on the errors of all numbers of a kind, absolute
+  by_quantity allowed;       ///< what these may reach
+  double worst_share = 0.0;  ///< the worst of them, as a share of the size of its kind
   std::shared_ptr<const step_proof> proof;  ///< what proves the bounds, if that is kept
   std::string problem;                      ///< what is wrong, in words; empty when certified
   int pulling = -1;   ///< of a state that is not certified: the pair in contact that pulls most, from 0

@@ -33,24 +33,22 @@ scaled_stiffness::scaled_stiffness(const long_system& t, std::vector<int> row_of
   for (std::size_t dof = 0; dof < row_of_.size(); ++dof) dof_at_[row_of_[dof]] = static_cast<int>(dof);
 }
 
-/// Calls put(column, value) for every entry of a dof's row in the lower triangle that is not 0.
-template <class Put>
-void scaled_stiffness::each_in_row(int dof, double shift, const Put& put) const {
-  const int row = row_of_[dof];
-  if (system_.fixed[dof] != 0) return put(row, double_double(1.0) - shift);
-  for (const auto& [column, of_true] : system_.stiffness[dof]) {
-    if (system_.fixed[column] != 0 || row_of_[column] > row) continue;
-    double_double entry = column == dof ? of_true + springs_[dof] : of_true;
-    entry = entry * (scale_[dof] * scale_[column]);
-    put(row_of_[column], column == dof ? entry - shift : entry);
-  }
-}
-
-/// Calls put(row, column, value) for every such entry.
+/// Calls put(row, column, value) for every entry of the lower triangle that is not 0.
 template <class Put>
 void scaled_stiffness::each_entry(double shift, const Put& put) const {
-  for (int dof = 0; dof < static_cast<int>(system_.dofs()); ++dof)
-    each_in_row(dof, shift, [&](int column, const double_double& x) { put(row_of_[dof], column, x); });
+  for (int dof = 0; dof < static_cast<int>(system_.dofs()); ++dof) {
+    const int row = row_of_[dof];
+    if (system_.fixed[dof] != 0) {
+      put(row, row, double_double(1.0) - shift);
+      continue;
+    }
+    for (const auto& [column, of_true] : system_.stiffness[dof]) {
+      if (system_.fixed[column] != 0 || row_of_[column] > row) continue;
+      double_double entry = column == dof ? of_true + springs_[dof] : of_true;
+      entry = entry * (scale_[dof] * scale_[column]);
+      put(row, row_of_[column], column == dof ? entry - shift : entry);
+    }
+  }
 }
 
 template <class Number>

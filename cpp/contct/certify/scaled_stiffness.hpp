@@ -63,8 +63,6 @@ class scaled_stiffness {
   [[nodiscard]] band_of_numbers<Number> band(double shift) const;
   [[nodiscard]] sparse_columns columns(double shift) const;
   template <class Put>
-  void each_in_row(int dof, double shift, const Put& put) const;
-  template <class Put>
   void each_entry(double shift, const Put& put) const;
   void solve_rows(std::span<double> x) const;
   [[nodiscard]] bool factor_in_doubles();

@@ -102,22 +102,16 @@ class corrected_path {
       settle_statuses();
       const bool driven = !is_zero(response_[0]);
       if (std::vector<event> events = at_.events_since(before); !events.empty() || driven)
-        keep_increment(std::move(events), driven);
+        increments_.push_back({at_.fraction, std::move(events), driven});
       if (driven) {
         if (!snap()) return path_status::mechanism;
       } else if (!advance()) {
-        keep_increment({}, false);
+        increments_.push_back({at_.fraction, {}});
         return path_status::solved;
       }
     }
     fill_in();
     return path_status::iteration_limit;
-  }
-
-  void keep_increment(std::vector<event> events, bool snaps) {
-    exact_increment i{at_.fraction, std::move(events), snaps};
-    for (const exact_pair& c : at_.problem.pairs) i.at.push_back(contct::rounded(at_.u[c.dof]));
-    increments_.push_back(std::move(i));
   }
 
   /// Which of the pairs at their faces are in contact from here on: those statuses for which the response

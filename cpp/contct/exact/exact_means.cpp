@@ -49,6 +49,19 @@ std::optional<negative_work> work_on(const std::vector<double>& motion, const ex
   return w.work < 0 ? std::optional(std::move(w)) : std::nullopt;
 }
 
+/// Nothing where the problem is larger than that.
+std::optional<exact_problem> small_exact_problem_of(const problem& p) {
+  if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
+  try {
+    std::optional<exact_problem> exactly = exact_problem_of(p);
+    if (subdiagonals(*exactly) > most_subdiagonals_beside_doubles) return std::nullopt;
+    exactly->longest = most_bits_beside_doubles;
+    return exactly;
+  } catch (const std::runtime_error&) {  // a number is too long
+    return std::nullopt;
+  }
+}
+
 /// The problem is converted, and its exact path followed, when that is first asked for.
 class problem_beside final : public exact_means {
  public:
@@ -112,18 +125,6 @@ definiteness definiteness_of(const problem& p, const exact_problem& exactly) {
   scaled_stiffness k(on_pivots, exactly.place, subdiagonals(exactly));
   if (k.factor({}) && k.least_eigenvalue() > 0.0) return {true};
   return {false, work_on(k.suspect(), exactly)};
-}
-
-std::optional<exact_problem> small_exact_problem_of(const problem& p) {
-  if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
-  try {
-    std::optional<exact_problem> exactly = exact_problem_of(p);
-    if (subdiagonals(*exactly) > most_subdiagonals_beside_doubles) return std::nullopt;
-    exactly->longest = most_bits_beside_doubles;
-    return exactly;
-  } catch (const std::runtime_error&) {  // a number is too long
-    return std::nullopt;
-  }
 }
 
 std::unique_ptr<exact_means> exact_means_of(const problem& p) {

@@ -17,9 +17,6 @@ inline constexpr int most_dofs_beside_doubles = 1000;
 inline constexpr int most_subdiagonals_beside_doubles = 64;
 inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
 
-/// The problem in rational numbers, where it is as small as that.
-[[nodiscard]] std::optional<exact_problem> small_exact_problem_of(const problem& p);
-
 /// A displacement on which the matrix does negative work: no structure has such a matrix.
 struct negative_work {
   rational_vector motion;  ///< [dofs], 0 at fixed ones

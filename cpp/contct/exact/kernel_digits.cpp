@@ -23,12 +23,6 @@ double digits_of(const rational& error, const rational& largest) {
   return largest == 0 ? 0.0 : digits_of(rounded(error / largest));
 }
 
-/// The structure's longest side; 1 for a matrix, which has one kind of dof.
-rational length_of(const model& m) {
-  const double span = extent_of(m);
-  return span > 0.0 ? binary_value(span) : rational(1);
-}
-
 /// |x - exactly|; where x has overflowed, more than `largest`: no digit is right.
 rational error_of(double x, const rational& exactly, const rational& largest) {
   return std::isfinite(x) ? rational(abs(binary_value(x) - exactly)) : rational(largest + 1);
@@ -46,7 +40,8 @@ digit_counter::digit_counter(const problem& p, const exact_path& exactly)
     for (const rational& force : s.force) largest_force_ = std::max(largest_force_, rational(abs(force)));
   }
   // What vanishes by symmetry has no size of its own.
-  const rational length = length_of(p.geometry);
+  const double span = extent_of(p.geometry);  // 0 of a matrix, which has one kind of dof
+  const rational length = span > 0.0 ? binary_value(span) : rational(1);
   const rational slope_of_w = largest_[0] / length;
   for (std::size_t kind = 1; kind < largest_.size(); ++kind)
     largest_[kind] = std::max(largest_[kind], slope_of_w);

@@ -84,10 +84,10 @@ class lifted_solver::lifting {
  public:
   lifting(const lifted_solver& of, const rational_vector& b) : of_(of), rest_(b.size()), sum_(b.size()) {
     for (std::size_t i = 0; i < b.size(); ++i)
-      if (of_.is_unknown(i))
+      if (of_.has_pivot(i))
         common_ = least_multiple(common_, denominator(rational(b[i] * rational(of_.whole_[i].scale))));
     for (std::size_t i = 0; i < b.size(); ++i)
-      if (of_.is_unknown(i)) rest_[i] = numerator(rational(b[i] * rational(of_.whole_[i].scale * common_)));
+      if (of_.has_pivot(i)) rest_[i] = numerator(rational(b[i] * rational(of_.whole_[i].scale * common_)));
     right_ = rest_;
   }
 
@@ -108,7 +108,7 @@ class lifted_solver::lifting {
     const field& f = of_.field_;
     std::vector<std::uint64_t> x(rest_.size(), 0);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (of_.is_unknown(i)) x[i] = f.times(residue_of(rest_[i], f.prime()), of_.unscale_[i]);
+      if (of_.has_pivot(i)) x[i] = f.times(residue_of(rest_[i], f.prime()), of_.unscale_[i]);
     of_.solve_modulo(x);
     for (std::size_t i = 0; i < x.size(); ++i) {
       for (const auto& [column, entry] : of_.whole_[i].entries) subtract_product(rest_[i], entry, x[column]);
@@ -258,7 +258,7 @@ bool lifted_solver::factor_modulo(std::uint64_t prime) {
   whole_.assign(n, {});
   unscale_.assign(n, 1);
   for (std::size_t i = 0; i < n; ++i) {
-    if (!is_unknown(i)) continue;
+    if (!has_pivot(i)) continue;
     whole_[i] = whole(i);
     const std::uint64_t scale = residue_of(whole_[i].scale, prime);
     if (scale == 0) return false;
@@ -270,9 +270,9 @@ bool lifted_solver::factor_modulo(std::uint64_t prime) {
 lifted_solver::whole_row lifted_solver::whole(std::size_t dof) const {
   whole_row row{{}, 1};
   for (const auto& [j, k] : k_[dof])
-    if (is_unknown(j)) row.scale = least_multiple(row.scale, denominator(entry(dof, j, k)));
+    if (has_pivot(j)) row.scale = least_multiple(row.scale, denominator(entry(dof, j, k)));
   for (const auto& [j, k] : k_[dof])
-    if (is_unknown(j) && entry(dof, j, k) != 0)
+    if (has_pivot(j) && entry(dof, j, k) != 0)
       row.entries.emplace_back(j, numerator(rational(entry(dof, j, k) * rational(row.scale))));
   return row;
 }

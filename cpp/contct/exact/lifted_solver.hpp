@@ -41,7 +41,7 @@ class lifted_solver {
 
   /// Is a dof neither fixed nor, by its missing pivot, the amount of a free motion? K + springs is
   /// semidefinite where it is positive definite on these.
-  [[nodiscard]] bool has_pivot(std::size_t dof) const { return is_unknown(dof); }
+  [[nodiscard]] bool has_pivot(std::size_t dof) const { return fixed_[dof] == 0 && free_[dof] == 0; }
 
   /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With free
   /// motions b must do no work on them, and one of the solutions is given. Throws too_long.
@@ -81,7 +81,6 @@ class lifted_solver {
 
   bool factor_modulo(std::uint64_t prime);
   bool find_free_motions();
-  [[nodiscard]] bool is_unknown(std::size_t dof) const { return fixed_[dof] == 0 && free_[dof] == 0; }
   [[nodiscard]] whole_row whole(std::size_t dof) const;
   void solve_modulo(std::vector<std::uint64_t>& x) const;
   [[nodiscard]] rational entry(std::size_t row, int column, const rational& k) const;
@@ -98,7 +97,7 @@ class lifted_solver {
   std::vector<std::uint64_t> factor_;   // L and D of L D L' modulo the prime, as a band
   std::vector<std::uint64_t> inverse_;  // of D; 0 where the pivot is none
   std::vector<char> free_;              // dofs without a pivot
-  std::vector<whole_row> whole_;        // [dofs]; empty where not unknown
+  std::vector<whole_row> whole_;        // [dofs]; empty without a pivot
   std::vector<std::uint64_t> unscale_;  // 1 / scale of each
   std::vector<rational_vector> free_motions_;
 };

@@ -14,9 +14,8 @@ namespace contct {
 /// What happened at one share of a step's load.
 struct exact_increment {
   rational fraction;
-  std::vector<event> events;    ///< in order of pairs; none at the end of a step
-  bool snaps = false;           ///< a rigid motion to the next face, at constant load, came after them
-  std::vector<double> at = {};  ///< D at each pair then, rounded, of the true path [pairs]
+  std::vector<event> events;  ///< in order of pairs; none at the end of a step
+  bool snaps = false;         ///< a rigid motion to the next face, at constant load, came after them
 };
 
 /// Where a step ended, or where the path stopped.
