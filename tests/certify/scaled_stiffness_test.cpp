@@ -41,7 +41,8 @@ rational error_of(const long_system& a, const stiffness_proof& p) {
     rational sum = 0;
     for (int j = 0; j < n; ++j) {
       rational entry = i == j ? -binary_value(p.shift) : rational(0);
-      const double_double of_a = a.stiffness[i].at(j);
+      const auto there = a.stiffness[i].find(j);
+      const double_double of_a = there == a.stiffness[i].end() ? double_double(0.0) : there->second;
       entry += (binary_value(of_a.hi) + binary_value(of_a.lo)) * binary_value(p.scale[i]) *
                binary_value(p.scale[j]);
       for (int m = std::max({0, i - 1, j - 1}); m <= std::min(i, j); ++m)

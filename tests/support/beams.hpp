@@ -28,7 +28,7 @@ struct beam_problem {
     return p;
   }
 
-  path_end run(kernel& k, std::vector<observer*> observers, const path_limits& limits = {}) const {
+  path_end run(kernel& k, const std::vector<observer*>& observers, const path_limits& limits = {}) const {
     return follow(as_problem(), structure(), "refactor", k, observers, limits);
   }
 

@@ -111,7 +111,7 @@ class Machine:
         on the preconditions and on what is known of the call's numbers, not of arrays, so that it can be kept."""
         index, known = self.spec.index(array, i), [*self._of_numbers, *filter(of_numbers, s.path)]
         place = z3.simplify(index * (self.spec.widths[array] // 8))
-        key = (offset.sexpr(), place.sexpr(), str(known))
+        key = (offset.sexpr(), place.sexpr(), *(fact.sexpr() for fact in known))
         if key not in self._is_element:
             known += [*self.spec.of_call(), *self.spec.of_pair(i), z3.ULT(i, self.spec.pairs)]
             right = z3.And(offset == place, z3.ULT(index, self.spec.length(array)))
